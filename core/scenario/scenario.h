@@ -1,0 +1,41 @@
+// A scenario as loaded from YAML: everything an experiment needs, in SI units, checked and complete. Plain data.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "demand/demand_settings.h"
+#include "driver/driver_settings.h"
+#include "network/network_settings.h"
+#include "signals/signal_settings.h"
+#include "vehicle/powertrain_settings.h"
+
+namespace stopline {
+
+struct MeasureSettings {
+    std::vector<double> green_s;   // green times at which the passed vehicles are reported
+    std::string baseline;          // population that improvements refer to
+};
+
+struct Scenario {
+    std::string name;
+    std::string title;
+    std::string fidelity = "full";  // full | meso
+    double step_s = 0.01;
+    double duration_s = 200.0;
+    std::uint64_t seed = 1;
+    NetworkSettings network;
+    SignalSettings signal;
+    DemandSettings demand;
+    std::string vehicle_name;       // file stem in data/vehicles
+    std::string driver_name;        // file stem in data/drivers
+    PowertrainSettings vehicle;
+    DriverSettings driver;
+    std::vector<GapPolicySettings> policies;    // all named policies that may be used
+    std::vector<PopulationSettings> populations;  // one run each
+    MeasureSettings measure;
+    std::uint64_t hash = 0;         // of the canonical text of all fields; goes into provenance
+};
+
+}  // namespace stopline
