@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# From a bare Debian 12 to the figures and the scorecard of Section III: installs what is missing (as root or through sudo),
+# builds the programs, runs them. Stops at the first failure.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+current_step=""
+step() {
+    current_step="$*"
+    printf '\n=== %s (%d s)\n' "$*" "$SECONDS"
+}
+trap 'echo "quickstart: stopped at: $current_step" >&2' ERR
+
+step "Packages: installing what is missing"
+bash apps/install_packages.sh quickstart
+
+step "Build: programs into build/release/bin"
+cmake --preset release -DSTOPLINE_BUILD_TESTS=OFF --log-level=WARNING
+cmake --build --preset release --target stopline_programs
+
+step "Single light: seven spacing policies at one traffic light"
+build/release/bin/stopline-run scenarios/single_light.yaml --output out/single_light
+
+step "Start-up: the leader's start against the measured one"
+build/release/bin/stopline-startup --output out/startup
+
+step "Scorecard: our numbers beside those of the paper, Section III"
+verdict=0
+build/release/bin/stopline-scorecard --section III || verdict=$?
+
+step "Figures"
+find "$PWD/out/single_light" "$PWD/out/startup" \( -name '*.svg' -o -name '*.png' \) | sort
+if [[ $verdict != 0 ]]; then
+    printf '\nquickstart: done, but the scorecard ended with exit code %d (1: a row misses its tolerance)\n' "$verdict" >&2
+fi
+exit "$verdict"

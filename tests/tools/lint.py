@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+"""Runs clang-tidy over the sources of core/ and apps/, one process a core, and remembers what was clean.
+
+    lint.py BUILD [FILE...]
+
+BUILD is a configured build directory (its compile_commands.json tells how a file is compiled). With FILEs only those are
+looked at. A file that was clean is looked at again only when something that can change the verdict has changed: its text, a
+project header that it includes directly or not, its compile command, .clang-tidy, or clang-tidy itself.
+"""
+
+import concurrent.futures
+import hashlib
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+PROJECT = Path(__file__).resolve().parents[2]
+CLANG_TIDY = "clang-tidy-14"
+FOLDERS = ["core", "apps"]
+INCLUDE_ROOTS = [PROJECT / "core", PROJECT / "apps"]
+INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
+
+
+def text_with_headers(path, seen):
+    """The text of a file and of all project headers it reaches, each once."""
+    if path in seen:
+        return b""
+    seen.add(path)
+    text = path.read_bytes()
+    for included in INCLUDE.findall(text.decode("utf-8", "replace")):
+        for root in [path.parent, *INCLUDE_ROOTS]:
+            header = (root / included).resolve()
+            if header.is_file():
+                text += text_with_headers(header, seen)
+                break
+    return text
+
+
+def key(entry, tool):
+    """What the verdict on a file depends on, as a hash."""
+    digest = hashlib.sha256(tool)
+    digest.update((entry.get("command") or " ".join(entry["arguments"])).encode())
+    digest.update(text_with_headers(Path(entry["file"]), set()))
+    return digest.hexdigest()
+
+
+def lint(entry, build):
+    command = [
+        CLANG_TIDY,
+        "--quiet",
+        f"--config-file={PROJECT / '.clang-tidy'}",
+        f"-p={build}",
+        f"--header-filter=^{re.escape(str(PROJECT))}/({'|'.join(FOLDERS)})/",
+        "--extra-arg=-Wno-unknown-warning-option",  # the commands are gcc's
+        entry["file"],
+    ]
+    result = subprocess.run(command, capture_output=True, text=True, check=False)
+    return result.returncode == 0, result.stdout + (result.stderr if result.returncode != 0 else "")
+
+
+def main():
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    build = Path(sys.argv[1]).resolve()
+    database = build / "compile_commands.json"
+    if not database.is_file():
+        sys.exit(f"lint: {database} is missing; configure the build first")
+    entries = {Path(entry["file"]).resolve(): entry for entry in json.loads(database.read_text())}
+
+    sources = sorted(path for folder in FOLDERS for path in (PROJECT / folder).rglob("*.cpp"))
+    if len(sys.argv) > 2:
+        sources = [Path(name).resolve() for name in sys.argv[2:]]
+    missing = [path for path in sources if path not in entries]
+    for path in missing:
+        print(f"{path}: no target builds it (or it is newer than the last build)")
+
+    version = subprocess.run([CLANG_TIDY, "--version"], capture_output=True, check=True).stdout
+    tool = version + (PROJECT / ".clang-tidy").read_bytes() + Path(__file__).read_bytes()
+    cache = build / "lint"
+    cache.mkdir(exist_ok=True)
+    keys = {path: key(entries[path], tool) for path in sources if path in entries}
+    to_do = [path for path in keys if not (cache / keys[path]).exists()]
+
+    failed = 0
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        runs = {pool.submit(lint, entries[path], build): path for path in to_do}
+        for run in concurrent.futures.as_completed(runs):
+            clean, output = run.result()
+            if clean:
+                (cache / keys[runs[run]]).touch()
+            else:
+                failed += 1
+                print(output.strip(), flush=True)
+    print(f"{len(sources)} files, {len(sources) - len(to_do) - len(missing)} known to be clean, {failed} with findings")
+    return 1 if failed or missing else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
