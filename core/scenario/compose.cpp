@@ -1,0 +1,290 @@
+#include "scenario/compose.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "base/input_error.h"
+#include "scenario/data_files.h"
+#include "scenario/nearest_name.h"
+#include "scenario/yaml_source.h"
+
+namespace stopline {
+namespace {
+
+constexpr int kBasesMax = 8;  // files that build on each other
+
+using Kind = SourceNode::Kind;
+
+// Own values over those of the base: maps of fields field by field, everything else whole.
+void merge(const Table& table, SourceNode& base, SourceNode own) {
+    for (std::size_t i = 0; i < own.keys.size(); ++i) {
+        SourceNode* const old = base.find(own.keys[i].text);
+        const Field* const field = table.find(own.keys[i].text);
+        const SectionField* const section = field == nullptr ? nullptr : std::get_if<SectionField>(&field->kind);
+        if (old == nullptr) {
+            base.add(std::move(own.keys[i]), std::move(own.items[i]));
+        } else if (section != nullptr && old->kind == Kind::map && own.items[i].kind == Kind::map) {
+            merge(section->table(), *old, std::move(own.items[i]));
+        } else {
+            *old = std::move(own.items[i]);
+        }
+    }
+}
+
+SourceNode without_base(SourceNode map) {
+    for (std::size_t i = 0; i < map.keys.size(); ++i) {
+        if (map.keys[i].text != "base") continue;
+        map.keys.erase(map.keys.begin() + static_cast<std::ptrdiff_t>(i));
+        map.items.erase(map.items.begin() + static_cast<std::ptrdiff_t>(i));
+        break;
+    }
+    return map;
+}
+
+SourceNode scalar_at(const Place& place, std::string text) {
+    SourceNode node;
+    node.kind = Kind::scalar;
+    node.place = place;
+    node.text = std::move(text);
+    return node;
+}
+
+void resolve(const Table& table, const std::string& folder, SourceNode& node, const std::string& path, int bases,
+             Report& report) {
+    const SourceNode* const inner = node.kind == Kind::map ? node.find("base") : nullptr;
+    if (node.kind != Kind::scalar && inner == nullptr) return;
+    const SourceNode reference = inner != nullptr ? *inner : node;
+    SourceNode own = without_base(std::move(node));
+    node = SourceNode{};
+    node.kind = Kind::broken;
+    if (bases >= kBasesMax) {
+        report.error(reference.place, "field '" + path + "': more than " + std::to_string(kBasesMax) +
+                                          " files name each other as base");
+        return;
+    }
+    DataFile file = read_data_file(folder, reference, path, report);
+    if (file.tree.kind != Kind::map) {
+        if (file.tree.kind != Kind::broken) {
+            report.error(file.tree.place, "the file needs a map of fields (fields: " + joined(table.names()) + ")");
+        }
+        return;
+    }
+    if (table.find("name") != nullptr && file.tree.find("name") == nullptr) {
+        file.tree.add({"name", reference.place}, scalar_at(reference.place, file.stem));
+    }
+    resolve(table, folder, file.tree, path, bases + 1, report);
+    if (file.tree.kind == Kind::map && own.kind == Kind::map) merge(table, file.tree, std::move(own));
+    node = std::move(file.tree);
+}
+
+const SourceNode* name_of(const SourceNode& item) { return item.kind == Kind::map ? item.find("name") : nullptr; }
+
+// The list of a library file "folder/name", in which entries of the same name are replaced and to which others are added.
+void merge_library_list(const Field& field, const std::string& library, SourceNode& list, Report& report) {
+    if (list.kind != Kind::list) return;
+    const auto slash = library.find('/');
+    DataFile file = read_data_file(library.substr(0, slash), scalar_at(list.place, library.substr(slash + 1)), field.name,
+                                   report);
+    SourceNode* const known = file.tree.find(field.name);
+    if (file.tree.kind == Kind::broken) {
+        list.kind = Kind::broken;
+        return;
+    }
+    if (known == nullptr || known->kind != Kind::list || file.tree.keys.size() != 1) {
+        report.error(file.tree.place, "needs '" + field.name + "' with a list, and nothing else");
+        list.kind = Kind::broken;
+        return;
+    }
+    std::vector<bool> own_entry(known->items.size(), false);  // so that a name given twice stays twice, and is reported
+    for (SourceNode& own : list.items) {
+        const SourceNode* const name = name_of(own);
+        std::size_t i = 0;
+        while (i < known->items.size() && (own_entry[i] || name == nullptr || name_of(known->items[i]) == nullptr ||
+                                           name_of(known->items[i])->text != name->text)) {
+            ++i;
+        }
+        if (i == known->items.size()) {
+            known->items.emplace_back();
+            own_entry.push_back(true);
+        }
+        known->items[i] = std::move(own);
+        own_entry[i] = true;
+    }
+    list.items = std::move(known->items);
+}
+
+void complete_field(const Field& field, SourceNode& map, const std::string& path, Report& report) {
+    SourceNode* value = map.find(field.name);
+    const auto* const section = std::get_if<SectionField>(&field.kind);
+    const auto* const list = std::get_if<ListField>(&field.kind);
+    if (value == nullptr && !field.fallback.empty()) {
+        const auto directory = map.place.source->directory;
+        const auto source = std::make_shared<Source>(Source{"default of '" + path + "'", directory});
+        value = &map.add({field.name, map.place}, parse_yaml(field.fallback, source));
+    }
+    if (value == nullptr) return;
+    if (section != nullptr && !section->library.empty()) {
+        resolve_base(section->table(), section->library, *value, path, report);
+    }
+    if (list == nullptr) return;
+    if (!list->library.empty()) merge_library_list(field, list->library, *value, report);
+    for (SourceNode& item : value->items) {
+        if (item.kind == Kind::scalar && list->table().expand != nullptr) item = list->table().expand(item);
+    }
+}
+
+// One step of an override's path: a field's name with the entries of lists that are chosen, by number or by name.
+struct Step {
+    std::string name;
+    std::vector<std::string> entries;
+};
+
+std::vector<Step> steps_of(const std::string& path) {
+    std::vector<Step> steps(1);
+    std::string* part = &steps.back().name;
+    bool inside = false;
+    for (const char c : path) {
+        if (c == '.' && !inside) {
+            part = &steps.emplace_back().name;
+        } else if (c == '[' && !inside) {
+            part = &steps.back().entries.emplace_back();
+            inside = true;
+        } else if (c == ']' && inside) {
+            inside = false;
+        } else {
+            *part += c;
+        }
+    }
+    return steps;
+}
+
+void set_place(SourceNode& node, const Place& place) {
+    node.place = place;
+    for (SourceNode::Key& key : node.keys) key.place = place;
+    for (SourceNode& item : node.items) set_place(item, place);
+}
+
+SourceNode* find_entry(SourceNode& list, const std::string& entry) {
+    const ParsedWhole index = parse_whole(entry);
+    if (index.problem.empty()) return index.value < list.items.size() ? &list.items[index.value] : nullptr;
+    const auto found = std::find_if(list.items.begin(), list.items.end(), [&](const SourceNode& item) {
+        return name_of(item) != nullptr && name_of(item)->text == entry;
+    });
+    return found == list.items.end() ? nullptr : &*found;
+}
+
+std::string entries_text(const SourceNode& list) {
+    std::vector<std::string> names;
+    for (const SourceNode& item : list.items) {
+        if (name_of(item) != nullptr) names.push_back(name_of(item)->text);
+    }
+    return "has the entries 0 to " + std::to_string(list.items.size() - 1) +
+           (names.empty() ? "" : " (" + joined(names) + ")");
+}
+
+// Puts the value where the steps lead to.
+class Setter {
+public:
+    Setter(SourceNode value, Report& report) : value_(std::move(value)), report_(report) {}
+
+    void set(const Table& table, SourceNode& map, const std::vector<Step>& steps, std::size_t i, const std::string& path) {
+        const Step& step = steps[i];
+        const std::string here = join_path(path, step.name);
+        const Field* const field = table.find(step.name);
+        if (field == nullptr) return error(here, "is unknown" + known_names(step.name, table.names()));
+        const bool last = i + 1 == steps.size();
+        if (last && step.entries.empty()) {
+            SourceNode* const old = map.find(step.name);
+            if (old != nullptr) {
+                *old = std::move(value_);
+            } else {
+                map.add({step.name, value_.place}, std::move(value_));
+            }
+            return;
+        }
+        complete_field(*field, map, here, report_);
+        if (!step.entries.empty()) return set_entry(*field, map, steps, i, here);
+        const auto* const section = std::get_if<SectionField>(&field->kind);
+        if (section == nullptr) return error(here, "has no field '" + steps[i + 1].name + "' inside");
+        SourceNode* inner = map.find(step.name);
+        if (inner == nullptr) {
+            SourceNode empty;
+            empty.kind = Kind::map;
+            empty.place = map.place;
+            inner = &map.add({step.name, map.place}, std::move(empty));
+        }
+        if (inner->kind == Kind::map) set(section->table(), *inner, steps, i + 1, here);
+    }
+
+private:
+    void set_entry(const Field& field, SourceNode& map, const std::vector<Step>& steps, std::size_t i,
+                   const std::string& path) {
+        SourceNode* const list = map.find(field.name);
+        const bool last = i + 1 == steps.size();
+        const std::string& wanted = steps[i].entries.front();
+        if (list == nullptr || list->kind != Kind::list || list->items.empty() || steps[i].entries.size() > 1) {
+            return error(path, "has no entry [" + shortened(wanted) + "] to set");
+        }
+        SourceNode* const entry = find_entry(*list, wanted);
+        if (entry == nullptr) return error(path, "has no entry [" + shortened(wanted) + "]; it " + entries_text(*list));
+        if (last) {
+            *entry = std::move(value_);
+            return;
+        }
+        const auto* const items = std::get_if<ListField>(&field.kind);
+        if (items == nullptr || entry->kind != Kind::map) return error(path, "has no fields in its entries");
+        set(items->table(), *entry, steps, i + 1, path + "[" + wanted + "]");
+    }
+
+    void error(const std::string& path, const std::string& message) {
+        report_.error(value_.place, "field '" + shortened(path) + "' " + message);
+    }
+
+    SourceNode value_;
+    Report& report_;
+};
+
+}  // namespace
+
+void resolve_base(const Table& table, const std::string& folder, SourceNode& node, const std::string& path,
+                  Report& report) {
+    resolve(table, folder, node, path, 0, report);
+}
+
+void complete(const Table& table, SourceNode& map, const std::string& path, Report& report) {
+    if (map.kind != Kind::map) return;
+    for (const Field& field : table.fields) {
+        const std::string field_path = join_path(path, field.name);
+        complete_field(field, map, field_path, report);
+        SourceNode* const value = map.find(field.name);
+        if (value == nullptr) continue;
+        if (const auto* const section = std::get_if<SectionField>(&field.kind)) {
+            complete(section->table(), *value, field_path, report);
+        } else if (const auto* const list = std::get_if<ListField>(&field.kind)) {
+            for (std::size_t i = 0; i < value->items.size(); ++i) {
+                complete(list->table(), value->items[i], field_path + "[" + std::to_string(i) + "]", report);
+            }
+        }
+    }
+}
+
+void apply_override(const Table& table, SourceNode& root, const std::string& text,
+                    const std::filesystem::path& directory, Report& report) {
+    const auto equals = text.find('=');
+    const auto source = std::make_shared<Source>(Source{"--set '" + shortened(text) + "'", directory});
+    const Place place{source, 0, 0};
+    if (equals == std::string::npos || equals == 0) {
+        report.error(place, "needs the form path=value, for instance signal.green=20 s");
+        return;
+    }
+    try {
+        SourceNode value = parse_yaml(std::string_view(text).substr(equals + 1), source);
+        set_place(value, place);
+        Setter(std::move(value), report).set(table, root, steps_of(text.substr(0, equals)), 0, "");
+    } catch (const InputError& error) {
+        report.error(error.what());
+    }
+}
+
+}  // namespace stopline

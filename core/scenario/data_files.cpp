@@ -1,0 +1,73 @@
+#include "scenario/data_files.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <vector>
+
+#include "base/input_error.h"
+#include "scenario/load_scenario.h"
+#include "scenario/nearest_name.h"
+#include "scenario/yaml_source.h"
+
+#ifndef STOPLINE_SOURCE_DATA_DIR
+#define STOPLINE_SOURCE_DATA_DIR "data"
+#endif
+
+namespace stopline {
+namespace {
+
+constexpr std::size_t kReferenceMax = 1000;  // characters; longer texts are neither names nor paths
+
+bool is_path(const std::string& reference) {
+    return reference.find('/') != std::string::npos || reference.ends_with(".yaml");
+}
+
+}  // namespace
+
+std::filesystem::path data_directory() {
+    // Read at start-up and between runs, never while another thread changes the environment.
+    const char* const chosen = std::getenv("STOPLINE_DATA");  // NOLINT(concurrency-mt-unsafe)
+    return chosen != nullptr && *chosen != '\0' ? chosen : STOPLINE_SOURCE_DATA_DIR;
+}
+
+std::vector<std::string> data_names(const std::string& folder) {
+    std::vector<std::string> names;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(data_directory() / folder, error)) {
+        if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem().string());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+DataFile read_data_file(const std::string& folder, const SourceNode& reference, const std::string& field, Report& report) {
+    DataFile file;
+    file.tree.kind = SourceNode::Kind::broken;
+    if (reference.kind != SourceNode::Kind::scalar || reference.text.empty() || reference.text.size() > kReferenceMax) {
+        report.error(reference.place, "field '" + field + "': needs the name of a file in " + folder +
+                                          known_names("", data_names(folder)));
+        return file;
+    }
+    std::filesystem::path path;
+    if (is_path(reference.text)) {
+        path = reference.place.source->directory / reference.text;
+    } else {
+        const std::vector<std::string> known = data_names(folder);
+        if (std::find(known.begin(), known.end(), reference.text) == known.end()) {
+            report.error(reference.place, "field '" + field + "': there is no '" + shortened(reference.text) + "' in " +
+                                              (data_directory() / folder).generic_string() +
+                                              known_names(reference.text, known));
+            return file;
+        }
+        path = data_directory() / folder / (reference.text + ".yaml");
+    }
+    file.stem = path.stem().string();
+    try {
+        file.tree = read_yaml_file(path);
+    } catch (const InputError& error) {
+        report.error(to_string(reference.place) + ": field '" + field + "': " + error.what());
+    }
+    return file;
+}
+
+}  // namespace stopline

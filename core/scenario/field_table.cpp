@@ -1,0 +1,78 @@
+#include "scenario/field_table.h"
+
+#include <algorithm>
+
+#include "scenario/nearest_name.h"
+
+namespace stopline {
+namespace {
+
+std::string range_text(const Range& range, const Unit& shown) {
+    const auto end = [&](double value) { return short_text(to_si(value, shown), shown); };
+    if (range.max == std::numeric_limits<double>::max()) return "at least " + end(range.min);
+    return end(range.min) + " to " + end(range.max);
+}
+
+std::string count_text(const Count& count, const std::string& what) {
+    const std::string plural = what + (what.empty() || count.max == 1 ? "" : "s");
+    if (count.min == count.max) return std::to_string(count.min) + plural;
+    if (count.max == std::numeric_limits<std::uint64_t>::max()) return "at least " + std::to_string(count.min) + plural;
+    return std::to_string(count.min) + " to " + std::to_string(count.max) + plural;
+}
+
+struct AllowedText {
+    std::string operator()(const NumberField& f) const { return range_text(f.range, *f.shown); }
+    std::string operator()(const WholeField& f) const { return count_text(f.range, ""); }
+    std::string operator()(const TextField& f) const {
+        return f.rule == TextField::Rule::name ? "up to 64 letters, digits and - _ . + signs"
+                                               : "one line of up to 200 characters";
+    }
+    std::string operator()(const ChoiceField& f) const { return "one of: " + joined(f.names); }
+    std::string operator()(const NumbersField& f) const {
+        return count_text(f.size, " value") + (f.rising ? ", rising, " : ", ") + range_text(f.range, *f.shown);
+    }
+    std::string operator()(const CurveField& f) const {
+        return count_text(f.size, " point") + ", " + range_text(f.x_range, *f.x_shown) + " (rising): " +
+               range_text(f.y_range, *f.y_shown);
+    }
+    std::string operator()(const SectionField& f) const {
+        return f.library.empty() ? "a map of fields" : "a name of data/" + f.library + " or a map with its base";
+    }
+    std::string operator()(const ListField& f) const { return "a list of " + count_text(f.count, ""); }
+};
+
+struct UnitText {
+    std::string operator()(const NumberField& f) const { return std::string(f.shown->text); }
+    std::string operator()(const NumbersField& f) const { return std::string(f.shown->text); }
+    std::string operator()(const CurveField& f) const {
+        return std::string(f.x_shown->text) + ": " + std::string(f.y_shown->text);
+    }
+    template <class Other>
+    std::string operator()(const Other& /*other*/) const {
+        return {};
+    }
+};
+
+}  // namespace
+
+const Field* Table::find(std::string_view name) const {
+    const auto found = std::find_if(fields.begin(), fields.end(), [&](const Field& f) { return f.name == name; });
+    return found == fields.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> Table::names() const {
+    std::vector<std::string> all;
+    for (const Field& field : fields) all.push_back(field.name);
+    return all;
+}
+
+bool applies(const Table& table, const Field& field, const void* settings) {
+    if (field.only_field.empty()) return true;
+    const std::string value = std::get<ChoiceField>(table.find(field.only_field)->kind).get(settings);
+    return std::find(field.only_values.begin(), field.only_values.end(), value) != field.only_values.end();
+}
+
+std::string allowed_text(const FieldKind& kind) { return std::visit(AllowedText{}, kind); }
+std::string unit_text(const FieldKind& kind) { return std::visit(UnitText{}, kind); }
+
+}  // namespace stopline

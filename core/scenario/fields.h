@@ -1,0 +1,27 @@
+// The tables of fields, one a settings struct. Adding a field is one row in fields_*.cpp, bound to a struct member.
+#pragma once
+
+#include <vector>
+
+#include "scenario/field_table.h"
+#include "scenario/scenario.h"
+
+namespace stopline {
+
+const Table& scenario_table();    // Scenario: the root of a scenario file
+const Table& network_table();     // NetworkSettings
+const Table& signal_table();      // SignalSettings
+const Table& demand_table();      // DemandSettings
+const Table& vehicle_table();     // PowertrainSettings: the root of data/vehicles/*.yaml
+const Table& driver_table();      // DriverSettings: the root of data/drivers/*.yaml
+const Table& gap_policy_table();  // GapPolicySettings
+const Table& population_table();  // PopulationSettings
+const Table& measure_table();     // MeasureSettings
+
+// The root of data/policies/*.yaml.
+struct PolicyFile {
+    std::vector<GapPolicySettings> policies;
+};
+const Table& policy_file_table();
+
+}  // namespace stopline

@@ -1,0 +1,75 @@
+// Fields of the network, the signal and the demand.
+#include <string>
+
+#include "scenario/field_rows.h"
+#include "scenario/fields.h"
+
+namespace stopline {
+namespace {
+
+const Table& approach_table() {
+    static const Table table = make_table<ApproachSettings>(
+        "a straight road with a stop line",
+        {
+            whole<&ApproachSettings::lanes>("lanes", {1, 16}, "parallel lanes"),
+            number<&ApproachSettings::length_m>("length", "m", {10, 20'000}, "from the entry to the stop line"),
+            number<&ApproachSettings::exit_length_m>("exit_length", "m", {10, 20'000},
+                                                     "from the stop line to the end of the road"),
+            number<&ApproachSettings::speed_limit_mps>("speed_limit", "km/h", {5, 150}, "speed limit"),
+            number<&ApproachSettings::gradient>("gradient", "%", {-20, 20}, "rise over run, positive uphill"),
+        });
+    return table;
+}
+
+std::string seconds(double value) { return short_text(value, unit("s")); }
+
+void check_signal(const SignalSettings& signal, Checker& check) {
+    const double shortest = signal.green_s + signal.yellow_s + signal.all_red_s;
+    if (signal.cycle_s != 0.0 && signal.cycle_s < shortest) {
+        check.error("cycle", "a cycle of " + seconds(signal.cycle_s) + " is shorter than green + yellow + all red = " +
+                                 seconds(shortest) + " (write 0 s for a single green)");
+    }
+}
+
+}  // namespace
+
+const Table& network_table() {
+    static const Table table = make_table<NetworkSettings>(
+        "the roads",
+        {
+            choice<&NetworkSettings::kind>("kind", {"approach"}, "which generator builds the network"),
+            section<&NetworkSettings::approach>("approach", approach_table, "parameters of the kind 'approach'")
+                .only("kind", {"approach"}),
+        });
+    return table;
+}
+
+const Table& signal_table() {
+    static const Table table = make_table<SignalSettings>(
+        "the fixed-time signal: red, then green, yellow and red",
+        {
+            number<&SignalSettings::first_green_s>("first_green", "s", {0, 7200},
+                                                   "start of the first green; red until then, so that a queue forms"),
+            number<&SignalSettings::green_s>("green", "s", {0.1, 7200}, "green time"),
+            number<&SignalSettings::yellow_s>("yellow", "s", {0, 60}, "yellow after green"),
+            number<&SignalSettings::all_red_s>("all_red", "s", {0, 600}, "all approaches red after yellow"),
+            number<&SignalSettings::cycle_s>("cycle", "s", {0, 14'400},
+                                             "from one green to the next; 0 s: a single green, then red"),
+        },
+        check_signal);
+    return table;
+}
+
+const Table& demand_table() {
+    static const Table table = make_table<DemandSettings>(
+        "the traffic that enters",
+        {
+            choice<&DemandSettings::kind>("kind", {"queue"},
+                                          "queue: `vehicles` a lane enter as soon as there is room, then none"),
+            whole<&DemandSettings::vehicles>("vehicles", {1, 100'000}, "vehicles a lane").only("kind", {"queue"}),
+            number<&DemandSettings::entry_speed_mps>("entry_speed", "km/h", {0, 150}, "speed on entering"),
+        });
+    return table;
+}
+
+}  // namespace stopline

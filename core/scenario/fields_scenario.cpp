@@ -1,0 +1,166 @@
+// Fields of the scenario itself and of what it measures, and the checks across its parts.
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "scenario/field_rows.h"
+#include "scenario/fields.h"
+#include "scenario/nearest_name.h"
+
+namespace stopline {
+namespace {
+
+constexpr double kFullStepMax_s = 0.1;  // the powertrain's fastest lags would be lost beyond it
+
+// Time is a count of steps: what the signal does happens between two of them.
+void check_steps(const Scenario& scenario, Checker& check) {
+    const auto whole_steps = [&](const std::string& field, double time_s) {
+        const double steps = time_s / scenario.step_s;
+        if (std::abs(steps - std::round(steps)) <= 1e-6) return;
+        check.error(field, short_text(time_s, unit("s")) + " is not a whole number of steps of " +
+                               short_text(scenario.step_s, unit("ms")));
+    };
+    whole_steps("duration", scenario.duration_s);
+    whole_steps("signal.first_green", scenario.signal.first_green_s);
+    whole_steps("signal.green", scenario.signal.green_s);
+    whole_steps("signal.yellow", scenario.signal.yellow_s);
+    whole_steps("signal.all_red", scenario.signal.all_red_s);
+    whole_steps("signal.cycle", scenario.signal.cycle_s);
+    for (std::size_t i = 0; i < scenario.measure.green_s.size(); ++i) {
+        whole_steps("measure.green[" + std::to_string(i) + "]", scenario.measure.green_s[i]);
+    }
+}
+
+template <class T>
+std::vector<std::string> names_of(const std::vector<T>& named) {
+    std::vector<std::string> names;
+    for (const T& one : named) names.push_back(one.name);
+    return names;
+}
+
+void check_unique(const std::vector<std::string>& names, const std::string& list, Checker& check) {
+    std::set<std::string> seen;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (seen.insert(names[i]).second) continue;
+        check.error(list + "[" + std::to_string(i) + "].name", "the name '" + names[i] + "' appears twice");
+    }
+}
+
+void check_known(const std::string& name, const std::vector<std::string>& known, const std::string& what,
+                 const std::string& field, Checker& check) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) return;
+    check.error(field, "there is no " + what + " '" + name + "'" + known_names(name, known));
+}
+
+void check_names(const Scenario& scenario, Checker& check) {
+    const std::vector<std::string> policies = names_of(scenario.policies);
+    const std::vector<std::string> populations = names_of(scenario.populations);
+    check_unique(policies, "policies", check);
+    check_unique(populations, "populations", check);
+    for (std::size_t i = 0; i < scenario.populations.size(); ++i) {
+        const auto& components = scenario.populations[i].components;
+        for (std::size_t k = 0; k < components.size(); ++k) {
+            const std::string field = "populations[" + std::to_string(i) + "].components[" + std::to_string(k) + "].policy";
+            check_known(components[k].policy, policies, "policy", field, check);
+        }
+    }
+    if (!scenario.measure.baseline.empty()) {
+        check_known(scenario.measure.baseline, populations, "population", "measure.baseline", check);
+    }
+}
+
+// The largest standstill gap among the policies that some population uses.
+double longest_standstill_gap_m(const Scenario& scenario) {
+    double longest_m = 0.0;
+    for (const GapPolicySettings& policy : scenario.policies) {
+        for (const PopulationSettings& population : scenario.populations) {
+            for (const auto& component : population.components) {
+                if (component.policy == policy.name) longest_m = std::max(longest_m, policy.standstill_gap_m);
+            }
+        }
+    }
+    return longest_m;
+}
+
+void check_queue(const Scenario& scenario, Checker& check) {
+    if (scenario.network.kind != "approach" || scenario.demand.kind != "queue") return;
+    const double place_m = scenario.vehicle.length_m + longest_standstill_gap_m(scenario);
+    const double queue_m = scenario.demand.vehicles * place_m + scenario.driver.stop.margin_m;
+    if (scenario.network.approach.length_m >= queue_m) return;
+    check.error("network.approach.length", "a queue of " + std::to_string(scenario.demand.vehicles) + " vehicles a lane is " +
+                                               short_text(queue_m, unit("m")) + " long, longer than the approach of " +
+                                               short_text(scenario.network.approach.length_m, unit("m")));
+}
+
+void check_times(const Scenario& scenario, Checker& check) {
+    const SignalSettings& signal = scenario.signal;
+    if (scenario.fidelity == "full" && scenario.step_s > kFullStepMax_s) {
+        check.error("step", "full dynamics need a step of at most " + short_text(kFullStepMax_s, unit("ms")));
+    }
+    for (std::size_t i = 0; i < scenario.measure.green_s.size(); ++i) {
+        const double green_s = scenario.measure.green_s[i];
+        const std::string field = "measure.green[" + std::to_string(i) + "]";
+        if (green_s > signal.green_s) {
+            check.error(field, "lies after the end of the green time of " + short_text(signal.green_s, unit("s")));
+        } else if (signal.first_green_s + green_s > scenario.duration_s) {
+            check.error(field, "the run ends before, at duration = " + short_text(scenario.duration_s, unit("s")));
+        }
+    }
+    if (signal.first_green_s >= scenario.duration_s) {
+        check.error("signal.first_green", "lies after the end of the run at " +
+                                              short_text(scenario.duration_s, unit("s")));
+    }
+}
+
+void check_scenario(const Scenario& scenario, Checker& check) {
+    check_steps(scenario, check);
+    check_times(scenario, check);
+    check_names(scenario, check);
+    check_queue(scenario, check);
+}
+
+}  // namespace
+
+const Table& measure_table() {
+    using S = MeasureSettings;
+    static const Table table = make_table<S>(
+        "what is reported",
+        {
+            numbers<&S::green_s>("green", "s", {0.1, 7200}, {0, 1000},
+                                 "green times at which the passed vehicles are counted", true),
+            text<&S::baseline>("baseline", TextField::Rule::name, "population that improvements refer to; absent: none"),
+        });
+    return table;
+}
+
+const Table& scenario_table() {
+    using S = Scenario;
+    static const Table table = make_table<S>(
+        "a scenario file",
+        {
+            text<&S::name>("name", TextField::Rule::name, "name; the file's if not given"),
+            text<&S::title>("title", TextField::Rule::title, "heading of tables and figures"),
+            choice<&S::fidelity>("fidelity", {"full"}, "how vehicles move; full: controller and powertrain"),
+            number<&S::step_s>("step", "s", {0.001, 1}, "time step"),
+            number<&S::duration_s>("duration", "s", {1, 1'000'000}, "length of a run"),
+            whole<&S::seed>("seed", {}, "seed of all random numbers"),
+            section<&S::network>("network", network_table, "the roads"),
+            section<&S::signal>("signal", signal_table, "the signal"),
+            section<&S::demand>("demand", demand_table, "the traffic that enters"),
+            section<&S::vehicle>("vehicle", vehicle_table, "the vehicles", "vehicles").fallback("petrol_eu4_72kw"),
+            section<&S::driver>("driver", driver_table, "the drivers", "drivers").fallback("startup_kit"),
+            list<&S::policies>("policies", gap_policy_table, {0, 1000},
+                               "own spacing policies, beside those of data/policies/paper.yaml", "policies/paper")
+                .fallback("[]"),
+            list<&S::populations>("populations", population_table, {1, 1000}, "one run each")
+                .fallback("[CDG, CDG-6m, SWITCH-1, SWITCH-2, {name: MIX, pattern: alternating, components: [{policy: CDG, "
+                          "share: 50 %}, {policy: CTG-Ref, share: 50 %}]}, CTG-Ref, CTG-HCM, CTG-HBS]"),
+            section<&S::measure>("measure", measure_table, "what is reported"),
+        },
+        check_scenario);
+    return table;
+}
+
+}  // namespace stopline

@@ -1,0 +1,119 @@
+#include "scenario/load_scenario.h"
+
+#include <memory>
+#include <utility>
+
+#include "base/input_error.h"
+#include "scenario/compose.h"
+#include "scenario/fields.h"
+#include "scenario/nearest_name.h"
+#include "scenario/read_fields.h"
+#include "scenario/report.h"
+#include "scenario/write_fields.h"
+#include "scenario/yaml_source.h"
+
+namespace stopline {
+namespace {
+
+// A scenario without a name is called after its file.
+std::string name_from(const std::string& label) {
+    std::string name;
+    for (const char c : std::filesystem::path(label).stem().string().substr(0, 64)) {
+        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+        name += plain || c == '-' || c == '_' || c == '.' || c == '+' ? c : '_';
+    }
+    return name.empty() ? "scenario" : name;
+}
+
+void require_map(const SourceNode& root) {
+    if (root.kind == SourceNode::Kind::map) return;
+    const std::string what = root.kind == SourceNode::Kind::empty ? "is empty; it" : "has no fields; it";
+    throw InputError(to_string(root.place) + ": the file " + what + " needs 'field: value' lines (fields: " +
+                     joined(scenario_table().names()) + ")");
+}
+
+Scenario scenario_from(SourceNode root, const std::vector<std::string>& overrides) {
+    require_map(root);
+    const Source source = *root.place.source;
+    Report report;
+    for (const std::string& text : overrides) apply_override(scenario_table(), root, text, source.directory, report);
+    complete(scenario_table(), root, "", report);
+    if (root.find("name") == nullptr) {
+        SourceNode name;
+        name.kind = SourceNode::Kind::scalar;
+        name.text = name_from(source.label);
+        name.place = root.place;
+        root.add({"name", root.place}, std::move(name));
+    }
+    Scenario scenario;
+    read_fields(scenario_table(), root, "", &scenario, report);
+    report.throw_if_any();
+    scenario.vehicle_name = scenario.vehicle.name;
+    scenario.driver_name = scenario.driver.name;
+    scenario.hash = scenario_hash(scenario);
+    return scenario;
+}
+
+// A data file by name or path, read with its table.
+template <class S>
+S load_data(const Table& table, const std::string& folder, const std::string& name_or_path,
+            const std::filesystem::path& directory) {
+    SourceNode node;
+    node.kind = SourceNode::Kind::scalar;
+    node.text = name_or_path;
+    node.place.source = std::make_shared<Source>(Source{shortened(name_or_path), directory});
+    Report report;
+    resolve_base(table, folder, node, folder, report);
+    complete(table, node, "", report);
+    S settings;
+    read_fields(table, node, "", &settings, report);
+    report.throw_if_any();
+    return settings;
+}
+
+}  // namespace
+
+Scenario load_scenario(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+    return scenario_from(read_yaml_file(file), overrides);
+}
+
+Scenario parse_scenario(std::string_view text, const std::string& label, const std::vector<std::string>& overrides,
+                        const std::filesystem::path& directory) {
+    return scenario_from(parse_yaml(text, std::make_shared<Source>(Source{label, directory})), overrides);
+}
+
+PowertrainSettings load_vehicle(const std::string& name_or_path, const std::filesystem::path& directory) {
+    return load_data<PowertrainSettings>(vehicle_table(), "vehicles", name_or_path, directory);
+}
+
+DriverSettings load_driver(const std::string& name_or_path, const std::filesystem::path& directory) {
+    return load_data<DriverSettings>(driver_table(), "drivers", name_or_path, directory);
+}
+
+std::vector<GapPolicySettings> load_policies(const std::string& name_or_path, const std::filesystem::path& directory) {
+    return load_data<PolicyFile>(policy_file_table(), "policies", name_or_path, directory).policies;
+}
+
+std::string driver_yaml(const DriverSettings& driver, const std::string& comment) {
+    std::string text;
+    std::size_t begin = 0;
+    while (begin < comment.size()) {
+        const std::size_t end = std::min(comment.find('\n', begin), comment.size());
+        text += "# " + comment.substr(begin, end - begin) + "\n";
+        begin = end + 1;
+    }
+    return text + write_fields(driver_table(), &driver);
+}
+
+std::string canonical_text(const Scenario& scenario) { return write_fields(scenario_table(), &scenario); }
+
+std::uint64_t scenario_hash(const Scenario& scenario) {
+    std::uint64_t hash = 0xcbf29ce484222325u;  // FNV-1a, 64 bits
+    for (const char c : canonical_text(scenario)) {
+        hash ^= static_cast<unsigned char>(c);
+        hash *= 0x100000001b3u;
+    }
+    return hash;
+}
+
+}  // namespace stopline

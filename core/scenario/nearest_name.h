@@ -1,0 +1,21 @@
+// Helpers for messages: the name that was probably meant, lists of names, and values cut to a length that fits a line.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stopline {
+
+// The candidate closest to `name` in edit distance (case ignored), or "" if none is close enough to be meant.
+std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);
+
+// "; did you mean 'x'? Known: a, b, c": the end of every message about an unknown name.
+std::string known_names(std::string_view name, const std::vector<std::string>& candidates);
+
+std::string joined(const std::vector<std::string>& names);  // "a, b, c"
+
+// At most 60 characters, line breaks and the like replaced.
+std::string shortened(std::string_view text);
+
+}  // namespace stopline
