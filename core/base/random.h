@@ -1,0 +1,31 @@
+// Counter-based random numbers keyed by (seed, vehicle, tick, purpose): the same numbers whatever the thread count, the
+// policy or the order of visits, so that two policies can be compared on common random numbers. No state, no sequence.
+//
+// The mixer is the 64-bit finaliser of SplitMix64 (Steele, Lea, Flood 2014, "Fast splittable pseudorandom number
+// generators"), applied once per key word. Integer arithmetic only, so it vectorises and is the same on every machine.
+#pragma once
+
+#include <cstdint>
+
+namespace stopline {
+
+// What a number is drawn for. Append only: the values enter the key.
+enum class Purpose : std::uint64_t { policy = 1, turn = 2, dawdle = 3, insertion = 4, vehicle_type = 5 };
+
+constexpr std::uint64_t mix64(std::uint64_t z) {
+    z += 0x9e3779b97f4a7c15ULL;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+    return z ^ (z >> 31);
+}
+
+constexpr std::uint64_t random_bits(std::uint64_t seed, std::uint64_t vehicle, std::uint64_t tick, Purpose purpose) {
+    return mix64(mix64(mix64(seed ^ (static_cast<std::uint64_t>(purpose) << 56)) ^ vehicle) ^ tick);
+}
+
+// Uniform in [0, 1), 53 bits.
+constexpr double random_uniform(std::uint64_t seed, std::uint64_t vehicle, std::uint64_t tick, Purpose purpose) {
+    return static_cast<double>(random_bits(seed, vehicle, tick, purpose) >> 11) * 0x1.0p-53;
+}
+
+}  // namespace stopline

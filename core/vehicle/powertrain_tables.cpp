@@ -1,0 +1,102 @@
+#include "vehicle/powertrain_tables.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <fmt/format.h>
+
+#include "base/input_error.h"
+#include "base/units.h"
+
+namespace stopline {
+
+namespace {
+
+void require(bool holds, const PowertrainSettings& settings, const char* what) {
+    if (!holds) throw InputError(fmt::format("vehicle '{}': {}", settings.name, what));
+}
+
+void check(const PowertrainSettings& s) {
+    require(!s.gear_ratio.empty(), s, "at least one gear ratio is needed");
+    require(s.gear_ratio.size() <= static_cast<std::size_t>(PowertrainTables::kMaxGears), s, "at most 8 gears");
+    require(s.rotating_mass_factor.size() == s.gear_ratio.size(), s, "one rotating mass factor per gear is needed");
+    require(s.lag_gear_factor.size() == s.gear_ratio.size(), s, "one lag factor per gear is needed");
+    require(!s.full_load.x.empty() && s.full_load.x.size() == s.full_load.y.size(), s, "full-load curve is incomplete");
+    require(s.drag_torque.x.size() == s.drag_torque.y.size(), s, "drag-torque curve is incomplete");
+    require(s.lag_drive_s.size() == s.lag_rpm.size() * s.lag_torque_share.size() && !s.lag_drive_s.empty(), s,
+            "lag map needs one value per engine speed and torque share");
+    require(s.limiter_rpm > s.idle_rpm, s, "limiter must lie above idle");
+}
+
+// Bilinear interpolation of the lag map, constant beyond its edges.
+double lag_at(const PowertrainSettings& s, double rpm, double share) {
+    const auto columns = s.lag_torque_share.size();
+    SampledCurve over_rpm{s.lag_rpm, {}};
+    for (std::size_t row = 0; row < s.lag_rpm.size(); ++row) {
+        const auto begin = s.lag_drive_s.begin() + static_cast<std::ptrdiff_t>(row * columns);
+        const SampledCurve over_share{s.lag_torque_share, {begin, begin + static_cast<std::ptrdiff_t>(columns)}};
+        over_rpm.y.push_back(interpolate(over_share, share));
+    }
+    return interpolate(over_rpm, rpm);
+}
+
+}  // namespace
+
+double interpolate(const SampledCurve& curve, double x) {
+    const auto upper = std::upper_bound(curve.x.begin(), curve.x.end(), x);
+    if (upper == curve.x.begin()) return curve.y.front();
+    if (upper == curve.x.end()) return curve.y.back();
+    const auto k = static_cast<std::size_t>(upper - curve.x.begin());
+    const double share = (x - curve.x[k - 1]) / (curve.x[k] - curve.x[k - 1]);
+    return curve.y[k - 1] + share * (curve.y[k] - curve.y[k - 1]);
+}
+
+PowertrainTables compile_powertrain(const PowertrainSettings& s) {
+    check(s);
+    PowertrainTables t;
+    const double radius_m = 0.5 * s.wheel_diameter_m;
+    t.length_m = s.length_m;
+    t.mass_kg = s.mass_kg + s.load_kg;
+    t.drag_Ns2pm2 = 0.5 * kAirDensity_kgpm3 * s.drag_coefficient * s.frontal_area_m2;
+    t.rolling_N = t.mass_kg * kGravity_mps2 * s.rolling_r0;
+    t.rolling_Nspm = t.mass_kg * kGravity_mps2 * s.rolling_r1_s_per_m;
+    t.traction_limit_N = s.brake_friction * t.mass_kg * kGravity_mps2;
+    t.idle_rpm = s.idle_rpm;
+    t.launch_rpm = s.launch_rpm;
+    t.limiter_rpm = s.limiter_rpm;
+    t.shift_up_part_rpm = s.shift_up_part_load_rpm;
+    t.shift_up_full_rpm = s.shift_up_full_load_rpm;
+    t.shift_down_rpm = s.shift_down_rpm;
+    t.torque_interruption_s = s.torque_interruption_s;
+    t.minimum_gear_time_s = s.minimum_gear_time_s;
+    t.brake_lag_s = s.brake_lag_s;
+    t.rotating_mass_open = *std::min_element(s.rotating_mass_factor.begin(), s.rotating_mass_factor.end());
+    t.efficiency = s.driveline_efficiency;
+    t.gears = static_cast<int>(s.gear_ratio.size());
+    for (std::size_t g = 0; g < static_cast<std::size_t>(PowertrainTables::kMaxGears); ++g) {
+        const std::size_t used = std::min(g, s.gear_ratio.size() - 1);
+        const double ratio = s.gear_ratio[used] * s.final_drive;
+        t.rpm_per_mps[g] = ratio / radius_m / kRadpsPerRpm;
+        t.force_per_torque[g] = ratio / radius_m;
+        t.rotating_mass[g] = s.rotating_mass_factor[used];
+        t.lag_factor[g] = s.lag_gear_factor[used];
+    }
+    t.rpm_cells_per_rpm = PowertrainTables::kRpmCells / s.limiter_rpm;
+    for (std::size_t node = 0; node < t.full_load_Nm.size(); ++node) {
+        const double rpm = static_cast<double>(node) / t.rpm_cells_per_rpm;
+        t.full_load_Nm[node] = interpolate(s.full_load, rpm);
+        t.drag_Nm[node] = s.drag_torque.x.empty() ? 0.0 : std::min(0.0, interpolate(s.drag_torque, rpm));
+    }
+    t.lag_nodes_per_rpm = (PowertrainTables::kLagRpmNodes - 1) / s.limiter_rpm;
+    for (int row = 0; row < PowertrainTables::kLagRpmNodes; ++row) {
+        for (int column = 0; column < PowertrainTables::kLagShareNodes; ++column) {
+            const double rpm = row / t.lag_nodes_per_rpm;
+            const double share = static_cast<double>(column) / (PowertrainTables::kLagShareNodes - 1);
+            t.lag_s[static_cast<std::size_t>(row * PowertrainTables::kLagShareNodes + column)] = lag_at(s, rpm, share);
+        }
+    }
+    return t;
+}
+
+}  // namespace stopline

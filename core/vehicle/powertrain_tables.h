@@ -1,0 +1,55 @@
+// A vehicle model compiled for the step function: constants combined, curves resampled to uniform grids, so that a look-up
+// is one multiplication and no search. Built once from `PowertrainSettings`; constant afterwards; shared by all runs.
+#pragma once
+
+#include <array>
+
+#include "vehicle/powertrain_settings.h"
+
+namespace stopline {
+
+struct PowertrainTables {
+    static constexpr int kMaxGears = 8;
+    static constexpr int kRpmCells = 64;        // grid of the torque curves over engine speed
+    static constexpr int kLagRpmNodes = 16;     // grid of the lag map
+    static constexpr int kLagShareNodes = 8;
+
+    double length_m = 0.0;
+    double mass_kg = 0.0;            // kerb mass and load
+    double drag_Ns2pm2 = 0.0;        // 0.5 rho c_d A: air resistance over speed squared
+    double rolling_N = 0.0;          // m g r0
+    double rolling_Nspm = 0.0;       // m g r1
+    double traction_limit_N = 0.0;   // mu m g, driving and braking
+    double idle_rpm = 0.0;
+    double launch_rpm = 0.0;         // 0: no clutch (electric)
+    double limiter_rpm = 0.0;
+    double shift_up_part_rpm = 0.0;
+    double shift_up_full_rpm = 0.0;
+    double shift_down_rpm = 0.0;
+    double torque_interruption_s = 0.0;
+    double minimum_gear_time_s = 0.0;
+    double brake_lag_s = 0.0;
+    double rotating_mass_open = 1.0;  // rotating-mass factor with the clutch open: the wheels' share
+    double efficiency = 1.0;
+    int gears = 1;
+
+    std::array<double, kMaxGears> rpm_per_mps{};       // engine speed over vehicle speed, per gear
+    std::array<double, kMaxGears> force_per_torque{};  // wheel force over crank torque without losses [1/m], per gear
+    std::array<double, kMaxGears> rotating_mass{};     // effective over real mass, per gear
+    std::array<double, kMaxGears> lag_factor{};
+
+    double rpm_cells_per_rpm = 0.0;
+    std::array<double, kRpmCells + 1> full_load_Nm{};  // [node] at node / rpm_cells_per_rpm
+    std::array<double, kRpmCells + 1> drag_Nm{};       // <= 0
+
+    double lag_nodes_per_rpm = 0.0;
+    std::array<double, kLagRpmNodes * kLagShareNodes> lag_s{};  // [rpm node][share node]
+};
+
+// Throws InputError where the settings are not usable (gears missing, more than kMaxGears, curves empty).
+PowertrainTables compile_powertrain(const PowertrainSettings& settings);
+
+// Linear interpolation of a sampled curve, constant beyond its ends.
+double interpolate(const SampledCurve& curve, double x);
+
+}  // namespace stopline
