@@ -1,0 +1,35 @@
+// Who enters where: for each entry lane how many vehicles, and for each of them its policy, vehicle type and route. Drawn
+// from keyed random numbers, so that different policies meet the same sequence.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "demand/demand_settings.h"
+
+namespace stopline {
+
+struct DemandPlan {
+    struct Inlet {
+        int lane = 0;
+        std::int64_t vehicles = 0;   // that enter in all
+        std::vector<int> routes;     // candidate routes, and ...
+        std::vector<double> shares;  // ... their shares, summing to 1
+    };
+    std::vector<Inlet> inlets;
+    double entry_speed_mps = 0.0;
+    double entry_headway_s = 2.0;  // at least, between two fronts at the entry
+
+    // Policy of the k-th vehicle of an inlet: component shares, and how they are arranged.
+    enum class Pattern { alternating, random };
+    Pattern pattern = Pattern::alternating;
+    std::vector<int> policies;
+    std::vector<double> policy_shares;
+    std::uint64_t seed = 1;
+
+    // The k-th vehicle (from 0) of inlet `i`.
+    int policy_of(int inlet, std::int64_t k) const;
+    int route_of(int inlet, std::int64_t k) const;
+};
+
+}  // namespace stopline

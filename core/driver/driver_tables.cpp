@@ -1,0 +1,36 @@
+#include <algorithm>
+
+#include "base/input_error.h"
+#include "driver/acceleration_laws.h"
+
+namespace stopline {
+
+DriverTables compile_driver(const DriverSettings& settings) {
+    const FreeDriveSettings& free = settings.free_drive;
+    if (free.speed_mps.empty() || free.speed_mps.size() != free.acceleration_mps2.size()) {
+        throw InputError("driver: the acceleration profile needs one acceleration per speed");
+    }
+    DriverTables t;
+    t.cacc = settings.cacc;
+    t.stop = settings.stop;
+    t.speed_gain_1ps = free.speed_gain_1ps;
+    t.deceleration_mps2 = free.deceleration_mps2;
+    const double top_mps = std::max(free.speed_mps.back(), 1.0);
+    t.profile_cells_per_mps = DriverTables::kProfileCells / top_mps;
+    std::size_t k = 1;
+    for (std::size_t node = 0; node < t.profile_mps2.size(); ++node) {
+        const double speed = static_cast<double>(node) / t.profile_cells_per_mps;
+        while (k + 1 < free.speed_mps.size() && free.speed_mps[k] < speed) ++k;
+        if (free.speed_mps.size() == 1) {
+            t.profile_mps2[node] = free.acceleration_mps2[0];
+            continue;
+        }
+        const double share = (speed - free.speed_mps[k - 1]) / (free.speed_mps[k] - free.speed_mps[k - 1]);
+        const double clipped = std::clamp(share, 0.0, 1.0);
+        t.profile_mps2[node] =
+            free.acceleration_mps2[k - 1] + clipped * (free.acceleration_mps2[k] - free.acceleration_mps2[k - 1]);
+    }
+    return t;
+}
+
+}  // namespace stopline

@@ -1,0 +1,51 @@
+#include "network/lane_graph.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "base/input_error.h"
+
+namespace stopline {
+
+LaneGraph make_approach(const ApproachSettings& s) {
+    constexpr double kLaneWidth_m = 3.5;
+    LaneGraph graph;
+    graph.signal_groups = 1;
+    for (int k = 0; k < s.lanes; ++k) {
+        const double y = -k * kLaneWidth_m;
+        const int entry = 2 * k;
+        graph.lanes.push_back({fmt::format("approach_{}", k), s.length_m, s.speed_limit_mps, s.gradient, 0, {entry + 1},
+                               {{-s.length_m, y}, {0.0, y}}});
+        graph.lanes.push_back({fmt::format("exit_{}", k), s.exit_length_m, s.speed_limit_mps, s.gradient, -1, {},
+                               {{0.0, y}, {s.exit_length_m, y}}});
+        graph.routes.push_back({fmt::format("straight_{}", k), {entry, entry + 1}});
+        graph.entries.push_back(entry);
+    }
+    return graph;
+}
+
+void check(const LaneGraph& graph) {
+    const auto lanes = static_cast<int>(graph.lanes.size());
+    const auto known = [lanes](int lane) { return lane >= 0 && lane < lanes; };
+    for (const Lane& lane : graph.lanes) {
+        const bool sound = lane.length_m > 0.0 && lane.limit_mps > 0.0 && lane.signal_group < graph.signal_groups &&
+                           std::all_of(lane.next.begin(), lane.next.end(), known);
+        if (!sound) throw InputError(fmt::format("lane '{}': length, limit, signal or next lane is not usable", lane.name));
+    }
+    for (const Route& route : graph.routes) {
+        if (route.lanes.empty()) throw InputError(fmt::format("route '{}' is empty", route.name));
+        if (!std::all_of(route.lanes.begin(), route.lanes.end(), known)) {
+            throw InputError(fmt::format("route '{}' names a lane that does not exist", route.name));
+        }
+        for (std::size_t k = 1; k < route.lanes.size(); ++k) {
+            const Lane& from = graph.lanes[static_cast<std::size_t>(route.lanes[k - 1])];
+            if (std::find(from.next.begin(), from.next.end(), route.lanes[k]) == from.next.end()) {
+                throw InputError(fmt::format("route '{}': lane '{}' does not lead to lane {}", route.name, from.name,
+                                             route.lanes[k]));
+            }
+        }
+    }
+}
+
+}  // namespace stopline

@@ -1,0 +1,55 @@
+#include "signals/programme.h"
+
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/input_error.h"
+
+namespace stopline {
+
+std::int64_t to_ticks(double seconds, double step_s) { return std::llround(seconds / step_s); }
+
+GroupProgramme::GroupProgramme(std::vector<Stage> stages, std::int64_t offset_ticks, bool repeats)
+    : stages_(std::move(stages)), offset_(offset_ticks), repeats_(repeats) {
+    for (const Stage& stage : stages_) {
+        if (stage.ticks <= 0) throw InputError("signal programme: every stage must last at least one step");
+        cycle_ += stage.ticks;
+    }
+    if (stages_.empty()) throw InputError("signal programme: at least one stage is needed");
+}
+
+GroupProgramme::Place GroupProgramme::place(std::int64_t tick) const {
+    std::int64_t begin = offset_ + (tick - offset_) / cycle_ * cycle_;
+    std::size_t stage = 0;
+    while (tick >= begin + stages_[stage].ticks) begin += stages_[stage++].ticks;
+    return {stage, begin};
+}
+
+Light GroupProgramme::light(std::int64_t tick) const {
+    if (tick < offset_) return Light::red;
+    if (!repeats_ && tick >= offset_ + cycle_) return Light::red;
+    return stages_[place(tick).stage].light;
+}
+
+std::int64_t GroupProgramme::since(std::int64_t tick) const {
+    if (tick < offset_) return 0;
+    if (!repeats_ && tick >= offset_ + cycle_) return offset_ + cycle_;
+    return place(tick).begin;
+}
+
+GroupProgramme make_single_light(const SignalSettings& s, double step_s) {
+    const bool repeats = s.cycle_s > 0.0;
+    const double red_s = repeats ? s.cycle_s - s.green_s - s.yellow_s : s.all_red_s;
+    if (red_s < 0.0 || (repeats && red_s < s.all_red_s)) {
+        throw InputError(fmt::format("signal: a cycle of {} s is shorter than green {} s, yellow {} s and all red {} s",
+                                     s.cycle_s, s.green_s, s.yellow_s, s.all_red_s));
+    }
+    std::vector<Stage> stages{{to_ticks(s.green_s, step_s), Light::green}};
+    if (s.yellow_s > 0.0) stages.push_back({to_ticks(s.yellow_s, step_s), Light::yellow});
+    if (red_s > 0.0) stages.push_back({to_ticks(red_s, step_s), Light::red});
+    return {std::move(stages), to_ticks(s.first_green_s, step_s), repeats};
+}
+
+}  // namespace stopline

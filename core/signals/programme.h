@@ -1,0 +1,49 @@
+// Fixed-time signal programmes: each group runs through stages of green, yellow and red, repeated with the cycle or once.
+// Times are integer ticks of the simulation step.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "signals/signal_settings.h"
+
+namespace stopline {
+
+enum class Light : std::uint8_t { red, green, yellow };
+
+struct Stage {
+    std::int64_t ticks = 0;
+    Light light = Light::red;
+};
+
+// The light of one group over time: red before `offset`, then its stages; after the last the cycle starts again, or, where
+// `repeats` is false, it stays red.
+class GroupProgramme {
+public:
+    GroupProgramme(std::vector<Stage> stages, std::int64_t offset_ticks, bool repeats);
+
+    Light light(std::int64_t tick) const;
+    // First tick of the present light, for times after `offset`; 0 before.
+    std::int64_t since(std::int64_t tick) const;
+    std::int64_t cycle_ticks() const { return cycle_; }
+
+private:
+    struct Place {
+        std::size_t stage;
+        std::int64_t begin;
+    };
+    Place place(std::int64_t tick) const;
+
+    std::vector<Stage> stages_;
+    std::int64_t offset_;
+    std::int64_t cycle_ = 0;
+    bool repeats_;
+};
+
+// Green, yellow, then red for the rest of the cycle. Throws InputError where the parts do not fit into the cycle.
+GroupProgramme make_single_light(const SignalSettings& settings, double step_s);
+
+// Seconds to whole ticks, rounded to the nearest.
+std::int64_t to_ticks(double seconds, double step_s);
+
+}  // namespace stopline

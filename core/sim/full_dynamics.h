@@ -1,0 +1,24 @@
+// The two kernels of the full-dynamics fidelity, a lane at a time: plan (driver: what acceleration is asked for, from the state at the
+// beginning of the step) and drive (vehicle: what the powertrain makes of it, and the new position).
+#pragma once
+
+#include "sim/model.h"
+#include "sim/state.h"
+
+namespace stopline {
+
+// What the kernels need of one lane in one step.
+struct LaneStep {
+    int begin = 0;           // slots [begin, end), both multiples of kSimdWidth
+    int end = 0;
+    double length_m = 0.0;
+    double limit_mps = 0.0;
+    double sine = 0.0;       // of the slope
+    int stop_slot = -1;      // vehicle that stops at the lane's end
+    double stop_margin_m = 0.0;
+};
+
+void plan_full(const Model& model, const LaneStep& lane, State& state);
+void drive_full(const Model& model, const LaneStep& lane, State& state);
+
+}  // namespace stopline

@@ -1,0 +1,50 @@
+// Everything of a run that does not change: compiled once, then constant and shared by any number of runs and threads.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "demand/demand_plan.h"
+#include "driver/acceleration_laws.h"
+#include "driver/gap_policy.h"
+#include "network/lane_graph.h"
+#include "signals/programme.h"
+#include "vehicle/powertrain_tables.h"
+
+namespace stopline {
+
+// A spacing policy ready for use.
+struct CompiledPolicy {
+    GapPolicySettings settings;
+    const GapLaw* law = nullptr;
+};
+
+// A delay as samples of the past: the value `steps` steps ago and the one before it, mixed by `share`. Delays that are no
+// multiple of the step are thus interpolated, and results do not depend on the step.
+struct DelayLine {
+    int steps = 0;        // whole steps of delay
+    double share = 0.0;   // weight of the sample one step older
+    int rows = 1;         // samples that must be kept
+};
+DelayLine make_delay(double delay_s, double step_s);
+
+struct Model {
+    double step_s = 0.01;
+    std::uint64_t seed = 1;
+    LaneGraph graph;
+    std::vector<GroupProgramme> signals;  // [signal group]
+    std::vector<PowertrainTables> vehicles;
+    std::vector<CompiledPolicy> policies;
+    DriverTables driver;
+    std::int64_t hesitation_ticks = 0;  // first vehicle at a stop line, after the start of green
+    DemandPlan demand;
+    DelayLine radar;
+    DelayLine v2v;
+
+    double time_s(std::int64_t tick) const { return static_cast<double>(tick) * step_s; }
+};
+
+// Throws InputError where the parts do not fit together; to be called once after a Model has been put together.
+void check(const Model& model);
+
+}  // namespace stopline

@@ -1,0 +1,50 @@
+#include "sim/state.h"
+
+#include <algorithm>
+
+namespace stopline {
+
+namespace {
+
+int rounded_up(int n) { return (n + kSimdWidth - 1) / kSimdWidth * kSimdWidth; }
+
+// Room for all vehicles that fit on the lane bumper to bumper, twice, so that moving up is rare; pads for the sentinel.
+int block_size(const Model& model, const Lane& lane) {
+    double shortest_m = 1e9;
+    for (const PowertrainTables& type : model.vehicles) shortest_m = std::min(shortest_m, type.length_m);
+    const int most = static_cast<int>(lane.length_m / shortest_m) + 2;
+    return rounded_up(2 * most);
+}
+
+}  // namespace
+
+State make_state(const Model& model) {
+    State state;
+    int slots = 0;
+    for (const Lane& lane : model.graph.lanes) {
+        LaneBlock block;
+        block.begin = slots + kSimdWidth;
+        block.end = block.begin + block_size(model, lane);
+        block.first = block.begin;
+        slots = block.end;
+        state.blocks.push_back(block);
+    }
+    slots = rounded_up(slots);
+    state.vehicles.resize(slots, model.radar.rows, model.v2v.rows);
+    state.stop_lines.resize(model.graph.lanes.size());
+    state.stop_slot.assign(model.graph.lanes.size(), -1);
+    state.occupied.reserve(model.graph.lanes.size());
+    state.inlets.resize(model.demand.inlets.size());
+    const auto n = static_cast<std::size_t>(slots);
+    for (auto* scratch : {&state.desired_gap_m, &state.gap_slope_s, &state.law_gap_m, &state.law_slope_s}) {
+        scratch->assign(n, 0.0);
+    }
+    std::size_t expected = 0;
+    for (const DemandPlan::Inlet& inlet : model.demand.inlets) {
+        expected += static_cast<std::size_t>(std::min<std::int64_t>(inlet.vehicles, 100000));
+    }
+    state.passages.reserve(4 * expected);
+    return state;
+}
+
+}  // namespace stopline

@@ -1,0 +1,50 @@
+// All that changes during one run. One State per run; runs side by side share nothing but the Model.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sim/events.h"
+#include "sim/model.h"
+#include "sim/vehicle_arrays.h"
+
+namespace stopline {
+
+// The stop line at the end of a lane, as its traffic sees it.
+struct StopLineState {
+    int stopper = -1;            // id of the vehicle that stops at the line; those behind follow it
+    bool decided = false;        // whether the light has turned from green, so that deciding has begun
+    double decided_since_s = 0.0;
+};
+
+struct InletState {
+    std::int64_t entered = 0;
+    double last_entry_s = -1e9;
+};
+
+struct State {
+    std::int64_t tick = 0;
+    VehicleArrays vehicles;
+    std::vector<LaneBlock> blocks;         // [lane]
+    std::vector<int> occupied;             // lanes with vehicles, in lane order
+    std::vector<StopLineState> stop_lines;  // [lane]
+    std::vector<int> stop_slot;            // [lane] slot of the vehicle that stops at the line; -1: none
+    std::vector<InletState> inlets;
+    std::vector<Passage> passages;         // of the whole run, in order
+    Violations violations;
+    std::int64_t entered = 0;
+    std::int64_t left = 0;
+    std::int64_t updates = 0;              // vehicle updates computed
+    int next_id = 0;
+    // Scratch of the kernels, one value a slot.
+    std::vector<double> desired_gap_m;
+    std::vector<double> gap_slope_s;
+    std::vector<double> law_gap_m;
+    std::vector<double> law_slope_s;
+
+    int present() const { return static_cast<int>(entered - left); }
+};
+
+State make_state(const Model& model);
+
+}  // namespace stopline

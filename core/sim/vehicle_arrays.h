@@ -1,0 +1,77 @@
+// The state of all vehicles as structures of arrays in lane order. A lane owns a block of slots; its vehicles stand in
+// consecutive slots, the first one downstream, so that the predecessor of slot i is slot i - 1. The slot before the first
+// vehicle is the lane's sentinel: it holds what the first vehicle must react to beyond the lane (see lane_heads.cpp).
+//
+//     block of a lane:  | pad ... | sentinel | first | ... | last | free ... |
+//
+// Vehicles leave at the front (first + 1: the left slot becomes the sentinel) and enter at the back; when the back reaches the
+// block's end all move to its start. Slots that hold no vehicle are computed along with the others and never read.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/simd.h"
+
+namespace stopline {
+
+struct LaneBlock {
+    int begin = 0;  // first slot that a vehicle may take; a multiple of kSimdWidth, at least kSimdWidth
+    int end = 0;    // one past the last
+    int first = 0;  // slot of the vehicle furthest downstream
+    int count = 0;  // vehicles
+
+    int last() const { return first + count - 1; }
+    int stop() const { return first + count; }
+};
+
+struct VehicleArrays {
+    // Hot: read and written every step. One value a slot, SI units.
+    std::vector<double> position_m;          // front, from the lane's start
+    std::vector<double> speed_mps;
+    std::vector<double> acceleration_mps2;   // realised in the last step
+    std::vector<double> request_mps2;        // u: the acceleration asked for in the last step
+    std::vector<double> torque_Nm;
+    std::vector<double> brake_N;
+    std::vector<double> gear_time_s;
+    std::vector<double> lag_s;               // tau, as told to the follower
+    std::vector<double> length_m;
+    std::vector<int> gear;
+    std::vector<int> leads;                  // 1: free start-up profile (leader of a platoon), 0: follower
+    // Slots of the past, [row][slot]: radar (gap, closing speed) and V2V (acceleration, request, lag).
+    std::vector<float> radar_gap_m;
+    std::vector<float> radar_closing_mps;
+    std::vector<float> v2v_acceleration_mps2;
+    std::vector<float> v2v_request_mps2;
+    std::vector<float> v2v_lag_s;
+    // Cold: read at events only, or by one kernel.
+    std::vector<float> standstill_gap_m;
+    std::vector<float> end_speed_mps;        // limit at the end of the lane, for the route
+    std::vector<int> policy;
+    std::vector<int> type;
+    std::vector<int> id;
+    std::vector<int> predecessor;            // id of the vehicle that the radar tracks; -1: none
+    std::vector<int> route;
+    std::vector<int> route_index;            // place in the route of the lane the vehicle is on
+
+    int slots = 0;
+    int radar_rows = 0;
+    int v2v_rows = 0;
+
+    void resize(int slot_count, int radar_row_count, int v2v_row_count);
+    // Copies all of one vehicle to another slot.
+    void copy(int from, int to);
+    // Fills the past of a vehicle: radar with one measurement, V2V with its present state.
+    void reset_radar(int slot, double gap_m, double closing_mps);
+    void reset_v2v(int slot);
+
+    std::size_t row(int row_index, int slot) const {
+        return static_cast<std::size_t>(row_index) * static_cast<std::size_t>(slots) + static_cast<std::size_t>(slot);
+    }
+
+private:
+    template <class Visit>
+    void for_each_array(Visit visit);
+};
+
+}  // namespace stopline
