@@ -32,8 +32,8 @@ DriverTables compile_driver(const DriverSettings& settings);
 
 // What a vehicle knows of its predecessor.
 struct PredecessorView {
-    double gap_m;            // net gap by radar, delayed
-    double closing_mps;      // own speed minus the predecessor's by radar, delayed
+    double gap_m;              // net gap by radar, delayed
+    double closing_mps;        // own speed minus the predecessor's by radar, delayed
     double acceleration_mps2;  // by V2V, delayed
     double request_mps2;       // u of the predecessor, by V2V, delayed
     double lag_s;              // tau of the predecessor, by V2V, delayed
@@ -50,8 +50,7 @@ STOPLINE_INLINE double free_acceleration(const DriverTables& d, double speed_mps
 
 // A follower may use more than the leader's profile, and a little more speed, to close its gap.
 STOPLINE_INLINE double catch_up_acceleration(const DriverTables& d, double speed_mps, double desired_mps) {
-    return lesser(d.cacc.acceleration_max_mps2,
-                  d.speed_gain_1ps * (desired_mps * d.cacc.catch_up_factor - speed_mps));
+    return lesser(d.cacc.acceleration_max_mps2, d.speed_gain_1ps * (desired_mps * d.cacc.catch_up_factor - speed_mps));
 }
 
 // Slowing down for a lower limit `distance_m` ahead: along v^2 = v_end^2 + 2 b distance.
@@ -111,12 +110,10 @@ STOPLINE_INLINE double follow_acceleration(const CaccSettings& c, double acceler
     const double error_m = p.gap_m - desired_gap_m;
     const double error_rate_mps = -p.closing_mps - slope_s * acceleration_mps2;
     const double feedback = c.feedback_kp_1ps2 * error_m + c.feedback_kd_1ps * error_rate_mps;
-    const double time_gap_ff =
-        p.acceleration_mps2 + lag_s / p.lag_s * (p.request_mps2 - p.acceleration_mps2);
+    const double time_gap_ff = p.acceleration_mps2 + lag_s / p.lag_s * (p.request_mps2 - p.acceleration_mps2);
     const double filtered = request_mps2 + (feedback + time_gap_ff - request_mps2) * lag_share(dt, slope_s);
     const double distance = feedback + predictive_feedforward(c, acceleration_mps2, lag_s, p);
-    return limited(select(slope_s > 0.0, filtered, distance), -c.deceleration_comfort_mps2,
-                   c.acceleration_max_mps2);
+    return limited(select(slope_s > 0.0, filtered, distance), -c.deceleration_comfort_mps2, c.acceleration_max_mps2);
 }
 
 // Emergency: the deceleration that is needed not to hit the predecessor, once it exceeds the threshold; large (no limit)

@@ -8,37 +8,37 @@ namespace stopline {
 
 // The feedback and feedforward gains of Fig. 3 and Fig. 4, and the delays of the sensors.
 struct CaccSettings {
-    double feedback_kp_1ps2 = 0.2;   // Ploeg et al. 2011 (reference [31] of the paper)
+    double feedback_kp_1ps2 = 0.2;  // Ploeg et al. 2011 (reference [31] of the paper)
     double feedback_kd_1ps = 0.7;
-    double radar_delay_s = 0.15;     // Section III.D
+    double radar_delay_s = 0.15;  // Section III.D
     double radar_range_m = 150.0;
     double v2v_delay_s = 0.02;
-    double prediction_start_s = 0.1;  // Fig. 4: a_i shall meet a_(i-1) from here ...
-    double prediction_end_s = 0.5;    // ... to here after now
-    double acceleration_max_mps2 = 2.5;   // a follower's comfort limit
+    double prediction_start_s = 0.1;         // Fig. 4: a_i shall meet a_(i-1) from here ...
+    double prediction_end_s = 0.5;           // ... to here after now
+    double acceleration_max_mps2 = 2.5;      // a follower's comfort limit
     double deceleration_comfort_mps2 = 3.5;  // ISO 15622: ACC brakes at most this hard without an emergency
     double deceleration_emergency_mps2 = 7.0;
     double emergency_threshold_mps2 = 3.0;  // collision avoidance acts from this required deceleration on
     double emergency_gap_m = 0.5;           // and keeps this distance
-    double jerk_up_mps3 = 6.0;      // the command's slew limits: switches are bumpless
+    double jerk_up_mps3 = 6.0;              // the command's slew limits: switches are bumpless
     double jerk_down_mps3 = 25.0;
-    double catch_up_factor = 1.05;   // a follower may exceed the limit by this factor to close its gap
+    double catch_up_factor = 1.05;  // a follower may exceed the limit by this factor to close its gap
 };
 
 // Free driving: acceleration asked for over speed (the calibrated start-up of Section III.B), towards the desired speed.
 struct FreeDriveSettings {
-    std::vector<double> speed_mps;         // knots, rising from 0
-    std::vector<double> acceleration_mps2; // at the knots; constant beyond the last
-    double speed_gain_1ps = 0.35;          // towards the desired speed: gain x (v_desired - v)
-    double deceleration_mps2 = 1.5;        // for a lower limit ahead (turns)
-    double hesitation_s = 0.0;             // leader: from green to the release of the brake
+    std::vector<double> speed_mps;          // knots, rising from 0
+    std::vector<double> acceleration_mps2;  // at the knots; constant beyond the last
+    double speed_gain_1ps = 0.35;           // towards the desired speed: gain x (v_desired - v)
+    double deceleration_mps2 = 1.5;         // for a lower limit ahead (turns)
+    double hesitation_s = 0.0;              // leader: from green to the release of the brake
 };
 
 // Stopping at a line.
 struct StopSettings {
-    double deceleration_mps2 = 2.5;         // braking starts when this is needed
-    double decision_deceleration_mps2 = 3.5; // on yellow: stop if this suffices, else go on
-    double margin_m = 1.0;                  // front to line
+    double deceleration_mps2 = 2.5;           // braking starts when this is needed
+    double decision_deceleration_mps2 = 3.5;  // on yellow: stop if this suffices, else go on
+    double margin_m = 1.0;                    // front to line
 };
 
 struct DriverSettings {
@@ -51,10 +51,10 @@ struct DriverSettings {
 // One spacing policy by name. `law` is a registered law; the numbers a law does not use stay 0.
 struct GapPolicySettings {
     std::string name;
-    std::string law;                 // constant_distance | constant_time | switch_time_gap | switch_distance
+    std::string law;  // constant_distance | constant_time | switch_time_gap | switch_distance
     double standstill_gap_m = 2.95;
     double time_gap_s = 0.0;
-    double switch_speed_mps = 0.0;   // below it the gap is the standstill gap
+    double switch_speed_mps = 0.0;     // below it the gap is the standstill gap
     double reference_speed_mps = 0.0;  // switch_distance: the speed at which ...
     double reference_gap_m = 0.0;      // ... this gap is reached
 };

@@ -18,7 +18,7 @@ void evaluate(const GapPolicySettings& s, std::span<const double> speed_mps, std
 
 }  // namespace
 
-extern const GapLaw kSwitchDistanceLaw{"switch_distance", "constant distance, growing to a reference gap above the switch speed",
-                                       evaluate};
+extern const GapLaw kSwitchDistanceLaw{
+    "switch_distance", "constant distance, growing to a reference gap above the switch speed", evaluate};
 
 }  // namespace stopline

@@ -16,7 +16,7 @@ void evaluate(const GapPolicySettings& s, std::span<const double> speed_mps, std
 
 }  // namespace
 
-extern const GapLaw kSwitchTimeGapLaw{"switch_time_gap", "constant distance, time gap on the speed above the switch speed",
-                                      evaluate};
+extern const GapLaw kSwitchTimeGapLaw{"switch_time_gap",
+                                      "constant distance, time gap on the speed above the switch speed", evaluate};
 
 }  // namespace stopline

@@ -15,9 +15,19 @@ LaneGraph make_approach(const ApproachSettings& s) {
     for (int k = 0; k < s.lanes; ++k) {
         const double y = -k * kLaneWidth_m;
         const int entry = 2 * k;
-        graph.lanes.push_back({fmt::format("approach_{}", k), s.length_m, s.speed_limit_mps, s.gradient, 0, {entry + 1},
+        graph.lanes.push_back({fmt::format("approach_{}", k),
+                               s.length_m,
+                               s.speed_limit_mps,
+                               s.gradient,
+                               0,
+                               {entry + 1},
                                {{-s.length_m, y}, {0.0, y}}});
-        graph.lanes.push_back({fmt::format("exit_{}", k), s.exit_length_m, s.speed_limit_mps, s.gradient, -1, {},
+        graph.lanes.push_back({fmt::format("exit_{}", k),
+                               s.exit_length_m,
+                               s.speed_limit_mps,
+                               s.gradient,
+                               -1,
+                               {},
                                {{0.0, y}, {s.exit_length_m, y}}});
         graph.routes.push_back({fmt::format("straight_{}", k), {entry, entry + 1}});
         graph.entries.push_back(entry);
@@ -31,7 +41,8 @@ void check(const LaneGraph& graph) {
     for (const Lane& lane : graph.lanes) {
         const bool sound = lane.length_m > 0.0 && lane.limit_mps > 0.0 && lane.signal_group < graph.signal_groups &&
                            std::all_of(lane.next.begin(), lane.next.end(), known);
-        if (!sound) throw InputError(fmt::format("lane '{}': length, limit, signal or next lane is not usable", lane.name));
+        if (!sound)
+            throw InputError(fmt::format("lane '{}': length, limit, signal or next lane is not usable", lane.name));
     }
     for (const Route& route : graph.routes) {
         if (route.lanes.empty()) throw InputError(fmt::format("route '{}' is empty", route.name));

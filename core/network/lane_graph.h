@@ -18,10 +18,10 @@ struct Lane {
     std::string name;
     double length_m = 0.0;
     double limit_mps = 0.0;
-    double gradient = 0.0;         // rise over run, positive uphill in driving direction
-    int signal_group = -1;         // of the stop line at its end; -1: none
-    std::vector<int> next;         // lanes that can follow; none: vehicles leave the network here
-    std::vector<Point> shape;      // centre line
+    double gradient = 0.0;     // rise over run, positive uphill in driving direction
+    int signal_group = -1;     // of the stop line at its end; -1: none
+    std::vector<int> next;     // lanes that can follow; none: vehicles leave the network here
+    std::vector<Point> shape;  // centre line
 };
 
 // A sequence of lanes from an entry to an exit.

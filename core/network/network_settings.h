@@ -8,10 +8,10 @@ namespace stopline {
 // One straight approach with a stop line, and the road behind it.
 struct ApproachSettings {
     int lanes = 1;
-    double length_m = 700.0;      // entry to stop line
+    double length_m = 700.0;       // entry to stop line
     double exit_length_m = 700.0;  // stop line to the end of the network
     double speed_limit_mps = 50.0 / 3.6;
-    double gradient = 0.0;         // rise over run, positive uphill
+    double gradient = 0.0;  // rise over run, positive uphill
 };
 
 struct NetworkSettings {

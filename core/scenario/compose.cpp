@@ -59,8 +59,8 @@ void resolve(const Table& table, const std::string& folder, SourceNode& node, co
     node = SourceNode{};
     node.kind = Kind::broken;
     if (bases >= kBasesMax) {
-        report.error(reference.place, "field '" + path + "': more than " + std::to_string(kBasesMax) +
-                                          " files name each other as base");
+        report.error(reference.place,
+                     "field '" + path + "': more than " + std::to_string(kBasesMax) + " files name each other as base");
         return;
     }
     DataFile file = read_data_file(folder, reference, path, report);
@@ -84,8 +84,8 @@ const SourceNode* name_of(const SourceNode& item) { return item.kind == Kind::ma
 void merge_library_list(const Field& field, const std::string& library, SourceNode& list, Report& report) {
     if (list.kind != Kind::list) return;
     const auto slash = library.find('/');
-    DataFile file = read_data_file(library.substr(0, slash), scalar_at(list.place, library.substr(slash + 1)), field.name,
-                                   report);
+    DataFile file =
+        read_data_file(library.substr(0, slash), scalar_at(list.place, library.substr(slash + 1)), field.name, report);
     SourceNode* const known = file.tree.find(field.name);
     if (file.tree.kind == Kind::broken) {
         list.kind = Kind::broken;
@@ -159,12 +159,6 @@ std::vector<Step> steps_of(const std::string& path) {
     return steps;
 }
 
-void set_place(SourceNode& node, const Place& place) {
-    node.place = place;
-    for (SourceNode::Key& key : node.keys) key.place = place;
-    for (SourceNode& item : node.items) set_place(item, place);
-}
-
 SourceNode* find_entry(SourceNode& list, const std::string& entry) {
     const ParsedWhole index = parse_whole(entry);
     if (index.problem.empty()) return index.value < list.items.size() ? &list.items[index.value] : nullptr;
@@ -188,7 +182,8 @@ class Setter {
 public:
     Setter(SourceNode value, Report& report) : value_(std::move(value)), report_(report) {}
 
-    void set(const Table& table, SourceNode& map, const std::vector<Step>& steps, std::size_t i, const std::string& path) {
+    void set(const Table& table, SourceNode& map, const std::vector<Step>& steps, std::size_t i,
+             const std::string& path) {
         const Step& step = steps[i];
         const std::string here = join_path(path, step.name);
         const Field* const field = table.find(step.name);
@@ -257,7 +252,14 @@ void complete(const Table& table, SourceNode& map, const std::string& path, Repo
     for (const Field& field : table.fields) {
         const std::string field_path = join_path(path, field.name);
         complete_field(field, map, field_path, report);
-        SourceNode* const value = map.find(field.name);
+        SourceNode* value = map.find(field.name);
+        if (value == nullptr && std::holds_alternative<SectionField>(field.kind) && field.only_field.empty() &&
+            !field.required) {
+            SourceNode empty;  // fields inside may have fallbacks
+            empty.kind = Kind::map;
+            empty.place = map.place;
+            value = &map.add({field.name, map.place}, std::move(empty));
+        }
         if (value == nullptr) continue;
         if (const auto* const section = std::get_if<SectionField>(&field.kind)) {
             complete(section->table(), *value, field_path, report);
@@ -272,18 +274,17 @@ void complete(const Table& table, SourceNode& map, const std::string& path, Repo
 void apply_override(const Table& table, SourceNode& root, const std::string& text,
                     const std::filesystem::path& directory, Report& report) {
     const auto equals = text.find('=');
-    const auto source = std::make_shared<Source>(Source{"--set '" + shortened(text) + "'", directory});
-    const Place place{source, 0, 0};
+    const auto source = std::make_shared<Source>(Source{"--set '" + shortened(text) + "'", directory, false});
+    const Place place{source};
     if (equals == std::string::npos || equals == 0) {
         report.error(place, "needs the form path=value, for instance signal.green=20 s");
         return;
     }
     try {
         SourceNode value = parse_yaml(std::string_view(text).substr(equals + 1), source);
-        set_place(value, place);
         Setter(std::move(value), report).set(table, root, steps_of(text.substr(0, equals)), 0, "");
-    } catch (const InputError& error) {
-        report.error(error.what());
+    } catch (const YamlError& error) {
+        report.error(place, error.message());
     }
 }
 

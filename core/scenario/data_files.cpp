@@ -40,7 +40,8 @@ std::vector<std::string> data_names(const std::string& folder) {
     return names;
 }
 
-DataFile read_data_file(const std::string& folder, const SourceNode& reference, const std::string& field, Report& report) {
+DataFile read_data_file(const std::string& folder, const SourceNode& reference, const std::string& field,
+                        Report& report) {
     DataFile file;
     file.tree.kind = SourceNode::Kind::broken;
     if (reference.kind != SourceNode::Kind::scalar || reference.text.empty() || reference.text.size() > kReferenceMax) {
@@ -65,7 +66,7 @@ DataFile read_data_file(const std::string& folder, const SourceNode& reference, 
     try {
         file.tree = read_yaml_file(path);
     } catch (const InputError& error) {
-        report.error(to_string(reference.place) + ": field '" + field + "': " + error.what());
+        report.error(reference.place, "field '" + field + "': " + error.what());
     }
     return file;
 }

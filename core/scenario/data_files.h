@@ -15,6 +15,7 @@ struct DataFile {
     SourceNode tree;
     std::string stem;
 };
-DataFile read_data_file(const std::string& folder, const SourceNode& reference, const std::string& field, Report& report);
+DataFile read_data_file(const std::string& folder, const SourceNode& reference, const std::string& field,
+                        Report& report);
 
 }  // namespace stopline

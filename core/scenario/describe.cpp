@@ -5,6 +5,7 @@
 
 #include "scenario/fields.h"
 #include "scenario/load_scenario.h"
+#include "scenario/nearest_name.h"
 #include "scenario/write_fields.h"
 
 namespace stopline {
@@ -33,9 +34,7 @@ std::string default_text(const Field& field, const void* settings) {
 
 std::string meaning_text(const Field& field) {
     if (field.only_field.empty()) return field.meaning;
-    std::string values;
-    for (const std::string& value : field.only_values) values += (values.empty() ? "" : " or ") + value;
-    return field.meaning + " (only where " + field.only_field + " is " + values + ")";
+    return field.meaning + " (only where " + field.only_field + " is " + joined(field.only_values, " or ") + ")";
 }
 
 void add_blocks(const Table& table, const std::string& path, const void* settings, std::vector<Block>& blocks) {
@@ -44,7 +43,8 @@ void add_blocks(const Table& table, const std::string& path, const void* setting
     for (const Field& field : table.fields) {
         std::string unit = unit_text(field.kind);
         if (unit.empty()) unit = "-";
-        block.lines.push_back({field.name, unit, default_text(field, settings), allowed_text(field.kind), meaning_text(field)});
+        block.lines.push_back(
+            {field.name, unit, default_text(field, settings), allowed_text(field.kind), meaning_text(field)});
     }
     blocks.push_back(std::move(block));
     for (const Field& field : table.fields) {
@@ -60,8 +60,8 @@ void add_blocks(const Table& table, const std::string& path, const void* setting
 
 std::string padded(const std::string& text, std::size_t width) {
     // Counts characters, not bytes: units may have a superscript.
-    const auto characters = static_cast<std::size_t>(
-        std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; }));
+    const auto characters = static_cast<std::size_t>(std::count_if(
+        text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; }));
     return text + std::string(width > characters ? width - characters : 0, ' ');
 }
 
@@ -77,8 +77,8 @@ std::string block_text(const Block& block) {
         allowed = std::max(allowed, line.allowed.size());
     }
     const auto row = [&](const Line& line) {
-        return "  " + padded(line.field, field) + "  " + padded(line.unit, unit) + "  " + padded(line.fallback, fallback) +
-               "  " + padded(line.allowed, allowed) + "  " + line.meaning + "\n";
+        return "  " + padded(line.field, field) + "  " + padded(line.unit, unit) + "  " +
+               padded(line.fallback, fallback) + "  " + padded(line.allowed, allowed) + "  " + line.meaning + "\n";
     };
     std::string text = block.heading + "\n" + row({"field", "unit", "default", "allowed", "meaning"});
     for (const Line& line : block.lines) text += row(line);

@@ -65,10 +65,11 @@ auto whole(std::string name, Count range, std::string meaning) {
     using S = field_rows::StructOf<M>;
     using T = field_rows::TypeOf<M>;
     static_assert(std::is_integral_v<T>);
-    return Row<S>{{std::move(name), std::move(meaning),
-                   WholeField{[](const void* s) { return static_cast<std::uint64_t>(static_cast<const S*>(s)->*M); },
-                              [](void* s, std::uint64_t value) { static_cast<S*>(s)->*M = static_cast<T>(value); },
-                              {range.min, std::min(range.max, static_cast<std::uint64_t>(std::numeric_limits<T>::max()))}}}};
+    return Row<S>{
+        {std::move(name), std::move(meaning),
+         WholeField{[](const void* s) { return static_cast<std::uint64_t>(static_cast<const S*>(s)->*M); },
+                    [](void* s, std::uint64_t value) { static_cast<S*>(s)->*M = static_cast<T>(value); },
+                    {range.min, std::min(range.max, static_cast<std::uint64_t>(std::numeric_limits<T>::max()))}}}};
 }
 
 template <auto M>
@@ -81,10 +82,9 @@ auto text(std::string name, TextField::Rule rule, std::string meaning) {
 template <auto M>
 auto choice(std::string name, std::vector<std::string> names, std::string meaning) {
     using S = field_rows::StructOf<M>;
-    return Row<S>{
-        {std::move(name), std::move(meaning),
-         ChoiceField{std::move(names), [](const void* s) { return static_cast<const S*>(s)->*M; },
-                     [](void* s, const std::string& value) { static_cast<S*>(s)->*M = value; }}}};
+    return Row<S>{{std::move(name), std::move(meaning),
+                   ChoiceField{std::move(names), [](const void* s) { return static_cast<const S*>(s)->*M; },
+                               [](void* s, const std::string& value) { static_cast<S*>(s)->*M = value; }}}};
 }
 
 // An enumeration whose enumerators 0, 1, 2, ... are called `names`.
@@ -105,8 +105,8 @@ auto enumeration(std::string name, std::vector<std::string> names, std::string m
 template <auto M>
 auto numbers(std::string name, std::string_view shown, Range range, Count size, std::string meaning,
              bool rising = false) {
-    return Row<field_rows::StructOf<M>>{
-        {std::move(name), std::move(meaning), NumbersField{field_rows::access<M>(), &unit(shown), range, size, rising}}};
+    return Row<field_rows::StructOf<M>>{{std::move(name), std::move(meaning),
+                                         NumbersField{field_rows::access<M>(), &unit(shown), range, size, rising}}};
 }
 
 struct Axis {
@@ -149,13 +149,12 @@ auto section(std::string name, const Table& (*table)(), std::string meaning, std
 template <auto M>
 auto list(std::string name, const Table& (*table)(), Count count, std::string meaning, std::string library = {}) {
     using S = field_rows::StructOf<M>;
-    return Row<S>{{std::move(name), std::move(meaning),
-                   ListField{[](const void* s) { return (static_cast<const S*>(s)->*M).size(); },
-                             [](const void* s, std::size_t i) -> const void* {
-                                 return &(static_cast<const S*>(s)->*M).at(i);
-                             },
-                             [](void* s) -> void* { return &(static_cast<S*>(s)->*M).emplace_back(); }, table, count,
-                             std::move(library)}}};
+    return Row<S>{
+        {std::move(name), std::move(meaning),
+         ListField{[](const void* s) { return (static_cast<const S*>(s)->*M).size(); },
+                   [](const void* s, std::size_t i) -> const void* { return &(static_cast<const S*>(s)->*M).at(i); },
+                   [](void* s) -> void* { return &(static_cast<S*>(s)->*M).emplace_back(); }, table, count,
+                   std::move(library)}}};
 }
 
 template <class S>

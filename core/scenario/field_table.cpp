@@ -32,8 +32,8 @@ struct AllowedText {
         return count_text(f.size, " value") + (f.rising ? ", rising, " : ", ") + range_text(f.range, *f.shown);
     }
     std::string operator()(const CurveField& f) const {
-        return count_text(f.size, " point") + ", " + range_text(f.x_range, *f.x_shown) + " (rising): " +
-               range_text(f.y_range, *f.y_shown);
+        return count_text(f.size, " point") + ", " + range_text(f.x_range, *f.x_shown) +
+               " (rising): " + range_text(f.y_range, *f.y_shown);
     }
     std::string operator()(const SectionField& f) const {
         return f.library.empty() ? "a map of fields" : "a name of data/" + f.library + " or a map with its base";

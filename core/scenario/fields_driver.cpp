@@ -51,7 +51,8 @@ const Table& free_drive_table() {
     static const Table table = make_table<S>(
         "driving without a predecessor",
         {
-            curve<&S::speed_mps, &S::acceleration_mps2>("acceleration", {"km/h", {0, 300}}, {"m/s2", {0.01, 10}}, {1, 200},
+            curve<&S::speed_mps, &S::acceleration_mps2>("acceleration", {"km/h", {0, 300}}, {"m/s2", {0.01, 10}},
+                                                        {1, 200},
                                                         "acceleration asked for at a speed, from 0 km/h; constant "
                                                         "beyond the last point")
                 .required(),
@@ -80,12 +81,12 @@ const Table& stop_table() {
 
 const Table& component_table() {
     using S = PopulationSettings::Component;
-    static const Table table = make_table<S>(
-        "a part of the population",
-        {
-            text<&S::policy>("policy", TextField::Rule::name, "a spacing policy").required(),
-            number<&S::share>("share", "%", {0, 100}, "share of the vehicles").required(),
-        });
+    static const Table table =
+        make_table<S>("a part of the population",
+                      {
+                          text<&S::policy>("policy", TextField::Rule::name, "a spacing policy").required(),
+                          number<&S::share>("share", "%", {0, 100}, "share of the vehicles").required(),
+                      });
     return table;
 }
 
@@ -129,7 +130,7 @@ const Table& driver_table() {
     static const Table table = make_table<S>(
         "how vehicles are driven",
         {
-            text<&S::name>("name", TextField::Rule::name, "name; the file's if not given"),
+            text<&S::name>("name", TextField::Rule::name, "name of the driver; if not given, that of the file"),
             section<&S::cacc>("cacc", cacc_table, "following"),
             section<&S::free_drive>("free_drive", free_drive_table, "free driving").required(),
             section<&S::stop>("stop", stop_table, "stopping at a line"),

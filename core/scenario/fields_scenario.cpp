@@ -36,15 +36,17 @@ void check_steps(const Scenario& scenario, Checker& check) {
 template <class T>
 std::vector<std::string> names_of(const std::vector<T>& named) {
     std::vector<std::string> names;
+    names.reserve(named.size());
     for (const T& one : named) names.push_back(one.name);
     return names;
 }
 
 void check_unique(const std::vector<std::string>& names, const std::string& list, Checker& check) {
     std::set<std::string> seen;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        if (seen.insert(names[i]).second) continue;
-        check.error(list + "[" + std::to_string(i) + "].name", "the name '" + names[i] + "' appears twice");
+    for (const std::string& name : names) {
+        if (!seen.insert(name).second) {
+            check.error(list + "[" + name + "].name", "the name '" + name + "' appears twice");
+        }
     }
 }
 
@@ -59,11 +61,11 @@ void check_names(const Scenario& scenario, Checker& check) {
     const std::vector<std::string> populations = names_of(scenario.populations);
     check_unique(policies, "policies", check);
     check_unique(populations, "populations", check);
-    for (std::size_t i = 0; i < scenario.populations.size(); ++i) {
-        const auto& components = scenario.populations[i].components;
-        for (std::size_t k = 0; k < components.size(); ++k) {
-            const std::string field = "populations[" + std::to_string(i) + "].components[" + std::to_string(k) + "].policy";
-            check_known(components[k].policy, policies, "policy", field, check);
+    for (const PopulationSettings& population : scenario.populations) {
+        for (std::size_t k = 0; k < population.components.size(); ++k) {
+            const std::string field =
+                "populations[" + population.name + "].components[" + std::to_string(k) + "].policy";
+            check_known(population.components[k].policy, policies, "policy", field, check);
         }
     }
     if (!scenario.measure.baseline.empty()) {
@@ -89,8 +91,9 @@ void check_queue(const Scenario& scenario, Checker& check) {
     const double place_m = scenario.vehicle.length_m + longest_standstill_gap_m(scenario);
     const double queue_m = scenario.demand.vehicles * place_m + scenario.driver.stop.margin_m;
     if (scenario.network.approach.length_m >= queue_m) return;
-    check.error("network.approach.length", "a queue of " + std::to_string(scenario.demand.vehicles) + " vehicles a lane is " +
-                                               short_text(queue_m, unit("m")) + " long, longer than the approach of " +
+    check.error("network.approach.length", "a queue of " + std::to_string(scenario.demand.vehicles) +
+                                               " vehicles a lane is " + short_text(queue_m, unit("m")) +
+                                               " long, longer than the approach of " +
                                                short_text(scenario.network.approach.length_m, unit("m")));
 }
 
@@ -109,8 +112,8 @@ void check_times(const Scenario& scenario, Checker& check) {
         }
     }
     if (signal.first_green_s >= scenario.duration_s) {
-        check.error("signal.first_green", "lies after the end of the run at " +
-                                              short_text(scenario.duration_s, unit("s")));
+        check.error("signal.first_green",
+                    "lies after the end of the run at " + short_text(scenario.duration_s, unit("s")));
     }
 }
 
@@ -126,12 +129,12 @@ void check_scenario(const Scenario& scenario, Checker& check) {
 const Table& measure_table() {
     using S = MeasureSettings;
     static const Table table = make_table<S>(
-        "what is reported",
-        {
-            numbers<&S::green_s>("green", "s", {0.1, 7200}, {0, 1000},
-                                 "green times at which the passed vehicles are counted", true),
-            text<&S::baseline>("baseline", TextField::Rule::name, "population that improvements refer to; absent: none"),
-        });
+        "what is reported", {
+                                numbers<&S::green_s>("green", "s", {0.1, 7200}, {0, 1000},
+                                                     "green times at which the passed vehicles are counted", true),
+                                text<&S::baseline>("baseline", TextField::Rule::name,
+                                                   "population that improvements refer to; absent: none"),
+                            });
     return table;
 }
 
@@ -140,7 +143,7 @@ const Table& scenario_table() {
     static const Table table = make_table<S>(
         "a scenario file",
         {
-            text<&S::name>("name", TextField::Rule::name, "name; the file's if not given"),
+            text<&S::name>("name", TextField::Rule::name, "name of the scenario; if not given, that of the file"),
             text<&S::title>("title", TextField::Rule::title, "heading of tables and figures"),
             choice<&S::fidelity>("fidelity", {"full"}, "how vehicles move; full: controller and powertrain"),
             number<&S::step_s>("step", "s", {0.001, 1}, "time step"),
@@ -155,8 +158,9 @@ const Table& scenario_table() {
                                "own spacing policies, beside those of data/policies/paper.yaml", "policies/paper")
                 .fallback("[]"),
             list<&S::populations>("populations", population_table, {1, 1000}, "one run each")
-                .fallback("[CDG, CDG-6m, SWITCH-1, SWITCH-2, {name: MIX, pattern: alternating, components: [{policy: CDG, "
-                          "share: 50 %}, {policy: CTG-Ref, share: 50 %}]}, CTG-Ref, CTG-HCM, CTG-HBS]"),
+                .fallback(
+                    "[CDG, CDG-6m, SWITCH-1, SWITCH-2, {name: MIX, pattern: alternating, components: [{policy: CDG, "
+                    "share: 50 %}, {policy: CTG-Ref, share: 50 %}]}, CTG-Ref, CTG-HCM, CTG-HBS]"),
             section<&S::measure>("measure", measure_table, "what is reported"),
         },
         check_scenario);

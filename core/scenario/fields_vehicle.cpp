@@ -24,8 +24,8 @@ void check_gears(const S& car, Checker& check) {
         if (car.gear_ratio[i] >= car.gear_ratio[i - 1]) check.error("gear_ratios", "must fall from gear to gear");
     }
     if (gears == 1) return;
-    for (const std::string field : {"shift_up_part_load", "shift_up_full_load", "shift_down", "torque_interruption",
-                                    "minimum_gear_time"}) {
+    for (const std::string field :
+         {"shift_up_part_load", "shift_up_full_load", "shift_down", "torque_interruption", "minimum_gear_time"}) {
         if (!check.given(field)) check.error(field, "is missing: a vehicle with several gears needs it");
     }
     if (car.shift_up_full_load_rpm < car.shift_up_part_load_rpm) {
@@ -49,8 +49,8 @@ void check_engine(const S& car, Checker& check) {
     if (car.launch_rpm < car.idle_rpm) check.error("launch_speed", "must be at least idle_speed");
     const auto covers = [&](const SampledCurve& curve, const std::string& field) {
         if (curve.x.front() > car.idle_rpm || curve.x.back() < car.limiter_rpm) {
-            check.error(field, "covers " + rpm(curve.x.front()) + " to " + rpm(curve.x.back()) + ", but the engine turns " +
-                                   rpm(car.idle_rpm) + " to " + rpm(car.limiter_rpm));
+            check.error(field, "covers " + rpm(curve.x.front()) + " to " + rpm(curve.x.back()) +
+                                   ", but the engine turns " + rpm(car.idle_rpm) + " to " + rpm(car.limiter_rpm));
         }
     };
     covers(car.full_load, "full_load");
@@ -73,13 +73,14 @@ const Table& vehicle_table() {
     static const Table table = make_table<S>(
         "a vehicle and its powertrain",
         {
-            text<&S::name>("name", TextField::Rule::name, "name; the file's if not given"),
+            text<&S::name>("name", TextField::Rule::name, "name of the vehicle; if not given, that of the file"),
             number<&S::length_m>("length", "m", {0.5, 30}, "bumper to bumper").required(),
             number<&S::mass_kg>("mass", "kg", {50, 60'000}, "kerb mass").required(),
             number<&S::load_kg>("load", "kg", {0, 40'000}, "driver and luggage").required(),
             number<&S::drag_coefficient>("drag_coefficient", "", {0, 3}, "air drag coefficient").required(),
             number<&S::frontal_area_m2>("frontal_area", "m2", {0.1, 20}, "frontal area").required(),
-            number<&S::rolling_r0>("rolling_resistance", "", {0, 0.1}, "rolling resistance coefficient at rest").required(),
+            number<&S::rolling_r0>("rolling_resistance", "", {0, 0.1}, "rolling resistance coefficient at rest")
+                .required(),
             number<&S::rolling_r1_s_per_m>("rolling_resistance_growth", "s/m", {0, 0.01}, "its growth with the speed")
                 .required(),
             number<&S::wheel_diameter_m>("wheel_diameter", "m", {0.1, 3}, "rolling diameter").required(),
@@ -107,7 +108,8 @@ const Table& vehicle_table() {
             number<&S::shift_up_full_load_rpm>("shift_up_full_load", "rpm", {1, 30'000},
                                                "upshift speed at full load; linear between the two"),
             number<&S::shift_down_rpm>("shift_down", "rpm", {1, 30'000}, "downshift speed"),
-            number<&S::torque_interruption_s>("torque_interruption", "s", {0, 5}, "no drive torque that long at a shift"),
+            number<&S::torque_interruption_s>("torque_interruption", "s", {0, 5},
+                                              "no drive torque that long at a shift"),
             number<&S::minimum_gear_time_s>("minimum_gear_time", "s", {0, 60}, "no other shift sooner than this"),
             numbers<&S::lag_rpm>("lag_speeds", "rpm", {0, 30'000}, {1, 100}, "engine speeds of the lag map", true)
                 .required(),

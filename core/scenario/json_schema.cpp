@@ -4,6 +4,7 @@
 
 #include "scenario/fields.h"
 #include "scenario/load_scenario.h"
+#include "scenario/nearest_name.h"
 #include "scenario/write_fields.h"
 
 namespace stopline {
@@ -52,9 +53,10 @@ struct KindSchema {
     }
 
     Json operator()(const CurveField& f) const {
-        Json schema{{"type", "object"},
-                    {"additionalProperties", false},
-                    {"patternProperties", {{quantity_pattern(f.x_shown->dimension), quantity_schema(*f.y_shown, f.y_range)}}}};
+        Json schema{
+            {"type", "object"},
+            {"additionalProperties", false},
+            {"patternProperties", {{quantity_pattern(f.x_shown->dimension), quantity_schema(*f.y_shown, f.y_range)}}}};
         set_size(schema, f.size, "minProperties", "maxProperties");
         return schema;
     }
@@ -83,6 +85,8 @@ std::string description(const Field& field, const void* settings) {
     std::string text = field.meaning + " (" + allowed_text(field.kind);
     const std::string fallback = field.fallback.empty() ? value_text(field.kind, settings) : field.fallback;
     if (!field.required && !fallback.empty()) text += "; default " + fallback;
+    if (!field.only_field.empty())
+        text += "; only where " + field.only_field + " is " + joined(field.only_values, " or ");
     return text + ")";
 }
 
@@ -92,10 +96,6 @@ Json table_schema(const Table& table, const void* settings) {
     for (const Field& field : table.fields) {
         Json schema = std::visit(KindSchema{settings}, field.kind);
         schema["description"] = description(field, settings);
-        if (!field.only_field.empty()) {
-            schema["description"] = schema["description"].get<std::string>() + "; only where " + field.only_field + " is " +
-                                    Json(field.only_values).dump();
-        }
         properties[field.name] = std::move(schema);
         // A field that depends on a choice is not always there.
         if (field.required && field.only_field.empty()) required.push_back(field.name);

@@ -28,8 +28,8 @@ std::string name_from(const std::string& label) {
 void require_map(const SourceNode& root) {
     if (root.kind == SourceNode::Kind::map) return;
     const std::string what = root.kind == SourceNode::Kind::empty ? "is empty; it" : "has no fields; it";
-    throw InputError(to_string(root.place) + ": the file " + what + " needs 'field: value' lines (fields: " +
-                     joined(scenario_table().names()) + ")");
+    throw InputError(to_string(root.place) + ": the file " + what +
+                     " needs 'field: value' lines (fields: " + joined(scenario_table().names()) + ")");
 }
 
 Scenario scenario_from(SourceNode root, const std::vector<std::string>& overrides) {

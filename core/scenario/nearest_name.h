@@ -13,7 +13,7 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
 // "; did you mean 'x'? Known: a, b, c": the end of every message about an unknown name.
 std::string known_names(std::string_view name, const std::vector<std::string>& candidates);
 
-std::string joined(const std::vector<std::string>& names);  // "a, b, c"
+std::string joined(const std::vector<std::string>& names, std::string_view between = ", ");
 
 // At most 60 characters, line breaks and the like replaced.
 std::string shortened(std::string_view text);

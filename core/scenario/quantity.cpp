@@ -50,11 +50,11 @@ bool is_not_finite_word(std::string_view text) {
 // A decimal number at the beginning of `text`, which is cut off it; problem as in ParsedQuantity.
 std::string take_number(std::string_view& text, double& value) {
     if (is_not_finite_word(text)) return "is not a finite number";
-    if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-    const char* const begin = text.data();
-    const bool digits = !text.empty() && (text.front() != '-' || text.size() > 1);
-    const char first = digits ? text[text.front() == '-' ? 1 : 0] : ' ';
+    const std::size_t sign = text.starts_with('+') || text.starts_with('-') ? 1 : 0;
+    const char first = text.size() > sign ? text[sign] : ' ';
     if ((first < '0' || first > '9') && first != '.') return "is not a number";
+    if (text.front() == '+') text.remove_prefix(1);  // from_chars takes a minus only
+    const char* const begin = text.data();
     const auto [end, error] = std::from_chars(begin, begin + text.size(), value);
     if (error == std::errc::result_out_of_range) return "is too large or too close to 0 for a number";
     if (error != std::errc()) return "is not a number";
@@ -183,8 +183,8 @@ std::string exact_text(double si, const Unit& shown) {
     };
     // Converting back may miss the short number that was written by a rounding error: look for it among shorter ones.
     std::array<char, 40> rounded{};
-    const auto [end, error] =
-        std::to_chars(rounded.data(), rounded.data() + rounded.size(), from_si(si, shown), std::chars_format::general, 14);
+    const auto [end, error] = std::to_chars(rounded.data(), rounded.data() + rounded.size(), from_si(si, shown),
+                                            std::chars_format::general, 14);
     double few = 0.0;
     if (error == std::errc()) std::from_chars(rounded.data(), end, few);
     for (const double value : {few, from_si(si, shown)}) {
@@ -199,7 +199,7 @@ std::string exact_text(double si, const Unit& shown) {
 std::string short_text(double si, const Unit& shown) {
     std::array<char, 40> text{};
     const auto [end, error] =
-        std::to_chars(text.data(), text.data() + text.size(), from_si(si, shown), std::chars_format::general, 6);
+        std::to_chars(text.data(), text.data() + text.size(), from_si(si, shown), std::chars_format::general, 7);
     return with_unit(error == std::errc() ? std::string(text.data(), end) : std::string(), shown);
 }
 

@@ -57,7 +57,7 @@ ParsedWhole parse_whole(std::string_view text);
 
 // The shortest text in `shown` that parse_quantity turns into exactly `si` again; in the SI unit where none does.
 std::string exact_text(double si, const Unit& shown);
-// For people: six significant digits.
+// For people: seven significant digits.
 std::string short_text(double si, const Unit& shown);
 
 // A regular expression (ECMA 262) for quantities of a dimension, for the JSON schema.

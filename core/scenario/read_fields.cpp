@@ -11,10 +11,14 @@ namespace {
 
 std::string kind_name(const SourceNode& node) {
     switch (node.kind) {
-        case SourceNode::Kind::list: return "a list";
-        case SourceNode::Kind::map: return "a map";
-        case SourceNode::Kind::scalar: return "'" + shortened(node.text) + "'";
-        default: return "nothing";
+        case SourceNode::Kind::list:
+            return "a list";
+        case SourceNode::Kind::map:
+            return "a map";
+        case SourceNode::Kind::scalar:
+            return "'" + shortened(node.text) + "'";
+        default:
+            return "nothing";
     }
 }
 
@@ -25,9 +29,8 @@ bool is_name(const std::string& text) {
 }
 
 bool is_title(const std::string& text) {
-    return text.size() <= 200 && std::none_of(text.begin(), text.end(), [](char c) {
-        return static_cast<unsigned char>(c) < 0x20 || c == 0x7F;
-    });
+    return text.size() <= 200 && std::none_of(text.begin(), text.end(),
+                                              [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; });
 }
 
 // Reads one field of `settings`; operator() is chosen by the field's kind.
@@ -59,7 +62,8 @@ public:
     void operator()(const ChoiceField& f) {
         if (!scalar(node_, path_)) return;
         if (std::find(f.names.begin(), f.names.end(), node_.text) == f.names.end()) {
-            return error(node_, path_, "value '" + shortened(node_.text) + "' is unknown" + known_names(node_.text, f.names));
+            return error(node_, path_,
+                         "value '" + shortened(node_.text) + "' is unknown" + known_names(node_.text, f.names));
         }
         f.set(settings_, node_.text);
     }
@@ -112,7 +116,7 @@ public:
         if (node_.kind != SourceNode::Kind::list) return wrong_kind("a list");
         if (!right_size(f.count)) return;
         for (std::size_t i = 0; i < node_.items.size(); ++i) {
-            read_fields(f.table(), node_.items[i], path_ + "[" + std::to_string(i) + "]", f.append(settings_), report_);
+            read_fields(f.table(), node_.items[i], entry_path(i), f.append(settings_), report_);
         }
     }
 
@@ -124,35 +128,46 @@ private:
     }
 
     void bad_value(const SourceNode& node, const std::string& path, const std::string& problem) {
-        error(node, path, "value '" + shortened(node.text) + "' " + problem + " (allowed: " + allowed_text(field_.kind) + ")");
+        error(node, path,
+              "value '" + shortened(node.text) + "' " + problem + " (allowed: " + allowed_text(field_.kind) + ")");
+    }
+
+    // "policies[CDG]", or with the number where the entry has no name.
+    std::string entry_path(std::size_t i) const {
+        const SourceNode* const name = node_.items[i].find("name");
+        const bool named = name != nullptr && name->kind == SourceNode::Kind::scalar && is_name(name->text);
+        return path_ + "[" + (named ? name->text : std::to_string(i)) + "]";
     }
 
     void wrong_kind(const std::string& wanted) {
         if (node_.kind == SourceNode::Kind::broken) return;
-        error(node_, path_, "needs " + wanted + ", not " + kind_name(node_) + " (allowed: " + allowed_text(field_.kind) + ")");
+        error(node_, path_,
+              "needs " + wanted + ", not " + kind_name(node_) + " (allowed: " + allowed_text(field_.kind) + ")");
     }
 
     bool right_size(const Count& size) {
         if (node_.items.size() >= size.min && node_.items.size() <= size.max) return true;
-        error(node_, path_, "has " + std::to_string(node_.items.size()) + " entries (allowed: " +
-                                allowed_text(field_.kind) + ")");
+        error(node_, path_,
+              "has " + std::to_string(node_.items.size()) + " entries (allowed: " + allowed_text(field_.kind) + ")");
         return false;
     }
 
     bool scalar(const SourceNode& node, const std::string& path) {
         if (node.kind == SourceNode::Kind::scalar) return true;
         if (node.kind != SourceNode::Kind::broken) {
-            error(node, path, "needs a single value, not " + kind_name(node) + " (allowed: " +
-                                  allowed_text(field_.kind) + ")");
+            error(node, path,
+                  "needs a single value, not " + kind_name(node) + " (allowed: " + allowed_text(field_.kind) + ")");
         }
         return false;
     }
 
-    bool quantity(const SourceNode& node, const std::string& path, const Unit& shown, const Range& range, double& value) {
+    bool quantity(const SourceNode& node, const std::string& path, const Unit& shown, const Range& range,
+                  double& value) {
         if (!scalar(node, path)) return false;
         const ParsedQuantity parsed = parse_quantity(node.text, shown);
         if (parsed.problem == "has no unit") {
-            bad_value(node, path, "has no unit: write e.g. '" + shortened(node.text) + " " + std::string(shown.text) + "'");
+            bad_value(node, path,
+                      "has no unit: write e.g. '" + shortened(node.text) + " " + std::string(shown.text) + "'");
         } else if (!parsed.problem.empty()) {
             bad_value(node, path, parsed.problem);
         } else if (parsed.si < to_si(range.min, shown) || parsed.si > to_si(range.max, shown)) {
@@ -181,8 +196,9 @@ void report_unknown_keys(const Table& table, const SourceNode& map, const std::s
 
 void report_missing(const Field& field, const SourceNode& map, const std::string& path, Report& report) {
     const std::string unit = unit_text(field.kind);
-    report.error(map.place, "field '" + path + "' is missing: " + field.meaning + (unit.empty() ? "" : " [" + unit + "]") +
-                                " (allowed: " + allowed_text(field.kind) + ")");
+    report.error(map.place, "field '" + path + "' is missing: " + field.meaning +
+                                (unit.empty() ? "" : " [" + unit + "]") + " (allowed: " + allowed_text(field.kind) +
+                                ")");
 }
 
 }  // namespace
@@ -208,7 +224,7 @@ void read_fields(const Table& table, const SourceNode& node, const std::string& 
         if (value != nullptr) report.remember(field_path, value->place);
         if (value != nullptr && !exists) {
             report.error(value->place, "field '" + field_path + "' is used only where " + field.only_field + " is " +
-                                           joined(field.only_values));
+                                           joined(field.only_values, " or "));
         } else if (value != nullptr) {
             std::visit(ValueReader(field, *value, field_path, settings, report), field.kind);
         } else if (exists && field.required) {

@@ -1,24 +1,34 @@
 #include "scenario/report.h"
 
+#include <algorithm>
+#include <tuple>
+
 #include "base/input_error.h"
 
 namespace stopline {
 namespace {
+
 constexpr std::size_t kErrorsShown = 20;
-}
 
-void Report::error(const Place& place, const std::string& message) { error(to_string(place) + ": " + message); }
+std::string label(const Place& place) { return place.source ? place.source->label : ""; }
 
-void Report::error(const std::string& whole_message) {
-    ++count_;
-    if (lines_.size() < kErrorsShown) lines_.push_back(whole_message);
-}
+}  // namespace
+
+void Report::error(const Place& place, const std::string& message) { errors_.push_back({place, message}); }
 
 void Report::throw_if_any() const {
-    if (count_ == 0) return;
+    if (errors_.empty()) return;
+    std::vector<Error> sorted = errors_;
+    std::stable_sort(sorted.begin(), sorted.end(), [](const Error& a, const Error& b) {
+        return std::tuple(label(a.place), a.place.line, a.place.column) <
+               std::tuple(label(b.place), b.place.line, b.place.column);
+    });
+    const std::size_t shown = std::min(sorted.size(), kErrorsShown);
     std::string text;
-    for (const std::string& line : lines_) text += (text.empty() ? "" : "\n") + line;
-    if (count_ > lines_.size()) text += "\n... and " + std::to_string(count_ - lines_.size()) + " more errors";
+    for (std::size_t i = 0; i < shown; ++i) {
+        text += (i == 0 ? "" : "\n") + to_string(sorted[i].place) + ": " + sorted[i].message;
+    }
+    if (sorted.size() > shown) text += "\n... and " + std::to_string(sorted.size() - shown) + " more errors";
     throw InputError(text);
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scenario/source_node.h"
@@ -13,9 +14,8 @@ namespace stopline {
 class Report {
 public:
     void error(const Place& place, const std::string& message);
-    void error(const std::string& whole_message);
-    std::size_t count() const { return count_; }
-    void throw_if_any() const;  // InputError: one line an error, the first twenty
+    std::size_t count() const { return errors_.size(); }
+    void throw_if_any() const;  // InputError: one line an error in the order of the file, the first twenty
 
     // Where the field at a path stands ("populations[0].name"); for a field that was not given, where its parent stands.
     void remember(const std::string& path, const Place& place) { places_[path] = place; }
@@ -23,8 +23,12 @@ public:
     Place place_of(std::string path) const;
 
 private:
-    std::vector<std::string> lines_;
-    std::size_t count_ = 0;
+    struct Error {
+        Place place;
+        std::string message;
+    };
+
+    std::vector<Error> errors_;
     std::map<std::string, Place> places_;
 };
 

@@ -14,8 +14,8 @@
 namespace stopline {
 
 struct MeasureSettings {
-    std::vector<double> green_s;   // green times at which the passed vehicles are reported
-    std::string baseline;          // population that improvements refer to
+    std::vector<double> green_s;  // green times at which the passed vehicles are reported
+    std::string baseline;         // population that improvements refer to
 };
 
 struct Scenario {
@@ -28,14 +28,14 @@ struct Scenario {
     NetworkSettings network;
     SignalSettings signal;
     DemandSettings demand;
-    std::string vehicle_name;       // file stem in data/vehicles
-    std::string driver_name;        // file stem in data/drivers
+    std::string vehicle_name;  // file stem in data/vehicles
+    std::string driver_name;   // file stem in data/drivers
     PowertrainSettings vehicle;
     DriverSettings driver;
-    std::vector<GapPolicySettings> policies;    // all named policies that may be used
+    std::vector<GapPolicySettings> policies;      // all named policies that may be used
     std::vector<PopulationSettings> populations;  // one run each
     MeasureSettings measure;
-    std::uint64_t hash = 0;         // of the canonical text of all fields; goes into provenance
+    std::uint64_t hash = 0;  // of the canonical text of all fields; goes into provenance
 };
 
 }  // namespace stopline

@@ -5,9 +5,9 @@
 namespace stopline {
 
 std::string to_string(const Place& place) {
-    const std::string label = place.source ? place.source->label : "input";
-    if (place.line == 0) return label;
-    return label + ":" + std::to_string(place.line) + ":" + std::to_string(place.column);
+    if (!place.source) return "input";
+    if (!place.source->has_lines) return place.source->label;
+    return place.source->label + ":" + std::to_string(place.line) + ":" + std::to_string(place.column);
 }
 
 SourceNode* SourceNode::find(std::string_view key) {

@@ -14,12 +14,13 @@ namespace stopline {
 struct Source {
     std::string label;                // as it appears in messages
     std::filesystem::path directory;  // relative paths in it start here
+    bool has_lines = true;            // false: its label says enough
 };
 
 struct Place {
     std::shared_ptr<const Source> source;
-    int line = 0;  // from 1; 0: the source has no lines (an override)
-    int column = 0;
+    int line = 1;
+    int column = 1;
 };
 
 // "file:line:column", or the label alone for a source without lines.

@@ -19,7 +19,9 @@ struct ValueWriter {
 
     std::string margin() const { return std::string(static_cast<std::size_t>(indent), ' '); }
 
-    std::string operator()(const NumberField& f) const { return " " + exact_text(f.at.read(settings), *f.shown) + "\n"; }
+    std::string operator()(const NumberField& f) const {
+        return " " + exact_text(f.at.read(settings), *f.shown) + "\n";
+    }
     std::string operator()(const WholeField& f) const { return " " + std::to_string(f.get(settings)) + "\n"; }
     std::string operator()(const TextField& f) const { return " " + quoted(f.at.read(settings)) + "\n"; }
     std::string operator()(const ChoiceField& f) const { return " " + f.get(settings) + "\n"; }

@@ -5,6 +5,7 @@
 #include <yaml-cpp/mark.h>
 #include <yaml-cpp/parser.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <fstream>
@@ -14,14 +15,10 @@
 #include <utility>
 #include <vector>
 
-#include "base/input_error.h"
-
 namespace stopline {
 namespace {
 
-[[noreturn]] void fail(const Place& place, const std::string& message) {
-    throw InputError(to_string(place) + ": " + message);
-}
+[[noreturn]] void fail(const Place& place, const std::string& message) { throw YamlError(place, message); }
 
 // Builds the tree from the parser's events.
 class TreeBuilder : public YAML::EventHandler {
@@ -53,6 +50,7 @@ public:
         count(found->second.nodes, mark);
         SourceNode copy = found->second.tree;
         if (open_.size() + found->second.depth > kYamlDepthMax) fail_depth(mark);
+        deepen(found->second.depth);
         put(std::move(copy), 0);
     }
 
@@ -119,11 +117,16 @@ private:
     void close() {
         Open closed = std::move(open_.back());
         open_.pop_back();
-        if (!open_.empty() && open_.back().depth < closed.depth + 1) open_.back().depth = closed.depth + 1;
+        deepen(closed.depth);
         if (closed.anchor != 0) {
             anchors_[closed.anchor] = Anchored{closed.node, nodes_ - closed.nodes_before, closed.depth};
         }
         put(std::move(closed.node), 0);
+    }
+
+    // The innermost open container holds a node of that many levels.
+    void deepen(std::size_t levels) {
+        if (!open_.empty()) open_.back().depth = std::max(open_.back().depth, levels + 1);
     }
 
     // A finished node goes to the innermost open container, as a key, a value or an item.
@@ -207,11 +210,10 @@ std::string size_text(std::uintmax_t bytes) {
 
 }  // namespace
 
-SourceNode parse_yaml(std::string_view text, std::shared_ptr<const Source> source) {
+SourceNode parse_yaml(std::string_view text, const std::shared_ptr<const Source>& source) {
     const Place start{source, 1, 1};
     if (text.size() > kYamlBytesMax) {
-        throw InputError(source->label + ": has " + size_text(text.size()) + "; at most " + size_text(kYamlBytesMax) +
-                         " are read");
+        fail(start, "has " + size_text(text.size()) + "; at most " + size_text(kYamlBytesMax) + " are read");
     }
     require_text(text, source);
     TreeBuilder builder(source);
@@ -235,7 +237,8 @@ SourceNode read_yaml_file(const std::filesystem::path& file) {
     const auto status = std::filesystem::status(file, error);
     if (status.type() == std::filesystem::file_type::not_found) throw InputError(label + ": no such file");
     if (std::filesystem::is_directory(status)) throw InputError(label + ": is a directory, not a YAML file");
-    if (error || !std::filesystem::is_regular_file(status)) throw InputError(label + ": is not a file that can be read");
+    if (error || !std::filesystem::is_regular_file(status))
+        throw InputError(label + ": is not a file that can be read");
 
     const std::uintmax_t size = std::filesystem::file_size(file, error);
     if (!error && size > kYamlBytesMax) {

@@ -13,6 +13,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/input_error.h"
 #include "scenario/source_node.h"
 
 namespace stopline {
@@ -21,8 +22,20 @@ inline constexpr std::uintmax_t kYamlBytesMax = 16u << 20u;
 inline constexpr std::size_t kYamlDepthMax = 32;
 inline constexpr std::size_t kYamlNodesMax = 200'000;
 
-// Both throw InputError with the position of the first error.
-SourceNode parse_yaml(std::string_view text, std::shared_ptr<const Source> source);
+// The text is "place: message".
+class YamlError : public InputError {
+public:
+    YamlError(const Place& place, const std::string& message)
+        : InputError(to_string(place) + ": " + message), message_(message) {}
+    const std::string& message() const { return message_; }
+
+private:
+    std::string message_;
+};
+
+// Throws YamlError at the first error.
+SourceNode parse_yaml(std::string_view text, const std::shared_ptr<const Source>& source);
+// Throws InputError, also if the file cannot be read.
 SourceNode read_yaml_file(const std::filesystem::path& file);
 
 }  // namespace stopline

@@ -8,7 +8,7 @@ struct SignalSettings {
     double green_s = 60.0;
     double yellow_s = 3.0;
     double all_red_s = 5.0;
-    double cycle_s = 0.0;          // 0: a single green, red for the rest of the run
+    double cycle_s = 0.0;  // 0: a single green, red for the rest of the run
 };
 
 }  // namespace stopline

@@ -17,10 +17,10 @@ struct Passage {
 
 // Counts of what must never happen; checked in every step of every run.
 struct Violations {
-    std::int64_t overlaps = 0;           // vehicle-steps with a negative net gap
-    std::int64_t red_entries = 0;        // passed a stop line on red although stopping had been possible
+    std::int64_t overlaps = 0;            // vehicle-steps with a negative net gap
+    std::int64_t red_entries = 0;         // passed a stop line on red although stopping had been possible
     std::int64_t forced_red_entries = 0;  // passed on red because stopping was not possible (no violation by itself)
-    std::int64_t lost_vehicles = 0;      // entered minus left minus present
+    std::int64_t lost_vehicles = 0;       // entered minus left minus present
 
     bool none() const { return overlaps == 0 && red_entries == 0 && lost_vehicles == 0; }
 };

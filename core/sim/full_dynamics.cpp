@@ -5,30 +5,14 @@
 
 namespace stopline {
 
-namespace {
-
-// A vehicle that stands and has no reason to start is held by its brake, as a hill holder does.
-constexpr double kStanding_mps = 1e-3;
-constexpr double kStart_mps2 = 0.01;
-constexpr double kHold_mps2 = -0.3;
-// A predecessor as slow as this, and not about to start, is an obstacle to stop behind.
-constexpr double kObstacle_mps = 0.5;
-
-std::size_t at(int slot) { return static_cast<std::size_t>(slot); }
+// Not in the unnamed namespace: the clones of a kernel need external names, and so do their arguments' types.
+namespace kernel {
 
 // Rows of a delay line at this tick: where the present sample is written and where the delayed ones are read.
 struct Rows {
     std::size_t now, late, later;
     double late_share, later_share;
 };
-Rows rows_at(const DelayLine& line, std::int64_t tick, int slots) {
-    const auto row = [&](std::int64_t age) {
-        const std::int64_t wrapped = ((tick - age) % line.rows + line.rows) % line.rows;
-        return static_cast<std::size_t>(wrapped) * static_cast<std::size_t>(slots);
-    };
-    return {row(0), row(line.steps), row(line.steps + 1), 1.0 - line.share, line.share};
-}
-
 // Plain pointers to the arrays of one plan step, so that the compiler sees independent streams.
 struct PlanStreams {
     const double *position, *speed, *acceleration, *lag, *length, *desired_gap, *slope;
@@ -40,6 +24,30 @@ struct PlanStreams {
     const float *heard_acceleration, *heard_request, *heard_lag;
     const float *earlier_acceleration, *earlier_request, *earlier_lag;
 };
+
+}  // namespace kernel
+
+using kernel::PlanStreams;
+using kernel::Rows;
+
+namespace {
+
+// A vehicle that stands and has no reason to start is held by its brake, as a hill holder does.
+constexpr double kStanding_mps = 1e-3;
+constexpr double kStart_mps2 = 0.01;
+constexpr double kHold_mps2 = -0.3;
+// A predecessor as slow as this, and not about to start, is an obstacle to stop behind.
+constexpr double kObstacle_mps = 0.5;
+
+std::size_t at(int slot) { return static_cast<std::size_t>(slot); }
+
+Rows rows_at(const DelayLine& line, std::int64_t tick, int slots) {
+    const auto row = [&](std::int64_t age) {
+        const std::int64_t wrapped = ((tick - age) % line.rows + line.rows) % line.rows;
+        return static_cast<std::size_t>(wrapped) * static_cast<std::size_t>(slots);
+    };
+    return {row(0), row(line.steps), row(line.steps + 1), 1.0 - line.share, line.share};
+}
 
 PlanStreams plan_streams(State& state, const Rows& radar, const Rows& v2v) {
     VehicleArrays& v = state.vehicles;
@@ -75,7 +83,6 @@ PlanStreams plan_streams(State& state, const Rows& radar, const Rows& v2v) {
 
 }  // namespace
 
-// Not in the unnamed namespace: the clones of a kernel need external names.
 namespace kernel {
 
 STOPLINE_SIMD_CLONES void plan(const PlanStreams& streams, const DriverTables& d, const Rows& radar, const Rows& v2v,
@@ -115,7 +122,8 @@ STOPLINE_SIMD_CLONES void plan(const PlanStreams& streams, const DriverTables& d
         const double as_leader = free_acceleration(d, speed, lane.limit_mps);
         const double slow_down = slow_down_acceleration(d, speed, static_cast<double>(s.end_speed[i]), to_end_m);
         // Follow.
-        const double follow = follow_acceleration(c, acceleration, s.lag[i], before, s.desired_gap[i], s.slope[i], p, dt);
+        const double follow =
+            follow_acceleration(c, acceleration, s.lag[i], before, s.desired_gap[i], s.slope[i], p, dt);
         const double emergency = emergency_acceleration(c, speed, p);
         // Stop: at the line, behind a standing predecessor.
         const double at_line =
@@ -137,14 +145,14 @@ STOPLINE_SIMD_CLONES void plan(const PlanStreams& streams, const DriverTables& d
     }
 }
 
-namespace {
-
 struct DriveStreams {
     double *position, *speed, *acceleration, *torque, *brake, *gear_time, *lag;
     const double* request;
-    int *gear;
+    int* gear;
     const int* type;
 };
+
+namespace {
 
 // `only` < 0: all vehicles are of this type.
 STOPLINE_INLINE void drive_loop(const DriveStreams& streams, const PowertrainTables& t, const LaneStep& lane, double dt,
@@ -153,7 +161,8 @@ STOPLINE_INLINE void drive_loop(const DriveStreams& streams, const PowertrainTab
     const double grade_N = t.mass_kg * kGravity_mps2 * lane.sine;
     STOPLINE_INDEPENDENT
     for (int i = lane.begin; i < lane.end; ++i) {
-        const PowertrainState now{s.speed[i], s.acceleration[i], s.torque[i], s.brake[i], s.gear_time[i], s.lag[i], s.gear[i]};
+        const PowertrainState now{s.speed[i],     s.acceleration[i], s.torque[i], s.brake[i],
+                                  s.gear_time[i], s.lag[i],          s.gear[i]};
         const bool held = (now.speed_mps <= kStanding_mps) & (s.request[i] <= kStart_mps2);
         const PowertrainState next = powertrain_step(t, now, select(held, kHold_mps2, s.request[i]), grade_N, dt);
         const bool mine = (only < 0) | (s.type[i] == only);
@@ -188,7 +197,9 @@ namespace {
 // Desired gaps of all slots of a lane: each law runs over the whole span, its vehicles take its answer.
 void evaluate_gap_laws(const Model& model, const LaneStep& lane, State& state) {
     const auto n = at(lane.end - lane.begin);
-    const auto span_of = [&](std::vector<double>& array) { return std::span<double>(array).subspan(at(lane.begin), n); };
+    const auto span_of = [&](std::vector<double>& array) {
+        return std::span<double>(array).subspan(at(lane.begin), n);
+    };
     const std::span<const double> speed = span_of(state.vehicles.speed_mps);
     if (model.policies.size() == 1) {
         model.policies[0].law->evaluate(model.policies[0].settings, speed, span_of(state.desired_gap_m),
@@ -217,10 +228,9 @@ void plan_full(const Model& model, const LaneStep& lane, State& state) {
 
 void drive_full(const Model& model, const LaneStep& lane, State& state) {
     VehicleArrays& v = state.vehicles;
-    const kernel::DriveStreams streams{v.position_m.data(), v.speed_mps.data(),   v.acceleration_mps2.data(),
-                                       v.torque_Nm.data(),  v.brake_N.data(),     v.gear_time_s.data(),
-                                       v.lag_s.data(),      v.request_mps2.data(), v.gear.data(),
-                                       v.type.data()};
+    const kernel::DriveStreams streams{
+        v.position_m.data(),  v.speed_mps.data(), v.acceleration_mps2.data(), v.torque_Nm.data(), v.brake_N.data(),
+        v.gear_time_s.data(), v.lag_s.data(),     v.request_mps2.data(),      v.gear.data(),      v.type.data()};
     if (model.vehicles.size() == 1) {
         kernel::drive_one_type(streams, model.vehicles[0], lane, model.step_s);
         return;

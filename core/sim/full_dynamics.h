@@ -9,12 +9,12 @@ namespace stopline {
 
 // What the kernels need of one lane in one step.
 struct LaneStep {
-    int begin = 0;           // slots [begin, end), both multiples of kSimdWidth
+    int begin = 0;  // slots [begin, end), both multiples of kSimdWidth
     int end = 0;
     double length_m = 0.0;
     double limit_mps = 0.0;
-    double sine = 0.0;       // of the slope
-    int stop_slot = -1;      // vehicle that stops at the lane's end
+    double sine = 0.0;   // of the slope
+    int stop_slot = -1;  // vehicle that stops at the lane's end
     double stop_margin_m = 0.0;
 };
 

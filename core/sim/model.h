@@ -22,9 +22,9 @@ struct CompiledPolicy {
 // A delay as samples of the past: the value `steps` steps ago and the one before it, mixed by `share`. Delays that are no
 // multiple of the step are thus interpolated, and results do not depend on the step.
 struct DelayLine {
-    int steps = 0;        // whole steps of delay
-    double share = 0.0;   // weight of the sample one step older
-    int rows = 1;         // samples that must be kept
+    int steps = 0;       // whole steps of delay
+    double share = 0.0;  // weight of the sample one step older
+    int rows = 1;        // samples that must be kept
 };
 DelayLine make_delay(double delay_s, double step_s);
 

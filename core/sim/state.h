@@ -12,8 +12,8 @@ namespace stopline {
 
 // The stop line at the end of a lane, as its traffic sees it.
 struct StopLineState {
-    int stopper = -1;            // id of the vehicle that stops at the line; those behind follow it
-    bool decided = false;        // whether the light has turned from green, so that deciding has begun
+    int stopper = -1;      // id of the vehicle that stops at the line; those behind follow it
+    bool decided = false;  // whether the light has turned from green, so that deciding has begun
     double decided_since_s = 0.0;
 };
 
@@ -25,16 +25,16 @@ struct InletState {
 struct State {
     std::int64_t tick = 0;
     VehicleArrays vehicles;
-    std::vector<LaneBlock> blocks;         // [lane]
-    std::vector<int> occupied;             // lanes with vehicles, in lane order
+    std::vector<LaneBlock> blocks;          // [lane]
+    std::vector<int> occupied;              // lanes with vehicles, in lane order
     std::vector<StopLineState> stop_lines;  // [lane]
-    std::vector<int> stop_slot;            // [lane] slot of the vehicle that stops at the line; -1: none
+    std::vector<int> stop_slot;             // [lane] slot of the vehicle that stops at the line; -1: none
     std::vector<InletState> inlets;
-    std::vector<Passage> passages;         // of the whole run, in order
+    std::vector<Passage> passages;  // of the whole run, in order
     Violations violations;
     std::int64_t entered = 0;
     std::int64_t left = 0;
-    std::int64_t updates = 0;              // vehicle updates computed
+    std::int64_t updates = 0;  // vehicle updates computed
     int next_id = 0;
     // Scratch of the kernels, one value a slot.
     std::vector<double> desired_gap_m;

@@ -27,17 +27,17 @@ struct LaneBlock {
 
 struct VehicleArrays {
     // Hot: read and written every step. One value a slot, SI units.
-    std::vector<double> position_m;          // front, from the lane's start
+    std::vector<double> position_m;  // front, from the lane's start
     std::vector<double> speed_mps;
-    std::vector<double> acceleration_mps2;   // realised in the last step
-    std::vector<double> request_mps2;        // u: the acceleration asked for in the last step
+    std::vector<double> acceleration_mps2;  // realised in the last step
+    std::vector<double> request_mps2;       // u: the acceleration asked for in the last step
     std::vector<double> torque_Nm;
     std::vector<double> brake_N;
     std::vector<double> gear_time_s;
-    std::vector<double> lag_s;               // tau, as told to the follower
+    std::vector<double> lag_s;  // tau, as told to the follower
     std::vector<double> length_m;
     std::vector<int> gear;
-    std::vector<int> leads;                  // 1: free start-up profile (leader of a platoon), 0: follower
+    std::vector<int> leads;  // 1: free start-up profile (leader of a platoon), 0: follower
     // Slots of the past, [row][slot]: radar (gap, closing speed) and V2V (acceleration, request, lag).
     std::vector<float> radar_gap_m;
     std::vector<float> radar_closing_mps;
@@ -46,13 +46,13 @@ struct VehicleArrays {
     std::vector<float> v2v_lag_s;
     // Cold: read at events only, or by one kernel.
     std::vector<float> standstill_gap_m;
-    std::vector<float> end_speed_mps;        // limit at the end of the lane, for the route
+    std::vector<float> end_speed_mps;  // limit at the end of the lane, for the route
     std::vector<int> policy;
     std::vector<int> type;
     std::vector<int> id;
-    std::vector<int> predecessor;            // id of the vehicle that the radar tracks; -1: none
+    std::vector<int> predecessor;  // id of the vehicle that the radar tracks; -1: none
     std::vector<int> route;
-    std::vector<int> route_index;            // place in the route of the lane the vehicle is on
+    std::vector<int> route_index;  // place in the route of the lane the vehicle is on
 
     int slots = 0;
     int radar_rows = 0;

@@ -65,10 +65,8 @@ STOPLINE_INLINE PowertrainState powertrain_step(const PowertrainTables& t, const
 
     // Inverse dynamics: the force that gives the requested acceleration, as torque and brake force.
     const double speed = s.speed_mps;
-    const double resistance_N =
-        t.drag_Ns2pm2 * speed * speed + t.rolling_N + t.rolling_Nspm * speed + grade_N;
-    const double wanted_N =
-        limited(inertia_kg * request_mps2 + resistance_N, -t.traction_limit_N, t.traction_limit_N);
+    const double resistance_N = t.drag_Ns2pm2 * speed * speed + t.rolling_N + t.rolling_Nspm * speed + grade_N;
+    const double wanted_N = limited(inertia_kg * request_mps2 + resistance_N, -t.traction_limit_N, t.traction_limit_N);
     const double cell = rpm * t.rpm_cells_per_rpm;
     const double full_Nm = on_grid(t.full_load_Nm.data(), cell, PowertrainTables::kRpmCells);
     const double drag_Nm = coupling * on_grid(t.drag_Nm.data(), cell, PowertrainTables::kRpmCells);

@@ -52,6 +52,12 @@ double interpolate(const SampledCurve& curve, double x) {
     return curve.y[k - 1] + share * (curve.y[k] - curve.y[k - 1]);
 }
 
+int gear_for(const PowertrainTables& t, double speed_mps) {
+    int gear = t.gears - 1;
+    while (gear > 0 && speed_mps * t.rpm_per_mps[static_cast<std::size_t>(gear)] < 1.1 * t.shift_down_rpm) --gear;
+    return gear;
+}
+
 PowertrainTables compile_powertrain(const PowertrainSettings& s) {
     check(s);
     PowertrainTables t;

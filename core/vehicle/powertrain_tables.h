@@ -10,18 +10,18 @@ namespace stopline {
 
 struct PowertrainTables {
     static constexpr int kMaxGears = 8;
-    static constexpr int kRpmCells = 64;        // grid of the torque curves over engine speed
-    static constexpr int kLagRpmNodes = 16;     // grid of the lag map
+    static constexpr int kRpmCells = 64;     // grid of the torque curves over engine speed
+    static constexpr int kLagRpmNodes = 16;  // grid of the lag map
     static constexpr int kLagShareNodes = 8;
 
     double length_m = 0.0;
-    double mass_kg = 0.0;            // kerb mass and load
-    double drag_Ns2pm2 = 0.0;        // 0.5 rho c_d A: air resistance over speed squared
-    double rolling_N = 0.0;          // m g r0
-    double rolling_Nspm = 0.0;       // m g r1
-    double traction_limit_N = 0.0;   // mu m g, driving and braking
+    double mass_kg = 0.0;           // kerb mass and load
+    double drag_Ns2pm2 = 0.0;       // 0.5 rho c_d A: air resistance over speed squared
+    double rolling_N = 0.0;         // m g r0
+    double rolling_Nspm = 0.0;      // m g r1
+    double traction_limit_N = 0.0;  // mu m g, driving and braking
     double idle_rpm = 0.0;
-    double launch_rpm = 0.0;         // 0: no clutch (electric)
+    double launch_rpm = 0.0;  // 0: no clutch (electric)
     double limiter_rpm = 0.0;
     double shift_up_part_rpm = 0.0;
     double shift_up_full_rpm = 0.0;
@@ -48,6 +48,9 @@ struct PowertrainTables {
 
 // Throws InputError where the settings are not usable (gears missing, more than kMaxGears, curves empty).
 PowertrainTables compile_powertrain(const PowertrainSettings& settings);
+
+// The gear that a vehicle cruising at this speed is in: the highest that keeps the engine above the downshift speed.
+int gear_for(const PowertrainTables& tables, double speed_mps);
 
 // Linear interpolation of a sampled curve, constant beyond its ends.
 double interpolate(const SampledCurve& curve, double x);

@@ -1,0 +1,140 @@
+// The scalar part of a step, at the heads of lanes: who stops at the line, and what the first vehicle sees beyond it.
+#include <algorithm>
+#include <cmath>
+
+#include "base/arithmetic.h"
+#include "sim/phases.h"
+
+namespace stopline {
+
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+// Whether braking with `deceleration` stops the vehicle before the line; the brake's lag costs a stretch at full speed.
+bool can_stop(const Model& model, const VehicleArrays& v, int slot, double line_m, double deceleration_mps2) {
+    const double speed = v.speed_mps[at(slot)];
+    const double lag_s = model.vehicles[at(v.type[at(slot)])].brake_lag_s;
+    const double room_m = line_m - v.position_m[at(slot)] - speed * lag_s;
+    return square(speed) <= 2.0 * deceleration_mps2 * room_m;
+}
+
+int slot_of(const VehicleArrays& v, const LaneBlock& block, int id) {
+    for (int slot = block.first; slot < block.stop(); ++slot) {
+        if (v.id[at(slot)] == id) return slot;
+    }
+    return -1;
+}
+
+// The first vehicle that can stop does. On yellow it is enough to brake as hard as drivers accept; on red all that the
+// brakes give is used.
+int choose_stopper(const Model& model, const State& state, const LaneBlock& block, double line_m, Light light) {
+    const double deceleration = light == Light::yellow ? model.driver.stop.decision_deceleration_mps2
+                                                       : model.driver.cacc.deceleration_emergency_mps2;
+    for (int slot = block.first; slot < block.stop(); ++slot) {
+        if (can_stop(model, state.vehicles, slot, line_m, deceleration)) return slot;
+    }
+    return -1;
+}
+
+bool line_is_open(const Model& model, const State& state, const Lane& lane, const StopLineState& line) {
+    const GroupProgramme& programme = model.signals[at(lane.signal_group)];
+    if (programme.light(state.tick) != Light::green) return false;
+    // The vehicle that waits at the line hesitates at the start of green.
+    return line.stopper < 0 || state.tick >= programme.since(state.tick) + model.hesitation_ticks;
+}
+
+}  // namespace
+
+void find_occupied_lanes(const Model& model, State& state) {
+    state.occupied.clear();
+    for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {
+        if (state.blocks[at(lane)].count > 0) state.occupied.push_back(lane);
+    }
+}
+
+void decide_stops(const Model& model, State& state) {
+    for (const int index : state.occupied) {
+        const Lane& lane = model.graph.lanes[at(index)];
+        if (lane.signal_group < 0) continue;
+        StopLineState& line = state.stop_lines[at(index)];
+        const LaneBlock& block = state.blocks[at(index)];
+        int stop_slot = -1;
+        if (line_is_open(model, state, lane, line)) {
+            line.stopper = -1;
+        } else {
+            if (line.stopper >= 0) stop_slot = slot_of(state.vehicles, block, line.stopper);
+            if (stop_slot < 0) {
+                const Light light = model.signals[at(lane.signal_group)].light(state.tick);
+                stop_slot = choose_stopper(model, state, block, lane.length_m, light);
+            }
+            line.stopper = stop_slot < 0 ? -1 : state.vehicles.id[at(stop_slot)];
+            // It leads what follows it through the next green.
+            if (stop_slot >= 0) state.vehicles.leads[at(stop_slot)] = 1;
+        }
+        state.stop_slot[at(index)] = stop_slot;
+    }
+}
+
+Ahead vehicle_ahead(const Model& model, const State& state, int lane, int slot, double range_m) {
+    const VehicleArrays& v = state.vehicles;
+    const Route& route = model.graph.routes[at(v.route[at(slot)])];
+    double start_m = model.graph.lanes[at(lane)].length_m;
+    for (std::size_t k = at(v.route_index[at(slot)]) + 1; k < route.lanes.size(); ++k) {
+        if (start_m - v.position_m[at(slot)] > range_m) break;
+        const LaneBlock& block = state.blocks[at(route.lanes[k])];
+        if (block.count > 0) return {block.last(), start_m};
+        start_m += model.graph.lanes[at(route.lanes[k])].length_m;
+    }
+    return {};
+}
+
+void look_beyond_lanes(const Model& model, State& state) {
+    constexpr double kNothing_m = 1e6;
+    VehicleArrays& v = state.vehicles;
+    const auto row = [&](std::int64_t age) {
+        return static_cast<int>(((state.tick - age) % v.v2v_rows + v.v2v_rows) % v.v2v_rows);
+    };
+    const int late = row(model.v2v.steps);
+    const int later = row(model.v2v.steps + 1);
+    for (const int lane : state.occupied) {
+        const int head = state.blocks[at(lane)].first;
+        const std::size_t sentinel = at(head - 1);
+        const Ahead ahead = vehicle_ahead(model, state, lane, head, model.driver.cacc.radar_range_m);
+        const bool seen = ahead.slot >= 0;
+        const std::size_t other = at(seen ? ahead.slot : head);
+        v.position_m[sentinel] = seen ? ahead.start_m + v.position_m[other] : kNothing_m;
+        v.speed_mps[sentinel] = v.speed_mps[other];
+        v.length_m[sentinel] = v.length_m[other];
+        for (const int r : {late, later}) {
+            const std::size_t to = v.row(r, head - 1);
+            const std::size_t from = v.row(r, static_cast<int>(other));
+            v.v2v_acceleration_mps2[to] = seen ? v.v2v_acceleration_mps2[from] : 0.0F;
+            v.v2v_request_mps2[to] = seen ? v.v2v_request_mps2[from] : 0.0F;
+            v.v2v_lag_s[to] = seen ? v.v2v_lag_s[from] : 1.0F;
+        }
+        const int id = seen ? v.id[other] : -1;
+        if (v.predecessor[at(head)] == id) continue;
+        // A new target: its first radar measurement stands for the past too.
+        v.predecessor[at(head)] = id;
+        v.leads[at(head)] = 1;
+        const double gap_m = v.position_m[sentinel] - v.length_m[sentinel] - v.position_m[at(head)];
+        v.reset_radar(head, gap_m, v.speed_mps[at(head)] - v.speed_mps[sentinel]);
+    }
+}
+
+LaneStep lane_step(const Model& model, const State& state, int lane) {
+    const LaneBlock& block = state.blocks[at(lane)];
+    const Lane& road = model.graph.lanes[at(lane)];
+    LaneStep step;
+    step.begin = block.first / kSimdWidth * kSimdWidth;
+    step.end = (block.stop() + kSimdWidth - 1) / kSimdWidth * kSimdWidth;
+    step.length_m = road.length_m;
+    step.limit_mps = road.limit_mps;
+    step.sine = road.gradient / std::sqrt(1.0 + square(road.gradient));
+    step.stop_slot = state.stop_slot[at(lane)];
+    step.stop_margin_m = model.driver.stop.margin_m;
+    return step;
+}
+
+}  // namespace stopline

@@ -1,0 +1,30 @@
+// The phases of a step (see simulation.h) that are not kernels. Each takes the model and the state and is called once a step.
+#pragma once
+
+#include "sim/full_dynamics.h"
+#include "sim/model.h"
+#include "sim/state.h"
+
+namespace stopline {
+
+void find_occupied_lanes(const Model& model, State& state);
+void decide_stops(const Model& model, State& state);
+void look_beyond_lanes(const Model& model, State& state);
+void transfer_vehicles(const Model& model, State& state);
+void insert_vehicles(const Model& model, State& state);
+void verify(const Model& model, State& state);
+
+// What the kernels need of a lane in this step.
+LaneStep lane_step(const Model& model, const State& state, int lane);
+
+// Appends a free slot at the back of a lane, moving its vehicles up where the block's end is reached. Returns the slot.
+int append_slot(State& state, int lane);
+
+// The vehicle ahead of the first one on a lane, along its route: distance in front of the lane's start, and its slot.
+struct Ahead {
+    int slot = -1;         // -1: none within the range
+    double start_m = 0.0;  // start of its lane, measured from the start of the asking vehicle's lane
+};
+Ahead vehicle_ahead(const Model& model, const State& state, int lane, int slot, double range_m);
+
+}  // namespace stopline

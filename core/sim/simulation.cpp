@@ -1,0 +1,56 @@
+#include "sim/simulation.h"
+
+#include "base/state_hash.h"
+#include "sim/phases.h"
+
+namespace stopline {
+
+Simulation::Simulation(const Model& model) : model_(model), state_(make_state(model)) { check(model); }
+
+void Simulation::step() {
+    find_occupied_lanes(model_, state_);
+    decide_stops(model_, state_);
+    look_beyond_lanes(model_, state_);
+    for (const int lane : state_.occupied) {
+        const LaneStep step = lane_step(model_, state_, lane);
+        plan_full(model_, step, state_);
+        drive_full(model_, step, state_);
+        state_.updates += state_.blocks[static_cast<std::size_t>(lane)].count;
+    }
+    transfer_vehicles(model_, state_);
+    insert_vehicles(model_, state_);
+    verify(model_, state_);
+    ++state_.tick;
+}
+
+void Simulation::run_until(double time_s) {
+    const std::int64_t last = to_ticks(time_s, model_.step_s);
+    while (state_.tick < last) step();
+}
+
+std::uint64_t Simulation::state_hash() const {
+    StateHash hash;
+    const VehicleArrays& v = state_.vehicles;
+    for (const LaneBlock& block : state_.blocks) {
+        for (int slot = block.first; slot < block.stop(); ++slot) {
+            const auto i = static_cast<std::size_t>(slot);
+            hash.add(v.id[i]);
+            hash.add(v.gear[i]);
+            hash.add(v.leads[i]);
+            for (const double value : {v.position_m[i], v.speed_mps[i], v.acceleration_mps2[i], v.request_mps2[i],
+                                       v.torque_Nm[i], v.brake_N[i], v.gear_time_s[i], v.lag_s[i]}) {
+                hash.add(value);
+            }
+        }
+    }
+    for (const Passage& passage : state_.passages) {
+        hash.add(passage.time_s);
+        hash.add(passage.vehicle);
+    }
+    hash.add(state_.tick);
+    hash.add(state_.entered);
+    hash.add(state_.left);
+    return hash.value();
+}
+
+}  // namespace stopline

@@ -1,0 +1,39 @@
+// One run: a Model (constant) and a State (all that changes), advanced a step at a time. The step is a list of named phases:
+//
+//     signals    who stops at which line               lane_heads.cpp
+//     heads      what the first vehicle of each lane reacts to beyond its lane
+//     plan       every vehicle's request, from the state at the beginning of the step      full_dynamics.cpp
+//     move       powertrain, speed, position
+//     transfer   vehicles that passed the end of their lane                                transfer.cpp
+//     insert     vehicles that enter
+//     verify     invariants: no overlap, nobody lost
+#pragma once
+
+#include <cstdint>
+
+#include "sim/model.h"
+#include "sim/state.h"
+
+namespace stopline {
+
+class Simulation {
+public:
+    // Keeps a reference to the model, which must outlive the simulation. Throws InputError where it is not sound.
+    explicit Simulation(const Model& model);
+
+    void step();
+    void run_until(double time_s);
+    double time_s() const { return model_.time_s(state_.tick); }
+
+    const State& state() const { return state_; }
+    const Model& model() const { return model_; }
+
+    // Hash over all vehicles in lane order and all counters. Equal hashes: equal to the last bit.
+    std::uint64_t state_hash() const;
+
+private:
+    const Model& model_;
+    State state_;
+};
+
+}  // namespace stopline
