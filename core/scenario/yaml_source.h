@@ -18,7 +18,7 @@
 
 namespace stopline {
 
-inline constexpr std::uintmax_t kYamlBytesMax = 16u << 20u;
+inline constexpr std::uintmax_t kYamlBytesMax = 4u << 20u;
 inline constexpr std::size_t kYamlDepthMax = 32;
 inline constexpr std::size_t kYamlNodesMax = 200'000;
 

@@ -1,0 +1,166 @@
+#include "scenario/yaml_source.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <chrono>
+
+#include "scenario/scenario_text.h"
+
+namespace stopline {
+namespace {
+
+SourceNode parse(std::string_view text) { return parse_yaml(text, std::make_shared<Source>(Source{"test.yaml", "."})); }
+
+std::string refusal(std::string_view text) {
+    return input_error_of([&] { parse(text); });
+}
+
+TEST(YamlSource, KnowsWhereEverythingStands) {
+    const SourceNode root = parse("# comment\na: 1 s\nb:\n  c: [x, \"y z\"]\n");
+    ASSERT_EQ(root.kind, SourceNode::Kind::map);
+    ASSERT_EQ(root.keys.size(), 2u);
+    EXPECT_EQ(to_string(root.keys[0].place), "test.yaml:2:1");
+    EXPECT_EQ(to_string(root.find("a")->place), "test.yaml:2:4");
+    EXPECT_EQ(root.find("a")->text, "1 s");
+    const SourceNode* const list = root.find("b")->find("c");
+    ASSERT_NE(list, nullptr);
+    EXPECT_EQ(to_string(list->place), "test.yaml:4:6");
+    EXPECT_EQ(to_string(list->items[1].place), "test.yaml:4:10");
+    EXPECT_EQ(list->items[1].text, "y z");
+    EXPECT_EQ(root.find("missing"), nullptr);
+}
+
+TEST(YamlSource, WritesAliasesOut) {
+    const SourceNode root = parse("a: &x {k: v}\nb: *x\nc: &y s\nd: *y\n");
+    ASSERT_EQ(root.find("b")->kind, SourceNode::Kind::map);
+    EXPECT_EQ(root.find("b")->find("k")->text, "v");
+    EXPECT_EQ(root.find("d")->text, "s");
+}
+
+TEST(YamlSource, RefusesWhatIsNotOneDocumentOfPlainMaps) {
+    EXPECT_TRUE(contains(refusal("a: 1\nb: 2\na: 3\n"), "test.yaml:3:1: the key 'a' appears twice"));
+    EXPECT_TRUE(contains(refusal("a: 1\n---\nb: 2\n"), "a second YAML document"));
+    EXPECT_TRUE(contains(refusal("[1, 2]: 3\n"), "test.yaml:1:1: a key must be a plain text"));
+    EXPECT_TRUE(contains(refusal("~: 3\n"), "a key must be a plain text"));
+    EXPECT_TRUE(contains(refusal("a: !!python/object x\n"), "is not supported"));
+    EXPECT_TRUE(contains(refusal("a: !mine {x: 1}\n"), "is not supported"));
+    EXPECT_TRUE(contains(refusal("a: &b {x: 1}\nc: {<<: *b}\n"), "merge key"));
+    EXPECT_TRUE(contains(refusal("a: [1, 2\n"), "not valid YAML"));
+    EXPECT_TRUE(contains(refusal("a: *nothing\n"), "not valid YAML"));
+    EXPECT_TRUE(contains(refusal("a: b: c\n"), "test.yaml:1:5: not valid YAML"));
+    EXPECT_TRUE(contains(refusal("\ta: 1\n"), "not valid YAML"));
+}
+
+TEST(YamlSource, RefusesWhatIsNotText) {
+    EXPECT_TRUE(
+        contains(refusal(std::string("a: 1\nb: x\0y\n", 12)), "test.yaml:2:5: not a YAML text in UTF-8 (byte 0x00)"));
+    EXPECT_TRUE(contains(refusal("a: \xff\xfe\n"), "test.yaml:1:4: not a YAML text in UTF-8 (byte 0xFF)"));
+    EXPECT_TRUE(contains(refusal("a: \x1b[31m\n"), "byte 0x1B"));
+    for (const char* broken : {"\xc3", "\xe2\x82", "\xf0\x9f\x9a", "\x80", "\xc0\xaf", "\xed\xa0\x80",
+                               "\xf4\x90\x80\x80", "\xe0\x80\x80", "\xf0\x80\x80\x80", "\xf5\x80\x80\x80"}) {
+        EXPECT_TRUE(contains(refusal(std::string("a: ") + broken), "not a YAML text in UTF-8")) << broken;
+    }
+    EXPECT_EQ(parse("a: Grün € 🚦\n").find("a")->text, "Grün € 🚦");
+    EXPECT_EQ(parse("\xef\xbb\xbf"
+                    "a: 1\n")
+                  .find("a")
+                  ->text,
+              "1");  // a byte order mark
+    EXPECT_EQ(parse("a: 1\r\nb: 2\r\n").find("b")->text, "2");
+}
+
+// Each hostile text must be refused soon, whatever it would unfold to.
+class HostileYaml : public ::testing::Test {
+protected:
+    void expect_refused(const std::string& text, const std::string& reason) {
+        const auto start = std::chrono::steady_clock::now();
+        EXPECT_TRUE(contains(refusal(text), reason));
+        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+        EXPECT_LT(taken.count(), 10.0);  // a fraction of a second; slack for sanitizers and busy machines
+    }
+};
+
+TEST_F(HostileYaml, BillionLaughs) {
+    std::string text = "a0: &a0 [lol, lol, lol, lol, lol, lol, lol, lol, lol]\n";
+    for (int i = 1; i < 10; ++i) {
+        const std::string below = "*a" + std::to_string(i - 1);
+        text += "a" + std::to_string(i) + ": &a" + std::to_string(i) + " [" + below;
+        for (int k = 0; k < 8; ++k) text += ", " + below;
+        text += "]\n";
+    }
+    expect_refused(text, "more than 200000 values");
+}
+
+TEST_F(HostileYaml, AliasesThatGrowInDepth) {
+    std::string text = "a0: &a0 [x]\n";
+    for (int i = 1; i < 100; ++i) {
+        text += "a" + std::to_string(i) + ": &a" + std::to_string(i) + " [*a" + std::to_string(i - 1) + "]\n";
+    }
+    expect_refused(text, "levels deep");
+}
+
+TEST_F(HostileYaml, AnchorsThatNeverEnd) {
+    expect_refused("a: &x [*x]\n", "inside its own anchor");
+    expect_refused("a: &x {b: {c: *x}}\n", "inside its own anchor");
+    expect_refused("&x a: *x\nb: &y\n  c: *y\n", "inside its own anchor");
+}
+
+TEST_F(HostileYaml, DeepNesting) {
+    expect_refused(std::string(1'000'000, '['), "levels deep");
+    expect_refused(std::string(1'000'000, '{'), "");
+    std::string maps;
+    for (int i = 0; i < 1000; ++i) maps += std::string(static_cast<std::size_t>(i), ' ') + "a:\n";
+    expect_refused(maps, "levels deep");
+    std::string lists;
+    for (int i = 0; i < 100'000; ++i) lists += "- ";
+    expect_refused(lists, "levels deep");
+    std::string keys;
+    for (int i = 0; i < 100'000; ++i) keys += "? ";
+    expect_refused(keys, "");
+    EXPECT_NE(refusal(keys), "");
+}
+
+TEST_F(HostileYaml, ManyValues) {
+    std::string text = "a: [";
+    for (int i = 0; i < 300'000; ++i) text += "1,";
+    expect_refused(text + "]\n", "more than 200000 values");
+}
+
+TEST_F(HostileYaml, OneHugeValue) {
+    const SourceNode root = parse("a: " + std::string(2u << 20u, 'x') + "\n");
+    EXPECT_EQ(root.find("a")->text.size(), 2u << 20u);
+    expect_refused(std::string((4u << 20u) + 1, 'x'), "at most 4.0 MB");
+}
+
+TEST(YamlFile, RefusesWhatCannotBeRead) {
+    const TemporaryFolder folder;
+    const auto of = [](const std::filesystem::path& file) { return input_error_of([&] { read_yaml_file(file); }); };
+    EXPECT_TRUE(contains(of(folder.path() / "none.yaml"), "none.yaml: no such file"));
+    EXPECT_TRUE(contains(of(folder.path()), "is a directory"));
+    EXPECT_TRUE(contains(of(folder.path() / "none" / "none.yaml"), "no such file"));
+    EXPECT_TRUE(contains(of(folder.write("f.yaml", "a: 1\n") / "below.yaml"), "no such file"));
+    EXPECT_TRUE(contains(of("/dev/zero"), "is not a file that can be read"));
+    const auto pipe = folder.path() / "pipe.yaml";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    EXPECT_TRUE(contains(of(pipe), "is not a file that can be read"));  // and it does not wait for a writer
+    const auto loop = folder.path() / "loop.yaml";
+    std::filesystem::create_symlink(loop, loop);
+    EXPECT_NE(of(loop), "");
+    if (::geteuid() != 0) {  // root may read everything
+        const auto secret = folder.write("secret.yaml", "a: 1\n");
+        std::filesystem::permissions(secret, std::filesystem::perms::none);
+        EXPECT_TRUE(contains(of(secret), "cannot be opened"));
+    }
+}
+
+TEST(YamlFile, RefusesAHugeFileUnread) {
+    const TemporaryFolder folder;
+    const auto file = folder.write("huge.yaml", "");
+    std::filesystem::resize_file(file, std::uintmax_t{5} << 40u);  // 5 TB of nothing
+    EXPECT_TRUE(contains(input_error_of([&] { read_yaml_file(file); }), "at most 4.0 MB"));
+}
+
+}  // namespace
+}  // namespace stopline
