@@ -1,31 +1,120 @@
-// How a kernel is compiled for several instruction sets. A kernel is a loop over a span of vehicles whose body has no
-// branches; the compiler vectorises it. STOPLINE_SIMD_CLONES before its definition builds it for the baseline, AVX2 and
-// AVX-512 and picks one at load time. All give the same bits: there is no contraction to fused multiply-add and no
-// reordering of sums (see the flags in the top CMakeLists.txt).
-// Sanitizer builds define STOPLINE_NO_SIMD_CLONES: the selector would run before the sanitizer is ready.
+// How kernels are vectorised. A model's equations are written once, as function templates over a number type R. With
+// R = double they are the plain scalar version, the oracle of the tests; with R = Batch they run eight vehicles at a time.
+// Both give the same bits: every operation is one that IEEE 754 rounds correctly, there is no contraction to fused
+// multiply-add and no reordering (see the flags in the top CMakeLists.txt). Explicit batches rather than the compiler's
+// own vectorisation, which gives up on loops as long as these without a word.
+//
+// A file of kernels is compiled once for each instruction set (see sim/CMakeLists.txt), with a batch as wide as its registers;
+// sim/full_kernels.cpp picks one at run time. A target attribute on a function would not do: g++ takes operations on
+// vectors apart for the file's target before it looks at the function's.
 #pragma once
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(STOPLINE_NO_SIMD_CLONES)
-#define STOPLINE_SIMD_CLONES __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
-#else
-#define STOPLINE_SIMD_CLONES
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#ifndef STOPLINE_BATCH_WIDTH
+#define STOPLINE_BATCH_WIDTH 2
 #endif
 
-// Tells the compiler that the iterations of the next loop do not depend on each other through memory.
-#if defined(__clang__)
-#define STOPLINE_INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
-#elif defined(__GNUC__)
-#define STOPLINE_INDEPENDENT _Pragma("GCC ivdep")
-#else
-#define STOPLINE_INDEPENDENT
-#endif
-
-// Functions that kernels are made of: inlined into each clone, so that they get its instruction set.
+// Functions that kernels are made of: always inlined, so that no copy made for one instruction set can be linked
+// into code for another.
 #define STOPLINE_INLINE inline __attribute__((always_inline))
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wpsabi"  // batches are passed between inlined functions only
+#endif
 
 namespace stopline {
 
-// Spans of vehicles are padded to a multiple of this, so that a kernel's loop has no remainder.
+// Spans of vehicles are padded to a multiple of this, the widest batch.
 inline constexpr int kSimdWidth = 8;
+// Vehicles that a kernel of this file treats at once.
+static constexpr int kBatchWidth = STOPLINE_BATCH_WIDTH;
+
+using Batch = double __attribute__((vector_size(kBatchWidth * sizeof(double))));
+using BatchMask = std::int64_t __attribute__((vector_size(kBatchWidth * sizeof(std::int64_t))));
+using FloatBatch = float __attribute__((vector_size(kBatchWidth * sizeof(float))));
+using IntBatch = std::int32_t __attribute__((vector_size(kBatchWidth * sizeof(std::int32_t))));
+
+// The same number in every lane.
+template <class R>
+STOPLINE_INLINE R splat(double value) {
+    return R{} + value;
+}
+
+template <class R, class Number>
+STOPLINE_INLINE R load(const Number* from) {
+    if constexpr (sizeof(R) == sizeof(double)) {
+        return static_cast<R>(*from);
+    } else if constexpr (sizeof(Number) == sizeof(double)) {
+        R value;
+        std::memcpy(&value, from, sizeof value);
+        return value;
+    } else if constexpr (static_cast<Number>(0.5) == Number{}) {
+        IntBatch value;
+        std::memcpy(&value, from, sizeof value);
+        return __builtin_convertvector(value, Batch);
+    } else {
+        FloatBatch value;
+        std::memcpy(&value, from, sizeof value);
+        return __builtin_convertvector(value, Batch);
+    }
+}
+
+STOPLINE_INLINE void store(double* to, double value) { *to = value; }
+STOPLINE_INLINE void store(float* to, double value) { *to = static_cast<float>(value); }
+STOPLINE_INLINE void store(double* to, const Batch& value) { std::memcpy(to, &value, sizeof value); }
+STOPLINE_INLINE void store(float* to, const Batch& value) {
+    const FloatBatch narrow = __builtin_convertvector(value, FloatBatch);
+    std::memcpy(to, &narrow, sizeof narrow);
+}
+
+// The numbers first, first + 1, ...
+template <class R>
+STOPLINE_INLINE R counting_from(double first) {
+    if constexpr (sizeof(R) == sizeof(double)) {
+        return first;
+    } else {
+        Batch numbers;
+        for (int k = 0; k < kBatchWidth; ++k) numbers[k] = first + k;
+        return numbers;
+    }
+}
+
+STOPLINE_INLINE double select(bool condition, double yes, double no) { return condition ? yes : no; }
+STOPLINE_INLINE Batch select(const BatchMask& condition, const Batch& yes, const Batch& no) {
+    return condition ? yes : no;
+}
+
+// Conditions that are joined or used more than once are numbers, 1 for true and 0 for false: and is a product, or the
+// greater, not is 1 - x.
+#define STOPLINE_FLAG(R, condition) select((condition), splat<R>(1.0), splat<R>(0.0))
+template <class R>
+STOPLINE_INLINE R choose(const R& flag, const R& yes, const R& no) {
+    return select(flag > 0.5, yes, no);
+}
+
+STOPLINE_INLINE double square_root(double value) { return std::sqrt(value); }
+STOPLINE_INLINE Batch square_root(const Batch& value) {
+    Batch root;
+    for (int k = 0; k < kBatchWidth; ++k) root[k] = std::sqrt(value[k]);
+    return root;
+}
+
+// Whole part of a number >= 0 and below 2^31.
+STOPLINE_INLINE double whole(double value) { return static_cast<double>(static_cast<std::int32_t>(value)); }
+STOPLINE_INLINE Batch whole(const Batch& value) {
+    return __builtin_convertvector(__builtin_convertvector(value, IntBatch), Batch);
+}
+
+// table[index], the index a whole number.
+STOPLINE_INLINE double look_up(const double* table, double index) { return table[static_cast<std::int32_t>(index)]; }
+STOPLINE_INLINE Batch look_up(const double* table, const Batch& index) {
+    const IntBatch k = __builtin_convertvector(index, IntBatch);
+    Batch found;
+    for (int n = 0; n < kBatchWidth; ++n) found[n] = table[k[n]];
+    return found;
+}
 
 }  // namespace stopline

@@ -1,5 +1,6 @@
 // The driver's three questions - drive freely, follow, stop - each answered by a desired acceleration; the smallest answer
-// wins (combine). Pure functions without branches; the loops over vehicles are in sim/full_dynamics.cpp.
+// wins (combine). Pure functions without branches, over double or Batch (base/simd.h); the loops over vehicles are in
+// sim/full_dynamics.cpp.
 //
 // Following is the cascade of Fig. 3: PD feedback on the gap measured by radar, feedforward of what the predecessor says of
 // itself over V2V. In the time domain, with gap error e = gap - d(v) and H = 1 + h s:
@@ -31,46 +32,53 @@ struct DriverTables {
 DriverTables compile_driver(const DriverSettings& settings);
 
 // What a vehicle knows of its predecessor.
+template <class R>
 struct PredecessorView {
-    double gap_m;              // net gap by radar, delayed
-    double closing_mps;        // own speed minus the predecessor's by radar, delayed
-    double acceleration_mps2;  // by V2V, delayed
-    double request_mps2;       // u of the predecessor, by V2V, delayed
-    double lag_s;              // tau of the predecessor, by V2V, delayed
+    R gap_m;              // net gap by radar, delayed
+    R closing_mps;        // own speed minus the predecessor's by radar, delayed
+    R acceleration_mps2;  // by V2V, delayed
+    R request_mps2;       // u of the predecessor, by V2V, delayed
+    R lag_s;              // tau of the predecessor, by V2V, delayed
 };
 
 // Free driving of a platoon leader: the calibrated start-up profile towards the desired speed.
-STOPLINE_INLINE double free_acceleration(const DriverTables& d, double speed_mps, double desired_mps) {
-    const double cell = limited(speed_mps * d.profile_cells_per_mps, 0.0, DriverTables::kProfileCells);
-    const int k = static_cast<int>(lesser(cell, DriverTables::kProfileCells - 1.0));
-    const double* node = d.profile_mps2.data() + k;
-    const double profile = node[0] + (cell - k) * (node[1] - node[0]);
+template <class R>
+STOPLINE_INLINE R free_acceleration(const DriverTables& d, const R& speed_mps, double desired_mps) {
+    const R cell = limited(speed_mps * d.profile_cells_per_mps, 0.0, double{DriverTables::kProfileCells});
+    const R k = whole(lesser(cell, DriverTables::kProfileCells - 1.0));
+    const R low = look_up(d.profile_mps2.data(), k);
+    const R high = look_up(d.profile_mps2.data() + 1, k);
+    const R profile = low + (cell - k) * (high - low);
     return lesser(profile, d.speed_gain_1ps * (desired_mps - speed_mps));
 }
 
 // A follower may use more than the leader's profile, and a little more speed, to close its gap.
-STOPLINE_INLINE double catch_up_acceleration(const DriverTables& d, double speed_mps, double desired_mps) {
-    return lesser(d.cacc.acceleration_max_mps2, d.speed_gain_1ps * (desired_mps * d.cacc.catch_up_factor - speed_mps));
+template <class R>
+STOPLINE_INLINE R catch_up_acceleration(const DriverTables& d, const R& speed_mps, double desired_mps) {
+    const R towards_limit = d.speed_gain_1ps * (desired_mps * d.cacc.catch_up_factor - speed_mps);
+    return lesser(towards_limit, d.cacc.acceleration_max_mps2);
 }
 
 // Slowing down for a lower limit `distance_m` ahead: along v^2 = v_end^2 + 2 b distance.
-STOPLINE_INLINE double slow_down_acceleration(const DriverTables& d, double speed_mps, double end_mps,
-                                              double distance_m) {
+template <class R>
+STOPLINE_INLINE R slow_down_acceleration(const DriverTables& d, const R& speed_mps, const R& end_mps,
+                                         const R& distance_m) {
     const double b = d.deceleration_mps2;
-    const double allowed_mps = std::sqrt(square(end_mps) + 2.0 * b * greater(distance_m, 0.0));
+    const R allowed_mps = square_root(square(end_mps) + 2.0 * b * greater(distance_m, 0.0));
     return (allowed_mps - speed_mps) - b * speed_mps / greater(allowed_mps, 1.0);
 }
 
 // Stopping within `distance_m`: along the speed from which braking with b after the time tau stops there,
 // v_p = -b tau + sqrt((b tau)^2 + 2 b distance) (the safe speed of Krauss 1998 for a standing obstacle), which lands
 // without overshoot. The braking that keeps to the curve is b v / (v_p + b tau).
-STOPLINE_INLINE double stop_acceleration(const DriverTables& d, double speed_mps, double distance_m) {
+template <class R>
+STOPLINE_INLINE R stop_acceleration(const DriverTables& d, const R& speed_mps, const R& distance_m) {
     constexpr double kLandingTime_s = 0.5;
     constexpr double kSpeedGain_1ps = 1.5;
     const double b = d.stop.deceleration_mps2;
     const double bt = b * kLandingTime_s;
-    const double curve_mps = std::sqrt(square(bt) + 2.0 * b * greater(distance_m, 0.0)) - bt;
-    const double late = select(distance_m > 0.0, 0.0, -b);
+    const R curve_mps = square_root(square(bt) + 2.0 * b * greater(distance_m, 0.0)) - bt;
+    const R late = select(distance_m > 0.0, splat<R>(0.0), splat<R>(-b));
     return late + kSpeedGain_1ps * (curve_mps - speed_mps) - b * speed_mps / (curve_mps + bt);
 }
 
@@ -78,22 +86,23 @@ STOPLINE_INLINE double stop_acceleration(const DriverTables& d, double speed_mps
 // squares sense at three times within [start, end], limited to what is allowed. With first-order lags
 //     a_p(t + th) = u_p + (a_p - u_p) exp(-(th + delay) / tau_p),   a(t + th) = u + (a - u) exp(-th / tau),
 // so each time gives one equation w u = a_p(t + th) - (1 - w) a with w = 1 - exp(-th / tau).
-STOPLINE_INLINE double predictive_feedforward(const CaccSettings& c, double acceleration_mps2, double lag_s,
-                                              const PredecessorView& p) {
+template <class R>
+STOPLINE_INLINE R predictive_feedforward(const CaccSettings& c, const R& acceleration_mps2, const R& lag_s,
+                                         const PredecessorView<R>& p) {
     const double middle_s = 0.5 * (c.prediction_start_s + c.prediction_end_s);
     const double half_s = middle_s - c.prediction_start_s;
-    const double inverse_lag = 1.0 / lag_s;
-    const double inverse_lag_p = 1.0 / p.lag_s;
+    const R inverse_lag = 1.0 / lag_s;
+    const R inverse_lag_p = 1.0 / p.lag_s;
     // exp is needed once for the first time and once for the step between times, for each vehicle.
-    double own = exp_minus(c.prediction_start_s * inverse_lag);
-    const double own_step = exp_minus(half_s * inverse_lag);
-    double other = exp_minus((c.prediction_start_s + c.v2v_delay_s) * inverse_lag_p);
-    const double other_step = exp_minus(half_s * inverse_lag_p);
-    double numerator = 0.0;
-    double denominator = 0.0;
+    R own = exp_minus(c.prediction_start_s * inverse_lag);
+    const R own_step = exp_minus(half_s * inverse_lag);
+    R other = exp_minus((c.prediction_start_s + c.v2v_delay_s) * inverse_lag_p);
+    const R other_step = exp_minus(half_s * inverse_lag_p);
+    R numerator = splat<R>(0.0);
+    R denominator = splat<R>(0.0);
     for (int k = 0; k < 3; ++k) {
-        const double weight = 1.0 - own;
-        const double target = p.request_mps2 + (p.acceleration_mps2 - p.request_mps2) * other;
+        const R weight = 1.0 - own;
+        const R target = p.request_mps2 + (p.acceleration_mps2 - p.request_mps2) * other;
         numerator += weight * (target - own * acceleration_mps2);
         denominator += weight * weight;
         own *= own_step;
@@ -104,32 +113,35 @@ STOPLINE_INLINE double predictive_feedforward(const CaccSettings& c, double acce
 
 // Following: answer of the spacing controller. `desired_gap_m` and `slope_s` come from the gap law at the own speed;
 // `request_mps2` is the request of the last step, the state of the filter 1 / H.
-STOPLINE_INLINE double follow_acceleration(const CaccSettings& c, double acceleration_mps2, double lag_s,
-                                           double request_mps2, double desired_gap_m, double slope_s,
-                                           const PredecessorView& p, double dt) {
-    const double error_m = p.gap_m - desired_gap_m;
-    const double error_rate_mps = -p.closing_mps - slope_s * acceleration_mps2;
-    const double feedback = c.feedback_kp_1ps2 * error_m + c.feedback_kd_1ps * error_rate_mps;
-    const double time_gap_ff = p.acceleration_mps2 + lag_s / p.lag_s * (p.request_mps2 - p.acceleration_mps2);
-    const double filtered = request_mps2 + (feedback + time_gap_ff - request_mps2) * lag_share(dt, slope_s);
-    const double distance = feedback + predictive_feedforward(c, acceleration_mps2, lag_s, p);
+template <class R>
+STOPLINE_INLINE R follow_acceleration(const CaccSettings& c, const R& acceleration_mps2, const R& lag_s,
+                                      const R& request_mps2, const R& desired_gap_m, const R& slope_s,
+                                      const PredecessorView<R>& p, double dt) {
+    const R error_m = p.gap_m - desired_gap_m;
+    const R error_rate_mps = -p.closing_mps - slope_s * acceleration_mps2;
+    const R feedback = c.feedback_kp_1ps2 * error_m + c.feedback_kd_1ps * error_rate_mps;
+    const R time_gap_ff = p.acceleration_mps2 + lag_s / p.lag_s * (p.request_mps2 - p.acceleration_mps2);
+    const R filtered = request_mps2 + (feedback + time_gap_ff - request_mps2) * lag_share(dt, slope_s);
+    const R distance = feedback + predictive_feedforward(c, acceleration_mps2, lag_s, p);
     return limited(select(slope_s > 0.0, filtered, distance), -c.deceleration_comfort_mps2, c.acceleration_max_mps2);
 }
 
 // Emergency: the deceleration that is needed not to hit the predecessor, once it exceeds the threshold; large (no limit)
 // before. Needed is the greater of: matching a braking predecessor's speed within the gap (a_p - closing^2 / (2 gap)), and
 // stopping behind the place where it will stop.
-STOPLINE_INLINE double emergency_acceleration(const CaccSettings& c, double speed_mps, const PredecessorView& p) {
-    const double closing = p.closing_mps;
-    const double now_m = p.gap_m - c.radar_delay_s * closing - c.emergency_gap_m;
-    const double room_m = greater(now_m, 0.05);
-    const double braking_p = greater(lesser(p.acceleration_mps2, p.request_mps2), -c.deceleration_emergency_mps2);
-    const double match = select(closing > 0.0, lesser(braking_p, 0.0) - square(closing) / (2.0 * room_m), 0.0);
-    const double speed_p = greater(speed_mps - closing, 0.0);
-    const double stop_room_m = room_m + square(speed_p) / (2.0 * greater(-braking_p, 0.01));
-    const double stop = -square(speed_mps) / (2.0 * stop_room_m);
-    const double needed = lesser(match, stop);
-    return select(needed < -c.emergency_threshold_mps2, greater(1.15 * needed, -c.deceleration_emergency_mps2), 1e3);
+template <class R>
+STOPLINE_INLINE R emergency_acceleration(const CaccSettings& c, const R& speed_mps, const PredecessorView<R>& p) {
+    const R closing = p.closing_mps;
+    const R now_m = p.gap_m - c.radar_delay_s * closing - c.emergency_gap_m;
+    const R room_m = greater(now_m, 0.05);
+    const R braking_p = greater(lesser(p.acceleration_mps2, p.request_mps2), -c.deceleration_emergency_mps2);
+    const R match = select(closing > 0.0, lesser(braking_p, 0.0) - square(closing) / (2.0 * room_m), splat<R>(0.0));
+    const R speed_p = greater(speed_mps - closing, 0.0);
+    const R stop_room_m = room_m + square(speed_p) / (2.0 * greater(-braking_p, 0.01));
+    const R stop = -square(speed_mps) / (2.0 * stop_room_m);
+    const R needed = lesser(match, stop);
+    return select(needed < -c.emergency_threshold_mps2, greater(1.15 * needed, -c.deceleration_emergency_mps2),
+                  splat<R>(1e3));
 }
 
 }  // namespace stopline

@@ -117,7 +117,7 @@ void look_beyond_lanes(const Model& model, State& state) {
         if (v.predecessor[at(head)] == id) continue;
         // A new target: its first radar measurement stands for the past too.
         v.predecessor[at(head)] = id;
-        v.leads[at(head)] = 1;
+        v.leads[at(head)] = 1.0;
         const double gap_m = v.position_m[sentinel] - v.length_m[sentinel] - v.position_m[at(head)];
         v.reset_radar(head, gap_m, v.speed_mps[at(head)] - v.speed_mps[sentinel]);
     }

@@ -40,6 +40,7 @@ struct Model {
     DemandPlan demand;
     DelayLine radar;
     DelayLine v2v;
+    bool scalar_kernels = false;  // the oracle: one vehicle at a time, same bits
 
     double time_s(std::int64_t tick) const { return static_cast<double>(tick) * step_s; }
 };

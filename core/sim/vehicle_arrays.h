@@ -36,8 +36,8 @@ struct VehicleArrays {
     std::vector<double> gear_time_s;
     std::vector<double> lag_s;  // tau, as told to the follower
     std::vector<double> length_m;
-    std::vector<int> gear;
-    std::vector<int> leads;  // 1: free start-up profile (leader of a platoon), 0: follower
+    std::vector<double> gear;   // 0 is first gear
+    std::vector<double> leads;  // 1: free start-up profile (leader of a platoon), 0: follower
     // Slots of the past, [row][slot]: radar (gap, closing speed) and V2V (acceleration, request, lag).
     std::vector<float> radar_gap_m;
     std::vector<float> radar_closing_mps;

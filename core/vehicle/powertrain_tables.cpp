@@ -84,7 +84,6 @@ PowertrainTables compile_powertrain(const PowertrainSettings& s) {
         const std::size_t used = std::min(g, s.gear_ratio.size() - 1);
         const double ratio = s.gear_ratio[used] * s.final_drive;
         t.rpm_per_mps[g] = ratio / radius_m / kRadpsPerRpm;
-        t.force_per_torque[g] = ratio / radius_m;
         t.rotating_mass[g] = s.rotating_mass_factor[used];
         t.lag_factor[g] = s.lag_gear_factor[used];
     }

@@ -33,9 +33,8 @@ struct PowertrainTables {
     double efficiency = 1.0;
     int gears = 1;
 
-    std::array<double, kMaxGears> rpm_per_mps{};       // engine speed over vehicle speed, per gear
-    std::array<double, kMaxGears> force_per_torque{};  // wheel force over crank torque without losses [1/m], per gear
-    std::array<double, kMaxGears> rotating_mass{};     // effective over real mass, per gear
+    std::array<double, kMaxGears> rpm_per_mps{};    // engine speed over vehicle speed, per gear
+    std::array<double, kMaxGears> rotating_mass{};  // effective over real mass, per gear
     std::array<double, kMaxGears> lag_factor{};
 
     double rpm_cells_per_rpm = 0.0;

@@ -1,0 +1,121 @@
+// The kernels' text. Included by one file for each instruction set, each in a namespace of its own.
+#include "base/simd.h"
+#include "sim/full_kernels.h"
+#include "vehicle/powertrain_step.h"
+
+namespace stopline {
+
+namespace {
+
+// A vehicle that stands and has no reason to start is held by its brake, as a hill holder does.
+constexpr double kStanding_mps = 1e-3;
+constexpr double kStart_mps2 = 0.01;
+constexpr double kHold_mps2 = -0.3;
+// A predecessor as slow as this, and not about to start, is an obstacle to stop behind.
+constexpr double kObstacle_mps = 0.5;
+
+// One sample of a delay line, between two rows.
+template <class R>
+STOPLINE_INLINE R delayed(const Rows& rows, const float* late, const float* later, int i) {
+    return rows.late_share * load<R>(late + i) + rows.later_share * load<R>(later + i);
+}
+
+// The vehicle in slot i, or with R = Batch those in i .. i + 7.
+template <class R>
+STOPLINE_INLINE void plan_at(const PlanStreams& s, const DriverTables& d, const Rows& radar, const Rows& v2v,
+                             const LaneStep& lane, double dt, int i) {
+    const CaccSettings& c = d.cacc;
+    const R position = load<R>(s.position + i);
+    const R speed = load<R>(s.speed + i);
+    const R acceleration = load<R>(s.acceleration + i);
+    const R lag = load<R>(s.lag + i);
+    const R before = load<R>(s.request + i);
+
+    // Measure and tell.
+    store(s.gap_now + i, load<R>(s.position + i - 1) - load<R>(s.length + i - 1) - position);
+    store(s.closing_now + i, speed - load<R>(s.speed + i - 1));
+    store(s.tell_acceleration + i, acceleration);
+    store(s.tell_request + i, before);
+    store(s.tell_lag + i, lag);
+
+    // What is known of the predecessor now.
+    PredecessorView<R> p;
+    p.gap_m = delayed<R>(radar, s.gap_late, s.gap_later, i);
+    p.closing_mps = delayed<R>(radar, s.closing_late, s.closing_later, i);
+    p.acceleration_mps2 = delayed<R>(v2v, s.heard_acceleration, s.earlier_acceleration, i - 1);
+    p.request_mps2 = delayed<R>(v2v, s.heard_request, s.earlier_request, i - 1);
+    p.lag_s = delayed<R>(v2v, s.heard_lag, s.earlier_lag, i - 1);
+
+    // Drive freely.
+    const R to_end_m = lane.length_m - position;
+    const R as_leader = free_acceleration(d, speed, lane.limit_mps);
+    const R slow_down = slow_down_acceleration(d, speed, load<R>(s.end_speed + i), to_end_m);
+    // Follow.
+    const R follow =
+        follow_acceleration(c, acceleration, lag, before, load<R>(s.desired_gap + i), load<R>(s.slope + i), p, dt);
+    const R emergency = emergency_acceleration(c, speed, p);
+    // Stop: at the line, behind a standing predecessor.
+    const R nothing = splat<R>(1e3);
+    const R slot = counting_from<R>(i);
+    const R at_line = select(slot == static_cast<double>(lane.stop_slot),
+                             stop_acceleration<R>(d, speed, to_end_m - lane.stop_margin_m), nothing);
+    const R obstacle =
+        STOPLINE_FLAG(R, speed - p.closing_mps < kObstacle_mps) * STOPLINE_FLAG(R, p.request_mps2 <= 0.0);
+    const R behind_m = p.gap_m - c.radar_delay_s * p.closing_mps - load<R>(s.standstill_gap + i);
+    const R behind = choose(obstacle, stop_acceleration(d, speed, behind_m), nothing);
+
+    // The smallest answer wins. A platoon leader becomes a follower when following asks for less than driving freely.
+    const R leads = load<R>(s.leads + i) * STOPLINE_FLAG(R, follow > as_leader);
+    const R drive = lesser(choose(leads, as_leader, catch_up_acceleration(d, speed, lane.limit_mps)), slow_down);
+    const R smallest = lesser(lesser(lesser(drive, follow), emergency), lesser(at_line, behind));
+    const R smooth = limited<R>(smallest, before - c.jerk_down_mps3 * dt, before + c.jerk_up_mps3 * dt);
+    const R held = STOPLINE_FLAG(R, speed <= kStanding_mps) * STOPLINE_FLAG(R, smallest <= kStart_mps2);
+    store(s.request + i, choose(held, splat<R>(0.0), greater(smooth, -c.deceleration_emergency_mps2)));
+    store(s.leads + i, leads);
+}
+
+// The vehicle in slot i, or those in i .. i + 7, as far as they are of type `only` (< 0: all are).
+template <class R>
+STOPLINE_INLINE void drive_at(const DriveStreams& s, const PowertrainTables& t, double grade_N, double dt, int only,
+                              int i) {
+    PowertrainState<R> now;
+    now.speed_mps = load<R>(s.speed + i);
+    now.acceleration_mps2 = load<R>(s.acceleration + i);
+    now.torque_Nm = load<R>(s.torque + i);
+    now.brake_N = load<R>(s.brake + i);
+    now.gear_time_s = load<R>(s.gear_time + i);
+    now.lag_s = load<R>(s.lag + i);
+    now.gear = load<R>(s.gear + i);
+    const R position = load<R>(s.position + i);
+    const R request = load<R>(s.request + i);
+    const R held = STOPLINE_FLAG(R, now.speed_mps <= kStanding_mps) * STOPLINE_FLAG(R, request <= kStart_mps2);
+    const PowertrainState<R> next =
+        powertrain_step<R>(t, now, choose(held, splat<R>(kHold_mps2), request), grade_N, dt);
+    const R moved_m = 0.5 * (now.speed_mps + next.speed_mps) * dt;
+    const R type = load<R>(s.type + i);
+    const R mine = only < 0 ? splat<R>(1.0) : STOPLINE_FLAG(R, type == static_cast<double>(only));
+    store(s.position + i, choose(mine, position + moved_m, position));
+    store(s.speed + i, choose(mine, next.speed_mps, now.speed_mps));
+    store(s.acceleration + i, choose(mine, next.acceleration_mps2, now.acceleration_mps2));
+    store(s.torque + i, choose(mine, next.torque_Nm, now.torque_Nm));
+    store(s.brake + i, choose(mine, next.brake_N, now.brake_N));
+    store(s.gear_time + i, choose(mine, next.gear_time_s, now.gear_time_s));
+    store(s.lag + i, choose(mine, next.lag_s, now.lag_s));
+    store(s.gear + i, choose(mine, next.gear, now.gear));
+}
+
+template <class R, int kWidth>
+void plan(const PlanStreams& s, const DriverTables& d, const Rows& radar, const Rows& v2v, const LaneStep& lane,
+          double dt) {
+    for (int i = lane.begin; i < lane.end; i += kWidth) plan_at<R>(s, d, radar, v2v, lane, dt, i);
+}
+
+template <class R, int kWidth>
+void drive(const DriveStreams& s, const PowertrainTables& t, double grade_N, const LaneStep& lane, double dt,
+           int only) {
+    for (int i = lane.begin; i < lane.end; i += kWidth) drive_at<R>(s, t, grade_N, dt, only, i);
+}
+
+}  // namespace
+
+}  // namespace stopline

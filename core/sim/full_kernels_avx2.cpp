@@ -1,0 +1,9 @@
+// Full-dynamics kernels for AVX2.
+#include "sim/full_kernels.inl"
+
+namespace stopline {
+
+extern const FullKernels kAvx2FullKernels;
+const FullKernels kAvx2FullKernels{"avx2", plan<Batch, kBatchWidth>, drive<Batch, kBatchWidth>};
+
+}  // namespace stopline
