@@ -11,7 +11,7 @@ if [[ "${1:-}" == --fix ]]; then
 fi
 files=("$@")
 if [[ ${#files[@]} -eq 0 ]]; then
-    mapfile -t files < <(find core apps tests \( -name '*.h' -o -name '*.cpp' \) -type f | sort)
+    mapfile -t files < <(find core apps tests \( -name '*.h' -o -name '*.inl' -o -name '*.cpp' \) -type f | sort)
 fi
 if [[ $fix == yes ]]; then
     exec clang-format-14 --style=file -i "${files[@]}"
