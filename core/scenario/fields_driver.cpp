@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "driver/gap_policy.h"
 #include "scenario/field_rows.h"
 #include "scenario/fields.h"
 
@@ -144,9 +145,7 @@ const Table& gap_policy_table() {
         "a spacing policy: the gap kept at a speed",
         {
             text<&S::name>("name", TextField::Rule::name, "name of the policy").required(),
-            choice<&S::law>("law", {"constant_distance", "constant_time", "switch_time_gap", "switch_distance"},
-                            "how the gap depends on the speed")
-                .required(),
+            choice<&S::law>("law", gap_law_names(), "how the gap depends on the speed").required(),
             number<&S::standstill_gap_m>("standstill_gap", "m", {0.1, 100}, "net gap at standstill").required(),
             number<&S::time_gap_s>("time_gap", "s", {0, 20}, "growth of the gap with the speed")
                 .required()

@@ -140,6 +140,8 @@ private:
         if (parent.node.kind == SourceNode::Kind::list) {
             parent.node.items.push_back(std::move(node));
         } else if (parent.has_key) {
+            // The parser notices that a value is missing only at the next token, maybe lines below.
+            if (node.kind == SourceNode::Kind::empty) node.place = parent.node.keys.back().place;
             parent.node.items.push_back(std::move(node));
             parent.has_key = false;
         } else {
