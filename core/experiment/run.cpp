@@ -1,0 +1,104 @@
+#include "experiment/run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "experiment/build_model.h"
+
+namespace stopline {
+
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+// Distance from the start of the route to the start of the lane the vehicle is on.
+double travelled_before(const Model& model, int route, int route_index) {
+    double distance_m = 0.0;
+    for (int k = 0; k < route_index; ++k) {
+        distance_m += model.graph.lanes[at(model.graph.routes[at(route)].lanes[at(k)])].length_m;
+    }
+    return distance_m;
+}
+
+void sample(const Simulation& simulation, std::vector<TrajectoryPoint>& points) {
+    const State& state = simulation.state();
+    const VehicleArrays& v = state.vehicles;
+    for (int lane = 0; lane < static_cast<int>(state.blocks.size()); ++lane) {
+        const LaneBlock& block = state.blocks[at(lane)];
+        for (int slot = block.first; slot < block.stop(); ++slot) {
+            const std::size_t i = at(slot);
+            const bool alone = v.predecessor[i] < 0;
+            const double gap_m = v.position_m[i - 1] - v.length_m[i - 1] - v.position_m[i];
+            points.push_back({simulation.time_s(), v.id[i], v.policy[i], lane,
+                              travelled_before(simulation.model(), v.route[i], v.route_index[i]) + v.position_m[i],
+                              v.speed_mps[i], v.acceleration_mps2[i], v.request_mps2[i],
+                              alone ? std::numeric_limits<double>::quiet_NaN() : gap_m,
+                              static_cast<int>(v.gear[i]) + 1});
+        }
+    }
+}
+
+std::vector<double> queue_gaps(const State& state) {
+    std::vector<double> gaps;
+    const LaneBlock& block = state.blocks[0];
+    for (std::size_t i = at(block.first) + 1; i < at(block.stop()); ++i) {
+        gaps.push_back(state.vehicles.position_m[i - 1] - state.vehicles.length_m[i - 1] -
+                       state.vehicles.position_m[i]);
+    }
+    return gaps;
+}
+
+void finish(const Simulation& simulation, RunResult& result) {
+    const State& state = simulation.state();
+    const std::vector<Lane>& lanes = simulation.model().graph.lanes;
+    for (const Passage& passage : state.passages) {
+        if (passage.from_lane < 0 || lanes[at(passage.from_lane)].signal_group < 0) continue;
+        result.stop_line_times_s.push_back(passage.time_s - result.green_start_s);
+    }
+    std::sort(result.stop_line_times_s.begin(), result.stop_line_times_s.end());
+    result.passages = state.passages;
+    result.violations = state.violations;
+    result.vehicles_entered = state.entered;
+    result.vehicles_left = state.left;
+    result.updates = state.updates;
+    result.state_hash = simulation.state_hash();
+}
+
+}  // namespace
+
+int RunResult::passed_within(double green_s) const {
+    const auto end = std::upper_bound(stop_line_times_s.begin(), stop_line_times_s.end(), green_s);
+    return static_cast<int>(end - stop_line_times_s.begin());
+}
+
+RunResult run_population(const Scenario& scenario, std::size_t population, const RunOptions& options) {
+    const Model model = build_model(scenario, population);
+    Simulation simulation(model);
+    RunResult result;
+    result.population = scenario.populations[population].name;
+    result.green_start_s = scenario.signal.first_green_s;
+    const std::int64_t last = to_ticks(scenario.duration_s, scenario.step_s);
+    const std::int64_t green = to_ticks(scenario.signal.first_green_s, scenario.step_s);
+    const std::int64_t every = std::max<std::int64_t>(1, to_ticks(options.trajectory_interval_s, scenario.step_s));
+    constexpr std::int64_t kReport = 1000;
+    const auto begin = std::chrono::steady_clock::now();
+    result.complete = true;
+    while (simulation.state().tick < last) {
+        const std::int64_t tick = simulation.state().tick;
+        if (tick == green) result.queue_gaps_m = queue_gaps(simulation.state());
+        const bool sampled = options.trajectory_interval_s > 0.0 && simulation.time_s() >= options.trajectory_from_s;
+        if (sampled && tick % every == 0) sample(simulation, result.trajectory);
+        if (options.on_progress && tick % kReport == 0) {
+            result.complete = options.on_progress(static_cast<double>(tick) / static_cast<double>(last));
+            if (!result.complete) break;
+        }
+        simulation.step();
+    }
+    result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    finish(simulation, result);
+    return result;
+}
+
+}  // namespace stopline
