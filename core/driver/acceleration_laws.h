@@ -38,7 +38,7 @@ struct PredecessorView {
     R closing_mps;        // own speed minus the predecessor's by radar, delayed
     R acceleration_mps2;  // by V2V, delayed
     R request_mps2;       // u of the predecessor, by V2V, delayed
-    R lag_s;              // tau of the predecessor, by V2V, delayed
+    R rate_1ps;           // 1 / tau of the predecessor, by V2V, delayed
 };
 
 // Free driving of a platoon leader: the calibrated start-up profile towards the desired speed.
@@ -87,17 +87,15 @@ STOPLINE_INLINE R stop_acceleration(const DriverTables& d, const R& speed_mps, c
 //     a_p(t + th) = u_p + (a_p - u_p) exp(-(th + delay) / tau_p),   a(t + th) = u + (a - u) exp(-th / tau),
 // so each time gives one equation w u = a_p(t + th) - (1 - w) a with w = 1 - exp(-th / tau).
 template <class R>
-STOPLINE_INLINE R predictive_feedforward(const CaccSettings& c, const R& acceleration_mps2, const R& lag_s,
+STOPLINE_INLINE R predictive_feedforward(const CaccSettings& c, const R& acceleration_mps2, const R& rate_1ps,
                                          const PredecessorView<R>& p) {
     const double middle_s = 0.5 * (c.prediction_start_s + c.prediction_end_s);
     const double half_s = middle_s - c.prediction_start_s;
-    const R inverse_lag = 1.0 / lag_s;
-    const R inverse_lag_p = 1.0 / p.lag_s;
     // exp is needed once for the first time and once for the step between times, for each vehicle.
-    R own = exp_minus(c.prediction_start_s * inverse_lag);
-    const R own_step = exp_minus(half_s * inverse_lag);
-    R other = exp_minus((c.prediction_start_s + c.v2v_delay_s) * inverse_lag_p);
-    const R other_step = exp_minus(half_s * inverse_lag_p);
+    R own = exp_minus<R>(c.prediction_start_s * rate_1ps);
+    const R own_step = exp_minus<R>(half_s * rate_1ps);
+    R other = exp_minus<R>((c.prediction_start_s + c.v2v_delay_s) * p.rate_1ps);
+    const R other_step = exp_minus<R>(half_s * p.rate_1ps);
     R numerator = splat<R>(0.0);
     R denominator = splat<R>(0.0);
     for (int k = 0; k < 3; ++k) {
@@ -115,33 +113,37 @@ STOPLINE_INLINE R predictive_feedforward(const CaccSettings& c, const R& acceler
 // `request_mps2` is the request of the last step, the state of the filter 1 / H.
 template <class R>
 STOPLINE_INLINE R follow_acceleration(const CaccSettings& c, const R& acceleration_mps2, const R& lag_s,
-                                      const R& request_mps2, const R& desired_gap_m, const R& slope_s,
-                                      const PredecessorView<R>& p, double dt) {
+                                      const R& rate_1ps, const R& request_mps2, const R& desired_gap_m,
+                                      const R& slope_s, const PredecessorView<R>& p, double dt) {
     const R error_m = p.gap_m - desired_gap_m;
     const R error_rate_mps = -p.closing_mps - slope_s * acceleration_mps2;
     const R feedback = c.feedback_kp_1ps2 * error_m + c.feedback_kd_1ps * error_rate_mps;
-    const R time_gap_ff = p.acceleration_mps2 + lag_s / p.lag_s * (p.request_mps2 - p.acceleration_mps2);
+    const R time_gap_ff = p.acceleration_mps2 + lag_s * p.rate_1ps * (p.request_mps2 - p.acceleration_mps2);
     const R filtered = request_mps2 + (feedback + time_gap_ff - request_mps2) * lag_share(dt, slope_s);
-    const R distance = feedback + predictive_feedforward(c, acceleration_mps2, lag_s, p);
+    const R distance = feedback + predictive_feedforward(c, acceleration_mps2, rate_1ps, p);
     return limited(select(slope_s > 0.0, filtered, distance), -c.deceleration_comfort_mps2, c.acceleration_max_mps2);
 }
 
 // Emergency: the deceleration that is needed not to hit the predecessor, once it exceeds the threshold; large (no limit)
-// before. Needed is the greater of: matching a braking predecessor's speed within the gap (a_p - closing^2 / (2 gap)), and
-// stopping behind the place where it will stop.
+// before. Needed is the greater of: matching a braking predecessor's speed within the room, b_p + closing^2 / (2 room), and
+// stopping behind the place where it will stop, v^2 / (2 (room + v_p^2 / (2 b_p))).
 template <class R>
 STOPLINE_INLINE R emergency_acceleration(const CaccSettings& c, const R& speed_mps, const PredecessorView<R>& p) {
-    const R closing = p.closing_mps;
-    const R now_m = p.gap_m - c.radar_delay_s * closing - c.emergency_gap_m;
-    const R room_m = greater(now_m, 0.05);
-    const R braking_p = greater(lesser(p.acceleration_mps2, p.request_mps2), -c.deceleration_emergency_mps2);
-    const R match = select(closing > 0.0, lesser(braking_p, 0.0) - square(closing) / (2.0 * room_m), splat<R>(0.0));
-    const R speed_p = greater(speed_mps - closing, 0.0);
-    const R stop_room_m = room_m + square(speed_p) / (2.0 * greater(-braking_p, 0.01));
-    const R stop = -square(speed_mps) / (2.0 * stop_room_m);
-    const R needed = lesser(match, stop);
-    return select(needed < -c.emergency_threshold_mps2, greater(1.15 * needed, -c.deceleration_emergency_mps2),
-                  splat<R>(1e3));
+    const R closing = greater(p.closing_mps, 0.0);
+    const R room_m = greater(p.gap_m - c.radar_delay_s * p.closing_mps - c.emergency_gap_m, 0.05);
+    const R asked_p = lesser(p.acceleration_mps2, p.request_mps2);
+    const R braking_p = limited(0.0 - asked_p, 0.01, c.deceleration_emergency_mps2);
+    const R speed_p = greater(speed_mps - p.closing_mps, 0.0);
+    // Two fractions, compared across and divided once.
+    const R match_over = 2.0 * room_m * braking_p + square(closing);
+    const R match_under = 2.0 * room_m;
+    const R stop_over = square(speed_mps) * braking_p;
+    const R stop_under = 2.0 * room_m * braking_p + square(speed_p);
+    const R match_wins = STOPLINE_FLAG(R, match_over * stop_under > stop_over * match_under);
+    const R matching = match_wins * STOPLINE_FLAG(R, p.closing_mps > 0.0);
+    const R needed = choose(matching, match_over, stop_over) / choose(matching, match_under, stop_under);
+    const R braking = lesser(1.15 * needed, c.deceleration_emergency_mps2);
+    return select(needed > c.emergency_threshold_mps2, 0.0 - braking, splat<R>(1e3));
 }
 
 }  // namespace stopline

@@ -9,16 +9,10 @@ namespace {
 
 std::size_t at(int slot) { return static_cast<std::size_t>(slot); }
 
-Rows rows_at(const DelayLine& line, std::int64_t tick, int slots) {
-    const auto row = [&](std::int64_t age) {
-        const std::int64_t wrapped = ((tick - age) % line.rows + line.rows) % line.rows;
-        return static_cast<std::size_t>(wrapped) * static_cast<std::size_t>(slots);
-    };
-    return {row(0), row(line.steps), row(line.steps + 1), 1.0 - line.share, line.share};
-}
-
-PlanStreams plan_streams(State& state, const Rows& radar, const Rows& v2v) {
+PlanStreams plan_streams(State& state) {
     VehicleArrays& v = state.vehicles;
+    const Rows& radar = state.radar;
+    const Rows& v2v = state.v2v;
     PlanStreams s{};
     s.position = v.position_m.data();
     s.speed = v.speed_mps.data();
@@ -39,19 +33,15 @@ PlanStreams plan_streams(State& state, const Rows& radar, const Rows& v2v) {
     s.closing_later = v.radar_closing_mps.data() + radar.later;
     s.tell_acceleration = v.v2v_acceleration_mps2.data() + v2v.now;
     s.tell_request = v.v2v_request_mps2.data() + v2v.now;
-    s.tell_lag = v.v2v_lag_s.data() + v2v.now;
+    s.tell_rate = v.v2v_rate_1ps.data() + v2v.now;
     s.heard_acceleration = v.v2v_acceleration_mps2.data() + v2v.late;
     s.heard_request = v.v2v_request_mps2.data() + v2v.late;
-    s.heard_lag = v.v2v_lag_s.data() + v2v.late;
+    s.heard_rate = v.v2v_rate_1ps.data() + v2v.late;
     s.earlier_acceleration = v.v2v_acceleration_mps2.data() + v2v.later;
     s.earlier_request = v.v2v_request_mps2.data() + v2v.later;
-    s.earlier_lag = v.v2v_lag_s.data() + v2v.later;
+    s.earlier_rate = v.v2v_rate_1ps.data() + v2v.later;
     return s;
 }
-
-}  // namespace
-
-namespace {
 
 // Desired gaps of all slots of a lane: each law runs over the whole span, its vehicles take its answer.
 void evaluate_gap_laws(const Model& model, const LaneStep& lane, State& state) {
@@ -80,10 +70,8 @@ void evaluate_gap_laws(const Model& model, const LaneStep& lane, State& state) {
 
 void plan_full(const Model& model, const LaneStep& lane, State& state) {
     evaluate_gap_laws(model, lane, state);
-    const Rows radar = rows_at(model.radar, state.tick, state.vehicles.slots);
-    const Rows v2v = rows_at(model.v2v, state.tick, state.vehicles.slots);
     full_kernels(model.scalar_kernels)
-        .plan(plan_streams(state, radar, v2v), model.driver, radar, v2v, lane, model.step_s);
+        .plan(plan_streams(state), model.driver, state.radar, state.v2v, lane, model.step_s);
 }
 
 void drive_full(const Model& model, const LaneStep& lane, State& state) {

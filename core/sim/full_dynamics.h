@@ -13,9 +13,10 @@ struct LaneStep {
     int end = 0;
     double length_m = 0.0;
     double limit_mps = 0.0;
-    double sine = 0.0;   // of the slope
-    int stop_slot = -1;  // vehicle that stops at the lane's end
-    double stop_margin_m = 0.0;
+    double sine = 0.0;                  // of the slope
+    int stop_slot = -1;                 // vehicle that stops at the lane's end, ...
+    double stop_mps2 = 0.0;             // ... and what that asks of it
+    bool leads_to_lower_limit = false;  // some lane that follows has a lower limit
 };
 
 void plan_full(const Model& model, const LaneStep& lane, State& state);

@@ -9,20 +9,15 @@
 
 namespace stopline {
 
-// Rows of a delay line at this tick: where the present sample is written and where the delayed ones are read.
-struct Rows {
-    std::size_t now, late, later;
-    double late_share, later_share;
-};
 // Plain pointers to the arrays of one plan step, so that the compiler sees independent streams.
 struct PlanStreams {
     const double *position, *speed, *acceleration, *lag, *length, *desired_gap, *slope;
     const float *standstill_gap, *end_speed;
     double *request, *leads;
-    float *gap_now, *closing_now, *tell_acceleration, *tell_request, *tell_lag;
+    float *gap_now, *closing_now, *tell_acceleration, *tell_request, *tell_rate;
     const float *gap_late, *gap_later, *closing_late, *closing_later;
-    const float *heard_acceleration, *heard_request, *heard_lag;
-    const float *earlier_acceleration, *earlier_request, *earlier_lag;
+    const float *heard_acceleration, *heard_request, *heard_rate;
+    const float *earlier_acceleration, *earlier_request, *earlier_rate;
 };
 
 struct DriveStreams {

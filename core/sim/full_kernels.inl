@@ -36,7 +36,8 @@ STOPLINE_INLINE void plan_at(const PlanStreams& s, const DriverTables& d, const 
     store(s.closing_now + i, speed - load<R>(s.speed + i - 1));
     store(s.tell_acceleration + i, acceleration);
     store(s.tell_request + i, before);
-    store(s.tell_lag + i, lag);
+    const R rate = 1.0 / lag;
+    store(s.tell_rate + i, rate);
 
     // What is known of the predecessor now.
     PredecessorView<R> p;
@@ -44,21 +45,21 @@ STOPLINE_INLINE void plan_at(const PlanStreams& s, const DriverTables& d, const 
     p.closing_mps = delayed<R>(radar, s.closing_late, s.closing_later, i);
     p.acceleration_mps2 = delayed<R>(v2v, s.heard_acceleration, s.earlier_acceleration, i - 1);
     p.request_mps2 = delayed<R>(v2v, s.heard_request, s.earlier_request, i - 1);
-    p.lag_s = delayed<R>(v2v, s.heard_lag, s.earlier_lag, i - 1);
+    p.rate_1ps = delayed<R>(v2v, s.heard_rate, s.earlier_rate, i - 1);
 
     // Drive freely.
+    const R nothing = splat<R>(1e3);  // an answer that never wins
     const R to_end_m = lane.length_m - position;
     const R as_leader = free_acceleration(d, speed, lane.limit_mps);
-    const R slow_down = slow_down_acceleration(d, speed, load<R>(s.end_speed + i), to_end_m);
+    const R slow_down =
+        lane.leads_to_lower_limit ? slow_down_acceleration(d, speed, load<R>(s.end_speed + i), to_end_m) : nothing;
     // Follow.
-    const R follow =
-        follow_acceleration(c, acceleration, lag, before, load<R>(s.desired_gap + i), load<R>(s.slope + i), p, dt);
+    const R follow = follow_acceleration(c, acceleration, lag, rate, before, load<R>(s.desired_gap + i),
+                                         load<R>(s.slope + i), p, dt);
     const R emergency = emergency_acceleration(c, speed, p);
     // Stop: at the line, behind a standing predecessor.
-    const R nothing = splat<R>(1e3);
     const R slot = counting_from<R>(i);
-    const R at_line = select(slot == static_cast<double>(lane.stop_slot),
-                             stop_acceleration<R>(d, speed, to_end_m - lane.stop_margin_m), nothing);
+    const R at_line = select(slot == static_cast<double>(lane.stop_slot), splat<R>(lane.stop_mps2), nothing);
     const R obstacle =
         STOPLINE_FLAG(R, speed - p.closing_mps < kObstacle_mps) * STOPLINE_FLAG(R, p.request_mps2 <= 0.0);
     const R behind_m = p.gap_m - c.radar_delay_s * p.closing_mps - load<R>(s.standstill_gap + i);

@@ -92,11 +92,6 @@ Ahead vehicle_ahead(const Model& model, const State& state, int lane, int slot, 
 void look_beyond_lanes(const Model& model, State& state) {
     constexpr double kNothing_m = 1e6;
     VehicleArrays& v = state.vehicles;
-    const auto row = [&](std::int64_t age) {
-        return static_cast<int>(((state.tick - age) % v.v2v_rows + v.v2v_rows) % v.v2v_rows);
-    };
-    const int late = row(model.v2v.steps);
-    const int later = row(model.v2v.steps + 1);
     for (const int lane : state.occupied) {
         const int head = state.blocks[at(lane)].first;
         const std::size_t sentinel = at(head - 1);
@@ -106,12 +101,12 @@ void look_beyond_lanes(const Model& model, State& state) {
         v.position_m[sentinel] = seen ? ahead.start_m + v.position_m[other] : kNothing_m;
         v.speed_mps[sentinel] = v.speed_mps[other];
         v.length_m[sentinel] = v.length_m[other];
-        for (const int r : {late, later}) {
-            const std::size_t to = v.row(r, head - 1);
-            const std::size_t from = v.row(r, static_cast<int>(other));
+        for (const std::size_t row : {state.v2v.late, state.v2v.later}) {
+            const std::size_t to = row + sentinel;
+            const std::size_t from = row + other;
             v.v2v_acceleration_mps2[to] = seen ? v.v2v_acceleration_mps2[from] : 0.0F;
             v.v2v_request_mps2[to] = seen ? v.v2v_request_mps2[from] : 0.0F;
-            v.v2v_lag_s[to] = seen ? v.v2v_lag_s[from] : 1.0F;
+            v.v2v_rate_1ps[to] = seen ? v.v2v_rate_1ps[from] : 1.0F;
         }
         const int id = seen ? v.id[other] : -1;
         if (v.predecessor[at(head)] == id) continue;
@@ -133,7 +128,12 @@ LaneStep lane_step(const Model& model, const State& state, int lane) {
     step.limit_mps = road.limit_mps;
     step.sine = road.gradient / std::sqrt(1.0 + square(road.gradient));
     step.stop_slot = state.stop_slot[at(lane)];
-    step.stop_margin_m = model.driver.stop.margin_m;
+    step.leads_to_lower_limit = state.leads_to_lower_limit[at(lane)] != 0;
+    if (step.stop_slot >= 0) {
+        const std::size_t i = at(step.stop_slot);
+        const double room_m = road.length_m - model.driver.stop.margin_m - state.vehicles.position_m[i];
+        step.stop_mps2 = stop_acceleration(model.driver, state.vehicles.speed_mps[i], room_m);
+    }
     return step;
 }
 

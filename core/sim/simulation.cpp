@@ -8,6 +8,8 @@ namespace stopline {
 Simulation::Simulation(const Model& model) : model_(model), state_(make_state(model)) { check(model); }
 
 void Simulation::step() {
+    state_.radar = rows_at(model_.radar, state_.tick, state_.vehicles.slots);
+    state_.v2v = rows_at(model_.v2v, state_.tick, state_.vehicles.slots);
     find_occupied_lanes(model_, state_);
     decide_stops(model_, state_);
     look_beyond_lanes(model_, state_);

@@ -18,6 +18,14 @@ int block_size(const Model& model, const Lane& lane) {
 
 }  // namespace
 
+Rows rows_at(const DelayLine& line, std::int64_t tick, int slots) {
+    const auto row = [&](std::int64_t age) {
+        const std::int64_t wrapped = ((tick - age) % line.rows + line.rows) % line.rows;
+        return static_cast<std::size_t>(wrapped) * static_cast<std::size_t>(slots);
+    };
+    return {row(0), row(line.steps), row(line.steps + 1), 1.0 - line.share, line.share};
+}
+
 State make_state(const Model& model) {
     State state;
     int slots = 0;
@@ -33,6 +41,12 @@ State make_state(const Model& model) {
     state.vehicles.resize(slots, model.radar.rows, model.v2v.rows);
     state.stop_lines.resize(model.graph.lanes.size());
     state.stop_slot.assign(model.graph.lanes.size(), -1);
+    for (const Lane& lane : model.graph.lanes) {
+        const auto lower = [&](int next) {
+            return model.graph.lanes[static_cast<std::size_t>(next)].limit_mps < lane.limit_mps;
+        };
+        state.leads_to_lower_limit.push_back(std::any_of(lane.next.begin(), lane.next.end(), lower) ? 1 : 0);
+    }
     state.occupied.reserve(model.graph.lanes.size());
     state.inlets.resize(model.demand.inlets.size());
     const auto n = static_cast<std::size_t>(slots);

@@ -1,6 +1,7 @@
 // All that changes during one run. One State per run; runs side by side share nothing but the Model.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -22,13 +23,24 @@ struct InletState {
     double last_entry_s = -1e9;
 };
 
+// Rows of a delay line at one tick, as offsets into [row][slot] arrays: where the present sample is written and where the
+// delayed ones are read, with their weights.
+struct Rows {
+    std::size_t now = 0, late = 0, later = 0;
+    double late_share = 1.0, later_share = 0.0;
+};
+Rows rows_at(const DelayLine& line, std::int64_t tick, int slots);
+
 struct State {
     std::int64_t tick = 0;
     VehicleArrays vehicles;
-    std::vector<LaneBlock> blocks;          // [lane]
-    std::vector<int> occupied;              // lanes with vehicles, in lane order
-    std::vector<StopLineState> stop_lines;  // [lane]
-    std::vector<int> stop_slot;             // [lane] slot of the vehicle that stops at the line; -1: none
+    Rows radar;  // of this step
+    Rows v2v;
+    std::vector<LaneBlock> blocks;           // [lane]
+    std::vector<int> occupied;               // lanes with vehicles, in lane order
+    std::vector<StopLineState> stop_lines;   // [lane]
+    std::vector<int> stop_slot;              // [lane] slot of the vehicle that stops at the line; -1: none
+    std::vector<char> leads_to_lower_limit;  // [lane]
     std::vector<InletState> inlets;
     std::vector<Passage> passages;  // of the whole run, in order
     Violations violations;

@@ -19,7 +19,7 @@ void VehicleArrays::resize(int slot_count, int radar_row_count, int v2v_row_coun
     // Free slots are computed too: their divisors must not be zero.
     lag_s.assign(n, 1.0);
     for (auto* rows : {&radar_gap_m, &radar_closing_mps}) rows->assign(n * static_cast<std::size_t>(radar_rows), 0.0F);
-    for (auto* rows : {&v2v_acceleration_mps2, &v2v_request_mps2, &v2v_lag_s}) {
+    for (auto* rows : {&v2v_acceleration_mps2, &v2v_request_mps2, &v2v_rate_1ps}) {
         rows->assign(n * static_cast<std::size_t>(v2v_rows), 1.0F);
     }
 }
@@ -35,7 +35,7 @@ void VehicleArrays::copy(int from, int to) {
     for (int r = 0; r < v2v_rows; ++r) {
         v2v_acceleration_mps2[row(r, to)] = v2v_acceleration_mps2[row(r, from)];
         v2v_request_mps2[row(r, to)] = v2v_request_mps2[row(r, from)];
-        v2v_lag_s[row(r, to)] = v2v_lag_s[row(r, from)];
+        v2v_rate_1ps[row(r, to)] = v2v_rate_1ps[row(r, from)];
     }
 }
 
@@ -51,7 +51,7 @@ void VehicleArrays::reset_v2v(int slot) {
     for (int r = 0; r < v2v_rows; ++r) {
         v2v_acceleration_mps2[row(r, slot)] = static_cast<float>(acceleration_mps2[i]);
         v2v_request_mps2[row(r, slot)] = static_cast<float>(request_mps2[i]);
-        v2v_lag_s[row(r, slot)] = static_cast<float>(lag_s[i]);
+        v2v_rate_1ps[row(r, slot)] = static_cast<float>(1.0 / lag_s[i]);
     }
 }
 

@@ -38,12 +38,12 @@ struct VehicleArrays {
     std::vector<double> length_m;
     std::vector<double> gear;   // 0 is first gear
     std::vector<double> leads;  // 1: free start-up profile (leader of a platoon), 0: follower
-    // Slots of the past, [row][slot]: radar (gap, closing speed) and V2V (acceleration, request, lag).
+    // Slots of the past, [row][slot]: radar (gap, closing speed) and V2V (acceleration, request, 1 / lag).
     std::vector<float> radar_gap_m;
     std::vector<float> radar_closing_mps;
     std::vector<float> v2v_acceleration_mps2;
     std::vector<float> v2v_request_mps2;
-    std::vector<float> v2v_lag_s;
+    std::vector<float> v2v_rate_1ps;
     // Cold: read at events only, or by one kernel.
     std::vector<float> standstill_gap_m;
     std::vector<float> end_speed_mps;  // limit at the end of the lane, for the route

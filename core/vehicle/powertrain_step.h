@@ -63,8 +63,8 @@ STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTables& t, co
     const R connected = STOPLINE_FLAG(R, s.gear_time_s >= t.torque_interruption_s);  // 0 while a gear change interrupts
 
     // The engine takes part in the motion as far as the clutch is closed.
-    const R closed =
-        t.launch_rpm > 0.0 ? limited(4.0 * locked_rpm / greater(floor_rpm, 1.0) - 3.0, 0.0, 1.0) : splat<R>(1.0);
+    const auto per_floor = select(s.gear < 0.5, splat<R>(t.closing_launch_1prpm), splat<R>(t.closing_idle_1prpm));
+    const R closed = limited(locked_rpm * per_floor - t.closing_offset, 0.0, 1.0);
     const R coupling = connected * closed;
     const auto rotating =
         t.rotating_mass_open + coupling * (look_up(t.rotating_mass.data(), s.gear) - t.rotating_mass_open);
@@ -78,12 +78,13 @@ STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTables& t, co
     const auto full_Nm = on_grid(t.full_load_Nm.data(), cell, PowertrainTables::kRpmCells);
     const auto drag_Nm = coupling * on_grid(t.drag_Nm.data(), cell, PowertrainTables::kRpmCells);
     const R gain = rpm_per_mps * kRadpsPerRpm;  // wheel force over crank torque, without losses
-    const auto drive_gain = gain * t.efficiency;
-    const auto brake_gain = gain / t.efficiency;  // losses help to brake
-    const auto wanted_Nm = wanted_N / select(wanted_N > 0.0, drive_gain, brake_gain);
+    const R inverse_gain = look_up(t.mps_per_rpm.data(), s.gear) * (1.0 / kRadpsPerRpm);
+    const double per_efficiency = 1.0 / t.efficiency;  // losses hinder driving and help braking
+    const auto wanted_Nm =
+        wanted_N * inverse_gain * select(wanted_N > 0.0, splat<R>(per_efficiency), splat<R>(t.efficiency));
     const auto limited_Nm = select(locked_rpm < t.limiter_rpm, limited(wanted_Nm, drag_Nm, full_Nm), drag_Nm);
     const auto request_Nm = connected * limited_Nm;
-    const auto engine_brake_N = connected * drag_Nm * brake_gain;
+    const auto engine_brake_N = connected * drag_Nm * gain * per_efficiency;
     const auto request_brake_N = greater(engine_brake_N - wanted_N, 0.0);
 
     // Lags.
@@ -96,12 +97,13 @@ STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTables& t, co
 
     // Force balance. Brakes and resistances stop a vehicle but never push it back: below zero speed is standstill.
     const auto transmitted_Nm = connected * next.torque_Nm;
-    const auto drive_N = transmitted_Nm * select(transmitted_Nm > 0.0, drive_gain, brake_gain);
+    const auto drive_N =
+        transmitted_Nm * gain * select(transmitted_Nm > 0.0, splat<R>(t.efficiency), splat<R>(per_efficiency));
     const auto force_N = drive_N - next.brake_N - resistance_N;
     const auto free_speed = speed + force_N / inertia_kg * dt;
     const auto next_speed = greater(free_speed, 0.0);
     next.speed_mps = next_speed;
-    next.acceleration_mps2 = without_tiny((next_speed - speed) / dt);
+    next.acceleration_mps2 = without_tiny<R>((next_speed - speed) * (1.0 / dt));
 
     // Gear changes. More load, later shifts; a saturated engine at low speed kicks down. The hysteresis is the distance
     // between the up- and downshift speeds and the minimum time in a gear; at standstill first gear goes in.

@@ -79,11 +79,17 @@ PowertrainTables compile_powertrain(const PowertrainSettings& s) {
     t.brake_lag_s = s.brake_lag_s;
     t.rotating_mass_open = *std::min_element(s.rotating_mass_factor.begin(), s.rotating_mass_factor.end());
     t.efficiency = s.driveline_efficiency;
+    if (s.launch_rpm > 0.0) {
+        t.closing_launch_1prpm = 4.0 / s.launch_rpm;
+        t.closing_idle_1prpm = 4.0 / std::max(s.idle_rpm, 1.0);
+        t.closing_offset = 3.0;
+    }
     t.gears = static_cast<int>(s.gear_ratio.size());
     for (std::size_t g = 0; g < static_cast<std::size_t>(PowertrainTables::kMaxGears); ++g) {
         const std::size_t used = std::min(g, s.gear_ratio.size() - 1);
         const double ratio = s.gear_ratio[used] * s.final_drive;
         t.rpm_per_mps[g] = ratio / radius_m / kRadpsPerRpm;
+        t.mps_per_rpm[g] = 1.0 / t.rpm_per_mps[g];
         t.rotating_mass[g] = s.rotating_mass_factor[used];
         t.lag_factor[g] = s.lag_gear_factor[used];
     }

@@ -32,8 +32,14 @@ struct PowertrainTables {
     double rotating_mass_open = 1.0;  // rotating-mass factor with the clutch open: the wheels' share
     double efficiency = 1.0;
     int gears = 1;
+    // The clutch is open below 3/4 of launch (first gear) or idle speed and closed from there on, linear between:
+    // closed = rpm x factor - offset, within 0 .. 1. Without a clutch the factor is 0 and the offset -1.
+    double closing_launch_1prpm = 0.0;
+    double closing_idle_1prpm = 0.0;
+    double closing_offset = -1.0;
 
     std::array<double, kMaxGears> rpm_per_mps{};    // engine speed over vehicle speed, per gear
+    std::array<double, kMaxGears> mps_per_rpm{};    // its inverse
     std::array<double, kMaxGears> rotating_mass{};  // effective over real mass, per gear
     std::array<double, kMaxGears> lag_factor{};
 
