@@ -4,8 +4,8 @@
 #   2. the whole ctest suite on the release build, which also compares it with an unoptimised build.
 # Stops at the first failure.
 #   tests/run.sh [--quick]           --quick leaves out 1.
-# STOPLINE_SANITIZER_LABELS (default: unit|cli) and STOPLINE_SANITIZER_EXCLUDE (default: Slow), regular expressions for ctest,
-# choose the tests that run under the sanitizers; scripts labelled slow never do.
+# STOPLINE_ASAN_LABELS (default: unit|threads|cli), STOPLINE_TSAN_LABELS (default: threads) and STOPLINE_SANITIZER_EXCLUDE
+# (default: Slow), regular expressions for ctest, choose the tests that run under the sanitizers; scripts labelled slow never do.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -26,21 +26,21 @@ step() {
 }
 trap 'echo "tests/run.sh: stopped at: $current_step" >&2' ERR
 
-jobs=2
+jobs="$(nproc)"
 
-# build PRESET TARGET [OPTION...]
+# build PRESET TESTS TARGET...: TESTS, ON or OFF, says whether there are targets for tests
 build() {
-    local preset="$1" target="$2"
+    local preset="$1" tests="$2"
     shift 2
-    cmake --preset "$preset" --log-level=WARNING "$@"
-    cmake --build --preset "$preset" --target "$target" -j "$jobs"
+    cmake --preset "$preset" --log-level=WARNING -DSTOPLINE_BUILD_TESTS="$tests"
+    cmake --build --preset "$preset" --target "$@" -j "$jobs"
 }
 
-# run_fast_tests PRESET [COMMAND...]: the tests fit for a sanitizer, started through COMMAND
+# run_fast_tests PRESET LABELS [COMMAND...]: the tests fit for a sanitizer, started through COMMAND
 run_fast_tests() {
-    local preset="$1"
-    shift
-    "$@" ctest --preset "$preset" -j "$jobs" --label-regex "${STOPLINE_SANITIZER_LABELS:-unit|cli}" \
+    local preset="$1" labels="$2"
+    shift 2
+    "$@" ctest --preset "$preset" -j "$jobs" --label-regex "$labels" \
         --label-exclude slow --exclude-regex "${STOPLINE_SANITIZER_EXCLUDE:-Slow}" --no-tests=error
 }
 
@@ -48,21 +48,21 @@ step "Packages: installing what is missing"
 bash apps/install_packages.sh quickstart tests
 
 step "Release: building programs and tests"
-build release all -DSTOPLINE_BUILD_TESTS=ON
+build release ON all
 
 step "Debug: building the programs"
-build debug stopline_programs -DSTOPLINE_BUILD_TESTS=OFF
+build debug OFF stopline_programs
 
 if [[ $quick == no ]]; then
     step "Address and undefined-behaviour sanitizers: building"
-    build asan-ubsan all -DSTOPLINE_BUILD_TESTS=ON
+    build asan-ubsan ON all
     step "Address and undefined-behaviour sanitizers: fast tests"
     export ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1
     export UBSAN_OPTIONS=print_stacktrace=1
-    run_fast_tests asan-ubsan
+    run_fast_tests asan-ubsan "${STOPLINE_ASAN_LABELS:-unit|threads|cli}"
 
     step "Thread sanitizer: building"
-    build tsan all -DSTOPLINE_BUILD_TESTS=ON
+    build tsan ON stopline_programs stopline_threaded_tests
     step "Thread sanitizer: fast tests"
     # Archer is the plug-in through which clang's OpenMP runtime tells the thread sanitizer of its barriers and joins. The
     # runtime itself, like all libraries of the system, was not built with the sanitizer, so what happens inside it is not
@@ -74,7 +74,7 @@ if [[ $quick == no ]]; then
     if setarch --addr-no-randomize true 2>/dev/null; then
         fixed_addresses=(setarch --addr-no-randomize)
     fi
-    run_fast_tests tsan "${fixed_addresses[@]}"
+    run_fast_tests tsan "${STOPLINE_TSAN_LABELS:-threads}" "${fixed_addresses[@]}"
     unset OMP_TOOL_LIBRARIES
 fi
 
