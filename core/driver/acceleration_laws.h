@@ -71,15 +71,22 @@ STOPLINE_INLINE R slow_down_acceleration(const DriverTables& d, const R& speed_m
 // Stopping within `distance_m`: along the speed from which braking with b after the time tau stops there,
 // v_p = -b tau + sqrt((b tau)^2 + 2 b distance) (the safe speed of Krauss 1998 for a standing obstacle), which lands
 // without overshoot. The braking that keeps to the curve is b v / (v_p + b tau).
+inline constexpr double kLandingTime_s = 0.5;
+
 template <class R>
 STOPLINE_INLINE R stop_acceleration(const DriverTables& d, const R& speed_mps, const R& distance_m) {
-    constexpr double kLandingTime_s = 0.5;
     constexpr double kSpeedGain_1ps = 1.5;
     const double b = d.stop.deceleration_mps2;
     const double bt = b * kLandingTime_s;
     const R curve_mps = square_root(square(bt) + 2.0 * b * greater(distance_m, 0.0)) - bt;
     const R late = select(distance_m > 0.0, splat<R>(0.0), splat<R>(-b));
     return late + kSpeedGain_1ps * (curve_mps - speed_mps) - b * speed_mps / (curve_mps + bt);
+}
+
+// The distance in which that curve stops a vehicle: v^2 / (2 b) + v tau.
+template <class R>
+STOPLINE_INLINE R stopping_distance_m(const DriverTables& d, const R& speed_mps) {
+    return speed_mps * (speed_mps * (0.5 / d.stop.deceleration_mps2) + kLandingTime_s);
 }
 
 // Fig. 4: the constant request u that makes the own acceleration meet the predicted one of the predecessor, in the least

@@ -11,8 +11,10 @@ namespace {
 constexpr double kStanding_mps = 1e-3;
 constexpr double kStart_mps2 = 0.01;
 constexpr double kHold_mps2 = -0.3;
-// A predecessor as slow as this, and not about to start, is an obstacle to stop behind.
-constexpr double kObstacle_mps = 0.5;
+// A predecessor as slow as this, and braking at least like this (or standing and not about to start), will stop: its place
+// of rest is something to stop behind.
+constexpr double kObstacle_mps = 5.0;
+constexpr double kBraking_mps2 = 0.5;
 
 // One sample of a delay line, between two rows.
 template <class R>
@@ -60,18 +62,21 @@ STOPLINE_INLINE void plan_at(const PlanStreams& s, const DriverTables& d, const 
     // Stop: at the line, behind a standing predecessor.
     const R slot = counting_from<R>(i);
     const R at_line = select(slot == static_cast<double>(lane.stop_slot), splat<R>(lane.stop_mps2), nothing);
-    const R obstacle =
-        STOPLINE_FLAG(R, speed - p.closing_mps < kObstacle_mps) * STOPLINE_FLAG(R, p.request_mps2 <= 0.0);
-    const R behind_m = p.gap_m - c.radar_delay_s * p.closing_mps - load<R>(s.standstill_gap + i);
-    const R behind = choose(obstacle, stop_acceleration(d, speed, behind_m), nothing);
+    const R speed_p = greater(speed - p.closing_mps, 0.0);
+    const R stopping_p = STOPLINE_FLAG(R, p.request_mps2 <= splat<R>(0.0) - lesser(speed_p, 1.0) * kBraking_mps2) *
+                         STOPLINE_FLAG(R, speed_p < kObstacle_mps);
+    const R behind_m =
+        p.gap_m - c.radar_delay_s * p.closing_mps - load<R>(s.standstill_gap + i) + stopping_distance_m(d, speed_p);
+    const R behind = choose(stopping_p, stop_acceleration(d, speed, behind_m), nothing);
 
     // The smallest answer wins. A platoon leader becomes a follower when following asks for less than driving freely.
     const R leads = load<R>(s.leads + i) * STOPLINE_FLAG(R, follow > as_leader);
     const R drive = lesser(choose(leads, as_leader, catch_up_acceleration(d, speed, lane.limit_mps)), slow_down);
     const R smallest = lesser(lesser(lesser(drive, follow), emergency), lesser(at_line, behind));
     const R smooth = limited<R>(smallest, before - c.jerk_down_mps3 * dt, before + c.jerk_up_mps3 * dt);
-    const R held = STOPLINE_FLAG(R, speed <= kStanding_mps) * STOPLINE_FLAG(R, smallest <= kStart_mps2);
-    store(s.request + i, choose(held, splat<R>(0.0), greater(smooth, -c.deceleration_emergency_mps2)));
+    // A standing vehicle does not brake harder and harder: its next start begins from zero.
+    const R lowest = select(speed <= kStanding_mps, splat<R>(0.0), splat<R>(-c.deceleration_emergency_mps2));
+    store(s.request + i, greater(smooth, lowest));
     store(s.leads + i, leads);
 }
 
