@@ -102,6 +102,10 @@ void check_times(const Scenario& scenario, Checker& check) {
     if (scenario.fidelity == "full" && scenario.step_s > kFullStepMax_s) {
         check.error("step", "full dynamics need a step of at most " + short_text(kFullStepMax_s, unit("ms")));
     }
+    if (scenario.driver.cacc.v2v_delay_s < scenario.step_s) {
+        check.error("driver.cacc.v2v_delay", "a message cannot arrive before the next step: at least " +
+                                                 short_text(scenario.step_s, unit("ms")));
+    }
     for (std::size_t i = 0; i < scenario.measure.green_s.size(); ++i) {
         const double green_s = scenario.measure.green_s[i];
         const std::string field = "measure.green[" + std::to_string(i) + "]";

@@ -4,6 +4,7 @@
 
 #include "scenario/field_rows.h"
 #include "scenario/fields.h"
+#include "vehicle/powertrain_tables.h"
 
 namespace stopline {
 namespace {
@@ -92,10 +93,10 @@ const Table& vehicle_table() {
                 .required(),
             number<&S::idle_rpm>("idle_speed", "rpm", {0, 5000}, "0 rpm for an electric motor").required(),
             number<&S::limiter_rpm>("limiter_speed", "rpm", {100, 30'000}, "no torque beyond it").required(),
-            numbers<&S::gear_ratio>("gear_ratios", "", {0.1, 30}, {1, 16},
+            numbers<&S::gear_ratio>("gear_ratios", "", {0.1, 30}, {1, PowertrainTables::kMaxGears},
                                     "engine speed over propeller shaft speed, per gear; a single gear never shifts")
                 .required(),
-            numbers<&S::rotating_mass_factor>("rotating_mass_factors", "", {1, 5}, {1, 16},
+            numbers<&S::rotating_mass_factor>("rotating_mass_factors", "", {1, 5}, {1, PowertrainTables::kMaxGears},
                                               "effective over real mass with the rotating parts, per gear")
                 .required(),
             number<&S::final_drive>("final_drive", "", {0.1, 30}, "ratio of the final drive").required(),
@@ -119,7 +120,8 @@ const Table& vehicle_table() {
             numbers<&S::lag_drive_s>("lag_times", "s", {0.001, 10}, {1, 10'000},
                                      "lag of the drive torque: for each speed, the values at all shares")
                 .required(),
-            numbers<&S::lag_gear_factor>("lag_gear_factors", "", {0.01, 10}, {1, 16}, "factor on the lag, per gear")
+            numbers<&S::lag_gear_factor>("lag_gear_factors", "", {0.01, 10}, {1, PowertrainTables::kMaxGears},
+                                         "factor on the lag, per gear")
                 .required(),
             number<&S::brake_lag_s>("brake_lag", "s", {0.001, 5}, "lag of the brake torque").required(),
             number<&S::brake_friction>("brake_friction", "", {0.05, 2},
