@@ -1,0 +1,172 @@
+#include "experiment/startup.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <nlopt.hpp>
+
+#include "base/input_error.h"
+#include "base/units.h"
+#include "experiment/run.h"
+
+namespace stopline {
+
+namespace {
+
+// The car counts as moving from this speed on, as in the measurements (0.1 m/s; OBD reports whole km/h, interpolated).
+constexpr double kMoving_mps = 0.1;
+constexpr double kLeaveRed_s = 60.0;
+constexpr double kSample_s = 0.01;
+
+// One vehicle, one light: green long enough for the whole start.
+Scenario lone_start(const Scenario& scenario, double last_s) {
+    Scenario lone = scenario;
+    lone.demand.vehicles = 1;
+    lone.network.approach.lanes = 1;
+    lone.network.approach.length_m = 300.0;
+    lone.network.approach.exit_length_m = 2000.0;
+    lone.signal.first_green_s = kLeaveRed_s;
+    lone.signal.green_s = last_s + 20.0;
+    lone.signal.cycle_s = 0.0;
+    lone.duration_s = kLeaveRed_s + last_s + 10.0;
+    lone.populations.resize(1);
+    return lone;
+}
+
+double value_at(const std::vector<TrajectoryPoint>& points, double time_s, double TrajectoryPoint::*member) {
+    const auto later = std::lower_bound(points.begin(), points.end(), time_s,
+                                        [](const TrajectoryPoint& p, double t) { return p.time_s < t; });
+    if (later == points.begin()) return points.front().*member;
+    if (later == points.end()) return points.back().*member;
+    const TrajectoryPoint& before = *(later - 1);
+    const double share = (time_s - before.time_s) / (later->time_s - before.time_s);
+    return before.*member + share * ((*later).*member - before.*member);
+}
+
+std::vector<double> knots_mps() {
+    std::vector<double> knots;
+    for (const double kmh : {0.0, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 35.0, 40.0, 43.0, 46.0, 48.0, 49.0, 50.0}) {
+        knots.push_back(kmh * kMpsPerKmh);
+    }
+    return knots;
+}
+
+// What is fitted: the profile at the knots and, last, the gain towards the desired speed.
+std::vector<double> parameters_of(const FreeDriveSettings& free, const std::vector<double>& knots) {
+    std::vector<double> values;
+    for (const double speed : knots) values.push_back(interpolate({free.speed_mps, free.acceleration_mps2}, speed));
+    values.push_back(free.speed_gain_1ps);
+    return values;
+}
+
+void set_parameters(const std::vector<double>& values, FreeDriveSettings& free) {
+    free.acceleration_mps2.assign(values.begin(), values.end() - 1);
+    free.speed_gain_1ps = values.back();
+}
+
+struct FitTask {
+    Scenario scenario;
+    const StartupCurve* curve;
+    const std::function<void(int, double)>* on_progress;
+    int evaluations = 0;
+    double best = 1e9;
+};
+
+double deviation(const std::vector<double>& parameters, std::vector<double>& /*gradient*/, void* data) {
+    auto& task = *static_cast<FitTask*>(data);
+    set_parameters(parameters, task.scenario.driver.free_drive);
+    const double rms = rms_deviation_mps(*task.curve, simulate_start(task.scenario, task.curve->time_s));
+    ++task.evaluations;
+    task.best = std::min(task.best, rms);
+    if (*task.on_progress) (*task.on_progress)(task.evaluations, task.best);
+    return rms;
+}
+
+}  // namespace
+
+StartupRun simulate_start(const Scenario& scenario, const std::vector<double>& times_s) {
+    const Scenario lone = lone_start(scenario, times_s.back());
+    RunOptions options;
+    options.trajectory_interval_s = std::max(kSample_s, lone.step_s);
+    options.trajectory_from_s = kLeaveRed_s;
+    const RunResult result = run_population(lone, 0, options);
+    const std::vector<TrajectoryPoint>& points = result.trajectory;
+    const auto moving =
+        std::find_if(points.begin(), points.end(), [](const TrajectoryPoint& p) { return p.speed_mps >= kMoving_mps; });
+    if (moving == points.end()) throw InputError("start-up: the vehicle never moves; check driver and vehicle");
+    StartupRun run;
+    const double begin_m = points.front().distance_m;
+    for (const double t : times_s) {
+        const double time_s = moving->time_s + t;
+        run.time_s.push_back(t);
+        run.speed_mps.push_back(value_at(points, time_s, &TrajectoryPoint::speed_mps));
+        run.distance_m.push_back(value_at(points, time_s, &TrajectoryPoint::distance_m) - begin_m);
+        const auto here = std::lower_bound(points.begin(), points.end(), time_s,
+                                           [](const TrajectoryPoint& p, double at_s) { return p.time_s < at_s; });
+        run.gear.push_back(here == points.end() ? points.back().gear : here->gear);
+    }
+    return run;
+}
+
+double rms_deviation_mps(const StartupCurve& curve, const StartupRun& run) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < curve.time_s.size(); ++k) {
+        sum += (run.speed_mps[k] - curve.mean_mps[k]) * (run.speed_mps[k] - curve.mean_mps[k]);
+    }
+    return std::sqrt(sum / static_cast<double>(curve.time_s.size()));
+}
+
+StartupFit fit_startup(const Scenario& scenario, const StartupCurve& curve,
+                       const std::function<void(int, double)>& on_progress) {
+    constexpr int kMostEvaluations = 2000;
+    constexpr double kLeast = 0.02;  // m/s2 or 1/s
+    FitTask task{scenario, &curve, &on_progress};
+    FreeDriveSettings& free = task.scenario.driver.free_drive;
+    const std::vector<double> knots = knots_mps();
+    std::vector<double> parameters = parameters_of(free, knots);
+    StartupFit fit;
+    fit.rms_before_mps = rms_deviation_mps(curve, simulate_start(scenario, curve.time_s));
+    free.speed_mps = knots;
+
+    nlopt::opt search(nlopt::LN_BOBYQA, static_cast<unsigned>(parameters.size()));
+    search.set_lower_bounds(kLeast);
+    search.set_upper_bounds(scenario.driver.cacc.acceleration_max_mps2);
+    search.set_min_objective(deviation, &task);
+    search.set_initial_step(0.2);
+    search.set_xtol_abs(1e-3);
+    search.set_maxeval(kMostEvaluations);
+    for (double& value : parameters) value = std::clamp(value, kLeast, scenario.driver.cacc.acceleration_max_mps2);
+    double best = 0.0;
+    search.optimize(parameters, best);
+
+    for (double& value : parameters) value = std::round(value * 1e3) / 1e3;  // what the file will hold
+    set_parameters(parameters, free);
+    fit.driver = task.scenario.driver;
+    fit.rms_after_mps = rms_deviation_mps(curve, simulate_start(task.scenario, curve.time_s));
+    fit.evaluations = task.evaluations;
+    return fit;
+}
+
+std::vector<BandExit> band_exits(const StartupCurve& curve, const StartupRun& run, bool of_mean) {
+    std::vector<BandExit> exits;
+    bool outside_before = false;
+    for (std::size_t k = 0; k < curve.time_s.size(); ++k) {
+        const double deviation_mps = run.speed_mps[k] - curve.mean_mps[k];
+        const bool outside = of_mean ? std::fabs(deviation_mps) > curve.mean_ci_mps[k]
+                                     : run.speed_mps[k] < curve.low_mps[k] || run.speed_mps[k] > curve.high_mps[k];
+        if (outside && !outside_before) {
+            const std::size_t earlier = k >= 2 ? k - 2 : 0;
+            exits.push_back({curve.time_s[k], curve.time_s[k], deviation_mps, run.gear[earlier], run.gear[k]});
+        }
+        if (outside) {
+            BandExit& exit = exits.back();
+            exit.to_s = curve.time_s[k];
+            exit.gear_after = run.gear[k];
+            if (std::fabs(deviation_mps) > std::fabs(exit.largest_mps)) exit.largest_mps = deviation_mps;
+        }
+        outside_before = outside;
+    }
+    return exits;
+}
+
+}  // namespace stopline
