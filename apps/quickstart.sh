@@ -16,7 +16,7 @@ bash apps/install_packages.sh quickstart
 
 step "Build: programs into build/release/bin"
 cmake --preset release -DSTOPLINE_BUILD_TESTS=OFF --log-level=WARNING
-cmake --build --preset release --target stopline_programs
+cmake --build --preset release --target stopline_programs -j "$(nproc)"
 
 step "Single light: seven spacing policies at one traffic light"
 build/release/bin/stopline-run scenarios/single_light.yaml --output out/single_light
