@@ -43,23 +43,20 @@ PlanStreams plan_streams(State& state) {
     return s;
 }
 
-// Desired gaps of all slots of a lane: each law runs over the whole span, its vehicles take its answer.
+// Desired gaps of a lane's slots, from the first on: each law runs over the whole span, its vehicles take its answer.
 void evaluate_gap_laws(const Model& model, const LaneStep& lane, State& state) {
-    const auto n = at(lane.end - lane.begin);
-    const auto span_of = [&](std::vector<double>& array) {
-        return std::span<double>(array).subspan(at(lane.begin), n);
+    const std::size_t n = at(lane.end - lane.begin);
+    const auto first_n = [n](std::vector<double>& array) { return std::span<double>(array.data(), n); };
+    const std::span<const double> speed(state.vehicles.speed_mps.data() + lane.begin, n);
+    const auto evaluate = [&](const CompiledPolicy& policy, std::vector<double>& gap, std::vector<double>& slope) {
+        policy.law->evaluate(policy.settings, speed, first_n(gap), first_n(slope));
     };
-    const std::span<const double> speed = span_of(state.vehicles.speed_mps);
-    if (model.policies.size() == 1) {
-        model.policies[0].law->evaluate(model.policies[0].settings, speed, span_of(state.desired_gap_m),
-                                        span_of(state.gap_slope_s));
-        return;
-    }
-    for (std::size_t k = 0; k < model.policies.size(); ++k) {
-        const CompiledPolicy& policy = model.policies[k];
-        policy.law->evaluate(policy.settings, speed, span_of(state.law_gap_m), span_of(state.law_slope_s));
-        for (std::size_t i = at(lane.begin); i < at(lane.end); ++i) {
-            const bool mine = state.vehicles.policy[i] == static_cast<int>(k);
+    evaluate(model.policies[0], state.desired_gap_m, state.gap_slope_s);
+    const int* policy_of = state.vehicles.policy.data() + lane.begin;
+    for (std::size_t k = 1; k < model.policies.size(); ++k) {
+        evaluate(model.policies[k], state.law_gap_m, state.law_slope_s);
+        for (std::size_t i = 0; i < n; ++i) {
+            const bool mine = policy_of[i] == static_cast<int>(k);
             state.desired_gap_m[i] = mine ? state.law_gap_m[i] : state.desired_gap_m[i];
             state.gap_slope_s[i] = mine ? state.law_slope_s[i] : state.gap_slope_s[i];
         }

@@ -16,10 +16,11 @@ constexpr double kHold_mps2 = -0.3;
 constexpr double kObstacle_mps = 5.0;
 constexpr double kBraking_mps2 = 0.5;
 
-// One sample of a delay line, between two rows.
+// One sample of a delay line, between two rows where the delay is no multiple of the step.
 template <class R>
 STOPLINE_INLINE R delayed(const Rows& rows, const float* late, const float* later, int i) {
-    return rows.late_share * load<R>(late + i) + rows.later_share * load<R>(later + i);
+    const R sample = load<R>(late + i);
+    return rows.later_share == 0.0 ? sample : rows.late_share * sample + rows.later_share * load<R>(later + i);
 }
 
 // The vehicle in slot i, or with R = Batch those in i .. i + 7.
@@ -56,8 +57,8 @@ STOPLINE_INLINE void plan_at(const PlanStreams& s, const DriverTables& d, const 
     const R slow_down =
         lane.leads_to_lower_limit ? slow_down_acceleration(d, speed, load<R>(s.end_speed + i), to_end_m) : nothing;
     // Follow.
-    const R follow = follow_acceleration(c, acceleration, lag, rate, before, load<R>(s.desired_gap + i),
-                                         load<R>(s.slope + i), p, dt);
+    const R follow = follow_acceleration(c, acceleration, lag, rate, before, load<R>(s.desired_gap + (i - lane.begin)),
+                                         load<R>(s.slope + (i - lane.begin)), p, dt);
     const R emergency = emergency_acceleration(c, speed, p);
     // Stop: at the line, behind a standing predecessor.
     const R slot = counting_from<R>(i);
@@ -98,8 +99,7 @@ STOPLINE_INLINE void drive_at(const DriveStreams& s, const PowertrainTables& t, 
     const PowertrainState<R> next =
         powertrain_step<R>(t, now, choose(held, splat<R>(kHold_mps2), request), grade_N, dt);
     const R moved_m = 0.5 * (now.speed_mps + next.speed_mps) * dt;
-    const R type = load<R>(s.type + i);
-    const R mine = only < 0 ? splat<R>(1.0) : STOPLINE_FLAG(R, type == static_cast<double>(only));
+    const R mine = only < 0 ? splat<R>(1.0) : STOPLINE_FLAG(R, load<R>(s.type + i) == static_cast<double>(only));
     store(s.position + i, choose(mine, position + moved_m, position));
     store(s.speed + i, choose(mine, next.speed_mps, now.speed_mps));
     store(s.acceleration + i, choose(mine, next.acceleration_mps2, now.acceleration_mps2));

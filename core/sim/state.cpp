@@ -8,12 +8,12 @@ namespace {
 
 int rounded_up(int n) { return (n + kSimdWidth - 1) / kSimdWidth * kSimdWidth; }
 
-// Room for all vehicles that fit on the lane bumper to bumper, twice, so that moving up is rare; pads for the sentinel.
+// Room for all vehicles that fit on the lane bumper to bumper and half as many more, so that moving up is rare.
 int block_size(const Model& model, const Lane& lane) {
     double shortest_m = 1e9;
     for (const PowertrainTables& type : model.vehicles) shortest_m = std::min(shortest_m, type.length_m);
     const int most = static_cast<int>(lane.length_m / shortest_m) + 2;
-    return rounded_up(2 * most);
+    return rounded_up(most + std::max(most / 2, kSimdWidth));
 }
 
 }  // namespace
@@ -49,7 +49,9 @@ State make_state(const Model& model) {
     }
     state.occupied.reserve(model.graph.lanes.size());
     state.inlets.resize(model.demand.inlets.size());
-    const auto n = static_cast<std::size_t>(slots);
+    int longest = 0;
+    for (const LaneBlock& block : state.blocks) longest = std::max(longest, block.end - block.begin);
+    const auto n = static_cast<std::size_t>(longest);
     for (auto* scratch : {&state.desired_gap_m, &state.gap_slope_s, &state.law_gap_m, &state.law_slope_s}) {
         scratch->assign(n, 0.0);
     }

@@ -18,8 +18,11 @@ struct StopLineState {
     double decided_since_s = 0.0;
 };
 
+// An entry lane. The next vehicle's policy and route are drawn once, when it comes up.
 struct InletState {
     std::int64_t entered = 0;
+    int next_policy = -1;
+    int next_route = -1;
     double last_entry_s = -1e9;
 };
 
@@ -48,7 +51,7 @@ struct State {
     std::int64_t left = 0;
     std::int64_t updates = 0;  // vehicle updates computed
     int next_id = 0;
-    // Scratch of the kernels, one value a slot.
+    // Scratch of the kernels, one value a slot of the lane at hand.
     std::vector<double> desired_gap_m;
     std::vector<double> gap_slope_s;
     std::vector<double> law_gap_m;

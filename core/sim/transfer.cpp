@@ -88,8 +88,9 @@ bool room_to_enter(const Model& model, const State& state, int lane, const Compi
 void enter(const Model& model, State& state, int inlet_index, double speed_mps) {
     const DemandPlan::Inlet& inlet = model.demand.inlets[at(inlet_index)];
     InletState& entered = state.inlets[at(inlet_index)];
-    const int policy = model.demand.policy_of(inlet_index, entered.entered);
-    const int route = model.demand.route_of(inlet_index, entered.entered);
+    const int policy = entered.next_policy;
+    const int route = entered.next_route;
+    entered.next_policy = -1;
     const int slot = append_slot(state, inlet.lane);
     VehicleArrays& v = state.vehicles;
     const std::size_t i = at(slot);
@@ -142,11 +143,15 @@ void transfer_vehicles(const Model& model, State& state) {
 void insert_vehicles(const Model& model, State& state) {
     for (int k = 0; k < static_cast<int>(model.demand.inlets.size()); ++k) {
         const DemandPlan::Inlet& inlet = model.demand.inlets[at(k)];
-        const InletState& entered = state.inlets[at(k)];
+        InletState& entered = state.inlets[at(k)];
         if (entered.entered >= inlet.vehicles) continue;
+        if (entered.next_policy < 0) {
+            entered.next_policy = model.demand.policy_of(k, entered.entered);
+            entered.next_route = model.demand.route_of(k, entered.entered);
+        }
         if (model.time_s(state.tick + 1) - entered.last_entry_s < model.demand.entry_headway_s) continue;
         double speed_mps = std::min(model.demand.entry_speed_mps, model.graph.lanes[at(inlet.lane)].limit_mps);
-        const CompiledPolicy& policy = model.policies[at(model.demand.policy_of(k, entered.entered))];
+        const CompiledPolicy& policy = model.policies[at(entered.next_policy)];
         if (room_to_enter(model, state, inlet.lane, policy, speed_mps)) enter(model, state, k, speed_mps);
     }
 }
