@@ -1,0 +1,59 @@
+#include "common/program.h"
+
+#include <csignal>
+#include <cstdio>
+#include <exception>
+
+#include <fmt/core.h>
+#include <omp.h>
+
+#include "base/input_error.h"
+#include "experiment/run_populations.h"
+
+namespace stopline {
+
+namespace {
+
+// A signal handler can reach nothing but a global of this type.
+volatile std::sig_atomic_t interrupt_seen = 0;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+
+extern "C" void on_interrupt(int signal) {
+    interrupt_seen = 1;
+    std::signal(signal, SIG_DFL);  // a second Ctrl-C ends the program at once
+}
+
+ExitCode guarded(const std::string& name, const std::function<ExitCode()>& body) {
+    try {
+        return body();
+    } catch (const InputError& error) {
+        fmt::print(stderr, "{}: {}\n", name, error.what());
+        return ExitCode::bad_input;
+    } catch (const Interrupted&) {
+        fmt::print(stderr, "{}: interrupted, nothing written\n", name);
+        return ExitCode::interrupted;
+    } catch (const std::bad_alloc&) {
+        fmt::print(stderr, "{}: out of memory\n", name);
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "{}: internal error: {}\n", name, error.what());
+    }
+    return ExitCode::check_failed;
+}
+
+}  // namespace
+
+int run_program(const std::string& name, const std::function<ExitCode()>& body) {
+    std::signal(SIGINT, on_interrupt);
+    std::signal(SIGXFSZ, SIG_IGN);  // writing beyond a limit on file sizes shall be an error, not the end
+    const ExitCode code = guarded(name, body);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+        fmt::print(stderr, "{}: cannot write to standard output\n", name);
+        if (code == ExitCode::done) return static_cast<int>(ExitCode::bad_input);
+    }
+    return static_cast<int>(code);
+}
+
+bool interrupted() { return interrupt_seen != 0; }
+
+int threads_or_all(int threads) { return threads > 0 ? threads : omp_get_max_threads(); }
+
+}  // namespace stopline

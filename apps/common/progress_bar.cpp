@@ -1,0 +1,66 @@
+#include "common/progress_bar.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "common/program.h"
+
+namespace stopline {
+
+namespace {
+
+constexpr double kSilent_s = 2.0;
+constexpr double kRedraw_s = 0.1;
+constexpr double kPlainLine_s = 10.0;
+
+}  // namespace
+
+ProgressBar::ProgressBar(std::string label)
+    : label_(std::move(label)), terminal_(::isatty(STDERR_FILENO) == 1), begin_(Clock::now()), last_shown_(begin_) {}
+
+ProgressBar::~ProgressBar() {
+    if (on_screen_) std::fputs("\r\033[K", stderr);
+}
+
+bool ProgressBar::update(double share) {
+    const Clock::time_point now = Clock::now();
+    const double elapsed_s = std::chrono::duration<double>(now - begin_).count();
+    const double since_s = std::chrono::duration<double>(now - last_shown_).count();
+    if (elapsed_s >= kSilent_s && since_s >= (terminal_ ? kRedraw_s : kPlainLine_s)) {
+        const std::string text = progress_text(label_, share, elapsed_s);
+        if (terminal_) {
+            fmt::print(stderr, "\r{}\033[K", text);
+            std::fflush(stderr);
+        } else {
+            fmt::print(stderr, "{}\n", text);
+        }
+        on_screen_ = terminal_;
+        last_shown_ = now;
+    }
+    return !interrupted();
+}
+
+std::string progress_text(const std::string& label, double share, double elapsed_s) {
+    constexpr int kCells = 30;
+    const double done = std::clamp(share, 0.0, 1.0);
+    const int filled = static_cast<int>(std::floor(done * kCells));
+    std::string bar(static_cast<std::size_t>(filled), '#');
+    bar.resize(kCells, '.');
+    const std::string left = done > 0.0 ? duration_text(elapsed_s * (1.0 - done) / done) + " left" : "";
+    return fmt::format("{} [{}] {:3.0f} %{}{}", label, bar, std::floor(100.0 * done), left.empty() ? "" : ", ", left);
+}
+
+std::string duration_text(double seconds) {
+    const auto whole = static_cast<long>(std::ceil(seconds));
+    if (whole < 60) return fmt::format("{} s", whole);
+    if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+    return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
+}
+
+}  // namespace stopline

@@ -1,0 +1,105 @@
+#include "common/single_light_text.h"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/units.h"
+#include "common/text_table.h"
+
+namespace stopline {
+
+namespace {
+
+std::string number(double value, int decimals) {
+    return std::isnan(value) ? "-" : fmt::format("{:.{}f}", value, decimals);
+}
+
+std::string signed_number(double value, int decimals) {
+    return std::isnan(value) ? "-" : fmt::format("{:+.{}f}", value, decimals);
+}
+
+std::string count_note(const SingleLight& result) {
+    bool emptied = false;
+    for (const PopulationSummary& summary : result.populations) {
+        emptied = emptied || (!std::isnan(summary.emptied_s) && !result.scenario.measure.green_s.empty() &&
+                              summary.emptied_s < result.scenario.measure.green_s.back());
+    }
+    return emptied ? "  *: the queue is empty before; a longer queue (demand.vehicles) would let more pass\n" : "";
+}
+
+}  // namespace
+
+std::string counts_text(const SingleLight& result) {
+    const std::vector<double>& green_s = result.scenario.measure.green_s;
+    if (green_s.empty()) return "";
+    TextTable table;
+    std::vector<std::string> head{"population"};
+    for (const double green : green_s) head.push_back(fmt::format("{:.4g} s", green));
+    if (result.baseline) {
+        head.emplace_back("|");
+        for (const double green : green_s) head.push_back(fmt::format("{:.4g} s", green));
+    }
+    table.row(head);
+    for (const PopulationSummary& summary : result.populations) {
+        std::vector<std::string> cells{summary.name};
+        for (std::size_t k = 0; k < green_s.size(); ++k) {
+            cells.push_back(std::to_string(summary.passed[k]) + (summary.emptied_s < green_s[k] ? "*" : ""));
+        }
+        if (result.baseline) {
+            cells.emplace_back("|");
+            for (const double percent : summary.improvement_percent) cells.push_back(signed_number(percent, 0));
+        }
+        table.row(cells);
+    }
+    std::string text = "Vehicles passed within the green time";
+    if (result.baseline) {
+        text += fmt::format(" | improvement over {} [%]", result.populations[*result.baseline].name);
+    }
+    return text + "\n" + table.text() + count_note(result);
+}
+
+std::string headways_text(const SingleLight& result) {
+    TextTable table;
+    std::vector<std::string> head{"population", "vehicles", "gap [m]", "policy",  "headway [s]",
+                                  "policy",     "off [%]",  "|",       "headway", "at [km/h]"};
+    if (result.baseline) head.insert(head.begin() + 7, "gain [%]");
+    table.row(head);
+    for (const PopulationSummary& summary : result.populations) {
+        const SettledFlow& settled = summary.settled;
+        std::vector<std::string> cells{summary.name,
+                                       std::to_string(settled.vehicles),
+                                       number(settled.net_gap_m, 2),
+                                       number(settled.policy_gap_m, 2),
+                                       number(settled.headway_s, 3),
+                                       number(settled.policy_headway_s, 3),
+                                       signed_number(settled.deviation_percent, 2),
+                                       "|",
+                                       number(summary.late.headway_s, 3),
+                                       number(summary.late.speed_mps * kKmhPerMps, 1)};
+        if (result.baseline) {
+            cells.insert(cells.begin() + 7, signed_number(summary.asymptotic_improvement_percent, 0));
+        }
+        table.row(cells);
+    }
+    return fmt::format(
+               "Settled behind each other at the limit of {:.4g} km/h, beside the policy's own | last {} vehicles at the "
+               "line\n",
+               result.scenario.network.approach.speed_limit_mps * kKmhPerMps, kLatePositions) +
+           table.text();
+}
+
+std::string violations_text(const SingleLight& result) {
+    if (result.no_violations()) return "No overlaps, no entries on red, no vehicle lost.\n";
+    TextTable table;
+    table.row({"population", "overlaps", "entries on red", "lost vehicles"});
+    for (const RunResult& run : result.runs) {
+        table.row({run.population, std::to_string(run.violations.overlaps), std::to_string(run.violations.red_entries),
+                   std::to_string(run.violations.lost_vehicles)});
+    }
+    return "VIOLATIONS of what must never happen\n" + table.text();
+}
+
+}  // namespace stopline

@@ -1,0 +1,34 @@
+#include "common/text_table.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace stopline {
+
+void TextTable::row(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
+
+std::string TextTable::text(const std::string& indent) const {
+    std::vector<std::size_t> widths;
+    for (const std::vector<std::string>& cells : rows_) {
+        widths.resize(std::max(widths.size(), cells.size()));
+        for (std::size_t k = 0; k < cells.size(); ++k) widths[k] = std::max(widths[k], characters(cells[k]));
+    }
+    std::string text;
+    for (const std::vector<std::string>& cells : rows_) {
+        std::string line = indent;
+        for (std::size_t k = 0; k < cells.size(); ++k) {
+            const std::string padding(widths[k] - characters(cells[k]), ' ');
+            line += k == 0 ? cells[k] + padding : "  " + padding + cells[k];
+        }
+        line.erase(line.find_last_not_of(' ') + 1);
+        text += line + '\n';
+    }
+    return text;
+}
+
+std::size_t characters(const std::string& text) {
+    return static_cast<std::size_t>(std::count_if(
+        text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
+}  // namespace stopline

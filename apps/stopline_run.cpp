@@ -1,0 +1,139 @@
+// stopline-run: runs the populations of one scenario and writes tables, CSV files and figures.
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/core.h>
+#include <fmt/format.h>
+
+#include "base/input_error.h"
+#include "common/command_line.h"
+#include "common/program.h"
+#include "common/progress_bar.h"
+#include "common/single_light_text.h"
+#include "experiment/output.h"
+#include "experiment/provenance.h"
+#include "experiment/single_light.h"
+#include "experiment/single_light_csv.h"
+#include "scenario/load_scenario.h"
+#include "scenario/quantity.h"
+
+namespace {
+
+using namespace stopline;
+
+struct RunOptionsOfUser {
+    CommonOptions common;
+    std::string file;
+    std::string interval = "0.1 s";
+    bool trajectories = false;
+    bool no_figures = false;
+    bool describe = false;
+    bool schema = false;
+    bool list = false;
+};
+
+void declare(CLI::App& app, RunOptionsOfUser& options) {
+    app.add_option("FILE", options.file, "Scenario file (YAML), such as scenarios/single_light.yaml");
+    add_common_options(app, options.common, "Folder for the results (default: out/NAME of the scenario)");
+    add_set_option(app, options.common);
+    app.add_flag("--trajectories", options.trajectories, "Write trajectories.csv too, from 5 s before the green");
+    app.add_option("--interval", options.interval, "Time between its samples (default: 0.1 s)")->type_name("TIME");
+    app.add_flag("--no-figures", options.no_figures, "Draw no figures");
+    app.add_flag("--describe", options.describe, "List all fields of scenario files and exit");
+    app.add_flag("--schema", options.schema, "Print the JSON schema of scenario files, for editors, and exit");
+    app.add_flag("--list", options.list, "List populations, policies, laws, vehicles and drivers, and exit");
+    app.footer(
+        std::string("\nExamples:\n"
+                    "  stopline-run scenarios/single_light.yaml\n"
+                    "  stopline-run scenarios/single_light.yaml --set 'populations=[CDG, CTG-Ref]' --trajectories\n"
+                    "  stopline-run scenarios/first_steps.yaml --set vehicle=electric_100kw --output out/electric\n"
+                    "  stopline-run --list scenarios/single_light.yaml\n\n") +
+        kExitCodesText);
+}
+
+double trajectory_interval_s(const RunOptionsOfUser& options, const Scenario& scenario) {
+    if (!options.trajectories) return 0.0;
+    const ParsedQuantity interval = parse_quantity(options.interval, unit("s"));
+    if (!interval.problem.empty()) {
+        throw InputError(fmt::format("--interval: value '{}' {}", options.interval, interval.problem));
+    }
+    const double steps = interval.si / scenario.step_s;
+    if (steps < 0.5 || std::abs(steps - std::round(steps)) > 1e-6) {
+        throw InputError(fmt::format("--interval: '{}' is not a whole number of steps of {}", options.interval,
+                                     short_text(scenario.step_s, unit("ms"))));
+    }
+    return interval.si;
+}
+
+using NamedText = std::pair<std::string, std::string>;
+
+void write_results(const RunOptionsOfUser& options, const SingleLight& result, double interval_s,
+                   const std::filesystem::path& folder) {
+    std::vector<NamedText> files{{"summary.csv", summary_csv(result)},
+                                 {"improvement.csv", improvement_csv(result)},
+                                 {"passages.csv", passages_csv(result)}};
+    if (interval_s > 0.0) files.emplace_back("trajectories.csv", trajectories_csv(result, interval_s));
+    Provenance provenance;
+    provenance.command = command_text("stopline-run", options.file, options.common);
+    for (const NamedText& file : files) provenance.files.push_back(file.first);
+    for (const RunResult& run : result.runs) {
+        provenance.state_hashes.emplace_back(run.population, fmt::format("{:016x}", run.state_hash));
+    }
+    files.emplace_back(result.scenario.name + ".provenance.json", provenance_json(result.scenario, provenance));
+    fmt::print("\nWritten to {}\n", folder.string());
+    for (const auto& [name, text] : files) {
+        write_file(folder / name, text);
+        fmt::print("  {}\n", name);
+    }
+}
+
+void print_report(const SingleLight& result) {
+    const Scenario& scenario = result.scenario;
+    fmt::print("{}\n", scenario.title.empty() ? scenario.name : scenario.title);
+    fmt::print("scenario {} ({:016x}), seed {}, vehicle {}, driver {}\n\n", scenario.name, scenario.hash, scenario.seed,
+               scenario.vehicle_name, scenario.driver_name);
+    fmt::print("{}\n{}\n{}", counts_text(result), headways_text(result), violations_text(result));
+}
+
+ExitCode run(const RunOptionsOfUser& options) {
+    if (options.describe) return fmt::print("{}", describe_fields()), ExitCode::done;
+    if (options.schema) return fmt::print("{}", json_schema()), ExitCode::done;
+    if (options.list) return fmt::print("{}", list_text(options.file, options.common)), ExitCode::done;
+    if (options.file.empty()) {
+        throw InputError("no scenario file given; try: stopline-run scenarios/single_light.yaml (or --help)");
+    }
+    const Scenario scenario = load_with_options(options.file, options.common);
+    const double interval_s = trajectory_interval_s(options, scenario);
+    const std::filesystem::path folder = options.common.output.empty() ? "out/" + scenario.name : options.common.output;
+    prepare_folder(folder);
+    SingleLightOptions run_options;
+    run_options.threads = threads_or_all(options.common.threads);
+    run_options.trajectory_interval_s = interval_s;
+    const SingleLight result = [&] {
+        ProgressBar bar(fmt::format("{} runs", scenario.populations.size()));
+        run_options.on_progress = [&bar](double share) { return bar.update(share); };
+        return run_single_light(scenario, run_options);
+    }();
+    print_report(result);
+    write_results(options, result, interval_s, folder);
+    fmt::print(
+        "\nNext: another policy or vehicle with --set (stopline-run --list, --describe), every vehicle's path with\n"
+        "--trajectories, the paper's numbers beside ours with stopline-scorecard.\n");
+    return result.no_violations() ? ExitCode::done : ExitCode::check_failed;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return run_program("stopline-run", [&] {
+        CLI::App app("Runs a scenario: one run for each of its populations, then tables, CSV files and figures.",
+                     "stopline-run");
+        RunOptionsOfUser options;
+        declare(app, options);
+        const std::optional<ExitCode> end = parse_command_line(app, argc, argv);
+        return end ? *end : run(options);
+    });
+}

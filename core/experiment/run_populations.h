@@ -1,0 +1,30 @@
+// All populations of a scenario, side by side in threads. Each run owns its model and state, so the results are the same to
+// the last bit for any number of threads, and they come in the order of the scenario.
+#pragma once
+
+#include <functional>
+#include <stdexcept>
+#include <vector>
+
+#include "experiment/run.h"
+
+namespace stopline {
+
+// Thrown where the user stopped the work.
+class Interrupted : public std::runtime_error {
+public:
+    Interrupted() : std::runtime_error("interrupted") {}
+};
+
+struct RunAllOptions {
+    int threads = 1;
+    double trajectory_interval_s = 0.0;  // 0: keep none
+    double trajectory_from_s = 0.0;
+    // Share done of all runs (0..1), called now and then by one thread at a time; return false to stop.
+    std::function<bool(double)> on_progress;
+};
+
+// Throws Interrupted where on_progress asked to stop, and what a run threw (the first in the order of the scenario).
+std::vector<RunResult> run_populations(const Scenario& scenario, const RunAllOptions& options = {});
+
+}  // namespace stopline

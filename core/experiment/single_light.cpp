@@ -1,0 +1,159 @@
+#include "experiment/single_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "sim/model.h"
+
+namespace stopline {
+
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kSampleInterval_s = 0.1;
+
+std::int64_t ticks_of(double interval_s, double step_s) {
+    return std::max<std::int64_t>(1, to_ticks(interval_s, step_s));
+}
+
+const GapPolicySettings& policy_named(const Scenario& scenario, const std::string& name) {
+    // The loader has checked that it is there.
+    return *std::find_if(scenario.policies.begin(), scenario.policies.end(),
+                         [&](const GapPolicySettings& policy) { return policy.name == name; });
+}
+
+SettledFlow settled_flow(const Scenario& scenario, const PopulationSettings& population,
+                         const std::vector<SettledVehicle>& settled) {
+    const double limit_mps = scenario.network.approach.speed_limit_mps;
+    SettledFlow flow{static_cast<int>(settled.size()), 0.0, 0.0, 0.0, 0.0, 0.0};
+    for (std::size_t k = 0; k < population.components.size(); ++k) {
+        const double share = population.components[k].share;
+        const double gap_m = equilibrium_gap_m(policy_named(scenario, population.components[k].policy), limit_mps);
+        std::vector<double> gaps_m;
+        std::vector<double> headways_s;
+        for (const SettledVehicle& vehicle : settled) {
+            if (vehicle.policy != static_cast<int>(k)) continue;
+            gaps_m.push_back(vehicle.net_gap_m);
+            headways_s.push_back(vehicle.headway_s);
+        }
+        flow.net_gap_m += share * mean(gaps_m);
+        flow.headway_s += share * mean(headways_s);
+        flow.policy_gap_m += share * gap_m;
+        flow.policy_headway_s += share * (scenario.vehicle.length_m + gap_m) / limit_mps;
+    }
+    flow.deviation_percent = 100.0 * (flow.headway_s / flow.policy_headway_s - 1.0);
+    return flow;
+}
+
+QueueGaps queue_gaps(const std::vector<double>& gaps_m) {
+    if (gaps_m.empty()) return {kNone, kNone, kNone};
+    const auto [smallest, largest] = std::minmax_element(gaps_m.begin(), gaps_m.end());
+    return {mean(gaps_m), *smallest, *largest};
+}
+
+// The leader is the first vehicle at the line of the first lane.
+LeaderStart leader_of(const Scenario& scenario, const std::vector<LinePassage>& line,
+                      const std::vector<TrajectoryPoint>& points, double green_start_s) {
+    if (line.empty()) return {kNone, kNone};
+    LeaderStart start =
+        leader_start(points_of(points, line.front().vehicle), scenario.network.approach.speed_limit_mps);
+    start.starts_s -= green_start_s;
+    start.reaches_s -= green_start_s;
+    return start;
+}
+
+PopulationSummary summary_of(const Scenario& scenario, std::size_t index, const RunResult& run,
+                             const std::vector<TrajectoryPoint>& points, double interval_s) {
+    const PopulationSettings& population = scenario.populations[index];
+    PopulationSummary summary;
+    summary.name = population.name;
+    summary.line =
+        within_green(line_passages(make_approach(scenario.network.approach), run.passages, run.green_start_s),
+                     scenario.signal.green_s);
+    std::vector<double> times_s;
+    for (const LinePassage& passage : summary.line) times_s.push_back(passage.time_s);
+    summary.counter = Counter(times_s);
+    for (const double green_s : scenario.measure.green_s) summary.passed.push_back(summary.counter.passed(green_s));
+    const int queued = scenario.demand.vehicles * scenario.network.approach.lanes;
+    summary.emptied_s = summary.counter.total() >= queued ? summary.counter.times_s().back() : kNone;
+    summary.late = late_flow(summary.line, kLatePositions);
+    summary.settled = settled_flow(
+        scenario, population,
+        settled_vehicles(points, interval_s, scenario.network.approach.speed_limit_mps, scenario.vehicle.length_m));
+    summary.leader = leader_of(scenario, summary.line, points, run.green_start_s);
+    summary.queue = queue_gaps(run.queue_gaps_m);
+    return summary;
+}
+
+void compare_with_baseline(SingleLight& result) {
+    for (PopulationSummary& summary : result.populations) {
+        summary.asymptotic_improvement_percent = kNone;
+        summary.improvement_percent.assign(summary.passed.size(), kNone);
+        if (!result.baseline) continue;
+        const PopulationSummary& baseline = result.populations[*result.baseline];
+        summary.asymptotic_improvement_percent =
+            improvement_percent(baseline.settled.headway_s, summary.settled.headway_s);
+        for (std::size_t k = 0; k < summary.passed.size(); ++k) {
+            summary.improvement_percent[k] = improvement_percent(summary.passed[k], baseline.passed[k]);
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<TrajectoryPoint> thinned(const std::vector<TrajectoryPoint>& points, double interval_s, double step_s) {
+    const std::int64_t every = ticks_of(interval_s, step_s);
+    std::vector<TrajectoryPoint> kept;
+    std::copy_if(points.begin(), points.end(), std::back_inserter(kept),
+                 [&](const TrajectoryPoint& point) { return std::llround(point.time_s / step_s) % every == 0; });
+    return kept;
+}
+
+const PopulationSummary* SingleLight::find(const std::string& population) const {
+    const auto found = std::find_if(populations.begin(), populations.end(),
+                                    [&](const PopulationSummary& summary) { return summary.name == population; });
+    return found == populations.end() ? nullptr : &*found;
+}
+
+double SingleLight::mean_improvement_percent(const PopulationSummary& population, double from_s) const {
+    if (!baseline) return kNone;
+    const PopulationSummary& base = populations[*baseline];
+    double to_s = scenario.signal.green_s;
+    for (const double emptied_s : {population.emptied_s, base.emptied_s}) {
+        if (!std::isnan(emptied_s)) to_s = std::min(to_s, emptied_s);
+    }
+    return stopline::mean_improvement_percent(population.counter, base.counter, from_s, to_s);
+}
+
+bool SingleLight::no_violations() const {
+    return std::all_of(runs.begin(), runs.end(), [](const RunResult& run) { return run.violations.none(); });
+}
+
+SingleLight run_single_light(const Scenario& scenario, const SingleLightOptions& options) {
+    SingleLight result;
+    result.scenario = scenario;
+    const std::int64_t own = ticks_of(kSampleInterval_s, scenario.step_s);
+    std::int64_t every = own;
+    if (options.trajectory_interval_s > 0.0) {
+        every = std::gcd(own, ticks_of(options.trajectory_interval_s, scenario.step_s));
+    }
+    result.sample_interval_s = static_cast<double>(own) * scenario.step_s;
+    RunAllOptions runs;
+    runs.threads = options.threads;
+    runs.trajectory_interval_s = static_cast<double>(every) * scenario.step_s;
+    runs.trajectory_from_s = scenario.signal.first_green_s - kLeadIn_s;
+    runs.on_progress = options.on_progress;
+    result.runs = run_populations(scenario, runs);
+    for (std::size_t k = 0; k < result.runs.size(); ++k) {
+        const std::vector<TrajectoryPoint> points =
+            thinned(result.runs[k].trajectory, result.sample_interval_s, scenario.step_s);
+        result.populations.push_back(summary_of(scenario, k, result.runs[k], points, result.sample_interval_s));
+        if (result.populations.back().name == scenario.measure.baseline) result.baseline = k;
+    }
+    compare_with_baseline(result);
+    return result;
+}
+
+}  // namespace stopline
