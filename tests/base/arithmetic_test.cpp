@@ -1,0 +1,68 @@
+// Accuracy of the kernels' approximations against the functions they stand for.
+#include "base/arithmetic.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace stopline {
+namespace {
+
+TEST(ExpMinus, IsAsAccurateAsItSays) {
+    for (double x = 0.0; x <= 60.0; x += 1.0 / 1024.0) {
+        ASSERT_NEAR(exp_minus(x), std::exp(-x), 3e-7) << x;
+        if (x <= 2.0) {
+            ASSERT_NEAR(exp_minus(x) / std::exp(-x), 1.0, 1e-7) << x;
+        }
+    }
+    EXPECT_EQ(exp_minus(0.0), 1.0);
+}
+
+// Lags come from files and may be a millisecond: the exponent may be anything.
+TEST(ExpMinus, NeverRises) {
+    double before = 1.0;
+    for (double x = 0.01; x < 60.0; x += 0.01) {
+        const double value = exp_minus(x);
+        ASSERT_GE(value, 0.0) << x;
+        ASSERT_LE(value, before) << x;
+        before = value;
+    }
+    for (const double x : {1e3, 1e6, std::numeric_limits<double>::infinity()}) EXPECT_LT(exp_minus(x), 1e-6);
+}
+
+// The error of a second-order approximation: (dt / tau)^3 / 12.
+TEST(LagShare, DiffersFromTheExponentialByTheThirdOrder) {
+    for (const double tau : {0.05, 0.1, 0.2, 0.5, 1.0}) {
+        for (const double dt : {0.005, 0.01, 0.02, 0.1 * tau}) {
+            const double x = dt / tau;
+            const double exact = -std::expm1(-x);
+            EXPECT_NEAR(lag_share(dt, tau), exact, 1.01 * x * x * x / 12.0 + 1e-15) << tau << ' ' << dt;
+            EXPECT_GT(std::fabs(lag_share(dt, tau) - exact), 0.5 * x * x * x / 12.0) << "better than it says it is?";
+        }
+    }
+}
+
+TEST(LagShare, TwoHalfStepsAreOneStep) {
+    for (const double tau : {0.1, 0.2, 0.5}) {
+        const double half = 1.0 - lag_share(0.005, tau);
+        const double x = 0.01 / tau;
+        EXPECT_NEAR(1.0 - half * half, lag_share(0.01, tau), 1.01 * x * x * x / 12.0);
+    }
+}
+
+TEST(WithoutTiny, KeepsWhatCountsAndDropsTheRest) {
+    for (const double value : {1.0, -1.0, 1e-11, -1e-11, 1e300}) EXPECT_EQ(without_tiny(value), value);
+    for (const double value : {0.0, 9e-13, -9e-13, 1e-200, 5e-324}) EXPECT_EQ(without_tiny(value), 0.0);
+}
+
+TEST(Limited, IsClamp) {
+    for (const double value : {-3.0, -1.0, 0.0, 0.5, 1.0, 7.0}) {
+        EXPECT_EQ(limited(value, -1.0, 1.0), std::fmax(-1.0, std::fmin(1.0, value)));
+        EXPECT_EQ(lesser(value, 0.5), std::fmin(value, 0.5));
+        EXPECT_EQ(greater(value, 0.5), std::fmax(value, 0.5));
+    }
+}
+
+}  // namespace
+}  // namespace stopline

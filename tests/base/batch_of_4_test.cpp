@@ -1,0 +1,11 @@
+#define STOPLINE_BATCH_WIDTH 4
+#include "base/batch_checks.h"
+
+namespace stopline {
+namespace {
+
+TEST(BatchOf4, ComputesTheBitsOfDouble) { check_batch_arithmetic(); }
+TEST(BatchOf4, LoadsAndStoresAsDoubleDoes) { check_batch_loads_and_stores(); }
+
+}  // namespace
+}  // namespace stopline

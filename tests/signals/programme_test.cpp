@@ -1,0 +1,83 @@
+// Fixed-time programmes against a timeline written out tick by tick.
+#include "signals/programme.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "base/input_error.h"
+
+namespace stopline {
+namespace {
+
+struct Case {
+    std::vector<Stage> stages;
+    std::int64_t offset;
+    bool repeats;
+};
+
+const Case kCases[] = {
+    {{{3, Light::green}, {2, Light::yellow}, {4, Light::red}}, 0, true},
+    {{{3, Light::green}, {2, Light::yellow}, {4, Light::red}}, 7, true},
+    {{{3, Light::green}, {2, Light::yellow}, {4, Light::red}}, 7, false},
+    {{{3, Light::green}, {2, Light::yellow}, {4, Light::red}}, 1000, true},
+    {{{5, Light::green}}, 2, false},
+    {{{5, Light::green}}, 2, true},
+    {{{1, Light::red}, {1, Light::green}}, 0, true},
+    {{{2, Light::green}, {3, Light::red}, {1, Light::green}, {1, Light::yellow}, {6, Light::red}}, 5, true},
+    {{{2, Light::green}, {3, Light::red}, {1, Light::green}, {1, Light::yellow}, {6, Light::red}}, 5, false},
+    {{{1500, Light::green}, {300, Light::yellow}, {2800, Light::red}}, 450, true},
+};
+constexpr std::int64_t kTicks = 20'000;
+
+// The light of each tick and the tick at which its stage began: red up to the offset, the stages one after another, and
+// again or red for ever.
+struct Timeline {
+    std::vector<Light> light;
+    std::vector<std::int64_t> since;
+};
+
+Timeline written_out(const Case& c) {
+    Timeline line;
+    const auto append = [&](Light light, std::int64_t ticks, std::int64_t since) {
+        for (std::int64_t k = 0; k < ticks; ++k) {
+            line.light.push_back(light);
+            line.since.push_back(since);
+        }
+    };
+    append(Light::red, c.offset, 0);
+    do {
+        for (const Stage& stage : c.stages) {
+            append(stage.light, stage.ticks, static_cast<std::int64_t>(line.light.size()));
+        }
+    } while (c.repeats && static_cast<std::int64_t>(line.light.size()) < kTicks);
+    append(Light::red, kTicks, static_cast<std::int64_t>(line.light.size()));
+    return line;
+}
+
+class Programme : public testing::TestWithParam<Case> {};
+INSTANTIATE_TEST_SUITE_P(Timelines, Programme, testing::ValuesIn(kCases));
+
+TEST_P(Programme, ShowsTheLightOfTheTimeline) {
+    const GroupProgramme programme(GetParam().stages, GetParam().offset, GetParam().repeats);
+    const Timeline line = written_out(GetParam());
+    for (std::int64_t tick = 0; tick < kTicks; ++tick) {
+        ASSERT_EQ(programme.light(tick), line.light[static_cast<std::size_t>(tick)]) << tick;
+        ASSERT_EQ(programme.since(tick), line.since[static_cast<std::size_t>(tick)]) << tick;
+    }
+}
+
+TEST_P(Programme, CountsItsCycle) {
+    std::int64_t sum = 0;
+    for (const Stage& stage : GetParam().stages) sum += stage.ticks;
+    EXPECT_EQ(GroupProgramme(GetParam().stages, GetParam().offset, GetParam().repeats).cycle_ticks(), sum);
+}
+
+TEST(Programme, RefusesStagesWithoutTime) {
+    EXPECT_THROW(GroupProgramme({}, 0, true), InputError);
+    EXPECT_THROW(GroupProgramme({{0, Light::green}}, 0, true), InputError);
+    EXPECT_THROW(GroupProgramme({{5, Light::green}, {-1, Light::red}}, 0, true), InputError);
+}
+
+}  // namespace
+}  // namespace stopline
