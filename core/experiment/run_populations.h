@@ -3,18 +3,12 @@
 #pragma once
 
 #include <functional>
-#include <stdexcept>
 #include <vector>
 
+#include "experiment/interrupted.h"
 #include "experiment/run.h"
 
 namespace stopline {
-
-// Thrown where the user stopped the work.
-class Interrupted : public std::runtime_error {
-public:
-    Interrupted() : std::runtime_error("interrupted") {}
-};
 
 struct RunAllOptions {
     int threads = 1;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 
@@ -53,6 +54,14 @@ QueueGaps queue_gaps(const std::vector<double>& gaps_m) {
     return {mean(gaps_m), *smallest, *largest};
 }
 
+// Behind the stop line everybody has started in the green; before it late arrivals may drive at the limit too.
+std::vector<TrajectoryPoint> behind_line(const std::vector<TrajectoryPoint>& points, double line_m) {
+    std::vector<TrajectoryPoint> behind;
+    std::copy_if(points.begin(), points.end(), std::back_inserter(behind),
+                 [&](const TrajectoryPoint& point) { return point.distance_m >= line_m; });
+    return behind;
+}
+
 // The leader is the first vehicle at the line of the first lane.
 LeaderStart leader_of(const Scenario& scenario, const std::vector<LinePassage>& line,
                       const std::vector<TrajectoryPoint>& points, double green_start_s) {
@@ -79,9 +88,10 @@ PopulationSummary summary_of(const Scenario& scenario, std::size_t index, const 
     const int queued = scenario.demand.vehicles * scenario.network.approach.lanes;
     summary.emptied_s = summary.counter.total() >= queued ? summary.counter.times_s().back() : kNone;
     summary.late = late_flow(summary.line, kLatePositions);
-    summary.settled = settled_flow(
-        scenario, population,
-        settled_vehicles(points, interval_s, scenario.network.approach.speed_limit_mps, scenario.vehicle.length_m));
+    const ApproachSettings& road = scenario.network.approach;
+    summary.settled = settled_flow(scenario, population,
+                                   settled_vehicles(behind_line(points, road.length_m), interval_s,
+                                                    road.speed_limit_mps, scenario.vehicle.length_m));
     summary.leader = leader_of(scenario, summary.line, points, run.green_start_s);
     summary.queue = queue_gaps(run.queue_gaps_m);
     return summary;

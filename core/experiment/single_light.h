@@ -14,7 +14,7 @@
 
 namespace stopline {
 
-// How vehicles follow each other once they drive at the limit, beside what their policy says. For a population of several
+// How vehicles follow each other once they have passed the line and drive at the limit, beside what their policy says. For a population of several
 // policies each policy's mean is weighted with its share, so that a mix is comparable whatever vehicles have settled.
 struct SettledFlow {
     int vehicles = 0;          // that have settled (platoon.h); the values below are NaN where a policy has none

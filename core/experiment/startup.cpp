@@ -51,11 +51,20 @@ std::vector<double> knots_mps() {
     return knots;
 }
 
-// What is fitted: the profile at the knots and, last, the gain towards the desired speed.
-std::vector<double> parameters_of(const FreeDriveSettings& free, const std::vector<double>& knots) {
+// What is fitted: the profile at the knots and, last, the gain towards the desired speed. The search starts from the slope of
+// the measured mean, so that its result does not depend on the driver at hand.
+std::vector<double> slope_of(const StartupCurve& curve, const std::vector<double>& knots) {
+    SampledCurve slope;  // over speed
+    for (std::size_t k = 1; k < curve.time_s.size(); ++k) {
+        const double middle_mps = 0.5 * (curve.mean_mps[k] + curve.mean_mps[k - 1]);
+        if (!slope.x.empty() && middle_mps <= slope.x.back()) continue;
+        slope.x.push_back(middle_mps);
+        slope.y.push_back((curve.mean_mps[k] - curve.mean_mps[k - 1]) / (curve.time_s[k] - curve.time_s[k - 1]));
+    }
+    constexpr double kGain_1ps = 0.5;
     std::vector<double> values;
-    for (const double speed : knots) values.push_back(interpolate({free.speed_mps, free.acceleration_mps2}, speed));
-    values.push_back(free.speed_gain_1ps);
+    for (const double speed : knots) values.push_back(interpolate(slope, speed));
+    values.push_back(kGain_1ps);
     return values;
 }
 
@@ -123,7 +132,7 @@ StartupFit fit_startup(const Scenario& scenario, const StartupCurve& curve,
     FitTask task{scenario, &curve, &on_progress};
     FreeDriveSettings& free = task.scenario.driver.free_drive;
     const std::vector<double> knots = knots_mps();
-    std::vector<double> parameters = parameters_of(free, knots);
+    std::vector<double> parameters = slope_of(curve, knots);
     StartupFit fit;
     fit.rms_before_mps = rms_deviation_mps(curve, simulate_start(scenario, curve.time_s));
     free.speed_mps = knots;
