@@ -10,7 +10,8 @@ namespace stopline {
 
 struct StartupReport {
     StartupCurve curve;
-    StartupRun run;  // with the scenario's driver, or the fitted one
+    StartupRun run;   // at the times of the curve
+    StartupRun fine;  // the same start every 0.05 s, for the figure
     std::string vehicle;
     std::string driver;
 };
