@@ -1,0 +1,96 @@
+#!/bin/bash
+# stopline-run refuses bad input with exit code 2 and a message on standard error that names file, place and field; it
+# never crashes and never runs with something else than was asked for.
+set -u
+
+run="$STOPLINE_BIN/stopline-run"
+[ -x "$run" ] || { echo "no $run: skipped"; exit 77; }
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+good="$STOPLINE_SOURCE/scenarios/first_steps.yaml"
+failures=0
+
+fail() {
+    echo "FAILED: $*"
+    failures=$((failures + 1))
+}
+
+# refused WHAT PART... -- ARGUMENTS...: exit code 2, nothing on standard output, and each PART in the message.
+refused() {
+    local what=$1
+    shift
+    local parts=()
+    while [ "$1" != "--" ]; do
+        parts+=("$1")
+        shift
+    done
+    shift
+    timeout 60 "$run" --output "$work/out" "$@" >"$work/stdout" 2>"$work/stderr"
+    local code=$?
+    [ $code -eq 2 ] || fail "$what: exit code $code instead of 2"
+    [ -s "$work/stdout" ] && fail "$what: writes to standard output: $(head -c 200 "$work/stdout")"
+    [ -s "$work/stderr" ] || fail "$what: no message"
+    [ -e "$work/out" ] && fail "$what: leaves results behind"
+    local part
+    for part in "${parts[@]}"; do
+        grep -qF -- "$part" "$work/stderr" || fail "$what: no '$part' in: $(head -c 500 "$work/stderr")"
+    done
+}
+
+# refused_text WHAT TEXT PART...: the same for a scenario file of that text.
+refused_text() {
+    local what=$1 text=$2
+    shift 2
+    printf '%b' "$text" >"$work/bad.yaml"
+    refused "$what" "$@" -- "$work/bad.yaml"
+}
+
+refused_text "unknown field" 'stepp: 10 ms\n' "bad.yaml:1:1" "'stepp'" "did you mean 'step'"
+refused_text "duplicate key" 'seed: 1\nseed: 2\n' "bad.yaml:2:1" "'seed' appears twice"
+refused_text "no unit" 'signal:\n  green: 15\n' "bad.yaml:2:10" "'signal.green'" "'15' has no unit" "15 s"
+refused_text "wrong unit" 'signal: {green: 15 m}\n' "'signal.green'" "a time is needed"
+refused_text "wrong type" 'signal: 15 s\n' "'signal'" "needs a map of fields"
+refused_text "negative length" 'network: {approach: {length: -700 m}}\n' "'network.approach.length'" "out of range"
+refused_text "not a number" 'duration: nan\n' "'duration'" "not a finite number"
+refused_text "infinity" 'duration: .inf\n' "'duration'" "not a finite number"
+refused_text "unknown policy" 'populations: [CDG, CGT-Ref]\n' "'CGT-Ref'" "did you mean 'CTG-Ref'"
+refused_text "unknown vehicle" 'vehicle: petrol\n' "'vehicle'" "petrol_eu4_72kw"
+refused_text "empty file" '' "bad.yaml:1:1" "is empty"
+refused_text "comment only" '# nothing\n' "is empty"
+refused_text "broken YAML" 'signal: [15 s\n' "bad.yaml" "not valid YAML"
+refused_text "endless anchor" 'title: &a [*a]\n' "inside its own anchor"
+refused_text "NUL byte" 'title: a\0b\n' "bad.yaml:1:9" "0x00"
+refused_text "broken UTF-8" 'title: \xc3\x28\n' "bad.yaml:1:8" "0xC3"
+refused_text "no queue fits" 'network: {approach: {length: 50 m}}\n' "'network.approach.length'" "a queue of 60 vehicles"
+
+laughs='a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n'
+for i in 1 2 3 4 5 6 7 8 9; do
+    below="*a$((i - 1))"
+    laughs+="a$i: &a$i [$below, $below, $below, $below, $below, $below, $below, $below, $below, $below]\n"
+done
+refused_text "billion laughs" "$laughs" "more than 200000 values"
+refused_text "deep nesting" "$(printf '[%.0s' $(seq 100000))" "levels deep"
+
+head -c 104857600 /dev/urandom >"$work/garbage.yaml"
+refused "100 MB of garbage" "garbage.yaml" "100.0 MB" -- "$work/garbage.yaml"
+head -c 1000000 "$work/garbage.yaml" >"$work/small_garbage.yaml"
+refused "1 MB of garbage" "small_garbage.yaml" -- "$work/small_garbage.yaml"
+
+refused "directory" "is a directory" -- "$work"
+refused "missing file" "no such file" -- "$work/none.yaml"
+refused "device" "not a file that can be read" -- /dev/zero
+if [ "$(id -u)" -ne 0 ]; then
+    cp "$good" "$work/secret.yaml"
+    chmod 000 "$work/secret.yaml"
+    refused "unreadable file" "cannot be opened" -- "$work/secret.yaml"
+fi
+
+refused "override without unit" "--set 'signal.green=20'" "'signal.green'" "20 s" -- "$good" --set signal.green=20
+refused "override of an unknown field" "did you mean 'green'" -- "$good" --set 'signal.gren=20 s'
+refused "override without value" "path=value" -- "$good" --set signal.green
+refused "override of a missing entry" "no entry [7]" -- "$good" --set 'populations[7].name=x'
+refused "no file" "" --
+refused "unknown option" "" -- "$good" --no-such-option
+
+[ $failures -eq 0 ] && echo "all refused as they should be"
+[ $failures -eq 0 ]
