@@ -17,6 +17,7 @@
 #include "experiment/provenance.h"
 #include "experiment/single_light.h"
 #include "experiment/single_light_csv.h"
+#include "experiment/single_light_figures.h"
 #include "scenario/load_scenario.h"
 #include "scenario/quantity.h"
 
@@ -90,6 +91,18 @@ void write_results(const RunOptionsOfUser& options, const SingleLight& result, d
     }
 }
 
+void draw_figures(const SingleLight& result, const std::filesystem::path& folder) {
+    if (!gnuplot_installed()) {
+        fmt::print("  no figures: gnuplot is not installed (Debian package gnuplot-nox)\n");
+        return;
+    }
+    for (const Figure& figure : single_light_figures(result, load_targets())) {
+        if (interrupted()) throw Interrupted();
+        draw(figure, folder);
+        fmt::print("  {0}.svg, {0}.png\n", figure.name);
+    }
+}
+
 void print_report(const SingleLight& result) {
     const Scenario& scenario = result.scenario;
     fmt::print("{}\n", scenario.title.empty() ? scenario.name : scenario.title);
@@ -119,6 +132,7 @@ ExitCode run(const RunOptionsOfUser& options) {
     }();
     print_report(result);
     write_results(options, result, interval_s, folder);
+    if (!options.no_figures) draw_figures(result, folder);
     fmt::print(
         "\nNext: another policy or vehicle with --set (stopline-run --list, --describe), every vehicle's path with\n"
         "--trajectories, the paper's numbers beside ours with stopline-scorecard.\n");

@@ -8,7 +8,6 @@
 #include <omp.h>
 
 #include "base/input_error.h"
-#include "experiment/run_populations.h"
 
 namespace stopline {
 

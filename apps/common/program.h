@@ -4,6 +4,8 @@
 #include <functional>
 #include <string>
 
+#include "experiment/interrupted.h"
+
 namespace stopline {
 
 // Exit codes of all programs; they are also in every --help.

@@ -1,0 +1,182 @@
+#include "experiment/gnuplot.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "base/input_error.h"
+#include "experiment/output.h"
+
+namespace stopline {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kHead = R"(# Draws {name}.svg and {name}.png from the data beside it: gnuplot {name}.gp
+if (!exists("suffix")) suffix = ''
+set encoding utf8
+set border 3 lc rgb '#404040'
+set tics nomirror out scale 0.5
+set grid back lt 1 dt 1 lc rgb '#dddddd' lw 0.6
+set key reverse Left noenhanced spacing 1.15 samplen 4
+set style textbox opaque fillcolor rgb 'white' noborder margins 0.6,0.3
+)";
+
+constexpr const char* kLoop = R"(do for [kind in "svg png"] {{
+if (kind eq 'svg') {{
+set terminal svg size {width},{height} enhanced font 'DejaVu Sans,13' background rgb 'white'
+}} else {{
+set terminal pngcairo size {width2},{height2} enhanced font 'DejaVu Sans,13' fontscale 1.5 linewidth 2 pointscale 2 dashlength 1
+}}
+set output '{name}.'.kind.suffix
+{body}
+set output
+}}
+)";
+
+std::string line_types() {
+    std::string text;
+    for (std::size_t k = 0; k < 8; ++k) {
+        const LineStyle style = line_style(k);
+        text += fmt::format("set linetype {} lc rgb '{}' dt {} pt {} lw 1.8\n", k + 1, style.colour, style.dash,
+                            style.hollow_point);
+    }
+    return text;
+}
+
+std::string script_of(const Figure& figure) {
+    std::string script = fmt::format(fmt::runtime(kHead), fmt::arg("name", figure.name)) + line_types();
+    return script + fmt::format(fmt::runtime(kLoop), fmt::arg("name", figure.name), fmt::arg("width", figure.width_px),
+                                fmt::arg("height", figure.height_px), fmt::arg("width2", 2 * figure.width_px),
+                                fmt::arg("height2", 2 * figure.height_px), fmt::arg("body", figure.body));
+}
+
+struct Ended {
+    int error = 0;  // of starting it, as errno
+    int status = 0;
+    std::string words;  // that it wrote to standard error
+};
+
+// Runs gnuplot in `folder` with its standard error read through a pipe.
+Ended run_gnuplot(const std::vector<std::string>& arguments, const fs::path& folder) {
+    std::array<int, 2> pipe{};
+    if (::pipe2(pipe.data(), O_CLOEXEC) != 0) return {errno, 0, ""};
+    std::vector<std::string> words{"gnuplot"};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    ::posix_spawn_file_actions_init(&actions);
+    ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    ::posix_spawn_file_actions_adddup2(&actions, pipe[1], STDERR_FILENO);
+    ::posix_spawn_file_actions_adddup2(&actions, pipe[1], STDOUT_FILENO);
+    ::posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+    pid_t child = 0;
+    Ended ended;
+    ended.error = ::posix_spawnp(&child, "gnuplot", &actions, nullptr, argv.data(), environ);
+    ::posix_spawn_file_actions_destroy(&actions);
+    ::close(pipe[1]);
+    std::array<char, 4096> buffer{};
+    while (ended.error == 0) {
+        const ssize_t count = ::read(pipe[0], buffer.data(), buffer.size());
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) break;
+        ended.words.append(buffer.data(), static_cast<std::size_t>(count));
+    }
+    ::close(pipe[0]);
+    if (ended.error != 0) return ended;
+    while (::waitpid(child, &ended.status, 0) < 0 && errno == EINTR) {
+    }
+    return ended;
+}
+
+[[noreturn]] void fail(const Figure& figure, const fs::path& folder, const std::string& reason) {
+    throw InputError(fmt::format("cannot draw {}: {}\n(its script: {})", (folder / figure.name).string(), reason,
+                                 (folder / (figure.name + ".gp")).string()));
+}
+
+// gnuplot does not notice a full disk; a picture without its end is not one.
+bool complete(const fs::path& file) {
+    std::error_code error;
+    if (!fs::is_regular_file(file, error)) return false;
+    const std::string text = read_file(file);
+    const std::string tail = text.substr(text.size() - std::min<std::size_t>(text.size(), 32));
+    return tail.find("</svg>") != std::string::npos || tail.find("IEND") != std::string::npos;
+}
+
+}  // namespace
+
+LineStyle line_style(std::size_t index) {
+    static const std::array<LineStyle, 8> kStyles{{{"#0072B2", 1, 6},
+                                                   {"#56B4E9", 2, 4},
+                                                   {"#009E73", 1, 8},
+                                                   {"#E69F00", 4, 10},
+                                                   {"#CC79A7", 1, 12},
+                                                   {"#000000", 1, 6},
+                                                   {"#D55E00", 2, 4},
+                                                   {"#7F7F7F", 4, 8}}};
+    return kStyles[index % kStyles.size()];
+}
+
+std::string ordered_colour(std::size_t index, std::size_t count) {
+    static const std::array<const char*, 8> kViridis{"#440154", "#46327e", "#365c8d", "#277f8e",
+                                                     "#1fa187", "#4ac16d", "#8fcc2a", "#d4b511"};
+    const std::size_t steps = std::max<std::size_t>(1, count - 1);
+    return kViridis[std::min<std::size_t>(7, (index * 7 + steps / 2) / steps)];
+}
+
+std::string gnuplot_text(const std::string& text) {
+    std::string quoted = "'";
+    for (const char c : text) {
+        if (c == '\'')
+            quoted += "''";
+        else if (std::string_view("_^@&~{}\\").find(c) != std::string_view::npos)
+            quoted += std::string("\\") + c;
+        else
+            quoted += c == '\n' ? ' ' : c;
+    }
+    return quoted + "'";
+}
+
+bool gnuplot_installed() {
+    const Ended ended = run_gnuplot({"--version"}, ".");
+    return ended.error == 0 && ended.status == 0;
+}
+
+std::vector<fs::path> draw(const Figure& figure, const fs::path& folder) {
+    std::vector<fs::path> files{folder / (figure.name + ".svg"), folder / (figure.name + ".png")};
+    for (const auto& [name, text] : figure.data) {
+        write_file(folder / name, text);
+        files.push_back(folder / name);
+    }
+    files.push_back(folder / (figure.name + ".gp"));
+    write_file(files.back(), script_of(figure));
+    const std::string suffix = ".part";
+    const Ended ended = run_gnuplot({"-e", "suffix = '" + suffix + "'", figure.name + ".gp"}, folder);
+    const bool failed = ended.error != 0 || ended.status != 0;
+    std::error_code error;
+    for (std::size_t k = 0; k < 2; ++k) {
+        const fs::path part = files[k].string() + suffix;
+        if (!failed && complete(part)) {
+            fs::rename(part, files[k], error);
+            if (error) fail(figure, folder, error.message());
+            continue;
+        }
+        fs::remove(part, error);
+        if (ended.error != 0) fail(figure, folder, "gnuplot: " + std::generic_category().message(ended.error));
+        fail(figure, folder, ended.words.empty() ? "gnuplot wrote no complete picture" : ended.words);
+    }
+    return files;
+}
+
+}  // namespace stopline

@@ -1,0 +1,180 @@
+// Curves over the green time: counters and improvement. The figures of trajectories are in platoon_figures.cpp.
+#include "experiment/single_light_figures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "experiment/csv.h"
+
+namespace stopline {
+
+namespace {
+
+// The curves end a little after the last green time that is reported.
+double last_shown_s(const SingleLight& result) {
+    const std::vector<double>& green_s = result.scenario.measure.green_s;
+    const double signal_s = result.scenario.signal.green_s;
+    if (green_s.empty()) return signal_s;
+    return std::min(signal_s, *std::max_element(green_s.begin(), green_s.end()) + 5.0);
+}
+
+// A tick and a vertical line at each green time.
+std::string green_lines(const SingleLight& result) {
+    std::string ticks = "set xtics (0";
+    std::string lines;
+    for (const double green_s : result.scenario.measure.green_s) {
+        ticks += fmt::format(", {:.6g}", green_s);
+        lines += fmt::format(
+            "set arrow from first {0:.6g}, graph 0 to first {0:.6g}, graph 1 nohead back lc rgb '#a0a0a0' lw 1 dt 2\n",
+            green_s);
+    }
+    return "set grid noxtics ytics\n" + ticks + ")\n" + lines;
+}
+
+// Populations from the highest curve to the lowest, as they shall stand in the legend.
+std::vector<std::size_t> by_count(const SingleLight& result) {
+    std::vector<std::size_t> order(result.populations.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const double end_s = last_shown_s(result);
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return result.populations[a].counter.interpolated(end_s) > result.populations[b].counter.interpolated(end_s);
+    });
+    return order;
+}
+
+// What the paper says of a population at a green time.
+struct PaperPoint {
+    std::size_t population;
+    double green_s;
+    double value;
+};
+
+std::vector<PaperPoint> paper_points(const SingleLight& result, const std::vector<Target>& targets,
+                                     const std::string& quantity) {
+    std::vector<PaperPoint> points;
+    for (const Target& target : targets) {
+        if (target.scenario != result.scenario.name || target.quantity != quantity) continue;
+        const std::optional<GreenCondition> condition = parse_green_condition(target.condition);
+        const std::optional<double> value = parse_number(target.value);
+        const PopulationSummary* const summary = condition ? result.find(condition->population) : nullptr;
+        if (summary == nullptr || !value) continue;
+        const auto population = static_cast<std::size_t>(summary - result.populations.data());
+        points.push_back({population, condition->green_s, *value});
+    }
+    return points;
+}
+
+std::string paper_data(const std::vector<PaperPoint>& points) {
+    std::string text = "# green_s value, one block a point\n";
+    for (const PaperPoint& point : points) text += fmt::format("{:.6g} {:.6g}\n\n\n", point.green_s, point.value);
+    return text;
+}
+
+// The paper's points in the colour of their curve, and one entry for all of them in the legend.
+std::string plot_paper(const std::vector<PaperPoint>& points, const std::string& file, const std::string& legend) {
+    std::string text;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        const LineStyle style = line_style(points[k].population);
+        text += fmt::format(", \\\n '{}' index {} using 1:2 with points pt {} ps 1.1 lw 2 lc rgb '{}' notitle", file, k,
+                            style.hollow_point, style.colour);
+    }
+    if (!points.empty())
+        text += ", \\\n NaN with points pt 6 ps 1.1 lw 2 lc rgb '#404040' title " + gnuplot_text(legend);
+    return text;
+}
+
+std::string counter_data(const SingleLight& result, const std::vector<std::size_t>& order, double end_s) {
+    std::string text = "# time_s passed_veh, one block a population\n";
+    for (const std::size_t k : order) {
+        const Counter& counter = result.populations[k].counter;
+        text += fmt::format("# {}\n0 0\n", result.populations[k].name);
+        for (const double time_s : counter.times_s()) {
+            if (time_s <= end_s) text += fmt::format("{:.4f} {}\n", time_s, counter.passed(time_s));
+        }
+        text += fmt::format("{:.4f} {}\n\n\n", end_s, counter.passed(end_s));
+    }
+    return text;
+}
+
+std::string improvement_data(const SingleLight& result, const std::vector<std::size_t>& order, double end_s) {
+    constexpr double kStep_s = 0.1;
+    const Counter& baseline = result.populations[*result.baseline].counter;
+    // Before the second vehicle of the baseline a ratio says nothing.
+    const double begin_s = baseline.total() < 2 ? end_s : baseline.times_s()[1];
+    std::string text = "# time_s improvement_percent, one block a population\n";
+    for (const std::size_t k : order) {
+        const PopulationSummary& summary = result.populations[k];
+        text += fmt::format("# {}\n", summary.name);
+        const double last_s = std::isnan(summary.emptied_s) ? end_s : std::min(end_s, summary.emptied_s);
+        for (int i = 0; begin_s + i * kStep_s <= last_s; ++i) {
+            const double time_s = begin_s + i * kStep_s;
+            const double percent =
+                improvement_percent(summary.counter.interpolated(time_s), baseline.interpolated(time_s));
+            text += fmt::format("{:.3f} {}\n", time_s, fixed(percent, 2));
+        }
+        text += "\n\n";
+    }
+    return text;
+}
+
+std::string plot_curves(const SingleLight& result, const std::vector<std::size_t>& order, const std::string& file,
+                        const std::string& how) {
+    std::string text = "plot";
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        text += fmt::format("{} '{}' index {} using 1:2 with {} lt {} lw {} title {}", k == 0 ? "" : ", \\\n", file, k,
+                            how, order[k] % 8 + 1, order[k] == result.baseline ? "2.6" : "1.8",
+                            gnuplot_text(result.populations[order[k]].name));
+    }
+    return text;
+}
+
+}  // namespace
+
+Figure counters_figure(const SingleLight& result, const std::vector<Target>& targets) {
+    const double end_s = last_shown_s(result);
+    const std::vector<std::size_t> order = by_count(result);
+    const std::vector<PaperPoint> paper = paper_points(result, targets, "vehicles_passed");
+    Figure figure;
+    figure.name = "counters";
+    figure.data = {{"counters.dat", counter_data(result, order, end_s)}, {"counters_paper.dat", paper_data(paper)}};
+    figure.body =
+        "set title 'Vehicles past the stop line' font ',15'\nset xlabel 'Time since the start of green [s]; vertical lines: green times'\n"
+        "set ylabel 'Vehicles [veh]'\nset key outside right top\n" +
+        green_lines(result) + fmt::format("set xrange [0:{:.6g}]\nset yrange [0:*]\n", end_s) +
+        plot_curves(result, order, "counters.dat", "steps") +
+        plot_paper(paper, "counters_paper.dat", "paper (Fig. 5)") + "\n";
+    return figure;
+}
+
+Figure improvement_figure(const SingleLight& result, const std::vector<Target>& targets) {
+    const double end_s = last_shown_s(result);
+    const std::vector<std::size_t> order = by_count(result);
+    const std::vector<PaperPoint> paper = paper_points(result, targets, "improvement_over_ctg_ref");
+    const std::string& baseline = result.populations[*result.baseline].name;
+    Figure figure;
+    figure.name = "improvement";
+    figure.data = {{"improvement.dat", improvement_data(result, order, end_s)},
+                   {"improvement_paper.dat", paper_data(paper)}};
+    figure.body = fmt::format("set title {} font ',15'\n", gnuplot_text("Throughput compared with " + baseline)) +
+                  "set xlabel 'Green time [s]'\n" +
+                  fmt::format("set ylabel {}\n", gnuplot_text("Improvement over " + baseline + " [%]")) +
+                  "set key outside right top\n" + green_lines(result) +
+                  fmt::format("set xrange [0:{:.6g}]\nset yrange [*:*]\n", end_s) +
+                  plot_curves(result, order, "improvement.dat", "lines") +
+                  plot_paper(paper, "improvement_paper.dat", "paper (Fig. 6)") + "\n";
+    return figure;
+}
+
+std::vector<Figure> single_light_figures(const SingleLight& result, const std::vector<Target>& targets) {
+    std::vector<Figure> figures{counters_figure(result, targets)};
+    if (result.baseline && result.populations.size() > 1) figures.push_back(improvement_figure(result, targets));
+    figures.push_back(time_space_figure(result));
+    figures.push_back(platoon_figure(result));
+    return figures;
+}
+
+}  // namespace stopline

@@ -1,0 +1,22 @@
+// The figures of a single light: vehicle counters (Fig. 5), improvement over the baseline (Fig. 6), time-space diagram, and
+// speed and gap of some vehicles of the platoon.
+#pragma once
+
+#include <vector>
+
+#include "experiment/gnuplot.h"
+#include "experiment/single_light.h"
+#include "experiment/targets.h"
+
+namespace stopline {
+
+// All figures that the results allow. The paper's own numbers among `targets` appear where they are of this scenario.
+std::vector<Figure> single_light_figures(const SingleLight& result, const std::vector<Target>& targets);
+
+Figure counters_figure(const SingleLight& result, const std::vector<Target>& targets);
+Figure improvement_figure(const SingleLight& result, const std::vector<Target>& targets);
+// Of the first population above the baseline (or of the first two, or of the only one).
+Figure time_space_figure(const SingleLight& result);
+Figure platoon_figure(const SingleLight& result);
+
+}  // namespace stopline

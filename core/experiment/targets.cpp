@@ -1,0 +1,64 @@
+#include "experiment/targets.h"
+
+#include <charconv>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "base/input_error.h"
+#include "experiment/csv.h"
+#include "experiment/output.h"
+#include "scenario/load_scenario.h"
+
+namespace stopline {
+
+std::vector<Target> load_targets(const std::filesystem::path& file) {
+    const CsvTable table = parse_csv(read_file(file), file.string());
+    const auto column = [&](const char* name) { return table.column(name); };
+    const std::size_t id = column("id"), section = column("section"), scenario = column("scenario");
+    const std::size_t kind = column("kind"), quantity = column("quantity"), condition = column("condition");
+    const std::size_t value = column("value"), unit = column("unit"), tolerance = column("tolerance");
+    const std::size_t tolerance_kind = column("tolerance_kind"), note = column("note");
+    std::vector<Target> targets;
+    std::set<std::string> ids;
+    for (const std::vector<std::string>& row : table.rows) {
+        if (!ids.insert(row[id]).second)
+            throw InputError(fmt::format("{}: two rows have the id {}", table.label, row[id]));
+        targets.push_back({row[id], row[section], row[scenario], row[kind], row[quantity], row[condition], row[value],
+                           row[unit], row[tolerance], row[tolerance_kind], row[note]});
+    }
+    return targets;
+}
+
+std::vector<Target> load_targets() { return load_targets(data_directory() / "paper" / "targets.csv"); }
+
+bool in_section(const Target& target, const std::string& section) {
+    if (!target.section.starts_with(section)) return false;
+    const std::string rest = target.section.substr(section.size());
+    return rest.empty() || rest.front() == '.' || rest.front() == ' ';
+}
+
+std::optional<GreenCondition> parse_green_condition(const std::string& condition) {
+    const std::size_t green = condition.find(" green");
+    if (green == std::string::npos) return std::nullopt;
+    std::string population = condition.substr(0, green);
+    const std::string arrangement = " alternating";
+    if (population.ends_with(arrangement)) population.erase(population.size() - arrangement.size());
+    std::string rest = condition.substr(green + std::string(" green").size());
+    const bool and_above = rest.starts_with(">=");
+    if (!and_above && !rest.starts_with("=")) return std::nullopt;
+    const std::optional<double> seconds = parse_number(rest.substr(and_above ? 2 : 1));
+    if (!seconds || population.find(' ') != std::string::npos) return std::nullopt;
+    return GreenCondition{population, *seconds, and_above};
+}
+
+std::optional<double> parse_number(const std::string& text) {
+    double number = 0.0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, number);
+    if (error != std::errc() || stop != end || !std::isfinite(number)) return std::nullopt;
+    return number;
+}
+
+}  // namespace stopline
