@@ -1,0 +1,139 @@
+// Gear changes: in order, at the scheduled engine speeds, with the interruption that is said, and never back and forth.
+#include <gtest/gtest.h>
+
+#include "support/cars.h"
+
+namespace stopline {
+namespace {
+
+using namespace testing_support;
+
+constexpr double kStep_s = 0.01;
+
+class Gearbox : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(EveryVehicle, Gearbox, testing::ValuesIn(car_names()), as_test_name);
+
+// At a constant speed and load the gear settles: within 20 s, and at most one more change in the 20 s after.
+TEST_P(Gearbox, DoesNotHuntAtAnySpeedAndLoad) {
+    constexpr double kCoarse_s = 0.02;
+    const Car car(GetParam());
+    int hunting = 0;
+    for (const double gradient : {-0.08, -0.03, 0.0, 0.03, 0.06, 0.12}) {
+        for (double v = 0.5; v < 45.0; v += 0.75) {
+            for (const double request : {-3.0, -1.0, -0.4, -0.1, 0.0, 0.1, 0.25, 0.5, 1.0, 1.5, 2.0}) {
+                CarState s = cruising(car, v);
+                int changes = 0;
+                for (int k = 0; k < 2000; ++k) {
+                    const double before = s.gear;
+                    s = advance(car, s, request, car.grade_N(gradient), kCoarse_s);
+                    s.speed_mps = v;
+                    if (k >= 1000 && s.gear != before) ++changes;
+                }
+                if (changes <= 1) continue;
+                ++hunting;
+                EXPECT_GT(hunting, 10) << "speed " << v << ", request " << request << ", gradient " << gradient << ": "
+                                       << changes << " changes in 20 s, now in gear " << s.gear + 1;
+            }
+        }
+    }
+    EXPECT_EQ(hunting, 0) << "cases (the first ten are shown)";
+}
+
+struct Change {
+    double time_s;
+    int from, to;  // gears from 0
+    double rpm;    // before it
+};
+
+struct Drive {
+    std::vector<CarState> states;
+    std::vector<Change> changes;
+};
+
+Drive drive(const Car& car, CarState s, double request_mps2, double until_mps, double duration_s) {
+    Drive result;
+    for (int k = 0; k * kStep_s < duration_s; ++k) {
+        const CarState next = advance(car, s, request_mps2, 0.0, kStep_s);
+        if (next.gear != s.gear) {
+            const int gear = static_cast<int>(s.gear);
+            result.changes.push_back({k * kStep_s, gear, static_cast<int>(next.gear), car.rpm(s.speed_mps, gear)});
+        }
+        s = next;
+        result.states.push_back(s);
+        if (request_mps2 > 0.0 ? s.speed_mps > until_mps : s.speed_mps <= until_mps) break;
+    }
+    return result;
+}
+
+TEST_P(Gearbox, GoesUpOneByOneWithinTheSchedule) {
+    const Car car(GetParam());
+    for (const double request : {0.6, 1.5, 9.0}) {
+        const Drive start = drive(car, cruising(car, 0.0), request, 120.0 * kMpsPerKmh, 120.0);
+        const int highest = static_cast<int>(start.states.back().gear);
+        EXPECT_EQ(static_cast<int>(start.changes.size()), highest);
+        for (const Change& change : start.changes) {
+            EXPECT_EQ(change.to, change.from + 1) << "at " << change.time_s;
+            EXPECT_GE(change.rpm, car.settings.shift_up_part_load_rpm - 1.0);
+            EXPECT_LE(change.rpm, car.settings.shift_up_full_load_rpm * 1.03);
+        }
+        if (!car.electric()) {
+            EXPECT_GE(highest, 3) << "request " << request;
+        }
+    }
+}
+
+TEST_P(Gearbox, ChangesLaterTheMoreIsAskedFor) {
+    const Car car(GetParam());
+    if (car.electric()) GTEST_SKIP() << "one gear";
+    const Drive gentle = drive(car, cruising(car, 0.0), 0.6, 20.0, 60.0);
+    const Drive hard = drive(car, cruising(car, 0.0), 9.0, 20.0, 60.0);
+    EXPECT_GT(hard.changes.front().rpm, 1.5 * gentle.changes.front().rpm);
+}
+
+// While a change interrupts the torque the vehicle coasts, exactly that long, and not before and after.
+TEST_P(Gearbox, InterruptsTheTorqueAsLongAsSaid) {
+    const Car car(GetParam());
+    const Drive start = drive(car, cruising(car, 0.0), 1.5, 100.0 * kMpsPerKmh, 60.0);
+    double coasting_s = 0.0;
+    for (const CarState& s : start.states)
+        coasting_s += s.acceleration_mps2 <= 0.0 && s.speed_mps > 0.0 ? kStep_s : 0.0;
+    const auto changes = static_cast<double>(start.changes.size());
+    EXPECT_NEAR(coasting_s, changes * car.settings.torque_interruption_s, (changes + 1.0) * 1.5 * kStep_s);
+}
+
+TEST_P(Gearbox, StaysInAGearForItsMinimumTimeWhileDriving) {
+    const Car car(GetParam());
+    for (const double request : {0.6, 1.5, 9.0}) {
+        const Drive start = drive(car, cruising(car, 0.0), request, 120.0 * kMpsPerKmh, 120.0);
+        for (std::size_t k = 1; k < start.changes.size(); ++k) {
+            EXPECT_GE(start.changes[k].time_s - start.changes[k - 1].time_s,
+                      car.settings.minimum_gear_time_s - 1.5 * kStep_s);
+        }
+    }
+}
+
+TEST_P(Gearbox, ComesToRestInFirstGearAndStartsAgain) {
+    const Car car(GetParam());
+    for (const double request : {-0.8, -2.0, -6.0}) {
+        const Drive stop = drive(car, cruising(car, 30.0), request, 0.0, 60.0);
+        ASSERT_EQ(stop.states.back().speed_mps, 0.0) << request;
+        EXPECT_EQ(stop.states.back().gear, 0.0) << request;
+        const Drive start = drive(car, stop.states.back(), 1.0, 5.0, 20.0);
+        EXPECT_GT(start.states.back().speed_mps, 5.0);
+        EXPECT_LT(start.states.size(), 700u) << "delayed by a change?";
+    }
+}
+
+TEST(ElectricCar, NeverChangesGearsNorInterrupts) {
+    const Car car("electric_100kw");
+    for (const double request : {0.5, 2.0, 9.0}) {
+        const Drive start = drive(car, cruising(car, 0.0), request, 100.0 * kMpsPerKmh, 120.0);
+        EXPECT_TRUE(start.changes.empty());
+        for (std::size_t k = 50; k < start.states.size(); ++k) {
+            ASSERT_GT(start.states[k].acceleration_mps2, 0.1) << "step " << k;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace stopline
