@@ -172,9 +172,9 @@ TEST_F(EveryField, TextsAndChoicesRefuseWhatIsWrong) {
             const Leaf& named = leaf.field->name == "name" ? anonymous : leaf;
             expect_refused(named, "[a]", "needs a single value");
             expect_refused(named, std::string(201, 'x'), "cannot be used as a");
-            expect_refused(named, "\"a\\nb\"", "cannot be used as a");
+            expect_refused(named, R"("a\nb")", "cannot be used as a");
             if (text->rule != TextField::Rule::name) continue;
-            for (const char* word : {"a/b", "\"a,b\"", "a b", "\"a\\\"b\"", "../x", "ä", "\"\""}) {
+            for (const char* word : {"a/b", R"("a,b")", "a b", R"("a\"b")", "../x", "ä", "\"\""}) {
                 expect_refused(named, word, "cannot be used as a name");
             }
         } else if (const auto* const choice = std::get_if<ChoiceField>(&leaf.field->kind)) {
