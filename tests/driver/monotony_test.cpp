@@ -1,0 +1,152 @@
+// The answers to the driver's questions: no acceleration falls with a growing gap nor rises with closing speed, and all are
+// finite in every state, however extreme.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "driver/acceleration_laws.h"
+#include "driver/gap_policy.h"
+#include "scenario/load_scenario.h"
+
+namespace stopline {
+namespace {
+
+const std::vector<double> kSpeeds{0.0, 1e-9, 0.05, 1.0, 5.0, 8.34, 14.0, 20.0};
+const std::vector<double> kClosings{-20.0, -5.0, -1.0, -0.1, -1e-6, 0.0,  1e-6, 0.05,
+                                    0.1,   0.5,  1.0,  2.0,  5.0,   10.0, 14.0};
+const std::vector<double> kGaps{-1.0, 0.0,  1e-9, 0.1, 0.3, 0.55, 0.6,  0.8,  1.0,  1.5,   2.0,
+                                2.9,  2.95, 3.0,  4.0, 6.0, 10.0, 15.0, 30.0, 60.0, 150.0, 1e6};
+const std::vector<double> kAccelerations{-7.0, -3.0, -0.5, 0.0, 1.0, 2.5};
+
+// An answer as a function of gap and closing speed, everything else fixed.
+using Answer = std::function<double(double gap_m, double closing_mps)>;
+
+void expect_monotone(const Answer& answer, const std::string& where) {
+    for (const double closing : kClosings) {
+        for (std::size_t k = 1; k < kGaps.size(); ++k) {
+            ASSERT_GE(answer(kGaps[k], closing), answer(kGaps[k - 1], closing) - 1e-12)
+                << where << ": less at gap " << kGaps[k] << " than at " << kGaps[k - 1] << ", closing " << closing;
+        }
+    }
+    for (const double gap : kGaps) {
+        for (std::size_t k = 1; k < kClosings.size(); ++k) {
+            ASSERT_LE(answer(gap, kClosings[k]), answer(gap, kClosings[k - 1]) + 1e-12)
+                << where << ": more at closing " << kClosings[k] << " than at " << kClosings[k - 1] << ", gap " << gap;
+        }
+    }
+}
+
+DriverTables shipped() { return compile_driver(load_driver("startup_kit")); }
+
+TEST(Follow, IsMonotoneForEveryPolicy) {
+    const CaccSettings cacc = shipped().cacc;
+    for (const GapPolicySettings& policy : load_policies()) {
+        for (const double v : kSpeeds) {
+            double gap_m = 0.0;
+            double slope_s = 0.0;
+            find_gap_law(policy.law).evaluate(policy, {&v, 1}, {&gap_m, 1}, {&slope_s, 1});
+            for (const double a : {-3.0, 0.0, 2.0}) {
+                for (const double a_p : kAccelerations) {
+                    const auto answer = [&](double gap, double closing) {
+                        const PredecessorView<double> p{gap, closing, a_p, 0.5 * a_p, 4.0};
+                        return follow_acceleration<double>(cacc, a, 0.2, 5.0, a, gap_m, slope_s, p, 0.01);
+                    };
+                    expect_monotone(answer, policy.name);
+                }
+            }
+        }
+    }
+}
+
+TEST(Follow, IsNothingInEquilibrium) {
+    const CaccSettings cacc = shipped().cacc;
+    for (const double slope : {0.0, 0.87}) {
+        const PredecessorView<double> p{7.0, 0.0, 0.0, 0.0, 4.0};
+        EXPECT_EQ(follow_acceleration<double>(cacc, 0.0, 0.2, 5.0, 0.0, 7.0, slope, p, 0.01), 0.0);
+    }
+}
+
+TEST(Follow, KeepsToComfort) {
+    const CaccSettings cacc = shipped().cacc;
+    for (const double slope : {0.0, 0.87}) {
+        const PredecessorView<double> far{1e6, -20.0, 2.0, 2.5, 4.0};
+        const PredecessorView<double> near{-10.0, 20.0, -7.0, -7.0, 4.0};
+        EXPECT_LE(follow_acceleration<double>(cacc, 0.0, 0.2, 5.0, 0.0, 7.0, slope, far, 0.01),
+                  cacc.acceleration_max_mps2);
+        EXPECT_GE(follow_acceleration<double>(cacc, 0.0, 0.2, 5.0, 0.0, 7.0, slope, near, 0.01),
+                  -cacc.deceleration_comfort_mps2);
+    }
+}
+
+TEST(Emergency, IsMonotone) {
+    const CaccSettings cacc = shipped().cacc;
+    for (const double v : kSpeeds) {
+        for (const double a_p : kAccelerations) {
+            const auto answer = [&](double gap, double closing) {
+                return emergency_acceleration<double>(cacc, v, {gap, closing, a_p, 0.0, 4.0});
+            };
+            expect_monotone(answer, "emergency at " + std::to_string(v));
+        }
+    }
+}
+
+// Either it does not matter, or it brakes at least as the situation needs.
+TEST(Emergency, BrakesEnoughOrNotAtAll) {
+    const CaccSettings c = shipped().cacc;
+    for (double v = 1.0; v < 20.0; v += 1.0) {
+        for (double gap = 2.0; gap < 80.0; gap += 1.0) {
+            const double answer = emergency_acceleration<double>(c, v, {gap, v, 0.0, 0.0, 4.0});  // it stands
+            const double room_m = gap - c.radar_delay_s * v - c.emergency_gap_m;
+            const double needed = room_m > 0.0 ? v * v / (2.0 * room_m) : 1e9;
+            if (needed < c.emergency_threshold_mps2) {
+                EXPECT_GT(answer, 100.0);
+            } else {
+                EXPECT_LE(answer, -std::fmin(needed, c.deceleration_emergency_mps2));
+                EXPECT_GE(answer, -c.deceleration_emergency_mps2);
+            }
+        }
+    }
+}
+
+TEST(Stop, IsMonotoneInDistanceAndSpeed) {
+    const DriverTables d = shipped();
+    const std::vector<double> distances{-1.0, -1e-9, 0.0, 1e-9, 0.01, 0.1, 1.0, 5.0, 20.0, 100.0, 1e6};
+    for (std::size_t k = 1; k < distances.size(); ++k) {
+        for (const double v : kSpeeds) {
+            EXPECT_GE(stop_acceleration(d, v, distances[k]), stop_acceleration(d, v, distances[k - 1])) << v;
+        }
+    }
+    for (const double distance : distances) {
+        for (std::size_t k = 1; k < kSpeeds.size(); ++k) {
+            EXPECT_LE(stop_acceleration(d, kSpeeds[k], distance), stop_acceleration(d, kSpeeds[k - 1], distance));
+        }
+    }
+}
+
+TEST(EveryAnswer, IsFinite) {
+    const DriverTables d = shipped();
+    for (const double v : kSpeeds) {
+        EXPECT_TRUE(std::isfinite(free_acceleration(d, v, 0.0)) && std::isfinite(free_acceleration(d, v, 1e3)));
+        EXPECT_TRUE(std::isfinite(catch_up_acceleration(d, v, 14.0)));
+        for (const double gap : kGaps) {
+            EXPECT_TRUE(std::isfinite(stop_acceleration(d, v, gap)));
+            EXPECT_TRUE(std::isfinite(slow_down_acceleration(d, v, 0.0, gap)));
+            for (const double closing : kClosings) {
+                for (const double rate : {0.1, 5.0, 1000.0}) {
+                    for (const double slope : {0.0, 1e-12, 0.87}) {
+                        const PredecessorView<double> p{gap, closing, -7.0, 2.5, rate};
+                        const double follow =
+                            follow_acceleration<double>(d.cacc, 1.0, 1.0 / rate, rate, -1.0, 3.0, slope, p, 0.01);
+                        ASSERT_TRUE(std::isfinite(follow)) << gap << ' ' << closing << ' ' << rate << ' ' << slope;
+                        ASSERT_TRUE(std::isfinite(emergency_acceleration(d.cacc, v, p)));
+                    }
+                }
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace stopline
