@@ -18,12 +18,31 @@ std::string TextTable::text(const std::string& indent) const {
         std::string line = indent;
         for (std::size_t k = 0; k < cells.size(); ++k) {
             const std::string padding(widths[k] - characters(cells[k]), ' ');
-            line += k == 0 ? cells[k] + padding : "  " + padding + cells[k];
+            const bool left = alignment_[std::min(k, alignment_.size() - 1)] == 'l';
+            line += (k == 0 ? "" : "  ") + (left ? cells[k] + padding : padding + cells[k]);
         }
         line.erase(line.find_last_not_of(' ') + 1);
         text += line + '\n';
     }
     return text;
+}
+
+std::string wrapped(const std::string& text, std::size_t width, std::size_t indent) {
+    std::string lines;
+    std::string line;
+    std::size_t begin = 0;
+    while (begin < text.size()) {
+        const std::size_t end = std::min(text.find(' ', begin), text.size());
+        const std::string word = text.substr(begin, end - begin);
+        if (!line.empty() && characters(line) + 1 + characters(word) > width) {
+            lines += line + '\n';
+            line = std::string(indent, ' ') + word;
+        } else {
+            line += (begin == 0 ? "" : " ") + word;
+        }
+        begin = end + 1;
+    }
+    return lines + line + '\n';
 }
 
 std::size_t characters(const std::string& text) {

@@ -1,6 +1,7 @@
 #include "measure/counters.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -9,12 +10,6 @@ namespace stopline {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-void add_times_within(const Counter& counter, double from_s, double to_s, std::vector<double>& times_s) {
-    for (const double time_s : counter.times_s()) {
-        if (time_s > from_s && time_s < to_s) times_s.push_back(time_s);
-    }
-}
 
 }  // namespace
 
@@ -39,17 +34,15 @@ double improvement_percent(double passed, double baseline) {
 }
 
 double mean_improvement_percent(const Counter& counter, const Counter& baseline, double from_s, double to_s) {
-    if (!(to_s > from_s) || baseline.passed(from_s) == 0) return kNone;
-    std::vector<double> edges_s{from_s, to_s};
-    add_times_within(counter, from_s, to_s, edges_s);
-    add_times_within(baseline, from_s, to_s, edges_s);
-    std::sort(edges_s.begin(), edges_s.end());
-    double integral = 0.0;
-    for (std::size_t k = 0; k + 1 < edges_s.size(); ++k) {
-        const double now = improvement_percent(counter.passed(edges_s[k]), baseline.passed(edges_s[k]));
-        integral += now * (edges_s[k + 1] - edges_s[k]);
+    constexpr double kStep_s = 0.05;
+    if (!(to_s > from_s) || !(baseline.interpolated(from_s) > 0.0)) return kNone;
+    const auto steps = static_cast<int>(std::ceil((to_s - from_s) / kStep_s));
+    double sum = 0.0;
+    for (int k = 0; k < steps; ++k) {
+        const double time_s = from_s + (k + 0.5) / steps * (to_s - from_s);
+        sum += improvement_percent(counter.interpolated(time_s), baseline.interpolated(time_s));
     }
-    return integral / (to_s - from_s);
+    return sum / steps;
 }
 
 }  // namespace stopline

@@ -29,8 +29,8 @@ private:
 double improvement_percent(double passed, double baseline);
 
 // The improvement of one counter over another as a function of time (Fig. 6), averaged over the time from `from_s` to `to_s`.
-// It is constant between two passages, so the mean is exact. NaN where the interval is empty or the baseline has no vehicle
-// at its beginning.
+// Of interpolated counts: rounding both down to whole vehicles would raise the ratio. NaN where the interval is empty or the
+// baseline has nothing at its beginning.
 double mean_improvement_percent(const Counter& counter, const Counter& baseline, double from_s, double to_s);
 
 }  // namespace stopline

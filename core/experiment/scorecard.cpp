@@ -1,0 +1,138 @@
+#include "experiment/scorecard.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/input_error.h"
+#include "experiment/csv.h"
+#include "experiment/output.h"
+#include "experiment/scorecard_sections.h"
+#include "scenario/load_scenario.h"
+
+namespace stopline {
+
+namespace {
+
+const RowJudge* judge_of(const std::string& id) {
+    const std::span<const RowJudge> all = row_judges();
+    const auto found = std::find_if(all.begin(), all.end(), [&](const RowJudge& row) { return id == row.id; });
+    return found == all.end() ? nullptr : &*found;
+}
+
+std::vector<Target> chosen_targets(const std::string& section) {
+    std::vector<Target> targets = load_targets();
+    if (section.empty()) return targets;
+    std::vector<std::string> known;
+    for (const Target& target : targets) {
+        if (std::find(known.begin(), known.end(), target.section) == known.end()) known.push_back(target.section);
+    }
+    std::erase_if(targets, [&](const Target& target) { return !in_section(target, section); });
+    if (targets.empty()) {
+        throw InputError(
+            fmt::format("there are no rows of section '{}'; known are: {}", section, fmt::join(known, ", ")));
+    }
+    return targets;
+}
+
+void tell(const ScorecardOptions& options, const std::string& message) {
+    if (options.on_message) options.on_message(message);
+}
+
+Measurements run_or_reuse(const Experiment& experiment, const ScorecardOptions& options) {
+    const std::filesystem::path file =
+        data_directory().parent_path() / "scenarios" / (std::string(experiment.scenario) + ".yaml");
+    const Scenario scenario = load_scenario(file, options.settings);
+    if (!experiment.runs) return experiment.measure(scenario, options);
+    const std::optional<std::string> key = results_key(scenario);
+    const std::filesystem::path stored = options.folder / "measured" / (std::string(experiment.name) + ".csv");
+    if (key) {
+        if (const std::optional<Measurements> measured = load_measurements(stored, *key)) {
+            tell(options, fmt::format("{}: measured before by this program, see {}", experiment.name, stored.string()));
+            return *measured;
+        }
+    }
+    tell(options, fmt::format("{}: running", experiment.name));
+    prepare_folder(stored.parent_path());
+    Measurements measured = experiment.measure(scenario, options);
+    if (key) store_measurements(stored, *key, measured);
+    return measured;
+}
+
+std::map<std::string, Measurements> measure_for(const std::vector<Target>& targets, const ScorecardOptions& options) {
+    std::set<std::string> needed;
+    for (const Target& target : targets) {
+        if (const RowJudge* const row = judge_of(target.id)) needed.insert(row->experiment);
+    }
+    std::map<std::string, Measurements> measured;
+    for (const Experiment& experiment : experiments()) {
+        if (needed.contains(experiment.name)) measured[experiment.name] = run_or_reuse(experiment, options);
+    }
+    return measured;
+}
+
+}  // namespace
+
+// One line a section.
+std::span<const Experiment> experiments() { return section3_experiments(); }
+std::span<const RowJudge> row_judges() { return section3_rows(); }
+
+int Scorecard::count(Verdict verdict) const {
+    return static_cast<int>(
+        std::count_if(rows.begin(), rows.end(), [&](const ScoredRow& row) { return row.verdict == verdict; }));
+}
+
+Scorecard make_scorecard(const ScorecardOptions& options) {
+    const std::vector<Target> targets = chosen_targets(options.section);
+    const std::map<std::string, Explanation> explanations =
+        load_explanations(data_directory() / "paper" / "explanations.csv");
+    std::map<std::string, Measurements> measured = measure_for(targets, options);
+    Scorecard scorecard;
+    for (const Target& target : targets) {
+        ScoredRow row{target, "", Verdict::open, "", ""};
+        if (const RowJudge* const judge_row = judge_of(target.id)) {
+            const std::optional<Answer> answer = judge_row->answer(target, measured[judge_row->experiment]);
+            row.verdict = judge(target, answer);
+            if (answer) row.ours = answer->text;
+        }
+        explain(explanations, row);
+        scorecard.rows.push_back(std::move(row));
+    }
+    for (const auto& [name, measurements] : measured) {
+        scorecard.violations += measurements.find("violations").value_or(0.0);
+    }
+    return scorecard;
+}
+
+std::string scorecard_csv(const Scorecard& scorecard) {
+    CsvWriter csv({"id", "section", "paper", "ours", "unit", "tolerance", "verdict", "explanation"});
+    for (const ScoredRow& row : scorecard.rows) {
+        const std::string between = row.counted.empty() || row.reason.empty() ? "" : "; ";
+        csv.row({row.target.id, row.target.section, row.target.value, row.ours, row.target.unit,
+                 tolerance_text(row.target), to_string(row.verdict), row.counted + between + row.reason});
+    }
+    return csv.text();
+}
+
+std::map<std::string, Explanation> load_explanations(const std::filesystem::path& file) {
+    const CsvTable table = parse_csv(read_file(file), file.string());
+    const std::size_t id = table.column("id");
+    const std::size_t counted = table.column("counted");
+    const std::size_t reason = table.column("explanation");
+    std::map<std::string, Explanation> explanations;
+    for (const std::vector<std::string>& row : table.rows) explanations[row[id]] = {row[counted], row[reason]};
+    return explanations;
+}
+
+void explain(const std::map<std::string, Explanation>& explanations, ScoredRow& row) {
+    const auto found = explanations.find(row.target.id);
+    if (found != explanations.end()) row.counted = found->second.counted;
+    if (row.verdict != Verdict::miss) return;
+    if (found != explanations.end()) row.reason = found->second.reason;
+    if (row.reason.empty()) row.reason = "not explained yet";
+}
+
+}  // namespace stopline

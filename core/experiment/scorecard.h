@@ -1,0 +1,76 @@
+// The scorecard: our numbers beside those of the paper, row by row of data/paper/targets.csv. A row is judged by a function
+// that reads its answer from the measurements of one experiment; rows without one are open.
+//
+// A later section adds a file scorecard_section<N>.cpp with its experiments and row judges, and its two lines in scorecard.cpp.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "experiment/measurements.h"
+#include "experiment/verdict.h"
+
+namespace stopline {
+
+struct ScorecardOptions {
+    std::string section;                // rows of it and below; empty: all
+    std::filesystem::path folder;       // measurements are kept here for the next time
+    std::vector<std::string> settings;  // of every scenario that is run, as for load_scenario
+    int threads = 1;
+    std::function<bool(double)> on_progress;             // share of the experiment under way; false to stop
+    std::function<void(const std::string&)> on_message;  // what is run and what is reused
+};
+
+// Something to be measured once for all rows that need it.
+struct Experiment {
+    const char* name;      // of its file in the folder of measurements
+    const char* scenario;  // file in scenarios/ without .yaml
+    bool runs;             // false: it reads the scenario only, and there is nothing worth keeping
+    Measurements (*measure)(const Scenario& scenario, const ScorecardOptions& options);
+};
+
+struct RowJudge {
+    const char* id;          // of the row
+    const char* experiment;  // that its answer is read from
+    // Nothing where the experiment did not measure it (the row then stays open).
+    std::optional<Answer> (*answer)(const Target& target, const Measurements& measurements);
+};
+
+std::span<const Experiment> experiments();
+std::span<const RowJudge> row_judges();
+
+struct ScoredRow {
+    Target target;
+    std::string ours;  // empty where open
+    Verdict verdict = Verdict::open;
+    std::string counted;  // how the row is counted
+    std::string reason;   // of a miss; empty otherwise
+};
+
+struct Scorecard {
+    std::vector<ScoredRow> rows;
+    double violations = 0.0;  // overlaps, entries on red and lost vehicles in all runs behind the rows
+    int count(Verdict verdict) const;
+};
+
+// Throws InputError for a section without rows, and Interrupted.
+Scorecard make_scorecard(const ScorecardOptions& options);
+
+// Columns id,section,paper,ours,unit,tolerance,verdict,explanation; the last says how it is counted and why it misses.
+std::string scorecard_csv(const Scorecard& scorecard);
+
+// data/paper/explanations.csv: how a row is counted, and why it misses where it does. By row id.
+struct Explanation {
+    std::string counted;
+    std::string reason;
+};
+std::map<std::string, Explanation> load_explanations(const std::filesystem::path& file);
+
+// Puts the explanation beside the row; a miss without a reason says that it is not explained yet.
+void explain(const std::map<std::string, Explanation>& explanations, ScoredRow& row);
+
+}  // namespace stopline

@@ -1,0 +1,13 @@
+// What each section of the paper adds to the scorecard; see scorecard.h.
+#pragma once
+
+#include <span>
+
+#include "experiment/scorecard.h"
+
+namespace stopline {
+
+std::span<const Experiment> section3_experiments();
+std::span<const RowJudge> section3_rows();
+
+}  // namespace stopline
