@@ -57,4 +57,14 @@ STOPLINE_INLINE R lag_share(double dt, const R& tau) {
     return dt / (tau + 0.5 * dt);
 }
 
+// Linear interpolation in a table over a uniform grid; `at` is in cells, from 0; constant beyond the last node.
+template <class R, std::size_t kEntries>
+STOPLINE_INLINE R on_grid(const std::array<double, kEntries>& node, const R& at) {
+    constexpr double kLast = static_cast<double>(kEntries) - 1.0;
+    const R within = limited(at, 0.0, kLast);
+    const R k = whole(lesser(within, kLast - 1.0));
+    const R low = look_up<kEntries>(node, k);
+    return low + (within - k) * (look_up<kEntries>(node, R(k + 1.0)) - low);
+}
+
 }  // namespace stopline

@@ -9,7 +9,9 @@
 // vectors apart for the file's target before it looks at the function's.
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
@@ -108,13 +110,33 @@ STOPLINE_INLINE Batch whole(const Batch& value) {
     return __builtin_convertvector(__builtin_convertvector(value, IntBatch), Batch);
 }
 
-// table[index], the index a whole number.
-STOPLINE_INLINE double look_up(const double* table, double index) { return table[static_cast<std::int32_t>(index)]; }
-STOPLINE_INLINE Batch look_up(const double* table, const Batch& index) {
+// table[index] of a table with 8, 16 or 32 entries, the index a whole number. So small a table fits into a few registers of
+// AVX-512, and a look-up is one or two permutations. (Its gather instruction is slower than single loads where the processor's
+// protection against data sampling is on.)
+template <std::size_t kEntries>
+STOPLINE_INLINE double look_up(const std::array<double, kEntries>& table, double index) {
+    return table[static_cast<std::size_t>(index)];
+}
+template <std::size_t kEntries>
+STOPLINE_INLINE Batch look_up(const std::array<double, kEntries>& table, const Batch& index) {
+    static_assert(kEntries == 8 || kEntries == 16 || kEntries == 32);
+#if defined(__AVX512DQ__) && STOPLINE_BATCH_WIDTH == 8 && !defined(__clang__)
+    const BatchMask k = __builtin_convertvector(index, BatchMask);
+    std::array<Batch, kEntries / 8> part;
+    std::memcpy(part.data(), table.data(), sizeof part);
+    if constexpr (kEntries == 8) return __builtin_shuffle(part[0], k);
+    if constexpr (kEntries == 16) return __builtin_shuffle(part[0], part[1], k);
+    if constexpr (kEntries == 32) {
+        // A permutation takes the index modulo 16.
+        const Batch low = __builtin_shuffle(part[0], part[1], k);
+        return select(index < 16.0, low, __builtin_shuffle(part[2], part[3], k));
+    }
+#else
     const IntBatch k = __builtin_convertvector(index, IntBatch);
     Batch found;
-    for (int n = 0; n < kBatchWidth; ++n) found[n] = table[k[n]];
+    for (int n = 0; n < kBatchWidth; ++n) found[n] = table[static_cast<std::size_t>(k[n])];
     return found;
+#endif
 }
 
 }  // namespace stopline

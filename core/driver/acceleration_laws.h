@@ -19,13 +19,13 @@ namespace stopline {
 
 // Settings compiled for the kernel.
 struct DriverTables {
-    static constexpr int kProfileCells = 64;
+    static constexpr int kProfileNodes = 16;
     CaccSettings cacc;
     StopSettings stop;
     double speed_gain_1ps = 0.0;
     double deceleration_mps2 = 0.0;  // for a lower limit ahead
-    double profile_cells_per_mps = 0.0;
-    std::array<double, kProfileCells + 1> profile_mps2{};  // acceleration asked for, over speed
+    double profile_nodes_per_mps = 0.0;
+    std::array<double, kProfileNodes> profile_mps2{};  // acceleration asked for, over speed
 };
 
 // Throws InputError where the profile is unusable.
@@ -44,11 +44,7 @@ struct PredecessorView {
 // Free driving of a platoon leader: the calibrated start-up profile towards the desired speed.
 template <class R>
 STOPLINE_INLINE R free_acceleration(const DriverTables& d, const R& speed_mps, double desired_mps) {
-    const R cell = limited(speed_mps * d.profile_cells_per_mps, 0.0, double{DriverTables::kProfileCells});
-    const R k = whole(lesser(cell, DriverTables::kProfileCells - 1.0));
-    const R low = look_up(d.profile_mps2.data(), k);
-    const R high = look_up(d.profile_mps2.data() + 1, k);
-    const R profile = low + (cell - k) * (high - low);
+    const R profile = on_grid(d.profile_mps2, R(speed_mps * d.profile_nodes_per_mps));
     return lesser(profile, d.speed_gain_1ps * (desired_mps - speed_mps));
 }
 

@@ -16,10 +16,10 @@ DriverTables compile_driver(const DriverSettings& settings) {
     t.speed_gain_1ps = free.speed_gain_1ps;
     t.deceleration_mps2 = free.deceleration_mps2;
     const double top_mps = std::max(free.speed_mps.back(), 1.0);
-    t.profile_cells_per_mps = DriverTables::kProfileCells / top_mps;
+    t.profile_nodes_per_mps = (DriverTables::kProfileNodes - 1) / top_mps;
     std::size_t k = 1;
     for (std::size_t node = 0; node < t.profile_mps2.size(); ++node) {
-        const double speed = static_cast<double>(node) / t.profile_cells_per_mps;
+        const double speed = static_cast<double>(node) / t.profile_nodes_per_mps;
         while (k + 1 < free.speed_mps.size() && free.speed_mps[k] < speed) ++k;
         if (free.speed_mps.size() == 1) {
             t.profile_mps2[node] = free.acceleration_mps2[0];

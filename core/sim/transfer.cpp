@@ -99,7 +99,7 @@ void enter(const Model& model, State& state, int inlet_index, double speed_mps) 
     v.speed_mps[i] = speed_mps;
     v.acceleration_mps2[i] = v.request_mps2[i] = v.torque_Nm[i] = v.brake_N[i] = 0.0;
     v.gear_time_s[i] = type.minimum_gear_time_s;
-    v.lag_s[i] = type.lag_s[0];
+    v.lag_s[i] = type.lag_unloaded_s[0];
     v.length_m[i] = type.length_m;
     v.gear[i] = gear_for(type, speed_mps);
     v.leads[i] = 1;

@@ -27,28 +27,19 @@ struct PowertrainState {
     R gear;               // 0 is first gear
 };
 
-// Linear interpolation on a uniform grid; `at` is in cells, within 0 .. cells.
+// Entry of a table over gears.
 template <class R>
-STOPLINE_INLINE R on_grid(const double* node, const R& at, int cells) {
-    const R k = whole(lesser(at, cells - 1.0));
-    const R low = look_up(node, k);
-    return low + (at - k) * (look_up(node + 1, k) - low);
+STOPLINE_INLINE R of_gear(const std::array<double, PowertrainTables::kMaxGears>& table, const R& gear) {
+    return look_up<PowertrainTables::kMaxGears>(table, gear);
 }
 
+// The lag map: linear over engine speed, for no torque and for full load, and linear between these two.
 template <class R>
 STOPLINE_INLINE R torque_lag_s(const PowertrainTables& t, const R& gear, const R& rpm, const R& share) {
-    constexpr int kRows = PowertrainTables::kLagRpmNodes;
-    constexpr int kColumns = PowertrainTables::kLagShareNodes;
-    const R row = rpm * t.lag_nodes_per_rpm;
-    const R column = share * (kColumns - 1.0);
-    const R r = whole(lesser(row, kRows - 2.0));
-    const R c = whole(lesser(column, kColumns - 2.0));
-    const double* node = t.lag_s.data();
-    const R k = r * double{kColumns} + c;
-    const R low = look_up(node, k) + (column - c) * (look_up(node + 1, k) - look_up(node, k));
-    const R high =
-        look_up(node + kColumns, k) + (column - c) * (look_up(node + kColumns + 1, k) - look_up(node + kColumns, k));
-    return (low + (row - r) * (high - low)) * look_up(t.lag_factor.data(), gear);
+    const R cell = rpm * t.lag_nodes_per_rpm;
+    const R unloaded = on_grid(t.lag_unloaded_s, cell);
+    const R loaded = on_grid(t.lag_loaded_s, cell);
+    return (unloaded + share * (loaded - unloaded)) * of_gear(t.lag_factor, gear);
 }
 
 // Advances `s` by dt. `request_mps2` is the desired acceleration, `grade_N` = m g sin(slope), positive uphill.
@@ -56,7 +47,7 @@ template <class R>
 STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTables& t, const PowertrainState<R>& s,
                                                    const R& request_mps2, double grade_N, double dt) {
     // Engine speed. In first gear the clutch slips and the engine turns at launch speed until the wheels have caught up.
-    const R rpm_per_mps = look_up(t.rpm_per_mps.data(), s.gear);
+    const R rpm_per_mps = of_gear(t.rpm_per_mps, s.gear);
     const R locked_rpm = s.speed_mps * rpm_per_mps;
     const auto floor_rpm = select(s.gear < 0.5, splat<R>(t.launch_rpm), splat<R>(t.idle_rpm));
     const auto rpm = limited(locked_rpm, floor_rpm, t.limiter_rpm);
@@ -66,8 +57,7 @@ STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTables& t, co
     const auto per_floor = select(s.gear < 0.5, splat<R>(t.closing_launch_1prpm), splat<R>(t.closing_idle_1prpm));
     const R closed = limited(locked_rpm * per_floor - t.closing_offset, 0.0, 1.0);
     const R coupling = connected * closed;
-    const auto rotating =
-        t.rotating_mass_open + coupling * (look_up(t.rotating_mass.data(), s.gear) - t.rotating_mass_open);
+    const auto rotating = t.rotating_mass_open + coupling * (of_gear(t.rotating_mass, s.gear) - t.rotating_mass_open);
     const auto inertia_kg = t.mass_kg * rotating;
 
     // Inverse dynamics: the force that gives the requested acceleration, as torque and brake force.
@@ -78,11 +68,11 @@ STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTables& t, co
     const R reachable_mps2 =
         limited(request_mps2, -t.friction_mps2 - by_resistance_mps2, t.friction_mps2 - by_resistance_mps2);
     const auto wanted_N = inertia_kg * reachable_mps2 + resistance_N;
-    const auto cell = rpm * t.rpm_cells_per_rpm;
-    const auto full_Nm = on_grid(t.full_load_Nm.data(), cell, PowertrainTables::kRpmCells);
-    const auto drag_Nm = coupling * on_grid(t.drag_Nm.data(), cell, PowertrainTables::kRpmCells);
+    const auto cell = rpm * t.torque_nodes_per_rpm;
+    const auto full_Nm = on_grid(t.full_load_Nm, cell);
+    const auto drag_Nm = coupling * on_grid(t.drag_Nm, cell);
     const R gain = rpm_per_mps * kRadpsPerRpm;  // wheel force over crank torque, without losses
-    const R inverse_gain = look_up(t.mps_per_rpm.data(), s.gear) * (1.0 / kRadpsPerRpm);
+    const R inverse_gain = of_gear(t.mps_per_rpm, s.gear) * (1.0 / kRadpsPerRpm);
     const double per_efficiency = 1.0 / t.efficiency;  // losses hinder driving and help braking
     const auto wanted_Nm =
         wanted_N * inverse_gain * select(wanted_N > 0.0, splat<R>(per_efficiency), splat<R>(t.efficiency));
@@ -118,7 +108,7 @@ STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTables& t, co
     const R higher_gear = STOPLINE_FLAG(R, s.gear < t.gears - 1.5);
     const R up = STOPLINE_FLAG(R, locked_rpm > up_rpm) * settled * driving * higher_gear;
     const R lower = greater(s.gear - 1.0, 0.0);
-    const R lower_rpm = speed * look_up(t.rpm_per_mps.data(), lower);
+    const R lower_rpm = speed * of_gear(t.rpm_per_mps, lower);
     const R kick_down =
         STOPLINE_FLAG(R, share >= 0.98) * STOPLINE_FLAG(R, lower_rpm < 0.8 * t.shift_up_full_rpm) * settled;
     const R slow = STOPLINE_FLAG(R, locked_rpm < t.shift_down_rpm) * greater(settled, 1.0 - driving);

@@ -94,19 +94,17 @@ PowertrainTables compile_powertrain(const PowertrainSettings& s) {
         t.rotating_mass[g] = s.rotating_mass_factor[used];
         t.lag_factor[g] = s.lag_gear_factor[used];
     }
-    t.rpm_cells_per_rpm = PowertrainTables::kRpmCells / s.limiter_rpm;
+    t.torque_nodes_per_rpm = (PowertrainTables::kTorqueNodes - 1) / s.limiter_rpm;
     for (std::size_t node = 0; node < t.full_load_Nm.size(); ++node) {
-        const double rpm = static_cast<double>(node) / t.rpm_cells_per_rpm;
+        const double rpm = static_cast<double>(node) / t.torque_nodes_per_rpm;
         t.full_load_Nm[node] = interpolate(s.full_load, rpm);
         t.drag_Nm[node] = s.drag_torque.x.empty() ? 0.0 : std::min(0.0, interpolate(s.drag_torque, rpm));
     }
-    t.lag_nodes_per_rpm = (PowertrainTables::kLagRpmNodes - 1) / s.limiter_rpm;
-    for (int row = 0; row < PowertrainTables::kLagRpmNodes; ++row) {
-        for (int column = 0; column < PowertrainTables::kLagShareNodes; ++column) {
-            const double rpm = row / t.lag_nodes_per_rpm;
-            const double share = static_cast<double>(column) / (PowertrainTables::kLagShareNodes - 1);
-            t.lag_s[static_cast<std::size_t>(row * PowertrainTables::kLagShareNodes + column)] = lag_at(s, rpm, share);
-        }
+    t.lag_nodes_per_rpm = (PowertrainTables::kLagNodes - 1) / s.limiter_rpm;
+    for (std::size_t node = 0; node < t.lag_loaded_s.size(); ++node) {
+        const double rpm = static_cast<double>(node) / t.lag_nodes_per_rpm;
+        t.lag_unloaded_s[node] = lag_at(s, rpm, 0.0);
+        t.lag_loaded_s[node] = lag_at(s, rpm, 1.0);
     }
     return t;
 }

@@ -10,9 +10,9 @@ namespace stopline {
 
 struct PowertrainTables {
     static constexpr int kMaxGears = 8;
-    static constexpr int kRpmCells = 64;     // grid of the torque curves over engine speed
-    static constexpr int kLagRpmNodes = 16;  // grid of the lag map
-    static constexpr int kLagShareNodes = 8;
+    // Uniform grids over engine speed, from 0 to the limiter
+    static constexpr int kTorqueNodes = 32;
+    static constexpr int kLagNodes = 16;
 
     double length_m = 0.0;
     double mass_kg = 0.0;       // kerb mass and load
@@ -44,12 +44,12 @@ struct PowertrainTables {
     std::array<double, kMaxGears> rotating_mass{};  // effective over real mass, per gear
     std::array<double, kMaxGears> lag_factor{};
 
-    double rpm_cells_per_rpm = 0.0;
-    std::array<double, kRpmCells + 1> full_load_Nm{};  // [node] at node / rpm_cells_per_rpm
-    std::array<double, kRpmCells + 1> drag_Nm{};       // <= 0
-
+    double torque_nodes_per_rpm = 0.0;
+    std::array<double, kTorqueNodes> full_load_Nm{};
+    std::array<double, kTorqueNodes> drag_Nm{};  // <= 0
     double lag_nodes_per_rpm = 0.0;
-    std::array<double, kLagRpmNodes * kLagShareNodes> lag_s{};  // [rpm node][share node]
+    std::array<double, kLagNodes> lag_unloaded_s{};  // at no torque ...
+    std::array<double, kLagNodes> lag_loaded_s{};    // ... and at full load
 };
 
 // Throws InputError where the settings are not usable (gears missing, more than kMaxGears, curves empty).

@@ -93,7 +93,7 @@ void check_batch_loads_and_stores() {
         const Batch from_float = load<Batch>(floats.data() + k);
         const Batch from_int = load<Batch>(integers.data() + k);
         const Batch count = counting_from<Batch>(static_cast<double>(k));
-        const Batch found = look_up(doubles.data(), count);
+        const Batch found = look_up<32>(doubles, count);
         std::array<float, kBatchWidth> stored{};
         store(stored.data(), load<Batch>(doubles.data() + k));
         for (int lane = 0; lane < kBatchWidth; ++lane) {
@@ -103,7 +103,7 @@ void check_batch_loads_and_stores() {
             EXPECT_EQ(from_float[lane], load<double>(floats.data() + n));
             EXPECT_EQ(from_int[lane], load<double>(integers.data() + n));
             EXPECT_EQ(count[lane], counting_from<double>(static_cast<double>(n)));
-            EXPECT_EQ(found[lane], look_up(doubles.data(), static_cast<double>(n)));
+            EXPECT_EQ(found[lane], look_up<32>(doubles, static_cast<double>(n)));
             EXPECT_EQ(stored[static_cast<std::size_t>(lane)], one);
         }
     }
