@@ -66,7 +66,6 @@ struct KindSchema {
         if (f.library.empty()) return map;
         const Json name{{"type", "string"}, {"description", "a file of data/" + f.library + ", or a path"}};
         Json based = map;
-        based.erase("required");
         based["properties"]["base"] = name;
         based["required"] = {"base"};
         return Json{{"anyOf", Json::array({name, based, map})}};

@@ -42,6 +42,8 @@ TEST(Checks, OwnPoliciesReplaceThoseOfThePaper) {
     EXPECT_EQ(s.policies.size(), load_policies().size());
     EXPECT_EQ(s.policies[0].name, "CDG");
     EXPECT_EQ(s.policies[0].standstill_gap_m, 2.0);
+    const std::string own = "{name: CDG, law: constant_distance, standstill_gap: 2 m}";
+    EXPECT_TRUE(contains(after({"policies=[" + own + ", " + own + "]"}), "the name 'CDG' appears twice"));
 }
 
 TEST(Checks, PoliciesHaveExactlyTheFieldsOfTheirLaw) {

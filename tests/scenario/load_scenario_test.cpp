@@ -227,6 +227,12 @@ TEST(Overrides, ReachEverythingThatCanBeNamed) {
     EXPECT_EQ(s.network.approach.lanes, 2);
 }
 
+TEST(Overrides, ReachEntriesWithADotInTheirName) {
+    const Scenario s = parse_scenario("populations: [{name: a.b, components: [{policy: CDG, share: 1}]}]\n", "x",
+                                      {"populations[a.b].pattern=random"});
+    EXPECT_EQ(s.populations[0].pattern, PopulationSettings::Pattern::random);
+}
+
 TEST(Overrides, ErrorsNameTheOverride) {
     const auto of = [](const std::string& text) { return error_of(kSmall, {text}); };
     EXPECT_EQ(of("signal.green=20"),
@@ -240,7 +246,7 @@ TEST(Overrides, ErrorsNameTheOverride) {
     EXPECT_TRUE(contains(of("populations[].name=x"), "has no entry []"));
     EXPECT_TRUE(contains(of("policies[XYZ].time_gap=1 s"), "has no entry [XYZ]"));
     EXPECT_TRUE(contains(of("measure.green[0]=1 s"), "has no entry [0]"));
-    EXPECT_TRUE(contains(of("measure.green[0][0]=1 s"), "has no entry"));
+    EXPECT_TRUE(contains(of("populations[0][1].name=x"), "has no entry"));
     EXPECT_TRUE(
         contains(of("policies[CDG].time_gap=1 s"), "is used only where law is constant_time or switch_time_gap"));
     EXPECT_TRUE(contains(of("vehicle=nothing"), "there is no 'nothing' in"));
@@ -268,6 +274,23 @@ TEST(DataFiles, ComeByNameOrByPath) {
     EXPECT_EQ(s.vehicle.wheel_diameter_m, 0.606);
     EXPECT_EQ(load_vehicle("cars/mine.yaml", folder.path()).load_kg, 75.0);
     EXPECT_EQ(load_vehicle((folder.path() / "other.yaml").string()).load_kg, 60.0);
+}
+
+TEST(DataFiles, AFileMayBuildOnOthersAndKeepWhatItDoesNotName) {
+    const TemporaryFolder folder;
+    folder.write("d0.yaml", "base: startup_kit\ncacc: {radar_range: 99 m, jerk_up: 4 m/s3}\nstop: {margin: 2 m}\n");
+    for (int i = 1; i < 7; ++i) {
+        const std::string below = "base: ./d" + std::to_string(i - 1) + ".yaml\n";
+        folder.write("d" + std::to_string(i) + ".yaml",
+                     below + "cacc: {v2v_delay: " + std::to_string(20 + i) + " ms}\n");
+    }
+    folder.write("run.yaml", "driver: {base: ./d6.yaml, cacc: {jerk_up: 5 m/s3}}\n");
+    const DriverSettings driver = load_scenario(folder.path() / "run.yaml").driver;
+    EXPECT_EQ(driver.name, "d6");
+    EXPECT_EQ(driver.cacc.radar_range_m, 99.0);
+    EXPECT_EQ(driver.cacc.v2v_delay_s, 0.026);
+    EXPECT_EQ(driver.cacc.jerk_up_mps3, 5.0);
+    EXPECT_EQ(driver.stop.margin_m, 2.0);
 }
 
 TEST(DataFiles, ErrorsInThemNameThem) {
