@@ -54,7 +54,7 @@ void fit_driver(const Options& options, const StartupCurve& curve, Scenario& sce
     StartupFit fit;
     {
         ProgressBar bar("fit");
-        constexpr double kUsual = 250.0;  // evaluations that the fit takes as a rule
+        constexpr double kUsual = 2000.0;  // evaluations that the fit takes as a rule
         fit = fit_startup(scenario, curve, [&bar](int evaluations, double /*best*/) {
             if (!bar.update(std::min(0.99, evaluations / kUsual))) throw Interrupted();
         });

@@ -19,7 +19,7 @@ namespace stopline {
 
 // Settings compiled for the kernel.
 struct DriverTables {
-    static constexpr int kProfileNodes = 16;
+    static constexpr int kProfileNodes = 32;
     CaccSettings cacc;
     StopSettings stop;
     double speed_gain_1ps = 0.0;
