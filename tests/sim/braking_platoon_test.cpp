@@ -1,0 +1,80 @@
+// A leader brakes to a stop while ten vehicles follow in equilibrium at 50 km/h: nobody runs into anybody.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "support/track.h"
+
+namespace stopline {
+namespace {
+
+using namespace testing_support;
+
+constexpr double kBraking_mps2[] = {2.0, 4.0, 6.0};
+constexpr int kFollowers = 10;
+constexpr double kSpeed_mps = 50.0 / 3.6;
+constexpr double kBrakeLag_s = 0.2;
+
+// A leader driven by hand: constant speed, then a braking request at once that its brake follows with a lag.
+struct Leader {
+    double position_m, speed_mps, acceleration_mps2, request_mps2;
+
+    void advance(double request, double dt) {
+        request_mps2 = speed_mps > 0.0 ? request : 0.0;
+        acceleration_mps2 += (request_mps2 - acceleration_mps2) * (1.0 - std::exp(-dt / kBrakeLag_s));
+        const double next_mps = std::max(0.0, speed_mps + acceleration_mps2 * dt);
+        if (next_mps == 0.0) acceleration_mps2 = 0.0;
+        position_m += 0.5 * (speed_mps + next_mps) * dt;
+        speed_mps = next_mps;
+    }
+};
+
+class BrakingPlatoon : public testing::TestWithParam<Pairing> {};
+INSTANTIATE_TEST_SUITE_P(SlowEveryPairing, BrakingPlatoon, testing::ValuesIn(every_pairing()), as_pairing_name);
+INSTANTIATE_TEST_SUITE_P(OnePairing, BrakingPlatoon, testing::Values(Pairing{"CDG", "petrol_eu4_72kw"}),
+                         as_pairing_name);
+
+TEST_P(BrakingPlatoon, StopsWithoutTouching) {
+    TrackPlan plan;
+    plan.policy = GetParam().policy;
+    plan.vehicle = GetParam().vehicle;
+    plan.lanes = 3;
+    plan.length_m = 2000.0;
+    Track track(plan);
+    std::vector<Leader> leaders;
+    for (int k = 0; k < 3; ++k) {
+        track.place_platoon(2 * k, 1000.0, kSpeed_mps, kFollowers);
+        leaders.push_back({1000.0, kSpeed_mps, 0.0, 0.0});
+    }
+    std::vector<double> smallest_m(3, 1e9);
+    while (track.time_s() < 60.0) {
+        for (int k = 0; k < 3; ++k) {
+            Leader& leader = leaders[at(k)];
+            track.drive(2 * k, 0, leader.position_m, leader.speed_mps, leader.acceleration_mps2, leader.request_mps2,
+                        kBrakeLag_s);
+            leader.advance(track.time_s() < 15.0 ? 0.0 : -kBraking_mps2[k], track.step_s());
+        }
+        track.step();
+        if (HasFatalFailure()) return;
+        for (int k = 0; k < 3; ++k) {
+            for (int n = 2; n <= kFollowers; ++n) {
+                smallest_m[at(k)] = std::min(smallest_m[at(k)], track.seen(2 * k, n).gap_m);
+            }
+            // The first one's predecessor has been moved on by the engine meanwhile: where it is by hand counts.
+            const double rear_m = leaders[at(k)].position_m - track.model().vehicles[0].length_m;
+            smallest_m[at(k)] = std::min(smallest_m[at(k)], rear_m - track.seen(2 * k, 1).position_m);
+        }
+    }
+    const double wanted_m = equilibrium_gap_m(track.model().policies[0].settings, 0.0);
+    for (int k = 0; k < 3; ++k) {
+        EXPECT_GT(smallest_m[at(k)], 0.3) << "braking with " << kBraking_mps2[k];
+        for (int n = 1; n <= kFollowers; ++n) {
+            EXPECT_LT(track.seen(2 * k, n).speed_mps, 0.01) << "follower " << n;
+            EXPECT_LT(track.seen(2 * k, n).gap_m, wanted_m + 0.15) << "follower " << n;
+        }
+    }
+    std::printf("smallest gap at 2, 4, 6 m/s2: %.2f %.2f %.2f m\n", smallest_m[0], smallest_m[1], smallest_m[2]);
+}
+
+}  // namespace
+}  // namespace stopline

@@ -1,0 +1,222 @@
+// A simulation under a test's control: vehicles are placed by hand, one of them may be driven by hand, and every step checks
+// what must hold in every step of every run - nobody lost, no overlap, nobody past a red light, order kept.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "experiment/build_model.h"
+#include "scenario/load_scenario.h"
+#include "sim/phases.h"
+#include "sim/simulation.h"
+
+namespace stopline::testing_support {
+
+inline std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+inline constexpr double kForever_s = 1e5;
+
+// Straight lanes side by side, one policy, one vehicle type.
+struct TrackPlan {
+    std::string vehicle = "petrol_eu4_72kw";
+    std::string policy = "CDG";  // or a population of the scenario, such as MIX
+    int lanes = 1;
+    double length_m = 2000.0;  // to the stop line
+    double exit_m = 500.0;
+    double limit_mps = 50.0 / 3.6;
+    double gradient = 0.0;
+    double green_from_s = 0.0;  // kForever_s: red throughout
+    double green_s = kForever_s;
+    double step_s = 0.01;
+    bool scalar = false;
+    std::vector<std::string> overrides;  // of the scenario's fields, as --set takes them
+};
+
+// The population of that name, or the one in which all follow the policy of that name.
+inline PopulationSettings population_of(const Scenario& scenario, const std::string& name) {
+    for (const PopulationSettings& population : scenario.populations) {
+        if (population.name == name) return population;
+    }
+    return {name, {{name, 1.0}}, PopulationSettings::Pattern::alternating};
+}
+
+inline Scenario single_light(const std::string& vehicle, const std::string& policy,
+                             std::vector<std::string> overrides = {}) {
+    overrides.insert(overrides.begin(), "vehicle=" + vehicle);
+    Scenario scenario = load_scenario(STOPLINE_SOURCE_DIR "/scenarios/single_light.yaml", overrides);
+    scenario.populations = {population_of(scenario, policy)};
+    return scenario;
+}
+
+inline Scenario scenario_of(const TrackPlan& plan) {
+    Scenario scenario = single_light(plan.vehicle, plan.policy, plan.overrides);
+    scenario.step_s = plan.step_s;
+    scenario.network.approach = {plan.lanes, plan.length_m, plan.exit_m, plan.limit_mps, plan.gradient};
+    scenario.signal = {plan.green_from_s, plan.green_s, 3.0, 5.0, 0.0};
+    scenario.demand.vehicles = 0;
+    return scenario;
+}
+
+// What is seen of one vehicle.
+struct Seen {
+    int id;
+    double position_m;  // from the start of its lane
+    double speed_mps;
+    double acceleration_mps2;
+    double request_mps2;
+    double gap_m;  // to the vehicle ahead on the lane; for the first one 1e9
+    bool leads;
+};
+
+class Track {
+public:
+    explicit Track(const TrackPlan& plan) : Track(build_model(scenario_of(plan), 0), plan.scalar) {}
+    explicit Track(Model model, bool scalar = false) : model_(std::make_unique<Model>(std::move(model))) {
+        model_->scalar_kernels = scalar;
+        simulation_ = std::make_unique<Simulation>(*model_);
+    }
+
+    const Model& model() const { return *model_; }
+    Simulation& simulation() { return *simulation_; }
+    const State& state() const { return simulation_->state(); }
+    // The one that the engine works on.
+    State& editable() { return const_cast<State&>(simulation_->state()); }
+    double step_s() const { return model_->step_s; }
+    double time_s() const { return simulation_->time_s(); }
+
+    // Puts a vehicle behind the last one of a lane. Returns its id.
+    int place(int lane, double position_m, double speed_mps, int policy = 0, int type = 0) {
+        State& state = editable();
+        const int slot = append_slot(state, lane);
+        VehicleArrays& v = state.vehicles;
+        const std::size_t i = at(slot);
+        const PowertrainTables& car = model_->vehicles[at(type)];
+        v.position_m[i] = position_m;
+        v.speed_mps[i] = speed_mps;
+        v.acceleration_mps2[i] = v.request_mps2[i] = v.torque_Nm[i] = v.brake_N[i] = 0.0;
+        v.gear_time_s[i] = 100.0;
+        v.lag_s[i] = 0.2;
+        v.length_m[i] = car.length_m;
+        v.gear[i] = gear_for(car, speed_mps);
+        v.leads[i] = 1.0;
+        v.standstill_gap_m[i] = static_cast<float>(model_->policies[at(policy)].settings.standstill_gap_m);
+        v.end_speed_mps[i] = 1e3F;
+        v.policy[i] = policy;
+        v.type[i] = type;
+        v.id[i] = state.next_id++;
+        v.route[i] = lane / 2;
+        v.route_index[i] = lane % 2;
+        const bool first = state.blocks[at(lane)].count == 1;
+        v.predecessor[i] = first ? -1 : v.id[i - 1];
+        v.reset_radar(slot, first ? 1e6 : v.position_m[i - 1] - v.length_m[i - 1] - position_m,
+                      first ? 0.0 : speed_mps - v.speed_mps[i - 1]);
+        v.reset_v2v(slot);
+        ++state.entered;
+        return v.id[i];
+    }
+
+    // A platoon of `followers` behind a vehicle at `front_m`, all in equilibrium.
+    void place_platoon(int lane, double front_m, double speed_mps, int followers) {
+        const double gap_m = equilibrium_gap_m(model_->policies[0].settings, speed_mps);
+        for (int k = 0; k <= followers; ++k) {
+            place(lane, front_m - k * (model_->vehicles[0].length_m + gap_m), speed_mps);
+            if (k > 0) follows(lane, k);
+        }
+    }
+
+    // A lane's k-th vehicle is no leader of a platoon (any more).
+    void follows(int lane, int k) { editable().vehicles.leads[slot(lane, k)] = 0.0; }
+
+    // Slot of a lane's k-th vehicle from the front.
+    std::size_t slot(int lane, int k) const { return at(state().blocks[at(lane)].first + k); }
+
+    // Drives a vehicle by hand: what it is at the beginning of the next step, and what it tells the one behind.
+    void drive(int lane, int k, double position_m, double speed_mps, double acceleration_mps2, double request_mps2,
+               double lag_s) {
+        VehicleArrays& v = editable().vehicles;
+        const std::size_t i = slot(lane, k);
+        v.position_m[i] = position_m;
+        v.speed_mps[i] = speed_mps;
+        v.acceleration_mps2[i] = acceleration_mps2;
+        v.request_mps2[i] = request_mps2;
+        v.lag_s[i] = lag_s;
+    }
+
+    int count(int lane) const { return state().blocks[at(lane)].count; }
+
+    Seen seen(int lane, int k) const {
+        const VehicleArrays& v = state().vehicles;
+        const std::size_t i = slot(lane, k);
+        const double gap_m = k == 0 ? 1e9 : v.position_m[i - 1] - v.length_m[i - 1] - v.position_m[i];
+        return {v.id[i],           v.position_m[i], v.speed_mps[i],   v.acceleration_mps2[i],
+                v.request_mps2[i], gap_m,           v.leads[i] != 0.0};
+    }
+
+    void step() {
+        simulation_->step();
+        expect_invariants();
+    }
+
+    void run(double duration_s) {
+        const std::int64_t end = state().tick + to_ticks(duration_s, step_s());
+        while (state().tick < end) step();
+    }
+
+    // Stops at the first failure: ASSERT in the caller by testing::Test::HasFatalFailure is not needed.
+    void expect_invariants() const {
+        const State& s = state();
+        std::int64_t present = 0;
+        for (const LaneBlock& block : s.blocks) {
+            present += block.count;
+            ASSERT_GE(block.first, block.begin);
+            ASSERT_LE(block.stop(), block.end);
+            // Ids are given in the order of entering: on a lane they rise from front to back.
+            for (int k = block.first + 1; k < block.stop(); ++k) {
+                ASSERT_LT(s.vehicles.id[at(k - 1)], s.vehicles.id[at(k)]) << "order changed at " << time_s() << " s";
+            }
+        }
+        ASSERT_EQ(s.entered, s.left + present) << "vehicles lost at " << time_s() << " s";
+        ASSERT_EQ(s.violations.overlaps, 0) << "overlap at " << time_s() << " s";
+        ASSERT_EQ(s.violations.red_entries, 0) << "passed on red at " << time_s() << " s";
+        ASSERT_EQ(s.violations.lost_vehicles, 0) << "at " << time_s() << " s";
+    }
+
+private:
+    std::unique_ptr<Model> model_;
+    std::unique_ptr<Simulation> simulation_;
+};
+
+// Every shipped policy with every shipped vehicle.
+struct Pairing {
+    std::string policy;
+    std::string vehicle;
+};
+
+inline std::vector<Pairing> every_pairing() {
+    std::vector<Pairing> all;
+    for (const GapPolicySettings& policy : load_policies()) {
+        for (const std::string& vehicle : data_names("vehicles")) all.push_back({policy.name, vehicle});
+    }
+    return all;
+}
+
+inline void PrintTo(const Pairing& pairing, std::ostream* out) {
+    *out << pairing.policy << " with " << pairing.vehicle;
+}
+
+// Names of cases, as ctest lists them.
+inline std::string as_name(const testing::TestParamInfo<std::string>& info) {
+    std::string text = info.param;
+    for (char& c : text) c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+    return text;
+}
+inline std::string as_pairing_name(const testing::TestParamInfo<Pairing>& info) {
+    return as_name({info.param.policy + "_" + info.param.vehicle, info.index});
+}
+
+}  // namespace stopline::testing_support
