@@ -21,13 +21,17 @@ std::string signed_number(double value, int decimals) {
     return std::isnan(value) ? "-" : fmt::format("{:+.{}f}", value, decimals);
 }
 
-std::string count_note(const SingleLight& result) {
-    bool emptied = false;
-    for (const PopulationSummary& summary : result.populations) {
-        emptied = emptied || (!std::isnan(summary.emptied_s) && !result.scenario.measure.green_s.empty() &&
-                              summary.emptied_s < result.scenario.measure.green_s.back());
+// Whether a queue is used up before a green time ends: then the count says what was there, not what could pass.
+bool used_up(const PopulationSummary& summary, double green_s) { return summary.emptied_s < green_s; }
+
+void append_improvements(const SingleLight& result, const PopulationSummary& summary, std::vector<std::string>& cells) {
+    const PopulationSummary& baseline = result.populations[*result.baseline];
+    cells.emplace_back("|");
+    for (std::size_t k = 0; k < summary.improvement_percent.size(); ++k) {
+        const double green_s = result.scenario.measure.green_s[k];
+        const bool starred = used_up(summary, green_s) || used_up(baseline, green_s);
+        cells.push_back(signed_number(summary.improvement_percent[k], 0) + (starred ? "*" : ""));
     }
-    return emptied ? "  *: the queue is empty before; a longer queue (demand.vehicles) would let more pass\n" : "";
 }
 
 }  // namespace
@@ -43,22 +47,22 @@ std::string counts_text(const SingleLight& result) {
         for (const double green : green_s) head.push_back(fmt::format("{:.4g} s", green));
     }
     table.row(head);
+    bool starred = false;
     for (const PopulationSummary& summary : result.populations) {
         std::vector<std::string> cells{summary.name};
         for (std::size_t k = 0; k < green_s.size(); ++k) {
-            cells.push_back(std::to_string(summary.passed[k]) + (summary.emptied_s < green_s[k] ? "*" : ""));
+            const bool star = used_up(summary, green_s[k]);
+            cells.push_back(std::to_string(summary.passed[k]) + (star ? "*" : ""));
+            starred = starred || star;
         }
-        if (result.baseline) {
-            cells.emplace_back("|");
-            for (const double percent : summary.improvement_percent) cells.push_back(signed_number(percent, 0));
-        }
+        if (result.baseline) append_improvements(result, summary, cells);
         table.row(cells);
     }
     std::string text = "Vehicles passed within the green time";
-    if (result.baseline) {
-        text += fmt::format(" | improvement over {} [%]", result.populations[*result.baseline].name);
-    }
-    return text + "\n" + table.text() + count_note(result);
+    if (result.baseline) text += fmt::format(" | improvement over {} [%]", result.populations[*result.baseline].name);
+    text += "\n" + table.text();
+    if (starred) text += "  *: a queue is used up before; with a longer one (demand.vehicles) more would pass\n";
+    return text + "\n";
 }
 
 std::string headways_text(const SingleLight& result) {

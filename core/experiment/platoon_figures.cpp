@@ -48,23 +48,36 @@ std::vector<std::pair<int, std::vector<TrajectoryPoint>>> by_vehicle(const Singl
     return ordered;
 }
 
-// The light over time at the stop line: a bold red line, a dashed green one; the words tell them apart too.
-std::string signal_lines(const SingleLight& result) {
-    const double end_s = last_shown_s(result);
-    const double green_s = std::min(result.scenario.signal.green_s, end_s);
-    std::string text = fmt::format(
-        "set arrow 1 from -{0:.6g},0 to 0,0 nohead lc rgb '#D55E00' lw 5 dt 1 front\n"
-        "set arrow 2 from 0,0 to {1:.6g},0 nohead lc rgb '#009E73' lw 3 dt (8,4) front\n"
-        "set label 1 'red' at {2:.6g},14 center tc rgb '#B34F00' font ',12' front\n"
-        "set label 2 'stop line,' at graph 1.01, first 9 left tc rgb '#404040' font ',12'\n",
-        kLeadIn_s, green_s, -0.5 * kLeadIn_s);
-    if (green_s < end_s) {
-        text += fmt::format("set arrow 3 from {:.6g},0 to {:.6g},0 nohead lc rgb '#D55E00' lw 5 dt 1 front\n", green_s,
-                            end_s);
+// A line on the stop line while it shows one light; words in the margin and above tell the lights apart too.
+std::string light_line(const std::string& light, double from_s, double to_s) {
+    const bool green = light == "green";
+    const std::string colour = green ? "#009E73" : light == "red" ? "#D55E00" : "#F0C000";
+    const std::string words = green ? "#00694D" : light == "red" ? "#B34F00" : "#7A6200";
+    std::string text = fmt::format("set arrow from {:.6g},0 to {:.6g},0 nohead lc rgb '{}' lw {} dt {} front\n", from_s,
+                                   to_s, colour, green ? 3 : 5, green ? "(8,4)" : "1");
+    if (!green) {
+        text += fmt::format("set label '{}' at {:.6g},14 center tc rgb '{}' font ',12' front boxed\n", light,
+                            0.5 * (from_s + to_s), words);
     }
-    const bool ends_red = green_s < end_s;
-    return text + fmt::format("set label 3 '{}' at graph 1.01, first -9 left tc rgb '{}' font ',12'\n",
-                              ends_red ? "red" : "green", ends_red ? "#B34F00" : "#00694D");
+    return text;
+}
+
+// The light over time: red, then green, yellow and red, once or with every cycle.
+std::string signal_lines(const SingleLight& result) {
+    const SignalSettings& signal = result.scenario.signal;
+    const double end_s = last_shown_s(result);
+    const double cycle_s = signal.cycle_s > 0.0 ? signal.cycle_s : end_s + signal.green_s + signal.yellow_s;
+    std::string text = light_line("red", -kLeadIn_s, 0.0);
+    for (double begin_s = 0.0; begin_s < end_s; begin_s += cycle_s) {
+        const double yellow_s = begin_s + signal.green_s;
+        const double red_s = yellow_s + signal.yellow_s;
+        text += light_line("green", begin_s, std::min(yellow_s, end_s));
+        if (yellow_s < end_s && red_s > yellow_s) text += light_line("yellow", yellow_s, std::min(red_s, end_s));
+        if (red_s < end_s) text += light_line("red", red_s, std::min(begin_s + cycle_s, end_s));
+    }
+    return text +
+           "set label 'stop line' at graph 1.01, first 9 left tc rgb '#404040' font ',12'\n"
+           "set label '(dashed: green)' at graph 1.01, first -9 left tc rgb '#00694D' font ',10'\n";
 }
 
 std::string time_space_data(const SingleLight& result, std::size_t population) {
@@ -85,7 +98,7 @@ std::string time_space_data(const SingleLight& result, std::size_t population) {
 
 std::string time_space_panel(const SingleLight& result, std::size_t population, const std::string& file) {
     constexpr int kEvery = 10;  // vehicles that are drawn bold
-    const std::string colour = line_style(population).colour;
+    const std::string colour = line_style(style_index(result, population)).colour;
     return fmt::format("set title {} offset 0,-0.6\n", gnuplot_text(result.populations[population].name)) +
            fmt::format(
                "plot '{0}' using 1:2 with lines dt 1 lc rgb '{1}' lw 0.8 notitle, \\\n"
@@ -118,8 +131,9 @@ std::string platoon_data(const SingleLight& result, std::size_t population) {
 
 std::string platoon_panel(const std::string& file, std::size_t curves, int column,
                           const std::vector<std::size_t>& titles) {
-    std::string text = "plot";
     // The leader has no gap.
+    if (column == 3 && curves < 2) return "plot NaN notitle\n";
+    std::string text = "plot";
     for (std::size_t k = column == 3 ? 1 : 0; k < curves; ++k) {
         const std::string title = titles.empty() ? "notitle" : fmt::format("title '{}'", titles[k]);
         text += fmt::format(" '{}' index {} using 1:{} with lines dt 1 lw 1.8 lc rgb '{}' {},", file, k, column,
@@ -156,7 +170,7 @@ Figure time_space_figure(const SingleLight& result) {
                   fmt::format("set xrange [-{:.6g}:{:.6g}]\nset yrange [-{}:{}]\n", kLeadIn_s, last_shown_s(result),
                               kBefore_m, kBehind_m) +
                   "set xlabel 'Time since the start of green [s]'\nset ylabel 'Distance from the stop line [m]'\n" +
-                  "set xtics 5\nset ytics 50\nset rmargin 10\n" + signal_lines(result);
+                  "set xtics 5\nset ytics 50\nset rmargin 14\n" + signal_lines(result);
     for (std::size_t k = 0; k < populations.size(); ++k) {
         const std::string file = fmt::format("time_space_{}.dat", k + 1);
         figure.data.emplace_back(file, time_space_data(result, populations[k]));
@@ -169,7 +183,7 @@ Figure time_space_figure(const SingleLight& result) {
 Figure platoon_figure(const SingleLight& result) {
     const std::vector<std::size_t> populations = shown_populations(result);
     const double limit_kmh = result.scenario.network.approach.speed_limit_mps * kKmhPerMps;
-    const double gap_m = 1.05 * largest_gap_shown_m(result, populations);
+    const double gap_m = 1.05 * std::max(1.0, largest_gap_shown_m(result, populations));
     Figure figure;
     figure.name = "platoon";
     figure.height_px = 720;

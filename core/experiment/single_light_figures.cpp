@@ -75,10 +75,11 @@ std::string paper_data(const std::vector<PaperPoint>& points) {
 }
 
 // The paper's points in the colour of their curve, and one entry for all of them in the legend.
-std::string plot_paper(const std::vector<PaperPoint>& points, const std::string& file, const std::string& legend) {
+std::string plot_paper(const SingleLight& result, const std::vector<PaperPoint>& points, const std::string& file,
+                       const std::string& legend) {
     std::string text;
     for (std::size_t k = 0; k < points.size(); ++k) {
-        const LineStyle style = line_style(points[k].population);
+        const LineStyle style = line_style(style_index(result, points[k].population));
         text += fmt::format(", \\\n '{}' index {} using 1:2 with points pt {} ps 1.1 lw 2 lc rgb '{}' notitle", file, k,
                             style.hollow_point, style.colour);
     }
@@ -100,17 +101,33 @@ std::string counter_data(const SingleLight& result, const std::vector<std::size_
     return text;
 }
 
-std::string improvement_data(const SingleLight& result, const std::vector<std::size_t>& order, double end_s) {
+// Before the second vehicle of the baseline a ratio says nothing.
+double first_ratio_s(const SingleLight& result) {
+    const Counter& baseline = result.populations[*result.baseline].counter;
+    return baseline.total() < 2 ? result.scenario.signal.green_s : baseline.times_s()[1];
+}
+
+double last_ratio_s(const SingleLight& result, const PopulationSummary& summary) {
+    const double end_s = last_shown_s(result);
+    return std::isnan(summary.emptied_s) ? end_s : std::min(end_s, summary.emptied_s);
+}
+
+bool has_improvement(const SingleLight& result) {
+    if (!result.baseline || result.populations.size() < 2) return false;
+    return std::any_of(result.populations.begin(), result.populations.end(), [&](const PopulationSummary& summary) {
+        return last_ratio_s(result, summary) > first_ratio_s(result) + 0.2;
+    });
+}
+
+std::string improvement_data(const SingleLight& result, const std::vector<std::size_t>& order) {
     constexpr double kStep_s = 0.1;
     const Counter& baseline = result.populations[*result.baseline].counter;
-    // Before the second vehicle of the baseline a ratio says nothing.
-    const double begin_s = baseline.total() < 2 ? end_s : baseline.times_s()[1];
+    const double begin_s = first_ratio_s(result);
     std::string text = "# time_s improvement_percent, one block a population\n";
     for (const std::size_t k : order) {
         const PopulationSummary& summary = result.populations[k];
         text += fmt::format("# {}\n", summary.name);
-        const double last_s = std::isnan(summary.emptied_s) ? end_s : std::min(end_s, summary.emptied_s);
-        for (int i = 0; begin_s + i * kStep_s <= last_s; ++i) {
+        for (int i = 0; begin_s + i * kStep_s <= last_ratio_s(result, summary); ++i) {
             const double time_s = begin_s + i * kStep_s;
             const double percent =
                 improvement_percent(summary.counter.interpolated(time_s), baseline.interpolated(time_s));
@@ -126,7 +143,7 @@ std::string plot_curves(const SingleLight& result, const std::vector<std::size_t
     std::string text = "plot";
     for (std::size_t k = 0; k < order.size(); ++k) {
         text += fmt::format("{} '{}' index {} using 1:2 with {} lt {} lw {} title {}", k == 0 ? "" : ", \\\n", file, k,
-                            how, order[k] % 8 + 1, order[k] == result.baseline ? "2.6" : "1.8",
+                            how, style_index(result, order[k]) + 1, order[k] == result.baseline ? "2.6" : "1.8",
                             gnuplot_text(result.populations[order[k]].name));
     }
     return text;
@@ -146,7 +163,7 @@ Figure counters_figure(const SingleLight& result, const std::vector<Target>& tar
         "set ylabel 'Vehicles [veh]'\nset key outside right top\n" +
         green_lines(result) + fmt::format("set xrange [0:{:.6g}]\nset yrange [0:*]\n", end_s) +
         plot_curves(result, order, "counters.dat", "steps") +
-        plot_paper(paper, "counters_paper.dat", "paper (Fig. 5)") + "\n";
+        plot_paper(result, paper, "counters_paper.dat", "paper (Fig. 5)") + "\n";
     return figure;
 }
 
@@ -157,21 +174,29 @@ Figure improvement_figure(const SingleLight& result, const std::vector<Target>& 
     const std::string& baseline = result.populations[*result.baseline].name;
     Figure figure;
     figure.name = "improvement";
-    figure.data = {{"improvement.dat", improvement_data(result, order, end_s)},
-                   {"improvement_paper.dat", paper_data(paper)}};
+    figure.data = {{"improvement.dat", improvement_data(result, order)}, {"improvement_paper.dat", paper_data(paper)}};
     figure.body = fmt::format("set title {} font ',15'\n", gnuplot_text("Throughput compared with " + baseline)) +
                   "set xlabel 'Green time [s]'\n" +
                   fmt::format("set ylabel {}\n", gnuplot_text("Improvement over " + baseline + " [%]")) +
                   "set key outside right top\n" + green_lines(result) +
                   fmt::format("set xrange [0:{:.6g}]\nset yrange [*:*]\n", end_s) +
                   plot_curves(result, order, "improvement.dat", "lines") +
-                  plot_paper(paper, "improvement_paper.dat", "paper (Fig. 6)") + "\n";
+                  plot_paper(result, paper, "improvement_paper.dat", "paper (Fig. 6)") + "\n";
     return figure;
+}
+
+std::size_t style_index(const SingleLight& result, std::size_t population) {
+    constexpr std::size_t kStyles = 8;
+    constexpr std::size_t kBlack = 5;
+    if (!result.baseline) return population % kStyles;
+    if (population == *result.baseline) return kBlack;
+    const std::size_t rank = (population > *result.baseline ? population - 1 : population) % (kStyles - 1);
+    return rank < kBlack ? rank : rank + 1;
 }
 
 std::vector<Figure> single_light_figures(const SingleLight& result, const std::vector<Target>& targets) {
     std::vector<Figure> figures{counters_figure(result, targets)};
-    if (result.baseline && result.populations.size() > 1) figures.push_back(improvement_figure(result, targets));
+    if (has_improvement(result)) figures.push_back(improvement_figure(result, targets));
     figures.push_back(time_space_figure(result));
     figures.push_back(platoon_figure(result));
     return figures;

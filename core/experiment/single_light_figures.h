@@ -19,4 +19,7 @@ Figure improvement_figure(const SingleLight& result, const std::vector<Target>& 
 Figure time_space_figure(const SingleLight& result);
 Figure platoon_figure(const SingleLight& result);
 
+// Which of the line styles a population has in all figures: the baseline the black one, the others the rest in their order.
+std::size_t style_index(const SingleLight& result, std::size_t population);
+
 }  // namespace stopline
