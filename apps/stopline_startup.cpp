@@ -17,9 +17,9 @@
 #include "experiment/startup_report.h"
 #include "scenario/load_scenario.h"
 
-namespace {
+namespace stopline {
 
-using namespace stopline;
+namespace {
 
 constexpr const char* kMeasured = "startup/kit_curve_leader50.csv";
 
@@ -111,7 +111,7 @@ ExitCode run(Options& options) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int startup_main(int argc, const char* const* argv) {
     return run_program("stopline-startup", [&] {
         CLI::App app("The simulated start of a platoon leader beside measured starts at traffic lights.",
                      "stopline-startup");
@@ -121,3 +121,7 @@ int main(int argc, char** argv) {
         return end ? *end : run(options);
     });
 }
+
+}  // namespace stopline
+
+int main(int argc, char** argv) { return stopline::startup_main(argc, argv); }

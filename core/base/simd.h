@@ -15,6 +15,10 @@
 #include <cstdint>
 #include <cstring>
 
+#if defined(__AVX512F__)
+#include <immintrin.h>
+#endif
+
 #ifndef STOPLINE_BATCH_WIDTH
 #define STOPLINE_BATCH_WIDTH 2
 #endif
@@ -95,6 +99,21 @@ STOPLINE_INLINE Batch select(const BatchMask& condition, const Batch& yes, const
 template <class R>
 STOPLINE_INLINE R choose(const R& flag, const R& yes, const R& no) {
     return select(flag > 0.5, yes, no);
+}
+
+// Whether a flag is set anywhere in the batch. Work that no vehicle of a batch needs can be skipped with it: a result that no
+// vehicle takes changes no bit.
+STOPLINE_INLINE bool any(double flag) { return flag > 0.5; }
+STOPLINE_INLINE bool any(const Batch& flag) {
+#if defined(__AVX512F__) && STOPLINE_BATCH_WIDTH == 8
+    __m512d flags;
+    std::memcpy(&flags, &flag, sizeof flags);
+    return _mm512_cmp_pd_mask(flags, _mm512_set1_pd(0.5), _CMP_GT_OQ) != 0;
+#else
+    double most = 0.0;
+    for (int k = 0; k < kBatchWidth; ++k) most = flag[k] > most ? flag[k] : most;
+    return most > 0.5;
+#endif
 }
 
 STOPLINE_INLINE double square_root(double value) { return std::sqrt(value); }

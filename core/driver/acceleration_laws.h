@@ -123,8 +123,13 @@ STOPLINE_INLINE R follow_acceleration(const CaccSettings& c, const R& accelerati
     const R feedback = c.feedback_kp_1ps2 * error_m + c.feedback_kd_1ps * error_rate_mps;
     const R time_gap_ff = p.acceleration_mps2 + lag_s * p.rate_1ps * (p.request_mps2 - p.acceleration_mps2);
     const R filtered = request_mps2 + (feedback + time_gap_ff - request_mps2) * lag_share(dt, slope_s);
-    const R distance = feedback + predictive_feedforward(c, acceleration_mps2, rate_1ps, p);
-    return limited(select(slope_s > 0.0, filtered, distance), -c.deceleration_comfort_mps2, c.acceleration_max_mps2);
+    const R constant = STOPLINE_FLAG(R, slope_s <= 0.0);
+    R answer = filtered;
+    if (any(constant)) {
+        const R distance = feedback + predictive_feedforward(c, acceleration_mps2, rate_1ps, p);
+        answer = choose(constant, distance, filtered);
+    }
+    return limited(answer, -c.deceleration_comfort_mps2, c.acceleration_max_mps2);
 }
 
 // Emergency: the deceleration that is needed not to hit the predecessor, once it exceeds the threshold; large (no limit)
@@ -144,9 +149,13 @@ STOPLINE_INLINE R emergency_acceleration(const CaccSettings& c, const R& speed_m
     const R stop_under = 2.0 * room_m * braking_p + square(speed_p);
     const R match_wins = STOPLINE_FLAG(R, match_over * stop_under > stop_over * match_under);
     const R matching = match_wins * STOPLINE_FLAG(R, p.closing_mps > 0.0);
-    const R needed = choose(matching, match_over, stop_over) / choose(matching, match_under, stop_under);
-    const R braking = lesser(1.15 * needed, c.deceleration_emergency_mps2);
-    return select(needed > c.emergency_threshold_mps2, 0.0 - braking, splat<R>(1e3));
+    const R over = choose(matching, match_over, stop_over);
+    const R under = choose(matching, match_under, stop_under);
+    const R urgent = STOPLINE_FLAG(R, over > c.emergency_threshold_mps2 * under);
+    const R none = splat<R>(1e3);
+    if (!any(urgent)) return none;
+    const R braking = lesser(1.15 * (over / under), c.deceleration_emergency_mps2);
+    return choose(urgent, 0.0 - braking, none);
 }
 
 }  // namespace stopline

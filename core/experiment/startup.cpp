@@ -75,8 +75,8 @@ void set_parameters(const std::vector<double>& values, FreeDriveSettings& free) 
 
 struct FitTask {
     Scenario scenario;
-    const StartupCurve* curve;
-    const std::function<void(int, double)>* on_progress;
+    const StartupCurve* curve = nullptr;
+    const std::function<void(int, double)>* on_progress = nullptr;
     int evaluations = 0;
     double best = 1e9;
 };

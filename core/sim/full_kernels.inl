@@ -43,7 +43,7 @@ STOPLINE_INLINE void plan_at(const PlanStreams& s, const DriverTables& d, const 
     store(s.tell_rate + i, rate);
 
     // What is known of the predecessor now.
-    PredecessorView<R> p;
+    PredecessorView<R> p{};
     p.gap_m = delayed<R>(radar, s.gap_late, s.gap_later, i);
     p.closing_mps = delayed<R>(radar, s.closing_late, s.closing_later, i);
     p.acceleration_mps2 = delayed<R>(v2v, s.heard_acceleration, s.earlier_acceleration, i - 1);
@@ -66,9 +66,12 @@ STOPLINE_INLINE void plan_at(const PlanStreams& s, const DriverTables& d, const 
     const R speed_p = greater(speed - p.closing_mps, 0.0);
     const R stopping_p = STOPLINE_FLAG(R, p.request_mps2 <= splat<R>(0.0) - lesser(speed_p, 1.0) * kBraking_mps2) *
                          STOPLINE_FLAG(R, speed_p < kObstacle_mps);
-    const R behind_m =
-        p.gap_m - c.radar_delay_s * p.closing_mps - load<R>(s.standstill_gap + i) + stopping_distance_m(d, speed_p);
-    const R behind = choose(stopping_p, stop_acceleration(d, speed, behind_m), nothing);
+    R behind = nothing;
+    if (any(stopping_p)) {
+        const R behind_m =
+            p.gap_m - c.radar_delay_s * p.closing_mps - load<R>(s.standstill_gap + i) + stopping_distance_m(d, speed_p);
+        behind = choose(stopping_p, stop_acceleration(d, speed, behind_m), nothing);
+    }
 
     // The smallest answer wins. A platoon leader becomes a follower when following asks for less than driving freely.
     const R leads = load<R>(s.leads + i) * STOPLINE_FLAG(R, follow > as_leader);
@@ -85,7 +88,7 @@ STOPLINE_INLINE void plan_at(const PlanStreams& s, const DriverTables& d, const 
 template <class R>
 STOPLINE_INLINE void drive_at(const DriveStreams& s, const PowertrainTables& t, double grade_N, double dt, int only,
                               int i) {
-    PowertrainState<R> now;
+    PowertrainState<R> now{};
     now.speed_mps = load<R>(s.speed + i);
     now.acceleration_mps2 = load<R>(s.acceleration + i);
     now.torque_Nm = load<R>(s.torque + i);

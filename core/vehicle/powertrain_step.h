@@ -84,7 +84,7 @@ STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTables& t, co
     // Lags.
     const auto share = limited(request_Nm / greater(full_Nm, 1.0), 0.0, 1.0);
     const auto drive_lag_s = torque_lag_s(t, s.gear, rpm, share);
-    PowertrainState<R> next;
+    PowertrainState<R> next{};
     next.torque_Nm = without_tiny(s.torque_Nm + (request_Nm - s.torque_Nm) * lag_share(dt, drive_lag_s));
     next.brake_N = without_tiny(s.brake_N + (request_brake_N - s.brake_N) * lag_share(dt, t.brake_lag_s));
     next.lag_s = select(request_brake_N > 0.0, splat<R>(t.brake_lag_s), drive_lag_s);
