@@ -12,6 +12,8 @@ public:
     explicit ProgressBar(std::string label);
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
+    ProgressBar(ProgressBar&&) = delete;
+    ProgressBar& operator=(ProgressBar&&) = delete;
     ~ProgressBar();  // clears the line
 
     // To be called by one thread at a time. False where the user has pressed Ctrl-C, so that it fits on_progress of the runs.

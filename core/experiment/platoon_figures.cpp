@@ -68,7 +68,8 @@ std::string signal_lines(const SingleLight& result) {
     const double end_s = last_shown_s(result);
     const double cycle_s = signal.cycle_s > 0.0 ? signal.cycle_s : end_s + signal.green_s + signal.yellow_s;
     std::string text = light_line("red", -kLeadIn_s, 0.0);
-    for (double begin_s = 0.0; begin_s < end_s; begin_s += cycle_s) {
+    for (int cycle = 0; cycle * cycle_s < end_s; ++cycle) {
+        const double begin_s = cycle * cycle_s;
         const double yellow_s = begin_s + signal.green_s;
         const double red_s = yellow_s + signal.yellow_s;
         text += light_line("green", begin_s, std::min(yellow_s, end_s));

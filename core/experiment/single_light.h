@@ -17,18 +17,18 @@ namespace stopline {
 // How vehicles follow each other once they have passed the line and drive at the limit, beside what their policy says. For a population of several
 // policies each policy's mean is weighted with its share, so that a mix is comparable whatever vehicles have settled.
 struct SettledFlow {
-    int vehicles = 0;          // that have settled (platoon.h); the values below are NaN where a policy has none
-    double net_gap_m;          // measured
-    double headway_s;          // measured
-    double policy_gap_m;       // gap(limit)
-    double policy_headway_s;   // (length + gap(limit)) / limit
-    double deviation_percent;  // of the measured headway from the policy's
+    int vehicles = 0;                // that have settled (platoon.h); the values below are NaN where a policy has none
+    double net_gap_m = 0.0;          // measured
+    double headway_s = 0.0;          // measured
+    double policy_gap_m = 0.0;       // gap(limit)
+    double policy_headway_s = 0.0;   // (length + gap(limit)) / limit
+    double deviation_percent = 0.0;  // of the measured headway from the policy's
 };
 
 struct QueueGaps {
-    double mean_m;
-    double smallest_m;
-    double largest_m;
+    double mean_m = 0.0;
+    double smallest_m = 0.0;
+    double largest_m = 0.0;
 };
 
 struct PopulationSummary {
@@ -36,10 +36,11 @@ struct PopulationSummary {
     Counter counter{{}};                      // at the stop line, from the start of green
     std::vector<int> passed;                  // [green]
     std::vector<double> improvement_percent;  // [green]; NaN without a baseline
-    double asymptotic_improvement_percent;    // ratio of the measured settled headways: where the improvement tends to
-    double emptied_s;                         // time at which the last of the queue passed; NaN: not within the green
-    std::vector<LinePassage> line;            // passages within the green
-    LateFlow late;                            // the last ten positions of each lane, whatever their speed
+    double asymptotic_improvement_percent =
+        0.0;                        // ratio of the measured settled headways: where the improvement tends to
+    double emptied_s = 0.0;         // time at which the last of the queue passed; NaN: not within the green
+    std::vector<LinePassage> line;  // passages within the green
+    LateFlow late;                  // the last ten positions of each lane, whatever their speed
     SettledFlow settled;
     LeaderStart leader;  // times from the start of green
     QueueGaps queue;     // net gaps at the start of green

@@ -16,8 +16,8 @@ struct LinePassage {
     int position;   // in the queue of its lane, from 1
     int vehicle;
     int policy;
-    double speed_mps;
-    double headway_s;  // since the front before it on the same lane; NaN for the first
+    double speed_mps = 0.0;
+    double headway_s = 0.0;  // since the front before it on the same lane; NaN for the first
 };
 
 // All passages of stop lines, lane by lane, in the order of passing. Passages before the start of green are left out.
@@ -29,9 +29,9 @@ std::vector<LinePassage> within_green(const std::vector<LinePassage>& passages, 
 
 // What the end of the queue does at the line: mean over the last `positions` passages of each lane.
 struct LateFlow {
-    int vehicles = 0;  // that the means are over
-    double headway_s;  // NaN without vehicles
-    double speed_mps;
+    int vehicles = 0;        // that the means are over
+    double headway_s = 0.0;  // NaN without vehicles
+    double speed_mps = 0.0;
 };
 LateFlow late_flow(const std::vector<LinePassage>& passages, int positions);
 
