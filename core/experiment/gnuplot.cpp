@@ -122,8 +122,8 @@ LineStyle line_style(std::size_t index) {
                                                    {"#009E73", 1, 8},
                                                    {"#E69F00", 4, 10},
                                                    {"#CC79A7", 1, 12},
-                                                   {"#000000", 1, 6},
-                                                   {"#D55E00", 2, 4},
+                                                   {"#000000", 1, 14},
+                                                   {"#D55E00", 2, 6},
                                                    {"#7F7F7F", 4, 8}}};
     return kStyles[index % kStyles.size()];
 }

@@ -1,0 +1,102 @@
+// Files are whole or not there, and what prevents them is said.
+#include "experiment/output.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>  // SIGXFSZ is POSIX
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <csignal>
+
+#include "scenario/scenario_text.h"
+
+namespace stopline {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::size_t files_in(const fs::path& folder) {
+    std::size_t files = 0;
+    for ([[maybe_unused]] const auto& entry : fs::directory_iterator(folder)) ++files;
+    return files;
+}
+
+TEST(WriteFile, MakesAndReplacesAFileAndLeavesNothingElse) {
+    const TemporaryFolder folder;
+    write_file(folder.path() / "a.csv", "first");
+    write_file(folder.path() / "a.csv", "second, longer");
+    EXPECT_EQ(read_text(folder.path() / "a.csv"), "second, longer");
+    EXPECT_EQ(files_in(folder.path()), 1U);
+}
+
+TEST(WriteFile, KeepsTheOldFileWhereTheNewOneCannotBeWritten) {
+    const TemporaryFolder folder;
+    const fs::path file = folder.write("a.csv", "old");
+    // A limit on the size of files stands for a full disk: write() fails halfway.
+    rlimit before{};
+    ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit small{1000, before.rlim_max};
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+    const std::string error = input_error_of([&] { write_file(file, std::string(5000, 'x')); });
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+    std::signal(SIGXFSZ, handler);
+    EXPECT_TRUE(contains(error, file.string()));
+    EXPECT_TRUE(contains(error, "File too large"));
+    EXPECT_EQ(read_text(file), "old");
+    EXPECT_EQ(files_in(folder.path()), 1U) << "half a file is left";
+}
+
+TEST(WriteFile, WritesToADeviceAndReportsThatItIsFull) {
+    if (!fs::exists("/dev/full")) GTEST_SKIP();
+    const std::string error = input_error_of([] { write_file("/dev/full", "text"); });
+    EXPECT_TRUE(contains(error, "/dev/full"));
+    EXPECT_TRUE(contains(error, "No space left on device"));
+    EXPECT_TRUE(fs::is_character_file("/dev/full")) << "the device was replaced by a file";
+}
+
+TEST(WriteFile, FollowsALinkAndLeavesIt) {
+    const TemporaryFolder folder;
+    const fs::path real = folder.write("real.csv", "old");
+    fs::create_symlink(real, folder.path() / "link.csv");
+    write_file(folder.path() / "link.csv", "new");
+    EXPECT_TRUE(fs::is_symlink(folder.path() / "link.csv"));
+    EXPECT_EQ(read_text(real), "new");
+}
+
+TEST(WriteFile, RefusesAFolderAndAMissingOne) {
+    const TemporaryFolder folder;
+    EXPECT_TRUE(contains(input_error_of([&] { write_file(folder.path(), "x"); }), "Is a directory"));
+    const fs::path missing = folder.path() / "none" / "a.csv";
+    EXPECT_TRUE(contains(input_error_of([&] { write_file(missing, "x"); }), "No such file or directory"));
+}
+
+TEST(PrepareFolder, MakesParentsAndTakesWhatIsThere) {
+    const TemporaryFolder folder;
+    prepare_folder(folder.path() / "a" / "b");
+    prepare_folder(folder.path() / "a" / "b");
+    EXPECT_TRUE(fs::is_directory(folder.path() / "a" / "b"));
+}
+
+TEST(PrepareFolder, SaysWhyItCannot) {
+    const TemporaryFolder folder;
+    const fs::path file = folder.write("file", "x");
+    EXPECT_TRUE(contains(input_error_of([&] { prepare_folder(file); }), file.string()));
+    EXPECT_TRUE(contains(input_error_of([&] { prepare_folder(file / "below"); }), "Not a directory"));
+    if (::geteuid() == 0) return;  // root may write everywhere
+    fs::permissions(folder.path(), fs::perms::owner_read | fs::perms::owner_exec);
+    EXPECT_TRUE(contains(input_error_of([&] { prepare_folder(folder.path()); }), "Permission denied"));
+    fs::permissions(folder.path(), fs::perms::owner_all);
+}
+
+TEST(ReadFile, GivesTheBytesOrThePathAndTheReason) {
+    const TemporaryFolder folder;
+    const fs::path file = folder.write("a", std::string("a\0b\r\n", 5));
+    EXPECT_EQ(read_file(file), std::string("a\0b\r\n", 5));
+    const std::string error = input_error_of([&] { read_file(folder.path() / "none"); });
+    EXPECT_TRUE(contains(error, "none: cannot read: No such file or directory"));
+    EXPECT_TRUE(contains(input_error_of([&] { read_file(folder.path()); }), "Is a directory"));
+}
+
+}  // namespace
+}  // namespace stopline
