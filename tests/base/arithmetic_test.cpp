@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -62,6 +63,19 @@ TEST(Limited, IsClamp) {
         EXPECT_EQ(lesser(value, 0.5), std::fmin(value, 0.5));
         EXPECT_EQ(greater(value, 0.5), std::fmax(value, 0.5));
     }
+}
+
+TEST(OnGrid, IsLinearBetweenNodesAndConstantBeyond) {
+    const std::array<double, 8> table{3.0, 1.0, 4.0, 1.0, 5.0, 9.0, 2.0, 6.0};
+    for (std::size_t k = 0; k + 1 < table.size(); ++k) {
+        for (double share = 0.0; share <= 1.0; share += 0.125) {
+            const double expected = table[k] + share * (table[k + 1] - table[k]);
+            EXPECT_NEAR(on_grid(table, static_cast<double>(k) + share), expected, 1e-14);
+        }
+    }
+    EXPECT_EQ(on_grid(table, -2.0), 3.0);
+    EXPECT_EQ(on_grid(table, 7.5), 6.0);
+    EXPECT_EQ(on_grid(table, 1e9), 6.0);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -78,6 +79,27 @@ void check_batch_arithmetic() {
     STOPLINE_CHECK("exp_minus", exp_minus<R>(square(a)));
     STOPLINE_CHECK("lag_share", lag_share<R>(0.01, square(a) + 0.001));
     STOPLINE_CHECK("whole", whole(limited(square(a), 0.0, 2e9)));
+}
+
+// A table whose entries all differ, looked up at every place and between all of them.
+template <std::size_t kEntries>
+void check_batch_tables() {
+    std::array<double, kEntries> table{};
+    for (std::size_t k = 0; k < kEntries; ++k) table[k] = std::sin(static_cast<double>(k)) + 0.1;
+    for (double from = 0.0; from < static_cast<double>(kEntries) + 3.0; from += 0.125) {
+        std::array<double, kBatchWidth> found{};
+        std::array<double, kBatchWidth> between{};
+        Batch place = counting_from<Batch>(0.0);
+        for (int lane = 0; lane < kBatchWidth; ++lane) place[lane] = std::fmod(from + 2.71 * lane, kEntries + 3.0);
+        store(found.data(), look_up<kEntries>(table, whole(lesser(place, kEntries - 1.0))));
+        store(between.data(), on_grid(table, place));
+        for (int lane = 0; lane < kBatchWidth; ++lane) {
+            const auto n = static_cast<std::size_t>(std::min(static_cast<double>(place[lane]), kEntries - 1.0));
+            const double one = place[lane];
+            EXPECT_EQ(found[static_cast<std::size_t>(lane)], table[n]) << one;
+            EXPECT_EQ(bits(between[static_cast<std::size_t>(lane)]), bits(on_grid(table, one))) << one;
+        }
+    }
 }
 
 void check_batch_loads_and_stores() {

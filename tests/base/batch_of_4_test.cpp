@@ -6,6 +6,11 @@ namespace {
 
 TEST(BatchOf4, ComputesTheBitsOfDouble) { check_batch_arithmetic(); }
 TEST(BatchOf4, LoadsAndStoresAsDoubleDoes) { check_batch_loads_and_stores(); }
+TEST(BatchOf4, LooksUpAsDoubleDoes) {
+    check_batch_tables<8>();
+    check_batch_tables<16>();
+    check_batch_tables<32>();
+}
 
 }  // namespace
 }  // namespace stopline

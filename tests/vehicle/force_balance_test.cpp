@@ -68,7 +68,8 @@ TEST_P(ForceBalance, FullLoadAccelerationFollowsTheTorqueCurve) {
             }
             const double force_N = std::min(car.full_force_N(v, gear), car.friction_N()) - car.resistance_N(v);
             const double expected = force_N / (car.mass_kg() * car.rotating(gear));
-            EXPECT_NEAR(s.acceleration_mps2, expected, 0.01 * std::fabs(expected) + 0.005)
+            // The corners of the curve lie between the nodes of the grid.
+            EXPECT_NEAR(s.acceleration_mps2, expected, 0.015 * std::fabs(expected) + 0.01)
                 << "gear " << gear + 1 << ", speed " << v;
         }
     }
