@@ -1,0 +1,72 @@
+// Whatever switches - driving freely, following, stopping, one spacing policy's regimes - the request changes no faster than
+// its jerk limits. A standing vehicle's request begins from zero.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "support/track.h"
+
+namespace stopline {
+namespace {
+
+using namespace testing_support;
+
+class Bumpless : public testing::TestWithParam<Pairing> {};
+INSTANTIATE_TEST_SUITE_P(SlowEveryPairing, Bumpless, testing::ValuesIn(every_pairing()), as_pairing_name);
+INSTANTIATE_TEST_SUITE_P(Some, Bumpless,
+                         testing::Values(Pairing{"SWITCH-1", "petrol_eu4_72kw"}, Pairing{"MIX", "electric_100kw"}),
+                         as_pairing_name);
+
+struct Request {
+    double value_mps2;
+    double speed_mps;
+};
+
+std::map<int, Request> requests(const Track& track) {
+    std::map<int, Request> by_id;
+    for (int lane = 0; lane < 2; ++lane) {
+        for (int k = 0; k < track.count(lane); ++k) {
+            const Seen car = track.seen(lane, k);
+            by_id[car.id] = {car.request_mps2, car.speed_mps};
+        }
+    }
+    return by_id;
+}
+
+// A queue sets off, speeds up through 30 km/h and 50 km/h, is cut by the signal, stops again, and part of it waits.
+TEST_P(Bumpless, RequestsKeepToTheJerkLimits) {
+    TrackPlan plan;
+    plan.policy = GetParam().policy;
+    plan.vehicle = GetParam().vehicle;
+    plan.length_m = 600.0;
+    plan.exit_m = 400.0;
+    plan.green_from_s = 2.0;
+    plan.green_s = 18.0;
+    Track track(plan);
+    track.place_platoon(0, 599.0, 0.0, 40);
+    const CaccSettings& cacc = track.model().driver.cacc;
+    const double up = cacc.jerk_up_mps3 * track.step_s() + 1e-9;
+    const double down = cacc.jerk_down_mps3 * track.step_s() + 1e-9;
+    double fastest = 0.0;
+    std::map<int, Request> before = requests(track);
+    while (track.time_s() < 50.0) {
+        track.step();
+        if (HasFatalFailure()) return;
+        std::map<int, Request> now = requests(track);
+        for (const auto& [id, request] : now) {
+            fastest = std::max(fastest, request.speed_mps);
+            const Request& was = before.at(id);
+            const double change = request.value_mps2 - was.value_mps2;
+            ASSERT_GE(change, -down) << "vehicle " << id << " at " << track.time_s() << " s";
+            const bool from_rest = was.speed_mps <= 1e-3 && was.value_mps2 < 0.0;
+            ASSERT_LE(from_rest ? request.value_mps2 : change, up) << "vehicle " << id << " at " << track.time_s();
+        }
+        before = std::move(now);
+    }
+    EXPECT_GT(fastest, 12.0);
+    EXPECT_GT(track.state().passages.size(), 3u);
+    EXPECT_GT(track.count(0), 10) << "cut by the signal";
+}
+
+}  // namespace
+}  // namespace stopline

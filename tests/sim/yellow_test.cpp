@@ -1,0 +1,101 @@
+// Yellow: those that can stop with the deceleration that drivers accept stop, the others pass before red; on red nobody enters
+// that could have stopped.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "support/track.h"
+
+namespace stopline {
+namespace {
+
+using namespace testing_support;
+
+constexpr double kYellowFrom_s = 8.0;
+constexpr double kYellow_s = 3.0;
+constexpr double kLine_m = 800.0;
+
+// Distance in which braking as hard as accepted stops, the brake's lag before it at full speed.
+double needed_m(const Model& model, double v) {
+    return v * v / (2.0 * model.driver.stop.decision_deceleration_mps2) + v * model.vehicles[0].brake_lag_s;
+}
+
+class Yellow : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(EveryVehicle, Yellow, testing::ValuesIn(data_names("vehicles")), as_name);
+
+// Single vehicles that cruise at the limit, one a lane, at all distances when the light turns yellow.
+TEST_P(Yellow, DividesThoseThatCanStopFromThoseThatCannot) {
+    for (const double kmh : {20.0, 35.0, 50.0, 60.0}) {
+        TrackPlan plan;
+        plan.vehicle = GetParam();
+        plan.lanes = 40;
+        plan.length_m = kLine_m;
+        plan.limit_mps = kmh / 3.6;
+        plan.green_s = kYellowFrom_s;
+        Track track(plan);
+        for (int k = 0; k < plan.lanes; ++k) {
+            track.place(2 * k, kLine_m - 1.5 * k - plan.limit_mps * kYellowFrom_s, plan.limit_mps);
+        }
+        track.run(kYellowFrom_s);
+        std::vector<bool> passed_before;
+        std::vector<double> slack_m;  // distance beyond what stopping needs; < 0: cannot stop
+        for (int k = 0; k < plan.lanes; ++k) {
+            passed_before.push_back(track.count(2 * k) == 0);
+            if (passed_before.back()) {
+                slack_m.push_back(0.0);
+                continue;
+            }
+            const Seen car = track.seen(2 * k, 0);
+            slack_m.push_back(kLine_m - car.position_m - needed_m(track.model(), car.speed_mps));
+        }
+        track.run(25.0);
+        for (int k = 0; k < plan.lanes; ++k) {
+            if (passed_before[at(k)] || std::fabs(slack_m[at(k)]) < 0.01) continue;
+            const bool stopped = track.count(2 * k) == 1 && track.seen(2 * k, 0).speed_mps < 1e-3;
+            EXPECT_EQ(stopped, slack_m[at(k)] > 0.0) << kmh << " km/h, slack " << slack_m[at(k)] << " m";
+        }
+        EXPECT_EQ(track.state().violations.forced_red_entries, 0) << kmh << " km/h";
+        for (const Passage& passage : track.state().passages) {
+            if (passage.from_lane % 2 == 0) {
+                EXPECT_LT(passage.time_s, kYellowFrom_s + kYellow_s);
+            }
+        }
+    }
+}
+
+// A queue that sets off, cut by yellow at some time: the first that can stop and all behind it stop, all ahead pass.
+class YellowQueue : public testing::TestWithParam<Pairing> {};
+INSTANTIATE_TEST_SUITE_P(SlowEveryPairing, YellowQueue, testing::ValuesIn(every_pairing()), as_pairing_name);
+INSTANTIATE_TEST_SUITE_P(OnePairing, YellowQueue, testing::Values(Pairing{"CDG", "petrol_eu4_72kw"}), as_pairing_name);
+
+TEST_P(YellowQueue, IsCutWhereTheFirstCanStop) {
+    for (const double green_s : {2.0, 4.0, 7.0, 11.0, 16.0, 24.0}) {
+        TrackPlan plan;
+        plan.policy = GetParam().policy;
+        plan.vehicle = GetParam().vehicle;
+        plan.length_m = kLine_m;
+        plan.green_from_s = 5.0;
+        plan.green_s = green_s;
+        Track track(plan);
+        track.place_platoon(0, kLine_m - track.model().driver.stop.margin_m, 0.0, 35);
+        track.run(5.0 + green_s);
+        int pass = 0;  // vehicles on the lane that cannot stop
+        while (pass < track.count(0)) {
+            const Seen car = track.seen(0, pass);
+            if (kLine_m - car.position_m > needed_m(track.model(), car.speed_mps)) break;
+            ++pass;
+        }
+        const int before = track.count(0);
+        track.run(15.0);
+        EXPECT_EQ(before - track.count(0), pass) << "green " << green_s;
+        EXPECT_EQ(track.state().violations.forced_red_entries, 0) << "green " << green_s;
+        double last_s = 0.0;
+        for (const Passage& passage : track.state().passages) {
+            if (passage.from_lane == 0) last_s = passage.time_s;
+        }
+        EXPECT_LT(last_s, 5.0 + green_s + kYellow_s) << "green " << green_s;
+    }
+}
+
+}  // namespace
+}  // namespace stopline
