@@ -40,7 +40,8 @@ void declare(CLI::App& app, RunOptionsOfUser& options) {
     app.add_option("FILE", options.file, "Scenario file (YAML), such as scenarios/single_light.yaml");
     add_common_options(app, options.common, "Folder for the results (default: out/NAME of the scenario)");
     add_set_option(app, options.common);
-    app.add_flag("--trajectories", options.trajectories, "Write trajectories.csv too, from 5 s before the green");
+    app.add_flag("--trajectories", options.trajectories,
+                 "Write trajectories.csv too, from 5 s before the green to 25 s after it");
     app.add_option("--interval", options.interval, "Time between its samples (default: 0.1 s)")->type_name("TIME");
     app.add_flag("--no-figures", options.no_figures, "Draw no figures");
     app.add_flag("--describe", options.describe, "List all fields of scenario files and exit");

@@ -26,7 +26,7 @@ std::vector<std::size_t> shown_populations(const SingleLight& result) {
 double last_shown_s(const SingleLight& result) {
     constexpr double kEnough_s = 40.0;
     const double run_s = result.scenario.duration_s - result.scenario.signal.first_green_s;
-    return std::min(kEnough_s, run_s);
+    return std::min({kEnough_s, run_s, result.scenario.signal.green_s + kLeadOut_s});
 }
 
 // Points of the first lane from a little before the green to the end of the figure, by vehicle from the front.

@@ -88,7 +88,9 @@ RunResult run_population(const Scenario& scenario, std::size_t population, const
     while (simulation.state().tick < last) {
         const std::int64_t tick = simulation.state().tick;
         if (tick == green) result.queue_gaps_m = queue_gaps(simulation.state());
-        const bool sampled = options.trajectory_interval_s > 0.0 && simulation.time_s() >= options.trajectory_from_s;
+        const double now_s = simulation.time_s();
+        const bool sampled = options.trajectory_interval_s > 0.0 && now_s >= options.trajectory_from_s &&
+                             now_s <= options.trajectory_until_s;
         if (sampled && tick % every == 0) sample(simulation, result.trajectory);
         if (options.on_progress && tick % kReport == 0) {
             result.complete = options.on_progress(static_cast<double>(tick) / static_cast<double>(last));

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,7 @@ struct TrajectoryPoint {
 struct RunOptions {
     double trajectory_interval_s = 0.0;  // 0: keep none
     double trajectory_from_s = 0.0;
+    double trajectory_until_s = std::numeric_limits<double>::infinity();
     // Called now and then with the share done (0..1); return false to stop early (the result is then incomplete).
     std::function<bool(double)> on_progress;
 };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "experiment/interrupted.h"
@@ -14,6 +15,7 @@ struct RunAllOptions {
     int threads = 1;
     double trajectory_interval_s = 0.0;  // 0: keep none
     double trajectory_from_s = 0.0;
+    double trajectory_until_s = std::numeric_limits<double>::infinity();
     // Share done of all runs (0..1), called now and then by one thread at a time; return false to stop.
     std::function<bool(double)> on_progress;
 };

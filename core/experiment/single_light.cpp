@@ -154,6 +154,7 @@ SingleLight run_single_light(const Scenario& scenario, const SingleLightOptions&
     runs.threads = options.threads;
     runs.trajectory_interval_s = static_cast<double>(every) * scenario.step_s;
     runs.trajectory_from_s = scenario.signal.first_green_s - kLeadIn_s;
+    runs.trajectory_until_s = scenario.signal.first_green_s + scenario.signal.green_s + kLeadOut_s;
     runs.on_progress = options.on_progress;
     result.runs = run_populations(scenario, runs);
     for (std::size_t k = 0; k < result.runs.size(); ++k) {

@@ -48,7 +48,7 @@ struct PopulationSummary {
 
 struct SingleLight {
     Scenario scenario;
-    std::vector<RunResult> runs;                 // [population]; with trajectories from kLeadIn_s before the green
+    std::vector<RunResult> runs;                 // [population]; with trajectories around the green
     std::vector<PopulationSummary> populations;  // [population]
     std::optional<std::size_t> baseline;         // index of the population that improvements refer to
     double sample_interval_s = 0.0;              // of the points that the summaries are made from, about 0.1 s
@@ -67,7 +67,10 @@ struct SingleLightOptions {
 };
 
 inline constexpr int kLatePositions = 10;
+// Trajectories are kept from this before the green ...
 inline constexpr double kLeadIn_s = 5.0;
+// ... to this after it: enough for the last vehicles to settle, and no memory for what nobody looks at.
+inline constexpr double kLeadOut_s = 25.0;
 
 // The points at whole multiples of `interval_s` (of at least one step).
 std::vector<TrajectoryPoint> thinned(const std::vector<TrajectoryPoint>& points, double interval_s, double step_s);

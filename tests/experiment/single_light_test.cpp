@@ -16,8 +16,8 @@ namespace {
 
 TEST(RunPopulations, GivesTheSameBitsForAnyNumberOfThreads) {
     const Scenario scenario = short_scenario();
-    const std::vector<RunResult> one = run_populations(scenario, {1, 0.1, 45.0, {}});
-    const std::vector<RunResult> three = run_populations(scenario, {3, 0.1, 45.0, {}});
+    const std::vector<RunResult> one = run_populations(scenario, {1, 0.1, 45.0, 90.0, {}});
+    const std::vector<RunResult> three = run_populations(scenario, {3, 0.1, 45.0, 90.0, {}});
     ASSERT_EQ(one.size(), 3U);
     for (std::size_t k = 0; k < one.size(); ++k) {
         EXPECT_EQ(one[k].population, scenario.populations[k].name);
@@ -136,8 +136,8 @@ TEST(SingleLightCsv, HasARowForEachThing) {
     for (const PopulationSummary& summary : result.populations) passed += summary.line.size();
     EXPECT_EQ(passages.rows.size(), passed);
     const CsvTable trajectories = parse_csv(trajectories_csv(result, 1.0), "trajectories");
-    // From 5 s before the green to the end of the run at 100 s, each second, twelve vehicles, three populations.
-    EXPECT_EQ(trajectories.rows.size(), 55U * 12U * 3U);
+    // From 5 s before the 20 s of green to 25 s after it, each second, twelve vehicles, three populations.
+    EXPECT_EQ(trajectories.rows.size(), 51U * 12U * 3U);
 }
 
 TEST(Provenance, HoldsTheScenarioAndNoDate) {
