@@ -23,6 +23,7 @@ struct PlanStreams {
 struct DriveStreams {
     double *position, *speed, *acceleration, *torque, *brake, *gear_time, *lag, *gear;
     const double* request;
+    const float* request_before;
     const int* type;
 };
 

@@ -14,7 +14,7 @@ constexpr double kHold_mps2 = -0.3;
 // A predecessor as slow as this, and braking at least like this (or standing and not about to start), will stop: its place
 // of rest is something to stop behind.
 constexpr double kObstacle_mps = 5.0;
-constexpr double kBraking_mps2 = 0.5;
+constexpr double kBraking_mps2 = 0.2;
 
 // One sample of a delay line, between two rows where the delay is no multiple of the step.
 template <class R>
@@ -97,10 +97,11 @@ STOPLINE_INLINE void drive_at(const DriveStreams& s, const PowertrainTables& t, 
     now.lag_s = load<R>(s.lag + i);
     now.gear = load<R>(s.gear + i);
     const R position = load<R>(s.position + i);
+    // The request rises within the step from the one told to the follower to the new one.
     const R request = load<R>(s.request + i);
+    const R mean = 0.5 * (load<R>(s.request_before + i) + request);
     const R held = STOPLINE_FLAG(R, now.speed_mps <= kStanding_mps) * STOPLINE_FLAG(R, request <= kStart_mps2);
-    const PowertrainState<R> next =
-        powertrain_step<R>(t, now, choose(held, splat<R>(kHold_mps2), request), grade_N, dt);
+    const PowertrainState<R> next = powertrain_step<R>(t, now, choose(held, splat<R>(kHold_mps2), mean), grade_N, dt);
     const R moved_m = 0.5 * (now.speed_mps + next.speed_mps) * dt;
     const R mine = only < 0 ? splat<R>(1.0) : STOPLINE_FLAG(R, load<R>(s.type + i) == static_cast<double>(only));
     store(s.position + i, choose(mine, position + moved_m, position));

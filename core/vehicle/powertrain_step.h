@@ -90,27 +90,37 @@ STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTables& t, co
     next.lag_s = select(request_brake_N > 0.0, splat<R>(t.brake_lag_s), drive_lag_s);
 
     // Force balance. Brakes and resistances stop a vehicle but never push it back: below zero speed is standstill.
-    const auto transmitted_Nm = connected * next.torque_Nm;
+    // Means over the step, so that results do not depend on its length to first order.
+    const R transmitted_Nm = connected * (0.5 * (s.torque_Nm + next.torque_Nm));
     const auto drive_N =
         transmitted_Nm * gain * select(transmitted_Nm > 0.0, splat<R>(t.efficiency), splat<R>(per_efficiency));
-    const auto force_N = drive_N - next.brake_N - resistance_N;
+    const auto force_N = drive_N - 0.5 * (s.brake_N + next.brake_N) - resistance_N;
     const auto free_speed = speed + force_N / inertia_kg * dt;
     const auto next_speed = greater(free_speed, 0.0);
     next.speed_mps = next_speed;
     next.acceleration_mps2 = without_tiny<R>((next_speed - speed) * (1.0 / dt));
 
-    // Gear changes. More load, later shifts; a saturated engine at low speed kicks down. The hysteresis is the distance
+    // Gear changes. More load, later shifts; an engine that is asked for clearly more than it has
+    // kicks down. The hysteresis is the distance
     // between the up- and downshift speeds and the minimum time in a gear; at standstill first gear goes in.
     const auto load = limited(2.5 * share - 1.25, 0.0, 1.0);  // part-load schedule up to half load, full from 0.9
     const auto up_rpm = t.shift_up_part_rpm + load * (t.shift_up_full_rpm - t.shift_up_part_rpm);
     const R settled = STOPLINE_FLAG(R, s.gear_time_s >= t.minimum_gear_time_s);
     const R driving = STOPLINE_FLAG(R, request_brake_N <= 0.0);
-    const R higher_gear = STOPLINE_FLAG(R, s.gear < t.gears - 1.5);
-    const R up = STOPLINE_FLAG(R, locked_rpm > up_rpm) * settled * driving * higher_gear;
+    // The next gear must be able to give what is asked for, or the car would kick down at once and hunt.
+    const R upper = lesser(s.gear + 1.0, t.gears - 1.0);
+    const R upper_mps_per_rpm = of_gear(t.mps_per_rpm, upper);
+    const R upper_cell = speed * of_gear(t.rpm_per_mps, upper) * t.torque_nodes_per_rpm;
+    const R upper_N = t.mass_kg * of_gear(t.rotating_mass, upper) * request_mps2 + resistance_N;
+    const R upper_Nm = upper_N * upper_mps_per_rpm * (per_efficiency / kRadpsPerRpm);
+    const R strong = STOPLINE_FLAG(R, upper_Nm <= 0.95 * on_grid(t.full_load_Nm, upper_cell));
+    const R due = STOPLINE_FLAG(R, locked_rpm > up_rpm) * strong;
+    const R revved = STOPLINE_FLAG(R, locked_rpm > t.shift_up_full_rpm);
+    const R up = greater(due, revved) * settled * driving * STOPLINE_FLAG(R, s.gear < t.gears - 1.5);
     const R lower = greater(s.gear - 1.0, 0.0);
     const R lower_rpm = speed * of_gear(t.rpm_per_mps, lower);
     const R kick_down =
-        STOPLINE_FLAG(R, share >= 0.98) * STOPLINE_FLAG(R, lower_rpm < 0.8 * t.shift_up_full_rpm) * settled;
+        STOPLINE_FLAG(R, wanted_Nm > 1.1 * full_Nm) * STOPLINE_FLAG(R, lower_rpm < 0.8 * t.shift_up_full_rpm) * settled;
     const R slow = STOPLINE_FLAG(R, locked_rpm < t.shift_down_rpm) * greater(settled, 1.0 - driving);
     const R down = greater(kick_down, slow) * STOPLINE_FLAG(R, s.gear > 0.5) * (1.0 - up);
     const R moving = STOPLINE_FLAG(R, next_speed > 0.0);
