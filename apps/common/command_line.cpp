@@ -8,6 +8,7 @@
 
 #include "base/version.h"
 #include "scenario/load_scenario.h"
+#include "scenario/quantity.h"
 #include "sim/model.h"  // the registry of spacing laws
 
 namespace stopline {
@@ -21,6 +22,12 @@ std::string shell_word(const std::string& text) {
     std::string word = "'";
     for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
     return word + "'";
+}
+
+std::uint64_t seed_from(const std::string& text) {
+    const ParsedWhole seed = parse_whole(text);
+    if (!seed.problem.empty()) throw CLI::ValidationError("--seed", fmt::format("value '{}' {}", text, seed.problem));
+    return seed.value;
 }
 
 std::string shares_text(const PopulationSettings& population) {
@@ -44,7 +51,11 @@ void add_common_options(CLI::App& app, CommonOptions& options, const std::string
     app.add_option("--threads", options.threads, "Threads to use (default: all); results do not depend on it")
         ->check(CLI::Range(1, 1024))
         ->type_name("N");
-    app.add_option("--seed", options.seed, "Seed of all random numbers, instead of the scenario's")->type_name("S");
+    // As text: CLI11 takes -1 and numbers that are too large for whole numbers.
+    app.add_option_function<std::string>(
+           "--seed", [&options](const std::string& text) { options.seed = seed_from(text); },
+           "Seed of all random numbers, instead of the scenario's")
+        ->type_name("S");
     app.add_option("--output", options.output, output_help)->type_name("DIR");
 }
 

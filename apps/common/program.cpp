@@ -21,15 +21,21 @@ extern "C" void on_interrupt(int signal) {
     std::signal(signal, SIG_DFL);  // a second Ctrl-C ends the program at once
 }
 
+ExitCode say_interrupted(const std::string& name) {
+    fmt::print(stderr, "{}: interrupted; no file is half written\n", name);
+    return ExitCode::interrupted;
+}
+
 ExitCode guarded(const std::string& name, const std::function<ExitCode()>& body) {
     try {
         return body();
     } catch (const InputError& error) {
+        // A child that got the same Ctrl-C has not failed.
+        if (interrupted()) return say_interrupted(name);
         fmt::print(stderr, "{}: {}\n", name, error.what());
         return ExitCode::bad_input;
     } catch (const Interrupted&) {
-        fmt::print(stderr, "{}: interrupted, nothing written\n", name);
-        return ExitCode::interrupted;
+        return say_interrupted(name);
     } catch (const std::bad_alloc&) {
         fmt::print(stderr, "{}: out of memory\n", name);
     } catch (const std::exception& error) {

@@ -25,8 +25,9 @@ namespace fs = std::filesystem;
 // An open file that is closed at the end of the scope.
 class Descriptor {
 public:
-    Descriptor(const fs::path& path, int flags) : value_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {
-        if (value_ < 0) fail(path, "cannot write", errno);
+    Descriptor(const fs::path& path, const fs::path& shown, int flags)
+        : value_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {
+        if (value_ < 0) fail(shown, "cannot write", errno);
     }
     Descriptor(const Descriptor&) = delete;
     Descriptor& operator=(const Descriptor&) = delete;
@@ -57,14 +58,14 @@ void write_all(Descriptor& descriptor, const fs::path& path, std::string_view te
     }
 }
 
-void write_in_place(const fs::path& path, std::string_view text) {
-    Descriptor descriptor(path, O_WRONLY);
-    write_all(descriptor, path, text);
-    if (descriptor.close() != 0) fail(path, "cannot write", errno);
+void write_in_place(const fs::path& path, const fs::path& shown, std::string_view text) {
+    Descriptor descriptor(path, shown, O_WRONLY);
+    write_all(descriptor, shown, text);
+    if (descriptor.close() != 0) fail(shown, "cannot write", errno);
 }
 
 void write_new(const fs::path& path, const fs::path& shown, std::string_view text) {
-    Descriptor descriptor(path, O_WRONLY | O_CREAT | O_TRUNC);
+    Descriptor descriptor(path, shown, O_WRONLY | O_CREAT | O_TRUNC);
     write_all(descriptor, shown, text);
     if (::fsync(descriptor.value()) != 0) fail(shown, "cannot write", errno);
     if (descriptor.close() != 0) fail(shown, "cannot write", errno);
@@ -85,7 +86,7 @@ void write_file(const fs::path& file, std::string_view text) {
     const fs::path target = fs::weakly_canonical(file, error);  // through links, so that they stay
     if (error) fail(file, "cannot write", error.value());
     if (fs::is_directory(target)) fail(file, "cannot write", EISDIR);
-    if (fs::exists(target) && !fs::is_regular_file(target)) return write_in_place(target, text);
+    if (fs::exists(target) && !fs::is_regular_file(target)) return write_in_place(target, file, text);
     const fs::path beside = target.parent_path() / fmt::format(".{}.{}.part", target.filename().string(), ::getpid());
     try {
         write_new(beside, file, text);

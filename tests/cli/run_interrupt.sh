@@ -1,0 +1,40 @@
+#!/usr/bin/env bash
+# Ctrl-C ends the runs with exit code 130 and leaves no file; progress is a bar on a terminal and silent for short work.
+set -u
+
+failures=0
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+run="$STOPLINE_BIN/stopline-run"
+scenario="$STOPLINE_SOURCE/scenarios/single_light.yaml"
+endless=(--set "duration=1000000 s" --no-figures --threads 2)
+
+fail() {
+    echo "FAILED: $*"
+    failures=$((failures + 1))
+}
+
+code=0
+timeout --signal=INT 2 "$run" "$scenario" "${endless[@]}" --output "$work/out" >"$work/stdout" 2>"$work/stderr" || code=$?
+# timeout itself ends with 124; --preserve-status would give the program's code, which is what counts here.
+[ $code -eq 124 ] || fail "did not run until the signal: exit code $code"
+code=0
+timeout --preserve-status --signal=INT 2 "$run" "$scenario" "${endless[@]}" --output "$work/out" \
+    >"$work/stdout" 2>"$work/stderr" || code=$?
+[ $code -eq 130 ] || fail "exit code $code instead of 130"
+grep -q "interrupted" "$work/stderr" || fail "no word of the interrupt: $(cat "$work/stderr")"
+[ -s "$work/stdout" ] && fail "results of runs that did not end: $(head -n 3 "$work/stdout")"
+[ -z "$(find "$work/out" -type f)" ] || fail "files are left: $(ls -A "$work/out")"
+
+"$run" "$STOPLINE_SOURCE/scenarios/first_steps.yaml" --no-figures --output "$work/short" >/dev/null 2>"$work/stderr"
+[ -s "$work/stderr" ] && fail "short work shows progress: $(cat "$work/stderr")"
+
+# script runs the program on a terminal of its own.
+if command -v script >/dev/null; then
+    printf -v command '%q ' timeout --signal=INT 4 "$run" "$scenario" "${endless[@]}" --output "$work/out"
+    script --quiet --command "$command" "$work/typescript" </dev/null >/dev/null
+    grep -qE '8 runs \[[#.]{30}\] +[0-9]+ %, .* left' "$work/typescript" || fail "no bar on a terminal"
+    [ "$(grep -c left "$work/typescript")" -le 1 ] || fail "the bar takes more than one line"
+fi
+
+exit $((failures > 0))

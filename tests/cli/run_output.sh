@@ -1,0 +1,84 @@
+#!/usr/bin/env bash
+# What stopline-run writes: whole files with units in their headers, or a message with path and reason and exit code 2.
+set -u
+
+failures=0
+work=$(mktemp -d)
+trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
+run="$STOPLINE_BIN/stopline-run"
+scenario="$STOPLINE_SOURCE/scenarios/first_steps.yaml"
+
+fail() {
+    echo "FAILED: $*"
+    failures=$((failures + 1))
+}
+
+# cannot_write REASON FOLDER [OPTION...]
+cannot_write() {
+    local reason=$1 folder=$2
+    shift 2
+    local code=0
+    "$run" "$scenario" --no-figures --output "$folder" "$@" >"$work/stdout" 2>"$work/stderr" || code=$?
+    [ $code -eq 2 ] || fail "output $folder: exit code $code instead of 2"
+    grep -qF -- "$folder" "$work/stderr" || fail "output $folder: not named in: $(cat "$work/stderr")"
+    grep -qF -- "$reason" "$work/stderr" || fail "output $folder: no '$reason' in: $(cat "$work/stderr")"
+}
+
+"$run" "$scenario" --output "$work/out" --trajectories --interval "0.5 s" >"$work/table" || fail "exit code $?"
+for part in "Vehicles passed" "improvement over CTG-Ref" "headway" "No overlaps" "Next:"; do
+    grep -qF "$part" "$work/table" || fail "no '$part' in the report"
+done
+expect_header() {
+    [ "$(head -n 1 "$work/out/$1")" = "$2" ] || fail "$1 begins with: $(head -n 1 "$work/out/$1")"
+}
+expect_header passages.csv "population,lane,position,vehicle,policy,time_s,headway_s,speed_mps"
+expect_header improvement.csv "population,green_s,passed_veh,baseline,baseline_passed_veh,improvement_percent"
+expect_header trajectories.csv \
+    "population,time_s,vehicle,policy,lane,place_m,speed_mps,acceleration_mps2,request_mps2,net_gap_m,gear"
+head -n 1 "$work/out/summary.csv" | grep -q "settled_headway_s,policy_headway_s" || fail "summary.csv has no headways"
+provenance="$work/out/first_steps.provenance.json"
+for part in '"scenario_hash"' '"version"' '"seed": 1' '"command"' '"state_hashes"' 'vehicles: 10' 'trajectories.csv'; do
+    grep -qF -- "$part" "$provenance" || fail "no $part in the provenance"
+done
+if command -v gnuplot >"$work/stdout"; then
+    for figure in counters improvement time_space platoon; do
+        for type in svg png; do
+            [ -s "$work/out/$figure.$type" ] || fail "no figure $figure.$type"
+        done
+    done
+fi
+(PATH=/nonexistent "$run" "$scenario" --output "$work/plain" >"$work/table") || fail "without gnuplot: exit code $?"
+grep -qF "gnuplot is not installed" "$work/table" || fail "without gnuplot: no message"
+[ -e "$work/plain/counters.svg" ] && fail "a figure without gnuplot"
+
+touch "$work/file"
+cannot_write "Not a directory" "$work/file/below"
+cannot_write "Not a directory" "$work/file"
+[ -d /proc/self ] && cannot_write "cannot make the folder" /proc/stopline
+if [ "$(id -u)" -ne 0 ]; then
+    mkdir "$work/closed"
+    chmod a-w "$work/closed"
+    cannot_write "Permission denied" "$work/closed"
+fi
+if [ -e /dev/full ]; then
+    mkdir "$work/full"
+    ln -s /dev/full "$work/full/passages.csv"
+    cannot_write "No space left on device" "$work/full"
+    code=0
+    "$run" "$scenario" --no-figures --output "$work/to_full" >/dev/full 2>"$work/stderr" || code=$?
+    [ $code -eq 2 ] || fail "standard output on a full disk: exit code $code"
+    grep -q "standard output" "$work/stderr" || fail "standard output on a full disk: no message"
+fi
+
+# A limit on the size of files stands for a disk that fills up on the way: 8 blocks of 1024 bytes are less than the path of
+# every vehicle needs.
+mkdir "$work/small"
+(
+    ulimit -f 8
+    cannot_write "File too large" "$work/small" --trajectories
+    exit $((failures > 0))
+) || failures=$((failures + 1))
+[ -e "$work/small/trajectories.csv" ] && fail "half a file of trajectories"
+[ -z "$(find "$work/small" -name '*.part')" ] || fail "temporary files are left: $(ls -A "$work/small")"
+
+exit $((failures > 0))

@@ -1,0 +1,71 @@
+#!/usr/bin/env bash
+# Every program explains itself, and refuses wrong usage with exit code 2 and a message.
+set -u
+
+failures=0
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+scenario="$STOPLINE_SOURCE/scenarios/first_steps.yaml"
+
+fail() {
+    echo "FAILED: $*"
+    failures=$((failures + 1))
+}
+
+# says PART... -- COMMAND...: exit code 0, nothing on standard error, each PART on standard output
+says() {
+    local parts=()
+    while [ "$1" != "--" ]; do
+        parts+=("$1")
+        shift
+    done
+    shift
+    "$@" >"$work/stdout" 2>"$work/stderr" || fail "$*: exit code $?"
+    [ -s "$work/stderr" ] && fail "$*: writes to standard error: $(head -c 300 "$work/stderr")"
+    local part
+    for part in "${parts[@]}"; do
+        grep -qF -- "$part" "$work/stdout" || fail "$*: no '$part' in its output"
+    done
+}
+
+# refuses PART -- COMMAND...: exit code 2, nothing on standard output, PART in the message
+refuses() {
+    local part=$1
+    shift 2
+    local code=0
+    (cd "$work" && exec "$@") >"$work/stdout" 2>"$work/stderr" || code=$?
+    [ $code -eq 2 ] || fail "$*: exit code $code instead of 2"
+    [ -s "$work/stdout" ] && fail "$*: writes to standard output"
+    grep -qF -- "$part" "$work/stderr" || fail "$*: no '$part' in: $(head -c 300 "$work/stderr")"
+}
+
+run="$STOPLINE_BIN/stopline-run"
+scorecard="$STOPLINE_BIN/stopline-scorecard"
+
+for program in "$run" "$scorecard"; do
+    says "--help" "--version" "--threads" "--seed" "--output" "Examples:" "Exit codes: 0 done, 1 " -- "$program" --help
+    says "stopline 0." -- "$program" --version
+    refuses "--nonsense" -- "$program" --nonsense
+    refuses "--threads" -- "$program" --threads 0
+    refuses "--threads" -- "$program" --threads two
+    refuses "--seed" -- "$program" --seed -1
+    refuses "--seed" -- "$program" --seed 1.5
+    refuses "--seed" -- "$program" --seed 99999999999999999999999
+done
+
+says "signal.green" "km/h" -- "$run" --describe
+says "CDG-6m" "constant_time" "petrol_eu4_72kw" "startup_kit" -- "$run" --list
+says "Populations of $scenario" "100 % CTG-Ref" -- "$run" --list "$scenario"
+says "draft-07" -- "$run" --schema
+python3 -c 'import json, sys; json.load(open(sys.argv[1]))' "$work/stdout" || fail "--schema is no JSON"
+
+refuses "no scenario file given" -- "$run"
+refuses "none.yaml" -- "$run" none.yaml
+refuses "two.yaml" -- "$run" "$scenario" two.yaml
+refuses "'signal.gren'" -- "$run" "$scenario" --set "signal.gren=5 s"
+refuses "--interval" -- "$run" "$scenario" --trajectories --interval 5
+refuses "whole number of steps" -- "$run" "$scenario" --trajectories --interval "15 ms"
+refuses "whole number of steps" -- "$run" "$scenario" --trajectories --interval "0 s"
+refuses "no rows of section 'XI'" -- "$scorecard" --section XI
+
+exit $((failures > 0))

@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# stopline-scorecard: the columns promised, rows by section, reuse, and the exit codes.
+set -u
+
+failures=0
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+scorecard="$STOPLINE_BIN/stopline-scorecard"
+
+fail() {
+    echo "FAILED: $*"
+    failures=$((failures + 1))
+}
+
+"$scorecard" --section III --csv --output "$work/out" >"$work/rows.csv" 2>"$work/stderr" || fail "exit code $?"
+[ "$(head -n 1 "$work/rows.csv")" = "id,section,paper,ours,unit,tolerance,verdict,explanation" ] || fail "other columns"
+cmp -s "$work/rows.csv" "$work/out/scorecard.csv" || fail "what is printed is not what is kept"
+expected=$(grep -c ',III\.' "$STOPLINE_SOURCE/data/paper/targets.csv")
+[ "$(tail -n +2 "$work/rows.csv" | grep -c .)" -eq "$expected" ] || fail "not the $expected rows of Section III"
+grep -q ',open,' "$work/rows.csv" && fail "rows of Section III are open"
+grep -q 'single_light: running' "$work/stderr" || fail "nothing was run: $(cat "$work/stderr")"
+
+"$scorecard" --section III --csv --output "$work/out" >"$work/again.csv" 2>"$work/stderr" || fail "exit code $?"
+cmp -s "$work/rows.csv" "$work/again.csv" || fail "what was measured before gives other rows"
+grep -q 'measured before' "$work/stderr" || fail "measured again: $(cat "$work/stderr")"
+
+# The table agrees with the CSV on the verdicts.
+"$scorecard" --section III --output "$work/out" >"$work/table" 2>/dev/null || fail "exit code $?"
+for verdict in inside miss; do
+    count=$(grep -cE ",$verdict," "$work/rows.csv")
+    grep -qE "(^|, )$count $verdict(,|$)" "$work/table" || fail "the table does not count $count $verdict"
+done
+grep -q ', 0 open' "$work/table" || fail "the table counts open rows"
+
+# Whatever misses is explained, and --strict tells.
+misses=$(grep -c ',miss,' "$work/rows.csv")
+code=0
+"$scorecard" --section III --strict --output "$work/out" >/dev/null 2>&1 || code=$?
+[ $code -eq $((misses > 0)) ] || fail "--strict with $misses misses: exit code $code"
+[ "$(grep -c '^[A-Z][0-9][0-9]  misses: ' "$work/table")" -eq "$misses" ] || fail "a miss without a word"
+grep -q 'not explained yet' "$work/table" && fail "a miss is not explained: $(grep 'not explained' "$work/table")"
+
+"$scorecard" --section "IV Table 1" --csv --output "$work/out" >"$work/table1.csv" 2>/dev/null || fail "exit code $?"
+[ "$(grep -c '^T[0-9][0-9],' "$work/table1.csv")" -eq 48 ] || fail "not the 48 numbers of Table 1"
+"$scorecard" --section IV --csv --output "$work/out" 2>/dev/null | grep -q '^I01,' || fail "IV lacks I01"
+
+exit $((failures > 0))
