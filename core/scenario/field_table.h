@@ -116,7 +116,7 @@ struct Field {
 struct Table {
     std::string title;
     std::vector<Field> fields;
-    std::shared_ptr<void> (*make_default)();
+    std::shared_ptr<void> (*make_default)() = nullptr;
     std::function<void(const void* settings, Checker&)> check;  // what depends on several fields; may be empty
     SourceNode (*expand)(const SourceNode& scalar) = nullptr;   // a single word that stands for a map; may be null
 
