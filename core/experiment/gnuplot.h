@@ -22,9 +22,9 @@ struct Figure {
 // The colours of Okabe and Ito (2008), which colour-blind readers can tell apart, without their yellow (too light on white),
 // with a grey; each with its own pair of dash and point. Repeats after 8.
 struct LineStyle {
-    std::string colour;  // #rrggbb
-    int dash;            // gnuplot dash type
-    int hollow_point;    // gnuplot point type, not filled
+    std::string colour;    // #rrggbb
+    int dash = 1;          // gnuplot dash type
+    int hollow_point = 6;  // gnuplot point type, not filled
 };
 LineStyle line_style(std::size_t index);
 

@@ -14,8 +14,8 @@ inline constexpr double kAtLimit_mps = 0.5 / 3.6;
 std::vector<TrajectoryPoint> points_of(const std::vector<TrajectoryPoint>& trajectory, int vehicle);
 
 struct LeaderStart {
-    double starts_s;   // last sample at which it stands
-    double reaches_s;  // first sample after it within kAtLimit_mps of the limit; NaN: never
+    double starts_s = 0.0;   // last sample at which it stands
+    double reaches_s = 0.0;  // first sample after it within kAtLimit_mps of the limit; NaN: never
     double duration_s() const { return reaches_s - starts_s; }
 };
 // `points` are those of the leader, from a time at which it stands; times are as in the points.
@@ -23,10 +23,10 @@ LeaderStart leader_start(const std::vector<TrajectoryPoint>& points, double limi
 
 // A vehicle that has settled behind another at the limit.
 struct SettledVehicle {
-    int vehicle;
-    int policy;
-    double net_gap_m;
-    double headway_s;  // (length + net gap) / speed: time between two fronts at a fixed place
+    int vehicle = 0;
+    int policy = 0;
+    double net_gap_m = 0.0;
+    double headway_s = 0.0;  // (length + net gap) / speed: time between two fronts at a fixed place
 };
 // One entry for each vehicle that at some time has driven within kAtLimit_mps of the limit for five seconds while its net gap
 // changed by at most 0.1 m; the values are those at the last such time. Samples must be `interval_s` apart.

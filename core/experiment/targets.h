@@ -33,8 +33,8 @@ bool in_section(const Target& target, const std::string& section);
 // "CDG green=15" and "SWITCH-1 green>=20"; the word "alternating" says how MIX is arranged and is not part of the name.
 struct GreenCondition {
     std::string population;
-    double green_s;
-    bool and_above;  // green>=
+    double green_s = 0.0;
+    bool and_above = false;  // green>=
 };
 std::optional<GreenCondition> parse_green_condition(const std::string& condition);
 

@@ -28,8 +28,8 @@ Answer claim_answer(bool holds, std::string text);
 
 // What a row demands of a number: low = high where the paper gives one number.
 struct Range {
-    double low;
-    double high;
+    double low = 0.0;
+    double high = 0.0;
 };
 std::optional<Range> parse_range(const std::string& value);  // "17", "20..45"
 

@@ -11,11 +11,11 @@ namespace stopline {
 
 // A front at a stop line.
 struct LinePassage {
-    double time_s;  // since the start of green
-    int lane;       // whose end the line is
-    int position;   // in the queue of its lane, from 1
-    int vehicle;
-    int policy;
+    double time_s = 0.0;  // since the start of green
+    int lane = 0;         // whose end the line is
+    int position = 1;     // in the queue of its lane
+    int vehicle = 0;
+    int policy = 0;
     double speed_mps = 0.0;
     double headway_s = 0.0;  // since the front before it on the same lane; NaN for the first
 };
