@@ -42,6 +42,18 @@ STOPLINE_INLINE R torque_lag_s(const PowertrainTables& t, const R& gear, const R
     return (unloaded + share * (loaded - unloaded)) * of_gear(t.lag_factor, gear);
 }
 
+// Whether the next gear can give what is asked for (1 or 0); without it a car would kick down at once and hunt.
+template <class R>
+STOPLINE_INLINE R next_gear_suffices(const PowertrainTables& t, const R& gear, const R& speed_mps,
+                                     const R& request_mps2, const R& resistance_N) {
+    const R upper = lesser(gear + 1.0, t.gears - 1.0);
+    const R cell = speed_mps * of_gear(t.rpm_per_mps, upper) * t.torque_nodes_per_rpm;
+    const R force_N = t.mass_kg * of_gear(t.rotating_mass, upper) * request_mps2 + resistance_N;
+    const double per_efficiency = 1.0 / t.efficiency;
+    const R torque_Nm = force_N * of_gear(t.mps_per_rpm, upper) * (per_efficiency / kRadpsPerRpm);
+    return STOPLINE_FLAG(R, torque_Nm <= 0.95 * on_grid(t.full_load_Nm, cell));
+}
+
 // Advances `s` by dt. `request_mps2` is the desired acceleration, `grade_N` = m g sin(slope), positive uphill.
 template <class R>
 STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTables& t, const PowertrainState<R>& s,
@@ -107,13 +119,7 @@ STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTables& t, co
     const auto up_rpm = t.shift_up_part_rpm + load * (t.shift_up_full_rpm - t.shift_up_part_rpm);
     const R settled = STOPLINE_FLAG(R, s.gear_time_s >= t.minimum_gear_time_s);
     const R driving = STOPLINE_FLAG(R, request_brake_N <= 0.0);
-    // The next gear must be able to give what is asked for, or the car would kick down at once and hunt.
-    const R upper = lesser(s.gear + 1.0, t.gears - 1.0);
-    const R upper_mps_per_rpm = of_gear(t.mps_per_rpm, upper);
-    const R upper_cell = speed * of_gear(t.rpm_per_mps, upper) * t.torque_nodes_per_rpm;
-    const R upper_N = t.mass_kg * of_gear(t.rotating_mass, upper) * request_mps2 + resistance_N;
-    const R upper_Nm = upper_N * upper_mps_per_rpm * (per_efficiency / kRadpsPerRpm);
-    const R strong = STOPLINE_FLAG(R, upper_Nm <= 0.95 * on_grid(t.full_load_Nm, upper_cell));
+    const R strong = next_gear_suffices<R>(t, s.gear, speed, request_mps2, resistance_N);
     const R due = STOPLINE_FLAG(R, locked_rpm > up_rpm) * strong;
     const R revved = STOPLINE_FLAG(R, locked_rpm > t.shift_up_full_rpm);
     const R up = greater(due, revved) * settled * driving * STOPLINE_FLAG(R, s.gear < t.gears - 1.5);
