@@ -2,6 +2,7 @@
 
 #include <csignal>
 #include <cstdio>
+#include <ctime>
 #include <exception>
 
 #include <fmt/core.h>
@@ -16,9 +17,25 @@ namespace {
 // A signal handler can reach nothing but a global of this type.
 volatile std::sig_atomic_t interrupt_seen = 0;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 
+volatile std::sig_atomic_t interrupt_second = 0;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+
+std::sig_atomic_t monotonic_second() {
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return static_cast<std::sig_atomic_t>(now.tv_sec);
+}
+
+// A second Ctrl-C ends the program at once. Wrappers such as timeout(1) send one interrupt twice, to the program and to its
+// group: what comes within the same or the next second is still the first.
 extern "C" void on_interrupt(int signal) {
-    interrupt_seen = 1;
-    std::signal(signal, SIG_DFL);  // a second Ctrl-C ends the program at once
+    const std::sig_atomic_t now = monotonic_second();
+    if (interrupt_seen == 0) {
+        interrupt_seen = 1;
+        interrupt_second = now;
+    } else if (now - interrupt_second > 1) {
+        std::signal(signal, SIG_DFL);
+        std::raise(signal);
+    }
 }
 
 ExitCode say_interrupted(const std::string& name) {
