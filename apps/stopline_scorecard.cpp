@@ -9,6 +9,7 @@
 #include "common/progress_bar.h"
 #include "common/text_table.h"
 #include "experiment/output.h"
+#include "experiment/provenance.h"
 #include "experiment/scorecard.h"
 
 namespace {
@@ -79,12 +80,22 @@ Scorecard score(const ScorecardOptionsOfUser& options, const std::filesystem::pa
     return make_scorecard(scorecard);
 }
 
+std::string command_of(const ScorecardOptionsOfUser& options) {
+    std::string command = "stopline-scorecard";
+    if (!options.section.empty()) command += fmt::format(" --section '{}'", options.section);
+    if (options.common.seed) command += fmt::format(" --seed {}", *options.common.seed);
+    return command;
+}
+
 ExitCode run(const ScorecardOptionsOfUser& options) {
     const std::filesystem::path folder = options.common.output.empty() ? "out/scorecard" : options.common.output;
     prepare_folder(folder);
     const Scorecard scorecard = score(options, folder);
     const std::string csv = scorecard_csv(scorecard);
     write_file(folder / "scorecard.csv", csv);
+    const std::string provenance =
+        table_provenance_json(command_of(options), "scorecard.csv", scorecard.scenario_hashes);
+    write_file(folder / "scorecard.provenance.json", provenance);
     const int misses = scorecard.count(Verdict::miss);
     if (options.csv) {
         fmt::print("{}", csv);

@@ -95,6 +95,18 @@ std::string headways_text(const SingleLight& result) {
            table.text();
 }
 
+std::string queue_text(const SingleLight& result) {
+    constexpr double kClosedUp_m = 1.0;  // more than the smallest gap
+    std::string names;
+    for (const PopulationSummary& summary : result.populations) {
+        if (!(summary.queue.largest_m > summary.queue.smallest_m + kClosedUp_m)) continue;
+        names += fmt::format("{}{} ({:.1f} m)", names.empty() ? "" : ", ", summary.name, summary.queue.largest_m);
+    }
+    if (names.empty()) return "";
+    return "At the start of green the end of the queue has not closed up (largest net gap) in:\n  " + names +
+           "\n  It matters where those vehicles pass within the green; signal.first_green gives them more time.\n\n";
+}
+
 std::string violations_text(const SingleLight& result) {
     if (result.no_violations()) return "No overlaps, no entries on red, no vehicle lost.\n";
     TextTable table;

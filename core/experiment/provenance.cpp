@@ -10,6 +10,14 @@
 
 namespace stopline {
 
+namespace {
+
+std::string text_of(const nlohmann::ordered_json& json) {
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
 std::string provenance_json(const Scenario& scenario, const Provenance& provenance) {
     nlohmann::ordered_json json;
     json["program"] = "stopline";
@@ -24,7 +32,20 @@ std::string provenance_json(const Scenario& scenario, const Provenance& provenan
     json["parameters"] = nlohmann::ordered_json::array();
     std::istringstream lines(canonical_text(scenario));
     for (std::string line; std::getline(lines, line);) json["parameters"].push_back(line);
-    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    return text_of(json);
+}
+
+std::string table_provenance_json(const std::string& command, const std::string& file,
+                                  const std::map<std::string, std::uint64_t>& scenario_hashes) {
+    nlohmann::ordered_json json;
+    json["program"] = "stopline";
+    json["version"] = version();
+    json["command"] = command;
+    json["files"] = {file};
+    json["scenario_hashes"] = nlohmann::ordered_json::object();
+    for (const auto& [scenario, hash] : scenario_hashes)
+        json["scenario_hashes"][scenario] = fmt::format("{:016x}", hash);
+    return text_of(json);
 }
 
 }  // namespace stopline

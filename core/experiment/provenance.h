@@ -2,6 +2,8 @@
 // the results, `<name>.provenance.json`. It holds no date and no path of the machine, so that the same run gives the same bytes.
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,5 +20,9 @@ struct Provenance {
 
 // JSON text; the scenario appears with all its parameters as canonical YAML lines.
 std::string provenance_json(const Scenario& scenario, const Provenance& provenance);
+
+// The same for a table over several scenarios, given by name and hash.
+std::string table_provenance_json(const std::string& command, const std::string& file,
+                                  const std::map<std::string, std::uint64_t>& scenario_hashes);
 
 }  // namespace stopline

@@ -42,10 +42,12 @@ void tell(const ScorecardOptions& options, const std::string& message) {
     if (options.on_message) options.on_message(message);
 }
 
-Measurements run_or_reuse(const Experiment& experiment, const ScorecardOptions& options) {
-    const std::filesystem::path file =
-        data_directory().parent_path() / "scenarios" / (std::string(experiment.scenario) + ".yaml");
-    const Scenario scenario = load_scenario(file, options.settings);
+Scenario scenario_of(const Experiment& experiment, const ScorecardOptions& options) {
+    const std::string file = std::string(experiment.scenario) + ".yaml";
+    return load_scenario(data_directory().parent_path() / "scenarios" / file, options.settings);
+}
+
+Measurements run_or_reuse(const Experiment& experiment, const Scenario& scenario, const ScorecardOptions& options) {
     if (!experiment.runs) return experiment.measure(scenario, options);
     const std::optional<std::string> key = results_key(scenario);
     const std::filesystem::path stored = options.folder / "measured" / (std::string(experiment.name) + ".csv");
@@ -62,14 +64,19 @@ Measurements run_or_reuse(const Experiment& experiment, const ScorecardOptions& 
     return measured;
 }
 
-std::map<std::string, Measurements> measure_for(const std::vector<Target>& targets, const ScorecardOptions& options) {
+// By experiment, those that the rows need.
+std::map<std::string, Measurements> measure_for(const std::vector<Target>& targets, const ScorecardOptions& options,
+                                                std::map<std::string, std::uint64_t>& scenario_hashes) {
     std::set<std::string> needed;
     for (const Target& target : targets) {
         if (const RowJudge* const row = judge_of(target.id)) needed.insert(row->experiment);
     }
     std::map<std::string, Measurements> measured;
     for (const Experiment& experiment : experiments()) {
-        if (needed.contains(experiment.name)) measured[experiment.name] = run_or_reuse(experiment, options);
+        if (!needed.contains(experiment.name)) continue;
+        const Scenario scenario = scenario_of(experiment, options);
+        scenario_hashes[scenario.name] = scenario.hash;
+        measured[experiment.name] = run_or_reuse(experiment, scenario, options);
     }
     return measured;
 }
@@ -89,8 +96,8 @@ Scorecard make_scorecard(const ScorecardOptions& options) {
     const std::vector<Target> targets = chosen_targets(options.section);
     const std::map<std::string, Explanation> explanations =
         load_explanations(data_directory() / "paper" / "explanations.csv");
-    std::map<std::string, Measurements> measured = measure_for(targets, options);
     Scorecard scorecard;
+    std::map<std::string, Measurements> measured = measure_for(targets, options, scorecard.scenario_hashes);
     for (const Target& target : targets) {
         ScoredRow row{target, "", Verdict::open, "", ""};
         if (const RowJudge* const judge_row = judge_of(target.id)) {

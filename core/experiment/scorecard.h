@@ -53,6 +53,7 @@ struct ScoredRow {
 
 struct Scorecard {
     std::vector<ScoredRow> rows;
+    std::map<std::string, std::uint64_t> scenario_hashes;  // of the scenarios behind the rows
     double violations = 0.0;  // overlaps, entries on red and lost vehicles in all runs behind the rows
     int count(Verdict verdict) const;
 };

@@ -145,6 +145,7 @@ public:
         v.acceleration_mps2[i] = acceleration_mps2;
         v.request_mps2[i] = request_mps2;
         v.lag_s[i] = lag_s;
+        driven_.push_back({lane, k, request_mps2});
     }
 
     int count(int lane) const { return state().blocks[at(lane)].count; }
@@ -159,6 +160,12 @@ public:
 
     void step() {
         simulation_->step();
+        // What a vehicle driven by hand asks for is what it tells, not what its driver would have asked for.
+        for (const Driven& driven : driven_) {
+            const std::size_t told = state().v2v.now + slot(driven.lane, driven.k);
+            editable().vehicles.v2v_request_mps2[told] = static_cast<float>(driven.request_mps2);
+        }
+        driven_.clear();
         expect_invariants();
     }
 
@@ -187,6 +194,11 @@ public:
     }
 
 private:
+    struct Driven {
+        int lane, k;
+        double request_mps2;
+    };
+    std::vector<Driven> driven_;  // in this step
     std::unique_ptr<Model> model_;
     std::unique_ptr<Simulation> simulation_;
 };
