@@ -1,9 +1,7 @@
 // Small branch-free functions for kernels, over double or Batch (see simd.h).
 #pragma once
 
-#include <type_traits>
-
-#include "base/simd.h"
+#include "base/simd_memory.h"
 
 namespace stopline {
 
@@ -12,7 +10,7 @@ STOPLINE_INLINE R lesser(const R& a, const R& b) {
     return select(a < b, a, b);
 }
 template <class R>
-STOPLINE_INLINE R lesser(const R& a, double b) requires(sizeof(R) > sizeof(double)) {
+STOPLINE_INLINE R lesser(const R& a, double b) requires(kIsPacked<R>) {
     return lesser(a, splat<R>(b));
 }
 template <class R>
@@ -20,7 +18,7 @@ STOPLINE_INLINE R greater(const R& a, const R& b) {
     return select(a > b, a, b);
 }
 template <class R>
-STOPLINE_INLINE R greater(const R& a, double b) requires(sizeof(R) > sizeof(double)) {
+STOPLINE_INLINE R greater(const R& a, double b) requires(kIsPacked<R>) {
     return greater(a, splat<R>(b));
 }
 template <class R, class Low, class High>
@@ -58,13 +56,13 @@ STOPLINE_INLINE R lag_share(double dt, const R& tau) {
 }
 
 // Linear interpolation in a table over a uniform grid; `at` is in cells, from 0; constant beyond the last node.
-template <class R, std::size_t kEntries>
-STOPLINE_INLINE R on_grid(const std::array<double, kEntries>& node, const R& at) {
+template <class R, class Number, std::size_t kEntries>
+STOPLINE_INLINE R on_grid(const std::array<Number, kEntries>& node, const R& at) {
     constexpr double kLast = static_cast<double>(kEntries) - 1.0;
     const R within = limited(at, 0.0, kLast);
     const R k = whole(lesser(within, kLast - 1.0));
-    const R low = look_up<kEntries>(node, k);
-    return low + (within - k) * (look_up<kEntries>(node, R(k + 1.0)) - low);
+    const R low = look_up(node, k);
+    return low + (within - k) * (look_up(node, R(k + 1.0)) - low);
 }
 
 }  // namespace stopline

@@ -1,8 +1,13 @@
-// How kernels are vectorised. A model's equations are written once, as function templates over a number type R. With
-// R = double they are the plain scalar version, the oracle of the tests; with R = Batch they run eight vehicles at a time.
-// Both give the same bits: every operation is one that IEEE 754 rounds correctly, there is no contraction to fused
+// How kernels are vectorised. A model's equations are written once, as function templates over a number type R:
+//
+//     double       for closed forms and as the measure of what single precision costs,
+//     Single       one vehicle at a time in single precision, the oracle of the batches,
+//     Batch        as many vehicles at a time as a register holds.
+//
+// Single and Batch give the same bits: every operation is one that IEEE 754 rounds correctly, there is no contraction to fused
 // multiply-add and no reordering (see the flags in the top CMakeLists.txt). Explicit batches rather than the compiler's
-// own vectorisation, which gives up on loops as long as these without a word.
+// own vectorisation, which gives up on loops as long as these without a word. Single precision holds twice the vehicles a
+// register and half the memory; positions and speeds, which small increments add up to, are kept in double.
 //
 // A file of kernels is compiled once for each instruction set (see sim/CMakeLists.txt), with a batch as wide as its registers;
 // sim/full_kernels.cpp picks one at run time. A target attribute on a function would not do: g++ takes operations on
@@ -14,18 +19,21 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
+#include <utility>
 
 #if defined(__AVX512F__)
 #include <immintrin.h>
 #endif
 
 #ifndef STOPLINE_BATCH_WIDTH
-#define STOPLINE_BATCH_WIDTH 2
+#define STOPLINE_BATCH_WIDTH 4
 #endif
 
 // Functions that kernels are made of: always inlined, so that no copy made for one instruction set can be linked
 // into code for another.
 #define STOPLINE_INLINE inline __attribute__((always_inline))
+#define STOPLINE_INLINE_LAMBDA __attribute__((always_inline))
 
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wpsabi"  // batches are passed between inlined functions only
@@ -34,63 +42,78 @@
 namespace stopline {
 
 // Spans of vehicles are padded to a multiple of this, the widest batch.
-inline constexpr int kSimdWidth = 8;
+inline constexpr int kSimdWidth = 16;
 // Vehicles that a kernel of this file treats at once.
 static constexpr int kBatchWidth = STOPLINE_BATCH_WIDTH;
 
-using Batch = double __attribute__((vector_size(kBatchWidth * sizeof(double))));
-using BatchMask = std::int64_t __attribute__((vector_size(kBatchWidth * sizeof(std::int64_t))));
-using FloatBatch = float __attribute__((vector_size(kBatchWidth * sizeof(float))));
-using IntBatch = std::int32_t __attribute__((vector_size(kBatchWidth * sizeof(std::int32_t))));
+// kWidth numbers of a type side by side; with kWidth = 1 the plain type.
+template <class Number, int kWidth>
+struct VectorOf {
+    using Type __attribute__((vector_size(kWidth * sizeof(Number)))) = Number;
+};
+template <class Number>
+struct VectorOf<Number, 1> {
+    using Type = Number;
+};
+template <class Number, int kWidth>
+using Vector = typename VectorOf<Number, kWidth>::Type;
+
+// What comparing two Packed gives.
+template <int kWidth>
+struct Mask {
+    std::conditional_t<kWidth == 1, bool, Vector<std::int32_t, kWidth>> m;
+};
+
+// kWidth numbers in single precision. Arithmetic with any plain number first rounds that to single precision.
+template <int kWidth>
+struct Packed {
+    using Floats = Vector<float, kWidth>;
+    Floats v;
+
+    Packed() = default;
+    // NOLINTNEXTLINE(google-explicit-constructor): a plain number stands for as many equal ones
+    STOPLINE_INLINE Packed(double number) : v(static_cast<float>(number) - Floats{}) {}
+    struct FromFloats {};
+    STOPLINE_INLINE Packed(const Floats& floats, FromFloats /*unused*/) : v(floats) {}
+
+    friend STOPLINE_INLINE Packed operator+(const Packed& a, const Packed& b) { return {a.v + b.v, FromFloats{}}; }
+    friend STOPLINE_INLINE Packed operator-(const Packed& a, const Packed& b) { return {a.v - b.v, FromFloats{}}; }
+    friend STOPLINE_INLINE Packed operator*(const Packed& a, const Packed& b) { return {a.v * b.v, FromFloats{}}; }
+    friend STOPLINE_INLINE Packed operator/(const Packed& a, const Packed& b) { return {a.v / b.v, FromFloats{}}; }
+    friend STOPLINE_INLINE Packed operator-(const Packed& a) { return {-a.v, FromFloats{}}; }
+    STOPLINE_INLINE Packed& operator+=(const Packed& b) { return v = v + b.v, *this; }
+    STOPLINE_INLINE Packed& operator*=(const Packed& b) { return v = v * b.v, *this; }
+    friend STOPLINE_INLINE Mask<kWidth> operator<(const Packed& a, const Packed& b) { return {a.v < b.v}; }
+    friend STOPLINE_INLINE Mask<kWidth> operator>(const Packed& a, const Packed& b) { return {a.v > b.v}; }
+    friend STOPLINE_INLINE Mask<kWidth> operator<=(const Packed& a, const Packed& b) { return {a.v <= b.v}; }
+    friend STOPLINE_INLINE Mask<kWidth> operator>=(const Packed& a, const Packed& b) { return {a.v >= b.v}; }
+    friend STOPLINE_INLINE Mask<kWidth> operator==(const Packed& a, const Packed& b) { return {a.v == b.v}; }
+};
+
+using Single = Packed<1>;
+using Batch = Packed<kBatchWidth>;
+
+template <class R>
+inline constexpr int kWidthOf = sizeof(R) / sizeof(float);
+template <class R>
+inline constexpr bool kIsPacked = !std::is_same_v<R, double>;
+
+template <int kWidth>
+STOPLINE_INLINE Packed<kWidth> packed(const Vector<float, kWidth>& floats) {
+    return {floats, typename Packed<kWidth>::FromFloats{}};
+}
 
 // The same number in every lane.
 template <class R>
 STOPLINE_INLINE R splat(double value) {
-    return R{} + value;
-}
-
-template <class R, class Number>
-STOPLINE_INLINE R load(const Number* from) {
-    if constexpr (sizeof(R) == sizeof(double)) {
-        return static_cast<R>(*from);
-    } else if constexpr (sizeof(Number) == sizeof(double)) {
-        R value;
-        std::memcpy(&value, from, sizeof value);
-        return value;
-    } else if constexpr (static_cast<Number>(0.5) == Number{}) {
-        IntBatch value;
-        std::memcpy(&value, from, sizeof value);
-        return __builtin_convertvector(value, Batch);
-    } else {
-        FloatBatch value;
-        std::memcpy(&value, from, sizeof value);
-        return __builtin_convertvector(value, Batch);
-    }
-}
-
-STOPLINE_INLINE void store(double* to, double value) { *to = value; }
-STOPLINE_INLINE void store(float* to, double value) { *to = static_cast<float>(value); }
-STOPLINE_INLINE void store(double* to, const Batch& value) { std::memcpy(to, &value, sizeof value); }
-STOPLINE_INLINE void store(float* to, const Batch& value) {
-    const FloatBatch narrow = __builtin_convertvector(value, FloatBatch);
-    std::memcpy(to, &narrow, sizeof narrow);
-}
-
-// The numbers first, first + 1, ...
-template <class R>
-STOPLINE_INLINE R counting_from(double first) {
-    if constexpr (sizeof(R) == sizeof(double)) {
-        return first;
-    } else {
-        Batch numbers;
-        for (int k = 0; k < kBatchWidth; ++k) numbers[k] = first + k;
-        return numbers;
-    }
+    return R(value);
 }
 
 STOPLINE_INLINE double select(bool condition, double yes, double no) { return condition ? yes : no; }
-STOPLINE_INLINE Batch select(const BatchMask& condition, const Batch& yes, const Batch& no) {
-    return condition ? yes : no;
+template <int kWidth>
+STOPLINE_INLINE Packed<kWidth> select(const Mask<kWidth>& condition, const Packed<kWidth>& yes,
+                                      const Packed<kWidth>& no) {
+    return packed<kWidth>(condition.m ? yes.v : no.v);
 }
 
 // Conditions that are joined or used more than once are numbers, 1 for true and 0 for false: and is a product, or the
@@ -104,58 +127,45 @@ STOPLINE_INLINE R choose(const R& flag, const R& yes, const R& no) {
 // Whether a flag is set anywhere in the batch. Work that no vehicle of a batch needs can be skipped with it: a result that no
 // vehicle takes changes no bit.
 STOPLINE_INLINE bool any(double flag) { return flag > 0.5; }
-STOPLINE_INLINE bool any(const Batch& flag) {
-#if defined(__AVX512F__) && STOPLINE_BATCH_WIDTH == 8
-    __m512d flags;
-    std::memcpy(&flags, &flag, sizeof flags);
-    return _mm512_cmp_pd_mask(flags, _mm512_set1_pd(0.5), _CMP_GT_OQ) != 0;
-#else
-    double most = 0.0;
-    for (int k = 0; k < kBatchWidth; ++k) most = flag[k] > most ? flag[k] : most;
-    return most > 0.5;
+template <int kWidth>
+STOPLINE_INLINE bool any(const Packed<kWidth>& flag) {
+    if constexpr (kWidth == 1) return flag.v > 0.5F;
+#if defined(__AVX512F__)
+    if constexpr (kWidth == 16) {
+        __m512 flags;
+        std::memcpy(&flags, &flag, sizeof flags);
+        return _mm512_cmp_ps_mask(flags, _mm512_set1_ps(0.5F), _CMP_GT_OQ) != 0;
+    }
 #endif
+    float most = 0.0F;
+    if constexpr (kWidth > 1) {
+        for (int k = 0; k < kWidth; ++k) most = flag.v[k] > most ? flag.v[k] : most;
+    }
+    return most > 0.5F;
 }
 
 STOPLINE_INLINE double square_root(double value) { return std::sqrt(value); }
-STOPLINE_INLINE Batch square_root(const Batch& value) {
-    Batch root;
-    for (int k = 0; k < kBatchWidth; ++k) root[k] = std::sqrt(value[k]);
-    return root;
+template <int kWidth>
+STOPLINE_INLINE Packed<kWidth> square_root(const Packed<kWidth>& value) {
+    if constexpr (kWidth == 1) {
+        return packed<1>(std::sqrt(value.v));
+    } else {
+        Packed<kWidth> root;
+        for (int k = 0; k < kWidth; ++k) root.v[k] = std::sqrt(value.v[k]);
+        return root;
+    }
 }
 
 // Whole part of a number >= 0 and below 2^31.
 STOPLINE_INLINE double whole(double value) { return static_cast<double>(static_cast<std::int32_t>(value)); }
-STOPLINE_INLINE Batch whole(const Batch& value) {
-    return __builtin_convertvector(__builtin_convertvector(value, IntBatch), Batch);
-}
-
-// table[index] of a table with 8, 16 or 32 entries, the index a whole number. So small a table fits into a few registers of
-// AVX-512, and a look-up is one or two permutations. (Its gather instruction is slower than single loads where the processor's
-// protection against data sampling is on.)
-template <std::size_t kEntries>
-STOPLINE_INLINE double look_up(const std::array<double, kEntries>& table, double index) {
-    return table[static_cast<std::size_t>(index)];
-}
-template <std::size_t kEntries>
-STOPLINE_INLINE Batch look_up(const std::array<double, kEntries>& table, const Batch& index) {
-    static_assert(kEntries == 8 || kEntries == 16 || kEntries == 32);
-#if defined(__AVX512DQ__) && STOPLINE_BATCH_WIDTH == 8 && !defined(__clang__)
-    const BatchMask k = __builtin_convertvector(index, BatchMask);
-    std::array<Batch, kEntries / 8> part;
-    std::memcpy(part.data(), table.data(), sizeof part);
-    if constexpr (kEntries == 8) return __builtin_shuffle(part[0], k);
-    if constexpr (kEntries == 16) return __builtin_shuffle(part[0], part[1], k);
-    if constexpr (kEntries == 32) {
-        // A permutation takes the index modulo 16.
-        const Batch low = __builtin_shuffle(part[0], part[1], k);
-        return select(index < 16.0, low, __builtin_shuffle(part[2], part[3], k));
+template <int kWidth>
+STOPLINE_INLINE Packed<kWidth> whole(const Packed<kWidth>& value) {
+    if constexpr (kWidth == 1) {
+        return packed<1>(static_cast<float>(static_cast<std::int32_t>(value.v)));
+    } else {
+        const auto integers = __builtin_convertvector(value.v, Vector<std::int32_t, kWidth>);
+        return packed<kWidth>(__builtin_convertvector(integers, Vector<float, kWidth>));
     }
-#else
-    const IntBatch k = __builtin_convertvector(index, IntBatch);
-    Batch found;
-    for (int n = 0; n < kBatchWidth; ++n) found[n] = table[static_cast<std::size_t>(k[n])];
-    return found;
-#endif
 }
 
 }  // namespace stopline

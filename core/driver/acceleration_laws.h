@@ -18,15 +18,17 @@
 namespace stopline {
 
 // Settings compiled for the kernel.
-struct DriverTables {
+template <class Number>
+struct DriverTablesOf {
     static constexpr int kProfileNodes = 32;
-    CaccSettings cacc;
-    StopSettings stop;
-    double speed_gain_1ps = 0.0;
-    double deceleration_mps2 = 0.0;  // for a lower limit ahead
-    double profile_nodes_per_mps = 0.0;
-    std::array<double, kProfileNodes> profile_mps2{};  // acceleration asked for, over speed
+    CaccSettingsOf<Number> cacc;
+    StopSettingsOf<Number> stop;
+    Number speed_gain_1ps = 0.0;
+    Number deceleration_mps2 = 0.0;  // for a lower limit ahead
+    Number profile_nodes_per_mps = 0.0;
+    std::array<Number, kProfileNodes> profile_mps2{};  // acceleration asked for, over speed
 };
+using DriverTables = DriverTablesOf<double>;
 
 // Throws InputError where the profile is unusable.
 DriverTables compile_driver(const DriverSettings& settings);
@@ -42,22 +44,22 @@ struct PredecessorView {
 };
 
 // Free driving of a platoon leader: the calibrated start-up profile towards the desired speed.
-template <class R>
-STOPLINE_INLINE R free_acceleration(const DriverTables& d, const R& speed_mps, double desired_mps) {
+template <class R, class Number>
+STOPLINE_INLINE R free_acceleration(const DriverTablesOf<Number>& d, const R& speed_mps, double desired_mps) {
     const R profile = on_grid(d.profile_mps2, R(speed_mps * d.profile_nodes_per_mps));
     return lesser(profile, d.speed_gain_1ps * (desired_mps - speed_mps));
 }
 
 // A follower may use more than the leader's profile, and a little more speed, to close its gap.
-template <class R>
-STOPLINE_INLINE R catch_up_acceleration(const DriverTables& d, const R& speed_mps, double desired_mps) {
+template <class R, class Number>
+STOPLINE_INLINE R catch_up_acceleration(const DriverTablesOf<Number>& d, const R& speed_mps, double desired_mps) {
     const R towards_limit = d.speed_gain_1ps * (desired_mps * d.cacc.catch_up_factor - speed_mps);
     return lesser(towards_limit, d.cacc.acceleration_max_mps2);
 }
 
 // Slowing down for a lower limit `distance_m` ahead: along v^2 = v_end^2 + 2 b distance.
-template <class R>
-STOPLINE_INLINE R slow_down_acceleration(const DriverTables& d, const R& speed_mps, const R& end_mps,
+template <class R, class Number>
+STOPLINE_INLINE R slow_down_acceleration(const DriverTablesOf<Number>& d, const R& speed_mps, const R& end_mps,
                                          const R& distance_m) {
     const double b = d.deceleration_mps2;
     const R allowed_mps = square_root(square(end_mps) + 2.0 * b * greater(distance_m, 0.0));
@@ -69,8 +71,8 @@ STOPLINE_INLINE R slow_down_acceleration(const DriverTables& d, const R& speed_m
 // without overshoot. The braking that keeps to the curve is b v / (v_p + b tau).
 inline constexpr double kLandingTime_s = 0.5;
 
-template <class R>
-STOPLINE_INLINE R stop_acceleration(const DriverTables& d, const R& speed_mps, const R& distance_m) {
+template <class R, class Number>
+STOPLINE_INLINE R stop_acceleration(const DriverTablesOf<Number>& d, const R& speed_mps, const R& distance_m) {
     constexpr double kSpeedGain_1ps = 1.5;
     const double b = d.stop.deceleration_mps2;
     const double bt = b * kLandingTime_s;
@@ -80,8 +82,8 @@ STOPLINE_INLINE R stop_acceleration(const DriverTables& d, const R& speed_mps, c
 }
 
 // The distance in which that curve stops a vehicle: v^2 / (2 b) + v tau.
-template <class R>
-STOPLINE_INLINE R stopping_distance_m(const DriverTables& d, const R& speed_mps) {
+template <class R, class Number>
+STOPLINE_INLINE R stopping_distance_m(const DriverTablesOf<Number>& d, const R& speed_mps) {
     return speed_mps * (speed_mps * (0.5 / d.stop.deceleration_mps2) + kLandingTime_s);
 }
 
@@ -89,8 +91,8 @@ STOPLINE_INLINE R stopping_distance_m(const DriverTables& d, const R& speed_mps)
 // squares sense at three times within [start, end], limited to what is allowed. With first-order lags
 //     a_p(t + th) = u_p + (a_p - u_p) exp(-(th + delay) / tau_p),   a(t + th) = u + (a - u) exp(-th / tau),
 // so each time gives one equation w u = a_p(t + th) - (1 - w) a with w = 1 - exp(-th / tau).
-template <class R>
-STOPLINE_INLINE R predictive_feedforward(const CaccSettings& c, const R& acceleration_mps2, const R& rate_1ps,
+template <class R, class Number>
+STOPLINE_INLINE R predictive_feedforward(const CaccSettingsOf<Number>& c, const R& acceleration_mps2, const R& rate_1ps,
                                          const PredecessorView<R>& p) {
     const double middle_s = 0.5 * (c.prediction_start_s + c.prediction_end_s);
     const double half_s = middle_s - c.prediction_start_s;
@@ -114,8 +116,8 @@ STOPLINE_INLINE R predictive_feedforward(const CaccSettings& c, const R& acceler
 
 // Following: answer of the spacing controller. `desired_gap_m` and `slope_s` come from the gap law at the own speed;
 // `request_mps2` is the request of the last step, the state of the filter 1 / H.
-template <class R>
-STOPLINE_INLINE R follow_acceleration(const CaccSettings& c, const R& acceleration_mps2, const R& lag_s,
+template <class R, class Number>
+STOPLINE_INLINE R follow_acceleration(const CaccSettingsOf<Number>& c, const R& acceleration_mps2, const R& lag_s,
                                       const R& rate_1ps, const R& request_mps2, const R& desired_gap_m,
                                       const R& slope_s, const PredecessorView<R>& p, double dt) {
     const R error_m = p.gap_m - desired_gap_m;
@@ -135,8 +137,9 @@ STOPLINE_INLINE R follow_acceleration(const CaccSettings& c, const R& accelerati
 // Emergency: the deceleration that is needed not to hit the predecessor, once it exceeds the threshold; large (no limit)
 // before. Needed is the greater of: matching a braking predecessor's speed within the room, b_p + closing^2 / (2 room), and
 // stopping behind the place where it will stop, v^2 / (2 (room + v_p^2 / (2 b_p))).
-template <class R>
-STOPLINE_INLINE R emergency_acceleration(const CaccSettings& c, const R& speed_mps, const PredecessorView<R>& p) {
+template <class R, class Number>
+STOPLINE_INLINE R emergency_acceleration(const CaccSettingsOf<Number>& c, const R& speed_mps,
+                                         const PredecessorView<R>& p) {
     const R closing = greater(p.closing_mps, 0.0);
     const R room_m = greater(p.gap_m - c.radar_delay_s * p.closing_mps - c.emergency_gap_m, 0.05);
     const R asked_p = lesser(p.acceleration_mps2, p.request_mps2);

@@ -6,24 +6,28 @@
 
 namespace stopline {
 
+// Settings that kernels read are templates over the number type (base/narrowed.h).
+
 // The feedback and feedforward gains of Fig. 3 and Fig. 4, and the delays of the sensors.
-struct CaccSettings {
-    double feedback_kp_1ps2 = 0.2;  // Ploeg et al. 2011 (reference [31] of the paper)
-    double feedback_kd_1ps = 0.7;
-    double radar_delay_s = 0.15;  // Section III.D
-    double radar_range_m = 150.0;
-    double v2v_delay_s = 0.02;
-    double prediction_start_s = 0.1;         // Fig. 4: a_i shall meet a_(i-1) from here ...
-    double prediction_end_s = 0.5;           // ... to here after now
-    double acceleration_max_mps2 = 2.5;      // a follower's comfort limit
-    double deceleration_comfort_mps2 = 3.5;  // ISO 15622: ACC brakes at most this hard without an emergency
-    double deceleration_emergency_mps2 = 7.0;
-    double emergency_threshold_mps2 = 3.0;  // collision avoidance acts from this required deceleration on
-    double emergency_gap_m = 0.5;           // and keeps this distance
-    double jerk_up_mps3 = 6.0;              // the command's slew limits: switches are bumpless
-    double jerk_down_mps3 = 25.0;
-    double catch_up_factor = 1.05;  // a follower may exceed the limit by this factor to close its gap
+template <class Number>
+struct CaccSettingsOf {
+    Number feedback_kp_1ps2 = 0.2;  // Ploeg et al. 2011 (reference [31] of the paper)
+    Number feedback_kd_1ps = 0.7;
+    Number radar_delay_s = 0.15;  // Section III.D
+    Number radar_range_m = 150.0;
+    Number v2v_delay_s = 0.02;
+    Number prediction_start_s = 0.1;         // Fig. 4: a_i shall meet a_(i-1) from here ...
+    Number prediction_end_s = 0.5;           // ... to here after now
+    Number acceleration_max_mps2 = 2.5;      // a follower's comfort limit
+    Number deceleration_comfort_mps2 = 3.5;  // ISO 15622: ACC brakes at most this hard without an emergency
+    Number deceleration_emergency_mps2 = 7.0;
+    Number emergency_threshold_mps2 = 3.0;  // collision avoidance acts from this required deceleration on
+    Number emergency_gap_m = 0.5;           // and keeps this distance
+    Number jerk_up_mps3 = 6.0;              // the command's slew limits: switches are bumpless
+    Number jerk_down_mps3 = 25.0;
+    Number catch_up_factor = 1.05;  // a follower may exceed the limit by this factor to close its gap
 };
+using CaccSettings = CaccSettingsOf<double>;
 
 // Free driving: acceleration asked for over speed (the calibrated start-up of Section III.B), towards the desired speed.
 struct FreeDriveSettings {
@@ -35,11 +39,13 @@ struct FreeDriveSettings {
 };
 
 // Stopping at a line.
-struct StopSettings {
-    double deceleration_mps2 = 2.5;           // braking starts when this is needed
-    double decision_deceleration_mps2 = 3.5;  // on yellow: stop if this suffices, else go on
-    double margin_m = 1.0;                    // front to line
+template <class Number>
+struct StopSettingsOf {
+    Number deceleration_mps2 = 2.5;           // braking starts when this is needed
+    Number decision_deceleration_mps2 = 3.5;  // on yellow: stop if this suffices, else go on
+    Number margin_m = 1.0;                    // front to line
 };
+using StopSettings = StopSettingsOf<double>;
 
 struct DriverSettings {
     CaccSettings cacc;

@@ -1,5 +1,6 @@
 #include "sim/full_dynamics.h"
 
+#include "base/narrowed.h"
 #include "base/units.h"
 #include "sim/full_kernels.h"
 
@@ -65,31 +66,34 @@ void evaluate_gap_laws(const Model& model, const LaneStep& lane, State& state) {
 
 }  // namespace
 
-void plan_full(const Model& model, const LaneStep& lane, State& state) {
-    evaluate_gap_laws(model, lane, state);
-    full_kernels(model.scalar_kernels)
-        .plan(plan_streams(state), model.driver, state.radar, state.v2v, lane, model.step_s);
+FullTables full_tables(const Model& model) {
+    FullTables tables{narrowed(model.driver), {}};
+    for (const PowertrainTables& type : model.vehicles) tables.vehicles.push_back(narrowed(type));
+    return tables;
 }
 
-void drive_full(const Model& model, const LaneStep& lane, State& state) {
+void plan_full(const Model& model, const FullTables& tables, const LaneStep& lane, State& state) {
+    evaluate_gap_laws(model, lane, state);
+    full_kernels(model.scalar_kernels)
+        .plan(plan_streams(state), tables.driver, state.radar, state.v2v, lane, model.step_s);
+}
+
+void drive_full(const Model& model, const FullTables& tables, const LaneStep& lane, State& state) {
     VehicleArrays& v = state.vehicles;
-    const DriveStreams streams{v.position_m.data(),
-                               v.speed_mps.data(),
-                               v.acceleration_mps2.data(),
-                               v.torque_Nm.data(),
-                               v.brake_N.data(),
-                               v.gear_time_s.data(),
-                               v.lag_s.data(),
-                               v.gear.data(),
-                               v.request_mps2.data(),
-                               v.v2v_request_mps2.data() + state.v2v.now,
-                               v.type.data()};
+    const DriveStreams streams{
+        v.speed_mps.data(), v.acceleration_mps2.data(), v.torque_Nm.data(),
+        v.brake_N.data(),   v.gear_time_s.data(),       v.lag_s.data(),
+        v.gear.data(),      v.request_mps2.data(),      v.v2v_request_mps2.data() + state.v2v.now,
+        v.type.data()};
     const FullKernels& kernels = full_kernels(model.scalar_kernels);
     for (std::size_t k = 0; k < model.vehicles.size(); ++k) {
-        const PowertrainTables& type = model.vehicles[k];
+        const double weight_N = model.vehicles[k].mass_kg * kGravity_mps2;
         const int only = model.vehicles.size() == 1 ? -1 : static_cast<int>(k);
-        kernels.drive(streams, type, type.mass_kg * kGravity_mps2 * lane.sine, lane, model.step_s, only);
+        kernels.drive(streams, tables.vehicles[k], weight_N * lane.sine, lane, model.step_s, only);
     }
+    kernels.integrate(v.position_m.data(), v.speed_mps.data(), v.acceleration_mps2.data(), lane, model.step_s);
+    // Here, while the lane is in the cache; what is beyond its end is checked in verify.cpp.
+    state.violations.overlaps += kernels.overlaps(v.position_m.data(), v.length_m.data(), lane.first, lane.stop);
 }
 
 }  // namespace stopline

@@ -2,6 +2,8 @@
 // beginning of the step) and drive (vehicle: what the powertrain makes of it, and the new position).
 #pragma once
 
+#include <vector>
+
 #include "sim/model.h"
 #include "sim/state.h"
 
@@ -11,15 +13,25 @@ namespace stopline {
 struct LaneStep {
     int begin = 0;  // slots [begin, end), both multiples of kSimdWidth
     int end = 0;
+    int first = 0;  // slots [first, stop): vehicles
+    int stop = 0;
     double length_m = 0.0;
     double limit_mps = 0.0;
     double sine = 0.0;                  // of the slope
     int stop_slot = -1;                 // vehicle that stops at the lane's end, ...
     double stop_mps2 = 0.0;             // ... and what that asks of it
     bool leads_to_lower_limit = false;  // some lane that follows has a lower limit
+    int to_next_lane = 0;               // slots to those of the lane treated next; 0: all is in the cache
 };
 
-void plan_full(const Model& model, const LaneStep& lane, State& state);
-void drive_full(const Model& model, const LaneStep& lane, State& state);
+// The model's tables as the kernels read them: in single precision.
+struct FullTables {
+    DriverTablesOf<float> driver;
+    std::vector<PowertrainTablesOf<float>> vehicles;  // [type]
+};
+FullTables full_tables(const Model& model);
+
+void plan_full(const Model& model, const FullTables& tables, const LaneStep& lane, State& state);
+void drive_full(const Model& model, const FullTables& tables, const LaneStep& lane, State& state);
 
 }  // namespace stopline

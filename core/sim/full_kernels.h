@@ -1,7 +1,7 @@
 // The inner loops of the full-dynamics fidelity, over plain arrays, and the choice among their builds.
 #pragma once
 
-#include <cstddef>
+#include <cstdint>
 
 #include "driver/acceleration_laws.h"
 #include "sim/full_dynamics.h"
@@ -11,9 +11,9 @@ namespace stopline {
 
 // Plain pointers to the arrays of one plan step, so that the compiler sees independent streams.
 struct PlanStreams {
-    const double *position, *speed, *acceleration, *lag, *length, *desired_gap, *slope;
-    const float *standstill_gap, *end_speed;
-    double *request, *leads;
+    const double *position, *speed, *desired_gap, *slope;
+    const float *acceleration, *lag, *length, *standstill_gap, *end_speed;
+    float *request, *leads;
     float *gap_now, *closing_now, *tell_acceleration, *tell_request, *tell_rate;
     const float *gap_late, *gap_later, *closing_late, *closing_later;
     const float *heard_acceleration, *heard_request, *heard_rate;
@@ -21,18 +21,23 @@ struct PlanStreams {
 };
 
 struct DriveStreams {
-    double *position, *speed, *acceleration, *torque, *brake, *gear_time, *lag, *gear;
-    const double* request;
-    const float* request_before;
+    const double* speed;
+    float *acceleration, *torque, *brake, *gear_time, *lag, *gear;
+    const float *request, *request_before;
     const int* type;
 };
 
 struct FullKernels {
     const char* name;
-    void (*plan)(const PlanStreams&, const DriverTables&, const Rows& radar, const Rows& v2v, const LaneStep&,
+    void (*plan)(const PlanStreams&, const DriverTablesOf<float>&, const Rows& radar, const Rows& v2v, const LaneStep&,
                  double dt);
     // `only`: treats vehicles of this type; < 0: all are of the type given.
-    void (*drive)(const DriveStreams&, const PowertrainTables&, double grade_N, const LaneStep&, double dt, int only);
+    void (*drive)(const DriveStreams&, const PowertrainTablesOf<float>&, double grade_N, const LaneStep&, double dt,
+                  int only);
+    // Speed and position from the acceleration realised in the step.
+    void (*integrate)(double* position, double* speed, const float* acceleration, const LaneStep&, double dt);
+    // Fronts in slots [first + 1, stop) that are beyond the rear of their predecessor.
+    std::int64_t (*overlaps)(const double* position, const float* length, int first, int stop);
 };
 
 // The widest build that this machine runs, or the scalar one: one vehicle at a time, the oracle of the others.

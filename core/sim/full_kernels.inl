@@ -1,5 +1,9 @@
 // The kernels' text. Included by one file for each instruction set, each in a namespace of its own.
-#include "base/simd.h"
+#include <array>
+#include <cstdint>
+#include <initializer_list>
+
+#include "base/simd_memory.h"
 #include "sim/full_kernels.h"
 #include "vehicle/powertrain_step.h"
 
@@ -11,6 +15,8 @@ namespace {
 constexpr double kStanding_mps = 1e-3;
 constexpr double kStart_mps2 = 0.01;
 constexpr double kHold_mps2 = -0.3;
+// A speed as small as this is what rounding leaves of standstill.
+constexpr double kRest_mps = 1e-6;
 // A predecessor as slow as this, and braking at least like this (or standing and not about to start), will stop: its place
 // of rest is something to stop behind.
 constexpr double kObstacle_mps = 5.0;
@@ -25,17 +31,16 @@ STOPLINE_INLINE R delayed(const Rows& rows, const float* late, const float* late
 
 // The vehicle in slot i, or with R = Batch those in i .. i + 7.
 template <class R>
-STOPLINE_INLINE void plan_at(const PlanStreams& s, const DriverTables& d, const Rows& radar, const Rows& v2v,
+STOPLINE_INLINE void plan_at(const PlanStreams& s, const DriverTablesOf<float>& d, const Rows& radar, const Rows& v2v,
                              const LaneStep& lane, double dt, int i) {
-    const CaccSettings& c = d.cacc;
-    const R position = load<R>(s.position + i);
+    const CaccSettingsOf<float>& c = d.cacc;
     const R speed = load<R>(s.speed + i);
     const R acceleration = load<R>(s.acceleration + i);
     const R lag = load<R>(s.lag + i);
     const R before = load<R>(s.request + i);
 
     // Measure and tell.
-    store(s.gap_now + i, load<R>(s.position + i - 1) - load<R>(s.length + i - 1) - position);
+    store(s.gap_now + i, load_difference<R>(s.position + i - 1, s.position + i) - load<R>(s.length + i - 1));
     store(s.closing_now + i, speed - load<R>(s.speed + i - 1));
     store(s.tell_acceleration + i, acceleration);
     store(s.tell_request + i, before);
@@ -52,7 +57,7 @@ STOPLINE_INLINE void plan_at(const PlanStreams& s, const DriverTables& d, const 
 
     // Drive freely.
     const R nothing = splat<R>(1e3);  // an answer that never wins
-    const R to_end_m = lane.length_m - position;
+    const R to_end_m = load_difference<R>(lane.length_m, s.position + i);
     const R as_leader = free_acceleration(d, speed, lane.limit_mps);
     const R slow_down =
         lane.leads_to_lower_limit ? slow_down_acceleration(d, speed, load<R>(s.end_speed + i), to_end_m) : nothing;
@@ -61,8 +66,8 @@ STOPLINE_INLINE void plan_at(const PlanStreams& s, const DriverTables& d, const 
                                          load<R>(s.slope + (i - lane.begin)), p, dt);
     const R emergency = emergency_acceleration(c, speed, p);
     // Stop: at the line, behind a standing predecessor.
-    const R slot = counting_from<R>(i);
-    const R at_line = select(slot == static_cast<double>(lane.stop_slot), splat<R>(lane.stop_mps2), nothing);
+    const R from_stopper = counting_from<R>(i - lane.stop_slot);
+    const R at_line = select(from_stopper == 0.0, splat<R>(lane.stop_slot < 0 ? 1e3 : lane.stop_mps2), nothing);
     const R speed_p = greater(speed - p.closing_mps, 0.0);
     const R stopping_p = STOPLINE_FLAG(R, p.request_mps2 <= splat<R>(0.0) - lesser(speed_p, 1.0) * kBraking_mps2) *
                          STOPLINE_FLAG(R, speed_p < kObstacle_mps);
@@ -86,8 +91,8 @@ STOPLINE_INLINE void plan_at(const PlanStreams& s, const DriverTables& d, const 
 
 // The vehicle in slot i, or those in i .. i + 7, as far as they are of type `only` (< 0: all are).
 template <class R>
-STOPLINE_INLINE void drive_at(const DriveStreams& s, const PowertrainTables& t, double grade_N, double dt, int only,
-                              int i) {
+STOPLINE_INLINE void drive_at(const DriveStreams& s, const PowertrainTablesOf<float>& t, double grade_N, double dt,
+                              int only, int i) {
     PowertrainState<R> now{};
     now.speed_mps = load<R>(s.speed + i);
     now.acceleration_mps2 = load<R>(s.acceleration + i);
@@ -96,16 +101,12 @@ STOPLINE_INLINE void drive_at(const DriveStreams& s, const PowertrainTables& t, 
     now.gear_time_s = load<R>(s.gear_time + i);
     now.lag_s = load<R>(s.lag + i);
     now.gear = load<R>(s.gear + i);
-    const R position = load<R>(s.position + i);
     // The request rises within the step from the one told to the follower to the new one.
     const R request = load<R>(s.request + i);
     const R mean = 0.5 * (load<R>(s.request_before + i) + request);
     const R held = STOPLINE_FLAG(R, now.speed_mps <= kStanding_mps) * STOPLINE_FLAG(R, request <= kStart_mps2);
     const PowertrainState<R> next = powertrain_step<R>(t, now, choose(held, splat<R>(kHold_mps2), mean), grade_N, dt);
-    const R moved_m = 0.5 * (now.speed_mps + next.speed_mps) * dt;
-    const R mine = only < 0 ? splat<R>(1.0) : STOPLINE_FLAG(R, load<R>(s.type + i) == static_cast<double>(only));
-    store(s.position + i, choose(mine, position + moved_m, position));
-    store(s.speed + i, choose(mine, next.speed_mps, now.speed_mps));
+    const R mine = only < 0 ? splat<R>(1.0) : STOPLINE_FLAG(R, load<R>(s.type + i) == only);
     store(s.acceleration + i, choose(mine, next.acceleration_mps2, now.acceleration_mps2));
     store(s.torque + i, choose(mine, next.torque_Nm, now.torque_Nm));
     store(s.brake + i, choose(mine, next.brake_N, now.brake_N));
@@ -114,16 +115,60 @@ STOPLINE_INLINE void drive_at(const DriveStreams& s, const PowertrainTables& t, 
     store(s.gear + i, choose(mine, next.gear, now.gear));
 }
 
-template <class R, int kWidth>
-void plan(const PlanStreams& s, const DriverTables& d, const Rows& radar, const Rows& v2v, const LaneStep& lane,
-          double dt) {
-    for (int i = lane.begin; i < lane.end; i += kWidth) plan_at<R>(s, d, radar, v2v, lane, dt, i);
+// Fetches what the next lane's vehicles i, i + 1, ... will need while this lane's are computed: a lane's share of an array is
+// too short for the processor to see a stream in it.
+STOPLINE_INLINE void prefetch(const PlanStreams& s, int i) {
+    for (const double* stream : {s.position, s.speed}) {
+        __builtin_prefetch(stream + i);
+        __builtin_prefetch(stream + i + kSimdWidth / 2);
+    }
+    const std::array<const float*, 15> streams{
+        s.acceleration,       s.lag,           s.length,       s.request,           s.leads,        s.gap_now,
+        s.gap_late,           s.closing_now,   s.closing_late, s.tell_acceleration, s.tell_request, s.tell_rate,
+        s.heard_acceleration, s.heard_request, s.heard_rate};
+    for (const float* stream : streams) __builtin_prefetch(stream + i);
+}
+STOPLINE_INLINE void prefetch(const DriveStreams& s, int i) {
+    for (const float* stream : {s.torque, s.brake, s.gear_time, s.gear}) __builtin_prefetch(stream + i);
 }
 
-template <class R, int kWidth>
-void drive(const DriveStreams& s, const PowertrainTables& t, double grade_N, const LaneStep& lane, double dt,
+template <class R>
+void plan(const PlanStreams& s, const DriverTablesOf<float>& d, const Rows& radar, const Rows& v2v,
+          const LaneStep& lane, double dt) {
+    for (int i = lane.begin; i < lane.end; i += kWidthOf<R>) {
+        if (lane.to_next_lane != 0) prefetch(s, i + lane.to_next_lane);
+        plan_at<R>(s, d, radar, v2v, lane, dt, i);
+    }
+}
+
+template <class R>
+void drive(const DriveStreams& s, const PowertrainTablesOf<float>& t, double grade_N, const LaneStep& lane, double dt,
            int only) {
-    for (int i = lane.begin; i < lane.end; i += kWidth) drive_at<R>(s, t, grade_N, dt, only, i);
+    for (int i = lane.begin; i < lane.end; i += kWidthOf<R>) {
+        if (lane.to_next_lane != 0) prefetch(s, i + lane.to_next_lane);
+        drive_at<R>(s, t, grade_N, dt, only, i);
+    }
+}
+
+// Few operations on much memory: the compiler vectorises it by itself.
+inline void integrate(double* __restrict position, double* __restrict speed, const float* __restrict acceleration,
+                      const LaneStep& lane, double dt) {
+    for (int i = lane.begin; i < lane.end; ++i) {
+        const double before = speed[i];
+        const double after = before + static_cast<double>(acceleration[i]) * dt;
+        speed[i] = after > kRest_mps ? after : 0.0;
+        position[i] += 0.5 * (before + speed[i]) * dt;
+    }
+}
+
+inline std::int64_t overlaps(const double* position, const float* length, int first, int stop) {
+    constexpr double kRounding_m = 1e-6;
+    std::int64_t count = 0;
+    for (int i = first + 1; i < stop; ++i) {
+        const double gap_m = position[i - 1] - static_cast<double>(length[i - 1]) - position[i];
+        count += gap_m < -kRounding_m ? 1 : 0;
+    }
+    return count;
 }
 
 }  // namespace

@@ -4,6 +4,6 @@
 namespace stopline {
 
 extern const FullKernels kAvx2FullKernels;
-const FullKernels kAvx2FullKernels{"avx2", plan<Batch, kBatchWidth>, drive<Batch, kBatchWidth>};
+const FullKernels kAvx2FullKernels{"avx2", plan<Batch>, drive<Batch>, integrate, overlaps};
 
 }  // namespace stopline

@@ -4,9 +4,9 @@
 namespace stopline {
 
 extern const FullKernels kScalarFullKernels;
-const FullKernels kScalarFullKernels{"scalar", plan<double, 1>, drive<double, 1>};
+const FullKernels kScalarFullKernels{"scalar", plan<Single>, drive<Single>, integrate, overlaps};
 
 extern const FullKernels kBaselineFullKernels;
-const FullKernels kBaselineFullKernels{"baseline", plan<Batch, kBatchWidth>, drive<Batch, kBatchWidth>};
+const FullKernels kBaselineFullKernels{"baseline", plan<Batch>, drive<Batch>, integrate, overlaps};
 
 }  // namespace stopline

@@ -70,7 +70,7 @@ void decide_stops(const Model& model, State& state) {
             }
             line.stopper = stop_slot < 0 ? -1 : state.vehicles.id[at(stop_slot)];
             // It leads what follows it through the next green.
-            if (stop_slot >= 0) state.vehicles.leads[at(stop_slot)] = 1;
+            if (stop_slot >= 0) state.vehicles.leads[at(stop_slot)] = 1.0F;
         }
         state.stop_slot[at(index)] = stop_slot;
     }
@@ -112,18 +112,22 @@ void look_beyond_lanes(const Model& model, State& state) {
         if (v.predecessor[at(head)] == id) continue;
         // A new target: its first radar measurement stands for the past too.
         v.predecessor[at(head)] = id;
-        v.leads[at(head)] = 1.0;
+        v.leads[at(head)] = 1.0F;
         const double gap_m = v.position_m[sentinel] - v.length_m[sentinel] - v.position_m[at(head)];
         v.reset_radar(head, gap_m, v.speed_mps[at(head)] - v.speed_mps[sentinel]);
     }
 }
 
+int first_batch(const State& state, int lane) { return state.blocks[at(lane)].first / kSimdWidth * kSimdWidth; }
+
 LaneStep lane_step(const Model& model, const State& state, int lane) {
     const LaneBlock& block = state.blocks[at(lane)];
     const Lane& road = model.graph.lanes[at(lane)];
     LaneStep step;
-    step.begin = block.first / kSimdWidth * kSimdWidth;
+    step.begin = first_batch(state, lane);
     step.end = (block.stop() + kSimdWidth - 1) / kSimdWidth * kSimdWidth;
+    step.first = block.first;
+    step.stop = block.stop();
     step.length_m = road.length_m;
     step.limit_mps = road.limit_mps;
     step.sine = road.gradient / std::sqrt(1.0 + square(road.gradient));

@@ -16,6 +16,7 @@ void verify(const Model& model, State& state);
 
 // What the kernels need of a lane in this step.
 LaneStep lane_step(const Model& model, const State& state, int lane);
+int first_batch(const State& state, int lane);  // its `begin`
 
 // Appends a free slot at the back of a lane, moving its vehicles up where the block's end is reached. Returns the slot.
 int append_slot(State& state, int lane);

@@ -5,7 +5,16 @@
 
 namespace stopline {
 
-Simulation::Simulation(const Model& model) : model_(model), state_(make_state(model)) { check(model); }
+namespace {
+
+// About 150 bytes of each vehicle are read and written in a step; a second-level cache holds 1 MiB or more.
+constexpr int kVehiclesInCache = 4000;
+
+}  // namespace
+
+Simulation::Simulation(const Model& model) : model_(model), tables_(full_tables(model)), state_(make_state(model)) {
+    check(model);
+}
 
 void Simulation::step() {
     state_.radar = rows_at(model_.radar, state_.tick, state_.vehicles.slots);
@@ -13,10 +22,15 @@ void Simulation::step() {
     find_occupied_lanes(model_, state_);
     decide_stops(model_, state_);
     look_beyond_lanes(model_, state_);
-    for (const int lane : state_.occupied) {
-        const LaneStep step = lane_step(model_, state_, lane);
-        plan_full(model_, step, state_);
-        drive_full(model_, step, state_);
+    const bool prefetch = state_.present() > kVehiclesInCache;
+    for (std::size_t k = 0; k < state_.occupied.size(); ++k) {
+        const int lane = state_.occupied[k];
+        LaneStep step = lane_step(model_, state_, lane);
+        if (prefetch && k + 1 < state_.occupied.size()) {
+            step.to_next_lane = first_batch(state_, state_.occupied[k + 1]) - step.begin;
+        }
+        plan_full(model_, tables_, step, state_);
+        drive_full(model_, tables_, step, state_);
         state_.updates += state_.blocks[static_cast<std::size_t>(lane)].count;
     }
     transfer_vehicles(model_, state_);
@@ -39,8 +53,10 @@ std::uint64_t Simulation::state_hash() const {
             hash.add(v.id[i]);
             hash.add(v.gear[i]);
             hash.add(v.leads[i]);
-            for (const double value : {v.position_m[i], v.speed_mps[i], v.acceleration_mps2[i], v.request_mps2[i],
-                                       v.torque_Nm[i], v.brake_N[i], v.gear_time_s[i], v.lag_s[i]}) {
+            hash.add(v.position_m[i]);
+            hash.add(v.speed_mps[i]);
+            for (const float value : {v.acceleration_mps2[i], v.request_mps2[i], v.torque_Nm[i], v.brake_N[i],
+                                      v.gear_time_s[i], v.lag_s[i]}) {
                 hash.add(value);
             }
         }

@@ -11,6 +11,7 @@
 
 #include <cstdint>
 
+#include "sim/full_dynamics.h"
 #include "sim/model.h"
 #include "sim/state.h"
 
@@ -33,6 +34,7 @@ public:
 
 private:
     const Model& model_;
+    FullTables tables_;
     State state_;
 };
 

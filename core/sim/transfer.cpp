@@ -97,12 +97,12 @@ void enter(const Model& model, State& state, int inlet_index, double speed_mps) 
     const PowertrainTables& type = model.vehicles[0];
     v.position_m[i] = 0.0;
     v.speed_mps[i] = speed_mps;
-    v.acceleration_mps2[i] = v.request_mps2[i] = v.torque_Nm[i] = v.brake_N[i] = 0.0;
-    v.gear_time_s[i] = type.minimum_gear_time_s;
-    v.lag_s[i] = type.lag_unloaded_s[0];
-    v.length_m[i] = type.length_m;
-    v.gear[i] = gear_for(type, speed_mps);
-    v.leads[i] = 1;
+    v.acceleration_mps2[i] = v.request_mps2[i] = v.torque_Nm[i] = v.brake_N[i] = 0.0F;
+    v.gear_time_s[i] = static_cast<float>(type.minimum_gear_time_s);
+    v.lag_s[i] = static_cast<float>(type.lag_unloaded_s[0]);
+    v.length_m[i] = static_cast<float>(type.length_m);
+    v.gear[i] = static_cast<float>(gear_for(type, speed_mps));
+    v.leads[i] = 1.0F;
     v.standstill_gap_m[i] = static_cast<float>(model.policies[at(policy)].settings.standstill_gap_m);
     v.end_speed_mps[i] = end_speed(model, model.graph.routes[at(route)], 0);
     v.policy[i] = policy;

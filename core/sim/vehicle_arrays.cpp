@@ -17,7 +17,7 @@ void VehicleArrays::resize(int slot_count, int radar_row_count, int v2v_row_coun
     const auto n = static_cast<std::size_t>(slot_count);
     for_each_array([n](auto& array) { array.assign(n, {}); });
     // Free slots are computed too: their divisors must not be zero.
-    lag_s.assign(n, 1.0);
+    lag_s.assign(n, 1.0F);
     for (auto* rows : {&radar_gap_m, &radar_closing_mps}) rows->assign(n * static_cast<std::size_t>(radar_rows), 0.0F);
     for (auto* rows : {&v2v_acceleration_mps2, &v2v_request_mps2, &v2v_rate_1ps}) {
         rows->assign(n * static_cast<std::size_t>(v2v_rows), 1.0F);
@@ -49,9 +49,9 @@ void VehicleArrays::reset_radar(int slot, double gap_m, double closing_mps) {
 void VehicleArrays::reset_v2v(int slot) {
     const auto i = static_cast<std::size_t>(slot);
     for (int r = 0; r < v2v_rows; ++r) {
-        v2v_acceleration_mps2[row(r, slot)] = static_cast<float>(acceleration_mps2[i]);
-        v2v_request_mps2[row(r, slot)] = static_cast<float>(request_mps2[i]);
-        v2v_rate_1ps[row(r, slot)] = static_cast<float>(1.0 / lag_s[i]);
+        v2v_acceleration_mps2[row(r, slot)] = acceleration_mps2[i];
+        v2v_request_mps2[row(r, slot)] = request_mps2[i];
+        v2v_rate_1ps[row(r, slot)] = 1.0F / lag_s[i];
     }
 }
 

@@ -9,8 +9,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
+#include "base/huge_page_allocator.h"
 #include "base/simd.h"
 
 namespace stopline {
@@ -27,32 +27,32 @@ struct LaneBlock {
 
 struct VehicleArrays {
     // Hot: read and written every step. One value a slot, SI units.
-    std::vector<double> position_m;  // front, from the lane's start
-    std::vector<double> speed_mps;
-    std::vector<double> acceleration_mps2;  // realised in the last step
-    std::vector<double> request_mps2;       // u: the acceleration asked for in the last step
-    std::vector<double> torque_Nm;
-    std::vector<double> brake_N;
-    std::vector<double> gear_time_s;
-    std::vector<double> lag_s;  // tau, as told to the follower
-    std::vector<double> length_m;
-    std::vector<double> gear;   // 0 is first gear
-    std::vector<double> leads;  // 1: free start-up profile (leader of a platoon), 0: follower
+    LargeArray<double> position_m;  // front, from the lane's start
+    LargeArray<double> speed_mps;
+    LargeArray<float> acceleration_mps2;  // realised in the last step
+    LargeArray<float> request_mps2;       // u: the acceleration asked for in the last step
+    LargeArray<float> torque_Nm;
+    LargeArray<float> brake_N;
+    LargeArray<float> gear_time_s;
+    LargeArray<float> lag_s;  // tau, as told to the follower
+    LargeArray<float> length_m;
+    LargeArray<float> gear;   // 0 is first gear
+    LargeArray<float> leads;  // 1: free start-up profile (leader of a platoon), 0: follower
     // Slots of the past, [row][slot]: radar (gap, closing speed) and V2V (acceleration, request, 1 / lag).
-    std::vector<float> radar_gap_m;
-    std::vector<float> radar_closing_mps;
-    std::vector<float> v2v_acceleration_mps2;
-    std::vector<float> v2v_request_mps2;
-    std::vector<float> v2v_rate_1ps;
+    LargeArray<float> radar_gap_m;
+    LargeArray<float> radar_closing_mps;
+    LargeArray<float> v2v_acceleration_mps2;
+    LargeArray<float> v2v_request_mps2;
+    LargeArray<float> v2v_rate_1ps;
     // Cold: read at events only, or by one kernel.
-    std::vector<float> standstill_gap_m;
-    std::vector<float> end_speed_mps;  // limit at the end of the lane, for the route
-    std::vector<int> policy;
-    std::vector<int> type;
-    std::vector<int> id;
-    std::vector<int> predecessor;  // id of the vehicle that the radar tracks; -1: none
-    std::vector<int> route;
-    std::vector<int> route_index;  // place in the route of the lane the vehicle is on
+    LargeArray<float> standstill_gap_m;
+    LargeArray<float> end_speed_mps;  // limit at the end of the lane, for the route
+    LargeArray<int> policy;
+    LargeArray<int> type;
+    LargeArray<int> id;
+    LargeArray<int> predecessor;  // id of the vehicle that the radar tracks; -1: none
+    LargeArray<int> route;
+    LargeArray<int> route_index;  // place in the route of the lane the vehicle is on
 
     int slots = 0;
     int radar_rows = 0;

@@ -28,14 +28,14 @@ struct PowertrainState {
 };
 
 // Entry of a table over gears.
-template <class R>
-STOPLINE_INLINE R of_gear(const std::array<double, PowertrainTables::kMaxGears>& table, const R& gear) {
-    return look_up<PowertrainTables::kMaxGears>(table, gear);
+template <class R, class Number>
+STOPLINE_INLINE R of_gear(const std::array<Number, PowertrainTables::kMaxGears>& table, const R& gear) {
+    return look_up(table, gear);
 }
 
 // The lag map: linear over engine speed, for no torque and for full load, and linear between these two.
-template <class R>
-STOPLINE_INLINE R torque_lag_s(const PowertrainTables& t, const R& gear, const R& rpm, const R& share) {
+template <class R, class Number>
+STOPLINE_INLINE R torque_lag_s(const PowertrainTablesOf<Number>& t, const R& gear, const R& rpm, const R& share) {
     const R cell = rpm * t.lag_nodes_per_rpm;
     const R unloaded = on_grid(t.lag_unloaded_s, cell);
     const R loaded = on_grid(t.lag_loaded_s, cell);
@@ -43,8 +43,8 @@ STOPLINE_INLINE R torque_lag_s(const PowertrainTables& t, const R& gear, const R
 }
 
 // Whether the next gear can give what is asked for (1 or 0); without it a car would kick down at once and hunt.
-template <class R>
-STOPLINE_INLINE R next_gear_suffices(const PowertrainTables& t, const R& gear, const R& speed_mps,
+template <class R, class Number>
+STOPLINE_INLINE R next_gear_suffices(const PowertrainTablesOf<Number>& t, const R& gear, const R& speed_mps,
                                      const R& request_mps2, const R& resistance_N) {
     const R upper = lesser(gear + 1.0, t.gears - 1.0);
     const R cell = speed_mps * of_gear(t.rpm_per_mps, upper) * t.torque_nodes_per_rpm;
@@ -55,15 +55,16 @@ STOPLINE_INLINE R next_gear_suffices(const PowertrainTables& t, const R& gear, c
 }
 
 // Advances `s` by dt. `request_mps2` is the desired acceleration, `grade_N` = m g sin(slope), positive uphill.
-template <class R>
-STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTables& t, const PowertrainState<R>& s,
+template <class R, class Number>
+STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTablesOf<Number>& t, const PowertrainState<R>& s,
                                                    const R& request_mps2, double grade_N, double dt) {
     // Engine speed. In first gear the clutch slips and the engine turns at launch speed until the wheels have caught up.
     const R rpm_per_mps = of_gear(t.rpm_per_mps, s.gear);
     const R locked_rpm = s.speed_mps * rpm_per_mps;
     const auto floor_rpm = select(s.gear < 0.5, splat<R>(t.launch_rpm), splat<R>(t.idle_rpm));
     const auto rpm = limited(locked_rpm, floor_rpm, t.limiter_rpm);
-    const R connected = STOPLINE_FLAG(R, s.gear_time_s >= t.torque_interruption_s);  // 0 while a gear change interrupts
+    // The share of the step after a gear change's interruption of the torque: 0 in it, 1 long after.
+    const R connected = limited((s.gear_time_s + (dt - t.torque_interruption_s)) * (1.0 / dt), 0.0, 1.0);
 
     // The engine takes part in the motion as far as the clutch is closed.
     const auto per_floor = select(s.gear < 0.5, splat<R>(t.closing_launch_1prpm), splat<R>(t.closing_idle_1prpm));
@@ -98,7 +99,7 @@ STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTables& t, co
     const auto drive_lag_s = torque_lag_s(t, s.gear, rpm, share);
     PowertrainState<R> next{};
     next.torque_Nm = without_tiny(s.torque_Nm + (request_Nm - s.torque_Nm) * lag_share(dt, drive_lag_s));
-    next.brake_N = without_tiny(s.brake_N + (request_brake_N - s.brake_N) * lag_share(dt, t.brake_lag_s));
+    next.brake_N = without_tiny(s.brake_N + (request_brake_N - s.brake_N) * lag_share<double>(dt, t.brake_lag_s));
     next.lag_s = select(request_brake_N > 0.0, splat<R>(t.brake_lag_s), drive_lag_s);
 
     // Force balance. Brakes and resistances stop a vehicle but never push it back: below zero speed is standstill.
@@ -107,17 +108,17 @@ STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTables& t, co
     const auto drive_N =
         transmitted_Nm * gain * select(transmitted_Nm > 0.0, splat<R>(t.efficiency), splat<R>(per_efficiency));
     const auto force_N = drive_N - 0.5 * (s.brake_N + next.brake_N) - resistance_N;
-    const auto free_speed = speed + force_N / inertia_kg * dt;
-    const auto next_speed = greater(free_speed, 0.0);
-    next.speed_mps = next_speed;
-    next.acceleration_mps2 = without_tiny<R>((next_speed - speed) * (1.0 / dt));
+    const R free_mps2 = without_tiny<R>(force_N / inertia_kg);
+    const R stops = STOPLINE_FLAG(R, speed + free_mps2 * dt <= 0.0);
+    next.speed_mps = choose(stops, splat<R>(0.0), speed + free_mps2 * dt);
+    next.acceleration_mps2 = choose(stops, (0.0 - speed) * (1.0 / dt), free_mps2);
 
     // Gear changes. More load, later shifts; an engine that is asked for clearly more than it has
     // kicks down. The hysteresis is the distance
     // between the up- and downshift speeds and the minimum time in a gear; at standstill first gear goes in.
     const auto load = limited(2.5 * share - 1.25, 0.0, 1.0);  // part-load schedule up to half load, full from 0.9
     const auto up_rpm = t.shift_up_part_rpm + load * (t.shift_up_full_rpm - t.shift_up_part_rpm);
-    const R settled = STOPLINE_FLAG(R, s.gear_time_s >= t.minimum_gear_time_s);
+    const R settled = STOPLINE_FLAG(R, s.gear_time_s + 0.5 * dt >= t.minimum_gear_time_s);
     const R driving = STOPLINE_FLAG(R, request_brake_N <= 0.0);
     const R strong = next_gear_suffices<R>(t, s.gear, speed, request_mps2, resistance_N);
     const R due = STOPLINE_FLAG(R, locked_rpm > up_rpm) * strong;
@@ -129,7 +130,7 @@ STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTables& t, co
         STOPLINE_FLAG(R, wanted_Nm > 1.1 * full_Nm) * STOPLINE_FLAG(R, lower_rpm < 0.8 * t.shift_up_full_rpm) * settled;
     const R slow = STOPLINE_FLAG(R, locked_rpm < t.shift_down_rpm) * greater(settled, 1.0 - driving);
     const R down = greater(kick_down, slow) * STOPLINE_FLAG(R, s.gear > 0.5) * (1.0 - up);
-    const R moving = STOPLINE_FLAG(R, next_speed > 0.0);
+    const R moving = STOPLINE_FLAG(R, next.speed_mps > 0.0);
     next.gear = moving * (s.gear + up - down);
     // A change while braking costs no drive torque, so it does not interrupt.
     const R lasting = 1.0 - (up + down) * driving * moving;

@@ -53,7 +53,7 @@ double interpolate(const SampledCurve& curve, double x) {
 }
 
 int gear_for(const PowertrainTables& t, double speed_mps) {
-    int gear = t.gears - 1;
+    int gear = static_cast<int>(t.gears) - 1;
     while (gear > 0 && speed_mps * t.rpm_per_mps[static_cast<std::size_t>(gear)] < 1.1 * t.shift_down_rpm) --gear;
     return gear;
 }
@@ -85,7 +85,7 @@ PowertrainTables compile_powertrain(const PowertrainSettings& s) {
         t.closing_idle_1prpm = 4.0 / std::max(s.idle_rpm, 1.0);
         t.closing_offset = 3.0;
     }
-    t.gears = static_cast<int>(s.gear_ratio.size());
+    t.gears = static_cast<double>(s.gear_ratio.size());
     for (std::size_t g = 0; g < static_cast<std::size_t>(PowertrainTables::kMaxGears); ++g) {
         const std::size_t used = std::min(g, s.gear_ratio.size() - 1);
         const double ratio = s.gear_ratio[used] * s.final_drive;

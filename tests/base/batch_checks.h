@@ -1,4 +1,4 @@
-// Every helper of simd.h and arithmetic.h over Batch against itself over double, lane by lane, to the bit. Included by one
+// Every helper of simd.h and arithmetic.h over Batch against itself over Single, lane by lane, to the bit. Included by one
 // test file for each batch width, which defines STOPLINE_BATCH_WIDTH first: widths beyond the machine's registers are split
 // by the compiler and must give the same bits too.
 #pragma once
@@ -19,36 +19,38 @@ namespace stopline {
 namespace {
 
 // Zeros of both signs, subnormals, the thresholds of the helpers, and 4000 numbers of all sizes.
-std::vector<double> numbers() {
-    std::vector<double> values{0.0,      -0.0,   1.0,    -1.0, 0.5,   1e-12, -1e-12,
-                               9.99e-13, 5e-324, 2e-310, 50.0, 49.99, 800.0, 1e6};
+std::vector<float> numbers() {
+    std::vector<float> values{0.0F,      -0.0F,  1.0F,   -1.0F, 0.5F,   1e-12F, -1e-12F,
+                              9.99e-13F, 1e-45F, 2e-40F, 50.0F, 49.99F, 800.0F, 1e6F};
     for (std::uint64_t k = 0; values.size() < 4096; ++k) {
         const double u = random_uniform(1, k, 0, Purpose::dawdle) - 0.5;
-        values.push_back(std::ldexp(u, static_cast<int>(random_bits(1, k, 1, Purpose::dawdle) % 40) - 20));
+        const int exponent = static_cast<int>(random_bits(1, k, 1, Purpose::dawdle) % 40) - 20;
+        values.push_back(static_cast<float>(std::ldexp(u, exponent)));
     }
     return values;
 }
 
-std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value); }
+std::uint32_t bits(float value) { return std::bit_cast<std::uint32_t>(value); }
+std::uint32_t bits(const Single& value) { return bits(value.v); }
 
 // Applies f, generic over the number type, to batches and to single numbers. Unaligned: kernels load so too.
 template <class Function>
 void expect_same_bits(const char* what, Function f) {
-    const std::vector<double> x = numbers();
+    const std::vector<float> x = numbers();
     const std::size_t half = x.size() / 2;
     for (std::size_t k = 0; k + kBatchWidth <= half; k += 1) {
-        std::array<double, kBatchWidth> result{};
+        std::array<float, kBatchWidth> result{};
         const auto a_batch = load<Batch>(x.data() + k);
         const auto b_batch = load<Batch>(x.data() + half + k);
         Batch answer{};
         f(a_batch, b_batch, answer);
         store(result.data(), answer);
         for (std::size_t lane = 0; lane < kBatchWidth; ++lane) {
-            const double a = x[k + lane];
-            const double b = x[half + k + lane];
-            double expected = 0.0;
+            const Single a(x[k + lane]);
+            const Single b(x[half + k + lane]);
+            Single expected = 0.0;
             f(a, b, expected);
-            ASSERT_EQ(bits(result[lane]), bits(expected)) << what << ": a = " << a << ", b = " << b;
+            ASSERT_EQ(bits(result[lane]), bits(expected)) << what << ": a = " << a.v << ", b = " << b.v;
         }
     }
 }
@@ -64,6 +66,8 @@ void check_batch_arithmetic() {
     STOPLINE_CHECK("product and sum: no contraction", a * b + a);
     STOPLINE_CHECK("quotient", a / (b * b + 1.0));
     STOPLINE_CHECK("splat", splat<R>(0.1) + a);
+    STOPLINE_CHECK("negation", -a);
+    STOPLINE_CHECK("select ==", select(a == 0.0, a, b));
     STOPLINE_CHECK("select <", select(a < b, a, b));
     STOPLINE_CHECK("select >=", select(a >= b, a, b));
     STOPLINE_CHECK("flag", STOPLINE_FLAG(R, a > b));
@@ -84,50 +88,65 @@ void check_batch_arithmetic() {
 // A table whose entries all differ, looked up at every place and between all of them.
 template <std::size_t kEntries>
 void check_batch_tables() {
-    std::array<double, kEntries> table{};
-    for (std::size_t k = 0; k < kEntries; ++k) table[k] = std::sin(static_cast<double>(k)) + 0.1;
-    for (double from = 0.0; from < static_cast<double>(kEntries) + 3.0; from += 0.125) {
-        std::array<double, kBatchWidth> found{};
-        std::array<double, kBatchWidth> between{};
-        Batch place = counting_from<Batch>(0.0);
-        for (int lane = 0; lane < kBatchWidth; ++lane) place[lane] = std::fmod(from + 2.71 * lane, kEntries + 3.0);
-        store(found.data(), look_up<kEntries>(table, whole(lesser(place, kEntries - 1.0))));
+    std::array<float, kEntries> table{};
+    for (std::size_t k = 0; k < kEntries; ++k) table[k] = std::sin(static_cast<float>(k)) + 0.1F;
+    for (float from = 0.0F; from < static_cast<float>(kEntries) + 3.0F; from += 0.125F) {
+        std::array<float, kBatchWidth> found{};
+        std::array<float, kBatchWidth> between{};
+        std::array<float, kBatchWidth> places{};
+        for (std::size_t lane = 0; lane < kBatchWidth; ++lane) {
+            places[lane] = std::fmod(from + 2.71F * static_cast<float>(lane), static_cast<float>(kEntries) + 3.0F);
+        }
+        const auto place = load<Batch>(places.data());
+        store(found.data(), look_up(table, whole(lesser(place, kEntries - 1.0))));
         store(between.data(), on_grid(table, place));
-        for (int lane = 0; lane < kBatchWidth; ++lane) {
-            const auto n = static_cast<std::size_t>(std::min(static_cast<double>(place[lane]), kEntries - 1.0));
-            const double one = place[lane];
-            EXPECT_EQ(found[static_cast<std::size_t>(lane)], table[n]) << one;
-            EXPECT_EQ(bits(between[static_cast<std::size_t>(lane)]), bits(on_grid(table, one))) << one;
+        for (std::size_t lane = 0; lane < kBatchWidth; ++lane) {
+            const auto n = static_cast<std::size_t>(std::min(static_cast<double>(places[lane]), kEntries - 1.0));
+            EXPECT_EQ(found[lane], table[n]) << places[lane];
+            EXPECT_EQ(bits(between[lane]), bits(on_grid(table, Single(places[lane])))) << places[lane];
         }
     }
 }
 
 void check_batch_loads_and_stores() {
-    std::array<float, 32> floats{};
-    std::array<double, 32> doubles{};
-    std::array<int, 32> integers{};
+    std::array<float, 64> floats{};
+    std::array<double, 64> doubles{};
+    std::array<int, 64> integers{};
     for (std::size_t k = 0; k < floats.size(); ++k) {
         floats[k] = 0.1F * static_cast<float>(k) - 1.0F;
-        doubles[k] = 0.1 * static_cast<double>(k) - 1.0;
+        doubles[k] = 1000.1 * static_cast<double>(k * k) - 1.0;
         integers[k] = static_cast<int>(k * k) - 100;
     }
-    for (std::size_t k = 0; k + kBatchWidth <= floats.size(); ++k) {
-        const Batch from_float = load<Batch>(floats.data() + k);
-        const Batch from_int = load<Batch>(integers.data() + k);
-        const Batch count = counting_from<Batch>(static_cast<double>(k));
-        const Batch found = look_up<32>(doubles, count);
-        std::array<float, kBatchWidth> stored{};
-        store(stored.data(), load<Batch>(doubles.data() + k));
-        for (int lane = 0; lane < kBatchWidth; ++lane) {
-            const std::size_t n = k + static_cast<std::size_t>(lane);
-            float one = 0.0F;
-            store(&one, doubles[n]);
-            EXPECT_EQ(from_float[lane], load<double>(floats.data() + n));
-            EXPECT_EQ(from_int[lane], load<double>(integers.data() + n));
-            EXPECT_EQ(count[lane], counting_from<double>(static_cast<double>(n)));
-            EXPECT_EQ(found[lane], look_up<32>(doubles, static_cast<double>(n)));
-            EXPECT_EQ(stored[static_cast<std::size_t>(lane)], one);
+    const auto stored = [](const Batch& batch) {
+        std::array<float, kBatchWidth> values{};
+        store(values.data(), batch);
+        return values;
+    };
+    for (std::size_t k = 0; k + kBatchWidth < floats.size(); ++k) {
+        const auto from_float = stored(load<Batch>(floats.data() + k));
+        const auto from_double = stored(load<Batch>(doubles.data() + k));
+        const auto from_int = stored(load<Batch>(integers.data() + k));
+        const auto between = stored(load_difference<Batch>(doubles.data() + k + 1, doubles.data() + k));
+        const auto to_end = stored(load_difference<Batch>(4e6, doubles.data() + k));
+        const auto count = stored(counting_from<Batch>(static_cast<int>(k) - 3));
+        for (std::size_t lane = 0; lane < kBatchWidth; ++lane) {
+            const std::size_t n = k + lane;
+            EXPECT_EQ(from_float[lane], floats[n]);
+            EXPECT_EQ(from_double[lane], static_cast<float>(doubles[n]));
+            EXPECT_EQ(from_int[lane], static_cast<float>(integers[n]));
+            EXPECT_EQ(between[lane], static_cast<float>(doubles[n + 1] - doubles[n]));
+            EXPECT_EQ(between[lane], load_difference<Single>(&doubles[n + 1], &doubles[n]).v);
+            EXPECT_EQ(to_end[lane], load_difference<Single>(4e6, &doubles[n]).v);
+            EXPECT_EQ(count[lane], static_cast<float>(n) - 3.0F);
         }
+    }
+}
+
+void check_any() {
+    for (std::size_t set = 0; set <= kBatchWidth; ++set) {
+        std::array<float, kBatchWidth + 1> flags{};
+        flags[set] = 1.0F;
+        EXPECT_EQ(any(load<Batch>(flags.data())), set < kBatchWidth);
     }
 }
 

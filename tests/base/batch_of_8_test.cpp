@@ -4,13 +4,14 @@
 namespace stopline {
 namespace {
 
-TEST(BatchOf8, ComputesTheBitsOfDouble) { check_batch_arithmetic(); }
-TEST(BatchOf8, LoadsAndStoresAsDoubleDoes) { check_batch_loads_and_stores(); }
-TEST(BatchOf8, LooksUpAsDoubleDoes) {
+TEST(BatchOf8, ComputesTheBitsOfSingle) { check_batch_arithmetic(); }
+TEST(BatchOf8, LoadsAndStoresAsSingleDoes) { check_batch_loads_and_stores(); }
+TEST(BatchOf8, LooksUpAsSingleDoes) {
     check_batch_tables<8>();
     check_batch_tables<16>();
     check_batch_tables<32>();
 }
+TEST(BatchOf8, SeesWhetherAFlagIsSet) { check_any(); }
 
 }  // namespace
 }  // namespace stopline

@@ -17,6 +17,8 @@ INSTANTIATE_TEST_SUITE_P(Some, Bumpless,
                          testing::Values(Pairing{"SWITCH-1", "petrol_eu4_72kw"}, Pairing{"MIX", "electric_100kw"}),
                          as_pairing_name);
 
+constexpr double kSinglePrecision_mps2 = 1e-6;
+
 struct Request {
     double value_mps2;
     double speed_mps;
@@ -45,8 +47,8 @@ TEST_P(Bumpless, RequestsKeepToTheJerkLimits) {
     Track track(plan);
     track.place_platoon(0, 599.0, 0.0, 40);
     const CaccSettings& cacc = track.model().driver.cacc;
-    const double up = cacc.jerk_up_mps3 * track.step_s() + 1e-9;
-    const double down = cacc.jerk_down_mps3 * track.step_s() + 1e-9;
+    const double up = cacc.jerk_up_mps3 * track.step_s() + kSinglePrecision_mps2;
+    const double down = cacc.jerk_down_mps3 * track.step_s() + kSinglePrecision_mps2;
     double fastest = 0.0;
     std::map<int, Request> before = requests(track);
     while (track.time_s() < 50.0) {

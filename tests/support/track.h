@@ -98,12 +98,12 @@ public:
         const PowertrainTables& car = model_->vehicles[at(type)];
         v.position_m[i] = position_m;
         v.speed_mps[i] = speed_mps;
-        v.acceleration_mps2[i] = v.request_mps2[i] = v.torque_Nm[i] = v.brake_N[i] = 0.0;
-        v.gear_time_s[i] = 100.0;
-        v.lag_s[i] = 0.2;
-        v.length_m[i] = car.length_m;
-        v.gear[i] = gear_for(car, speed_mps);
-        v.leads[i] = 1.0;
+        v.acceleration_mps2[i] = v.request_mps2[i] = v.torque_Nm[i] = v.brake_N[i] = 0.0F;
+        v.gear_time_s[i] = 100.0F;
+        v.lag_s[i] = 0.2F;
+        v.length_m[i] = static_cast<float>(car.length_m);
+        v.gear[i] = static_cast<float>(gear_for(car, speed_mps));
+        v.leads[i] = 1.0F;
         v.standstill_gap_m[i] = static_cast<float>(model_->policies[at(policy)].settings.standstill_gap_m);
         v.end_speed_mps[i] = 1e3F;
         v.policy[i] = policy;
@@ -142,9 +142,9 @@ public:
         const std::size_t i = slot(lane, k);
         v.position_m[i] = position_m;
         v.speed_mps[i] = speed_mps;
-        v.acceleration_mps2[i] = acceleration_mps2;
-        v.request_mps2[i] = request_mps2;
-        v.lag_s[i] = lag_s;
+        v.acceleration_mps2[i] = static_cast<float>(acceleration_mps2);
+        v.request_mps2[i] = static_cast<float>(request_mps2);
+        v.lag_s[i] = static_cast<float>(lag_s);
         driven_.push_back({lane, k, request_mps2});
     }
 
@@ -154,8 +154,8 @@ public:
         const VehicleArrays& v = state().vehicles;
         const std::size_t i = slot(lane, k);
         const double gap_m = k == 0 ? 1e9 : v.position_m[i - 1] - v.length_m[i - 1] - v.position_m[i];
-        return {v.id[i],           v.position_m[i], v.speed_mps[i],   v.acceleration_mps2[i],
-                v.request_mps2[i], gap_m,           v.leads[i] != 0.0};
+        return {v.id[i],           v.position_m[i], v.speed_mps[i],    v.acceleration_mps2[i],
+                v.request_mps2[i], gap_m,           v.leads[i] != 0.0F};
     }
 
     void step() {

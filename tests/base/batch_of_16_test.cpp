@@ -1,0 +1,17 @@
+#define STOPLINE_BATCH_WIDTH 16
+#include "base/batch_checks.h"
+
+namespace stopline {
+namespace {
+
+TEST(BatchOf16, ComputesTheBitsOfSingle) { check_batch_arithmetic(); }
+TEST(BatchOf16, LoadsAndStoresAsSingleDoes) { check_batch_loads_and_stores(); }
+TEST(BatchOf16, LooksUpAsSingleDoes) {
+    check_batch_tables<8>();
+    check_batch_tables<16>();
+    check_batch_tables<32>();
+}
+TEST(BatchOf16, SeesWhetherAFlagIsSet) { check_any(); }
+
+}  // namespace
+}  // namespace stopline
