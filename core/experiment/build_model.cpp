@@ -45,7 +45,8 @@ Model build_model(const Scenario& scenario, std::size_t population) {
     model.vehicles.push_back(compile_powertrain(scenario.vehicle));
     model.driver = compile_driver(scenario.driver);
     model.hesitation_ticks = to_ticks(scenario.driver.free_drive.hesitation_s, scenario.step_s);
-    model.radar = make_delay(scenario.driver.cacc.radar_delay_s, scenario.step_s);
+    // What is planned in a step is in force at its end: what has been seen by then is a step younger than now.
+    model.radar = make_delay(std::max(scenario.driver.cacc.radar_delay_s - scenario.step_s, 0.0), scenario.step_s);
     model.v2v = make_delay(scenario.driver.cacc.v2v_delay_s, scenario.step_s);
     add_policies(scenario, scenario.populations.at(population), model);
     add_demand(scenario, model);

@@ -83,7 +83,7 @@ void drive_full(const Model& model, const FullTables& tables, const LaneStep& la
     const DriveStreams streams{
         v.speed_mps.data(), v.acceleration_mps2.data(), v.torque_Nm.data(),
         v.brake_N.data(),   v.gear_time_s.data(),       v.lag_s.data(),
-        v.gear.data(),      v.request_mps2.data(),      v.v2v_request_mps2.data() + state.v2v.now,
+        v.gear.data(),      v.request_mps2.data(),      v.v2v_request_mps2.data() + state.v2v.before,
         v.type.data()};
     const FullKernels& kernels = full_kernels(model.scalar_kernels);
     for (std::size_t k = 0; k < model.vehicles.size(); ++k) {

@@ -39,13 +39,10 @@ STOPLINE_INLINE void plan_at(const PlanStreams& s, const DriverTablesOf<float>& 
     const R lag = load<R>(s.lag + i);
     const R before = load<R>(s.request + i);
 
-    // Measure and tell.
+    // Measure.
     store(s.gap_now + i, load_difference<R>(s.position + i - 1, s.position + i) - load<R>(s.length + i - 1));
     store(s.closing_now + i, speed - load<R>(s.speed + i - 1));
-    store(s.tell_acceleration + i, acceleration);
-    store(s.tell_request + i, before);
     const R rate = 1.0 / lag;
-    store(s.tell_rate + i, rate);
 
     // What is known of the predecessor now.
     PredecessorView<R> p{};
@@ -85,8 +82,15 @@ STOPLINE_INLINE void plan_at(const PlanStreams& s, const DriverTablesOf<float>& 
     const R smooth = limited<R>(smallest, before - c.jerk_down_mps3 * dt, before + c.jerk_up_mps3 * dt);
     // A standing vehicle does not brake harder and harder: its next start begins from zero.
     const R lowest = select(speed <= kStanding_mps, splat<R>(0.0), splat<R>(-c.deceleration_emergency_mps2));
-    store(s.request + i, greater(smooth, lowest));
+    const R request = greater(smooth, lowest);
+    store(s.request + i, request);
     store(s.leads + i, leads);
+    // Tell. The request is in force at the end of this step; the acceleration, a mean over the last one, is brought to
+    // that time by the lag.
+    const R reached = lesser(1.5 * dt * rate, 1.0);
+    store(s.tell_request + i, request);
+    store(s.tell_acceleration + i, acceleration + (request - acceleration) * reached);
+    store(s.tell_rate + i, rate);
 }
 
 // The vehicle in slot i, or those in i .. i + 7, as far as they are of type `only` (< 0: all are).
@@ -101,7 +105,7 @@ STOPLINE_INLINE void drive_at(const DriveStreams& s, const PowertrainTablesOf<fl
     now.gear_time_s = load<R>(s.gear_time + i);
     now.lag_s = load<R>(s.lag + i);
     now.gear = load<R>(s.gear + i);
-    // The request rises within the step from the one told to the follower to the new one.
+    // The request moves within the step from the last one to the new one.
     const R request = load<R>(s.request + i);
     const R mean = 0.5 * (load<R>(s.request_before + i) + request);
     const R held = STOPLINE_FLAG(R, now.speed_mps <= kStanding_mps) * STOPLINE_FLAG(R, request <= kStart_mps2);

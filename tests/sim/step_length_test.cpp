@@ -35,6 +35,8 @@ class StepLength : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Policies, StepLength, testing::Values("CDG", "CTG-Ref", "SWITCH-1", "SWITCH-2", "MIX"),
                          as_name);
 
+// A gearbox that is asked for almost exactly as much as makes it kick down does so at one step and not at another: single
+// vehicles differ by more at the coarsest step, their followers hardly.
 TEST_P(StepLength, DoesNotMatterToThePassages) {
     const std::vector<double> fine = stop_line_times(GetParam(), 0.005);
     ASSERT_EQ(fine.size(), std::size_t{kVehicles});
@@ -42,12 +44,17 @@ TEST_P(StepLength, DoesNotMatterToThePassages) {
         const std::vector<double> coarse = stop_line_times(GetParam(), step_s);
         ASSERT_EQ(coarse.size(), fine.size());
         double largest_s = 0.0;
+        int far = 0;
         for (std::size_t k = 0; k < fine.size(); ++k) {
-            EXPECT_NEAR(coarse[k], fine[k], step_s > 0.015 ? 0.35 : 0.15) << "vehicle " << k + 1 << ", step " << step_s;
-            if (std::fabs(coarse[k] - fine[k]) > std::fabs(largest_s)) largest_s = coarse[k] - fine[k];
+            const double difference_s = coarse[k] - fine[k];
+            if (std::fabs(difference_s) > 0.05) ++far;
+            if (std::fabs(difference_s) > std::fabs(largest_s)) largest_s = difference_s;
         }
-        std::printf("%s: passages at a step of %.0f ms are at most %+.3f s from those at 5 ms\n", GetParam().c_str(),
-                    1e3 * step_s, largest_s);
+        std::printf(
+            "%s: passages at a step of %.0f ms are at most %+.3f s from those at 5 ms, %d of %d beyond 0.05 s\n",
+            GetParam().c_str(), 1e3 * step_s, largest_s, far, kVehicles);
+        EXPECT_LE(far, step_s > 0.015 ? 4 : 0);
+        EXPECT_LT(std::fabs(largest_s), 0.2);
     }
 }
 
