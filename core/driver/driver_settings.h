@@ -47,10 +47,18 @@ struct StopSettingsOf {
 };
 using StopSettings = StopSettingsOf<double>;
 
+// Giving way inside intersections.
+struct GiveWaySettings {
+    double critical_gap_s = 5.0;  // shortest time to the next vehicle with priority that is accepted
+    double margin_m = 0.5;        // from the front to the conflict area when waiting
+    double approach_mps2 = 2.0;   // vehicles with priority are expected to accelerate like this, up to the limit
+};
+
 struct DriverSettings {
     CaccSettings cacc;
     FreeDriveSettings free_drive;
     StopSettings stop;
+    GiveWaySettings give_way;
     std::string name = {};  // of the file in data/drivers
 };
 

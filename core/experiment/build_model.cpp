@@ -34,6 +34,13 @@ void add_demand(const Scenario& scenario, Model& model) {
     }
 }
 
+void add_detectors(const Scenario& /*scenario*/, Model& model) {
+    for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {
+        const Lane& road = model.graph.lanes[static_cast<std::size_t>(lane)];
+        if (road.signal_group >= 0) model.detectors.push_back({lane, road.stop_line_m, -1, false});
+    }
+}
+
 }  // namespace
 
 Model build_model(const Scenario& scenario, std::size_t population) {
@@ -48,6 +55,8 @@ Model build_model(const Scenario& scenario, std::size_t population) {
     // What is planned in a step is in force at its end: what has been seen by then is a step younger than now.
     model.radar = make_delay(std::max(scenario.driver.cacc.radar_delay_s - scenario.step_s, 0.0), scenario.step_s);
     model.v2v = make_delay(scenario.driver.cacc.v2v_delay_s, scenario.step_s);
+    model.give_way = scenario.driver.give_way;
+    add_detectors(scenario, model);
     add_policies(scenario, scenario.populations.at(population), model);
     add_demand(scenario, model);
     check(model);

@@ -15,24 +15,31 @@ LaneGraph make_approach(const ApproachSettings& s) {
     for (int k = 0; k < s.lanes; ++k) {
         const double y = -k * kLaneWidth_m;
         const int entry = 2 * k;
-        graph.lanes.push_back({fmt::format("approach_{}", k),
-                               s.length_m,
-                               s.speed_limit_mps,
-                               s.gradient,
-                               0,
-                               {entry + 1},
-                               {{-s.length_m, y}, {0.0, y}}});
-        graph.lanes.push_back({fmt::format("exit_{}", k),
-                               s.exit_length_m,
-                               s.speed_limit_mps,
-                               s.gradient,
-                               -1,
-                               {},
-                               {{0.0, y}, {s.exit_length_m, y}}});
+        Lane in;
+        in.name = fmt::format("approach_{}", k);
+        in.length_m = in.stop_line_m = s.length_m;
+        in.limit_mps = s.speed_limit_mps;
+        in.gradient = s.gradient;
+        in.signal_group = 0;
+        in.next = {entry + 1};
+        in.shape = {{-s.length_m, y}, {0.0, y}};
+        Lane out;
+        out.name = fmt::format("exit_{}", k);
+        out.length_m = s.exit_length_m;
+        out.limit_mps = s.speed_limit_mps;
+        out.gradient = s.gradient;
+        out.shape = {{0.0, y}, {s.exit_length_m, y}};
+        graph.lanes.push_back(in);
+        graph.lanes.push_back(out);
         graph.routes.push_back({fmt::format("straight_{}", k), {entry, entry + 1}});
         graph.entries.push_back(entry);
     }
     return graph;
+}
+
+const std::vector<Conflict>& LaneGraph::conflicts_of(int lane) const {
+    static const std::vector<Conflict> kNone;
+    return conflicts.empty() ? kNone : conflicts[static_cast<std::size_t>(lane)];
 }
 
 void check(const LaneGraph& graph) {
@@ -40,7 +47,7 @@ void check(const LaneGraph& graph) {
     const auto known = [lanes](int lane) { return lane >= 0 && lane < lanes; };
     for (const Lane& lane : graph.lanes) {
         const bool sound = lane.length_m > 0.0 && lane.limit_mps > 0.0 && lane.signal_group < graph.signal_groups &&
-                           std::all_of(lane.next.begin(), lane.next.end(), known);
+                           lane.stop_line_m <= lane.length_m && std::all_of(lane.next.begin(), lane.next.end(), known);
         if (!sound)
             throw InputError(fmt::format("lane '{}': length, limit, signal or next lane is not usable", lane.name));
     }

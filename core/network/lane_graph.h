@@ -1,27 +1,43 @@
 // The network as the engine sees it: lanes, the lanes that follow each, and routes over them. Generators and importers build
-// it; it is constant afterwards. A stop line is the end of a lane that has a signal group.
+// it; it is constant afterwards. A lane with a signal group has a stop line.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
+#include "network/geometry.h"
 #include "network/network_settings.h"
 
 namespace stopline {
 
-struct Point {
-    double x_m = 0.0;
-    double y_m = 0.0;
-};
+// What a lane inside an intersection does.
+enum class Turn : std::uint8_t { none, straight, right, left };
 
 struct Lane {
-    std::string name;
+    std::string name = {};
     double length_m = 0.0;
     double limit_mps = 0.0;
-    double gradient = 0.0;     // rise over run, positive uphill in driving direction
-    int signal_group = -1;     // of the stop line at its end; -1: none
-    std::vector<int> next;     // lanes that can follow; none: vehicles leave the network here
-    std::vector<Point> shape;  // centre line
+    double gradient = 0.0;       // rise over run, positive uphill in driving direction
+    int signal_group = -1;       // of its stop line; -1: no stop line
+    std::vector<int> next = {};  // lanes that can follow; none: vehicles leave the network here
+    Polyline shape = {};         // centre line, from shape_start_m before the lane's start
+    double stop_line_m = 0.0;    // from the lane's start; behind it the lane may go on, shared by its movements
+    double shape_start_m = 0.0;  // length of `shape` that belongs to the lane before: the shared stretch
+    Turn turn = Turn::none;      // of a lane inside an intersection
+    int origin = -1;             // of such a lane: the entry lane that leads to it
+};
+
+// Where the bodies of vehicles on two lanes inside an intersection can touch. All distances along the lanes, of points of
+// their centre lines: a lane's vehicle is in the area from when its front is beyond `from_m` until its rear is beyond `to_m`.
+struct Conflict {
+    int other = -1;
+    double from_m = 0.0;  // on this lane; below 0: on the stretch that its origin shares among movements
+    double to_m = 0.0;
+    double other_from_m = 0.0;
+    double other_to_m = 0.0;
+    bool yields = false;        // this lane gives way to the other
+    bool other_yields = false;  // the other gives way to this one
 };
 
 // A sequence of lanes from an entry to an exit.
@@ -35,11 +51,19 @@ struct LaneGraph {
     std::vector<Route> routes;
     std::vector<int> entries;  // lanes where vehicles enter; route k starts at one of these
     int signal_groups = 0;
+    std::vector<std::vector<Conflict>> conflicts;  // [lane], in the order of from_m; empty where no lane has any
+
+    const std::vector<Conflict>& conflicts_of(int lane) const;
 };
 
 // Straight lanes side by side, each with a stop line (signal group 0) and the road behind it. Entry lane k is lane 2 k, its
 // continuation lane 2 k + 1, its route k.
 LaneGraph make_approach(const ApproachSettings& settings);
+
+// Four arms that meet at a right angle, each with the same lanes; arms 0 .. 3 are those that traffic comes from in the west,
+// south, east and north. Signal group 0 is west and east, group 1 south and north. Entry lanes end where their movements part,
+// lanes inside lead from there to the exit lanes, which begin at `radius_m` from the centre.
+LaneGraph make_intersection(const IntersectionSettings& settings);
 
 // Throws InputError where lanes, routes or signal groups do not fit together.
 void check(const LaneGraph& graph);

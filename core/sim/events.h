@@ -15,14 +15,34 @@ struct Passage {
     float speed_mps;
 };
 
+// A vehicle's front passed a detector.
+struct Crossing {
+    double time_s;
+    int vehicle;
+    int policy;
+    int detector;
+    float speed_mps;
+    float length_m;
+};
+
+// A vehicle went ahead although others have priority: it expects the next of them after `gap_s`.
+struct GapAccepted {
+    double time_s;
+    int vehicle;
+    int lane;  // inside the intersection
+    float gap_s;
+    float needed_s;
+};
+
 // Counts of what must never happen; checked in every step of every run.
 struct Violations {
     std::int64_t overlaps = 0;            // vehicle-steps with a negative net gap
+    std::int64_t conflicts = 0;           // vehicle pairs and steps in the same conflict area
     std::int64_t red_entries = 0;         // passed a stop line on red although stopping had been possible
     std::int64_t forced_red_entries = 0;  // passed on red because stopping was not possible (no violation by itself)
     std::int64_t lost_vehicles = 0;       // entered minus left minus present
 
-    bool none() const { return overlaps == 0 && red_entries == 0 && lost_vehicles == 0; }
+    bool none() const { return overlaps == 0 && conflicts == 0 && red_entries == 0 && lost_vehicles == 0; }
 };
 
 }  // namespace stopline

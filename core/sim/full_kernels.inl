@@ -54,7 +54,7 @@ STOPLINE_INLINE void plan_at(const PlanStreams& s, const DriverTablesOf<float>& 
 
     // Drive freely.
     const R nothing = splat<R>(1e3);  // an answer that never wins
-    const R to_end_m = load_difference<R>(lane.length_m, s.position + i);
+    const R to_end_m = load_difference<R>(lane.turn_m, s.position + i);
     const R as_leader = free_acceleration(d, speed, lane.limit_mps);
     const R slow_down =
         lane.leads_to_lower_limit ? slow_down_acceleration(d, speed, load<R>(s.end_speed + i), to_end_m) : nothing;
@@ -62,9 +62,13 @@ STOPLINE_INLINE void plan_at(const PlanStreams& s, const DriverTablesOf<float>& 
     const R follow = follow_acceleration(c, acceleration, lag, rate, before, load<R>(s.desired_gap + (i - lane.begin)),
                                          load<R>(s.slope + (i - lane.begin)), p, dt);
     const R emergency = emergency_acceleration(c, speed, p);
-    // Stop: at the line, behind a standing predecessor.
+    // Stop: at the line, before a conflict area, behind a standing predecessor.
     const R from_stopper = counting_from<R>(i - lane.stop_slot);
     const R at_line = select(from_stopper == 0.0, splat<R>(lane.stop_slot < 0 ? 1e3 : lane.stop_mps2), nothing);
+    R at_conflict = nothing;
+    if (lane.hold_slot >= 0) {
+        at_conflict = select(counting_from<R>(i - lane.hold_slot) == 0.0, splat<R>(lane.hold_mps2), nothing);
+    }
     const R speed_p = greater(speed - p.closing_mps, 0.0);
     const R stopping_p = STOPLINE_FLAG(R, p.request_mps2 <= splat<R>(0.0) - lesser(speed_p, 1.0) * kBraking_mps2) *
                          STOPLINE_FLAG(R, speed_p < kObstacle_mps);
@@ -78,7 +82,7 @@ STOPLINE_INLINE void plan_at(const PlanStreams& s, const DriverTablesOf<float>& 
     // The smallest answer wins. A platoon leader becomes a follower when following asks for less than driving freely.
     const R leads = load<R>(s.leads + i) * STOPLINE_FLAG(R, follow > as_leader);
     const R drive = lesser(choose(leads, as_leader, catch_up_acceleration(d, speed, lane.limit_mps)), slow_down);
-    const R smallest = lesser(lesser(lesser(drive, follow), emergency), lesser(at_line, behind));
+    const R smallest = lesser(lesser(lesser(drive, follow), emergency), lesser(lesser(at_line, at_conflict), behind));
     const R smooth = limited<R>(smallest, before - c.jerk_down_mps3 * dt, before + c.jerk_up_mps3 * dt);
     // A standing vehicle does not brake harder and harder: its next start begins from zero.
     const R lowest = select(speed <= kStanding_mps, splat<R>(0.0), splat<R>(-c.deceleration_emergency_mps2));

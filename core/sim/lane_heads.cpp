@@ -66,7 +66,7 @@ void decide_stops(const Model& model, State& state) {
             if (line.stopper >= 0) stop_slot = slot_of(state.vehicles, block, line.stopper);
             if (stop_slot < 0) {
                 const Light light = model.signals[at(lane.signal_group)].light(state.tick);
-                stop_slot = choose_stopper(model, state, block, lane.length_m, light);
+                stop_slot = choose_stopper(model, state, block, lane.stop_line_m, light);
             }
             line.stopper = stop_slot < 0 ? -1 : state.vehicles.id[at(stop_slot)];
             // It leads what follows it through the next green.
@@ -76,17 +76,45 @@ void decide_stops(const Model& model, State& state) {
     }
 }
 
+namespace {
+
+constexpr double kFar_m = 1e9;
+
+// Where movements part: the vehicle on any of them whose rear is still on the shared stretch, if any.
+Ahead still_shared(const Model& model, const State& state, int lane, double& rear_m) {
+    const VehicleArrays& v = state.vehicles;
+    const double end_m = model.graph.lanes[at(lane)].length_m;
+    Ahead found;
+    for (const int next : model.graph.lanes[at(lane)].next) {
+        const LaneBlock& block = state.blocks[at(next)];
+        if (block.count == 0) continue;
+        const double beyond_m = v.position_m[at(block.last())] - v.length_m[at(block.last())];
+        if (beyond_m >= 0.0 || end_m + beyond_m >= rear_m) continue;
+        rear_m = end_m + beyond_m;
+        found = {block.last(), end_m};
+    }
+    return found;
+}
+
+}  // namespace
+
 Ahead vehicle_ahead(const Model& model, const State& state, int lane, int slot, double range_m) {
     const VehicleArrays& v = state.vehicles;
     const Route& route = model.graph.routes[at(v.route[at(slot)])];
     double start_m = model.graph.lanes[at(lane)].length_m;
+    Ahead beside;
+    double beside_rear_m = kFar_m;
+    if (model.graph.lanes[at(lane)].next.size() > 1) beside = still_shared(model, state, lane, beside_rear_m);
     for (std::size_t k = at(v.route_index[at(slot)]) + 1; k < route.lanes.size(); ++k) {
         if (start_m - v.position_m[at(slot)] > range_m) break;
         const LaneBlock& block = state.blocks[at(route.lanes[k])];
-        if (block.count > 0) return {block.last(), start_m};
+        if (block.count > 0) {
+            const double rear_m = start_m + v.position_m[at(block.last())] - v.length_m[at(block.last())];
+            return rear_m <= beside_rear_m ? Ahead{block.last(), start_m} : beside;
+        }
         start_m += model.graph.lanes[at(route.lanes[k])].length_m;
     }
-    return {};
+    return beside;
 }
 
 void look_beyond_lanes(const Model& model, State& state) {
@@ -118,25 +146,31 @@ void look_beyond_lanes(const Model& model, State& state) {
     }
 }
 
-int first_batch(const State& state, int lane) { return state.blocks[at(lane)].first / kSimdWidth * kSimdWidth; }
+int first_batch(const State& state, int lane) { return state.blocks[at(lane)].first; }
 
 LaneStep lane_step(const Model& model, const State& state, int lane) {
     const LaneBlock& block = state.blocks[at(lane)];
     const Lane& road = model.graph.lanes[at(lane)];
     LaneStep step;
     step.begin = first_batch(state, lane);
-    step.end = (block.stop() + kSimdWidth - 1) / kSimdWidth * kSimdWidth;
+    step.end = step.begin + (block.count + kSimdWidth - 1) / kSimdWidth * kSimdWidth;
     step.first = block.first;
     step.stop = block.stop();
-    step.length_m = road.length_m;
+    step.turn_m = road.signal_group >= 0 ? road.stop_line_m : road.length_m;
     step.limit_mps = road.limit_mps;
     step.sine = road.gradient / std::sqrt(1.0 + square(road.gradient));
     step.stop_slot = state.stop_slot[at(lane)];
     step.leads_to_lower_limit = state.leads_to_lower_limit[at(lane)] != 0;
     if (step.stop_slot >= 0) {
         const std::size_t i = at(step.stop_slot);
-        const double room_m = road.length_m - model.driver.stop.margin_m - state.vehicles.position_m[i];
+        const double room_m = road.stop_line_m - model.driver.stop.margin_m - state.vehicles.position_m[i];
         step.stop_mps2 = stop_acceleration(model.driver, state.vehicles.speed_mps[i], room_m);
+    }
+    step.hold_slot = state.hold_slot[at(lane)];
+    if (step.hold_slot >= 0) {
+        const std::size_t i = at(step.hold_slot);
+        const double room_m = state.hold_m[at(lane)] - state.vehicles.position_m[i];
+        step.hold_mps2 = stop_acceleration(model.driver, state.vehicles.speed_mps[i], room_m);
     }
     return step;
 }

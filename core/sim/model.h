@@ -28,6 +28,14 @@ struct DelayLine {
 };
 DelayLine make_delay(double delay_s, double step_s);
 
+// Where passing fronts are noted.
+struct Detector {
+    int lane = -1;
+    double position_m = 0.0;
+    int zone = -1;        // index of the zone that it bounds; -1: a stop line
+    bool leaves = false;  // whether vehicles leave the zone here
+};
+
 struct Model {
     double step_s = 0.01;
     std::uint64_t seed = 1;
@@ -38,6 +46,8 @@ struct Model {
     DriverTables driver;
     std::int64_t hesitation_ticks = 0;  // first vehicle at a stop line, after the start of green
     DemandPlan demand;
+    std::vector<Detector> detectors;
+    GiveWaySettings give_way;
     DelayLine radar;
     DelayLine v2v;
     bool scalar_kernels = false;  // the oracle: one vehicle at a time, same bits

@@ -9,7 +9,9 @@ namespace stopline {
 
 void find_occupied_lanes(const Model& model, State& state);
 void decide_stops(const Model& model, State& state);
+void give_way(const Model& model, State& state);
 void look_beyond_lanes(const Model& model, State& state);
+void watch_detectors(const Model& model, State& state);
 void transfer_vehicles(const Model& model, State& state);
 void insert_vehicles(const Model& model, State& state);
 void verify(const Model& model, State& state);
@@ -17,6 +19,9 @@ void verify(const Model& model, State& state);
 // What the kernels need of a lane in this step.
 LaneStep lane_step(const Model& model, const State& state, int lane);
 int first_batch(const State& state, int lane);  // its `begin`
+
+// When the front passed `line_m` within the last step.
+double passing_time_s(const Model& model, const State& state, int slot, double line_m);
 
 // Appends a free slot at the back of a lane, moving its vehicles up where the block's end is reached. Returns the slot.
 int append_slot(State& state, int lane);

@@ -21,6 +21,7 @@ void Simulation::step() {
     state_.v2v = rows_at(model_.v2v, state_.tick, state_.vehicles.slots);
     find_occupied_lanes(model_, state_);
     decide_stops(model_, state_);
+    give_way(model_, state_);
     look_beyond_lanes(model_, state_);
     const bool prefetch = state_.present() > kVehiclesInCache;
     for (std::size_t k = 0; k < state_.occupied.size(); ++k) {
@@ -33,6 +34,7 @@ void Simulation::step() {
         drive_full(model_, tables_, step, state_);
         state_.updates += state_.blocks[static_cast<std::size_t>(lane)].count;
     }
+    watch_detectors(model_, state_);
     transfer_vehicles(model_, state_);
     insert_vehicles(model_, state_);
     verify(model_, state_);

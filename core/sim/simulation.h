@@ -1,9 +1,11 @@
 // One run: a Model (constant) and a State (all that changes), advanced a step at a time. The step is a list of named phases:
 //
 //     signals    who stops at which line               lane_heads.cpp
+//     give way   who waits before which conflict area               right_of_way.cpp
 //     heads      what the first vehicle of each lane reacts to beyond its lane
 //     plan       every vehicle's request, from the state at the beginning of the step      full_dynamics.cpp
 //     move       powertrain, speed, position
+//     detectors  fronts that passed one                             detectors.cpp
 //     transfer   vehicles that passed the end of their lane                                transfer.cpp
 //     insert     vehicles that enter
 //     verify     invariants: no overlap, nobody lost

@@ -37,10 +37,19 @@ State make_state(const Model& model) {
         slots = block.end;
         state.blocks.push_back(block);
     }
-    slots = rounded_up(slots);
+    slots = rounded_up(slots) + kSimdWidth;  // the last batch of a lane reaches beyond its block
     state.vehicles.resize(slots, model.radar.rows, model.v2v.rows);
     state.stop_lines.resize(model.graph.lanes.size());
     state.stop_slot.assign(model.graph.lanes.size(), -1);
+    state.hold_slot.assign(model.graph.lanes.size(), -1);
+    state.hold_m.assign(model.graph.lanes.size(), 0.0);
+    state.insiders.resize(model.graph.lanes.size());
+    for (std::vector<Insider>& insiders : state.insiders) insiders.reserve(32);
+    state.detectors_of.resize(model.graph.lanes.size());
+    state.upstream.assign(model.detectors.size(), 0);
+    for (std::size_t k = 0; k < model.detectors.size(); ++k) {
+        state.detectors_of[static_cast<std::size_t>(model.detectors[k].lane)].push_back(static_cast<int>(k));
+    }
     for (const Lane& lane : model.graph.lanes) {
         const auto lower = [&](int next) {
             return model.graph.lanes[static_cast<std::size_t>(next)].limit_mps < lane.limit_mps;
@@ -51,7 +60,7 @@ State make_state(const Model& model) {
     state.inlets.resize(model.demand.inlets.size());
     int longest = 0;
     for (const LaneBlock& block : state.blocks) longest = std::max(longest, block.end - block.begin);
-    const auto n = static_cast<std::size_t>(longest);
+    const auto n = static_cast<std::size_t>(longest + kSimdWidth);
     for (auto* scratch : {&state.desired_gap_m, &state.gap_slope_s, &state.law_gap_m, &state.law_slope_s}) {
         scratch->assign(n, 0.0);
     }

@@ -34,16 +34,31 @@ struct Rows {
 };
 Rows rows_at(const DelayLine& line, std::int64_t tick, int slots);
 
+// A vehicle on its way through an intersection, past the stop line and not yet wholly on the exit lane.
+struct Insider {
+    int slot;
+    double front_m;  // along the lane inside, below 0 on its origin
+    double rear_m;
+    std::int64_t since;  // tick at which it passed the stop line
+};
+
 struct State {
     std::int64_t tick = 0;
     VehicleArrays vehicles;
     Rows radar;  // of this step
     Rows v2v;
-    std::vector<LaneBlock> blocks;           // [lane]
-    std::vector<int> occupied;               // lanes with vehicles, in lane order
-    std::vector<StopLineState> stop_lines;   // [lane]
-    std::vector<int> stop_slot;              // [lane] slot of the vehicle that stops at the line; -1: none
-    std::vector<char> leads_to_lower_limit;  // [lane]
+    std::vector<LaneBlock> blocks;               // [lane]
+    std::vector<int> occupied;                   // lanes with vehicles, in lane order
+    std::vector<StopLineState> stop_lines;       // [lane]
+    std::vector<int> stop_slot;                  // [lane] slot of the vehicle that stops at the line; -1: none
+    std::vector<int> hold_slot;                  // [lane] slot of the first vehicle that waits to give way; -1: none
+    std::vector<double> hold_m;                  // [lane] where it waits, from the lane's start
+    std::vector<char> leads_to_lower_limit;      // [lane]
+    std::vector<std::vector<Insider>> insiders;  // [lane inside an intersection], from the front
+    std::vector<std::vector<int>> detectors_of;  // [lane]
+    std::vector<int> upstream;                   // [detector] vehicles on its lane that have not passed it
+    std::vector<Crossing> crossings;             // of the whole run, in order
+    std::vector<GapAccepted> gaps_accepted;
     std::vector<InletState> inlets;
     std::vector<Passage> passages;  // of the whole run, in order
     Violations violations;

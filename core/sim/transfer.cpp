@@ -19,30 +19,10 @@ float end_speed(const Model& model, const Route& route, int index) {
     return next < here ? static_cast<float>(next) : kNoLowerLimit_mps;
 }
 
-// When the front passed `line_m` within the last step, from the mean speed of the step.
-double passing_time_s(const Model& model, const State& state, int slot, double line_m) {
-    const VehicleArrays& v = state.vehicles;
-    const double speed_before = v.speed_mps[at(slot)] - v.acceleration_mps2[at(slot)] * model.step_s;
-    const double mean_mps = std::max(0.5 * (speed_before + v.speed_mps[at(slot)]), 1e-6);
-    const double since_s = (v.position_m[at(slot)] - line_m) / mean_mps;
-    return model.time_s(state.tick + 1) - std::clamp(since_s, 0.0, model.step_s);
-}
-
 void note(State& state, double time_s, int slot, int from, int to) {
     const VehicleArrays& v = state.vehicles;
     state.passages.push_back(
         {time_s, v.id[at(slot)], v.policy[at(slot)], from, to, static_cast<float>(v.speed_mps[at(slot)])});
-}
-
-void note_red_entry(const Model& model, State& state, int lane, int slot) {
-    const Lane& road = model.graph.lanes[at(lane)];
-    if (road.signal_group < 0 || model.signals[at(road.signal_group)].light(state.tick) != Light::red) return;
-    // Whoever was told to stop was told so because it could.
-    if (state.stop_lines[at(lane)].stopper == state.vehicles.id[at(slot)]) {
-        ++state.violations.red_entries;
-    } else {
-        ++state.violations.forced_red_entries;
-    }
 }
 
 // Moves the first vehicle of a lane on along its route, or out of the network.
@@ -56,7 +36,6 @@ void pass_on(const Model& model, State& state, int lane) {
     const bool leaves = at(index) >= route.lanes.size();
     const int next = leaves ? -1 : route.lanes[at(index)];
     note(state, time_s, slot, lane, next);
-    note_red_entry(model, state, lane, slot);
     if (leaves) {
         ++state.left;
     } else {
@@ -110,6 +89,8 @@ void enter(const Model& model, State& state, int inlet_index, double speed_mps) 
     v.id[i] = state.next_id++;
     v.route[i] = route;
     v.route_index[i] = 0;
+    v.cleared_for[i] = -1;
+    v.inside_since[i] = 0;
     const bool first = state.blocks[at(inlet.lane)].count == 1;
     v.predecessor[i] = first ? -1 : v.id[i - 1];
     const double gap_m = first ? 1e6 : v.position_m[i - 1] - v.length_m[i - 1];
@@ -123,7 +104,17 @@ void enter(const Model& model, State& state, int inlet_index, double speed_mps) 
 
 }  // namespace
 
+// When the front passed `line_m` within the last step, from the mean speed of the step.
+double passing_time_s(const Model& model, const State& state, int slot, double line_m) {
+    const VehicleArrays& v = state.vehicles;
+    const double speed_before = v.speed_mps[at(slot)] - v.acceleration_mps2[at(slot)] * model.step_s;
+    const double mean_mps = std::max(0.5 * (speed_before + v.speed_mps[at(slot)]), 1e-6);
+    const double since_s = (v.position_m[at(slot)] - line_m) / mean_mps;
+    return model.time_s(state.tick + 1) - std::clamp(since_s, 0.0, model.step_s);
+}
+
 int append_slot(State& state, int lane) {
+    for (const int detector : state.detectors_of[at(lane)]) ++state.upstream[at(detector)];
     LaneBlock& block = state.blocks[at(lane)];
     if (block.stop() == block.end) {
         for (int k = 0; k < block.count; ++k) state.vehicles.copy(block.first + k, block.begin + k);

@@ -52,7 +52,9 @@ struct VehicleArrays {
     LargeArray<int> id;
     LargeArray<int> predecessor;  // id of the vehicle that the radar tracks; -1: none
     LargeArray<int> route;
-    LargeArray<int> route_index;  // place in the route of the lane the vehicle is on
+    LargeArray<int> cleared_for;   // lane inside an intersection on which it has accepted a gap; -1: none
+    LargeArray<int> inside_since;  // tick at which it passed its last stop line
+    LargeArray<int> route_index;   // place in the route of the lane the vehicle is on
 
     int slots = 0;
     int radar_rows = 0;

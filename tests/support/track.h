@@ -111,6 +111,8 @@ public:
         v.id[i] = state.next_id++;
         v.route[i] = lane / 2;
         v.route_index[i] = lane % 2;
+        v.cleared_for[i] = -1;
+        v.inside_since[i] = 0;
         const bool first = state.blocks[at(lane)].count == 1;
         v.predecessor[i] = first ? -1 : v.id[i - 1];
         v.reset_radar(slot, first ? 1e6 : v.position_m[i - 1] - v.length_m[i - 1] - position_m,

@@ -1,0 +1,71 @@
+#include "network/conflicts.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+
+namespace stopline {
+
+namespace {
+
+constexpr double kSample_m = 0.25;
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+struct Stretch {
+    double from_m;
+    double to_m;
+};
+
+// The part of line `a` that is nearer to `b` than the clearance.
+std::optional<Stretch> near_part(const Polyline& a, const Polyline& b, double clearance_m) {
+    std::optional<Stretch> part;
+    const double end_m = length_m(a);
+    for (double s = 0.0; s <= end_m + 0.5 * kSample_m; s += kSample_m) {
+        if (distance_m(b, place_at(a, std::min(s, end_m)).point) >= clearance_m) continue;
+        if (!part) part = Stretch{s, s};
+        part->to_m = std::min(s, end_m);
+    }
+    return part;
+}
+
+int rank(Turn turn) { return turn == Turn::left ? 2 : turn == Turn::right ? 1 : 0; }
+
+}  // namespace
+
+double shared_stretch_m(const Polyline& a, const Polyline& b, double clearance_m) {
+    const double end_m = std::min(length_m(a), length_m(b));
+    double s = 0.0;
+    while (s < end_m && distance_m(b, place_at(a, s).point) < clearance_m) s += kSample_m;
+    return s;
+}
+
+void find_conflicts(LaneGraph& graph, double clearance_m) {
+    graph.conflicts.assign(graph.lanes.size(), {});
+    const auto count = static_cast<int>(graph.lanes.size());
+    const auto group = [&](const Lane& lane) { return graph.lanes[at(lane.origin)].signal_group; };
+    for (int i = 0; i < count; ++i) {
+        const Lane& one = graph.lanes[at(i)];
+        if (one.origin < 0) continue;
+        for (int k = i + 1; k < count; ++k) {
+            const Lane& two = graph.lanes[at(k)];
+            if (two.origin < 0 || two.origin == one.origin) continue;
+            const auto on_one = near_part(one.shape, two.shape, clearance_m);
+            const auto on_two = near_part(two.shape, one.shape, clearance_m);
+            if (!on_one || !on_two) continue;
+            const Stretch a{on_one->from_m - one.shape_start_m, on_one->to_m - one.shape_start_m};
+            const Stretch b{on_two->from_m - two.shape_start_m, on_two->to_m - two.shape_start_m};
+            const bool together = group(one) == group(two);
+            const bool one_yields = together && rank(one.turn) > rank(two.turn);
+            const bool two_yields = together && rank(two.turn) > rank(one.turn);
+            graph.conflicts[at(i)].push_back({k, a.from_m, a.to_m, b.from_m, b.to_m, one_yields, two_yields});
+            graph.conflicts[at(k)].push_back({i, b.from_m, b.to_m, a.from_m, a.to_m, two_yields, one_yields});
+        }
+    }
+    for (std::vector<Conflict>& of_lane : graph.conflicts) {
+        std::stable_sort(of_lane.begin(), of_lane.end(),
+                         [](const Conflict& a, const Conflict& b) { return a.from_m < b.from_m; });
+    }
+}
+
+}  // namespace stopline

@@ -1,0 +1,16 @@
+// Conflict areas between lanes inside intersections, from their geometry alone.
+#pragma once
+
+#include "network/lane_graph.h"
+
+namespace stopline {
+
+// The distance along two paths that leave the same point from which on their vehicles are clear of each other.
+double shared_stretch_m(const Polyline& a, const Polyline& b, double clearance_m);
+
+// Fills graph.conflicts: the pairs of lanes with an origin whose centre lines come nearer to each other than `clearance_m`,
+// except pairs with the same origin, which follow each other. Of two movements with the same signal group the one that turns
+// gives way: left to right and straight, right to straight.
+void find_conflicts(LaneGraph& graph, double clearance_m);
+
+}  // namespace stopline
