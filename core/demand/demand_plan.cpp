@@ -37,20 +37,41 @@ std::uint64_t vehicle_key(int inlet, std::int64_t k) {
     return (static_cast<std::uint64_t>(inlet) << 40) + static_cast<std::uint64_t>(k);
 }
 
+// A number in [0, 1) for the k-th vehicle of an inlet. Of every 20 vehicles in a row one falls into each twentieth, in random
+// order: shares hold in short runs too, with the randomness that shares of a twentieth leave.
+double balanced_number(std::uint64_t seed, int inlet, std::int64_t k, Purpose purpose) {
+    constexpr std::int64_t kBlock = 20;
+    const std::int64_t first = k / kBlock * kBlock;
+    const std::uint64_t own = random_bits(seed, vehicle_key(inlet, k), 1, purpose);
+    int rank = 0;
+    for (std::int64_t other = first; other < first + kBlock; ++other) {
+        const std::uint64_t bits = random_bits(seed, vehicle_key(inlet, other), 1, purpose);
+        rank += bits < own || (bits == own && other < k) ? 1 : 0;
+    }
+    const double within = random_uniform(seed, vehicle_key(inlet, first), 2, purpose);
+    return (rank + within) / static_cast<double>(kBlock);
+}
+
+// Index of the component that the k-th vehicle of an inlet gets.
+std::size_t draw(DemandPlan::Pattern pattern, const std::vector<double>& shares, std::uint64_t seed, int inlet,
+                 std::int64_t k, Purpose purpose) {
+    using Pattern = DemandPlan::Pattern;
+    if (pattern == Pattern::alternating) return most_behind(shares, k);
+    if (pattern == Pattern::balanced) return pick(shares, balanced_number(seed, inlet, k, purpose));
+    return pick(shares, random_uniform(seed, vehicle_key(inlet, k), 0, purpose));
+}
+
 }  // namespace
 
 int DemandPlan::policy_of(int inlet, std::int64_t k) const {
     if (policies.size() == 1) return policies[0];
-    const std::size_t c = pattern == Pattern::alternating
-                              ? most_behind(policy_shares, k)
-                              : pick(policy_shares, random_uniform(seed, vehicle_key(inlet, k), 0, Purpose::policy));
-    return policies[c];
+    return policies[draw(pattern, policy_shares, seed, inlet, k, Purpose::policy)];
 }
 
 int DemandPlan::route_of(int inlet, std::int64_t k) const {
     const Inlet& in = inlets[static_cast<std::size_t>(inlet)];
     if (in.routes.size() == 1) return in.routes[0];
-    return in.routes[pick(in.shares, random_uniform(seed, vehicle_key(inlet, k), 0, Purpose::turn))];
+    return in.routes[draw(route_pattern, in.shares, seed, inlet, k, Purpose::turn)];
 }
 
 }  // namespace stopline

@@ -19,12 +19,16 @@ struct DemandPlan {
     std::vector<Inlet> inlets;
     double entry_speed_mps = 0.0;
     double entry_headway_s = 2.0;  // at least, between two fronts at the entry
+    // Inlets never run dry: each vehicle enters as part of an endless platoon, in the gap of its policy and with the speed of
+    // the vehicle ahead.
+    bool saturated = false;
 
     // Policy of the k-th vehicle of an inlet: component shares, and how they are arranged.
-    enum class Pattern { alternating, random };
+    enum class Pattern { alternating, random, balanced };
     Pattern pattern = Pattern::alternating;
     std::vector<int> policies;
     std::vector<double> policy_shares;
+    Pattern route_pattern = Pattern::random;
     std::uint64_t seed = 1;
 
     // The k-th vehicle (from 0) of inlet `i`.

@@ -6,9 +6,14 @@
 namespace stopline {
 
 struct DemandSettings {
-    std::string kind = "queue";  // queue: `vehicles` a lane enter as soon as there is room, then none
+    // queue: `vehicles` a lane enter as soon as there is room, then none; saturated: inlets never run dry
+    std::string kind = "queue";
     int vehicles = 60;
     double entry_speed_mps = 50.0 / 3.6;
+    // Of the vehicles on lanes from which one can turn and go straight on.
+    double right = 0.0;
+    double left = 0.0;
+    std::string order = "balanced";  // of the turns: balanced | random
 };
 
 }  // namespace stopline

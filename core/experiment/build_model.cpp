@@ -1,6 +1,7 @@
 #include "experiment/build_model.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -22,22 +23,72 @@ void add_policies(const Scenario& scenario, const PopulationSettings& population
         model.policies.push_back({*found, &find_gap_law(found->law)});
     }
     using Pattern = PopulationSettings::Pattern;
-    model.demand.pattern =
-        population.pattern == Pattern::random ? DemandPlan::Pattern::random : DemandPlan::Pattern::alternating;
+    model.demand.pattern = population.pattern == Pattern::random     ? DemandPlan::Pattern::random
+                           : population.pattern == Pattern::balanced ? DemandPlan::Pattern::balanced
+                                                                     : DemandPlan::Pattern::alternating;
+}
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+// A route's share of its entry lane: turns as the demand says where there is a choice.
+double share_of(const Scenario& scenario, const Model& model, const Route& route) {
+    const LaneGraph& graph = model.graph;
+    const std::vector<int>& ways = graph.lanes[at(route.lanes[0])].next;
+    const Turn own = graph.lanes[at(route.lanes[1])].turn;
+    if (ways.size() == 1) return 1.0;
+    const auto possible = [&](Turn turn) {
+        return std::any_of(ways.begin(), ways.end(), [&](int lane) { return graph.lanes[at(lane)].turn == turn; });
+    };
+    double left = possible(Turn::left) ? scenario.demand.left : 0.0;
+    if (!possible(Turn::straight)) left = 1.0 - scenario.demand.right;
+    if (own == Turn::left) return left;
+    if (own == Turn::right) return possible(Turn::straight) ? scenario.demand.right : 1.0 - left;
+    return 1.0 - left - (possible(Turn::right) ? scenario.demand.right : 0.0);
 }
 
 void add_demand(const Scenario& scenario, Model& model) {
     model.demand.entry_speed_mps = scenario.demand.entry_speed_mps;
     model.demand.seed = scenario.seed;
-    for (std::size_t k = 0; k < model.graph.routes.size(); ++k) {
-        model.demand.inlets.push_back({model.graph.entries[k], scenario.demand.vehicles, {static_cast<int>(k)}, {1.0}});
+    model.demand.saturated = scenario.demand.kind == "saturated";
+    model.demand.route_pattern =
+        scenario.demand.order == "random" ? DemandPlan::Pattern::random : DemandPlan::Pattern::balanced;
+    const std::int64_t vehicles =
+        model.demand.saturated ? std::numeric_limits<std::int64_t>::max() : scenario.demand.vehicles;
+    for (const int entry : model.graph.entries) {
+        DemandPlan::Inlet inlet{entry, vehicles, {}, {}};
+        for (std::size_t k = 0; k < model.graph.routes.size(); ++k) {
+            const Route& route = model.graph.routes[k];
+            if (route.lanes[0] != entry) continue;
+            inlet.routes.push_back(static_cast<int>(k));
+            inlet.shares.push_back(share_of(scenario, model, route));
+        }
+        model.demand.inlets.push_back(inlet);
     }
 }
 
-void add_detectors(const Scenario& /*scenario*/, Model& model) {
+void add_detectors(const Scenario& scenario, Model& model) {
+    const std::vector<double>& zones = scenario.measure.zone_radius_m;
+    const double radius_m = scenario.network.intersection.radius_m;
     for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {
-        const Lane& road = model.graph.lanes[static_cast<std::size_t>(lane)];
-        if (road.signal_group >= 0) model.detectors.push_back({lane, road.stop_line_m, -1, false});
+        const Lane& road = model.graph.lanes[at(lane)];
+        const bool entry = road.signal_group >= 0;
+        if (entry) model.detectors.push_back({lane, road.stop_line_m, -1, false});
+        if (road.origin >= 0 || scenario.network.kind != "intersection") continue;
+        for (std::size_t zone = 0; zone < zones.size(); ++zone) {
+            const double beyond_m = zones[zone] - radius_m;
+            model.detectors.push_back(
+                {lane, entry ? road.stop_line_m - beyond_m : beyond_m, static_cast<int>(zone), !entry});
+        }
+    }
+}
+
+void add_network(const Scenario& scenario, Model& model) {
+    if (scenario.network.kind == "intersection") {
+        model.graph = make_intersection(scenario.network.intersection);
+        model.signals = make_stages(scenario.signal, model.graph.signal_groups, scenario.step_s);
+    } else {
+        model.graph = make_approach(scenario.network.approach);
+        model.signals.push_back(make_single_light(scenario.signal, scenario.step_s));
     }
 }
 
@@ -47,8 +98,7 @@ Model build_model(const Scenario& scenario, std::size_t population) {
     Model model;
     model.step_s = scenario.step_s;
     model.seed = scenario.seed;
-    model.graph = make_approach(scenario.network.approach);
-    model.signals.push_back(make_single_light(scenario.signal, scenario.step_s));
+    add_network(scenario, model);
     model.vehicles.push_back(compile_powertrain(scenario.vehicle));
     model.driver = compile_driver(scenario.driver);
     model.hesitation_ticks = to_ticks(scenario.driver.free_drive.hesitation_s, scenario.step_s);

@@ -20,9 +20,9 @@ struct IntersectionSettings {
     struct LaneMovements {
         std::string movements;  // of left, straight and right, joined by +
     };
-    std::vector<LaneMovements> lanes = {{"straight+left"}, {"straight+right"}};  // of each arm, from the left
-    double radius_m = 20.0;                                                      // centre to stop line
-    double approach_length_m = 200.0;                                            // entry to stop line
+    std::vector<LaneMovements> lanes = {};  // of each arm, from the left
+    double radius_m = 20.0;                 // centre to stop line
+    double approach_length_m = 200.0;       // entry to stop line
     double exit_length_m = 100.0;
     double lane_width_m = 3.5;
     double speed_limit_mps = 50.0 / 3.6;

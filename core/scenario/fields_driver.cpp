@@ -99,6 +99,20 @@ void check_population(const PopulationSettings& population, Checker& check) {
     }
 }
 
+const Table& give_way_table() {
+    using S = GiveWaySettings;
+    static const Table table = make_table<S>(
+        "giving way inside intersections",
+        {
+            number<&S::critical_gap_s>("critical_gap", "s", {0, 60},
+                                       "shortest time to the next vehicle with priority that is accepted"),
+            number<&S::margin_m>("margin", "m", {0, 10}, "from the front to the conflict area when waiting"),
+            number<&S::approach_mps2>("approach", "m/s2", {0.1, 10},
+                                      "acceleration that vehicles with priority are expected to have"),
+        });
+    return table;
+}
+
 SourceNode scalar_like(const SourceNode& at, std::string text) {
     SourceNode node = at;
     node.text = std::move(text);
@@ -135,6 +149,7 @@ const Table& driver_table() {
             section<&S::cacc>("cacc", cacc_table, "following"),
             section<&S::free_drive>("free_drive", free_drive_table, "free driving").required(),
             section<&S::stop>("stop", stop_table, "stopping at a line"),
+            section<&S::give_way>("give_way", give_way_table, "giving way inside intersections"),
         });
     return table;
 }

@@ -21,6 +21,42 @@ const Table& approach_table() {
     return table;
 }
 
+const Table& lane_movements_table() {
+    using L = IntersectionSettings::LaneMovements;
+    static const Table table = make_table<L>(
+        "a lane of an approach", {choice<&L::movements>("movements",
+                                                        {"straight", "left", "right", "straight+left", "straight+right",
+                                                         "left+right", "straight+left+right"},
+                                                        "where its vehicles may go")
+                                      .required()});
+    return table;
+}
+
+const Table& intersection_table() {
+    using S = IntersectionSettings;
+    static const Table table = make_table<S>(
+        "four arms at right angles, all alike",
+        {
+            list<&S::lanes>("lanes", lane_movements_table, {1, 6}, "lanes of each arm, from the left")
+                .fallback("[{movements: straight+left}, {movements: straight+right}]"),
+            number<&S::radius_m>("radius", "m", {5, 100}, "from the centre to the stop line"),
+            number<&S::approach_length_m>("approach_length", "m", {50, 20'000}, "from the entry to the stop line"),
+            number<&S::exit_length_m>("exit_length", "m", {20, 20'000}, "from the intersection to the end of the road"),
+            number<&S::lane_width_m>("lane_width", "m", {2, 6}, "width of a lane"),
+            number<&S::speed_limit_mps>("speed_limit", "km/h", {5, 150}, "speed limit"),
+            number<&S::turn_speed_mps>("turn_speed", "m/s", {1, 40}, "speed on turning paths"),
+            number<&S::clearance_m>("clearance", "m", {1, 5}, "vehicles whose centre lines are nearer than this touch"),
+        },
+        [](const S& s, Checker& check) {
+            const double half_m = static_cast<double>(s.lanes.size()) * s.lane_width_m;
+            if (half_m + s.clearance_m > s.radius_m) {
+                check.error("radius",
+                            "the lanes of an arm need at least " + short_text(half_m + s.clearance_m, unit("m")));
+            }
+        });
+    return table;
+}
+
 std::string seconds(double value) { return short_text(value, unit("s")); }
 
 void check_signal(const SignalSettings& signal, Checker& check) {
@@ -37,9 +73,12 @@ const Table& network_table() {
     static const Table table = make_table<NetworkSettings>(
         "the roads",
         {
-            choice<&NetworkSettings::kind>("kind", {"approach"}, "which generator builds the network"),
+            choice<&NetworkSettings::kind>("kind", {"approach", "intersection"}, "which generator builds the network"),
             section<&NetworkSettings::approach>("approach", approach_table, "parameters of the kind 'approach'")
                 .only("kind", {"approach"}),
+            section<&NetworkSettings::intersection>("intersection", intersection_table,
+                                                    "parameters of the kind 'intersection'")
+                .only("kind", {"intersection"}),
         });
     return table;
 }
@@ -64,10 +103,18 @@ const Table& demand_table() {
     static const Table table = make_table<DemandSettings>(
         "the traffic that enters",
         {
-            choice<&DemandSettings::kind>("kind", {"queue"},
-                                          "queue: `vehicles` a lane enter as soon as there is room, then none"),
+            choice<&DemandSettings::kind>("kind", {"queue", "saturated"},
+                                          "queue: `vehicles` a lane enter as soon as there is room, then none; "
+                                          "saturated: inlets never run dry"),
             whole<&DemandSettings::vehicles>("vehicles", {1, 100'000}, "vehicles a lane").only("kind", {"queue"}),
             number<&DemandSettings::entry_speed_mps>("entry_speed", "km/h", {0, 150}, "speed on entering"),
+            number<&DemandSettings::right>("right", "%", {0, 100}, "turning right, on lanes where others go elsewhere")
+                .only("kind", {"saturated"}),
+            number<&DemandSettings::left>("left", "%", {0, 100}, "turning left, on lanes where others go elsewhere")
+                .only("kind", {"saturated"}),
+            choice<&DemandSettings::order>("order", {"balanced", "random"},
+                                           "order of the turns; balanced: shares hold in every 20 vehicles of a lane")
+                .only("kind", {"saturated"}),
         });
     return table;
 }

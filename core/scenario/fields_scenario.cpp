@@ -97,6 +97,26 @@ void check_queue(const Scenario& scenario, Checker& check) {
                                                short_text(scenario.network.approach.length_m, unit("m")));
 }
 
+void check_intersection(const Scenario& scenario, Checker& check) {
+    const IntersectionSettings& layout = scenario.network.intersection;
+    const double stage_s = scenario.signal.green_s + scenario.signal.yellow_s + scenario.signal.all_red_s;
+    const double shortest_s = scenario.signal.first_green_s + 2.0 * scenario.measure.warmup_cycles * stage_s;
+    if (scenario.duration_s != 0.0 && scenario.duration_s <= shortest_s) {
+        check.error("duration", "nothing is left to measure after first_green and warmup_cycles, " +
+                                    short_text(shortest_s, unit("s")));
+    }
+    if (scenario.demand.left + scenario.demand.right > 1.0) check.error("demand.left", "left and right exceed 100 %");
+    if (scenario.signal.cycle_s != 0.0) check.error("signal.cycle", "follows from green, yellow and all red here");
+    const double reach_m = layout.radius_m + std::min(layout.approach_length_m, layout.exit_length_m);
+    for (std::size_t i = 0; i < scenario.measure.zone_radius_m.size(); ++i) {
+        const double radius_m = scenario.measure.zone_radius_m[i];
+        if (radius_m > layout.radius_m && radius_m < reach_m) continue;
+        check.error("measure.zones[" + std::to_string(i) + "]",
+                    "must lie between the intersection's radius and the end of its arms, " +
+                        short_text(layout.radius_m, unit("m")) + " to " + short_text(reach_m, unit("m")));
+    }
+}
+
 void check_times(const Scenario& scenario, Checker& check) {
     const SignalSettings& signal = scenario.signal;
     if (scenario.fidelity == "full" && scenario.step_s > kFullStepMax_s) {
@@ -106,6 +126,8 @@ void check_times(const Scenario& scenario, Checker& check) {
         check.error("driver.cacc.v2v_delay", "a message cannot arrive before the next step: at least " +
                                                  short_text(scenario.step_s, unit("ms")));
     }
+    if (scenario.network.kind == "intersection") return check_intersection(scenario, check);
+    if (scenario.duration_s < 1.0) check.error("duration", "must be at least 1 s");
     for (std::size_t i = 0; i < scenario.measure.green_s.size(); ++i) {
         const double green_s = scenario.measure.green_s[i];
         const std::string field = "measure.green[" + std::to_string(i) + "]";
@@ -138,6 +160,13 @@ const Table& measure_table() {
                                                      "green times at which the passed vehicles are counted", true),
                                 text<&S::baseline>("baseline", TextField::Rule::name,
                                                    "population that improvements refer to; absent: none"),
+                                whole<&S::warmup_cycles>("warmup_cycles", {0, 1000},
+                                                         "intersections: signal cycles before the measured time"),
+                                whole<&S::cycles>("cycles", {1, 100'000}, "intersections: measured signal cycles"),
+                                numbers<&S::zone_radius_m>("zones", "m", {1, 20'000}, {0, 10},
+                                                           "intersections: radii within which travel time and density "
+                                                           "are measured; the first is the one that is reported",
+                                                           false),
                             });
     return table;
 }
@@ -151,7 +180,8 @@ const Table& scenario_table() {
             text<&S::title>("title", TextField::Rule::title, "heading of tables and figures"),
             choice<&S::fidelity>("fidelity", {"full"}, "how vehicles move; full: controller and powertrain"),
             number<&S::step_s>("step", "s", {0.001, 1}, "time step"),
-            number<&S::duration_s>("duration", "s", {1, 1'000'000}, "length of a run"),
+            number<&S::duration_s>("duration", "s", {0, 1'000'000},
+                                   "length of a run; 0: intersections, as long as the measured cycles"),
             whole<&S::seed>("seed", {}, "seed of all random numbers"),
             section<&S::network>("network", network_table, "the roads"),
             section<&S::signal>("signal", signal_table, "the signal"),

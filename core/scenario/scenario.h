@@ -16,6 +16,10 @@ namespace stopline {
 struct MeasureSettings {
     std::vector<double> green_s;  // green times at which the passed vehicles are reported
     std::string baseline;         // population that improvements refer to
+    // Intersections: cycles before and in the measured time, and the zones in which time and density are taken.
+    int warmup_cycles = 1;
+    int cycles = 5;
+    std::vector<double> zone_radius_m = {};
 };
 
 struct Scenario {
@@ -23,7 +27,7 @@ struct Scenario {
     std::string title;
     std::string fidelity = "full";  // full | meso
     double step_s = 0.01;
-    double duration_s = 200.0;
+    double duration_s = 200.0;  // 0: as long as the measured cycles take
     std::uint64_t seed = 1;
     NetworkSettings network;
     SignalSettings signal;

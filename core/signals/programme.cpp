@@ -52,4 +52,16 @@ GroupProgramme make_single_light(const SignalSettings& s, double step_s) {
     return {std::move(stages), to_ticks(s.first_green_s, step_s), repeats};
 }
 
+std::vector<GroupProgramme> make_stages(const SignalSettings& settings, int groups, double step_s) {
+    const double stage_s = settings.green_s + settings.yellow_s + settings.all_red_s;
+    std::vector<GroupProgramme> programmes;
+    for (int group = 0; group < groups; ++group) {
+        SignalSettings own = settings;
+        own.first_green_s += group * stage_s;
+        own.cycle_s = groups * stage_s;
+        programmes.push_back(make_single_light(own, step_s));
+    }
+    return programmes;
+}
+
 }  // namespace stopline

@@ -43,6 +43,9 @@ private:
 // Green, yellow, then red for the rest of the cycle. Throws InputError where the parts do not fit into the cycle.
 GroupProgramme make_single_light(const SignalSettings& settings, double step_s);
 
+// Groups that have green one after the other, `groups` stages of green, yellow and all red to a cycle. `cycle_s` is not used.
+std::vector<GroupProgramme> make_stages(const SignalSettings& settings, int groups, double step_s);
+
 // Seconds to whole ticks, rounded to the nearest.
 std::int64_t to_ticks(double seconds, double step_s);
 

@@ -109,11 +109,13 @@ struct Candidate {
 };
 
 // Whether the other lane's vehicles let this one into the area, without regard to gaps.
-bool area_free(const State& state, const Conflict& conflict, const Candidate& v, std::int64_t since) {
+bool area_free(const Model& model, const State& state, const Conflict& conflict, const Candidate& v,
+               std::int64_t since) {
+    const int stopping = state.stop_slot[at(model.graph.lanes[at(conflict.other)].origin)];
     for (const Insider& w : state.insiders[at(conflict.other)]) {
         if (w.rear_m >= conflict.other_to_m) continue;
         if (w.front_m > conflict.other_from_m) return false;
-        if (conflict.yields || conflict.other_yields) continue;
+        if (conflict.yields || conflict.other_yields || w.slot == stopping) continue;
         const bool before = w.since < since || (w.since == since && w.slot < v.slot);
         if (!v.inside || before) return false;
     }
@@ -151,7 +153,7 @@ double waiting_place(const Model& model, State& state, int lane, const Candidate
         const double hold_m = conflict.from_m - margin_m;
         if (v.front_m > conflict.from_m) continue;
         if (hold_m - v.front_m > ahead_m) break;
-        if (!area_free(state, conflict, v, arrays.inside_since[at(v.slot)])) return hold_m;
+        if (!area_free(model, state, conflict, v, arrays.inside_since[at(v.slot)])) return hold_m;
         if (conflict.yields && !decided) {
             decided = accepts_gap(model, state, lane, v, hold_m - v.front_m);
             if (!decided) return hold_m;

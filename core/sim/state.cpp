@@ -66,7 +66,7 @@ State make_state(const Model& model) {
     }
     std::size_t expected = 0;
     for (const DemandPlan::Inlet& inlet : model.demand.inlets) {
-        expected += static_cast<std::size_t>(std::min<std::int64_t>(inlet.vehicles, 100000));
+        expected += static_cast<std::size_t>(std::min<std::int64_t>(inlet.vehicles, 2000));
     }
     state.passages.reserve(4 * expected);
     return state;

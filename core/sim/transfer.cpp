@@ -50,21 +50,49 @@ void pass_on(const Model& model, State& state, int lane) {
     --block.count;
 }
 
-// The speed and place at which a vehicle can enter; false when there is no room yet.
-bool room_to_enter(const Model& model, const State& state, int lane, const CompiledPolicy& policy, double& speed_mps) {
-    const LaneBlock& block = state.blocks[at(lane)];
-    if (block.count == 0) return true;
-    const VehicleArrays& v = state.vehicles;
-    const std::size_t last = at(block.last());
-    const double gap_m = v.position_m[last] - v.length_m[last];
-    speed_mps = std::min(speed_mps, v.speed_mps[last]);
-    double desired_m = 0.0;
+// How a vehicle would enter: whether there is room, where its front is, and how fast it is.
+struct Entry {
+    bool possible = false;
+    double position_m = 0.0;
+    double speed_mps = 0.0;
+};
+
+double desired_gap_m(const CompiledPolicy& policy, double speed_mps) {
+    double gap_m = 0.0;
     double slope_s = 0.0;
-    policy.law->evaluate(policy.settings, {&speed_mps, 1}, {&desired_m, 1}, {&slope_s, 1});
-    return gap_m >= desired_m + speed_mps * model.demand.entry_headway_s * 0.5;
+    policy.law->evaluate(policy.settings, {&speed_mps, 1}, {&gap_m, 1}, {&slope_s, 1});
+    return gap_m;
 }
 
-void enter(const Model& model, State& state, int inlet_index, double speed_mps) {
+Entry entry_of(const Model& model, const State& state, int lane, const CompiledPolicy& policy) {
+    const double fastest_mps = std::min(model.demand.entry_speed_mps, model.graph.lanes[at(lane)].limit_mps);
+    const LaneBlock& block = state.blocks[at(lane)];
+    if (block.count == 0) return {true, 0.0, fastest_mps};
+    const VehicleArrays& v = state.vehicles;
+    const std::size_t last = at(block.last());
+    const double rear_m = v.position_m[last] - v.length_m[last];
+    const double speed_mps = std::min(fastest_mps, v.speed_mps[last]);
+    if (model.demand.saturated) {
+        const double position_m = rear_m - desired_gap_m(policy, speed_mps);
+        return {position_m >= 0.0, position_m, speed_mps};
+    }
+    const double room_m = desired_gap_m(policy, speed_mps) + speed_mps * model.demand.entry_headway_s * 0.5;
+    return {rear_m >= room_m, 0.0, speed_mps};
+}
+
+// Takes over what the vehicle ahead does, as one of an endless platoon.
+void drive_as(VehicleArrays& v, std::size_t i, std::size_t ahead) {
+    v.acceleration_mps2[i] = v.acceleration_mps2[ahead];
+    v.request_mps2[i] = v.request_mps2[ahead];
+    v.torque_Nm[i] = v.torque_Nm[ahead];
+    v.brake_N[i] = v.brake_N[ahead];
+    v.gear_time_s[i] = v.gear_time_s[ahead];
+    v.lag_s[i] = v.lag_s[ahead];
+    v.gear[i] = v.gear[ahead];
+    v.leads[i] = 0.0F;
+}
+
+void enter(const Model& model, State& state, int inlet_index, const Entry& entry) {
     const DemandPlan::Inlet& inlet = model.demand.inlets[at(inlet_index)];
     InletState& entered = state.inlets[at(inlet_index)];
     const int policy = entered.next_policy;
@@ -74,14 +102,16 @@ void enter(const Model& model, State& state, int inlet_index, double speed_mps) 
     VehicleArrays& v = state.vehicles;
     const std::size_t i = at(slot);
     const PowertrainTables& type = model.vehicles[0];
-    v.position_m[i] = 0.0;
-    v.speed_mps[i] = speed_mps;
+    const bool first = state.blocks[at(inlet.lane)].count == 1;
+    v.position_m[i] = entry.position_m;
+    v.speed_mps[i] = entry.speed_mps;
     v.acceleration_mps2[i] = v.request_mps2[i] = v.torque_Nm[i] = v.brake_N[i] = 0.0F;
     v.gear_time_s[i] = static_cast<float>(type.minimum_gear_time_s);
     v.lag_s[i] = static_cast<float>(type.lag_unloaded_s[0]);
     v.length_m[i] = static_cast<float>(type.length_m);
-    v.gear[i] = static_cast<float>(gear_for(type, speed_mps));
+    v.gear[i] = static_cast<float>(gear_for(type, entry.speed_mps));
     v.leads[i] = 1.0F;
+    if (model.demand.saturated && !first && v.speed_mps[i - 1] <= entry.speed_mps) drive_as(v, i, i - 1);
     v.standstill_gap_m[i] = static_cast<float>(model.policies[at(policy)].settings.standstill_gap_m);
     v.end_speed_mps[i] = end_speed(model, model.graph.routes[at(route)], 0);
     v.policy[i] = policy;
@@ -91,10 +121,9 @@ void enter(const Model& model, State& state, int inlet_index, double speed_mps) 
     v.route_index[i] = 0;
     v.cleared_for[i] = -1;
     v.inside_since[i] = 0;
-    const bool first = state.blocks[at(inlet.lane)].count == 1;
     v.predecessor[i] = first ? -1 : v.id[i - 1];
-    const double gap_m = first ? 1e6 : v.position_m[i - 1] - v.length_m[i - 1];
-    v.reset_radar(slot, gap_m, first ? 0.0 : speed_mps - v.speed_mps[i - 1]);
+    const double gap_m = first ? 1e6 : v.position_m[i - 1] - v.length_m[i - 1] - v.position_m[i];
+    v.reset_radar(slot, gap_m, first ? 0.0 : entry.speed_mps - v.speed_mps[i - 1]);
     v.reset_v2v(slot);
     ++entered.entered;
     entered.last_entry_s = model.time_s(state.tick + 1);
@@ -140,10 +169,10 @@ void insert_vehicles(const Model& model, State& state) {
             entered.next_policy = model.demand.policy_of(k, entered.entered);
             entered.next_route = model.demand.route_of(k, entered.entered);
         }
-        if (model.time_s(state.tick + 1) - entered.last_entry_s < model.demand.entry_headway_s) continue;
-        double speed_mps = std::min(model.demand.entry_speed_mps, model.graph.lanes[at(inlet.lane)].limit_mps);
-        const CompiledPolicy& policy = model.policies[at(entered.next_policy)];
-        if (room_to_enter(model, state, inlet.lane, policy, speed_mps)) enter(model, state, k, speed_mps);
+        const double headway_s = model.demand.saturated ? 0.0 : model.demand.entry_headway_s;
+        if (model.time_s(state.tick + 1) - entered.last_entry_s < headway_s) continue;
+        const Entry entry = entry_of(model, state, inlet.lane, model.policies[at(entered.next_policy)]);
+        if (entry.possible) enter(model, state, k, entry);
     }
 }
 
