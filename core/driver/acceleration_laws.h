@@ -71,23 +71,21 @@ STOPLINE_INLINE R slow_down_acceleration(const DriverTablesOf<Number>& d, const 
 // without overshoot. The braking that keeps to the curve is b v / (v_p + b tau).
 inline constexpr double kLandingTime_s = 0.5;
 
-template <class R>
-STOPLINE_INLINE R stop_with(double b, const R& speed_mps, const R& distance_m) {
+template <class R, class Number>
+STOPLINE_INLINE R stop_acceleration(const DriverTablesOf<Number>& d, const R& speed_mps, const R& distance_m) {
     constexpr double kSpeedGain_1ps = 1.5;
+    const double b = d.stop.deceleration_mps2;
     const double bt = b * kLandingTime_s;
     const R curve_mps = square_root(square(bt) + 2.0 * b * greater(distance_m, 0.0)) - bt;
     const R late = select(distance_m > 0.0, splat<R>(0.0), splat<R>(-b));
     return late + kSpeedGain_1ps * (curve_mps - speed_mps) - b * speed_mps / (curve_mps + bt);
 }
-template <class R, class Number>
-STOPLINE_INLINE R stop_acceleration(const DriverTablesOf<Number>& d, const R& speed_mps, const R& distance_m) {
-    return stop_with<R>(d.stop.deceleration_mps2, speed_mps, distance_m);
-}
 
-// The braking that stops from this speed on that curve within the distance.
-inline double stopping_needs_mps2(double speed_mps, double distance_m) {
-    const double left_m = distance_m - speed_mps * kLandingTime_s;
-    return left_m > 0.0 ? 0.5 * speed_mps * speed_mps / left_m : 1e3;
+// The same for a fixed place that becomes known late: where the curve is out of reach, braking evenly with what is needed.
+inline double stop_at_line_mps2(const DriverTables& d, double speed_mps, double distance_m) {
+    const double needed_mps2 = 0.5 * square(speed_mps) / greater(distance_m, 0.1);
+    const double on_curve_mps2 = stop_acceleration(d, speed_mps, distance_m);
+    return needed_mps2 > d.stop.deceleration_mps2 ? lesser(on_curve_mps2, -needed_mps2) : on_curve_mps2;
 }
 
 // The distance in which that curve stops a vehicle: v^2 / (2 b) + v tau.

@@ -37,13 +37,6 @@ int choose_stopper(const Model& model, const State& state, const LaneBlock& bloc
     return -1;
 }
 
-// How hard the stopper brakes: as drivers like to, or as hard as it must.
-double braking(const Model& model, const State& state, int slot, double line_m) {
-    const double room_m = line_m - model.driver.stop.margin_m - state.vehicles.position_m[at(slot)];
-    return std::clamp(stopping_needs_mps2(state.vehicles.speed_mps[at(slot)], room_m),
-                      model.driver.stop.deceleration_mps2, model.driver.cacc.deceleration_emergency_mps2);
-}
-
 bool line_is_open(const Model& model, const State& state, const Lane& lane, const StopLineState& line) {
     const GroupProgramme& programme = model.signals[at(lane.signal_group)];
     if (programme.light(state.tick) != Light::green) return false;
@@ -74,7 +67,6 @@ void decide_stops(const Model& model, State& state) {
             if (stop_slot < 0) {
                 const Light light = model.signals[at(lane.signal_group)].light(state.tick);
                 stop_slot = choose_stopper(model, state, block, lane.stop_line_m, light);
-                line.braking_mps2 = stop_slot < 0 ? 0.0 : braking(model, state, stop_slot, lane.stop_line_m);
             }
             line.stopper = stop_slot < 0 ? -1 : state.vehicles.id[at(stop_slot)];
             // It leads what follows it through the next green.
@@ -172,13 +164,13 @@ LaneStep lane_step(const Model& model, const State& state, int lane) {
     if (step.stop_slot >= 0) {
         const std::size_t i = at(step.stop_slot);
         const double room_m = road.stop_line_m - model.driver.stop.margin_m - state.vehicles.position_m[i];
-        step.stop_mps2 = stop_with(state.stop_lines[at(lane)].braking_mps2, state.vehicles.speed_mps[i], room_m);
+        step.stop_mps2 = stop_at_line_mps2(model.driver, state.vehicles.speed_mps[i], room_m);
     }
     step.hold_slot = state.hold_slot[at(lane)];
     if (step.hold_slot >= 0) {
         const std::size_t i = at(step.hold_slot);
         const double room_m = state.hold_m[at(lane)] - state.vehicles.position_m[i];
-        step.hold_mps2 = stop_acceleration(model.driver, state.vehicles.speed_mps[i], room_m);
+        step.hold_mps2 = stop_at_line_mps2(model.driver, state.vehicles.speed_mps[i], room_m);
     }
     return step;
 }

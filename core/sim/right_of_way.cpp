@@ -2,7 +2,7 @@
 // step decides. A lane inside an intersection has at most one vehicle that waits by itself; those behind follow it.
 //
 // A vehicle may go into a conflict area
-//   - when no vehicle of the other lane is in it;
+//   - when no vehicle of the other lane is in it, nor on its way to it after it has accepted a gap;
 //   - where it has to give way: when the next vehicle with priority is further away than the critical gap and the time it
 //     takes to get to the area; this is decided once, for all areas where it has to give way;
 //   - where neither has priority (movements of different signal groups): when no vehicle that passed its stop line
@@ -32,6 +32,12 @@ int next_lane(const Model& model, const VehicleArrays& v, int slot) {
 Insider insider(const VehicleArrays& v, int slot, double offset_m) {
     const double front_m = v.position_m[at(slot)] + offset_m;
     return {slot, front_m, front_m - v.length_m[at(slot)], v.inside_since[at(slot)]};
+}
+
+// Stands and waits for others itself: it will not come before they have gone, and they may be waiting for who asks.
+bool held(const State& state, int slot) {
+    const VehicleArrays& v = state.vehicles;
+    return v.held_at[at(slot)] >= state.tick - 1 && v.speed_mps[at(slot)] < kStanding_mps;
 }
 
 // From the front: rears that reach back from the exit lane, the lane itself, fronts past the stop line on the origin.
@@ -83,19 +89,21 @@ double next_arrival_s(const Model& model, const State& state, const Conflict& co
     const Lane& other = model.graph.lanes[at(conflict.other)];
     const Lane& origin = model.graph.lanes[at(other.origin)];
     const double a = model.give_way.approach_mps2;
+    const bool green = model.signals[at(origin.signal_group)].light(state.tick) == Light::green;
+    const int stopping = green ? -1 : state.stop_slot[at(other.origin)];
     double soonest_s = kNever_s;
     for (const Insider& w : state.insiders[at(conflict.other)]) {
         if (w.front_m >= conflict.other_from_m) continue;
+        if (held(state, w.slot) || w.slot == stopping) return soonest_s;  // nor will those behind it come
         const double distance_m = conflict.other_from_m - w.front_m;
         soonest_s = std::min(soonest_s, earliest_s(distance_m, v.speed_mps[at(w.slot)], a, other.limit_mps));
     }
     const LaneBlock& block = state.blocks[at(other.origin)];
-    if (block.count == 0 || blocked(state, block)) return soonest_s;
-    const bool green = model.signals[at(origin.signal_group)].light(state.tick) == Light::green;
+    if (block.count == 0 || blocked(state, block) || held(state, block.first)) return soonest_s;
     for (int slot = block.first; slot < block.stop(); ++slot) {
         const double distance_m = origin.length_m + conflict.other_from_m - v.position_m[at(slot)];
         if (distance_m > horizon_s * origin.limit_mps) break;
-        if (!green && slot == state.stop_slot[at(other.origin)]) break;
+        if (slot == stopping) break;
         if (v.position_m[at(slot)] > origin.stop_line_m || next_lane(model, v, slot) != conflict.other) continue;
         return std::min(soonest_s, earliest_s(distance_m, v.speed_mps[at(slot)], a, other.limit_mps));
     }
@@ -115,7 +123,11 @@ bool area_free(const Model& model, const State& state, const Conflict& conflict,
     for (const Insider& w : state.insiders[at(conflict.other)]) {
         if (w.rear_m >= conflict.other_to_m) continue;
         if (w.front_m > conflict.other_from_m) return false;
-        if (conflict.yields || conflict.other_yields || w.slot == stopping) continue;
+        if (conflict.yields || w.slot == stopping) continue;
+        if (conflict.other_yields) {
+            if (state.vehicles.cleared_for[at(w.slot)] == conflict.other && !held(state, w.slot)) return false;
+            continue;
+        }
         const bool before = w.since < since || (w.since == since && w.slot < v.slot);
         if (!v.inside || before) return false;
     }
@@ -164,6 +176,7 @@ double waiting_place(const Model& model, State& state, int lane, const Candidate
 
 // Remembers the first waiting vehicle of a lane.
 void wait(State& state, int lane, int slot, double place_m) {
+    state.vehicles.held_at[at(slot)] = static_cast<int>(state.tick);
     int& waiting = state.hold_slot[at(lane)];
     if (waiting >= 0 && waiting <= slot) return;
     waiting = slot;

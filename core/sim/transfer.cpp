@@ -121,6 +121,7 @@ void enter(const Model& model, State& state, int inlet_index, const Entry& entry
     v.route_index[i] = 0;
     v.cleared_for[i] = -1;
     v.inside_since[i] = 0;
+    v.held_at[i] = -2;
     v.predecessor[i] = first ? -1 : v.id[i - 1];
     const double gap_m = first ? 1e6 : v.position_m[i - 1] - v.length_m[i - 1] - v.position_m[i];
     v.reset_radar(slot, gap_m, first ? 0.0 : entry.speed_mps - v.speed_mps[i - 1]);

@@ -54,6 +54,7 @@ struct VehicleArrays {
     LargeArray<int> route;
     LargeArray<int> cleared_for;   // lane inside an intersection on which it has accepted a gap; -1: none
     LargeArray<int> inside_since;  // tick at which it passed its last stop line
+    LargeArray<int> held_at;       // last tick at which it had to wait before a conflict area
     LargeArray<int> route_index;   // place in the route of the lane the vehicle is on
 
     int slots = 0;

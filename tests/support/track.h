@@ -113,6 +113,7 @@ public:
         v.route_index[i] = lane % 2;
         v.cleared_for[i] = -1;
         v.inside_since[i] = 0;
+        v.held_at[i] = -2;
         const bool first = state.blocks[at(lane)].count == 1;
         v.predecessor[i] = first ? -1 : v.id[i - 1];
         v.reset_radar(slot, first ? 1e6 : v.position_m[i - 1] - v.length_m[i - 1] - position_m,
