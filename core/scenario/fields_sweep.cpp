@@ -14,7 +14,7 @@ namespace stopline {
 namespace {
 
 // Columns that the table of results has besides the axes; see core/experiment/sweep_results.h.
-constexpr const char* kReserved[] = {"point", "seed", "scenario"};
+constexpr const char* kReserved[] = {"point", "seed"};
 
 void check_paths(const SweepAxis& axis, Checker& check) {
     for (std::size_t i = 0; i < axis.paths.size(); ++i) {
