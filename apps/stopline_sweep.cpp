@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -132,7 +133,16 @@ Work prepare(const SweepOptionsOfUser& options, int threads) {
 }
 
 std::size_t runs_of(const Sweep& sweep, const Shard& shard) {
-    return sweep.points() / shard.count + (shard.index <= sweep.points() % shard.count ? 1 : 0);
+    std::size_t runs = 0;
+    for (std::size_t point = 0; point < sweep.points(); ++point) runs += shard.has(point) ? 1U : 0U;
+    return runs;
+}
+
+// A table that lies here while runs are missing is of a store that is gone.
+void remove_old_table(const SweepFiles& files) {
+    std::error_code ignored;
+    std::filesystem::remove(files.table, ignored);
+    std::filesystem::remove(files.provenance, ignored);
 }
 
 SweepSession run_all(Work& work, const Ranks& ranks, int threads) {
@@ -142,6 +152,7 @@ SweepSession run_all(Work& work, const Ranks& ranks, int threads) {
                                 : fmt::format("{} runs, {} were done before", runs, before));
     const auto on_progress = [&bar](double share) { return bar.update(share); };
     if (work.todo.empty() && ranks.count() == 1) return {};
+    if (!work.todo.empty()) remove_old_table(work.files);
     if (ranks.count() > 1) return ranks.serve(work.todo, work.store, on_progress);
     SweepRunOptions options;
     options.threads = threads;

@@ -87,8 +87,8 @@ RunStore::RunStore(std::filesystem::path file, bool make) : file_(std::move(file
     if (code != SQLITE_OK) fail(code);
     sqlite3_busy_timeout(database, 1000);  // a program that has just been killed may hold the lock a moment longer
     execute("PRAGMA locking_mode = EXCLUSIVE");
-    execute("PRAGMA journal_mode = TRUNCATE");
-    execute("PRAGMA synchronous = FULL");
+    execute("PRAGMA journal_mode = WAL");
+    execute("PRAGMA synchronous = NORMAL");
     execute("BEGIN EXCLUSIVE");
     execute("COMMIT");
 }

@@ -73,11 +73,12 @@ private:
     std::vector<std::uint64_t> hashes_;  // [combination], of the scenario
 };
 
-// Points of shard `index` (from 1) of `count`: every count-th, so that shards have like amounts of work.
+// Points of shard `index` (from 1) of `count`. Of every `count` successive points each shard has one, and another one each time:
+// were it the same one, a shard count that divides an axis' size would give each shard values of its own, and other work.
 struct Shard {
     std::size_t index = 1;
     std::size_t count = 1;
-    bool has(std::size_t point) const { return point % count == index - 1; }
+    bool has(std::size_t point) const { return (point + point / count) % count == index - 1; }
 };
 // From "K/N"; throws InputError.
 Shard parse_shard(const std::string& text);

@@ -117,11 +117,9 @@ MergedSweep merge_stores(const std::vector<fs::path>& files, const fs::path& fol
         write_file(results.provenance, stores.front().identity().provenance);
         fs::rename(beside, results.store);  // last, so that what is killed on the way can be done again
     } catch (...) {
-        fs::remove(beside, ignored);
-        fs::remove(beside.string() + "-journal", ignored);
+        for (const char* const suffix : {"", "-wal", "-journal"}) fs::remove(beside.string() + suffix, ignored);
         throw;
     }
-    fs::remove(beside.string() + "-journal", ignored);
     return merged;
 }
 

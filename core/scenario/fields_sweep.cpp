@@ -50,8 +50,8 @@ void check_axis(const SweepAxis& axis, Checker& check) {
     for (const char* const name : kReserved) {
         if (axis.name == name) check.error("name", "the name '" + axis.name + "' is that of another column");
     }
-    if (check.given("populations")) {
-        if (check.given("path") || check.given("values")) {
+    if (!axis.populations.empty()) {
+        if (!axis.paths.empty() || !axis.values.empty()) {
             check.error("populations", "an axis has either populations or a path and values");
         }
         if (std::set<std::string>(axis.populations.begin(), axis.populations.end()).size() < axis.populations.size()) {
@@ -59,8 +59,8 @@ void check_axis(const SweepAxis& axis, Checker& check) {
         }
         return;
     }
-    if (!check.given("path")) return check.error("", "the axis needs a path and values, or populations");
-    if (!check.given("values")) return check.error("", "the axis has no values: write e.g. 'values: [5 s, 10 s]'");
+    if (axis.paths.empty()) return check.error("", "the axis needs a path and values, or populations");
+    if (axis.values.empty()) return check.error("", "the axis has no values: write e.g. 'values: [5 s, 10 s]'");
     check_paths(axis, check);
     check_values(axis, check);
 }
