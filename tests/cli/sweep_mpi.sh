@@ -52,14 +52,17 @@ ranks 3 "$work/ranks3" --seed 2 >/dev/null 2>"$work/stderr" && fail "a changed s
 grep -q "has changed since" "$work/stderr" || fail "changed seed: $(cat "$work/stderr")"
 
 # A rank that dies in the middle: the runs before are kept, and the same command continues.
-ranks 3 "$work/killed" --set "duration=4000 s" >/dev/null 2>&1 &
+ranks 3 "$work/killed" --set "duration=2000 s" >/dev/null 2>&1 &
 mpi=$!
-sleep 2
-victim=$(pgrep -n -f "^$program .*--output $work/killed")
+for _ in $(seq 50); do
+    victim=$(pgrep -n -f "^$program .*--output $work/killed") && [ -s "$work/killed/single_light.sqlite-wal" ] && break
+    sleep 0.1
+done
+sleep 0.5
 kill -KILL "$victim"
 wait $mpi && fail "nobody noticed that a rank died"
-"$program" "$sweep" --set "duration=4000 s" --output "$work/long" >/dev/null || fail "exit code $?"
-ranks 3 "$work/killed" --set "duration=4000 s" >"$work/stdout" 2>"$work/stderr" || fail "after a rank died: $(cat "$work/stderr")"
+"$program" "$sweep" --set "duration=2000 s" --output "$work/long" >/dev/null || fail "exit code $?"
+ranks 3 "$work/killed" --set "duration=2000 s" >"$work/stdout" 2>"$work/stderr" || fail "after a rank died: $(cat "$work/stderr")"
 cmp "$work/long/single_light.csv" "$work/killed/single_light.csv" || fail "after a rank died: another table"
 
 exit $((failures > 0))
