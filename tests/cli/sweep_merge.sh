@@ -7,7 +7,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 program="$STOPLINE_BIN/stopline-sweep"
 sweep="$STOPLINE_SOURCE/scenarios/sweeps/single_light.yaml"
-short=(--set "duration=300 s")
+short=(--set "duration=300 s" --set "demand.vehicles=10")
 
 fail() {
     echo "FAILED: $*"

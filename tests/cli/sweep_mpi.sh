@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# ctest-labels: slow
 # A sweep over the ranks of mpirun gives the same bytes as one in threads, also after a rank was killed.
 set -u
 

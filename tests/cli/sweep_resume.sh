@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# ctest-labels: slow
 # A sweep that is killed at any moment and started again ends with the same bytes as one that nobody disturbed; so does one on
 # another number of threads. What belongs to another scenario or sweep is never continued.
 set -u
@@ -51,7 +52,13 @@ same_table() {
     cmp "$work/whole/sweep.provenance.json" "$2/sweep.provenance.json" || fail "$1: another provenance"
 }
 
+milliseconds() {
+    echo $(($(date +%s%N) / 1000000))
+}
+
+begin=$(milliseconds)
 sweep "$work/whole" --threads 1 >"$work/stdout" || fail "exit code $?"
+whole_ms=$(($(milliseconds) - begin))
 [ "$(wc -l <"$work/whole/sweep.csv")" -eq 41 ] || fail "not 40 runs: $(wc -l <"$work/whole/sweep.csv") lines"
 grep -q "million vehicle updates per second" "$work/stdout" || fail "no speed in: $(cat "$work/stdout")"
 [ "$(ls -A "$work/whole")" = "$(printf '%s\n' sweep.csv sweep.provenance.json sweep.sqlite)" ] ||
@@ -61,11 +68,13 @@ same_table "two threads" "$work/two"
 sweep "$work/two" >"$work/stdout" || fail "exit code $?"
 grep -q "were done before" "$work/stdout" || fail "runs again what is done"
 
-# Killed again and again, after random times; each start adds what it can.
+# Killed again and again, after random times of up to a quarter of what it takes; each start adds what it can, so that in the end
+# all is done.
 kills=0
-for _ in $(seq 60); do
+for _ in $(seq 200); do
+    ms=$((RANDOM * whole_ms / 4 / 32768))
     start "$work/killed" --threads 1
-    sleep "0.$(printf '%03d' $((RANDOM % 200)))"
+    sleep "$(printf '%d.%03d' $((ms / 1000)) $((ms % 1000)))"
     if kill -KILL $pid 2>/dev/null; then
         wait $pid 2>/dev/null
         [ $? -eq 137 ] && kills=$((kills + 1))
@@ -74,6 +83,7 @@ for _ in $(seq 60); do
     fi
     [ -e "$work/killed/sweep.csv" ] && break
 done
+[ -e "$work/killed/sweep.csv" ] || fail "after $kills kills it is still not done: runs are lost"
 [ $kills -ge 2 ] || fail "only $kills kills came in time"
 sweep "$work/killed" >/dev/null || fail "after $kills kills: exit code $?"
 same_table "$kills kills" "$work/killed"
