@@ -125,11 +125,11 @@ SweepSession run_points(const Sweep& sweep, const std::vector<std::size_t>& poin
     {
         PointRunner runner(sweep, options.run);
 #pragma omp for schedule(dynamic)
-        for (std::size_t i = 0; i < points.size(); ++i) {
+        for (const std::size_t point : points) {
             if (shared.stopped()) continue;
             try {
-                const PointResult result = runner.run(points[i], [&shared] { return shared.keep_going(); });
-                shared.record(points[i], result);
+                const PointResult result = runner.run(point, [&shared] { return shared.keep_going(); });
+                shared.record(point, result);
             } catch (...) {
                 shared.fail(std::current_exception());
             }

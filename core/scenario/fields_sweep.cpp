@@ -69,8 +69,7 @@ void check_sweep(const SweepSettings& sweep, Checker& check) {
     std::set<std::string> names;
     std::set<std::string> paths;
     int of_populations = 0;
-    for (std::size_t i = 0; i < sweep.axes.size(); ++i) {
-        const SweepAxis& axis = sweep.axes[i];
+    for (const SweepAxis& axis : sweep.axes) {
         const std::string field = "axes[" + axis.name + "]";
         if (!names.insert(axis.name).second) {
             check.error(field + ".name", "the name '" + axis.name + "' appears twice");
