@@ -22,6 +22,7 @@
 #include "experiment/sweep_results.h"
 #include "experiment/sweep_run.h"
 #include "scenario/load_sweep.h"
+#include "scenario/quantity.h"
 #include "sweep/ranks.h"
 
 namespace {
@@ -34,6 +35,7 @@ struct SweepOptionsOfUser {
     CommonOptions common;
     std::string file;
     std::string shard = "1/1";
+    std::string rank_timeout = "60 s";
     bool list = false;
     bool describe = false;
 
@@ -47,6 +49,9 @@ void declare(CLI::App& app, SweepOptionsOfUser& options) {
     add_common_options(app, options.common, "Folder for store and table (default: out/NAME of the sweep)");
     add_set_option(app, options.common);
     app.add_option("--shard", options.shard, "Run only the K-th of N parts, for job arrays")->type_name("K/N");
+    app.add_option("--rank-timeout", options.rank_timeout,
+                   "Silence after which a rank of mpirun --enable-recovery counts as dead (default: 60 s)")
+        ->type_name("TIME");
     app.add_flag("--list", options.list, "List all runs as CSV and exit");
     app.add_flag("--describe", options.describe, "List all fields of sweep files and exit");
     options.merge = app.add_subcommand("merge", "Join the stores of shards; refuses overlaps and holes");
@@ -145,7 +150,16 @@ void remove_old_table(const SweepFiles& files) {
     std::filesystem::remove(files.provenance, ignored);
 }
 
-SweepSession run_all(Work& work, const Ranks& ranks, int threads) {
+double rank_timeout_s(const SweepOptionsOfUser& options) {
+    const ParsedQuantity timeout = parse_quantity(options.rank_timeout, unit("s"));
+    if (!timeout.problem.empty() || timeout.si < 2.0) {
+        throw InputError(fmt::format("--rank-timeout: value '{}' {}", options.rank_timeout,
+                                     timeout.problem.empty() ? "is less than 2 s" : timeout.problem));
+    }
+    return timeout.si;
+}
+
+SweepSession run_all(Work& work, Ranks& ranks, int threads, double silence_max_s) {
     const std::size_t runs = runs_of(work.sweep, work.shard);
     const std::size_t before = runs - work.todo.size();
     ProgressBar bar(before == 0 ? fmt::format("{} runs", runs)
@@ -153,7 +167,7 @@ SweepSession run_all(Work& work, const Ranks& ranks, int threads) {
     const auto on_progress = [&bar](double share) { return bar.update(share); };
     if (work.todo.empty() && ranks.count() == 1) return {};
     if (!work.todo.empty()) remove_old_table(work.files);
-    if (ranks.count() > 1) return ranks.serve(work.todo, work.store, on_progress);
+    if (ranks.count() > 1) return ranks.serve(work.todo, work.store, on_progress, silence_max_s);
     SweepRunOptions options;
     options.threads = threads;
     options.on_progress = on_progress;
@@ -223,10 +237,12 @@ ExitCode run_as_worker(const SweepOptionsOfUser& options, const Ranks& ranks) {
     return ExitCode::done;
 }
 
-ExitCode run_sweep(const SweepOptionsOfUser& options, const Ranks& ranks) {
+ExitCode run_sweep(const SweepOptionsOfUser& options, Ranks& ranks) {
     const int threads = ranks.count() > 1 ? 1 : threads_or_all(options.common.threads);
     std::optional<Work> work;
+    double silence_max_s = 0.0;
     try {
+        silence_max_s = rank_timeout_s(options);
         work.emplace(prepare(options, threads));
     } catch (...) {
         static_cast<void>(ranks.agree(""));
@@ -235,7 +251,7 @@ ExitCode run_sweep(const SweepOptionsOfUser& options, const Ranks& ranks) {
     static_cast<void>(ranks.agree(key_of(work->sweep)));
     const SweepSession session = [&] {
         try {
-            return run_all(*work, ranks, threads);
+            return run_all(*work, ranks, threads, silence_max_s);
         } catch (const Interrupted&) {
             const std::size_t missing = points_to_do(work->sweep, work->shard, work->store).size();
             const std::size_t runs = runs_of(work->sweep, work->shard);
@@ -244,6 +260,9 @@ ExitCode run_sweep(const SweepOptionsOfUser& options, const Ranks& ranks) {
             throw;
         }
     }();
+    if (ranks.lost() > 0) {
+        fmt::print(stderr, "stopline-sweep: {} of {} ranks died; others did their runs\n", ranks.lost(), ranks.count());
+    }
     const std::string by = ranks.count() > 1 ? fmt::format("{} ranks", ranks.count() - 1)
                                              : fmt::format("{} thread{}", threads, threads == 1 ? "" : "s");
     return finish(*work, session, by);
@@ -262,7 +281,7 @@ ExitCode merge(const SweepOptionsOfUser& options) {
     return merged.table.totals.runs_with_violations == 0 ? ExitCode::done : ExitCode::check_failed;
 }
 
-ExitCode run(const SweepOptionsOfUser& options, const Ranks& ranks) {
+ExitCode run(const SweepOptionsOfUser& options, Ranks& ranks) {
     const bool worker = ranks.rank() != 0;
     const bool simple = options.describe || options.list || options.merge->parsed() || options.file.empty();
     if (worker) return simple ? ExitCode::done : run_as_worker(options, ranks);
@@ -285,9 +304,9 @@ void be_silent() {
 }  // namespace
 
 int main(int argc, char** argv) {
-    const Ranks ranks;
+    Ranks ranks;
     if (ranks.rank() != 0) be_silent();
-    return run_program("stopline-sweep", [&] {
+    const int exit_code = run_program("stopline-sweep", [&] {
         CLI::App app(
             "Runs all combinations of the axes of a sweep file, each with several seeds, and writes one table of results.",
             "stopline-sweep");
@@ -296,4 +315,6 @@ int main(int argc, char** argv) {
         const std::optional<ExitCode> end = parse_command_line(app, argc, argv);
         return end ? *end : run(options, ranks);
     });
+    ranks.leave(exit_code);
+    return exit_code;
 }

@@ -26,8 +26,11 @@ namespace stopline {
 
 namespace {
 
-// From a worker: ready, done, failed (that run), broken (all of it), bye. From rank 0: run, stop.
-enum Tag : int { ready, done, failed, broken, bye, run, stop };
+// From a worker: ready, alive (while it runs), done, failed (that run), broken (all of it), bye. From rank 0: run, stop.
+enum Tag : int { ready, alive, done, failed, broken, bye, run, stop };
+
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::seconds kAliveEvery{1};
 
 struct Message {
     int rank = 0;
@@ -74,65 +77,132 @@ bool started_by_launcher() {
 // Rank 0 while the others work.
 class Server {
 public:
-    Server(int ranks, const std::vector<std::size_t>& points, RunStore& store, std::function<bool(double)> on_progress)
-        : ranks_(ranks), points_(points), recorder_(store, points.size(), std::move(on_progress)) {}
+    Server(int ranks, const std::vector<std::size_t>& points, RunStore& store, std::function<bool(double)> on_progress,
+           double silence_max_s)
+        : points_(points),
+          recorder_(store, points.size(), std::move(on_progress)),
+          silence_max_s_(silence_max_s),
+          workers_(static_cast<std::size_t>(ranks)) {
+        for (Worker& worker : workers_) worker.last_contact = Clock::now();
+        workers_.front().state = State::gone;  // rank 0 itself
+    }
 
     SweepSession serve() {
-        for (int working = ranks_ - 1; working > 0;) {
-            if (!is_waiting(MPI_ANY_SOURCE, MPI_ANY_TAG)) {
+        while (count(State::gone) + count(State::lost) < workers_.size()) {
+            if (is_waiting(MPI_ANY_SOURCE, MPI_ANY_TAG)) {
+                take(receive(MPI_ANY_SOURCE));
+            } else {
                 // Waiting in MPI would keep a processor busy that a worker could use.
                 std::this_thread::sleep_for(std::chrono::milliseconds(1));
-                if (!recorder_.keep_going()) stop_all();
-                continue;
+                if (!recorder_.keep_going()) stopping_ = true;
+                look_for_dead();
             }
-            const Message message = receive(MPI_ANY_SOURCE);
-            if (message.tag == bye) {
-                --working;
-            } else {
-                take(message);
-                answer(message.rank);
-            }
+            hand_out();
         }
         if (error_) std::rethrow_exception(error_);
         if (recorder_.stopped()) throw Interrupted();
-        return recorder_.session();
+        if (!points_left()) return recorder_.session();
+        throw InputError("all ranks that run have died; what they finished is stored, the same command continues");
     }
 
+    std::size_t lost() const { return count(State::lost); }
+
 private:
+    // waiting: for an answer; busy: with its point; told: to stop; gone: has left; lost: has been silent for too long.
+    enum class State { starting, waiting, busy, told, gone, lost };
+    struct Worker {
+        State state = State::starting;
+        std::size_t point = 0;
+        Clock::time_point last_contact;
+    };
+
+    std::size_t count(State state) const {
+        return static_cast<std::size_t>(std::count_if(workers_.begin(), workers_.end(),
+                                                      [&](const Worker& worker) { return worker.state == state; }));
+    }
+
+    bool points_left() const { return next_ < points_.size() || !returned_.empty(); }
+
     void take(const Message& message) {
-        if (error_) return;
+        Worker& worker = workers_[static_cast<std::size_t>(message.rank)];
+        worker.last_contact = Clock::now();
+        if (message.tag == alive) return;
+        // The run of a rank that was taken for dead has been handed out again.
+        const bool expected = worker.state == State::busy || worker.state == State::told;
+        worker.state = message.tag == bye ? State::gone : State::waiting;
+        if (error_ || !expected || message.tag == ready || message.tag == bye) return;
         try {
             if (message.tag == broken) throw InputError(message.text);
             const auto state = message.tag == done ? PointResult::State::done : PointResult::State::failed;
-            if (message.tag != ready) recorder_.record(message.point, {state, message.text});
+            recorder_.record(message.point, {state, message.text});
         } catch (...) {
             error_ = std::current_exception();
-            stop_all();
         }
-        if (recorder_.stopped()) stop_all();
+        stopping_ = stopping_ || error_ || recorder_.stopped();
     }
 
-    void answer(int rank) {
-        if (stopping_) return;  // it has been told
-        if (next_ < points_.size()) {
-            send(rank, run, points_[next_++]);
-        } else {
-            send(rank, stop);
+    // Answers who waits. A worker without work stays for as long as others run: one of them may die.
+    void hand_out() {
+        const bool finished = !points_left() && count(State::busy) == 0;
+        for (std::size_t rank = 1; rank < workers_.size(); ++rank) {
+            Worker& worker = workers_[rank];
+            const bool stops = stopping_ ? worker.state == State::waiting || worker.state == State::busy
+                                         : finished && worker.state == State::waiting;
+            if (stops) {
+                worker.state = State::told;
+                send(static_cast<int>(rank), stop);
+            } else if (!stopping_ && worker.state == State::waiting && points_left()) {
+                worker.state = State::busy;
+                worker.point = take_point();
+                send(static_cast<int>(rank), run, worker.point);
+            } else {
+                continue;
+            }
+            worker.last_contact = Clock::now();
         }
     }
 
-    void stop_all() {
-        if (stopping_) return;
-        stopping_ = true;
-        for (int rank = 1; rank < ranks_; ++rank) send(rank, stop);
+    std::size_t take_point() {
+        if (returned_.empty()) return points_[next_++];
+        const std::size_t point = returned_.back();
+        returned_.pop_back();
+        return point;
     }
 
-    int ranks_;
+    void look_for_dead() {
+        const Clock::time_point now = Clock::now();
+        for (Worker& worker : workers_) {
+            if (worker.state != State::starting && worker.state != State::busy && worker.state != State::told) continue;
+            if (std::chrono::duration<double>(now - worker.last_contact).count() < silence_max_s_) continue;
+            if (worker.state == State::busy) returned_.push_back(worker.point);
+            worker.state = State::lost;
+        }
+    }
+
     const std::vector<std::size_t>& points_;
     SweepRecorder recorder_;
-    std::size_t next_ = 0;
+    double silence_max_s_;
+    std::vector<Worker> workers_;        // [rank]
+    std::size_t next_ = 0;               // of points_
+    std::vector<std::size_t> returned_;  // points of ranks that were lost
     bool stopping_ = false;
     std::exception_ptr error_;
+};
+
+// What a worker's run calls now and then: tells rank 0 that the worker lives, and whether to go on.
+class Heartbeat {
+public:
+    bool keep_going() {
+        const Clock::time_point now = Clock::now();
+        if (now - last_ >= kAliveEvery) {
+            send(0, alive);
+            last_ = now;
+        }
+        return !is_waiting(0, stop);
+    }
+
+private:
+    Clock::time_point last_ = Clock::now();
 };
 
 }  // namespace
@@ -164,16 +234,29 @@ bool Ranks::agree(const std::string& key) const {
 }
 
 SweepSession Ranks::serve(const std::vector<std::size_t>& points, RunStore& store,
-                          const std::function<bool(double)>& on_progress) const {
-    return Server(count_, points, store, on_progress).serve();
+                          const std::function<bool(double)>& on_progress, double silence_max_s) {
+    Server server(count_, points, store, on_progress, silence_max_s);
+    try {
+        SweepSession session = server.serve();
+        lost_ = static_cast<int>(server.lost());
+        return session;
+    } catch (...) {
+        lost_ = static_cast<int>(server.lost());
+        throw;
+    }
+}
+
+void Ranks::leave(int exit_code) const {
+    if (lost_ > 0) MPI_Abort(MPI_COMM_WORLD, exit_code);
 }
 
 void Ranks::work(const Sweep& sweep) const {
     PointRunner runner(sweep);
+    Heartbeat heartbeat;
     send(0, ready);
     for (Message message = receive(0); message.tag == run; message = receive(0)) {
         try {
-            const PointResult result = runner.run(message.point, [] { return !is_waiting(0, stop); });
+            const PointResult result = runner.run(message.point, [&heartbeat] { return heartbeat.keep_going(); });
             if (result.state == PointResult::State::interrupted) continue;  // rank 0's stop is what comes next
             send(0, result.state == PointResult::State::done ? done : failed, message.point, result.text);
         } catch (const std::exception& error) {
@@ -191,11 +274,12 @@ Ranks::~Ranks() = default;
 bool Ranks::agree(const std::string& key) const { return !key.empty(); }
 
 SweepSession Ranks::serve(const std::vector<std::size_t>& /*points*/, RunStore& /*store*/,
-                          const std::function<bool(double)>& /*on_progress*/) const {
+                          const std::function<bool(double)>& /*on_progress*/, double /*silence_max_s*/) {
     throw std::logic_error("one rank has nobody to serve");
 }
 
 void Ranks::work(const Sweep& /*sweep*/) const {}
+void Ranks::leave(int /*exit_code*/) const {}
 
 #endif
 
