@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 
 #include "base/input_error.h"
-#include "base/version.h"
 #include "experiment/csv.h"
 #include "experiment/output.h"
+#include "experiment/program_identity.h"
 #include "experiment/targets.h"
 
 namespace stopline {
@@ -18,13 +18,6 @@ namespace stopline {
 namespace {
 
 constexpr const char* kKeyRow = "key";
-
-// 64-bit FNV-1a.
-std::uint64_t hash_of(std::string_view bytes) {
-    std::uint64_t hash = 0xcbf29ce484222325ULL;
-    for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
-    return hash;
-}
 
 }  // namespace
 
@@ -35,13 +28,9 @@ std::optional<double> Measurements::find(const std::string& name) const {
 }
 
 std::optional<std::string> results_key(const Scenario& scenario) {
-    try {
-        const std::string program = read_file("/proc/self/exe");
-        return fmt::format("scenario {:016x}, stopline {}, program {:016x}", scenario.hash, version(),
-                           hash_of(program));
-    } catch (const InputError&) {
-        return std::nullopt;
-    }
+    const std::optional<std::string> program = program_identity();
+    if (!program) return std::nullopt;
+    return fmt::format("scenario {:016x}, {}", scenario.hash, *program);
 }
 
 std::optional<Measurements> load_measurements(const std::filesystem::path& file, const std::string& key) {

@@ -13,7 +13,6 @@ namespace stopline {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kSampleInterval_s = 0.1;
 
 std::int64_t ticks_of(double interval_s, double step_s) {
     return std::max<std::int64_t>(1, to_ticks(interval_s, step_s));
@@ -73,6 +72,22 @@ LeaderStart leader_of(const Scenario& scenario, const std::vector<LinePassage>& 
     return start;
 }
 
+void compare_with_baseline(SingleLight& result) {
+    for (PopulationSummary& summary : result.populations) {
+        summary.asymptotic_improvement_percent = kNone;
+        summary.improvement_percent.assign(summary.passed.size(), kNone);
+        if (!result.baseline) continue;
+        const PopulationSummary& baseline = result.populations[*result.baseline];
+        summary.asymptotic_improvement_percent =
+            improvement_percent(baseline.settled.headway_s, summary.settled.headway_s);
+        for (std::size_t k = 0; k < summary.passed.size(); ++k) {
+            summary.improvement_percent[k] = improvement_percent(summary.passed[k], baseline.passed[k]);
+        }
+    }
+}
+
+}  // namespace
+
 PopulationSummary summary_of(const Scenario& scenario, std::size_t index, const RunResult& run,
                              const std::vector<TrajectoryPoint>& points, double interval_s) {
     const PopulationSettings& population = scenario.populations[index];
@@ -96,22 +111,6 @@ PopulationSummary summary_of(const Scenario& scenario, std::size_t index, const 
     summary.queue = queue_gaps(run.queue_gaps_m);
     return summary;
 }
-
-void compare_with_baseline(SingleLight& result) {
-    for (PopulationSummary& summary : result.populations) {
-        summary.asymptotic_improvement_percent = kNone;
-        summary.improvement_percent.assign(summary.passed.size(), kNone);
-        if (!result.baseline) continue;
-        const PopulationSummary& baseline = result.populations[*result.baseline];
-        summary.asymptotic_improvement_percent =
-            improvement_percent(baseline.settled.headway_s, summary.settled.headway_s);
-        for (std::size_t k = 0; k < summary.passed.size(); ++k) {
-            summary.improvement_percent[k] = improvement_percent(summary.passed[k], baseline.passed[k]);
-        }
-    }
-}
-
-}  // namespace
 
 std::vector<TrajectoryPoint> thinned(const std::vector<TrajectoryPoint>& points, double interval_s, double step_s) {
     const std::int64_t every = ticks_of(interval_s, step_s);

@@ -67,6 +67,7 @@ struct SingleLightOptions {
 };
 
 inline constexpr int kLatePositions = 10;
+inline constexpr double kSampleInterval_s = 0.1;
 // Trajectories are kept from this before the green ...
 inline constexpr double kLeadIn_s = 5.0;
 // ... to this after it: enough for the last vehicles to settle, and no memory for what nobody looks at.
@@ -74,6 +75,11 @@ inline constexpr double kLeadOut_s = 25.0;
 
 // The points at whole multiples of `interval_s` (of at least one step).
 std::vector<TrajectoryPoint> thinned(const std::vector<TrajectoryPoint>& points, double interval_s, double step_s);
+
+// The summary of one run from its points, sampled every `interval_s` from kLeadIn_s before the green to kLeadOut_s after it.
+// What compares with a baseline is left out.
+PopulationSummary summary_of(const Scenario& scenario, std::size_t index, const RunResult& run,
+                             const std::vector<TrajectoryPoint>& points, double interval_s);
 
 SingleLight run_single_light(const Scenario& scenario, const SingleLightOptions& options = {});
 

@@ -6,6 +6,7 @@
 
 #include "base/input_error.h"
 #include "scenario/data_files.h"
+#include "scenario/field_path.h"
 #include "scenario/nearest_name.h"
 #include "scenario/yaml_source.h"
 
@@ -134,31 +135,6 @@ void complete_field(const Field& field, SourceNode& map, const std::string& path
     }
 }
 
-// One step of an override's path: a field's name with the entries of lists that are chosen, by number or by name.
-struct Step {
-    std::string name;
-    std::vector<std::string> entries;
-};
-
-std::vector<Step> steps_of(const std::string& path) {
-    std::vector<Step> steps(1);
-    std::string* part = &steps.back().name;
-    bool inside = false;
-    for (const char c : path) {
-        if (c == '.' && !inside) {
-            part = &steps.emplace_back().name;
-        } else if (c == '[' && !inside) {
-            part = &steps.back().entries.emplace_back();
-            inside = true;
-        } else if (c == ']' && inside) {
-            inside = false;
-        } else {
-            *part += c;
-        }
-    }
-    return steps;
-}
-
 SourceNode* find_entry(SourceNode& list, const std::string& entry) {
     const ParsedWhole index = parse_whole(entry);
     if (index.problem.empty()) return index.value < list.items.size() ? &list.items[index.value] : nullptr;
@@ -182,9 +158,9 @@ class Setter {
 public:
     Setter(SourceNode value, Report& report) : value_(std::move(value)), report_(report) {}
 
-    void set(const Table& table, SourceNode& map, const std::vector<Step>& steps, std::size_t i,
+    void set(const Table& table, SourceNode& map, const std::vector<PathStep>& steps, std::size_t i,
              const std::string& path) {
-        const Step& step = steps[i];
+        const PathStep& step = steps[i];
         const std::string here = join_path(path, step.name);
         const Field* const field = table.find(step.name);
         if (field == nullptr) return error(here, "is unknown" + known_names(step.name, table.names()));
@@ -213,7 +189,7 @@ public:
     }
 
 private:
-    void set_entry(const Field& field, SourceNode& map, const std::vector<Step>& steps, std::size_t i,
+    void set_entry(const Field& field, SourceNode& map, const std::vector<PathStep>& steps, std::size_t i,
                    const std::string& path) {
         SourceNode* const list = map.find(field.name);
         const bool last = i + 1 == steps.size();
@@ -282,7 +258,7 @@ void apply_override(const Table& table, SourceNode& root, const std::string& tex
     }
     try {
         SourceNode value = parse_yaml(std::string_view(text).substr(equals + 1), source);
-        Setter(std::move(value), report).set(table, root, steps_of(text.substr(0, equals)), 0, "");
+        Setter(std::move(value), report).set(table, root, path_steps(text.substr(0, equals)), 0, "");
     } catch (const YamlError& error) {
         report.error(place, error.message());
     }

@@ -5,6 +5,7 @@
 
 #include "scenario/fields.h"
 #include "scenario/load_scenario.h"
+#include "scenario/load_sweep.h"
 #include "scenario/nearest_name.h"
 #include "scenario/write_fields.h"
 
@@ -98,6 +99,15 @@ std::string describe_fields() {
     for (const Field& field : scenario_table().fields) {
         if (field.fallback.size() > 20) text += "Default of " + field.name + ":\n  " + field.fallback + "\n";
     }
+    return text;
+}
+
+std::string describe_sweep_fields() {
+    std::vector<Block> blocks;
+    const SweepSettings defaults;
+    add_blocks(sweep_table(), "", &defaults, blocks);
+    std::string text = "Fields of a sweep file (YAML). What a path can name: stopline-run --describe.\n\n";
+    for (const Block& block : blocks) text += block_text(block);
     return text;
 }
 

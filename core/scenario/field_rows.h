@@ -78,6 +78,12 @@ auto text(std::string name, TextField::Rule rule, std::string meaning) {
         {std::move(name), std::move(meaning), TextField{field_rows::access<M>(), rule}}};
 }
 
+template <auto M>
+auto texts(std::string name, TextField::Rule rule, Count size, std::string meaning) {
+    return Row<field_rows::StructOf<M>>{
+        {std::move(name), std::move(meaning), TextsField{field_rows::access<M>(), rule, size}}};
+}
+
 // A string that is one of `names`.
 template <auto M>
 auto choice(std::string name, std::vector<std::string> names, std::string meaning) {

@@ -20,12 +20,17 @@ std::string count_text(const Count& count, const std::string& what) {
     return std::to_string(count.min) + " to " + std::to_string(count.max) + plural;
 }
 
+std::string rule_text(TextField::Rule rule) {
+    return rule == TextField::Rule::name ? "up to 64 letters, digits and - _ . + signs"
+                                         : "one line of up to 200 characters";
+}
+
 struct AllowedText {
     std::string operator()(const NumberField& f) const { return range_text(f.range, *f.shown); }
     std::string operator()(const WholeField& f) const { return count_text(f.range, ""); }
-    std::string operator()(const TextField& f) const {
-        return f.rule == TextField::Rule::name ? "up to 64 letters, digits and - _ . + signs"
-                                               : "one line of up to 200 characters";
+    std::string operator()(const TextField& f) const { return rule_text(f.rule); }
+    std::string operator()(const TextsField& f) const {
+        return count_text(f.size, " text") + ", each " + rule_text(f.rule);
     }
     std::string operator()(const ChoiceField& f) const { return "one of: " + joined(f.names); }
     std::string operator()(const NumbersField& f) const {

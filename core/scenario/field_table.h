@@ -58,6 +58,12 @@ struct TextField {
     Access<std::string> at;
     Rule rule;
 };
+// Texts of one rule; a single one may stand in place of the list.
+struct TextsField {
+    Access<std::vector<std::string>> at;
+    TextField::Rule rule;
+    Count size;
+};
 // One of these names.
 struct ChoiceField {
     std::vector<std::string> names;
@@ -99,8 +105,8 @@ struct ListField {
     std::string library;
 };
 
-using FieldKind =
-    std::variant<NumberField, WholeField, TextField, ChoiceField, NumbersField, CurveField, SectionField, ListField>;
+using FieldKind = std::variant<NumberField, WholeField, TextField, TextsField, ChoiceField, NumbersField, CurveField,
+                               SectionField, ListField>;
 
 struct Field {
     std::string name;

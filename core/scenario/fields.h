@@ -18,6 +18,8 @@ const Table& gap_policy_table();  // GapPolicySettings
 const Table& population_table();  // PopulationSettings
 const Table& measure_table();     // MeasureSettings
 
+const Table& sweep_table();  // SweepSettings (sweep_settings.h): the root of a sweep file
+
 // The root of data/policies/*.yaml.
 struct PolicyFile {
     std::vector<GapPolicySettings> policies;

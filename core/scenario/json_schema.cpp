@@ -27,6 +27,12 @@ void set_size(Json& schema, const Count& size, const char* minimum, const char* 
     if (size.max != std::numeric_limits<std::uint64_t>::max()) schema[maximum] = size.max;
 }
 
+// A text of digits alone is a number to a YAML editor.
+Json text_schema(TextField::Rule rule) {
+    if (rule == TextField::Rule::title) return Json{{"type", "string"}, {"maxLength", 200}};
+    return Json{{"type", {"string", "number"}}, {"pattern", "^[-A-Za-z0-9_.+]{1,64}$"}};
+}
+
 struct KindSchema {
     const void* settings;
 
@@ -38,10 +44,12 @@ struct KindSchema {
         return schema;
     }
 
-    Json operator()(const TextField& f) const {
-        if (f.rule == TextField::Rule::title) return Json{{"type", "string"}, {"maxLength", 200}};
-        // A name of digits alone is a number to a YAML editor.
-        return Json{{"type", {"string", "number"}}, {"pattern", "^[-A-Za-z0-9_.+]{1,64}$"}};
+    Json operator()(const TextField& f) const { return text_schema(f.rule); }
+
+    Json operator()(const TextsField& f) const {
+        Json list{{"type", "array"}, {"items", text_schema(f.rule)}};
+        set_size(list, f.size, "minItems", "maxItems");
+        return Json{{"anyOf", Json::array({text_schema(f.rule), list})}};
     }
 
     Json operator()(const ChoiceField& f) const { return Json{{"enum", f.names}}; }

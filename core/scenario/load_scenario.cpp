@@ -6,6 +6,7 @@
 #include "base/input_error.h"
 #include "scenario/compose.h"
 #include "scenario/fields.h"
+#include "scenario/file_name.h"
 #include "scenario/nearest_name.h"
 #include "scenario/read_fields.h"
 #include "scenario/report.h"
@@ -14,16 +15,6 @@
 
 namespace stopline {
 namespace {
-
-// A scenario without a name is called after its file.
-std::string name_from(const std::string& label) {
-    std::string name;
-    for (const char c : std::filesystem::path(label).stem().string().substr(0, 64)) {
-        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-        name += plain || c == '-' || c == '_' || c == '.' || c == '+' ? c : '_';
-    }
-    return name.empty() ? "scenario" : name;
-}
 
 void require_map(const SourceNode& root) {
     if (root.kind == SourceNode::Kind::map) return;
@@ -41,7 +32,7 @@ Scenario scenario_from(SourceNode root, const std::vector<std::string>& override
     if (root.find("name") == nullptr) {
         SourceNode name;
         name.kind = SourceNode::Kind::scalar;
-        name.text = name_from(source.label);
+        name.text = name_from_file(source.label, "scenario");
         name.place = root.place;
         root.add({"name", root.place}, std::move(name));
     }

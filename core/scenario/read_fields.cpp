@@ -53,10 +53,23 @@ public:
     }
 
     void operator()(const TextField& f) {
-        if (!scalar(node_, path_)) return;
-        const bool good = f.rule == TextField::Rule::name ? is_name(node_.text) : is_title(node_.text);
-        if (!good) return bad_value(node_, path_, "cannot be used as a " + text_kind(f));
-        f.at.write(settings_) = node_.text;
+        if (is_text(node_, path_, f.rule)) f.at.write(settings_) = node_.text;
+    }
+
+    void operator()(const TextsField& f) {
+        if (node_.kind == SourceNode::Kind::scalar) {
+            if (is_text(node_, path_, f.rule)) f.at.write(settings_) = {node_.text};
+            return;
+        }
+        if (node_.kind != SourceNode::Kind::list) return wrong_kind("a list");
+        if (!right_size(f.size)) return;
+        std::vector<std::string>& values = f.at.write(settings_);
+        values.clear();
+        for (std::size_t i = 0; i < node_.items.size(); ++i) {
+            const std::string item_path = path_ + "[" + std::to_string(i) + "]";
+            report_.remember(item_path, node_.items[i].place);
+            if (is_text(node_.items[i], item_path, f.rule)) values.push_back(node_.items[i].text);
+        }
     }
 
     void operator()(const ChoiceField& f) {
@@ -121,7 +134,13 @@ public:
     }
 
 private:
-    static std::string text_kind(const TextField& f) { return f.rule == TextField::Rule::name ? "name" : "title"; }
+    bool is_text(const SourceNode& node, const std::string& path, TextField::Rule rule) {
+        if (!scalar(node, path)) return false;
+        const bool name = rule == TextField::Rule::name;
+        if (name ? is_name(node.text) : is_title(node.text)) return true;
+        bad_value(node, path, std::string("cannot be used as a ") + (name ? "name" : "title"));
+        return false;
+    }
 
     void error(const SourceNode& node, const std::string& path, const std::string& message) {
         report_.error(node.place, "field '" + path + "': " + message);
@@ -203,6 +222,10 @@ void report_missing(const Field& field, const SourceNode& map, const std::string
 
 }  // namespace
 
+void read_value(const Field& field, const SourceNode& node, const std::string& path, void* settings, Report& report) {
+    std::visit(ValueReader(field, node, path, settings, report), field.kind);
+}
+
 void read_fields(const Table& table, const SourceNode& node, const std::string& path, void* settings, Report& report) {
     if (node.kind == SourceNode::Kind::broken) return;
     report.remember(path, node.place);
@@ -226,7 +249,7 @@ void read_fields(const Table& table, const SourceNode& node, const std::string& 
             report.error(value->place, "field '" + field_path + "' is used only where " + field.only_field + " is " +
                                            joined(field.only_values, " or "));
         } else if (value != nullptr) {
-            std::visit(ValueReader(field, *value, field_path, settings, report), field.kind);
+            read_value(field, *value, field_path, settings, report);
         } else if (exists && field.required) {
             report_missing(field, node, field_path, report);
         }

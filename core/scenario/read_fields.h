@@ -12,4 +12,7 @@ namespace stopline {
 // Errors go to the report; the settings are usable only if there are none.
 void read_fields(const Table& table, const SourceNode& node, const std::string& path, void* settings, Report& report);
 
+// The same for one field of such a struct.
+void read_value(const Field& field, const SourceNode& node, const std::string& path, void* settings, Report& report);
+
 }  // namespace stopline

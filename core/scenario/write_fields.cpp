@@ -24,6 +24,11 @@ struct ValueWriter {
     }
     std::string operator()(const WholeField& f) const { return " " + std::to_string(f.get(settings)) + "\n"; }
     std::string operator()(const TextField& f) const { return " " + quoted(f.at.read(settings)) + "\n"; }
+    std::string operator()(const TextsField& f) const {
+        std::string line;
+        for (const std::string& value : f.at.read(settings)) line += (line.empty() ? "" : ", ") + quoted(value);
+        return " [" + line + "]\n";
+    }
     std::string operator()(const ChoiceField& f) const { return " " + f.get(settings) + "\n"; }
 
     std::string operator()(const NumbersField& f) const {

@@ -1,0 +1,206 @@
+#include "experiment/run_store.h"
+
+#include <sqlite3.h>
+
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/input_error.h"
+#include "scenario/quantity.h"
+
+namespace stopline {
+
+namespace {
+
+constexpr const char* kFormat = "stopline runs 1";
+
+// A prepared statement, finalised at the end of the scope.
+class Statement {
+public:
+    Statement(sqlite3* database, const char* sql)
+        : code_(sqlite3_prepare_v2(database, sql, -1, &statement_, nullptr)) {}
+    Statement(const Statement&) = delete;
+    Statement& operator=(const Statement&) = delete;
+    Statement(Statement&&) = delete;
+    Statement& operator=(Statement&&) = delete;
+    ~Statement() { sqlite3_finalize(statement_); }
+
+    void bind(int index, const std::string& text) {
+        if (code_ != SQLITE_OK) return;
+        // The text outlives the statement's use, so SQLite need not copy it: a null destructor says so.
+        code_ = sqlite3_bind_text64(statement_, index, text.data(), text.size(), nullptr, SQLITE_UTF8);
+    }
+    void bind(int index, std::size_t number) {
+        if (code_ == SQLITE_OK) code_ = sqlite3_bind_int64(statement_, index, static_cast<sqlite3_int64>(number));
+    }
+    // SQLITE_ROW, SQLITE_DONE or an error, also one from before.
+    int step() { return code_ == SQLITE_OK ? sqlite3_step(statement_) : code_; }
+
+    std::string text(int column) const {
+        const void* const bytes = sqlite3_column_blob(statement_, column);
+        const auto size = static_cast<std::size_t>(sqlite3_column_bytes(statement_, column));
+        return bytes == nullptr ? std::string() : std::string(static_cast<const char*>(bytes), size);
+    }
+    std::size_t number(int column) const { return static_cast<std::size_t>(sqlite3_column_int64(statement_, column)); }
+
+private:
+    sqlite3_stmt* statement_ = nullptr;
+    int code_;
+};
+
+std::string reason(int code, sqlite3* database) {
+    const int kind = code & 0xff;
+    if (kind == SQLITE_BUSY || kind == SQLITE_LOCKED)
+        return "another program works with this store; wait until it ends";
+    if (kind == SQLITE_NOTADB || kind == SQLITE_CORRUPT)
+        return "this is not a store of stopline-sweep, or it is damaged";
+    if (kind == SQLITE_FULL) return "cannot write: the disk is full";
+    const std::string message = database == nullptr ? sqlite3_errstr(code) : sqlite3_errmsg(database);
+    return fmt::format("the store cannot be used: {} ({})", message, code);
+}
+
+std::string what_differs(const StoreIdentity& has, const StoreIdentity& wanted) {
+    if (has.name != wanted.name) return fmt::format("it holds runs of the sweep '{}'", has.name);
+    if (has.sweep != wanted.sweep || has.points != wanted.points) {
+        return "the sweep, its scenario or a file that it names has changed since";
+    }
+    if (has.program != wanted.program) {
+        return fmt::format("its runs were made by another build of the program ({})", has.program);
+    }
+    if (has.shard != wanted.shard) {
+        return fmt::format("it holds shard {}", has.shard.empty() ? "1/1" : has.shard);
+    }
+    return {};
+}
+
+}  // namespace
+
+void RunStore::Close::operator()(sqlite3* database) const { sqlite3_close(database); }
+
+RunStore::RunStore(std::filesystem::path file, bool make) : file_(std::move(file)) {
+    sqlite3* database = nullptr;
+    const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_FULLMUTEX | (make ? SQLITE_OPEN_CREATE : 0);
+    const int code = sqlite3_open_v2(file_.c_str(), &database, flags, nullptr);
+    database_.reset(database);
+    if (code != SQLITE_OK) fail(code);
+    sqlite3_busy_timeout(database, 1000);  // a program that has just been killed may hold the lock a moment longer
+    execute("PRAGMA locking_mode = EXCLUSIVE");
+    execute("PRAGMA journal_mode = WAL");
+    execute("PRAGMA synchronous = NORMAL");
+    execute("BEGIN EXCLUSIVE");
+    execute("COMMIT");
+}
+
+RunStore RunStore::open_or_make(const std::filesystem::path& file, const StoreIdentity& identity) {
+    RunStore store(file, true);
+    if (!store.has_tables()) {
+        store.make_tables(identity);
+        return store;
+    }
+    store.read_identity();
+    const std::string difference = what_differs(store.identity_, identity);
+    if (!difference.empty()) {
+        throw InputError(fmt::format(
+            "{}: {}. Runs of both are never mixed: choose another --output, or remove this store to start anew",
+            file.string(), difference));
+    }
+    return store;
+}
+
+RunStore RunStore::open(const std::filesystem::path& file) {
+    if (!std::filesystem::exists(file)) throw InputError(fmt::format("{}: no such file", file.string()));
+    RunStore store(file, false);
+    if (!store.has_tables()) throw InputError(fmt::format("{}: no runs in it", file.string()));
+    store.read_identity();
+    return store;
+}
+
+void RunStore::fail(int code) const {
+    throw InputError(fmt::format("{}: {}", file_.string(), reason(code, database_.get())));
+}
+
+void RunStore::execute(const char* sql) const {
+    const int code = sqlite3_exec(database_.get(), sql, nullptr, nullptr, nullptr);
+    if (code != SQLITE_OK) fail(code);
+}
+
+bool RunStore::has_tables() const {
+    Statement statement(database_.get(), "SELECT count(*) FROM sqlite_master");
+    const int code = statement.step();
+    if (code != SQLITE_ROW) fail(code);
+    return statement.number(0) > 0;
+}
+
+void RunStore::make_tables(const StoreIdentity& identity) {
+    identity_ = identity;
+    const std::map<std::string, std::string> rows{{"format", kFormat},
+                                                  {"name", identity.name},
+                                                  {"sweep", identity.sweep},
+                                                  {"program", identity.program},
+                                                  {"points", fmt::format("{}", identity.points)},
+                                                  {"shard", identity.shard},
+                                                  {"provenance", identity.provenance}};
+    // In one transaction: a store is whole, or empty and made again.
+    execute("BEGIN");
+    execute("CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID");
+    execute("CREATE TABLE runs(point INTEGER PRIMARY KEY, result TEXT NOT NULL)");
+    for (const auto& [key, value] : rows) {
+        Statement statement(database_.get(), "INSERT INTO meta VALUES(?, ?)");
+        statement.bind(1, key);
+        statement.bind(2, value);
+        const int code = statement.step();
+        if (code != SQLITE_DONE) fail(code);
+    }
+    execute("COMMIT");
+}
+
+void RunStore::read_identity() {
+    std::map<std::string, std::string> rows;
+    Statement statement(database_.get(), "SELECT key, value FROM meta");
+    int code = statement.step();
+    for (; code == SQLITE_ROW; code = statement.step()) rows[statement.text(0)] = statement.text(1);
+    const ParsedWhole points = parse_whole(rows["points"]);
+    if (code != SQLITE_DONE || rows["format"] != kFormat || !points.problem.empty()) {
+        throw InputError(fmt::format("{}: this is not a store of stopline-sweep", file_.string()));
+    }
+    identity_ = {rows["name"],  rows["sweep"],     rows["program"], static_cast<std::size_t>(points.value),
+                 rows["shard"], rows["provenance"]};
+}
+
+std::vector<bool> RunStore::done() const {
+    std::vector<bool> done(identity_.points, false);
+    Statement statement(database_.get(), "SELECT point FROM runs");
+    int code = statement.step();
+    for (; code == SQLITE_ROW; code = statement.step()) {
+        const std::size_t point = statement.number(0);
+        if (point >= done.size()) throw InputError(fmt::format("{}: it holds a run too many", file_.string()));
+        done[point] = true;
+    }
+    if (code != SQLITE_DONE) fail(code);
+    return done;
+}
+
+void RunStore::put(std::size_t point, const std::string& result) {
+    Statement statement(database_.get(), "INSERT INTO runs VALUES(?, ?)");
+    statement.bind(1, point);
+    statement.bind(2, result);
+    const int code = statement.step();
+    if (code != SQLITE_DONE) fail(code);
+}
+
+void RunStore::put_all(const std::function<void()>& puts) {
+    execute("BEGIN");
+    puts();  // what it throws leaves the transaction open: it is rolled back when the store is closed
+    execute("COMMIT");
+}
+
+void RunStore::each(const std::function<void(std::size_t, const std::string&)>& visit) const {
+    Statement statement(database_.get(), "SELECT point, result FROM runs ORDER BY point");
+    int code = statement.step();
+    for (; code == SQLITE_ROW; code = statement.step()) visit(statement.number(0), statement.text(1));
+    if (code != SQLITE_DONE) fail(code);
+}
+
+}  // namespace stopline

@@ -1,0 +1,140 @@
+#include "experiment/sweep_results.h"
+
+#include <algorithm>
+#include <map>
+#include <sstream>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/input_error.h"
+#include "base/version.h"
+#include "experiment/csv.h"
+#include "scenario/load_scenario.h"
+#include "scenario/quantity.h"
+
+namespace stopline {
+
+namespace {
+
+// Calls visit(column, value) for each line.
+template <class Visit>
+void for_each_value(std::string_view result, const Visit& visit) {
+    while (!result.empty()) {
+        const auto end = std::min(result.find('\n'), result.size());
+        const std::string_view line = result.substr(0, end);
+        const auto equals = std::min(line.find('='), line.size());
+        visit(line.substr(0, equals), line.substr(std::min(equals + 1, line.size())));
+        result.remove_prefix(std::min(end + 1, result.size()));
+    }
+}
+
+// The columns of all runs in the order in which they first appear: kinds of networks may have metrics of their own.
+std::map<std::string, std::size_t, std::less<>> columns_of(const RunStore& store, std::vector<std::string>& names) {
+    std::map<std::string, std::size_t, std::less<>> index;
+    store.each([&](std::size_t, const std::string& result) {
+        for_each_value(result, [&](std::string_view column, std::string_view) {
+            if (index.find(column) != index.end()) return;
+            index.emplace(std::string(column), names.size());
+            names.emplace_back(column);
+        });
+    });
+    return index;
+}
+
+void add_to(SweepTotals& totals, const std::string& result) {
+    const std::int64_t overlaps = count_in(result, "overlaps");
+    const std::int64_t red_entries = count_in(result, "red_entries");
+    const std::int64_t lost_vehicles = count_in(result, "lost_vehicles");
+    ++totals.runs;
+    totals.updates += count_in(result, "updates");
+    totals.overlaps += overlaps;
+    totals.red_entries += red_entries;
+    totals.lost_vehicles += lost_vehicles;
+    if (overlaps != 0 || red_entries != 0 || lost_vehicles != 0) ++totals.runs_with_violations;
+}
+
+}  // namespace
+
+std::string result_text(const Sweep& sweep, std::size_t point, const std::vector<RunMetric>& metrics) {
+    std::vector<std::pair<std::string, std::string>> values;
+    const std::vector<std::string> columns = sweep.columns();
+    const std::vector<std::string> cells = sweep.cells(point);
+    for (std::size_t k = 0; k < columns.size(); ++k) values.emplace_back(columns[k], cells[k]);
+    values.emplace_back("seed", fmt::format("{}", sweep.seed(point)));
+    for (const RunMetric& metric : metrics) {
+        const std::string column = metric.name + (metric.unit.empty() ? "" : "_" + metric.unit);
+        if (std::find(columns.begin(), columns.end(), column) != columns.end()) {
+            throw InputError(fmt::format("the axis '{}' of the sweep {} has the name of a result: rename it", column,
+                                         sweep.settings().name));
+        }
+        values.emplace_back(column, metric.value);
+    }
+    std::string text;
+    for (const auto& [column, value] : values) text += column + "=" + value + "\n";
+    return text;
+}
+
+std::int64_t count_in(const std::string& result, const std::string& column) {
+    std::int64_t count = 0;
+    for_each_value(result, [&](std::string_view name, std::string_view value) {
+        if (name != column) return;
+        const bool minus = value.starts_with('-');
+        const ParsedWhole parsed = parse_whole(value.substr(minus ? 1 : 0));
+        if (parsed.problem.empty()) count = static_cast<std::int64_t>(parsed.value) * (minus ? -1 : 1);
+    });
+    return count;
+}
+
+SweepTable sweep_results(const RunStore& store) {
+    std::vector<std::string> names{"point"};
+    const auto index = columns_of(store, names);
+    CsvWriter csv(names);
+    SweepTable table;
+    store.each([&](std::size_t point, const std::string& result) {
+        std::vector<std::string> fields(names.size());
+        fields.front() = fmt::format("{}", point);
+        for_each_value(result, [&](std::string_view column, std::string_view value) {
+            fields[index.find(column)->second] = std::string(value);
+        });
+        csv.row(fields);
+        add_to(table.totals, result);
+    });
+    table.csv = csv.text();
+    return table;
+}
+
+std::string sweep_provenance(const Sweep& sweep, const std::string& command) {
+    const SweepSettings& settings = sweep.settings();
+    nlohmann::ordered_json json;
+    json["program"] = "stopline";
+    json["version"] = version();
+    json["command"] = command;
+    json["sweep"] = settings.name;
+    json["sweep_hash"] = sweep.key();
+    json["runs"] = sweep.points();
+    json["files"] = {settings.name + ".csv"};
+    json["axes"] = nlohmann::ordered_json::array();
+    for (const SweepAxis& axis : settings.axes) {
+        nlohmann::ordered_json one{{"name", axis.name}};
+        if (axis.populations.empty()) {
+            one["path"] = axis.paths;
+            one["values"] = axis.values;
+        } else {
+            one["populations"] = axis.populations;
+        }
+        json["axes"].push_back(std::move(one));
+    }
+    json["repetitions"] = settings.repetitions;
+    json["scenario"] = sweep.base().name;
+    json["scenario_hash"] = fmt::format("{:016x}", sweep.base().hash);
+    json["seed"] = sweep.base().seed;
+    json["parameters"] = nlohmann::ordered_json::array();
+    std::istringstream lines(canonical_text(sweep.base()));
+    for (std::string line; std::getline(lines, line);) json["parameters"].push_back(line);
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace stopline

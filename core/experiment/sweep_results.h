@@ -1,0 +1,39 @@
+// What a sweep leaves behind: the text that a store keeps of a run, the table of all runs, and where they come from.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "experiment/run_metrics.h"
+#include "experiment/run_store.h"
+#include "experiment/sweep.h"
+
+namespace stopline {
+
+// One line a column, "name=value": the axes, the seed, the metrics. It needs no sweep file to be read, so that stores of
+// several machines can be joined anywhere.
+std::string result_text(const Sweep& sweep, std::size_t point, const std::vector<RunMetric>& metrics);
+
+// The whole number in a column of such a text; 0 where there is none.
+std::int64_t count_in(const std::string& result, const std::string& column);
+
+struct SweepTotals {
+    std::size_t runs = 0;
+    std::int64_t updates = 0;
+    std::int64_t overlaps = 0;
+    std::int64_t red_entries = 0;
+    std::int64_t lost_vehicles = 0;
+    std::size_t runs_with_violations = 0;
+};
+
+struct SweepTable {
+    std::string csv;  // a row a run, in the order of the points
+    SweepTotals totals;
+};
+SweepTable sweep_results(const RunStore& store);
+
+// JSON text; `command` makes the results again, whatever the shards and machines it was spread over.
+std::string sweep_provenance(const Sweep& sweep, const std::string& command);
+
+}  // namespace stopline

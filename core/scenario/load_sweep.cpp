@@ -1,0 +1,102 @@
+#include "scenario/load_sweep.h"
+
+#include <memory>
+#include <utility>
+
+#include "base/input_error.h"
+#include "scenario/field_path.h"
+#include "scenario/fields.h"
+#include "scenario/file_name.h"
+#include "scenario/nearest_name.h"
+#include "scenario/read_fields.h"
+#include "scenario/report.h"
+#include "scenario/yaml_source.h"
+
+namespace stopline {
+namespace {
+
+std::string trimmed(const std::string& text) {
+    const auto first = text.find_first_not_of(' ');
+    if (first == std::string::npos) return {};
+    return text.substr(first, text.find_last_not_of(' ') - first + 1);
+}
+
+std::vector<std::string> split(const std::string& text, char at) {
+    std::vector<std::string> parts;
+    std::size_t begin = 0;
+    for (std::size_t end = 0; end != std::string::npos; begin = end + 1) {
+        end = text.find(at, begin);
+        parts.push_back(trimmed(text.substr(begin, end - begin)));
+    }
+    return parts;
+}
+
+// Reads one value as its field would, into settings that are thrown away. Nested values and entries of lists need the whole
+// scenario; they are left to the combinations.
+void check_value(const SweepAxis& axis, const std::string& path, const std::string& value, const Place& place,
+                 Report& report) {
+    const FieldAtPath at = find_field(scenario_table(), path);
+    if (at.field == nullptr) return;
+    if (std::holds_alternative<SectionField>(at.field->kind) || std::holds_alternative<ListField>(at.field->kind)) {
+        return;
+    }
+    try {
+        SourceNode node = parse_yaml(value, place.source);
+        node.place = place;
+        for (SourceNode& item : node.items) item.place = place;
+        const std::shared_ptr<void> settings = at.table->make_default();
+        read_value(*at.field, node, "axes[" + axis.name + "]: " + path, settings.get(), report);
+    } catch (const YamlError& error) {
+        report.error(place, "field 'axes[" + axis.name + "]': value '" + shortened(value) + "' is " + error.message());
+    }
+}
+
+void check_values(const SweepSettings& sweep, Report& report) {
+    for (const SweepAxis& axis : sweep.axes) {
+        for (std::size_t i = 0; i < axis.values.size(); ++i) {
+            const Place place = report.place_of("axes[" + axis.name + "].values[" + std::to_string(i) + "]");
+            const std::vector<std::string> overrides = axis_overrides(axis, i);
+            for (std::size_t k = 0; k < axis.paths.size(); ++k) {
+                check_value(axis, axis.paths[k], overrides[k].substr(axis.paths[k].size() + 1), place, report);
+            }
+        }
+    }
+}
+
+SweepSettings sweep_from(const SourceNode& root) {
+    const Source source = *root.place.source;
+    Report report;
+    SweepSettings sweep;
+    read_fields(sweep_table(), root, "", &sweep, report);
+    report.throw_if_any();
+    check_values(sweep, report);
+    report.throw_if_any();
+    if (sweep.name.empty()) sweep.name = name_from_file(source.label, "sweep");
+    sweep.scenario = (source.directory / sweep.scenario).lexically_normal().string();
+    return sweep;
+}
+
+}  // namespace
+
+SweepSettings load_sweep(const std::filesystem::path& file) { return sweep_from(read_yaml_file(file)); }
+
+SweepSettings parse_sweep(std::string_view text, const std::string& label, const std::filesystem::path& directory) {
+    return sweep_from(parse_yaml(text, std::make_shared<Source>(Source{label, directory})));
+}
+
+std::vector<std::string> axis_overrides(const SweepAxis& axis, std::size_t value) {
+    if (axis.paths.empty()) return {};
+    const std::string& text = axis.values.at(value);
+    std::vector<std::string> parts{text};
+    if (axis.paths.size() > 1) parts = split(text, '|');
+    if (parts.size() == 1) parts.assign(axis.paths.size(), parts.front());
+    std::vector<std::string> overrides;
+    for (std::size_t i = 0; i < parts.size() && i < axis.paths.size(); ++i) {
+        overrides.push_back(axis.paths[i] + "=" + parts[i]);
+    }
+    // A surplus part is no override: the checks see by the count that the value does not fit.
+    if (parts.size() > axis.paths.size()) overrides.emplace_back();
+    return overrides;
+}
+
+}  // namespace stopline

@@ -1,0 +1,152 @@
+#!/usr/bin/env bash
+# ctest-labels: slow
+# A sweep that is killed at any moment and started again ends with the same bytes as one that nobody disturbed; so does one on
+# another number of threads. What belongs to another scenario or sweep is never continued.
+set -u
+
+failures=0
+work=$(mktemp -d)
+trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
+program="$STOPLINE_BIN/stopline-sweep"
+
+fail() {
+    echo "FAILED: $*"
+    failures=$((failures + 1))
+}
+
+# 40 runs of some 10 ms.
+cat >"$work/short.yaml" <<'YAML'
+duration: 600 s
+network: {approach: {length: 300 m}}
+signal: {first_green: 60 s, green: 30 s}
+demand: {vehicles: 20}
+populations:
+- CDG
+- {name: MIX, pattern: random, components: [{policy: CDG, share: 50 %}, {policy: CTG-Ref, share: 50 %}]}
+measure: {green: [5 s, 10 s]}
+YAML
+cat >"$work/sweep.yaml" <<'YAML'
+scenario: short.yaml
+axes:
+- {name: hesitation, path: driver.free_drive.hesitation, values: [0 s, 0.25 s, 0.5 s, 0.75 s, 1 s]}
+repetitions: 4
+YAML
+
+# sweep FOLDER [OPTION...]
+sweep() {
+    local folder=$1
+    shift
+    "$program" "$work/sweep.yaml" --output "$folder" "$@"
+}
+
+# The same in the background, as `pid`; not through the function, or the shell around it would be what is killed.
+start() {
+    local folder=$1
+    shift
+    "$program" "$work/sweep.yaml" --output "$folder" "$@" >/dev/null 2>"$work/stderr" &
+    pid=$!
+}
+
+same_table() {
+    cmp "$work/whole/sweep.csv" "$2/sweep.csv" || fail "$1: another table"
+    cmp "$work/whole/sweep.provenance.json" "$2/sweep.provenance.json" || fail "$1: another provenance"
+}
+
+milliseconds() {
+    echo $(($(date +%s%N) / 1000000))
+}
+
+begin=$(milliseconds)
+sweep "$work/whole" --threads 1 >"$work/stdout" || fail "exit code $?"
+whole_ms=$(($(milliseconds) - begin))
+[ "$(wc -l <"$work/whole/sweep.csv")" -eq 41 ] || fail "not 40 runs: $(wc -l <"$work/whole/sweep.csv") lines"
+grep -q "million vehicle updates per second" "$work/stdout" || fail "no speed in: $(cat "$work/stdout")"
+[ "$(ls -A "$work/whole")" = "$(printf '%s\n' sweep.csv sweep.provenance.json sweep.sqlite)" ] ||
+    fail "other files: $(ls -A "$work/whole")"
+sweep "$work/two" --threads 2 >/dev/null || fail "exit code $?"
+same_table "two threads" "$work/two"
+sweep "$work/two" >"$work/stdout" || fail "exit code $?"
+grep -q "were done before" "$work/stdout" || fail "runs again what is done"
+
+# Killed again and again, after random times of up to a quarter of what it takes; each start adds what it can, so that in the end
+# all is done.
+kills=0
+for _ in $(seq 200); do
+    ms=$((RANDOM * whole_ms / 4 / 32768))
+    start "$work/killed" --threads 1
+    sleep "$(printf '%d.%03d' $((ms / 1000)) $((ms % 1000)))"
+    if kill -KILL $pid 2>/dev/null; then
+        wait $pid 2>/dev/null
+        [ $? -eq 137 ] && kills=$((kills + 1))
+    else
+        wait $pid
+    fi
+    [ -e "$work/killed/sweep.csv" ] && break
+done
+[ -e "$work/killed/sweep.csv" ] || fail "after $kills kills it is still not done: runs are lost"
+[ $kills -ge 2 ] || fail "only $kills kills came in time"
+sweep "$work/killed" >/dev/null || fail "after $kills kills: exit code $?"
+same_table "$kills kills" "$work/killed"
+
+# One kill that surely comes in the middle: what was finished before is not run again.
+start "$work/once" --threads 1 --set "duration=3000 s"
+sleep 0.7
+kill -KILL $pid || fail "the sweep ended too early for a kill"
+wait $pid 2>/dev/null
+sweep "$work/once" --set "duration=3000 s" >"$work/stdout" || fail "after a kill: exit code $?"
+now=$(sed -n 's/ runs now.*//p' "$work/stdout")
+if [ "${now:-0}" -eq 0 ] || [ "$now" -ge 40 ]; then
+    fail "after a kill $now of 40 runs are run"
+fi
+
+# Ctrl-C: exit code 130, how to continue, and a store that can be.
+code=0
+timeout --preserve-status --signal=INT 1 "$program" "$work/sweep.yaml" --output "$work/ctrl_c" --threads 1 \
+    --set "duration=20000 s" >/dev/null 2>"$work/stderr" || code=$?
+[ $code -eq 130 ] || fail "Ctrl-C: exit code $code"
+grep -q "of 40 runs are stored; the same command continues" "$work/stderr" || fail "Ctrl-C: $(cat "$work/stderr")"
+[ -e "$work/ctrl_c/sweep.csv" ] && fail "Ctrl-C: a table of runs that are missing"
+
+# refused WHAT PART COMMAND...: exit code 2, PART in the message
+refused() {
+    local what=$1 part=$2
+    shift 2
+    local code=0
+    "$@" >"$work/stdout" 2>"$work/stderr" || code=$?
+    [ $code -eq 2 ] || fail "$what: exit code $code instead of 2"
+    grep -qF -- "$part" "$work/stderr" || fail "$what: no '$part' in: $(cat "$work/stderr")"
+}
+
+refused "other override" "has changed since" sweep "$work/two" --set "signal.yellow=4 s"
+refused "other seed" "has changed since" sweep "$work/two" --seed 9
+sed -i 's/vehicles: 20/vehicles: 19/' "$work/short.yaml"
+refused "changed scenario" "has changed since" sweep "$work/two"
+sed -i 's/vehicles: 19/vehicles: 20/' "$work/short.yaml"
+sweep "$work/two" >/dev/null || fail "the old scenario again: exit code $?"
+cp "$work/sweep.yaml" "$work/other.yaml"
+cp "$work/two/sweep.sqlite" "$work/two/other.sqlite"
+refused "store of another sweep" "of the sweep 'sweep'" "$program" "$work/other.yaml" --output "$work/two"
+cp "$program" "$work/rebuilt"
+printf '\0' >>"$work/rebuilt"
+refused "another build" "another build of the program" "$work/rebuilt" "$work/sweep.yaml" --output "$work/two"
+echo "no database" >"$work/two/other.sqlite"
+refused "no store" "not a store" "$program" "$work/other.yaml" --output "$work/two"
+
+# Two programs at once.
+start "$work/busy" --threads 1 --set "duration=20000 s"
+sleep 0.5
+refused "a store in use" "another program works with this store" sweep "$work/busy" --set "duration=20000 s"
+kill -KILL $pid
+wait $pid 2>/dev/null
+
+# A limit on the size of files stands for a disk that is full; with room again the sweep continues.
+mkdir "$work/full"
+(
+    ulimit -f 24
+    refused "full disk" "$work/full/sweep.sqlite" sweep "$work/full" --threads 1
+    exit $((failures > 0))
+) || failures=$((failures + 1))
+sweep "$work/full" >/dev/null || fail "with room again: exit code $?"
+same_table "after a full disk" "$work/full"
+
+exit $((failures > 0))
