@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "experiment/csv.h"
+#include "experiment/intersection_run.h"
 #include "experiment/single_light.h"
 #include "sim/model.h"
 
@@ -34,15 +35,44 @@ std::vector<RunMetric> approach_metrics(const Scenario& scenario, std::size_t po
     return metrics;
 }
 
-void add_common_metrics(const RunResult& run, std::vector<RunMetric>& metrics) {
-    metrics.push_back(count_metric("vehicles_entered", "", run.vehicles_entered));
-    metrics.push_back(count_metric("vehicles_left", "", run.vehicles_left));
-    metrics.push_back(count_metric("overlaps", "", run.violations.overlaps));
-    metrics.push_back(count_metric("red_entries", "", run.violations.red_entries));
-    metrics.push_back(count_metric("forced_red_entries", "", run.violations.forced_red_entries));
-    metrics.push_back(count_metric("lost_vehicles", "", run.violations.lost_vehicles));
-    metrics.push_back(count_metric("updates", "", run.updates));
-    metrics.push_back({"state_hash", "", fmt::format("{:016x}", run.state_hash)});
+void add_counts(std::int64_t entered, std::int64_t left, const Violations& violations, std::int64_t updates,
+                std::uint64_t state_hash, std::vector<RunMetric>& metrics) {
+    metrics.push_back(count_metric("vehicles_entered", "", entered));
+    metrics.push_back(count_metric("vehicles_left", "", left));
+    metrics.push_back(count_metric("overlaps", "", violations.overlaps + violations.conflicts));
+    metrics.push_back(count_metric("red_entries", "", violations.red_entries));
+    metrics.push_back(count_metric("forced_red_entries", "", violations.forced_red_entries));
+    metrics.push_back(count_metric("lost_vehicles", "", violations.lost_vehicles));
+    metrics.push_back(count_metric("updates", "", updates));
+    metrics.push_back({"state_hash", "", fmt::format("{:016x}", state_hash)});
+}
+
+std::vector<RunMetric> intersection_metrics(const Scenario& scenario, std::size_t population,
+                                            const std::function<bool()>& keep_going) {
+    constexpr std::int64_t kAsk = 1000;  // steps
+    const IntersectionFigures f = run_intersection(scenario, population, [&](const Simulation& simulation) {
+        return !keep_going || simulation.state().tick % kAsk != 0 || keep_going();
+    });
+    if (!f.complete) return {};
+    std::vector<RunMetric> metrics;
+    metrics.push_back(number_metric("throughput", "veh_h", f.throughput_veh_h, 6));
+    for (std::size_t k = 0; k < f.zones.size(); ++k) {
+        const std::string zone = fmt::format("_{:g}m", scenario.measure.zone_radius_m[k]);
+        metrics.push_back(number_metric("travel_time" + zone, "s", f.zones[k].travel_time_s, 6));
+        metrics.push_back(number_metric("delay" + zone, "s", f.delay_s[k], 6));
+        metrics.push_back(number_metric("density" + zone, "percent", 100.0 * f.zones[k].occupied, 6));
+    }
+    metrics.push_back(number_metric("vehicles_present", "veh", f.vehicles_present, 6));
+    metrics.push_back(number_metric("vehicles_per_green", "veh", f.discharge.vehicles_per_green, 6));
+    metrics.push_back(number_metric("saturation_headway", "s", f.discharge.saturation_headway_s, 6));
+    metrics.push_back(number_metric("lost_time", "s", f.discharge.lost_time_s, 6));
+    metrics.push_back(number_metric("queue", "veh", f.queue_veh, 6));
+    metrics.push_back(number_metric("longest_queue", "m", f.longest_queue_m, 6));
+    metrics.push_back(number_metric("turned_right", "percent", 100.0 * f.right, 6));
+    metrics.push_back(number_metric("turned_left", "percent", 100.0 * f.left, 6));
+    metrics.push_back(count_metric("gaps_accepted", "", f.gaps_accepted));
+    add_counts(f.entered, f.left_network, f.violations, f.updates, f.state_hash, metrics);
+    return metrics;
 }
 
 }  // namespace
@@ -57,6 +87,7 @@ RunMetric count_metric(std::string name, std::string unit, std::int64_t value) {
 
 std::vector<RunMetric> run_metrics(const Scenario& scenario, std::size_t population,
                                    const std::function<bool()>& keep_going) {
+    if (scenario.network.kind == "intersection") return intersection_metrics(scenario, population, keep_going);
     RunOptions options;
     options.trajectory_interval_s = sample_interval_s(scenario);
     options.trajectory_from_s = scenario.signal.first_green_s - kLeadIn_s;
@@ -65,7 +96,7 @@ std::vector<RunMetric> run_metrics(const Scenario& scenario, std::size_t populat
     const RunResult run = run_population(scenario, population, options);
     if (!run.complete) return {};
     std::vector<RunMetric> metrics = approach_metrics(scenario, population, run, options.trajectory_interval_s);
-    add_common_metrics(run, metrics);
+    add_counts(run.vehicles_entered, run.vehicles_left, run.violations, run.updates, run.state_hash, metrics);
     return metrics;
 }
 
