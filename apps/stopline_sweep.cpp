@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -203,6 +204,7 @@ ExitCode report_failures(const Work& work, const SweepSession& session) {
 
 ExitCode finish(Work& work, const SweepSession& session, const std::string& by) {
     if (!session.failures.empty()) return report_failures(work, session);
+    if (!points_to_do(work.sweep, work.shard, work.store).empty()) throw std::logic_error("runs were left out");
     const SweepTable table = sweep_results(work.store);
     write_file(work.files.table, table.csv);
     write_file(work.files.provenance, work.store.identity().provenance);

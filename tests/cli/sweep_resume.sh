@@ -107,6 +107,14 @@ timeout --preserve-status --signal=INT 1 "$program" "$work/sweep.yaml" --output 
 grep -q "of 40 runs are stored; the same command continues" "$work/stderr" || fail "Ctrl-C: $(cat "$work/stderr")"
 [ -e "$work/ctrl_c/sweep.csv" ] && fail "Ctrl-C: a table of runs that are missing"
 
+# A bar with the time left, where there is a terminal: script runs the program on one of its own.
+if command -v script >/dev/null; then
+    printf -v command '%q ' timeout --signal=INT 4 "$program" "$work/sweep.yaml" --output "$work/bar" --threads 2 \
+        --set "duration=6000 s"
+    script --quiet --command "$command" "$work/typescript" </dev/null >/dev/null
+    grep -qE '40 runs \[[#.]{30}\] +[0-9]+ %, .* left' "$work/typescript" || fail "no bar on a terminal"
+fi
+
 # refused WHAT PART COMMAND...: exit code 2, PART in the message
 refused() {
     local what=$1 part=$2
