@@ -94,6 +94,13 @@ void measure_zones(const Scenario& scenario, const Model& model, const State& st
     }
 }
 
+// Length of all lanes, those through the intersection counted once, straight.
+double road_m(const Scenario& scenario, const Model& model) {
+    const IntersectionSettings& layout = scenario.network.intersection;
+    const double lane_m = layout.approach_length_m + 2.0 * layout.radius_m + layout.exit_length_m;
+    return static_cast<double>(model.graph.entries.size()) * lane_m;
+}
+
 }  // namespace
 
 TimeWindow measured_window(const Scenario& scenario) {
@@ -124,6 +131,7 @@ IntersectionFigures run_intersection(const Scenario& scenario, std::size_t popul
     }
     const State& state = simulation.state();
     sampler.finish(figures);
+    figures.occupied = figures.vehicles_present * scenario.vehicle.length_m / road_m(scenario, model);
     count_turns(model, state, figures);
     measure_zones(scenario, model, state, figures);
     figures.discharge = discharge(model, state.crossings, figures.window);

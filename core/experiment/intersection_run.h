@@ -21,6 +21,7 @@ struct IntersectionFigures {
     std::vector<double> delay_s;     // [zone] beyond the time at the limit
     Discharge discharge;
     double vehicles_present = 0.0;  // mean over the window
+    double occupied = 0.0;          // share of all road metres that they occupy
     double queue_veh = 0.0;         // mean over lanes and greens: vehicles that stand when their green begins
     double longest_queue_m = 0.0;
     double straight = 0.0, right = 0.0, left = 0.0;  // shares of those that left the intersection within the window

@@ -62,6 +62,7 @@ std::vector<RunMetric> intersection_metrics(const Scenario& scenario, std::size_
         metrics.push_back(number_metric("delay" + zone, "s", f.delay_s[k], 6));
         metrics.push_back(number_metric("density" + zone, "percent", 100.0 * f.zones[k].occupied, 6));
     }
+    metrics.push_back(number_metric("density_network", "percent", 100.0 * f.occupied, 6));
     metrics.push_back(number_metric("vehicles_present", "veh", f.vehicles_present, 6));
     metrics.push_back(number_metric("vehicles_per_green", "veh", f.discharge.vehicles_per_green, 6));
     metrics.push_back(number_metric("saturation_headway", "s", f.discharge.saturation_headway_s, 6));

@@ -17,6 +17,13 @@ namespace stopline {
 
 namespace {
 
+template <class T>
+std::vector<T> joined(std::span<const T> first, std::span<const T> second) {
+    std::vector<T> all(first.begin(), first.end());
+    all.insert(all.end(), second.begin(), second.end());
+    return all;
+}
+
 const RowJudge* judge_of(const std::string& id) {
     const std::span<const RowJudge> all = row_judges();
     const auto found = std::find_if(all.begin(), all.end(), [&](const RowJudge& row) { return id == row.id; });
@@ -84,8 +91,14 @@ std::map<std::string, Measurements> measure_for(const std::vector<Target>& targe
 }  // namespace
 
 // One line a section.
-std::span<const Experiment> experiments() { return section3_experiments(); }
-std::span<const RowJudge> row_judges() { return section3_rows(); }
+std::span<const Experiment> experiments() {
+    static const std::vector<Experiment> kAll = joined(section3_experiments(), section4_experiments());
+    return kAll;
+}
+std::span<const RowJudge> row_judges() {
+    static const std::vector<RowJudge> kAll = joined(section3_rows(), section4_rows());
+    return kAll;
+}
 
 int Scorecard::count(Verdict verdict) const {
     return static_cast<int>(

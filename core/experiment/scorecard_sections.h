@@ -10,4 +10,7 @@ namespace stopline {
 std::span<const Experiment> section3_experiments();
 std::span<const RowJudge> section3_rows();
 
+std::span<const Experiment> section4_experiments();
+std::span<const RowJudge> section4_rows();
+
 }  // namespace stopline

@@ -1,0 +1,166 @@
+// Giving way at the reference intersection: gaps, waiting, turning speed, the same from every side, nobody in another's way.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "experiment/build_model.h"
+#include "experiment/intersection_run.h"
+#include "scenario/load_scenario.h"
+
+namespace stopline {
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+Scenario reference(std::vector<std::string> overrides = {}) {
+    return load_scenario(STOPLINE_SOURCE_DIR "/scenarios/intersection.yaml", overrides);
+}
+
+std::vector<std::string> turning(int left, int right) {
+    return {"demand.left=" + std::to_string(left) + " %", "demand.right=" + std::to_string(right) + " %"};
+}
+
+// Only the west arm has traffic, all of it turning left.
+Model left_turners_alone() {
+    Scenario scenario = reference({"demand.left=100 %"});
+    Model model = build_model(scenario, 0);
+    std::erase_if(model.demand.inlets, [&](const DemandPlan::Inlet& inlet) {
+        return model.graph.lanes[at(inlet.lane)].name != "west_in_0";
+    });
+    return model;
+}
+
+TEST(RightOfWay, LeftTurnersDoNotWaitWithoutOncomingTraffic) {
+    const Model model = left_turners_alone();
+    Simulation simulation(model);
+    double slowest_mps = 1e9;
+    while (simulation.time_s() < 150.0) {
+        simulation.step();
+        const State& state = simulation.state();
+        for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {
+            if (model.graph.lanes[at(lane)].origin < 0) continue;
+            ASSERT_EQ(state.hold_slot[at(lane)], -1);
+            const LaneBlock& block = state.blocks[at(lane)];
+            for (int slot = block.first; slot < block.stop(); ++slot) {
+                slowest_mps = std::min(slowest_mps, state.vehicles.speed_mps[at(slot)]);
+            }
+        }
+    }
+    EXPECT_GT(slowest_mps, 3.0);
+    EXPECT_GT(simulation.state().gaps_accepted.size(), 8u);
+}
+
+TEST(RightOfWay, TurnsAreDrivenAtTheirSpeed) {
+    const Model model = left_turners_alone();
+    Simulation simulation(model);
+    double fastest_mps = 0.0;
+    while (simulation.time_s() < 150.0) {
+        simulation.step();
+        const State& state = simulation.state();
+        for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {
+            if (model.graph.lanes[at(lane)].turn != Turn::left) continue;
+            const LaneBlock& block = state.blocks[at(lane)];
+            for (int slot = block.first; slot < block.stop(); ++slot) {
+                fastest_mps = std::max(fastest_mps, state.vehicles.speed_mps[at(slot)]);
+            }
+        }
+    }
+    EXPECT_GT(fastest_mps, 6.0);
+    EXPECT_LT(fastest_mps, 7.0 * 1.1) << "a follower may exceed a limit by 5 %";
+}
+
+// The next vehicle with priority reaches the conflict area no sooner than was expected when the gap was taken.
+TEST(RightOfWay, LeftTurnsGoIntoGapsLongerThanTheCriticalOne) {
+    Scenario scenario = reference(turning(15, 10));
+    scenario.measure.cycles = 8;
+    const Model model = build_model(scenario, 0);
+    Simulation simulation(model);
+    std::map<int, std::vector<double>> in_area;  // straight lane inside: times at which fronts reach its first 12 m
+    std::map<int, double> front_before;          // by vehicle
+    while (simulation.time_s() < measured_window(scenario).to_s) {
+        simulation.step();
+        const State& state = simulation.state();
+        for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {
+            if (model.graph.lanes[at(lane)].turn != Turn::straight) continue;
+            const LaneBlock& block = state.blocks[at(lane)];
+            for (int slot = block.first; slot < block.stop(); ++slot) {
+                const int id = state.vehicles.id[at(slot)];
+                const double front_m = state.vehicles.position_m[at(slot)];
+                for (const Conflict& c : model.graph.conflicts_of(lane)) {
+                    if (c.other_yields && front_before[id] < c.from_m && front_m >= c.from_m) {
+                        in_area[lane * 1000 + c.other].push_back(simulation.time_s());
+                    }
+                }
+                front_before[id] = front_m;
+            }
+        }
+    }
+    const std::vector<GapAccepted>& gaps = simulation.state().gaps_accepted;
+    ASSERT_GT(gaps.size(), 40u);
+    int checked = 0;
+    for (const GapAccepted& gap : gaps) {
+        EXPECT_GE(gap.gap_s, gap.needed_s);
+        EXPECT_GE(gap.needed_s, model.give_way.critical_gap_s - 1e-4);
+        for (const Conflict& c : model.graph.conflicts_of(gap.lane)) {
+            if (!c.yields) continue;
+            const std::vector<double>& times = in_area[c.other * 1000 + gap.lane];
+            const auto next = std::upper_bound(times.begin(), times.end(), gap.time_s);
+            if (next == times.end()) continue;
+            ++checked;
+            EXPECT_GT(*next - gap.time_s, model.give_way.critical_gap_s - 0.3) << "at " << gap.time_s << " s";
+        }
+    }
+    EXPECT_GT(checked, 40);
+}
+
+struct Setting {
+    const char* population;
+    double green_s;
+    int left;
+    int right;
+};
+
+class SlowIntersection : public testing::TestWithParam<Setting> {};
+INSTANTIATE_TEST_SUITE_P(Some, SlowIntersection,
+                         testing::Values(Setting{"CDG", 5, 30, 30}, Setting{"CTG-Ref", 10, 30, 0},
+                                         Setting{"P50", 15, 15, 30}, Setting{"CDG", 15, 0, 0},
+                                         Setting{"P25", 20, 5, 10}, Setting{"P75", 30, 30, 30}));
+
+TEST_P(SlowIntersection, NobodyIsInAnothersWayAndNobodyIsStuck) {
+    Scenario scenario = reference(turning(GetParam().left, GetParam().right));
+    scenario.signal.green_s = GetParam().green_s;
+    const auto named = [&](const PopulationSettings& p) { return p.name == GetParam().population; };
+    const auto population = std::find_if(scenario.populations.begin(), scenario.populations.end(), named);
+    const IntersectionFigures figures =
+        run_intersection(scenario, static_cast<std::size_t>(population - scenario.populations.begin()));
+    EXPECT_TRUE(figures.violations.none());
+    EXPECT_EQ(figures.violations.conflicts, 0);
+    // A lane passes at least one vehicle in each green.
+    EXPECT_GE(figures.discharge.vehicles_per_green, 1.0);
+    // No vehicle needs more than three cycles beyond a queue of 25 at two a green.
+    EXPECT_LT(figures.zones[0].travel_time_s, 12.0 * 2.0 * (GetParam().green_s + 8.0));
+}
+
+TEST(RightOfWay, EveryArmPassesTheSameWithoutTurns) {
+    const Scenario scenario = reference();
+    const Model model = build_model(scenario, 6);
+    Simulation simulation(model);
+    // Three whole cycles.
+    while (simulation.time_s() < 60.0 + 3.0 * 46.0) simulation.step();
+    std::map<int, int> passed;  // by entry lane
+    for (const Crossing& crossing : simulation.state().crossings) {
+        const Detector& detector = model.detectors[at(crossing.detector)];
+        if (detector.zone < 0) ++passed[detector.lane];
+    }
+    ASSERT_EQ(passed.size(), 8u);
+    for (const auto& [lane, vehicles] : passed) {
+        EXPECT_EQ(vehicles, passed.begin()->second) << model.graph.lanes[at(lane)].name;
+    }
+}
+
+}  // namespace
+}  // namespace stopline
