@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "measure/zones.h"
-#include "signals/programme.h"
 
 namespace stopline {
 

@@ -40,8 +40,9 @@ code=0
 [ "$(grep -c '^[A-Z][0-9][0-9]  misses: ' "$work/table")" -eq "$misses" ] || fail "a miss without a word"
 grep -q 'not explained yet' "$work/table" && fail "a miss is not explained: $(grep 'not explained' "$work/table")"
 
-"$scorecard" --section "IV Table 1" --csv --output "$work/out" >"$work/table1.csv" 2>/dev/null || fail "exit code $?"
-[ "$(grep -c '^T[0-9][0-9],' "$work/table1.csv")" -eq 48 ] || fail "not the 48 numbers of Table 1"
-"$scorecard" --section IV --csv --output "$work/out" 2>/dev/null | grep -q '^I01,' || fail "IV lacks I01"
+# A section whose experiments are to come: its rows are there, open.
+"$scorecard" --section VI --csv --output "$work/out" >"$work/later.csv" 2>/dev/null || fail "exit code $?"
+[ "$(grep -c '^[AGS][0-9][0-9],' "$work/later.csv")" -eq "$(grep -c ',VI\.' "$STOPLINE_SOURCE/data/paper/targets.csv")" ] ||
+    fail "not the rows of Section VI"
 
 exit $((failures > 0))

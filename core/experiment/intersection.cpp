@@ -1,0 +1,113 @@
+#include "experiment/intersection.h"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <limits>
+#include <mutex>
+
+#include <fmt/format.h>
+
+#include "experiment/csv.h"
+#include "experiment/interrupted.h"
+
+namespace stopline {
+
+double IntersectionReport::improvement_percent(const IntersectionFigures& figures) const {
+    for (const IntersectionFigures& one : populations) {
+        if (one.population != scenario.measure.baseline) continue;
+        return 100.0 * (figures.throughput_veh_h / one.throughput_veh_h - 1.0);
+    }
+    return std::numeric_limits<double>::quiet_NaN();
+}
+
+bool IntersectionReport::no_violations() const {
+    return std::all_of(populations.begin(), populations.end(),
+                       [](const IntersectionFigures& f) { return f.violations.none(); });
+}
+
+IntersectionReport run_intersections(const Scenario& scenario, int threads,
+                                     const std::function<bool(double)>& on_progress) {
+    constexpr std::int64_t kTell = 1000;  // steps
+    const std::size_t runs = scenario.populations.size();
+    IntersectionReport report{scenario, std::vector<IntersectionFigures>(runs)};
+    std::vector<std::exception_ptr> errors(runs);
+    const double end_s = measured_window(scenario).to_s;
+    std::mutex mutex;
+    std::vector<double> shares(runs, 0.0);
+    std::atomic<bool> stopped = false;
+    const auto tell = [&](std::size_t run, double share) {
+        const std::lock_guard lock(mutex);
+        shares[run] = share;
+        double sum = 0.0;
+        for (const double each : shares) sum += each;
+        if (!stopped && on_progress && !on_progress(sum / static_cast<double>(runs))) stopped = true;
+        return !stopped;
+    };
+#pragma omp parallel for schedule(dynamic) num_threads(std::max(1, threads))
+    for (std::size_t k = 0; k < runs; ++k) {
+        if (stopped) continue;
+        try {
+            report.populations[k] = run_intersection(scenario, k, [&, k](const Simulation& simulation) {
+                return simulation.state().tick % kTell != 0 || tell(k, simulation.time_s() / end_s);
+            });
+            static_cast<void>(tell(k, 1.0));
+        } catch (...) {
+            errors[k] = std::current_exception();
+        }
+    }
+    for (const std::exception_ptr& error : errors) {
+        if (error) std::rethrow_exception(error);
+    }
+    if (stopped) throw Interrupted();
+    return report;
+}
+
+std::string intersection_csv(const IntersectionReport& report) {
+    std::vector<std::string> columns{"population", "throughput_veh_h", "improvement_percent"};
+    for (const double radius_m : report.scenario.measure.zone_radius_m) {
+        for (const char* const what : {"travel_time_{:g}m_s", "delay_{:g}m_s", "density_{:g}m_percent"}) {
+            columns.push_back(fmt::format(fmt::runtime(what), radius_m));
+        }
+    }
+    for (const char* const column :
+         {"density_network_percent", "vehicles_present", "vehicles_per_green", "saturation_flow_veh_h", "lost_time_s",
+          "queue_veh", "longest_queue_m", "turned_right_percent", "turned_left_percent", "overlaps", "conflicts",
+          "red_entries", "forced_red_entries", "lost_vehicles"}) {
+        columns.emplace_back(column);
+    }
+    CsvWriter csv(columns);
+    for (const IntersectionFigures& f : report.populations) {
+        std::vector<std::string> row{f.population, fixed(f.throughput_veh_h, 1),
+                                     fixed(report.improvement_percent(f), 2)};
+        for (std::size_t k = 0; k < f.zones.size(); ++k) {
+            row.push_back(fixed(f.zones[k].travel_time_s, 3));
+            row.push_back(fixed(f.delay_s[k], 3));
+            row.push_back(fixed(100.0 * f.zones[k].occupied, 3));
+        }
+        const Violations& v = f.violations;
+        for (const std::string& cell :
+             {fixed(100.0 * f.occupied, 3), fixed(f.vehicles_present, 2), fixed(f.discharge.vehicles_per_green, 3),
+              fixed(f.discharge.saturation_flow_veh_h, 1), fixed(f.discharge.lost_time_s, 3), fixed(f.queue_veh, 2),
+              fixed(f.longest_queue_m, 2), fixed(100.0 * f.right, 2), fixed(100.0 * f.left, 2),
+              std::to_string(v.overlaps), std::to_string(v.conflicts), std::to_string(v.red_entries),
+              std::to_string(v.forced_red_entries), std::to_string(v.lost_vehicles)}) {
+            row.push_back(cell);
+        }
+        csv.row(row);
+    }
+    return csv.text();
+}
+
+std::string headways_csv(const IntersectionReport& report) {
+    CsvWriter csv({"population", "position", "headway_s", "samples"});
+    for (const IntersectionFigures& f : report.populations) {
+        for (std::size_t k = 0; k < f.discharge.headway_s.size(); ++k) {
+            csv.row({f.population, std::to_string(k + 1), fixed(f.discharge.headway_s[k], 4),
+                     std::to_string(f.discharge.samples[k])});
+        }
+    }
+    return csv.text();
+}
+
+}  // namespace stopline
