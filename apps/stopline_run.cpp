@@ -14,6 +14,7 @@
 #include "common/program.h"
 #include "common/progress_bar.h"
 #include "common/single_light_text.h"
+#include "experiment/intersection_figures.h"
 #include "experiment/output.h"
 #include "experiment/provenance.h"
 #include "experiment/single_light.h"
@@ -94,12 +95,12 @@ void write_results(const RunOptionsOfUser& options, const SingleLight& result, d
     }
 }
 
-void draw_figures(const SingleLight& result, const std::filesystem::path& folder) {
+void draw_all(const std::vector<Figure>& figures, const std::filesystem::path& folder) {
     if (!gnuplot_installed()) {
         fmt::print("  no figures: gnuplot is not installed (Debian package gnuplot-nox)\n");
         return;
     }
-    for (const Figure& figure : single_light_figures(result, load_targets())) {
+    for (const Figure& figure : figures) {
         if (interrupted()) throw Interrupted();
         draw(figure, folder);
         fmt::print("  {0}.svg, {0}.png\n", figure.name);
@@ -114,7 +115,7 @@ void print_report(const SingleLight& result) {
     fmt::print("{}{}\n{}{}", counts_text(result), headways_text(result), queue_text(result), violations_text(result));
 }
 
-// A signalised intersection: one table, two files.
+// A signalised intersection: a table, files, figures.
 ExitCode run_as_intersection(const RunOptionsOfUser& options, const Scenario& scenario,
                              const std::filesystem::path& folder) {
     if (options.trajectories) throw InputError("--trajectories: not there yet for intersections");
@@ -136,6 +137,7 @@ ExitCode run_as_intersection(const RunOptionsOfUser& options, const Scenario& sc
     const std::string beside = scenario.name + ".provenance.json";
     write_file(folder / beside, provenance_json(scenario, provenance));
     fmt::print("\nWritten to {}\n  summary.csv\n  headways.csv\n  {}\n", folder.string(), beside);
+    if (!options.no_figures) draw_all(intersection_figures(report), folder);
     fmt::print(
         "\nNext: other greens and turns with --set 'signal.green=10 s' --set 'demand.left=30 %', all permutations with\n"
         "stopline-sweep scenarios/sweeps/intersection.yaml, the paper's numbers beside ours with stopline-scorecard.\n");
@@ -164,7 +166,7 @@ ExitCode run(const RunOptionsOfUser& options) {
     }();
     print_report(result);
     write_results(options, result, interval_s, folder);
-    if (!options.no_figures) draw_figures(result, folder);
+    if (!options.no_figures) draw_all(single_light_figures(result, load_targets()), folder);
     fmt::print(
         "\nNext: another policy or vehicle with --set (stopline-run --list, --describe), every vehicle's path with\n"
         "--trajectories, the paper's numbers beside ours with stopline-scorecard.\n");

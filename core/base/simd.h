@@ -150,7 +150,7 @@ STOPLINE_INLINE Packed<kWidth> square_root(const Packed<kWidth>& value) {
     if constexpr (kWidth == 1) {
         return packed<1>(std::sqrt(value.v));
     } else {
-        Packed<kWidth> root;
+        Packed<kWidth> root{};
         for (int k = 0; k < kWidth; ++k) root.v[k] = std::sqrt(value.v[k]);
         return root;
     }

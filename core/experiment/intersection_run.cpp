@@ -65,6 +65,36 @@ private:
     double longest_m_ = 0.0;
 };
 
+// Where vehicles are; behind the stop line they are on their own path already.
+std::vector<DrawnVehicle> picture_of(const Model& model, const State& state) {
+    const VehicleArrays& v = state.vehicles;
+    std::vector<DrawnVehicle> vehicles;
+    for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {
+        const LaneBlock& block = state.blocks[at(lane)];
+        for (int slot = block.first; slot < block.stop(); ++slot) {
+            const Lane* road = &model.graph.lanes[at(lane)];
+            double front_m = road->shape_start_m + v.position_m[at(slot)];
+            if (road->signal_group >= 0 && v.position_m[at(slot)] > road->stop_line_m) {
+                front_m = v.position_m[at(slot)] - road->stop_line_m;
+                road = &model.graph.lanes[at(model.graph.routes[at(v.route[at(slot)])].lanes[1])];
+            }
+            const Point front = place_at(road->shape, front_m).point;
+            const Point rear = place_at(road->shape, front_m - v.length_m[at(slot)]).point;
+            vehicles.push_back({rear, front, v.policy[at(slot)]});
+        }
+    }
+    return vehicles;
+}
+
+void take_picture(const Simulation& simulation, IntersectionFigures& figures) {
+    const State& state = simulation.state();
+    figures.picture_s = simulation.time_s();
+    figures.picture = picture_of(simulation.model(), state);
+    for (const GroupProgramme& programme : simulation.model().signals) {
+        figures.picture_lights.push_back(programme.light(state.tick));
+    }
+}
+
 void count_turns(const Model& model, const State& state, IntersectionFigures& figures) {
     int all = 0;
     for (const Passage& passage : state.passages) {
@@ -121,11 +151,16 @@ IntersectionFigures run_intersection(const Scenario& scenario, std::size_t popul
     figures.complete = true;
     Sampler sampler(model, figures.window);
     const std::int64_t last = to_ticks(figures.window.to_s, model.step_s);
+    const double stage_s = scenario.signal.green_s + scenario.signal.yellow_s + scenario.signal.all_red_s;
+    const double green_s = (model.graph.signal_groups - 1) * stage_s;  // of the last group, within a cycle
+    const std::int64_t picture =
+        to_ticks(figures.window.from_s + green_s + 0.5 * scenario.signal.green_s, model.step_s);
     while (simulation.state().tick < last) {
         if (on_step && !on_step(simulation)) {
             figures.complete = false;
             break;
         }
+        if (simulation.state().tick == picture) take_picture(simulation, figures);
         sampler.look(simulation.state());
         simulation.step();
     }

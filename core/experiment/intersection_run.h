@@ -13,6 +13,13 @@
 
 namespace stopline {
 
+// A vehicle in the plane.
+struct DrawnVehicle {
+    Point rear;
+    Point front;
+    int policy = 0;
+};
+
 struct IntersectionFigures {
     std::string population;
     TimeWindow window;               // measured; whole cycles
@@ -26,6 +33,9 @@ struct IntersectionFigures {
     double longest_queue_m = 0.0;
     double straight = 0.0, right = 0.0, left = 0.0;  // shares of those that left the intersection within the window
     std::int64_t gaps_accepted = 0;
+    double picture_s = 0.0;  // in the middle of the first green of the last group within the window
+    std::vector<DrawnVehicle> picture;
+    std::vector<Light> picture_lights;  // [signal group]
     Violations violations;
     std::int64_t entered = 0;
     std::int64_t left_network = 0;

@@ -4,6 +4,7 @@
 // Density is that of the whole network, as 160 vehicles of 5.15 m in 35 % of the road metres demand: 2,354 m of lane.
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -77,7 +78,7 @@ Measurements measure_intersection(const Scenario& scenario, const ScorecardOptio
     const int runs = static_cast<int>(all.size()) * kSeeds;
     std::vector<IntersectionFigures> figures(static_cast<std::size_t>(runs));
     int done = 0;
-    bool go_on = true;
+    std::atomic<bool> go_on = true;
 #pragma omp parallel for schedule(dynamic) num_threads(options.threads)
     for (int run = 0; run < runs; ++run) {
         if (!go_on) continue;

@@ -1,5 +1,6 @@
 #include "measure/discharge.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -24,8 +25,7 @@ void summarise(Discharge& result) {
         sum_s += result.headway_s[k] * result.samples[k];
         samples += result.samples[k];
     }
-    const double kNaN = std::numeric_limits<double>::quiet_NaN();
-    result.saturation_headway_s = samples > 0 ? sum_s / samples : kNaN;
+    result.saturation_headway_s = samples > 0 ? sum_s / samples : std::numeric_limits<double>::quiet_NaN();
     result.saturation_flow_veh_h = 3600.0 / result.saturation_headway_s;
     for (std::size_t k = 0; k < std::min(kLostPositions, result.headway_s.size()); ++k) {
         result.lost_time_s += result.headway_s[k] - result.saturation_headway_s;

@@ -1,6 +1,7 @@
 #include "network/conflicts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 
@@ -21,10 +22,12 @@ struct Stretch {
 std::optional<Stretch> near_part(const Polyline& a, const Polyline& b, double clearance_m) {
     std::optional<Stretch> part;
     const double end_m = length_m(a);
-    for (double s = 0.0; s <= end_m + 0.5 * kSample_m; s += kSample_m) {
-        if (distance_m(b, place_at(a, std::min(s, end_m)).point) >= clearance_m) continue;
+    const int samples = static_cast<int>(std::ceil(end_m / kSample_m));
+    for (int k = 0; k <= samples; ++k) {
+        const double s = std::min(k * kSample_m, end_m);
+        if (distance_m(b, place_at(a, s).point) >= clearance_m) continue;
         if (!part) part = Stretch{s, s};
-        part->to_m = std::min(s, end_m);
+        part->to_m = s;
     }
     return part;
 }
