@@ -65,7 +65,7 @@ Figure intersection_picture(const IntersectionReport& report, std::size_t popula
     const double shown_m = layout.radius_m + std::min({layout.approach_length_m, layout.exit_length_m, 80.0});
     figure.body = fmt::format(
         "set title {0}\nset size ratio -1\nunset grid\nset xlabel 'metres east of the centre'\nset ylabel 'metres north of the "
-        "centre'\nset xrange [-{1:.6g}:{1:.6g}]\nset yrange [-{1:.6g}:{1:.6g}]\nset key outside below center horizontal "
+        "centre'\nset xrange [-{1:.6g}:{1:.6g}]\nset yrange [-{1:.6g}:{1:.6g}]\nset key outside above center horizontal "
         "maxcols 4\n",
         gnuplot_text(fmt::format("{}, {:.0f} s into the run", figures.population, figures.picture_s)), shown_m);
     for (std::size_t k = 0; k < scenario.measure.zone_radius_m.size(); ++k) {
@@ -84,7 +84,7 @@ Figure intersection_picture(const IntersectionReport& report, std::size_t popula
     for (std::size_t k = 0; k < components.size(); ++k) {
         figure.body += fmt::format(
             ", 'intersection_vehicles_{}.dat' with vectors head filled size 1.2,18 lw 5 lc rgb '{}' title {}", k,
-            line_style(k).colour, gnuplot_text(components[k].policy));
+            line_style(2 * k).colour, gnuplot_text(components[k].policy));
     }
     figure.body += "\n";
     return figure;
