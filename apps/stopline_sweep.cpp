@@ -22,6 +22,7 @@
 #include "experiment/sweep_merge.h"
 #include "experiment/sweep_results.h"
 #include "experiment/sweep_run.h"
+#include "experiment/turn_figures.h"
 #include "scenario/load_sweep.h"
 #include "scenario/quantity.h"
 #include "sweep/ranks.h"
@@ -202,6 +203,22 @@ ExitCode report_failures(const Work& work, const SweepSession& session) {
     return ExitCode::check_failed;
 }
 
+// Figures and the paper's Table 1, where the sweep went over an intersection's greens and turns.
+void draw_turns(const std::string& csv, const std::filesystem::path& file) {
+    const CsvTable results = parse_csv(csv, file.string());
+    if (!has_turns(results)) return;
+    write_file(file.parent_path() / "table1.csv", table1_csv(results, load_targets()));
+    fmt::print("  table1.csv\n");
+    if (!gnuplot_installed()) {
+        fmt::print("  no figures: gnuplot is not installed (Debian package gnuplot-nox)\n");
+        return;
+    }
+    for (const Figure& figure : turn_figures(results)) {
+        draw(figure, file.parent_path());
+        fmt::print("  {0}.svg, {0}.png\n", figure.name);
+    }
+}
+
 ExitCode finish(Work& work, const SweepSession& session, const std::string& by) {
     if (!session.failures.empty()) return report_failures(work, session);
     if (!points_to_do(work.sweep, work.shard, work.store).empty()) throw std::logic_error("runs were left out");
@@ -214,6 +231,7 @@ ExitCode finish(Work& work, const SweepSession& session, const std::string& by) 
     for (const auto& file : {work.files.table, work.files.provenance, work.files.store}) {
         fmt::print("  {}\n", file.filename().string());
     }
+    draw_turns(table.csv, work.files.table);
     if (work.shard.count > 1) {
         fmt::print("\nNext: when all {} shards are done, stopline-sweep merge --output DIR {}/*.sqlite\n",
                    work.shard.count, work.files.table.parent_path().string());

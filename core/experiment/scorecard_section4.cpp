@@ -6,7 +6,6 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <string>
 #include <vector>
@@ -116,17 +115,11 @@ Measurements measure_intersection(const Scenario& scenario, const ScorecardOptio
     return measured;
 }
 
-// "CDG green=15 left=0 right=30"; MIX is P50.
 std::optional<Point> point_of(const std::string& condition) {
-    Point point;
-    std::array<char, 32> population{};
-    if (std::sscanf(condition.c_str(), "%31s green=%d left=%d right=%d", population.data(), &point.green_s, &point.left,
-                    &point.right) != 4) {
-        return std::nullopt;
-    }
-    point.population = population.data();
-    if (point.population == "MIX") point.population = "P50";
-    return point;
+    const std::optional<TurnCondition> found = parse_turn_condition(condition);
+    if (!found) return std::nullopt;
+    return Point{found->population, static_cast<int>(found->green_s), static_cast<int>(found->left_percent),
+                 static_cast<int>(found->right_percent)};
 }
 
 std::optional<Answer> of_point(const char* quantity, const Target& target, const Measurements& measured) {

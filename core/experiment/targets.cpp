@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <set>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -51,6 +52,26 @@ std::optional<GreenCondition> parse_green_condition(const std::string& condition
     const std::optional<double> seconds = parse_number(rest.substr(and_above ? 2 : 1));
     if (!seconds || population.find(' ') != std::string::npos) return std::nullopt;
     return GreenCondition{population, *seconds, and_above};
+}
+
+std::optional<TurnCondition> parse_turn_condition(const std::string& condition) {
+    std::istringstream words(condition);
+    TurnCondition found;
+    if (!(words >> found.population)) return std::nullopt;
+    if (found.population == "MIX") found.population = "P50";
+    const auto number = [&](const std::string& name) {
+        std::string word;
+        if (!(words >> word) || !word.starts_with(name + "=")) return std::optional<double>();
+        return parse_number(word.substr(name.size() + 1));
+    };
+    const std::optional<double> green_s = number("green");
+    const std::optional<double> left = number("left");
+    const std::optional<double> right = number("right");
+    if (!green_s || !left || !right) return std::nullopt;
+    found.green_s = *green_s;
+    found.left_percent = *left;
+    found.right_percent = *right;
+    return found;
 }
 
 std::optional<double> parse_number(const std::string& text) {

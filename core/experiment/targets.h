@@ -38,6 +38,15 @@ struct GreenCondition {
 };
 std::optional<GreenCondition> parse_green_condition(const std::string& condition);
 
+// "CDG green=15 left=0 right=30", in percent; MIX is the population P50.
+struct TurnCondition {
+    std::string population;
+    double green_s = 0.0;
+    double left_percent = 0.0;
+    double right_percent = 0.0;
+};
+std::optional<TurnCondition> parse_turn_condition(const std::string& condition);
+
 // A number, or nothing where the whole text is not one.
 std::optional<double> parse_number(const std::string& text);
 

@@ -1,0 +1,162 @@
+#include "experiment/turn_figures.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <map>
+#include <optional>
+#include <tuple>
+
+#include <fmt/format.h>
+
+namespace stopline {
+
+namespace {
+
+struct Metric {
+    const char* column;  // its beginning
+    const char* label;
+};
+constexpr std::array<Metric, 3> kMetrics{Metric{"throughput", "throughput [veh/h]"},
+                                         Metric{"travel_time", "travel time [s]"},
+                                         Metric{"density_network", "density [%]"}};
+
+constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+// The first column whose name begins so.
+std::size_t column_named(const CsvTable& results, const std::string& begin) {
+    for (std::size_t k = 0; k < results.columns.size(); ++k) {
+        if (results.columns[k].starts_with(begin)) return k;
+    }
+    return kNone;
+}
+
+struct Turns {
+    double left;
+    double right;
+    auto operator<=>(const Turns&) const = default;
+};
+
+// Means over the rows that differ in nothing but their seed.
+class Means {
+public:
+    explicit Means(const CsvTable& results) {
+        const std::size_t green = column_named(results, "green");
+        const std::size_t left = column_named(results, "left");
+        const std::size_t right = column_named(results, "right");
+        const std::size_t population = column_named(results, "population");
+        for (const std::vector<std::string>& row : results.rows) {
+            const Turns turns{parse_number(row[left]).value_or(0.0), parse_number(row[right]).value_or(0.0)};
+            const double green_s = parse_number(row[green]).value_or(0.0);
+            if (std::find(populations.begin(), populations.end(), row[population]) == populations.end()) {
+                populations.push_back(row[population]);
+            }
+            if (std::find(greens_s.begin(), greens_s.end(), green_s) == greens_s.end()) greens_s.push_back(green_s);
+            if (std::find(turns_.begin(), turns_.end(), turns) == turns_.end()) turns_.push_back(turns);
+            for (const Metric& metric : kMetrics) {
+                const std::optional<double> value = parse_number(row[column_named(results, metric.column)]);
+                if (!value) continue;
+                auto& [sum, count] = sums_[{metric.column, green_s, turns, row[population]}];
+                sum += *value;
+                ++count;
+            }
+        }
+        std::sort(turns_.begin(), turns_.end());
+    }
+
+    std::optional<double> find(const char* metric, double green_s, const Turns& turns,
+                               const std::string& population) const {
+        const auto found = sums_.find({metric, green_s, turns, population});
+        if (found == sums_.end()) return std::nullopt;
+        return found->second.first / found->second.second;
+    }
+
+    const std::vector<Turns>& turns() const { return turns_; }
+    std::vector<std::string> populations;
+    std::vector<double> greens_s;
+
+private:
+    std::vector<Turns> turns_;
+    std::map<std::tuple<std::string, double, Turns, std::string>, std::pair<double, int>> sums_;
+};
+
+// A row a pair of turn ratios, a column a population.
+std::string data_of(const Means& means, const char* metric, double green_s) {
+    std::string text = "# left/right in percent, then one column a population\n";
+    for (const Turns& turns : means.turns()) {
+        text += fmt::format("{:g}/{:g}", turns.left, turns.right);
+        for (const std::string& population : means.populations) {
+            const std::optional<double> value = means.find(metric, green_s, turns, population);
+            text += value ? fmt::format(" {:.6g}", *value) : " NaN";
+        }
+        text += "\n";
+    }
+    return text;
+}
+
+Figure figure_of(const Means& means, double green_s) {
+    Figure figure;
+    figure.name = fmt::format("turns_green_{:g}", green_s);
+    figure.width_px = 1000;
+    figure.height_px = 1100;
+    figure.body = fmt::format(
+        "set multiplot layout 3,1 title 'Intersection over turn ratios, {:g} s green (Fig. 9)'\nset xtics rotate by -35\nset yrange "
+        "[0:*]\nset key outside right\nset lmargin 10\n",
+        green_s);
+    for (const Metric& metric : kMetrics) {
+        const std::string file = fmt::format("{}_{}.dat", figure.name, metric.column);
+        figure.data.emplace_back(file, data_of(means, metric.column, green_s));
+        figure.body += fmt::format(
+            "set ylabel {}\nset xlabel {}\nplot ", gnuplot_text(metric.label),
+            metric.column == kMetrics.back().column ? "'turning left / right [% of the vehicles of a lane]'" : "''");
+        for (std::size_t k = 0; k < means.populations.size(); ++k) {
+            figure.body +=
+                fmt::format("{}'{}' using {}:xtic(1) with linespoints lc rgb '{}' lw 2 pt {} ps 0.8 title {}",
+                            k == 0 ? "" : ", ", file, k + 2, ordered_colour(k, means.populations.size()),
+                            line_style(k).hollow_point, gnuplot_text(means.populations[k]));
+        }
+        figure.body += "\n";
+    }
+    figure.body += "unset multiplot\n";
+    return figure;
+}
+
+}  // namespace
+
+bool has_turns(const CsvTable& results) {
+    for (const char* const column :
+         {"green", "left", "right", "population", "throughput", "travel_time", "density_network"}) {
+        if (column_named(results, column) == kNone) return false;
+    }
+    return !results.rows.empty();
+}
+
+std::vector<Figure> turn_figures(const CsvTable& results) {
+    const Means means(results);
+    std::vector<Figure> figures;
+    figures.reserve(means.greens_s.size());
+    for (const double green_s : means.greens_s) figures.push_back(figure_of(means, green_s));
+    return figures;
+}
+
+std::string table1_csv(const CsvTable& results, const std::vector<Target>& targets) {
+    const Means means(results);
+    CsvWriter csv({"id", "population", "green_s", "left_percent", "right_percent", "paper_percent", "ours_percent",
+                   "difference_percent"});
+    for (const Target& target : targets) {
+        if (target.section != "IV Table 1") continue;
+        const std::optional<TurnCondition> condition = parse_turn_condition(target.condition);
+        if (!condition) continue;
+        const Turns turns{condition->left_percent, condition->right_percent};
+        const std::optional<double> ours = means.find("throughput", condition->green_s, turns, condition->population);
+        const std::optional<double> baseline = means.find("throughput", condition->green_s, turns, "CTG-Ref");
+        const bool known = ours && baseline;
+        const double gain = known ? 100.0 * (*ours / *baseline - 1.0) : std::numeric_limits<double>::quiet_NaN();
+        csv.row({target.id, condition->population, fixed(condition->green_s, 0), fixed(turns.left, 0),
+                 fixed(turns.right, 0), target.value, fixed(gain, 1),
+                 fixed(gain - parse_number(target.value).value_or(0.0), 1)});
+    }
+    return csv.text();
+}
+
+}  // namespace stopline
