@@ -11,7 +11,7 @@ std::size_t at(int index) { return static_cast<std::size_t>(index); }
 void pass_stop_line(const Model& model, State& state, int lane, int slot) {
     state.vehicles.inside_since[at(slot)] = static_cast<int>(state.tick);
     const Lane& road = model.graph.lanes[at(lane)];
-    if (model.signals[at(road.signal_group)].light(state.tick) != Light::red) return;
+    if (state.lights[at(road.signal_group)] != Light::red) return;
     // Whoever was told to stop was told so because it could.
     if (state.stop_lines[at(lane)].stopper == state.vehicles.id[at(slot)]) {
         ++state.violations.red_entries;

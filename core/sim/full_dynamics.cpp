@@ -1,7 +1,8 @@
 #include "sim/full_dynamics.h"
 
+#include <algorithm>
+
 #include "base/narrowed.h"
-#include "base/units.h"
 #include "sim/full_kernels.h"
 
 namespace stopline {
@@ -44,22 +45,34 @@ PlanStreams plan_streams(State& state) {
     return s;
 }
 
-// Desired gaps of a lane's slots, from the first on: each law runs over the whole span, its vehicles take its answer.
+DriveStreams drive_streams(State& state) {
+    VehicleArrays& v = state.vehicles;
+    return {v.speed_mps.data(), v.acceleration_mps2.data(), v.torque_Nm.data(),
+            v.brake_N.data(),   v.gear_time_s.data(),       v.lag_s.data(),
+            v.gear.data(),      v.request_mps2.data(),      v.v2v_request_mps2.data() + state.v2v.before,
+            v.type.data()};
+}
+
+// Desired gaps of a lane's vehicles: each law runs over the whole lane, its vehicles take its answer.
 void evaluate_gap_laws(const Model& model, const LaneStep& lane, State& state) {
-    const std::size_t n = at(lane.end - lane.begin);
-    const auto first_n = [n](std::vector<double>& array) { return std::span<double>(array.data(), n); };
+    const std::size_t n = at(lane.stop - lane.begin);
+    const std::size_t from = at(lane.begin + lane.to_gap);
     const std::span<const double> speed(state.vehicles.speed_mps.data() + lane.begin, n);
-    const auto evaluate = [&](const CompiledPolicy& policy, std::vector<double>& gap, std::vector<double>& slope) {
-        policy.law->evaluate(policy.settings, speed, first_n(gap), first_n(slope));
+    double* const gap_m = state.desired_gap_m.data() + from;
+    double* const slope_s = state.gap_slope_s.data() + from;
+    const int* const policy_of = state.vehicles.policy.data() + lane.begin;
+    const int first = policy_of[0];
+    const auto evaluate = [&](int policy, double* gap, double* slope) {
+        const CompiledPolicy& p = model.policies[at(policy)];
+        p.law->evaluate(p.settings, speed, {gap, n}, {slope, n});
     };
-    evaluate(model.policies[0], state.desired_gap_m, state.gap_slope_s);
-    const int* policy_of = state.vehicles.policy.data() + lane.begin;
-    for (std::size_t k = 1; k < model.policies.size(); ++k) {
-        evaluate(model.policies[k], state.law_gap_m, state.law_slope_s);
+    evaluate(first, gap_m, slope_s);
+    for (int k = 0; k < static_cast<int>(model.policies.size()); ++k) {
+        if (k == first || std::find(policy_of, policy_of + n, k) == policy_of + n) continue;
+        evaluate(k, state.law_gap_m.data(), state.law_slope_s.data());
         for (std::size_t i = 0; i < n; ++i) {
-            const bool mine = policy_of[i] == static_cast<int>(k);
-            state.desired_gap_m[i] = mine ? state.law_gap_m[i] : state.desired_gap_m[i];
-            state.gap_slope_s[i] = mine ? state.law_slope_s[i] : state.gap_slope_s[i];
+            gap_m[i] = policy_of[i] == k ? state.law_gap_m[i] : gap_m[i];
+            slope_s[i] = policy_of[i] == k ? state.law_slope_s[i] : slope_s[i];
         }
     }
 }
@@ -72,28 +85,19 @@ FullTables full_tables(const Model& model) {
     return tables;
 }
 
-void plan_full(const Model& model, const FullTables& tables, const LaneStep& lane, State& state) {
-    evaluate_gap_laws(model, lane, state);
-    full_kernels(model.scalar_kernels)
-        .plan(plan_streams(state), tables.driver, state.radar, state.v2v, lane, model.step_s);
-}
-
-void drive_full(const Model& model, const FullTables& tables, const LaneStep& lane, State& state) {
-    VehicleArrays& v = state.vehicles;
-    const DriveStreams streams{
-        v.speed_mps.data(), v.acceleration_mps2.data(), v.torque_Nm.data(),
-        v.brake_N.data(),   v.gear_time_s.data(),       v.lag_s.data(),
-        v.gear.data(),      v.request_mps2.data(),      v.v2v_request_mps2.data() + state.v2v.before,
-        v.type.data()};
+void step_full(const Model& model, const FullTables& tables, std::span<const LaneStep> lanes, State& state) {
     const FullKernels& kernels = full_kernels(model.scalar_kernels);
-    for (std::size_t k = 0; k < model.vehicles.size(); ++k) {
-        const double weight_N = model.vehicles[k].mass_kg * kGravity_mps2;
-        const int only = model.vehicles.size() == 1 ? -1 : static_cast<int>(k);
-        kernels.drive(streams, tables.vehicles[k], weight_N * lane.sine, lane, model.step_s, only);
+    VehicleArrays& v = state.vehicles;
+    for (const LaneStep& lane : lanes) evaluate_gap_laws(model, lane, state);
+    kernels.plan(plan_streams(state), tables.driver, state.radar, state.v2v, lanes, model.step_s);
+    const DriveStreams streams = drive_streams(state);
+    for (std::size_t k = 0; k < tables.vehicles.size(); ++k) {
+        const int only = tables.vehicles.size() == 1 ? -1 : static_cast<int>(k);
+        kernels.drive(streams, tables.vehicles[k], lanes, model.step_s, only);
     }
-    kernels.integrate(v.position_m.data(), v.speed_mps.data(), v.acceleration_mps2.data(), lane, model.step_s);
-    // Here, while the lane is in the cache; what is beyond its end is checked in verify.cpp.
-    state.violations.overlaps += kernels.overlaps(v.position_m.data(), v.length_m.data(), lane.first, lane.stop);
+    kernels.integrate(v.position_m.data(), v.speed_mps.data(), v.acceleration_mps2.data(), lanes, model.step_s);
+    // Here, while the lanes are in the cache; what is beyond a lane's end is checked in lane_heads.cpp.
+    state.violations.overlaps += kernels.overlaps(v.position_m.data(), v.length_m.data(), lanes);
 }
 
 }  // namespace stopline

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "driver/acceleration_laws.h"
-#include "sim/full_dynamics.h"
+#include "sim/lane_step.h"
+#include "sim/state.h"
 #include "vehicle/powertrain_tables.h"
 
 namespace stopline {
@@ -27,17 +29,18 @@ struct DriveStreams {
     const int* type;
 };
 
+// All kernels treat several lanes in one call: most lanes hold few vehicles.
 struct FullKernels {
+    using Lanes = std::span<const LaneStep>;
     const char* name;
-    void (*plan)(const PlanStreams&, const DriverTablesOf<float>&, const Rows& radar, const Rows& v2v, const LaneStep&,
+    void (*plan)(const PlanStreams&, const DriverTablesOf<float>&, const Rows& radar, const Rows& v2v, Lanes,
                  double dt);
     // `only`: treats vehicles of this type; < 0: all are of the type given.
-    void (*drive)(const DriveStreams&, const PowertrainTablesOf<float>&, double grade_N, const LaneStep&, double dt,
-                  int only);
+    void (*drive)(const DriveStreams&, const PowertrainTablesOf<float>&, Lanes, double dt, int only);
     // Speed and position from the acceleration realised in the step.
-    void (*integrate)(double* position, double* speed, const float* acceleration, const LaneStep&, double dt);
-    // Fronts in slots [first + 1, stop) that are beyond the rear of their predecessor.
-    std::int64_t (*overlaps)(const double* position, const float* length, int first, int stop);
+    void (*integrate)(double* position, double* speed, const float* acceleration, Lanes, double dt);
+    // Fronts that are beyond the rear of their predecessor on the same lane.
+    std::int64_t (*overlaps)(const double* position, const float* length, Lanes);
 };
 
 // The widest build that this machine runs, or the scalar one: one vehicle at a time, the oracle of the others.

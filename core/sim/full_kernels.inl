@@ -4,6 +4,7 @@
 #include <initializer_list>
 
 #include "base/simd_memory.h"
+#include "base/units.h"
 #include "sim/full_kernels.h"
 #include "vehicle/powertrain_step.h"
 
@@ -59,8 +60,8 @@ STOPLINE_INLINE void plan_at(const PlanStreams& s, const DriverTablesOf<float>& 
     const R slow_down =
         lane.leads_to_lower_limit ? slow_down_acceleration(d, speed, load<R>(s.end_speed + i), to_end_m) : nothing;
     // Follow.
-    const R follow = follow_acceleration(c, acceleration, lag, rate, before, load<R>(s.desired_gap + (i - lane.begin)),
-                                         load<R>(s.slope + (i - lane.begin)), p, dt);
+    const R follow = follow_acceleration(c, acceleration, lag, rate, before, load<R>(s.desired_gap + (i + lane.to_gap)),
+                                         load<R>(s.slope + (i + lane.to_gap)), p, dt);
     const R emergency = emergency_acceleration(c, speed, p);
     // Stop: at the line, before a conflict area, behind a standing predecessor.
     const R from_stopper = counting_from<R>(i - lane.stop_slot);
@@ -140,41 +141,61 @@ STOPLINE_INLINE void prefetch(const DriveStreams& s, int i) {
     for (const float* stream : {s.torque, s.brake, s.gear_time, s.gear}) __builtin_prefetch(stream + i);
 }
 
-template <class R>
-void plan(const PlanStreams& s, const DriverTablesOf<float>& d, const Rows& radar, const Rows& v2v,
-          const LaneStep& lane, double dt) {
-    for (int i = lane.begin; i < lane.end; i += kWidthOf<R>) {
-        if (lane.to_next_lane != 0) prefetch(s, i + lane.to_next_lane);
-        plan_at<R>(s, d, radar, v2v, lane, dt, i);
+// Calls treat(number type, i) for a lane's vehicles: whole batches, and half a batch where no more are left.
+template <class R, class Treat>
+STOPLINE_INLINE void for_each_batch(const LaneStep& lane, Treat treat) {
+    int i = lane.begin;
+    if constexpr (kWidthOf<R> >= 16) {
+        for (; i + kWidthOf<R> / 2 < lane.stop; i += kWidthOf<R>) treat(R(0.0), i);
+        if (i < lane.stop) treat(Packed<kWidthOf<R> / 2>(0.0), i);
+    } else {
+        for (; i < lane.stop; i += kWidthOf<R>) treat(R(0.0), i);
     }
 }
 
 template <class R>
-void drive(const DriveStreams& s, const PowertrainTablesOf<float>& t, double grade_N, const LaneStep& lane, double dt,
-           int only) {
-    for (int i = lane.begin; i < lane.end; i += kWidthOf<R>) {
-        if (lane.to_next_lane != 0) prefetch(s, i + lane.to_next_lane);
-        drive_at<R>(s, t, grade_N, dt, only, i);
+void plan(const PlanStreams& s, const DriverTablesOf<float>& d, const Rows& radar, const Rows& v2v,
+          FullKernels::Lanes lanes, double dt) {
+    for (const LaneStep& lane : lanes) {
+        for_each_batch<R>(lane, [&](auto number, int i) STOPLINE_INLINE_LAMBDA {
+            if (lane.to_next_lane != 0) prefetch(s, i + lane.to_next_lane);
+            plan_at<decltype(number)>(s, d, radar, v2v, lane, dt, i);
+        });
+    }
+}
+
+template <class R>
+void drive(const DriveStreams& s, const PowertrainTablesOf<float>& t, FullKernels::Lanes lanes, double dt, int only) {
+    for (const LaneStep& lane : lanes) {
+        const double grade_N = t.mass_kg * kGravity_mps2 * lane.sine;
+        for_each_batch<R>(lane, [&](auto number, int i) STOPLINE_INLINE_LAMBDA {
+            if (lane.to_next_lane != 0) prefetch(s, i + lane.to_next_lane);
+            drive_at<decltype(number)>(s, t, grade_N, dt, only, i);
+        });
     }
 }
 
 // Few operations on much memory: the compiler vectorises it by itself.
 inline void integrate(double* __restrict position, double* __restrict speed, const float* __restrict acceleration,
-                      const LaneStep& lane, double dt) {
-    for (int i = lane.begin; i < lane.end; ++i) {
-        const double before = speed[i];
-        const double after = before + static_cast<double>(acceleration[i]) * dt;
-        speed[i] = after > kRest_mps ? after : 0.0;
-        position[i] += 0.5 * (before + speed[i]) * dt;
+                      FullKernels::Lanes lanes, double dt) {
+    for (const LaneStep& lane : lanes) {
+        for (int i = lane.begin; i < lane.stop; ++i) {
+            const double before = speed[i];
+            const double after = before + static_cast<double>(acceleration[i]) * dt;
+            speed[i] = after > kRest_mps ? after : 0.0;
+            position[i] += 0.5 * (before + speed[i]) * dt;
+        }
     }
 }
 
-inline std::int64_t overlaps(const double* position, const float* length, int first, int stop) {
+inline std::int64_t overlaps(const double* position, const float* length, FullKernels::Lanes lanes) {
     constexpr double kRounding_m = 1e-6;
     std::int64_t count = 0;
-    for (int i = first + 1; i < stop; ++i) {
-        const double gap_m = position[i - 1] - static_cast<double>(length[i - 1]) - position[i];
-        count += gap_m < -kRounding_m ? 1 : 0;
+    for (const LaneStep& lane : lanes) {
+        for (int i = lane.begin + 1; i < lane.stop; ++i) {
+            const double gap_m = position[i - 1] - static_cast<double>(length[i - 1]) - position[i];
+            count += gap_m < -kRounding_m ? 1 : 0;
+        }
     }
     return count;
 }

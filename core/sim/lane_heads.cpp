@@ -38,13 +38,19 @@ int choose_stopper(const Model& model, const State& state, const LaneBlock& bloc
 }
 
 bool line_is_open(const Model& model, const State& state, const Lane& lane, const StopLineState& line) {
-    const GroupProgramme& programme = model.signals[at(lane.signal_group)];
-    if (programme.light(state.tick) != Light::green) return false;
+    if (state.lights[at(lane.signal_group)] != Light::green) return false;
     // The vehicle that waits at the line hesitates at the start of green.
-    return line.stopper < 0 || state.tick >= programme.since(state.tick) + model.hesitation_ticks;
+    return line.stopper < 0 ||
+           state.tick >= model.signals[at(lane.signal_group)].since(state.tick) + model.hesitation_ticks;
 }
 
 }  // namespace
+
+void read_signals(const Model& model, State& state) {
+    for (std::size_t group = 0; group < model.signals.size(); ++group) {
+        state.lights[group] = model.signals[group].light(state.tick);
+    }
+}
 
 void find_occupied_lanes(const Model& model, State& state) {
     state.occupied.clear();
@@ -65,8 +71,7 @@ void decide_stops(const Model& model, State& state) {
         } else {
             if (line.stopper >= 0) stop_slot = slot_of(state.vehicles, block, line.stopper);
             if (stop_slot < 0) {
-                const Light light = model.signals[at(lane.signal_group)].light(state.tick);
-                stop_slot = choose_stopper(model, state, block, lane.stop_line_m, light);
+                stop_slot = choose_stopper(model, state, block, lane.stop_line_m, state.lights[at(lane.signal_group)]);
             }
             line.stopper = stop_slot < 0 ? -1 : state.vehicles.id[at(stop_slot)];
             // It leads what follows it through the next green.
@@ -129,6 +134,9 @@ void look_beyond_lanes(const Model& model, State& state) {
         v.position_m[sentinel] = seen ? ahead.start_m + v.position_m[other] : kNothing_m;
         v.speed_mps[sentinel] = v.speed_mps[other];
         v.length_m[sentinel] = v.length_m[other];
+        // Within a lane overlaps are counted where it is computed, see full_dynamics.cpp.
+        const double rear_m = v.position_m[sentinel] - v.length_m[sentinel];
+        state.violations.overlaps += static_cast<std::int64_t>(seen && rear_m < v.position_m[at(head)]);
         for (const std::size_t row : {state.v2v.late, state.v2v.later}) {
             const std::size_t to = row + sentinel;
             const std::size_t from = row + other;
@@ -141,24 +149,20 @@ void look_beyond_lanes(const Model& model, State& state) {
         // A new target: its first radar measurement stands for the past too.
         v.predecessor[at(head)] = id;
         v.leads[at(head)] = 1.0F;
-        const double gap_m = v.position_m[sentinel] - v.length_m[sentinel] - v.position_m[at(head)];
+        const double gap_m = rear_m - v.position_m[at(head)];
         v.reset_radar(head, gap_m, v.speed_mps[at(head)] - v.speed_mps[sentinel]);
     }
 }
-
-int first_batch(const State& state, int lane) { return state.blocks[at(lane)].first; }
 
 LaneStep lane_step(const Model& model, const State& state, int lane) {
     const LaneBlock& block = state.blocks[at(lane)];
     const Lane& road = model.graph.lanes[at(lane)];
     LaneStep step;
-    step.begin = first_batch(state, lane);
-    step.end = step.begin + (block.count + kSimdWidth - 1) / kSimdWidth * kSimdWidth;
-    step.first = block.first;
+    step.begin = block.first;
     step.stop = block.stop();
     step.turn_m = road.signal_group >= 0 ? road.stop_line_m : road.length_m;
     step.limit_mps = road.limit_mps;
-    step.sine = road.gradient / std::sqrt(1.0 + square(road.gradient));
+    step.sine = state.sine[at(lane)];
     step.stop_slot = state.stop_slot[at(lane)];
     step.leads_to_lower_limit = state.leads_to_lower_limit[at(lane)] != 0;
     if (step.stop_slot >= 0) {

@@ -1,12 +1,12 @@
 // The phases of a step (see simulation.h) that are not kernels. Each takes the model and the state and is called once a step.
 #pragma once
 
-#include "sim/full_dynamics.h"
 #include "sim/model.h"
 #include "sim/state.h"
 
 namespace stopline {
 
+void read_signals(const Model& model, State& state);
 void find_occupied_lanes(const Model& model, State& state);
 void decide_stops(const Model& model, State& state);
 void give_way(const Model& model, State& state);
@@ -14,11 +14,10 @@ void look_beyond_lanes(const Model& model, State& state);
 void watch_detectors(const Model& model, State& state);
 void transfer_vehicles(const Model& model, State& state);
 void insert_vehicles(const Model& model, State& state);
-void verify(const Model& model, State& state);
+void verify(State& state);
 
 // What the kernels need of a lane in this step.
 LaneStep lane_step(const Model& model, const State& state, int lane);
-int first_batch(const State& state, int lane);  // its `begin`
 
 // When the front passed `line_m` within the last step.
 double passing_time_s(const Model& model, const State& state, int slot, double line_m);

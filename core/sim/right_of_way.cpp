@@ -89,7 +89,7 @@ double next_arrival_s(const Model& model, const State& state, const Conflict& co
     const Lane& other = model.graph.lanes[at(conflict.other)];
     const Lane& origin = model.graph.lanes[at(other.origin)];
     const double a = model.give_way.approach_mps2;
-    const bool green = model.signals[at(origin.signal_group)].light(state.tick) == Light::green;
+    const bool green = state.lights[at(origin.signal_group)] == Light::green;
     const int stopping = green ? -1 : state.stop_slot[at(other.origin)];
     double soonest_s = kNever_s;
     for (const Insider& w : state.insiders[at(conflict.other)]) {

@@ -19,26 +19,40 @@ Simulation::Simulation(const Model& model) : model_(model), tables_(full_tables(
 void Simulation::step() {
     state_.radar = rows_at(model_.radar, state_.tick, state_.vehicles.slots);
     state_.v2v = rows_at(model_.v2v, state_.tick, state_.vehicles.slots);
+    read_signals(model_, state_);
     find_occupied_lanes(model_, state_);
     decide_stops(model_, state_);
     give_way(model_, state_);
     look_beyond_lanes(model_, state_);
-    const bool prefetch = state_.present() > kVehiclesInCache;
-    for (std::size_t k = 0; k < state_.occupied.size(); ++k) {
-        const int lane = state_.occupied[k];
-        LaneStep step = lane_step(model_, state_, lane);
-        if (prefetch && k + 1 < state_.occupied.size()) {
-            step.to_next_lane = first_batch(state_, state_.occupied[k + 1]) - step.begin;
-        }
-        plan_full(model_, tables_, step, state_);
-        drive_full(model_, tables_, step, state_);
-        state_.updates += state_.blocks[static_cast<std::size_t>(lane)].count;
-    }
+    move_vehicles();
     watch_detectors(model_, state_);
     transfer_vehicles(model_, state_);
     insert_vehicles(model_, state_);
-    verify(model_, state_);
+    verify(state_);
     ++state_.tick;
+}
+
+// Lanes go through the kernels in groups that stay in the first-level cache from one kernel to the next.
+void Simulation::move_vehicles() {
+    std::vector<LaneStep>& lanes = state_.lane_steps;
+    const bool prefetch = state_.present() > kVehiclesInCache;
+    int vehicles = 0;
+    lanes.clear();
+    for (std::size_t k = 0; k < state_.occupied.size(); ++k) {
+        LaneStep lane = lane_step(model_, state_, state_.occupied[k]);
+        const bool last = k + 1 == state_.occupied.size();
+        if (prefetch && !last) {
+            lane.to_next_lane = state_.blocks[static_cast<std::size_t>(state_.occupied[k + 1])].first - lane.begin;
+        }
+        lane.to_gap = vehicles - lane.begin;
+        lanes.push_back(lane);
+        vehicles += lane.stop - lane.begin;
+        if (vehicles < State::kVehiclesTogether && !last) continue;
+        step_full(model_, tables_, lanes, state_);
+        state_.updates += vehicles;
+        vehicles = 0;
+        lanes.clear();
+    }
 }
 
 void Simulation::run_until(double time_s) {

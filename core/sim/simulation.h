@@ -35,6 +35,8 @@ public:
     std::uint64_t state_hash() const;
 
 private:
+    void move_vehicles();
+
     const Model& model_;
     FullTables tables_;
     State state_;

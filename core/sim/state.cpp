@@ -1,6 +1,9 @@
 #include "sim/state.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "base/arithmetic.h"
 
 namespace stopline {
 
@@ -19,8 +22,9 @@ int block_size(const Model& model, const Lane& lane) {
 }  // namespace
 
 Rows rows_at(const DelayLine& line, std::int64_t tick, int slots) {
-    const auto row = [&](std::int64_t age) {
-        const std::int64_t wrapped = ((tick - age) % line.rows + line.rows) % line.rows;
+    const std::int64_t present = tick % line.rows;
+    const auto row = [&](int age) {  // at most `rows`
+        const std::int64_t wrapped = present >= age ? present - age : present - age + line.rows;
         return static_cast<std::size_t>(wrapped) * static_cast<std::size_t>(slots);
     };
     return {row(0), row(1), row(line.steps), row(line.steps + 1), 1.0 - line.share, line.share};
@@ -39,6 +43,7 @@ State make_state(const Model& model) {
     }
     slots = rounded_up(slots) + kSimdWidth;  // the last batch of a lane reaches beyond its block
     state.vehicles.resize(slots, model.radar.rows, model.v2v.rows);
+    state.lights.assign(model.signals.size(), Light::red);
     state.stop_lines.resize(model.graph.lanes.size());
     state.stop_slot.assign(model.graph.lanes.size(), -1);
     state.hold_slot.assign(model.graph.lanes.size(), -1);
@@ -54,13 +59,15 @@ State make_state(const Model& model) {
         const auto lower = [&](int next) {
             return model.graph.lanes[static_cast<std::size_t>(next)].limit_mps < lane.limit_mps;
         };
+        state.sine.push_back(lane.gradient / std::sqrt(1.0 + square(lane.gradient)));
         state.leads_to_lower_limit.push_back(std::any_of(lane.next.begin(), lane.next.end(), lower) ? 1 : 0);
     }
     state.occupied.reserve(model.graph.lanes.size());
     state.inlets.resize(model.demand.inlets.size());
     int longest = 0;
     for (const LaneBlock& block : state.blocks) longest = std::max(longest, block.end - block.begin);
-    const auto n = static_cast<std::size_t>(longest + kSimdWidth);
+    const auto n = static_cast<std::size_t>(State::kVehiclesTogether + longest + kSimdWidth);
+    state.lane_steps.reserve(model.graph.lanes.size());
     for (auto* scratch : {&state.desired_gap_m, &state.gap_slope_s, &state.law_gap_m, &state.law_slope_s}) {
         scratch->assign(n, 0.0);
     }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/events.h"
+#include "sim/lane_step.h"
 #include "sim/model.h"
 #include "sim/vehicle_arrays.h"
 
@@ -49,11 +50,13 @@ struct State {
     Rows v2v;
     std::vector<LaneBlock> blocks;               // [lane]
     std::vector<int> occupied;                   // lanes with vehicles, in lane order
+    std::vector<Light> lights;                   // [signal group] in this step
     std::vector<StopLineState> stop_lines;       // [lane]
     std::vector<int> stop_slot;                  // [lane] slot of the vehicle that stops at the line; -1: none
     std::vector<int> hold_slot;                  // [lane] slot of the first vehicle that waits to give way; -1: none
     std::vector<double> hold_m;                  // [lane] where it waits, from the lane's start
     std::vector<char> leads_to_lower_limit;      // [lane]
+    std::vector<double> sine;                    // [lane] of the slope
     std::vector<std::vector<Insider>> insiders;  // [lane inside an intersection], from the front
     std::vector<std::vector<int>> detectors_of;  // [lane]
     std::vector<int> upstream;                   // [detector] vehicles on its lane that have not passed it
@@ -66,7 +69,10 @@ struct State {
     std::int64_t left = 0;
     std::int64_t updates = 0;  // vehicle updates computed
     int next_id = 0;
-    // Scratch of the kernels, one value a slot of the lane at hand.
+    // Scratch of the kernels: the lanes of a group that go through them together, and one value a vehicle of it. Groups are
+    // complete when they have this many vehicles or more.
+    static constexpr int kVehiclesTogether = 256;
+    std::vector<LaneStep> lane_steps;
     std::vector<double> desired_gap_m;
     std::vector<double> gap_slope_s;
     std::vector<double> law_gap_m;

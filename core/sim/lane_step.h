@@ -1,0 +1,21 @@
+// What the kernels need of one lane in one step.
+#pragma once
+
+namespace stopline {
+
+struct LaneStep {
+    int begin = 0;  // slots [begin, stop): vehicles
+    int stop = 0;
+    double turn_m = 0.0;  // where the limit of the next lane begins to hold, from the lane's start
+    double limit_mps = 0.0;
+    double sine = 0.0;       // of the slope
+    int stop_slot = -1;      // vehicle that stops at the stop line, ...
+    double stop_mps2 = 0.0;  // ... and what that asks of it
+    int hold_slot = -1;      // vehicle that waits to give way
+    double hold_mps2 = 0.0;
+    bool leads_to_lower_limit = false;  // some lane that follows has a lower limit
+    int to_gap = 0;                     // from a slot to its place in the array of desired gaps
+    int to_next_lane = 0;               // slots to those of the lane treated next; 0: all is in the cache
+};
+
+}  // namespace stopline
