@@ -184,6 +184,9 @@ std::string totals_text(const SweepTotals& totals) {
     table.row({"entries on red", fmt::format("{}", totals.red_entries)});
     table.row({"lost vehicles", fmt::format("{}", totals.lost_vehicles)});
     table.row({"runs with such violations", fmt::format("{}", totals.runs_with_violations)});
+    if (totals.longest_inside_s > 0.0) {
+        table.row({"longest way through an intersection", fmt::format("{:.1f} s", totals.longest_inside_s)});
+    }
     return table.text();
 }
 

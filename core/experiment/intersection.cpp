@@ -72,8 +72,8 @@ std::string intersection_csv(const IntersectionReport& report) {
     }
     for (const char* const column :
          {"density_network_percent", "vehicles_present", "vehicles_per_green", "saturation_flow_veh_h", "lost_time_s",
-          "queue_veh", "longest_queue_m", "turned_right_percent", "turned_left_percent", "overlaps", "conflicts",
-          "red_entries", "forced_red_entries", "lost_vehicles"}) {
+          "queue_veh", "longest_queue_m", "turned_right_percent", "turned_left_percent", "longest_inside_s", "overlaps",
+          "conflicts", "red_entries", "forced_red_entries", "lost_vehicles"}) {
         columns.emplace_back(column);
     }
     CsvWriter csv(columns);
@@ -90,8 +90,8 @@ std::string intersection_csv(const IntersectionReport& report) {
              {fixed(100.0 * f.occupied, 3), fixed(f.vehicles_present, 2), fixed(f.discharge.vehicles_per_green, 3),
               fixed(f.discharge.saturation_flow_veh_h, 1), fixed(f.discharge.lost_time_s, 3), fixed(f.queue_veh, 2),
               fixed(f.longest_queue_m, 2), fixed(100.0 * f.right, 2), fixed(100.0 * f.left, 2),
-              std::to_string(v.overlaps), std::to_string(v.conflicts), std::to_string(v.red_entries),
-              std::to_string(v.forced_red_entries), std::to_string(v.lost_vehicles)}) {
+              fixed(f.longest_inside_s, 2), std::to_string(v.overlaps), std::to_string(v.conflicts),
+              std::to_string(v.red_entries), std::to_string(v.forced_red_entries), std::to_string(v.lost_vehicles)}) {
             row.push_back(cell);
         }
         csv.row(row);

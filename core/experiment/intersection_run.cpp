@@ -26,11 +26,12 @@ public:
             present_ += state.present();
             ++samples_;
         }
-        for (const int lane : model_.graph.entries) {
-            const Lane& road = model_.graph.lanes[at(lane)];
-            const GroupProgramme& programme = model_.signals[at(road.signal_group)];
-            if (programme.light(state.tick) == Light::green && programme.since(state.tick) == state.tick) {
-                measure_queue(state, lane, road.stop_line_m);
+        for (int group = 0; group < static_cast<int>(model_.signals.size()); ++group) {
+            const GroupProgramme& programme = model_.signals[at(group)];
+            if (programme.since(state.tick) != state.tick || programme.light(state.tick) != Light::green) continue;
+            for (const int lane : model_.graph.entries) {
+                const Lane& road = model_.graph.lanes[at(lane)];
+                if (road.signal_group == group) measure_queue(state, lane, road.stop_line_m);
             }
         }
     }
@@ -171,6 +172,7 @@ IntersectionFigures run_intersection(const Scenario& scenario, std::size_t popul
     measure_zones(scenario, model, state, figures);
     figures.discharge = discharge(model, state.crossings, figures.window);
     figures.gaps_accepted = static_cast<std::int64_t>(state.gaps_accepted.size());
+    figures.longest_inside_s = model.time_s(state.longest_inside);
     figures.violations = state.violations;
     figures.entered = state.entered;
     figures.left_network = state.left;

@@ -33,6 +33,8 @@ struct IntersectionFigures {
     double longest_queue_m = 0.0;
     double straight = 0.0, right = 0.0, left = 0.0;  // shares of those that left the intersection within the window
     std::int64_t gaps_accepted = 0;
+    double longest_inside_s =
+        0.0;  // that a vehicle spent between its stop line and wholly on the exit; two cycles: a deadlock
     double picture_s = 0.0;  // in the middle of the first green of the last group within the window
     std::vector<DrawnVehicle> picture;
     std::vector<Light> picture_lights;  // [signal group]

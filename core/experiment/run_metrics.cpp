@@ -72,6 +72,7 @@ std::vector<RunMetric> intersection_metrics(const Scenario& scenario, std::size_
     metrics.push_back(number_metric("turned_right", "percent", 100.0 * f.right, 6));
     metrics.push_back(number_metric("turned_left", "percent", 100.0 * f.left, 6));
     metrics.push_back(count_metric("gaps_accepted", "", f.gaps_accepted));
+    metrics.push_back(number_metric("longest_inside", "s", f.longest_inside_s, 2));
     add_counts(f.entered, f.left_network, f.violations, f.updates, f.state_hash, metrics);
     return metrics;
 }

@@ -1,6 +1,7 @@
 #include "experiment/sweep_results.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
 #include <sstream>
 #include <string_view>
@@ -48,6 +49,10 @@ void add_to(SweepTotals& totals, const std::string& result) {
     const std::int64_t overlaps = count_in(result, "overlaps");
     const std::int64_t red_entries = count_in(result, "red_entries");
     const std::int64_t lost_vehicles = count_in(result, "lost_vehicles");
+    for_each_value(result, [&](std::string_view name, std::string_view value) {
+        if (name != "longest_inside_s") return;
+        totals.longest_inside_s = std::max(totals.longest_inside_s, std::strtod(std::string(value).c_str(), nullptr));
+    });
     ++totals.runs;
     totals.updates += count_in(result, "updates");
     totals.overlaps += overlaps;

@@ -11,12 +11,15 @@ namespace {
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
-// Whether braking with `deceleration` stops the vehicle before the line; the brake's lag costs a stretch at full speed.
+// Whether braking with `deceleration` stops the vehicle before the line. The brake's lag and the time in which the request changes
+// from the present acceleration to it cost a stretch at the present speed, and the acceleration goes on for as long.
 bool can_stop(const Model& model, const VehicleArrays& v, int slot, double line_m, double deceleration_mps2) {
     const double speed = v.speed_mps[at(slot)];
     const double lag_s = model.vehicles[at(v.type[at(slot)])].brake_lag_s;
-    const double room_m = line_m - v.position_m[at(slot)] - speed * lag_s;
-    return square(speed) <= 2.0 * deceleration_mps2 * room_m;
+    const double now_mps2 = std::max(static_cast<double>(v.acceleration_mps2[at(slot)]), 0.0);
+    const double late_s = lag_s + 0.5 * (now_mps2 + deceleration_mps2) / model.driver.cacc.jerk_down_mps3;
+    const double room_m = line_m - v.position_m[at(slot)] - speed * late_s;
+    return square(speed + now_mps2 * late_s) <= 2.0 * deceleration_mps2 * room_m;
 }
 
 int slot_of(const VehicleArrays& v, const LaneBlock& block, int id) {
@@ -75,7 +78,11 @@ void decide_stops(const Model& model, State& state) {
             }
             line.stopper = stop_slot < 0 ? -1 : state.vehicles.id[at(stop_slot)];
             // It leads what follows it through the next green.
-            if (stop_slot >= 0) state.vehicles.leads[at(stop_slot)] = 1.0F;
+            if (stop_slot >= 0) {
+                state.vehicles.leads[at(stop_slot)] = 1.0F;
+                // One that came to stand a little beyond the line sets out when the next green lets it.
+                state.vehicles.inside_since[at(stop_slot)] = static_cast<int>(state.tick);
+            }
         }
         state.stop_slot[at(index)] = stop_slot;
     }

@@ -215,7 +215,12 @@ void give_way(const Model& model, State& state) {
     const auto lanes = static_cast<int>(model.graph.conflicts.size());
     for (int lane = 0; lane < lanes; ++lane) {
         state.hold_slot[at(lane)] = -1;
-        if (model.graph.lanes[at(lane)].origin >= 0) list_insiders(model, state, lane, state.insiders[at(lane)]);
+        if (model.graph.lanes[at(lane)].origin < 0) continue;
+        std::vector<Insider>& insiders = state.insiders[at(lane)];
+        list_insiders(model, state, lane, insiders);
+        if (!insiders.empty()) {
+            state.longest_inside = std::max(state.longest_inside, state.tick - insiders.front().since);
+        }
     }
     for (int lane = 0; lane < lanes; ++lane) {
         const std::vector<Conflict>& conflicts = model.graph.conflicts[at(lane)];

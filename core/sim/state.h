@@ -68,6 +68,8 @@ struct State {
     std::int64_t entered = 0;
     std::int64_t left = 0;
     std::int64_t updates = 0;  // vehicle updates computed
+    // The longest that any vehicle has been inside an intersection, as an Insider, in ticks. Two cycles or more: a deadlock.
+    std::int64_t longest_inside = 0;
     int next_id = 0;
     // Scratch of the kernels: the lanes of a group that go through them together, and one value a vehicle of it. Groups are
     // complete when they have this many vehicles or more.

@@ -139,6 +139,7 @@ TEST_P(SlowIntersection, NobodyIsInAnothersWayAndNobodyIsStuck) {
         run_intersection(scenario, static_cast<std::size_t>(population - scenario.populations.begin()));
     EXPECT_TRUE(figures.violations.none());
     EXPECT_EQ(figures.violations.conflicts, 0);
+    EXPECT_LT(figures.longest_inside_s, 2.0 * 2.0 * (GetParam().green_s + 8.0)) << "a deadlock";
     // A lane passes at least one vehicle in each green.
     EXPECT_GE(figures.discharge.vehicles_per_green, 1.0);
     // No vehicle needs more than three cycles beyond a queue of 25 at two a green.
