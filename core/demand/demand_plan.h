@@ -22,6 +22,7 @@ struct DemandPlan {
     // Inlets never run dry: each vehicle enters as part of an endless platoon, in the gap of its policy and with the speed of
     // the vehicle ahead.
     bool saturated = false;
+    bool queued = false;  // a queue stands from the stop line to the entry when the run begins
 
     // Policy of the k-th vehicle of an inlet: component shares, and how they are arranged.
     enum class Pattern { alternating, random, balanced };

@@ -14,6 +14,8 @@ struct DemandSettings {
     double right = 0.0;
     double left = 0.0;
     std::string order = "balanced";  // of the turns: balanced | random
+    // empty: an empty network; queued: the approaches are full of standing vehicles
+    std::string start = "empty";
 };
 
 }  // namespace stopline

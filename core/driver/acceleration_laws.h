@@ -12,6 +12,8 @@
 
 #include <array>
 
+#include <type_traits>
+
 #include "base/arithmetic.h"
 #include "driver/driver_settings.h"
 
@@ -45,14 +47,16 @@ struct PredecessorView {
 
 // Free driving of a platoon leader: the calibrated start-up profile towards the desired speed.
 template <class R, class Number>
-STOPLINE_INLINE R free_acceleration(const DriverTablesOf<Number>& d, const R& speed_mps, double desired_mps) {
+STOPLINE_INLINE R free_acceleration(const DriverTablesOf<Number>& d, const R& speed_mps,
+                                    const std::type_identity_t<R>& desired_mps) {
     const R profile = on_grid(d.profile_mps2, R(speed_mps * d.profile_nodes_per_mps));
     return lesser(profile, d.speed_gain_1ps * (desired_mps - speed_mps));
 }
 
 // A follower may use more than the leader's profile, and a little more speed, to close its gap.
 template <class R, class Number>
-STOPLINE_INLINE R catch_up_acceleration(const DriverTablesOf<Number>& d, const R& speed_mps, double desired_mps) {
+STOPLINE_INLINE R catch_up_acceleration(const DriverTablesOf<Number>& d, const R& speed_mps,
+                                        const std::type_identity_t<R>& desired_mps) {
     const R towards_limit = d.speed_gain_1ps * (desired_mps * d.cacc.catch_up_factor - speed_mps);
     return lesser(towards_limit, d.cacc.acceleration_max_mps2);
 }

@@ -50,6 +50,7 @@ void add_demand(const Scenario& scenario, Model& model) {
     model.demand.entry_speed_mps = scenario.demand.entry_speed_mps;
     model.demand.seed = scenario.seed;
     model.demand.saturated = scenario.demand.kind == "saturated";
+    model.demand.queued = model.demand.saturated && scenario.demand.start == "queued";
     model.demand.route_pattern =
         scenario.demand.order == "random" ? DemandPlan::Pattern::random : DemandPlan::Pattern::balanced;
     const std::int64_t vehicles =

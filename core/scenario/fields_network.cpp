@@ -115,6 +115,11 @@ const Table& demand_table() {
             choice<&DemandSettings::order>("order", {"balanced", "random"},
                                            "order of the turns; balanced: shares hold in every 20 vehicles of a lane")
                 .only("kind", {"saturated"}),
+            choice<&DemandSettings::start>(
+                "start", {"empty", "queued"},
+                "what is on the approaches at first; queued: standing vehicles from the stop "
+                "line to the entry")
+                .only("kind", {"saturated"}),
         });
     return table;
 }

@@ -17,8 +17,7 @@ struct FullTables {
 };
 FullTables full_tables(const Model& model);
 
-// One step of the vehicles on some lanes; lanes in any order, in any groups. Their places in the arrays of desired gaps must not
-// overlap.
+// One step of the vehicles on some lanes, which state.group must have room for; lanes in any order.
 void step_full(const Model& model, const FullTables& tables, std::span<const LaneStep> lanes, State& state);
 
 }  // namespace stopline

@@ -5,40 +5,38 @@
 #include <span>
 
 #include "driver/acceleration_laws.h"
-#include "sim/lane_step.h"
+#include "sim/full_group.h"
 #include "sim/state.h"
 #include "vehicle/powertrain_tables.h"
 
 namespace stopline {
 
-// Plain pointers to the arrays of one plan step, so that the compiler sees independent streams.
-struct PlanStreams {
-    const double *position, *speed, *desired_gap, *slope;
-    const float *acceleration, *lag, *length, *standstill_gap, *end_speed;
-    float *request, *leads;
+// Plain pointers to the arrays of all vehicles in one step, [slot].
+struct FullStreams {
+    double *position, *speed;
+    const float *length, *standstill_gap, *end_speed;
+    const int *policy, *type;
+    float *acceleration, *lag, *request, *leads, *torque, *brake, *gear_time, *gear;
+    // Rows of the delay lines.
     float *gap_now, *closing_now, *tell_acceleration, *tell_request, *tell_rate;
     const float *gap_late, *gap_later, *closing_late, *closing_later;
     const float *heard_acceleration, *heard_request, *heard_rate;
     const float *earlier_acceleration, *earlier_request, *earlier_rate;
 };
 
-struct DriveStreams {
-    const double* speed;
-    float *acceleration, *torque, *brake, *gear_time, *lag, *gear;
-    const float *request, *request_before;
-    const int* type;
-};
-
-// All kernels treat several lanes in one call: most lanes hold few vehicles.
+// The kernels of one step of a group of lanes, in this order.
 struct FullKernels {
     using Lanes = std::span<const LaneStep>;
+
     const char* name;
-    void (*plan)(const PlanStreams&, const DriverTablesOf<float>&, const Rows& radar, const Rows& v2v, Lanes,
-                 double dt);
-    // `only`: treats vehicles of this type; < 0: all are of the type given.
-    void (*drive)(const DriveStreams&, const PowertrainTablesOf<float>&, Lanes, double dt, int only);
-    // Speed and position from the acceleration realised in the step.
-    void (*integrate)(double* position, double* speed, const float* acceleration, Lanes, double dt);
+    // Brings the group together: measures, looks up what is known of predecessors, and what lanes ask of their vehicles.
+    void (*gather)(const FullStreams&, const Rows& radar, const Rows& v2v, Lanes, const FullGroup&);
+    // Driver: what acceleration is asked for, for the first `vehicles` of the group.
+    void (*plan)(const DriverTablesOf<float>&, const FullGroup&, int vehicles, double dt);
+    // Vehicle: what the powertrain makes of it. `only`: treats vehicles of this type; < 0: all are of the type given.
+    void (*drive)(const PowertrainTablesOf<float>&, const FullGroup&, int vehicles, double dt, int only);
+    // Takes the group apart again, and moves its vehicles.
+    void (*scatter)(const FullStreams&, Lanes, const FullGroup&, double dt);
     // Fronts that are beyond the rear of their predecessor on the same lane.
     std::int64_t (*overlaps)(const double* position, const float* length, Lanes);
 };

@@ -1,7 +1,10 @@
 // The kernels' text. Included by one file for each instruction set, each in a namespace of its own.
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <initializer_list>
+#include <utility>
 
 #include "base/simd_memory.h"
 #include "base/units.h"
@@ -22,6 +25,7 @@ constexpr double kRest_mps = 1e-6;
 // of rest is something to stop behind.
 constexpr double kObstacle_mps = 5.0;
 constexpr double kBraking_mps2 = 0.2;
+constexpr double kNothing_mps2 = 1e3;  // an answer that never wins
 
 // One sample of a delay line, between two rows where the delay is no multiple of the step.
 template <class R>
@@ -30,118 +34,67 @@ STOPLINE_INLINE R delayed(const Rows& rows, const float* late, const float* late
     return rows.later_share == 0.0 ? sample : rows.late_share * sample + rows.later_share * load<R>(later + i);
 }
 
-// The vehicle in slot i, or with R = Batch those in i .. i + 7.
+// The vehicle in slot i of a lane, or with R = Batch those from slot i on, to place k of the group.
 template <class R>
-STOPLINE_INLINE void plan_at(const PlanStreams& s, const DriverTablesOf<float>& d, const Rows& radar, const Rows& v2v,
-                             const LaneStep& lane, double dt, int i) {
-    const CaccSettingsOf<float>& c = d.cacc;
+STOPLINE_INLINE void gather_at(const FullStreams& s, const Rows& radar, const Rows& v2v, const LaneStep& lane, int i,
+                               int k, const FullGroup& g) {
     const R speed = load<R>(s.speed + i);
-    const R acceleration = load<R>(s.acceleration + i);
-    const R lag = load<R>(s.lag + i);
-    const R before = load<R>(s.request + i);
-
-    // Measure.
+    // Measure. A radar without delay reads what is written here.
     store(s.gap_now + i, load_difference<R>(s.position + i - 1, s.position + i) - load<R>(s.length + i - 1));
     store(s.closing_now + i, speed - load<R>(s.speed + i - 1));
-    const R rate = 1.0 / lag;
-
     // What is known of the predecessor now.
-    PredecessorView<R> p{};
-    p.gap_m = delayed<R>(radar, s.gap_late, s.gap_later, i);
-    p.closing_mps = delayed<R>(radar, s.closing_late, s.closing_later, i);
-    p.acceleration_mps2 = delayed<R>(v2v, s.heard_acceleration, s.earlier_acceleration, i - 1);
-    p.request_mps2 = delayed<R>(v2v, s.heard_request, s.earlier_request, i - 1);
-    p.rate_1ps = delayed<R>(v2v, s.heard_rate, s.earlier_rate, i - 1);
-
-    // Drive freely.
-    const R nothing = splat<R>(1e3);  // an answer that never wins
-    const R to_end_m = load_difference<R>(lane.turn_m, s.position + i);
-    const R as_leader = free_acceleration(d, speed, lane.limit_mps);
-    const R slow_down =
-        lane.leads_to_lower_limit ? slow_down_acceleration(d, speed, load<R>(s.end_speed + i), to_end_m) : nothing;
-    // Follow.
-    const R follow = follow_acceleration(c, acceleration, lag, rate, before, load<R>(s.desired_gap + (i + lane.to_gap)),
-                                         load<R>(s.slope + (i + lane.to_gap)), p, dt);
-    const R emergency = emergency_acceleration(c, speed, p);
-    // Stop: at the line, before a conflict area, behind a standing predecessor.
-    const R from_stopper = counting_from<R>(i - lane.stop_slot);
-    const R at_line = select(from_stopper == 0.0, splat<R>(lane.stop_slot < 0 ? 1e3 : lane.stop_mps2), nothing);
-    R at_conflict = nothing;
-    if (lane.hold_slot >= 0) {
-        at_conflict = select(counting_from<R>(i - lane.hold_slot) == 0.0, splat<R>(lane.hold_mps2), nothing);
-    }
-    const R speed_p = greater(speed - p.closing_mps, 0.0);
-    const R stopping_p = STOPLINE_FLAG(R, p.request_mps2 <= splat<R>(0.0) - lesser(speed_p, 1.0) * kBraking_mps2) *
-                         STOPLINE_FLAG(R, speed_p < kObstacle_mps);
-    R behind = nothing;
-    if (any(stopping_p)) {
-        const R behind_m =
-            p.gap_m - c.radar_delay_s * p.closing_mps - load<R>(s.standstill_gap + i) + stopping_distance_m(d, speed_p);
-        behind = choose(stopping_p, stop_acceleration(d, speed, behind_m), nothing);
-    }
-
-    // The smallest answer wins. A platoon leader becomes a follower when following asks for less than driving freely.
-    const R leads = load<R>(s.leads + i) * STOPLINE_FLAG(R, follow > as_leader);
-    const R drive = lesser(choose(leads, as_leader, catch_up_acceleration(d, speed, lane.limit_mps)), slow_down);
-    const R smallest = lesser(lesser(lesser(drive, follow), emergency), lesser(lesser(at_line, at_conflict), behind));
-    const R smooth = limited<R>(smallest, before - c.jerk_down_mps3 * dt, before + c.jerk_up_mps3 * dt);
-    // A standing vehicle does not brake harder and harder: its next start begins from zero.
-    const R lowest = select(speed <= kStanding_mps, splat<R>(0.0), splat<R>(-c.deceleration_emergency_mps2));
-    const R request = greater(smooth, lowest);
-    store(s.request + i, request);
-    store(s.leads + i, leads);
-    // Tell. The request is in force at the end of this step; the acceleration, a mean over the last one, is brought to
-    // that time by the lag.
-    const R reached = lesser(1.5 * dt * rate, 1.0);
-    store(s.tell_request + i, request);
-    store(s.tell_acceleration + i, acceleration + (request - acceleration) * reached);
-    store(s.tell_rate + i, rate);
+    store(g.gap + k, delayed<R>(radar, s.gap_late, s.gap_later, i));
+    store(g.closing + k, delayed<R>(radar, s.closing_late, s.closing_later, i));
+    store(g.heard_acceleration + k, delayed<R>(v2v, s.heard_acceleration, s.earlier_acceleration, i - 1));
+    store(g.heard_request + k, delayed<R>(v2v, s.heard_request, s.earlier_request, i - 1));
+    store(g.heard_rate + k, delayed<R>(v2v, s.heard_rate, s.earlier_rate, i - 1));
+    // The road.
+    store(g.to_turn + k, load_difference<R>(lane.turn_m, s.position + i));
+    store(g.limit + k, splat<R>(lane.limit_mps));
+    store(g.sine + k, splat<R>(lane.sine));
+    store(g.imposed + k, splat<R>(kNothing_mps2));
+    // Itself.
+    store(g.speed + k, speed);
+    const auto take = [&](const float* from, float* to) STOPLINE_INLINE_LAMBDA { store(to + k, load<R>(from + i)); };
+    take(s.end_speed, g.end_speed), take(s.standstill_gap, g.standstill_gap), take(s.acceleration, g.acceleration);
+    take(s.lag, g.lag), take(s.request, g.request), take(s.leads, g.leads), take(s.torque, g.torque);
+    take(s.brake, g.brake), take(s.gear_time, g.gear_time), take(s.gear, g.gear);
+    std::memcpy(g.speed_mps + k, s.speed + i, kWidthOf<R> * sizeof(double));
+    std::memcpy(g.policy + k, s.policy + i, kWidthOf<R> * sizeof(int));
+    std::memcpy(g.type + k, s.type + i, kWidthOf<R> * sizeof(int));
 }
 
-// The vehicle in slot i, or those in i .. i + 7, as far as they are of type `only` (< 0: all are).
-template <class R>
-STOPLINE_INLINE void drive_at(const DriveStreams& s, const PowertrainTablesOf<float>& t, double grade_N, double dt,
-                              int only, int i) {
-    PowertrainState<R> now{};
-    now.speed_mps = load<R>(s.speed + i);
-    now.acceleration_mps2 = load<R>(s.acceleration + i);
-    now.torque_Nm = load<R>(s.torque + i);
-    now.brake_N = load<R>(s.brake + i);
-    now.gear_time_s = load<R>(s.gear_time + i);
-    now.lag_s = load<R>(s.lag + i);
-    now.gear = load<R>(s.gear + i);
-    // The request moves within the step from the last one to the new one.
-    const R request = load<R>(s.request + i);
-    const R mean = 0.5 * (load<R>(s.request_before + i) + request);
-    const R held = STOPLINE_FLAG(R, now.speed_mps <= kStanding_mps) * STOPLINE_FLAG(R, request <= kStart_mps2);
-    const PowertrainState<R> next = powertrain_step<R>(t, now, choose(held, splat<R>(kHold_mps2), mean), grade_N, dt);
-    const R mine = only < 0 ? splat<R>(1.0) : STOPLINE_FLAG(R, load<R>(s.type + i) == only);
-    store(s.acceleration + i, choose(mine, next.acceleration_mps2, now.acceleration_mps2));
-    store(s.torque + i, choose(mine, next.torque_Nm, now.torque_Nm));
-    store(s.brake + i, choose(mine, next.brake_N, now.brake_N));
-    store(s.gear_time + i, choose(mine, next.gear_time_s, now.gear_time_s));
-    store(s.lag + i, choose(mine, next.lag_s, now.lag_s));
-    store(s.gear + i, choose(mine, next.gear, now.gear));
-}
-
-// Fetches what the next lane's vehicles i, i + 1, ... will need while this lane's are computed: a lane's share of an array is
-// too short for the processor to see a stream in it.
-STOPLINE_INLINE void prefetch(const PlanStreams& s, int i) {
+// Fetches what vehicles i, i + 1, ... will need while others are computed: a lane's share of an array is too short for the
+// processor to see a stream in it.
+STOPLINE_INLINE void prefetch(const FullStreams& s, int i) {
     for (const double* stream : {s.position, s.speed}) {
         __builtin_prefetch(stream + i);
         __builtin_prefetch(stream + i + kSimdWidth / 2);
     }
-    const std::array<const float*, 15> streams{
-        s.acceleration,       s.lag,           s.length,       s.request,           s.leads,        s.gap_now,
-        s.gap_late,           s.closing_now,   s.closing_late, s.tell_acceleration, s.tell_request, s.tell_rate,
-        s.heard_acceleration, s.heard_request, s.heard_rate};
+    const std::array<const float*, 19> streams{s.acceleration,
+                                               s.lag,
+                                               s.length,
+                                               s.request,
+                                               s.leads,
+                                               s.gap_now,
+                                               s.gap_late,
+                                               s.torque,
+                                               s.closing_now,
+                                               s.closing_late,
+                                               s.gear_time,
+                                               s.tell_request,
+                                               s.tell_rate,
+                                               s.brake,
+                                               s.heard_acceleration,
+                                               s.gear,
+                                               s.heard_request,
+                                               s.heard_rate,
+                                               s.tell_acceleration};
     for (const float* stream : streams) __builtin_prefetch(stream + i);
 }
-STOPLINE_INLINE void prefetch(const DriveStreams& s, int i) {
-    for (const float* stream : {s.torque, s.brake, s.gear_time, s.gear}) __builtin_prefetch(stream + i);
-}
 
-// Calls treat(number type, i) for a lane's vehicles: whole batches, and half a batch where no more are left.
+// Calls treat(number type, i) for the slots of a lane, from its first vehicle on: whole batches, and half a batch where that is
+// enough for the last ones.
 template <class R, class Treat>
 STOPLINE_INLINE void for_each_batch(const LaneStep& lane, Treat treat) {
     int i = lane.begin;
@@ -154,37 +107,149 @@ STOPLINE_INLINE void for_each_batch(const LaneStep& lane, Treat treat) {
 }
 
 template <class R>
-void plan(const PlanStreams& s, const DriverTablesOf<float>& d, const Rows& radar, const Rows& v2v,
-          FullKernels::Lanes lanes, double dt) {
+void gather(const FullStreams& streams, const Rows& radar_rows, const Rows& v2v_rows, FullKernels::Lanes lanes,
+            const FullGroup& group) {
+    const FullStreams s = streams;  // own copies: nothing that is written here can change them
+    const FullGroup g = group;
+    const Rows radar = radar_rows;
+    const Rows v2v = v2v_rows;
+    int first = 0;  // place of the lane's first vehicle
     for (const LaneStep& lane : lanes) {
+        const int to_place = first - lane.begin;
         for_each_batch<R>(lane, [&](auto number, int i) STOPLINE_INLINE_LAMBDA {
             if (lane.to_next_lane != 0) prefetch(s, i + lane.to_next_lane);
-            plan_at<decltype(number)>(s, d, radar, v2v, lane, dt, i);
+            gather_at<decltype(number)>(s, radar, v2v, lane, i, i + to_place, g);
         });
+        for (const auto& [slot, mps2] : {std::pair(lane.stop_slot, lane.stop_mps2), {lane.hold_slot, lane.hold_mps2}}) {
+            if (slot < 0) continue;
+            float& imposed = g.imposed[slot + to_place];
+            imposed = std::min(imposed, static_cast<float>(mps2));
+        }
+        first += lane.stop - lane.begin;
     }
+}
+
+// The vehicle at place k of the group, or those from there on.
+template <class R>
+STOPLINE_INLINE void plan_at(const DriverTablesOf<float>& d, const FullGroup& g, double dt, int k) {
+    const CaccSettingsOf<float>& c = d.cacc;
+    const auto get = [k](const auto* array) STOPLINE_INLINE_LAMBDA { return load<R>(array + k); };
+    const R speed = get(g.speed);
+    const R acceleration = get(g.acceleration);
+    const R lag = get(g.lag);
+    const R before = get(g.request);
+    const R limit = get(g.limit);
+    const R rate = 1.0 / lag;
+    PredecessorView<R> p{};
+    p.gap_m = get(g.gap);
+    p.closing_mps = get(g.closing);
+    p.acceleration_mps2 = get(g.heard_acceleration);
+    p.request_mps2 = get(g.heard_request);
+    p.rate_1ps = get(g.heard_rate);
+
+    // Drive freely.
+    const R nothing = splat<R>(kNothing_mps2);
+    const R as_leader = free_acceleration(d, speed, limit);
+    const R end_speed = get(g.end_speed);
+    R slow_down = nothing;
+    if (any(STOPLINE_FLAG(R, end_speed < kNothing_mps2))) {
+        slow_down = slow_down_acceleration(d, speed, end_speed, get(g.to_turn));
+    }
+    // Follow.
+    const R follow = follow_acceleration(c, acceleration, lag, rate, before, get(g.desired_gap), get(g.slope), p, dt);
+    const R emergency = emergency_acceleration(c, speed, p);
+    // Stop behind a standing predecessor; where else it must stop, `imposed` says.
+    const R speed_p = greater(speed - p.closing_mps, 0.0);
+    const R stopping_p = STOPLINE_FLAG(R, p.request_mps2 <= splat<R>(0.0) - lesser(speed_p, 1.0) * kBraking_mps2) *
+                         STOPLINE_FLAG(R, speed_p < kObstacle_mps);
+    R behind = nothing;
+    if (any(stopping_p)) {
+        const R behind_m =
+            p.gap_m - c.radar_delay_s * p.closing_mps - get(g.standstill_gap) + stopping_distance_m(d, speed_p);
+        behind = choose(stopping_p, stop_acceleration(d, speed, behind_m), nothing);
+    }
+
+    // The smallest answer wins. A platoon leader becomes a follower when following asks for less than driving freely.
+    const R leads = get(g.leads) * STOPLINE_FLAG(R, follow > as_leader);
+    const R drive = lesser(choose(leads, as_leader, catch_up_acceleration(d, speed, limit)), slow_down);
+    const R smallest = lesser(lesser(lesser(drive, follow), emergency), lesser(get(g.imposed), behind));
+    const R smooth = limited<R>(smallest, before - c.jerk_down_mps3 * dt, before + c.jerk_up_mps3 * dt);
+    // A standing vehicle does not brake harder and harder: its next start begins from zero.
+    const R lowest = select(speed <= kStanding_mps, splat<R>(0.0), splat<R>(-c.deceleration_emergency_mps2));
+    const R request = greater(smooth, lowest);
+    store(g.request + k, request);
+    // Within the step the request moves from the last one to this one.
+    const R held = STOPLINE_FLAG(R, speed <= kStanding_mps) * STOPLINE_FLAG(R, request <= kStart_mps2);
+    store(g.mean_request + k, choose(held, splat<R>(kHold_mps2), 0.5 * (before + request)));
+    store(g.leads + k, leads);
+    // Tell. The request is in force at the end of this step; the acceleration, a mean over the last one, is brought to
+    // that time by the lag.
+    const R reached = lesser(1.5 * dt * rate, 1.0);
+    store(g.told_acceleration + k, acceleration + (request - acceleration) * reached);
+    store(g.told_rate + k, rate);
+}
+
+// As far as they are of type `only` (< 0: all are).
+template <class R>
+STOPLINE_INLINE void drive_at(const PowertrainTablesOf<float>& t, const FullGroup& g, double dt, int only, int k) {
+    const auto get = [k](const auto* array) STOPLINE_INLINE_LAMBDA { return load<R>(array + k); };
+    PowertrainState<R> now{};
+    now.speed_mps = get(g.speed);
+    now.acceleration_mps2 = get(g.acceleration);
+    now.torque_Nm = get(g.torque);
+    now.brake_N = get(g.brake);
+    now.gear_time_s = get(g.gear_time);
+    now.lag_s = get(g.lag);
+    now.gear = get(g.gear);
+    const R grade_N = t.mass_kg * kGravity_mps2 * get(g.sine);
+    const PowertrainState<R> next = powertrain_step<R>(t, now, get(g.mean_request), grade_N, dt);
+    const R mine = only < 0 ? splat<R>(1.0) : STOPLINE_FLAG(R, get(g.type) == only);
+    const auto put = [&](float* array, const R& then, const R& before)
+                         STOPLINE_INLINE_LAMBDA { store(array + k, only < 0 ? then : choose(mine, then, before)); };
+    put(g.acceleration, next.acceleration_mps2, now.acceleration_mps2);
+    put(g.torque, next.torque_Nm, now.torque_Nm);
+    put(g.brake, next.brake_N, now.brake_N);
+    put(g.gear_time, next.gear_time_s, now.gear_time_s);
+    put(g.lag, next.lag_s, now.lag_s);
+    put(g.gear, next.gear, now.gear);
 }
 
 template <class R>
-void drive(const DriveStreams& s, const PowertrainTablesOf<float>& t, FullKernels::Lanes lanes, double dt, int only) {
-    for (const LaneStep& lane : lanes) {
-        const double grade_N = t.mass_kg * kGravity_mps2 * lane.sine;
-        for_each_batch<R>(lane, [&](auto number, int i) STOPLINE_INLINE_LAMBDA {
-            if (lane.to_next_lane != 0) prefetch(s, i + lane.to_next_lane);
-            drive_at<decltype(number)>(s, t, grade_N, dt, only, i);
-        });
-    }
+void plan(const DriverTablesOf<float>& d, const FullGroup& group, int vehicles, double dt) {
+    const FullGroup g = group;
+    for (int k = 0; k < vehicles; k += kWidthOf<R>) plan_at<R>(d, g, dt, k);
 }
 
-// Few operations on much memory: the compiler vectorises it by itself.
-inline void integrate(double* __restrict position, double* __restrict speed, const float* __restrict acceleration,
-                      FullKernels::Lanes lanes, double dt) {
+template <class R>
+void drive(const PowertrainTablesOf<float>& t, const FullGroup& group, int vehicles, double dt, int only) {
+    const FullGroup g = group;
+    for (int k = 0; k < vehicles; k += kWidthOf<R>) drive_at<R>(t, g, dt, only, k);
+}
+
+template <class R>
+void scatter(const FullStreams& streams, FullKernels::Lanes lanes, const FullGroup& group, double dt) {
+    const FullStreams s = streams;
+    const FullGroup g = group;
+    int first = 0;
     for (const LaneStep& lane : lanes) {
+        const int to_place = first - lane.begin;
+        for_each_batch<R>(lane, [&](auto number, int i) STOPLINE_INLINE_LAMBDA {
+            const auto give = [&](const float* from, float* to) STOPLINE_INLINE_LAMBDA {
+                store(to + i, load<decltype(number)>(from + i + to_place));
+            };
+            give(g.request, s.request), give(g.leads, s.leads), give(g.acceleration, s.acceleration);
+            give(g.torque, s.torque), give(g.brake, s.brake), give(g.gear_time, s.gear_time);
+            give(g.lag, s.lag), give(g.gear, s.gear), give(g.request, s.tell_request);
+            give(g.told_acceleration, s.tell_acceleration), give(g.told_rate, s.tell_rate);
+        });
+        // Speed and position from the acceleration realised in the step.
         for (int i = lane.begin; i < lane.stop; ++i) {
-            const double before = speed[i];
-            const double after = before + static_cast<double>(acceleration[i]) * dt;
-            speed[i] = after > kRest_mps ? after : 0.0;
-            position[i] += 0.5 * (before + speed[i]) * dt;
+            const double before = s.speed[i];
+            const double after = before + static_cast<double>(s.acceleration[i]) * dt;
+            s.speed[i] = after > kRest_mps ? after : 0.0;
+            s.position[i] += 0.5 * (before + s.speed[i]) * dt;
         }
+        first += lane.stop - lane.begin;
     }
 }
 
@@ -198,6 +263,11 @@ inline std::int64_t overlaps(const double* position, const float* length, FullKe
         }
     }
     return count;
+}
+
+template <class R>
+constexpr FullKernels kernels_of(const char* name) {
+    return {name, gather<R>, plan<R>, drive<R>, scatter<R>, overlaps};
 }
 
 }  // namespace

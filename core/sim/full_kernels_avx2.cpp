@@ -4,6 +4,6 @@
 namespace stopline {
 
 extern const FullKernels kAvx2FullKernels;
-const FullKernels kAvx2FullKernels{"avx2", plan<Batch>, drive<Batch>, integrate, overlaps};
+const FullKernels kAvx2FullKernels = kernels_of<Batch>("avx2");
 
 }  // namespace stopline

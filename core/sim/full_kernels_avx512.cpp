@@ -4,6 +4,6 @@
 namespace stopline {
 
 extern const FullKernels kAvx512FullKernels;
-const FullKernels kAvx512FullKernels{"avx512", plan<Batch>, drive<Batch>, integrate, overlaps};
+const FullKernels kAvx512FullKernels = kernels_of<Batch>("avx512");
 
 }  // namespace stopline

@@ -4,9 +4,9 @@
 namespace stopline {
 
 extern const FullKernels kScalarFullKernels;
-const FullKernels kScalarFullKernels{"scalar", plan<Single>, drive<Single>, integrate, overlaps};
+const FullKernels kScalarFullKernels = kernels_of<Single>("scalar");
 
 extern const FullKernels kBaselineFullKernels;
-const FullKernels kBaselineFullKernels{"baseline", plan<Batch>, drive<Batch>, integrate, overlaps};
+const FullKernels kBaselineFullKernels = kernels_of<Batch>("baseline");
 
 }  // namespace stopline

@@ -171,7 +171,6 @@ LaneStep lane_step(const Model& model, const State& state, int lane) {
     step.limit_mps = road.limit_mps;
     step.sine = state.sine[at(lane)];
     step.stop_slot = state.stop_slot[at(lane)];
-    step.leads_to_lower_limit = state.leads_to_lower_limit[at(lane)] != 0;
     if (step.stop_slot >= 0) {
         const std::size_t i = at(step.stop_slot);
         const double room_m = road.stop_line_m - model.driver.stop.margin_m - state.vehicles.position_m[i];

@@ -13,9 +13,7 @@ struct LaneStep {
     double stop_mps2 = 0.0;  // ... and what that asks of it
     int hold_slot = -1;      // vehicle that waits to give way
     double hold_mps2 = 0.0;
-    bool leads_to_lower_limit = false;  // some lane that follows has a lower limit
-    int to_gap = 0;                     // from a slot to its place in the array of desired gaps
-    int to_next_lane = 0;               // slots to those of the lane treated next; 0: all is in the cache
+    int to_next_lane = 0;  // slots to those of the lane treated next; 0: all is in the cache
 };
 
 }  // namespace stopline

@@ -13,6 +13,7 @@ void give_way(const Model& model, State& state);
 void look_beyond_lanes(const Model& model, State& state);
 void watch_detectors(const Model& model, State& state);
 void transfer_vehicles(const Model& model, State& state);
+void form_queues(const Model& model, State& state);  // before the first step
 void insert_vehicles(const Model& model, State& state);
 void verify(State& state);
 

@@ -14,6 +14,7 @@ constexpr int kVehiclesInCache = 4000;
 
 Simulation::Simulation(const Model& model) : model_(model), tables_(full_tables(model)), state_(make_state(model)) {
     check(model);
+    form_queues(model_, state_);
 }
 
 void Simulation::step() {
@@ -32,7 +33,7 @@ void Simulation::step() {
     ++state_.tick;
 }
 
-// Lanes go through the kernels in groups that stay in the first-level cache from one kernel to the next.
+// Lanes go through the kernels in groups that fit into the first-level cache.
 void Simulation::move_vehicles() {
     std::vector<LaneStep>& lanes = state_.lane_steps;
     const bool prefetch = state_.present() > kVehiclesInCache;
@@ -44,7 +45,6 @@ void Simulation::move_vehicles() {
         if (prefetch && !last) {
             lane.to_next_lane = state_.blocks[static_cast<std::size_t>(state_.occupied[k + 1])].first - lane.begin;
         }
-        lane.to_gap = vehicles - lane.begin;
         lanes.push_back(lane);
         vehicles += lane.stop - lane.begin;
         if (vehicles < State::kVehiclesTogether && !last) continue;

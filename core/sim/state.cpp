@@ -40,6 +40,7 @@ State make_state(const Model& model) {
         block.first = block.begin;
         slots = block.end;
         state.blocks.push_back(block);
+        state.sine.push_back(lane.gradient / std::sqrt(1.0 + square(lane.gradient)));
     }
     slots = rounded_up(slots) + kSimdWidth;  // the last batch of a lane reaches beyond its block
     state.vehicles.resize(slots, model.radar.rows, model.v2v.rows);
@@ -55,22 +56,12 @@ State make_state(const Model& model) {
     for (std::size_t k = 0; k < model.detectors.size(); ++k) {
         state.detectors_of[static_cast<std::size_t>(model.detectors[k].lane)].push_back(static_cast<int>(k));
     }
-    for (const Lane& lane : model.graph.lanes) {
-        const auto lower = [&](int next) {
-            return model.graph.lanes[static_cast<std::size_t>(next)].limit_mps < lane.limit_mps;
-        };
-        state.sine.push_back(lane.gradient / std::sqrt(1.0 + square(lane.gradient)));
-        state.leads_to_lower_limit.push_back(std::any_of(lane.next.begin(), lane.next.end(), lower) ? 1 : 0);
-    }
     state.occupied.reserve(model.graph.lanes.size());
     state.inlets.resize(model.demand.inlets.size());
     int longest = 0;
     for (const LaneBlock& block : state.blocks) longest = std::max(longest, block.end - block.begin);
-    const auto n = static_cast<std::size_t>(State::kVehiclesTogether + longest + kSimdWidth);
+    state.group.resize(State::kVehiclesTogether + longest + kSimdWidth);
     state.lane_steps.reserve(model.graph.lanes.size());
-    for (auto* scratch : {&state.desired_gap_m, &state.gap_slope_s, &state.law_gap_m, &state.law_slope_s}) {
-        scratch->assign(n, 0.0);
-    }
     std::size_t expected = 0;
     for (const DemandPlan::Inlet& inlet : model.demand.inlets) {
         expected += static_cast<std::size_t>(std::min<std::int64_t>(inlet.vehicles, 2000));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/events.h"
+#include "sim/full_group.h"
 #include "sim/lane_step.h"
 #include "sim/model.h"
 #include "sim/vehicle_arrays.h"
@@ -55,7 +56,6 @@ struct State {
     std::vector<int> stop_slot;                  // [lane] slot of the vehicle that stops at the line; -1: none
     std::vector<int> hold_slot;                  // [lane] slot of the first vehicle that waits to give way; -1: none
     std::vector<double> hold_m;                  // [lane] where it waits, from the lane's start
-    std::vector<char> leads_to_lower_limit;      // [lane]
     std::vector<double> sine;                    // [lane] of the slope
     std::vector<std::vector<Insider>> insiders;  // [lane inside an intersection], from the front
     std::vector<std::vector<int>> detectors_of;  // [lane]
@@ -71,14 +71,10 @@ struct State {
     // The longest that any vehicle has been inside an intersection, as an Insider, in ticks. Two cycles or more: a deadlock.
     std::int64_t longest_inside = 0;
     int next_id = 0;
-    // Scratch of the kernels: the lanes of a group that go through them together, and one value a vehicle of it. Groups are
-    // complete when they have this many vehicles or more.
-    static constexpr int kVehiclesTogether = 256;
+    // Scratch of the kernels: lanes go through them in groups, complete with this many vehicles or more.
+    static constexpr int kVehiclesTogether = 128;
     std::vector<LaneStep> lane_steps;
-    std::vector<double> desired_gap_m;
-    std::vector<double> gap_slope_s;
-    std::vector<double> law_gap_m;
-    std::vector<double> law_slope_s;
+    FullGroupArrays group;
 
     int present() const { return static_cast<int>(entered - left); }
 };

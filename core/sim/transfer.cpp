@@ -25,6 +25,16 @@ void note(State& state, double time_s, int slot, int from, int to) {
         {time_s, v.id[at(slot)], v.policy[at(slot)], from, to, static_cast<float>(v.speed_mps[at(slot)])});
 }
 
+// At the start of its block a lane's share of an array begins with a line of the cache. Where few vehicles would have to move for
+// that, they do whenever one leaves; where there are many, when the block's end is reached.
+constexpr int kMovedUp = 64;
+
+void move_up(State& state, LaneBlock& block) {
+    if (block.first == block.begin) return;
+    state.vehicles.move(block.first, block.count, block.begin);
+    block.first = block.begin;
+}
+
 // Moves the first vehicle of a lane on along its route, or out of the network.
 void pass_on(const Model& model, State& state, int lane) {
     VehicleArrays& v = state.vehicles;
@@ -48,6 +58,15 @@ void pass_on(const Model& model, State& state, int lane) {
     LaneBlock& block = state.blocks[at(lane)];
     ++block.first;
     --block.count;
+    if (block.count <= kMovedUp) move_up(state, block);
+}
+
+// Who enters next, drawn once for each vehicle.
+void draw_next(const Model& model, State& state, int inlet) {
+    InletState& entered = state.inlets[at(inlet)];
+    if (entered.next_policy >= 0) return;
+    entered.next_policy = model.demand.policy_of(inlet, entered.entered);
+    entered.next_route = model.demand.route_of(inlet, entered.entered);
 }
 
 // How a vehicle would enter: whether there is room, where its front is, and how fast it is.
@@ -146,10 +165,7 @@ double passing_time_s(const Model& model, const State& state, int slot, double l
 int append_slot(State& state, int lane) {
     for (const int detector : state.detectors_of[at(lane)]) ++state.upstream[at(detector)];
     LaneBlock& block = state.blocks[at(lane)];
-    if (block.stop() == block.end) {
-        for (int k = 0; k < block.count; ++k) state.vehicles.copy(block.first + k, block.begin + k);
-        block.first = block.begin;
-    }
+    if (block.stop() == block.end || block.count == 0) move_up(state, block);
     return block.first + block.count++;
 }
 
@@ -161,15 +177,29 @@ void transfer_vehicles(const Model& model, State& state) {
     }
 }
 
+void form_queues(const Model& model, State& state) {
+    if (!model.demand.queued) return;
+    for (int k = 0; k < static_cast<int>(model.demand.inlets.size()); ++k) {
+        const int lane = model.demand.inlets[at(k)].lane;
+        double front_m = model.graph.lanes[at(lane)].stop_line_m - model.driver.stop.margin_m;
+        while (front_m >= 0.0) {
+            draw_next(model, state, k);
+            enter(model, state, k, {true, front_m, 0.0});
+            const VehicleArrays& v = state.vehicles;
+            const int last = state.blocks[at(lane)].last();
+            draw_next(model, state, k);
+            const CompiledPolicy& next = model.policies[at(state.inlets[at(k)].next_policy)];
+            front_m -= v.length_m[at(last)] + desired_gap_m(next, 0.0);
+        }
+    }
+}
+
 void insert_vehicles(const Model& model, State& state) {
     for (int k = 0; k < static_cast<int>(model.demand.inlets.size()); ++k) {
         const DemandPlan::Inlet& inlet = model.demand.inlets[at(k)];
         InletState& entered = state.inlets[at(k)];
         if (entered.entered >= inlet.vehicles) continue;
-        if (entered.next_policy < 0) {
-            entered.next_policy = model.demand.policy_of(k, entered.entered);
-            entered.next_route = model.demand.route_of(k, entered.entered);
-        }
+        draw_next(model, state, k);
         const double headway_s = model.demand.saturated ? 0.0 : model.demand.entry_headway_s;
         if (model.time_s(state.tick + 1) - entered.last_entry_s < headway_s) continue;
         const Entry entry = entry_of(model, state, inlet.lane, model.policies[at(entered.next_policy)]);

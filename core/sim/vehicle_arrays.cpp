@@ -1,5 +1,7 @@
 #include "sim/vehicle_arrays.h"
 
+#include <algorithm>
+
 namespace stopline {
 
 template <class Visit>
@@ -36,6 +38,18 @@ void VehicleArrays::copy(int from, int to) {
         v2v_acceleration_mps2[row(r, to)] = v2v_acceleration_mps2[row(r, from)];
         v2v_request_mps2[row(r, to)] = v2v_request_mps2[row(r, from)];
         v2v_rate_1ps[row(r, to)] = v2v_rate_1ps[row(r, from)];
+    }
+}
+
+void VehicleArrays::move(int from, int count, int to) {
+    const auto moved = [&](auto& array, int row_index) {
+        const auto first = array.begin() + static_cast<std::ptrdiff_t>(row(row_index, from));
+        std::copy(first, first + count, array.begin() + static_cast<std::ptrdiff_t>(row(row_index, to)));
+    };
+    for_each_array([&](auto& array) { moved(array, 0); });
+    for (int r = 0; r < radar_rows; ++r) moved(radar_gap_m, r), moved(radar_closing_mps, r);
+    for (int r = 0; r < v2v_rows; ++r) {
+        moved(v2v_acceleration_mps2, r), moved(v2v_request_mps2, r), moved(v2v_rate_1ps, r);
     }
 }
 

@@ -4,8 +4,8 @@
 //
 //     block of a lane:  | pad ... | sentinel | first | ... | last | free ... |
 //
-// Vehicles leave at the front (first + 1: the left slot becomes the sentinel) and enter at the back; when the back reaches the
-// block's end all move to its start. Slots that hold no vehicle are computed along with the others and never read.
+// Vehicles leave at the front and enter at the back; those that stay move up to the block's start at once or, where they are many,
+// when the back reaches its end. Slots that hold no vehicle are computed along with the others and never read.
 #pragma once
 
 #include <cstdint>
@@ -64,6 +64,8 @@ struct VehicleArrays {
     void resize(int slot_count, int radar_row_count, int v2v_row_count);
     // Copies all of one vehicle to another slot.
     void copy(int from, int to);
+    // Moves vehicles in consecutive slots to slots before theirs.
+    void move(int from, int count, int to);
     // Fills the past of a vehicle: radar with one measurement, V2V with its present state.
     void reset_radar(int slot, double gap_m, double closing_mps);
     void reset_v2v(int slot);

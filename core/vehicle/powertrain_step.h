@@ -9,6 +9,8 @@
 // from a map over gear, engine speed and requested share of full load, as in Section III.D of the paper.
 #pragma once
 
+#include <type_traits>
+
 #include "base/arithmetic.h"
 #include "base/units.h"
 #include "vehicle/powertrain_tables.h"
@@ -57,7 +59,8 @@ STOPLINE_INLINE R next_gear_suffices(const PowertrainTablesOf<Number>& t, const 
 // Advances `s` by dt. `request_mps2` is the desired acceleration, `grade_N` = m g sin(slope), positive uphill.
 template <class R, class Number>
 STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTablesOf<Number>& t, const PowertrainState<R>& s,
-                                                   const R& request_mps2, double grade_N, double dt) {
+                                                   const R& request_mps2, const std::type_identity_t<R>& grade_N,
+                                                   double dt) {
     // Engine speed. In first gear the clutch slips and the engine turns at launch speed until the wheels have caught up.
     const R rpm_per_mps = of_gear(t.rpm_per_mps, s.gear);
     const R locked_rpm = s.speed_mps * rpm_per_mps;

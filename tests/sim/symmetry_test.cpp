@@ -18,7 +18,7 @@ namespace {
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
-constexpr double kUntil_s = 60.0 + 4 * 46.0;
+constexpr double kUntil_s = 1.0 + 4 * 46.0;
 
 Scenario busy() {
     return load_scenario(STOPLINE_SOURCE_DIR "/scenarios/intersection.yaml", {"demand.left=15 %", "demand.right=10 %"});

@@ -1,0 +1,63 @@
+#include "sim/full_group.h"
+
+#include <cstddef>
+#include <initializer_list>
+
+#include "base/simd.h"
+
+namespace stopline {
+
+namespace {
+
+// Divides an array among streams of n each.
+template <class Number>
+void divide(LargeArray<Number>& array, std::size_t n, std::initializer_list<Number**> streams) {
+    array.resize(n * streams.size(), Number{1});
+    std::size_t first = 0;
+    for (Number** const stream : streams) {
+        *stream = array.data() + first;
+        first += n;
+    }
+}
+
+}  // namespace
+
+void FullGroupArrays::resize(int vehicles) {
+    constexpr std::size_t kUnit = kSimdWidth;  // every stream begins with a line of the cache
+    vehicles_ = (static_cast<std::size_t>(vehicles) + kUnit - 1) / kUnit * kUnit;
+    streams();
+}
+
+// Places without a vehicle are computed too: their divisors must not be zero, and are 1 at first.
+FullGroup FullGroupArrays::streams() {
+    FullGroup s{};
+    divide(doubles_, vehicles_, {&s.speed_mps, &s.desired_gap, &s.slope, &s.law_gap, &s.law_slope});
+    divide(floats_, vehicles_,
+           {&s.speed,
+            &s.acceleration,
+            &s.lag,
+            &s.request,
+            &s.gap,
+            &s.closing,
+            &s.to_turn,
+            &s.limit,
+            &s.heard_acceleration,
+            &s.heard_request,
+            &s.heard_rate,
+            &s.end_speed,
+            &s.sine,
+            &s.standstill_gap,
+            &s.imposed,
+            &s.leads,
+            &s.torque,
+            &s.brake,
+            &s.gear_time,
+            &s.gear,
+            &s.told_rate,
+            &s.mean_request,
+            &s.told_acceleration});
+    divide(ints_, vehicles_, {&s.policy, &s.type});
+    return s;
+}
+
+}  // namespace stopline
