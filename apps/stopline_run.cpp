@@ -65,10 +65,10 @@ double trajectory_interval_s(const RunOptionsOfUser& options, const Scenario& sc
     if (!interval.problem.empty()) {
         throw InputError(fmt::format("--interval: value '{}' {}", options.interval, interval.problem));
     }
-    const double steps = interval.si / scenario.step_s;
+    const double steps = interval.si / scenario.tick_s();
     if (steps < 0.5 || std::abs(steps - std::round(steps)) > 1e-6) {
         throw InputError(fmt::format("--interval: '{}' is not a whole number of steps of {}", options.interval,
-                                     short_text(scenario.step_s, unit("ms"))));
+                                     short_text(scenario.tick_s(), unit("ms"))));
     }
     return interval.si;
 }

@@ -5,6 +5,7 @@
 // generators"), applied once per key word. Integer arithmetic only, so it vectorises and is the same on every machine.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 
 namespace stopline {
@@ -26,6 +27,16 @@ constexpr std::uint64_t random_bits(std::uint64_t seed, std::uint64_t vehicle, s
 // Uniform in [0, 1), 53 bits.
 constexpr double random_uniform(std::uint64_t seed, std::uint64_t vehicle, std::uint64_t tick, Purpose purpose) {
     return static_cast<double>(random_bits(seed, vehicle, tick, purpose) >> 11) * 0x1.0p-53;
+}
+
+// The same in two halves, for loops over vehicles: what all vehicles have in common, and the rest. 52 bits: the conversion is
+// one that every instruction set has for vectors.
+constexpr std::uint64_t dawdle_key(std::uint64_t seed) {
+    return mix64(seed ^ (static_cast<std::uint64_t>(Purpose::dawdle) << 56));
+}
+inline double dawdle_uniform(std::uint64_t key, int vehicle, std::uint64_t tick) {
+    const std::uint64_t bits = mix64(mix64(key ^ static_cast<std::uint64_t>(vehicle)) ^ tick);
+    return std::bit_cast<double>(0x3ff0000000000000ULL | (bits >> 12)) - 1.0;
 }
 
 }  // namespace stopline

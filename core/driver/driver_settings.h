@@ -62,6 +62,29 @@ struct DriverSettings {
     std::string name = {};  // of the file in data/drivers
 };
 
+// A model of the Krauss family (krauss.h), as Table 2 of the paper writes it.
+struct KraussSettings {
+    double acceleration_mps2 = 1.7;
+    double deceleration_mps2 = 4.7;
+    double reaction_s = 0.9;         // tau
+    double standstill_gap_m = 2.95;  // minGap
+    double dawdling = 0.4;           // sigma
+};
+
+// The mesoscale mode: one model for policies with a time gap, one for those without.
+struct MesoSettings {
+    std::string name;  // of the file in data/meso
+    double step_s = 0.1;
+    double leader_share = 0.95;  // of the limit, for vehicles without a predecessor (Section V.A)
+    KraussSettings constant_time;
+    KraussSettings constant_distance;
+    double band_m = 0.5;       // s_t of equation (1)
+    double below_band = 0.95;  // d of equation (1)
+    // The policy that the models were calibrated with: others differ from it.
+    double calibrated_time_gap_s = 0.87;
+    double calibrated_standstill_gap_m = 2.95;
+};
+
 // One spacing policy by name. `law` is a registered law; the numbers a law does not use stay 0.
 struct GapPolicySettings {
     std::string name;

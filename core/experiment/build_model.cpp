@@ -21,6 +21,7 @@ void add_policies(const Scenario& scenario, const PopulationSettings& population
         model.demand.policies.push_back(static_cast<int>(model.policies.size()));
         model.demand.policy_shares.push_back(component.share);
         model.policies.push_back({*found, &find_gap_law(found->law)});
+        if (scenario.is_meso()) model.krauss.push_back(krauss_of(scenario.meso, *found));
     }
     using Pattern = PopulationSettings::Pattern;
     model.demand.pattern = population.pattern == Pattern::random     ? DemandPlan::Pattern::random
@@ -86,10 +87,10 @@ void add_detectors(const Scenario& scenario, Model& model) {
 void add_network(const Scenario& scenario, Model& model) {
     if (scenario.network.kind == "intersection") {
         model.graph = make_intersection(scenario.network.intersection);
-        model.signals = make_stages(scenario.signal, model.graph.signal_groups, scenario.step_s);
+        model.signals = make_stages(scenario.signal, model.graph.signal_groups, scenario.tick_s());
     } else {
         model.graph = make_approach(scenario.network.approach);
-        model.signals.push_back(make_single_light(scenario.signal, scenario.step_s));
+        model.signals.push_back(make_single_light(scenario.signal, scenario.tick_s()));
     }
 }
 
@@ -97,15 +98,21 @@ void add_network(const Scenario& scenario, Model& model) {
 
 Model build_model(const Scenario& scenario, std::size_t population) {
     Model model;
-    model.step_s = scenario.step_s;
+    model.step_s = scenario.tick_s();
     model.seed = scenario.seed;
     add_network(scenario, model);
     model.vehicles.push_back(compile_powertrain(scenario.vehicle));
     model.driver = compile_driver(scenario.driver);
-    model.hesitation_ticks = to_ticks(scenario.driver.free_drive.hesitation_s, scenario.step_s);
+    model.hesitation_ticks = to_ticks(scenario.driver.free_drive.hesitation_s, scenario.tick_s());
     // What is planned in a step is in force at its end: what has been seen by then is a step younger than now.
-    model.radar = make_delay(std::max(scenario.driver.cacc.radar_delay_s - scenario.step_s, 0.0), scenario.step_s);
-    model.v2v = make_delay(scenario.driver.cacc.v2v_delay_s, scenario.step_s);
+    model.radar = make_delay(std::max(scenario.driver.cacc.radar_delay_s - scenario.tick_s(), 0.0), scenario.tick_s());
+    model.v2v = make_delay(scenario.driver.cacc.v2v_delay_s, scenario.tick_s());
+    if (scenario.is_meso()) {  // nobody looks back in time
+        model.meso = true;
+        model.leader_share = scenario.meso.leader_share;
+        model.radar = make_delay(0.0, model.step_s);
+        model.v2v = make_delay(model.step_s, model.step_s);
+    }
     model.give_way = scenario.driver.give_way;
     add_detectors(scenario, model);
     add_policies(scenario, scenario.populations.at(population), model);

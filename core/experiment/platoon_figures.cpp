@@ -34,7 +34,7 @@ std::vector<std::pair<int, std::vector<TrajectoryPoint>>> by_vehicle(const Singl
                                                                      double interval_s) {
     const RunResult& run = result.runs[population];
     std::map<int, std::vector<TrajectoryPoint>> vehicles;
-    for (TrajectoryPoint point : thinned(run.trajectory, interval_s, result.scenario.step_s)) {
+    for (TrajectoryPoint point : thinned(run.trajectory, interval_s, result.scenario.tick_s())) {
         if (point.lane != kApproachLane && point.lane != kExitLane) continue;
         point.time_s -= run.green_start_s;
         if (point.time_s > last_shown_s(result)) continue;

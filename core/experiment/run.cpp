@@ -79,9 +79,9 @@ RunResult run_population(const Scenario& scenario, std::size_t population, const
     RunResult result;
     result.population = scenario.populations[population].name;
     result.green_start_s = scenario.signal.first_green_s;
-    const std::int64_t last = to_ticks(scenario.duration_s, scenario.step_s);
-    const std::int64_t green = to_ticks(scenario.signal.first_green_s, scenario.step_s);
-    const std::int64_t every = std::max<std::int64_t>(1, to_ticks(options.trajectory_interval_s, scenario.step_s));
+    const std::int64_t last = to_ticks(scenario.duration_s, scenario.tick_s());
+    const std::int64_t green = to_ticks(scenario.signal.first_green_s, scenario.tick_s());
+    const std::int64_t every = std::max<std::int64_t>(1, to_ticks(options.trajectory_interval_s, scenario.tick_s()));
     constexpr std::int64_t kReport = 1000;
     const auto begin = std::chrono::steady_clock::now();
     result.complete = true;

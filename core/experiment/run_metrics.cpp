@@ -16,8 +16,8 @@ namespace {
 
 // A whole number of steps of about kSampleInterval_s.
 double sample_interval_s(const Scenario& scenario) {
-    const std::int64_t ticks = std::max<std::int64_t>(1, to_ticks(kSampleInterval_s, scenario.step_s));
-    return static_cast<double>(ticks) * scenario.step_s;
+    const std::int64_t ticks = std::max<std::int64_t>(1, to_ticks(kSampleInterval_s, scenario.tick_s()));
+    return static_cast<double>(ticks) * scenario.tick_s();
 }
 
 // The queue at a single light: what summary.csv of stopline-run holds too.

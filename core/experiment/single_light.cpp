@@ -143,22 +143,22 @@ bool SingleLight::no_violations() const {
 SingleLight run_single_light(const Scenario& scenario, const SingleLightOptions& options) {
     SingleLight result;
     result.scenario = scenario;
-    const std::int64_t own = ticks_of(kSampleInterval_s, scenario.step_s);
+    const std::int64_t own = ticks_of(kSampleInterval_s, scenario.tick_s());
     std::int64_t every = own;
     if (options.trajectory_interval_s > 0.0) {
-        every = std::gcd(own, ticks_of(options.trajectory_interval_s, scenario.step_s));
+        every = std::gcd(own, ticks_of(options.trajectory_interval_s, scenario.tick_s()));
     }
-    result.sample_interval_s = static_cast<double>(own) * scenario.step_s;
+    result.sample_interval_s = static_cast<double>(own) * scenario.tick_s();
     RunAllOptions runs;
     runs.threads = options.threads;
-    runs.trajectory_interval_s = static_cast<double>(every) * scenario.step_s;
+    runs.trajectory_interval_s = static_cast<double>(every) * scenario.tick_s();
     runs.trajectory_from_s = scenario.signal.first_green_s - kLeadIn_s;
     runs.trajectory_until_s = scenario.signal.first_green_s + scenario.signal.green_s + kLeadOut_s;
     runs.on_progress = options.on_progress;
     result.runs = run_populations(scenario, runs);
     for (std::size_t k = 0; k < result.runs.size(); ++k) {
         const std::vector<TrajectoryPoint> points =
-            thinned(result.runs[k].trajectory, result.sample_interval_s, scenario.step_s);
+            thinned(result.runs[k].trajectory, result.sample_interval_s, scenario.tick_s());
         result.populations.push_back(summary_of(scenario, k, result.runs[k], points, result.sample_interval_s));
         if (result.populations.back().name == scenario.measure.baseline) result.baseline = k;
     }

@@ -105,7 +105,7 @@ std::string trajectories_csv(const SingleLight& result, double interval_s) {
     const double line_m = result.scenario.network.approach.length_m;
     for (std::size_t k = 0; k < result.runs.size(); ++k) {
         const RunResult& run = result.runs[k];
-        for (const TrajectoryPoint& point : thinned(run.trajectory, interval_s, result.scenario.step_s)) {
+        for (const TrajectoryPoint& point : thinned(run.trajectory, interval_s, result.scenario.tick_s())) {
             csv.row({run.population, fixed(point.time_s - run.green_start_s, 3), std::to_string(point.vehicle),
                      policy_name(result, k, point.policy), std::to_string(point.lane),
                      fixed(point.distance_m - line_m, 3), fixed(point.speed_mps, 4), fixed(point.acceleration_mps2, 4),

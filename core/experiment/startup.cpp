@@ -96,7 +96,7 @@ double deviation(const std::vector<double>& parameters, std::vector<double>& /*g
 StartupRun simulate_start(const Scenario& scenario, const std::vector<double>& times_s) {
     const Scenario lone = lone_start(scenario, times_s.back());
     RunOptions options;
-    options.trajectory_interval_s = std::max(kSample_s, lone.step_s);
+    options.trajectory_interval_s = std::max(kSample_s, lone.tick_s());
     options.trajectory_from_s = kLeaveRed_s;
     const RunResult result = run_population(lone, 0, options);
     const std::vector<TrajectoryPoint>& points = result.trajectory;

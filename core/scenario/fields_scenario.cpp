@@ -17,10 +17,10 @@ constexpr double kFullStepMax_s = 0.1;  // the powertrain's fastest lags would b
 // Time is a count of steps: what the signal does happens between two of them.
 void check_steps(const Scenario& scenario, Checker& check) {
     const auto whole_steps = [&](const std::string& field, double time_s) {
-        const double steps = time_s / scenario.step_s;
+        const double steps = time_s / scenario.tick_s();
         if (std::abs(steps - std::round(steps)) <= 1e-6) return;
         check.error(field, short_text(time_s, unit("s")) + " is not a whole number of steps of " +
-                               short_text(scenario.step_s, unit("ms")));
+                               short_text(scenario.tick_s(), unit("ms")));
     };
     whole_steps("duration", scenario.duration_s);
     whole_steps("signal.first_green", scenario.signal.first_green_s);
@@ -119,10 +119,10 @@ void check_intersection(const Scenario& scenario, Checker& check) {
 
 void check_times(const Scenario& scenario, Checker& check) {
     const SignalSettings& signal = scenario.signal;
-    if (scenario.fidelity == "full" && scenario.step_s > kFullStepMax_s) {
+    if (!scenario.is_meso() && scenario.step_s > kFullStepMax_s) {
         check.error("step", "full dynamics need a step of at most " + short_text(kFullStepMax_s, unit("ms")));
     }
-    if (scenario.driver.cacc.v2v_delay_s < scenario.step_s) {
+    if (!scenario.is_meso() && scenario.driver.cacc.v2v_delay_s < scenario.step_s) {
         check.error("driver.cacc.v2v_delay", "a message cannot arrive before the next step: at least " +
                                                  short_text(scenario.step_s, unit("ms")));
     }
@@ -178,8 +178,10 @@ const Table& scenario_table() {
         {
             text<&S::name>("name", TextField::Rule::name, "name of the scenario; if not given, that of the file"),
             text<&S::title>("title", TextField::Rule::title, "heading of tables and figures"),
-            choice<&S::fidelity>("fidelity", {"full"}, "how vehicles move; full: controller and powertrain"),
-            number<&S::step_s>("step", "s", {0.001, 1}, "time step"),
+            choice<&S::fidelity>(
+                "fidelity", {"full", "meso"},
+                "how vehicles move; full: controller and powertrain; meso: models of the Krauss family"),
+            number<&S::step_s>("step", "s", {0.001, 1}, "time step of full dynamics; the mesoscale mode has its own"),
             number<&S::duration_s>("duration", "s", {0, 1'000'000},
                                    "length of a run; 0: intersections, as long as the measured cycles"),
             whole<&S::seed>("seed", {}, "seed of all random numbers"),
@@ -188,6 +190,7 @@ const Table& scenario_table() {
             section<&S::demand>("demand", demand_table, "the traffic that enters"),
             section<&S::vehicle>("vehicle", vehicle_table, "the vehicles", "vehicles").fallback("petrol_eu4_72kw"),
             section<&S::driver>("driver", driver_table, "the drivers", "drivers").fallback("startup_kit"),
+            section<&S::meso>("meso", meso_table, "the mesoscale mode", "meso").fallback("table2"),
             list<&S::policies>("policies", gap_policy_table, {0, 1000},
                                "own spacing policies, beside those of data/policies/paper.yaml", "policies/paper")
                 .fallback("[]"),

@@ -26,8 +26,8 @@ struct Scenario {
     std::string name;
     std::string title;
     std::string fidelity = "full";  // full | meso
-    double step_s = 0.01;
-    double duration_s = 200.0;  // 0: as long as the measured cycles take
+    double step_s = 0.01;           // of full dynamics; the mesoscale mode has its own
+    double duration_s = 200.0;      // 0: as long as the measured cycles take
     std::uint64_t seed = 1;
     NetworkSettings network;
     SignalSettings signal;
@@ -36,10 +36,14 @@ struct Scenario {
     std::string driver_name;   // file stem in data/drivers
     PowertrainSettings vehicle;
     DriverSettings driver;
+    MesoSettings meso;
     std::vector<GapPolicySettings> policies;      // all named policies that may be used
     std::vector<PopulationSettings> populations;  // one run each
     MeasureSettings measure;
     std::uint64_t hash = 0;  // of the canonical text of all fields; goes into provenance
+
+    bool is_meso() const { return fidelity == "meso"; }
+    double tick_s() const { return is_meso() ? meso.step_s : step_s; }
 };
 
 }  // namespace stopline

@@ -4,6 +4,7 @@
 
 #include "base/narrowed.h"
 #include "sim/full_kernels.h"
+#include "sim/phases.h"
 
 namespace stopline {
 
@@ -92,8 +93,7 @@ void step_full(const Model& model, const FullTables& tables, std::span<const Lan
         kernels.drive(tables.vehicles[k], group, vehicles, model.step_s, only);
     }
     kernels.scatter(streams, lanes, group, model.step_s);
-    // Here, while the lanes are in the cache; what is beyond a lane's end is checked in lane_heads.cpp.
-    state.violations.overlaps += kernels.overlaps(streams.position, streams.length, lanes);
+    state.violations.overlaps += overlaps(state.vehicles, lanes);
 }
 
 }  // namespace stopline

@@ -1,5 +1,7 @@
 #include "sim/full_kernels.h"
 
+#include "sim/instruction_set.h"
+
 namespace stopline {
 
 extern const FullKernels kScalarFullKernels;
@@ -7,25 +9,8 @@ extern const FullKernels kBaselineFullKernels;
 extern const FullKernels kAvx2FullKernels;
 extern const FullKernels kAvx512FullKernels;
 
-namespace {
-
-const FullKernels& widest() {
-#if defined(__x86_64__)
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
-        __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd")) {
-        return kAvx512FullKernels;
-    }
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2")) {
-        return kAvx2FullKernels;
-    }
-#endif
-    return kBaselineFullKernels;
-}
-
-}  // namespace
-
 const FullKernels& full_kernels(bool scalar) {
-    static const FullKernels& kWidest = widest();
+    static const FullKernels& kWidest = widest_of(kBaselineFullKernels, kAvx2FullKernels, kAvx512FullKernels);
     return scalar ? kScalarFullKernels : kWidest;
 }
 

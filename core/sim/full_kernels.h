@@ -1,7 +1,6 @@
 // The inner loops of the full-dynamics fidelity, over plain arrays, and the choice among their builds.
 #pragma once
 
-#include <cstdint>
 #include <span>
 
 #include "driver/acceleration_laws.h"
@@ -37,8 +36,6 @@ struct FullKernels {
     void (*drive)(const PowertrainTablesOf<float>&, const FullGroup&, int vehicles, double dt, int only);
     // Takes the group apart again, and moves its vehicles.
     void (*scatter)(const FullStreams&, Lanes, const FullGroup&, double dt);
-    // Fronts that are beyond the rear of their predecessor on the same lane.
-    std::int64_t (*overlaps)(const double* position, const float* length, Lanes);
 };
 
 // The widest build that this machine runs, or the scalar one: one vehicle at a time, the oracle of the others.

@@ -120,10 +120,10 @@ void gather(const FullStreams& streams, const Rows& radar_rows, const Rows& v2v_
             if (lane.to_next_lane != 0) prefetch(s, i + lane.to_next_lane);
             gather_at<decltype(number)>(s, radar, v2v, lane, i, i + to_place, g);
         });
-        for (const auto& [slot, mps2] : {std::pair(lane.stop_slot, lane.stop_mps2), {lane.hold_slot, lane.hold_mps2}}) {
+        for (const auto& [slot, asks] : {std::pair(lane.stop_slot, lane.stop_asks), {lane.hold_slot, lane.hold_asks}}) {
             if (slot < 0) continue;
             float& imposed = g.imposed[slot + to_place];
-            imposed = std::min(imposed, static_cast<float>(mps2));
+            imposed = std::min(imposed, static_cast<float>(asks));
         }
         first += lane.stop - lane.begin;
     }
@@ -253,21 +253,9 @@ void scatter(const FullStreams& streams, FullKernels::Lanes lanes, const FullGro
     }
 }
 
-inline std::int64_t overlaps(const double* position, const float* length, FullKernels::Lanes lanes) {
-    constexpr double kRounding_m = 1e-6;
-    std::int64_t count = 0;
-    for (const LaneStep& lane : lanes) {
-        for (int i = lane.begin + 1; i < lane.stop; ++i) {
-            const double gap_m = position[i - 1] - static_cast<double>(length[i - 1]) - position[i];
-            count += gap_m < -kRounding_m ? 1 : 0;
-        }
-    }
-    return count;
-}
-
 template <class R>
 constexpr FullKernels kernels_of(const char* name) {
-    return {name, gather<R>, plan<R>, drive<R>, scatter<R>, overlaps};
+    return {name, gather<R>, plan<R>, drive<R>, scatter<R>};
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/arithmetic.h"
+#include "sim/meso_dynamics.h"
 #include "sim/phases.h"
 
 namespace stopline {
@@ -141,7 +142,6 @@ void look_beyond_lanes(const Model& model, State& state) {
         v.position_m[sentinel] = seen ? ahead.start_m + v.position_m[other] : kNothing_m;
         v.speed_mps[sentinel] = v.speed_mps[other];
         v.length_m[sentinel] = v.length_m[other];
-        // Within a lane overlaps are counted where it is computed, see full_dynamics.cpp.
         const double rear_m = v.position_m[sentinel] - v.length_m[sentinel];
         state.violations.overlaps += static_cast<std::int64_t>(seen && rear_m < v.position_m[at(head)]);
         for (const std::size_t row : {state.v2v.late, state.v2v.later}) {
@@ -171,16 +171,16 @@ LaneStep lane_step(const Model& model, const State& state, int lane) {
     step.limit_mps = road.limit_mps;
     step.sine = state.sine[at(lane)];
     step.stop_slot = state.stop_slot[at(lane)];
-    if (step.stop_slot >= 0) {
-        const std::size_t i = at(step.stop_slot);
-        const double room_m = road.stop_line_m - model.driver.stop.margin_m - state.vehicles.position_m[i];
-        step.stop_mps2 = stop_at_line_mps2(model.driver, state.vehicles.speed_mps[i], room_m);
-    }
     step.hold_slot = state.hold_slot[at(lane)];
-    if (step.hold_slot >= 0) {
-        const std::size_t i = at(step.hold_slot);
-        const double room_m = state.hold_m[at(lane)] - state.vehicles.position_m[i];
-        step.hold_mps2 = stop_at_line_mps2(model.driver, state.vehicles.speed_mps[i], room_m);
+    const auto asks = [&](int slot, double place_m) {
+        const double room_m = place_m - state.vehicles.position_m[at(slot)];
+        return model.meso ? stopping_speed_mps(model, state.vehicles, slot, room_m)
+                          : stop_at_line_mps2(model.driver, state.vehicles.speed_mps[at(slot)], room_m);
+    };
+    if (step.stop_slot >= 0) step.stop_asks = asks(step.stop_slot, road.stop_line_m - model.driver.stop.margin_m);
+    if (step.hold_slot >= 0) step.hold_asks = asks(step.hold_slot, state.hold_m[at(lane)]);
+    if (model.meso && state.vehicles.predecessor[at(step.begin)] < 0) {
+        step.leader_mps = model.leader_share * road.limit_mps;
     }
     return step;
 }

@@ -10,10 +10,11 @@ struct LaneStep {
     double limit_mps = 0.0;
     double sine = 0.0;       // of the slope
     int stop_slot = -1;      // vehicle that stops at the stop line, ...
-    double stop_mps2 = 0.0;  // ... and what that asks of it
+    double stop_asks = 0.0;  // ... and what that asks of it: an acceleration, in the mesoscale mode a speed
     int hold_slot = -1;      // vehicle that waits to give way
-    double hold_mps2 = 0.0;
-    int to_next_lane = 0;  // slots to those of the lane treated next; 0: all is in the cache
+    double hold_asks = 0.0;
+    double leader_mps = 0.0;  // mesoscale mode: highest speed of a first vehicle without predecessor; 0: it has one
+    int to_next_lane = 0;     // slots to those of the lane treated next; 0: all is in the cache
 };
 
 }  // namespace stopline

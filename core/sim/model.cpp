@@ -23,6 +23,9 @@ void check(const Model& model) {
         throw InputError("every signal group needs one programme");
     }
     if (model.vehicles.empty() || model.policies.empty()) throw InputError("a vehicle type and a policy are needed");
+    if (model.meso && model.krauss.size() != model.policies.size()) {
+        throw InputError("every policy needs a mesoscale model");
+    }
     if (model.v2v.steps < 1) throw InputError("driver: v2v_delay must be at least one simulation step");
 }
 

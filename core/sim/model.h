@@ -7,6 +7,7 @@
 #include "demand/demand_plan.h"
 #include "driver/acceleration_laws.h"
 #include "driver/gap_policy.h"
+#include "driver/krauss.h"
 #include "network/lane_graph.h"
 #include "signals/programme.h"
 #include "vehicle/powertrain_tables.h"
@@ -50,6 +51,9 @@ struct Model {
     GiveWaySettings give_way;
     DelayLine radar;
     DelayLine v2v;
+    bool meso = false;            // the mesoscale mode; else full dynamics
+    std::vector<Krauss> krauss;   // [policy], mesoscale mode
+    double leader_share = 1.0;    // of the limit, for vehicles without a predecessor, mesoscale mode
     bool scalar_kernels = false;  // the oracle: one vehicle at a time, same bits
 
     double time_s(std::int64_t tick) const { return static_cast<double>(tick) * step_s; }

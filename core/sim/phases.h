@@ -1,6 +1,9 @@
 // The phases of a step (see simulation.h) that are not kernels. Each takes the model and the state and is called once a step.
 #pragma once
 
+#include <cstdint>
+#include <span>
+
 #include "sim/model.h"
 #include "sim/state.h"
 
@@ -16,6 +19,9 @@ void transfer_vehicles(const Model& model, State& state);
 void form_queues(const Model& model, State& state);  // before the first step
 void insert_vehicles(const Model& model, State& state);
 void verify(State& state);
+
+// Fronts that are beyond the rear of their predecessor on the same lane.
+std::int64_t overlaps(const VehicleArrays& vehicles, std::span<const LaneStep> lanes);
 
 // What the kernels need of a lane in this step.
 LaneStep lane_step(const Model& model, const State& state, int lane);

@@ -1,6 +1,7 @@
 #include "sim/simulation.h"
 
 #include "base/state_hash.h"
+#include "sim/meso_dynamics.h"
 #include "sim/phases.h"
 
 namespace stopline {
@@ -48,7 +49,11 @@ void Simulation::move_vehicles() {
         lanes.push_back(lane);
         vehicles += lane.stop - lane.begin;
         if (vehicles < State::kVehiclesTogether && !last) continue;
-        step_full(model_, tables_, lanes, state_);
+        if (model_.meso) {
+            step_meso(model_, lanes, state_);
+        } else {
+            step_full(model_, tables_, lanes, state_);
+        }
         state_.updates += vehicles;
         vehicles = 0;
         lanes.clear();

@@ -60,7 +60,9 @@ State make_state(const Model& model) {
     state.inlets.resize(model.demand.inlets.size());
     int longest = 0;
     for (const LaneBlock& block : state.blocks) longest = std::max(longest, block.end - block.begin);
-    state.group.resize(State::kVehiclesTogether + longest + kSimdWidth);
+    const int together = State::kVehiclesTogether + longest + kSimdWidth;
+    state.group.resize(model.meso ? 0 : together);
+    state.meso_group.resize(model.meso ? together : 0);
     state.lane_steps.reserve(model.graph.lanes.size());
     std::size_t expected = 0;
     for (const DemandPlan::Inlet& inlet : model.demand.inlets) {

@@ -8,6 +8,7 @@
 #include "sim/events.h"
 #include "sim/full_group.h"
 #include "sim/lane_step.h"
+#include "sim/meso_kernels.h"
 #include "sim/model.h"
 #include "sim/vehicle_arrays.h"
 
@@ -75,6 +76,7 @@ struct State {
     static constexpr int kVehiclesTogether = 128;
     std::vector<LaneStep> lane_steps;
     FullGroupArrays group;
+    MesoGroupArrays meso_group;
 
     int present() const { return static_cast<int>(entered - left); }
 };

@@ -76,14 +76,18 @@ struct Entry {
     double speed_mps = 0.0;
 };
 
-double desired_gap_m(const CompiledPolicy& policy, double speed_mps) {
+double desired_gap_m(const Model& model, int policy_index, double speed_mps) {
+    const CompiledPolicy& policy = model.policies[at(policy_index)];
     double gap_m = 0.0;
     double slope_s = 0.0;
     policy.law->evaluate(policy.settings, {&speed_mps, 1}, {&gap_m, 1}, {&slope_s, 1});
-    return gap_m;
+    if (!model.meso) return gap_m;
+    const Krauss& krauss = model.krauss[at(policy_index)];
+    const double more_m = krauss.constant_distance ? gap_m - policy.settings.standstill_gap_m : 0.0;
+    return krauss.equilibrium_gap_m(speed_mps) + more_m;
 }
 
-Entry entry_of(const Model& model, const State& state, int lane, const CompiledPolicy& policy) {
+Entry entry_of(const Model& model, const State& state, int lane, int policy) {
     const double fastest_mps = std::min(model.demand.entry_speed_mps, model.graph.lanes[at(lane)].limit_mps);
     const LaneBlock& block = state.blocks[at(lane)];
     if (block.count == 0) return {true, 0.0, fastest_mps};
@@ -92,10 +96,10 @@ Entry entry_of(const Model& model, const State& state, int lane, const CompiledP
     const double rear_m = v.position_m[last] - v.length_m[last];
     const double speed_mps = std::min(fastest_mps, v.speed_mps[last]);
     if (model.demand.saturated) {
-        const double position_m = rear_m - desired_gap_m(policy, speed_mps);
+        const double position_m = rear_m - desired_gap_m(model, policy, speed_mps);
         return {position_m >= 0.0, position_m, speed_mps};
     }
-    const double room_m = desired_gap_m(policy, speed_mps) + speed_mps * model.demand.entry_headway_s * 0.5;
+    const double room_m = desired_gap_m(model, policy, speed_mps) + speed_mps * model.demand.entry_headway_s * 0.5;
     return {rear_m >= room_m, 0.0, speed_mps};
 }
 
@@ -153,11 +157,12 @@ void enter(const Model& model, State& state, int inlet_index, const Entry& entry
 
 }  // namespace
 
-// When the front passed `line_m` within the last step, from the mean speed of the step.
+// When the front passed `line_m` within the last step, from the mean speed of the step (mesoscale mode: all at the new speed).
 double passing_time_s(const Model& model, const State& state, int slot, double line_m) {
     const VehicleArrays& v = state.vehicles;
-    const double speed_before = v.speed_mps[at(slot)] - v.acceleration_mps2[at(slot)] * model.step_s;
-    const double mean_mps = std::max(0.5 * (speed_before + v.speed_mps[at(slot)]), 1e-6);
+    const double speed_mps = v.speed_mps[at(slot)];
+    const double speed_before = model.meso ? speed_mps : speed_mps - v.acceleration_mps2[at(slot)] * model.step_s;
+    const double mean_mps = std::max(0.5 * (speed_before + speed_mps), 1e-6);
     const double since_s = (v.position_m[at(slot)] - line_m) / mean_mps;
     return model.time_s(state.tick + 1) - std::clamp(since_s, 0.0, model.step_s);
 }
@@ -188,8 +193,7 @@ void form_queues(const Model& model, State& state) {
             const VehicleArrays& v = state.vehicles;
             const int last = state.blocks[at(lane)].last();
             draw_next(model, state, k);
-            const CompiledPolicy& next = model.policies[at(state.inlets[at(k)].next_policy)];
-            front_m -= v.length_m[at(last)] + desired_gap_m(next, 0.0);
+            front_m -= v.length_m[at(last)] + desired_gap_m(model, state.inlets[at(k)].next_policy, 0.0);
         }
     }
 }
@@ -202,7 +206,7 @@ void insert_vehicles(const Model& model, State& state) {
         draw_next(model, state, k);
         const double headway_s = model.demand.saturated ? 0.0 : model.demand.entry_headway_s;
         if (model.time_s(state.tick + 1) - entered.last_entry_s < headway_s) continue;
-        const Entry entry = entry_of(model, state, inlet.lane, model.policies[at(entered.next_policy)]);
+        const Entry entry = entry_of(model, state, inlet.lane, entered.next_policy);
         if (entry.possible) enter(model, state, k, entry);
     }
 }

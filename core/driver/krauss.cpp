@@ -1,0 +1,26 @@
+#include "driver/krauss.h"
+
+#include <algorithm>
+
+namespace stopline {
+
+Krauss krauss_of(const MesoSettings& settings, const GapPolicySettings& policy) {
+    const bool time_gap = policy.law == "constant_time";
+    const KraussSettings& s = time_gap ? settings.constant_time : settings.constant_distance;
+    Krauss k;
+    k.acceleration_mps2 = s.acceleration_mps2;
+    k.deceleration_mps2 = s.deceleration_mps2;
+    k.reaction_s = s.reaction_s;
+    k.standstill_gap_m = s.standstill_gap_m + policy.standstill_gap_m - settings.calibrated_standstill_gap_m;
+    k.dawdling = s.dawdling;
+    if (time_gap) {
+        k.reaction_s = std::max(k.reaction_s + policy.time_gap_s - settings.calibrated_time_gap_s, 0.0);
+    } else {
+        k.constant_distance = true;
+        k.band_m = settings.band_m;
+        k.below_band = settings.below_band;
+    }
+    return k;
+}
+
+}  // namespace stopline

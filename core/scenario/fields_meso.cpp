@@ -1,0 +1,54 @@
+// Fields of the mesoscale mode.
+#include "scenario/field_rows.h"
+#include "scenario/fields.h"
+
+namespace stopline {
+namespace {
+
+const Table& krauss_table() {
+    using S = KraussSettings;
+    static const Table table = make_table<S>(
+        "a model of the Krauss family",
+        {
+            number<&S::acceleration_mps2>("acceleration", "m/s2", {0.1, 10}, "a: highest acceleration"),
+            number<&S::deceleration_mps2>("deceleration", "m/s2", {0.1, 12}, "b: braking that safe speeds reckon with"),
+            number<&S::reaction_s>("reaction", "s", {0, 5}, "tau: time before braking that safe speeds reckon with"),
+            number<&S::standstill_gap_m>("standstill_gap", "m", {0.1, 20}, "s_0, minGap: net gap at standstill"),
+            number<&S::dawdling>("dawdling", "", {0, 1}, "sigma: share of the acceleration that is lost at random"),
+        });
+    return table;
+}
+
+}  // namespace
+
+const Table& meso_table() {
+    using S = MesoSettings;
+    static const Table table = make_table<S>(
+        "the mesoscale mode",
+        {
+            text<&S::name>("name", TextField::Rule::name, "name; if not given, that of the file"),
+            number<&S::step_s>("step", "s", {0.01, 1}, "time step"),
+            number<&S::leader_share>("leader_share", "%", {50, 100},
+                                     "share of the limit that vehicles without a predecessor drive, so that others can "
+                                     "catch up with them"),
+            section<&S::constant_time>("constant_time", krauss_table, "policies with a time gap: the Krauss model"),
+            section<&S::constant_distance>("constant_distance", krauss_table,
+                                           "all other policies: the paper's equation (1)"),
+            number<&S::band_m>("band", "m", {0, 5}, "s_t of equation (1): width of the tolerance band"),
+            number<&S::below_band>("below_band", "", {0, 1},
+                                   "d of equation (1): share of the predecessor's speed below the band"),
+            number<&S::calibrated_time_gap_s>("calibrated_time_gap", "s", {0, 5},
+                                              "time gap of the policy that constant_time was calibrated with; others "
+                                              "differ from it in tau"),
+            number<&S::calibrated_standstill_gap_m>("calibrated_standstill_gap", "m", {0.1, 20},
+                                                    "standstill gap of the calibrated policies; others differ from it"),
+        },
+        [](const S& s, Checker& check) {
+            if (s.band_m >= s.constant_distance.standstill_gap_m) {
+                check.error("band", "must be below constant_distance.standstill_gap");
+            }
+        });
+    return table;
+}
+
+}  // namespace stopline

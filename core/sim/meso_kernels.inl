@@ -1,0 +1,100 @@
+// The kernels' text. Included by one file for each build, each in a namespace of its own.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "base/random.h"
+#include "sim/meso_kernels.h"
+
+namespace stopline {
+
+namespace {
+
+inline void gather(const MesoStreams& streams, MesoKernels::Lanes lanes, const MesoStep& step, const MesoGroup& group) {
+    const MesoStreams s = streams;  // own copies: nothing that is written here can change them
+    const MesoGroup g = group;
+    const double slow_down_mps2 = step.slow_down_mps2;
+    int first = 0;  // place of the lane's first vehicle
+    for (const LaneStep& lane : lanes) {
+        const int n = lane.stop - lane.begin;
+        const double* const position = s.position + lane.begin;
+        const double* const speed = s.speed + lane.begin;
+        const float* const length = s.length + lane.begin;
+        const float* const end_speed = s.end_speed + lane.begin;
+        const double turn_m = lane.turn_m;
+        const double limit_mps = lane.limit_mps;
+        for (int i = 0; i < n; ++i) {
+            const int k = first + i;
+            g.speed[k] = speed[i];
+            g.ahead[k] = speed[i - 1];
+            g.gap[k] = position[i - 1] - static_cast<double>(length[i - 1]) - position[i];
+            // Towards a lower limit at the end of the lane: v^2 = v_end^2 + 2 b distance.
+            const double end_mps = static_cast<double>(end_speed[i]);
+            const double to_turn_m = std::max(turn_m - position[i], 0.0);
+            const double slow_mps = std::sqrt(end_mps * end_mps + 2.0 * slow_down_mps2 * to_turn_m);
+            g.cap[k] = std::min(limit_mps, slow_mps);
+            g.more[k] = 0.0;
+        }
+        std::copy_n(s.id + lane.begin, n, g.id + first);
+        std::copy_n(s.policy + lane.begin, n, g.policy + first);
+        if (lane.leader_mps > 0.0) g.cap[first] = std::min(g.cap[first], lane.leader_mps);
+        for (const auto& [slot, asks] : {std::pair(lane.stop_slot, lane.stop_asks), {lane.hold_slot, lane.hold_asks}}) {
+            if (slot < 0) continue;
+            double& cap_mps = g.cap[first + slot - lane.begin];
+            cap_mps = std::min(cap_mps, asks);
+        }
+        first += n;
+    }
+}
+
+inline void follow(const Krauss& model, const MesoStep& step, const MesoGroup& group, int vehicles, int only) {
+    const Krauss k = model;
+    const MesoStep t = step;
+    const double* __restrict const speed = group.speed;
+    const double* __restrict const gap = group.gap;
+    const double* __restrict const ahead = group.ahead;
+    const double* __restrict const more = group.more;
+    const double* __restrict const cap = group.cap;
+    const int* __restrict const id = group.id;
+    const int* __restrict const policy = group.policy;
+    double* __restrict const next = group.next;
+    if (only < 0) {
+        for (int i = 0; i < vehicles; ++i) {
+            const double random = dawdle_uniform(t.key, id[i], t.tick);
+            next[i] = next_speed_mps(k, {speed[i], gap[i], ahead[i], more[i], cap[i]}, random, t.dt);
+        }
+        return;
+    }
+    for (int i = 0; i < vehicles; ++i) {
+        const double random = dawdle_uniform(t.key, id[i], t.tick);
+        const double mine = next_speed_mps(k, {speed[i], gap[i], ahead[i], more[i], cap[i]}, random, t.dt);
+        next[i] = policy[i] == only ? mine : next[i];
+    }
+}
+
+inline void scatter(const MesoStreams& streams, MesoKernels::Lanes lanes, const MesoStep& step,
+                    const MesoGroup& group) {
+    const MesoStreams s = streams;
+    const MesoGroup g = group;
+    const double dt = step.dt;
+    const double rate_1ps = 1.0 / dt;
+    int first = 0;
+    for (const LaneStep& lane : lanes) {
+        const int n = lane.stop - lane.begin;
+        double* __restrict const position = s.position + lane.begin;
+        double* __restrict const speed = s.speed + lane.begin;
+        float* __restrict const acceleration = s.acceleration + lane.begin;
+        const double* __restrict const next = g.next + first;
+        for (int i = 0; i < n; ++i) {
+            acceleration[i] = static_cast<float>((next[i] - speed[i]) * rate_1ps);
+            speed[i] = next[i];
+            position[i] += next[i] * dt;
+        }
+        first += n;
+    }
+}
+
+}  // namespace
+
+}  // namespace stopline

@@ -1,0 +1,9 @@
+// Mesoscale kernels for AVX2.
+#include "sim/meso_kernels.inl"
+
+namespace stopline {
+
+extern const MesoKernels kAvx2MesoKernels;
+const MesoKernels kAvx2MesoKernels{"avx2", gather, follow, scatter};
+
+}  // namespace stopline
