@@ -116,8 +116,8 @@ STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTablesOf<Numb
     next.speed_mps = choose(stops, splat<R>(0.0), speed + free_mps2 * dt);
     next.acceleration_mps2 = choose(stops, (0.0 - speed) * (1.0 / dt), free_mps2);
 
-    // Gear changes. More load, later shifts; an engine that is asked for clearly more than it has
-    // kicks down. The hysteresis is the distance
+    // Gear changes. More load, later shifts; an engine that is asked for half as much again as it has kicks down: for less
+    // than that, the lower gear would not win back what the interruption costs. The hysteresis is the distance
     // between the up- and downshift speeds and the minimum time in a gear; at standstill first gear goes in.
     const auto load = limited(2.5 * share - 1.25, 0.0, 1.0);  // part-load schedule up to half load, full from 0.9
     const auto up_rpm = t.shift_up_part_rpm + load * (t.shift_up_full_rpm - t.shift_up_part_rpm);
@@ -130,7 +130,7 @@ STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTablesOf<Numb
     const R lower = greater(s.gear - 1.0, 0.0);
     const R lower_rpm = speed * of_gear(t.rpm_per_mps, lower);
     const R kick_down =
-        STOPLINE_FLAG(R, wanted_Nm > 1.1 * full_Nm) * STOPLINE_FLAG(R, lower_rpm < 0.8 * t.shift_up_full_rpm) * settled;
+        STOPLINE_FLAG(R, wanted_Nm > 1.5 * full_Nm) * STOPLINE_FLAG(R, lower_rpm < 0.8 * t.shift_up_full_rpm) * settled;
     const R slow = STOPLINE_FLAG(R, locked_rpm < t.shift_down_rpm) * greater(settled, 1.0 - driving);
     const R down = greater(kick_down, slow) * STOPLINE_FLAG(R, s.gear > 0.5) * (1.0 - up);
     const R moving = STOPLINE_FLAG(R, next.speed_mps > 0.0);

@@ -1,9 +1,9 @@
 // The behaviour does not depend on the step: the experiment of the single light, from the drive-up of the queue on, gives the
-// same passages with steps of 20, 10 and 5 ms. The aim is 0.05 s for each. SWITCH-1 and, at 10 ms, CDG and MIX meet it; the others do
-// not yet: gear changes fall into other steps while the queue forms, which leaves other standing gaps. The bounds below hold
-// what was reached; the test prints the largest difference.
+// same passages with steps of 20, 10 and 5 ms, each within 0.05 s.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "support/track.h"
@@ -32,11 +32,9 @@ std::vector<double> stop_line_times(const std::string& policy, double step_s) {
 }
 
 class StepLength : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Policies, StepLength, testing::Values("CDG", "CTG-Ref", "SWITCH-1", "SWITCH-2", "MIX"),
-                         as_name);
+INSTANTIATE_TEST_SUITE_P(Policies, StepLength,
+                         testing::Values("CDG", "CTG-Ref", "CTG-HCM", "SWITCH-1", "SWITCH-2", "MIX"), as_name);
 
-// A gearbox that is asked for almost exactly as much as makes it kick down does so at one step and not at another: single
-// vehicles differ by more at the coarsest step, their followers hardly.
 TEST_P(StepLength, DoesNotMatterToThePassages) {
     const std::vector<double> fine = stop_line_times(GetParam(), 0.005);
     ASSERT_EQ(fine.size(), std::size_t{kVehicles});
@@ -44,17 +42,12 @@ TEST_P(StepLength, DoesNotMatterToThePassages) {
         const std::vector<double> coarse = stop_line_times(GetParam(), step_s);
         ASSERT_EQ(coarse.size(), fine.size());
         double largest_s = 0.0;
-        int far = 0;
         for (std::size_t k = 0; k < fine.size(); ++k) {
-            const double difference_s = coarse[k] - fine[k];
-            if (std::fabs(difference_s) > 0.05) ++far;
-            if (std::fabs(difference_s) > std::fabs(largest_s)) largest_s = difference_s;
+            largest_s = std::max(largest_s, std::fabs(coarse[k] - fine[k]));
         }
-        std::printf(
-            "%s: passages at a step of %.0f ms are at most %+.3f s from those at 5 ms, %d of %d beyond 0.05 s\n",
-            GetParam().c_str(), 1e3 * step_s, largest_s, far, kVehicles);
-        EXPECT_LE(far, step_s > 0.015 ? 4 : 0);
-        EXPECT_LT(std::fabs(largest_s), 0.2);
+        std::printf("%s: passages at a step of %.0f ms are at most %.3f s from those at 5 ms\n", GetParam().c_str(),
+                    1e3 * step_s, largest_s);
+        EXPECT_LT(largest_s, 0.05);
     }
 }
 
