@@ -23,12 +23,6 @@ constexpr double kCloseBehind_m = 6.0;
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
-int next_lane(const Model& model, const VehicleArrays& v, int slot) {
-    const std::vector<int>& lanes = model.graph.routes[at(v.route[at(slot)])].lanes;
-    const std::size_t k = at(v.route_index[at(slot)]) + 1;
-    return k < lanes.size() ? lanes[k] : -1;
-}
-
 Insider insider(const VehicleArrays& v, int slot, double offset_m) {
     const double front_m = v.position_m[at(slot)] + offset_m;
     return {slot, front_m, front_m - v.length_m[at(slot)], v.inside_since[at(slot)]};
@@ -46,10 +40,10 @@ void list_insiders(const Model& model, const State& state, int lane, std::vector
     const Lane& road = model.graph.lanes[at(lane)];
     insiders.clear();
     const LaneBlock& exit = state.blocks[at(road.next[0])];
-    for (int slot = std::max(exit.first, exit.stop() - 2); slot < exit.stop(); ++slot) {
-        const bool from_here = v.route_index[at(slot)] > 0 &&
-                               model.graph.routes[at(v.route[at(slot)])].lanes[at(v.route_index[at(slot)]) - 1] == lane;
-        if (from_here && v.position_m[at(slot)] < v.length_m[at(slot)]) {
+    const auto reaches_back = [&](int slot) { return v.position_m[at(slot)] < v.length_m[at(slot)]; };
+    if (exit.count > 0 && reaches_back(exit.last())) {
+        for (int slot = std::max(exit.first, exit.stop() - 2); slot < exit.stop(); ++slot) {
+            if (v.came_from[at(slot)] != lane || !reaches_back(slot)) continue;
             insiders.push_back(insider(v, slot, road.length_m));
         }
     }
@@ -59,7 +53,7 @@ void list_insiders(const Model& model, const State& state, int lane, std::vector
     const Lane& origin = model.graph.lanes[at(road.origin)];
     for (int slot = before.first; slot < before.stop(); ++slot) {
         if (v.position_m[at(slot)] <= origin.stop_line_m) break;
-        if (next_lane(model, v, slot) == lane) insiders.push_back(insider(v, slot, -origin.length_m));
+        if (v.next_lane[at(slot)] == lane) insiders.push_back(insider(v, slot, -origin.length_m));
     }
 }
 
@@ -104,7 +98,7 @@ double next_arrival_s(const Model& model, const State& state, const Conflict& co
         const double distance_m = origin.length_m + conflict.other_from_m - v.position_m[at(slot)];
         if (distance_m > horizon_s * origin.limit_mps) break;
         if (slot == stopping) break;
-        if (v.position_m[at(slot)] > origin.stop_line_m || next_lane(model, v, slot) != conflict.other) continue;
+        if (v.position_m[at(slot)] > origin.stop_line_m || v.next_lane[at(slot)] != conflict.other) continue;
         return std::min(soonest_s, earliest_s(distance_m, v.speed_mps[at(slot)], a, other.limit_mps));
     }
     return soonest_s;
@@ -197,7 +191,7 @@ void decide(const Model& model, State& state, int lane) {
     for (int slot = before.first; slot < before.stop(); ++slot) {
         const double position_m = v.position_m[at(slot)];
         if (origin.length_m - position_m > kLookBack_m || slot == state.stop_slot[at(road.origin)]) break;
-        if (next_lane(model, v, slot) != lane) continue;
+        if (v.next_lane[at(slot)] != lane) continue;
         const Candidate candidate{slot, position_m - origin.length_m, position_m > origin.stop_line_m};
         const double hold_m = waiting_place(model, state, lane, candidate);
         if (hold_m < kNowhere_m) return wait(state, road.origin, slot, hold_m + origin.length_m);

@@ -19,6 +19,13 @@ float end_speed(const Model& model, const Route& route, int index) {
     return next < here ? static_cast<float>(next) : kNoLowerLimit_mps;
 }
 
+void set_route_index(const Model& model, VehicleArrays& v, int slot, int index) {
+    const Route& route = model.graph.routes[at(v.route[at(slot)])];
+    v.route_index[at(slot)] = index;
+    v.next_lane[at(slot)] = at(index) + 1 < route.lanes.size() ? route.lanes[at(index) + 1] : -1;
+    v.end_speed_mps[at(slot)] = end_speed(model, route, index);
+}
+
 void note(State& state, double time_s, int slot, int from, int to) {
     const VehicleArrays& v = state.vehicles;
     state.passages.push_back(
@@ -52,8 +59,8 @@ void pass_on(const Model& model, State& state, int lane) {
         const int target = append_slot(state, next);
         v.copy(slot, target);
         v.position_m[at(target)] -= length_m;
-        v.route_index[at(target)] = index;
-        v.end_speed_mps[at(target)] = end_speed(model, route, index);
+        v.came_from[at(target)] = lane;
+        set_route_index(model, v, target, index);
     }
     LaneBlock& block = state.blocks[at(lane)];
     ++block.first;
@@ -136,12 +143,12 @@ void enter(const Model& model, State& state, int inlet_index, const Entry& entry
     v.leads[i] = 1.0F;
     if (model.demand.saturated && !first && v.speed_mps[i - 1] <= entry.speed_mps) drive_as(v, i, i - 1);
     v.standstill_gap_m[i] = static_cast<float>(model.policies[at(policy)].settings.standstill_gap_m);
-    v.end_speed_mps[i] = end_speed(model, model.graph.routes[at(route)], 0);
     v.policy[i] = policy;
     v.type[i] = 0;
     v.id[i] = state.next_id++;
     v.route[i] = route;
-    v.route_index[i] = 0;
+    v.came_from[i] = -1;
+    set_route_index(model, v, slot, 0);
     v.cleared_for[i] = -1;
     v.inside_since[i] = 0;
     v.held_at[i] = -2;

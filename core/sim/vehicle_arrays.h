@@ -56,6 +56,8 @@ struct VehicleArrays {
     LargeArray<int> inside_since;  // tick at which it passed its last stop line
     LargeArray<int> held_at;       // last tick at which it had to wait before a conflict area
     LargeArray<int> route_index;   // place in the route of the lane the vehicle is on
+    LargeArray<int> next_lane;     // on the route; -1: it leaves
+    LargeArray<int> came_from;     // lane before; -1: it entered here
 
     int slots = 0;
     int radar_rows = 0;

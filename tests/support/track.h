@@ -111,6 +111,8 @@ public:
         v.id[i] = state.next_id++;
         v.route[i] = lane / 2;
         v.route_index[i] = lane % 2;
+        v.next_lane[i] = lane % 2 == 0 ? lane + 1 : -1;
+        v.came_from[i] = -1;
         v.cleared_for[i] = -1;
         v.inside_since[i] = 0;
         v.held_at[i] = -2;
