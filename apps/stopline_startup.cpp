@@ -55,9 +55,8 @@ void fit_driver(const Options& options, const StartupCurve& curve, Scenario& sce
     {
         ProgressBar bar("fit");
         constexpr double kUsual = 2000.0;  // evaluations that the fit takes as a rule
-        fit = fit_startup(scenario, curve, [&bar](int evaluations, double /*best*/) {
-            if (!bar.update(std::min(0.99, evaluations / kUsual))) throw Interrupted();
-        });
+        fit = fit_startup(scenario, curve,
+                          [&bar](int evaluations) { return bar.update(std::min(0.99, evaluations / kUsual)); });
     }
     fmt::print("fitted in {} evaluations: deviation from the mean curve {:.2f} -> {:.2f} km/h (root mean square)\n\n",
                fit.evaluations, fit.rms_before_mps * kKmhPerMps, fit.rms_after_mps * kKmhPerMps);

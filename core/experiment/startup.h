@@ -38,9 +38,9 @@ struct StartupFit {
     double rms_after_mps = 0.0;
     int evaluations = 0;
 };
-// Fits with NLopt's BOBYQA (Powell 2009). `on_progress` gets evaluations done and the best deviation so far.
+// Fits with NLopt's BOBYQA (Powell 2009). `on_progress` gets the evaluations done; false to stop: throws Interrupted.
 StartupFit fit_startup(const Scenario& scenario, const StartupCurve& curve,
-                       const std::function<void(int, double)>& on_progress = {});
+                       const std::function<bool(int)>& on_progress = {});
 
 // Where a start leaves a band: one row an interval of time.
 struct BandExit {

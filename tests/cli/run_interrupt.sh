@@ -39,6 +39,7 @@ interrupted() {
     [ -z "$(find "$work" -path "$work/stopped/*" -type f)" ] || fail "$program $*: files are left: $(ls -R "$work/stopped")"
 }
 interrupted 1 stopline-scorecard --section IV
+interrupted 1 stopline-startup --fit
 
 "$run" "$STOPLINE_SOURCE/scenarios/first_steps.yaml" --no-figures --output "$work/short" >/dev/null 2>"$work/stderr"
 [ -s "$work/stderr" ] && fail "short work shows progress: $(cat "$work/stderr")"
