@@ -15,8 +15,6 @@ namespace stopline {
 
 namespace {
 
-// The car counts as moving from this speed on, as in the measurements (0.1 m/s; OBD reports whole km/h, interpolated).
-constexpr double kMoving_mps = 0.1;
 constexpr double kLeaveRed_s = 60.0;
 constexpr double kSample_s = 0.01;
 constexpr double kLeast = 0.02;  // that is fitted, m/s2 or 1/s
@@ -27,7 +25,7 @@ Scenario lone_start(const Scenario& scenario, double last_s) {
     lone.demand.vehicles = 1;
     lone.network.approach.lanes = 1;
     lone.network.approach.length_m = 300.0;
-    lone.network.approach.exit_length_m = 2000.0;
+    lone.network.approach.exit_length_m = std::max(2000.0, 1.2 * lone.network.approach.speed_limit_mps * last_s);
     lone.signal.first_green_s = kLeaveRed_s;
     lone.signal.green_s = last_s + 20.0;
     lone.signal.cycle_s = 0.0;
@@ -188,19 +186,16 @@ StartupFit fit_startup(const Scenario& scenario, const StartupCurve& curve,
 
 std::vector<BandExit> band_exits(const StartupCurve& curve, const StartupRun& run, bool of_mean) {
     std::vector<BandExit> exits;
+    if (of_mean ? curve.mean_ci_mps.empty() : curve.low_mps.empty()) return exits;
     bool outside_before = false;
     for (std::size_t k = 0; k < curve.time_s.size(); ++k) {
         const double deviation_mps = run.speed_mps[k] - curve.mean_mps[k];
         const bool outside = of_mean ? std::fabs(deviation_mps) > curve.mean_ci_mps[k]
                                      : run.speed_mps[k] < curve.low_mps[k] || run.speed_mps[k] > curve.high_mps[k];
-        if (outside && !outside_before) {
-            const std::size_t earlier = k >= 2 ? k - 2 : 0;
-            exits.push_back({curve.time_s[k], curve.time_s[k], deviation_mps, run.gear[earlier], run.gear[k]});
-        }
+        if (outside && !outside_before) exits.push_back({curve.time_s[k], curve.time_s[k], deviation_mps});
         if (outside) {
             BandExit& exit = exits.back();
             exit.to_s = curve.time_s[k];
-            exit.gear_after = run.gear[k];
             if (std::fabs(deviation_mps) > std::fabs(exit.largest_mps)) exit.largest_mps = deviation_mps;
         }
         outside_before = outside;
