@@ -34,6 +34,9 @@ std::optional<ExitCode> parse_command_line(CLI::App& app, int argc, const char* 
 // The scenario with --set and --seed applied.
 Scenario load_with_options(const std::string& file, const CommonOptions& options);
 
+// Quoted as a shell needs it.
+std::string shell_word(const std::string& text);
+
 // The command that makes the results again: --threads and --output do not belong to it, since they change nothing in them.
 std::string command_text(const std::string& program, const std::string& file, const CommonOptions& options);
 

@@ -37,7 +37,8 @@ expect_header trajectories.csv \
     "population,time_s,vehicle,policy,lane,place_m,speed_mps,acceleration_mps2,request_mps2,net_gap_m,gear"
 head -n 1 "$work/out/summary.csv" | grep -q "settled_headway_s,policy_headway_s" || fail "summary.csv has no headways"
 provenance="$work/out/first_steps.provenance.json"
-for part in '"scenario_hash"' '"version"' '"seed": 1' '"command"' '"state_hashes"' 'vehicles: 10' 'trajectories.csv'; do
+for part in '"scenario_hash"' '"version"' '"seed": 1' '"command"' '"state_hashes"' 'vehicles: 10' 'trajectories.csv' \
+    "--trajectories --interval '0.5 s'"; do
     grep -qF -- "$part" "$provenance" || fail "no $part in the provenance"
 done
 if command -v gnuplot >"$work/stdout"; then
