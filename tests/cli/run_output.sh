@@ -69,6 +69,13 @@ if [ -e /dev/full ]; then
     "$run" "$scenario" --no-figures --output "$work/to_full" >/dev/full 2>"$work/stderr" || code=$?
     [ $code -eq 2 ] || fail "standard output on a full disk: exit code $code"
     grep -q "standard output" "$work/stderr" || fail "standard output on a full disk: no message"
+    for long_text in --schema --describe; do
+        code=0
+        "$run" $long_text >/dev/full 2>"$work/stderr" || code=$?
+        [ $code -eq 2 ] || fail "$long_text on a full disk: exit code $code"
+        [ "$(cat "$work/stderr")" = "stopline-run: cannot write to standard output" ] ||
+            fail "$long_text on a full disk: $(cat "$work/stderr")"
+    done
 fi
 
 # A limit on the size of files stands for a disk that fills up on the way: 8 blocks of 1024 bytes are less than the path of
