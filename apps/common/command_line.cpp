@@ -44,9 +44,13 @@ void append_names(std::string& text, const std::string& heading, const std::stri
 
 }  // namespace
 
-void add_common_options(CLI::App& app, CommonOptions& options, const std::string& output_help) {
+void add_version_option(CLI::App& app) {
     app.get_formatter()->column_width(34);
     app.set_version_flag("--version", std::string("stopline ") + version(), "Print the version and exit");
+}
+
+void add_common_options(CLI::App& app, CommonOptions& options, const std::string& output_help) {
+    add_version_option(app);
     app.add_option("--threads", options.threads, "Threads to use (default: all); results do not depend on it")
         ->check(CLI::Range(1, 1024))
         ->type_name("N");

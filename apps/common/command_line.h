@@ -22,6 +22,9 @@ struct CommonOptions {
     std::vector<std::string> settings;  // --set, of programs that run a scenario
 };
 
+// --help, --version.
+void add_version_option(CLI::App& app);
+
 // --help, --version, --threads, --seed, --output.
 void add_common_options(CLI::App& app, CommonOptions& options, const std::string& output_help);
 
