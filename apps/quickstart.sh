@@ -31,6 +31,6 @@ build/release/bin/stopline-scorecard --section III || verdict=$?
 step "Figures"
 find "$PWD/out/single_light" "$PWD/out/startup" \( -name '*.svg' -o -name '*.png' \) | sort
 if [[ $verdict != 0 ]]; then
-    printf '\nquickstart: done, but the scorecard ended with exit code %d (1: a row misses its tolerance)\n' "$verdict" >&2
+    printf '\nquickstart: done, but the scorecard ended with exit code %d (1: violations in the runs behind it)\n' "$verdict" >&2
 fi
 exit "$verdict"

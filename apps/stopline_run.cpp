@@ -83,6 +83,7 @@ void write_results(const RunOptionsOfUser& options, const SingleLight& result, d
     if (interval_s > 0.0) files.emplace_back("trajectories.csv", trajectories_csv(result, interval_s));
     Provenance provenance;
     provenance.command = command_text("stopline-run", options.file, options.common);
+    if (interval_s > 0.0) provenance.command += " --trajectories --interval " + shell_word(options.interval);
     for (const NamedText& file : files) provenance.files.push_back(file.first);
     for (const RunResult& run : result.runs) {
         provenance.state_hashes.emplace_back(run.population, fmt::format("{:016x}", run.state_hash));

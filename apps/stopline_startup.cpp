@@ -16,6 +16,7 @@
 #include "experiment/startup.h"
 #include "experiment/startup_report.h"
 #include "scenario/load_scenario.h"
+#include "scenario/nearest_name.h"
 
 namespace stopline {
 
@@ -35,8 +36,11 @@ struct Options {
 void declare(CLI::App& app, Options& options) {
     app.add_option("FILE", options.file,
                    "Scenario whose vehicle and driver start (default: scenarios/single_light.yaml)");
-    app.add_option("--measured", options.measured,
-                   std::string("Measured starts (CSV; default: data/") + kMeasured + ")");
+    app.add_option(
+        "--measured", options.measured,
+        std::string("Measured starts: CSV with columns t_s, mean_kmh and, if known, ci95_of_mean, p2.5, p97.5, n "
+                    "(default: data/") +
+            kMeasured + ")");
     app.add_flag("--fit", options.fit,
                  "Fit the driver's acceleration profile and gain to the mean of the measured starts");
     app.add_option("--write", options.write, "With --fit: write the driver to this file (data/drivers/NAME.yaml)");
@@ -50,14 +54,17 @@ void declare(CLI::App& app, Options& options) {
                kExitCodesText);
 }
 
+std::filesystem::path measured_file(const Options& options) {
+    return options.measured.empty() ? data_directory() / kMeasured : std::filesystem::path(options.measured);
+}
+
 void fit_driver(const Options& options, const StartupCurve& curve, Scenario& scenario) {
     StartupFit fit;
     {
         ProgressBar bar("fit");
         constexpr double kUsual = 2000.0;  // evaluations that the fit takes as a rule
-        fit = fit_startup(scenario, curve, [&bar](int evaluations, double /*best*/) {
-            if (!bar.update(std::min(0.99, evaluations / kUsual))) throw Interrupted();
-        });
+        fit = fit_startup(scenario, curve,
+                          [&bar](int evaluations) { return bar.update(std::min(0.99, evaluations / kUsual)); });
     }
     fmt::print("fitted in {} evaluations: deviation from the mean curve {:.2f} -> {:.2f} km/h (root mean square)\n\n",
                fit.evaluations, fit.rms_before_mps * kKmhPerMps, fit.rms_after_mps * kKmhPerMps);
@@ -68,42 +75,55 @@ void fit_driver(const Options& options, const StartupCurve& curve, Scenario& sce
         "How vehicles are driven. Free driving (profile and speed_gain) is fitted by `stopline-startup --fit` so that the\n"
         "simulated start of {} follows the mean of {}; nothing else is fitted.\n"
         "Controller gains: Ploeg et al. 2011, reference [31] of the paper; radar delay: its Section III.D; comfort limits: ISO\n"
-        "15622. The V2V delay is not in the paper; string stability depends on it.",
-        scenario.vehicle_name, kMeasured);
+        "15622. The V2V delay is not in the paper; string stability depends on it.\n"
+        "Our choice: jerk_up and jerk_down: the command has no steps, yet reaches a comfort limit in 0.42 s (up) and 0.14 s\n"
+        "(down, less than the lag of the brake). catch_up_factor: 2.5 km/h at 50 km/h close a gap and hardly exceed the limit.\n"
+        "emergency_threshold: a little below deceleration_comfort, so that an emergency begins before comfortable braking is used\n"
+        "up. emergency_gap: room that is left behind an emergency.",
+        scenario.vehicle_name,
+        options.measured.empty() ? kMeasured : shortened(measured_file(options).filename().string()));
     write_file(options.write, driver_yaml(scenario.driver, comment));
     fmt::print("driver written to {}\n\n", options.write);
 }
 
+std::string command_of(const Options& options) {
+    std::string command = command_text("stopline-startup", options.file, options.common);
+    if (!options.measured.empty()) command += " --measured " + shell_word(options.measured);
+    return command + (options.fit ? " --fit" : "");
+}
+
 void write_results(const Options& options, const Scenario& scenario, const StartupReport& report) {
     const std::filesystem::path folder = options.common.output.empty() ? "out/startup" : options.common.output;
-    prepare_folder(folder);
-    write_file(folder / "startup.csv", startup_csv(report));
+    const Figure figure = startup_figure(report);
     Provenance provenance;
-    provenance.command = command_text("stopline-startup", options.file, options.common) + (options.fit ? " --fit" : "");
-    provenance.files = {"startup.csv"};
+    provenance.command = command_of(options);
+    prepare_folder(folder);
+    fmt::print("\nWritten to {}\n", folder.string());
+    for (const auto& [name, text] : figure.data) {
+        write_file(folder / name, text);
+        provenance.files.push_back(name);
+        fmt::print("  {}\n", name);
+    }
     write_file(folder / "startup.provenance.json", provenance_json(scenario, provenance));
-    fmt::print("\nWritten to {}\n  startup.csv\n  startup.provenance.json\n", folder.string());
+    fmt::print("  startup.provenance.json\n");
     if (options.no_figures) return;
     if (!gnuplot_installed()) {
         fmt::print("  no figure: gnuplot is not installed (Debian package gnuplot-nox)\n");
         return;
     }
-    draw(startup_figure(report), folder);
+    draw(figure, folder);
     fmt::print("  startup.svg, startup.png\n");
 }
 
-ExitCode run(Options& options) {
+ExitCode run(const Options& options) {
     if (!options.write.empty() && !options.fit) throw InputError("--write needs --fit");
-    if (options.file.empty())
-        options.file = (data_directory() / "../scenarios/single_light.yaml").lexically_normal().string();
-    const std::filesystem::path measured =
-        options.measured.empty() ? data_directory() / kMeasured : std::filesystem::path(options.measured);
-    Scenario scenario = load_with_options(options.file, options.common);
-    const StartupCurve curve = load_startup_curve(measured);
+    const std::filesystem::path usual = (data_directory() / "../scenarios/single_light.yaml").lexically_normal();
+    Scenario scenario = load_with_options(options.file.empty() ? usual.string() : options.file, options.common);
+    const StartupCurve curve = load_startup_curve(measured_file(options));
     if (options.fit) fit_driver(options, curve, scenario);
     const StartupReport report = report_startup(scenario, curve);
     fmt::print("start of {} with driver {} against {}\n\n{}", report.vehicle, report.driver,
-               measured.filename().string(), startup_text(report));
+               measured_file(options).filename().string(), startup_text(report));
     write_results(options, scenario, report);
     fmt::print("\nNext: stopline-run scenarios/single_light.yaml for what this start means at a light.\n");
     return ExitCode::done;

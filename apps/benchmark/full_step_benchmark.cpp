@@ -1,70 +1,98 @@
-// Cost of the full-dynamics step: ns a vehicle update and vehicle updates a second, at 16 to 16,000 vehicles. The vehicles stand
-// in queues of up to 80 a lane when the light turns green; all are computed in every step, moving or not.
-#include <benchmark/benchmark.h>
+#include "benchmark/full_step_benchmark.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <utility>
 
+#include <benchmark/benchmark.h>
+
+#include "common/program.h"
 #include "experiment/build_model.h"
 #include "scenario/load_scenario.h"
 #include "sim/simulation.h"
 
+namespace stopline {
+
 namespace {
 
-using stopline::Model;
-using stopline::Scenario;
-using stopline::Simulation;
-
-constexpr int kQueue = 80;
+constexpr int kQueue = 80;          // vehicles a lane
 constexpr double kGreen_s = 120.0;  // all queues have formed by then
 constexpr double kHeadway_s = 0.9;
+constexpr double kDriving_s = 10.0;  // from the start of green to the measurement: all vehicles of the platoons drive
+constexpr int kWarmUpSteps = 10;
+constexpr int kSteps = 100;  // measured, 1 s; in it no vehicle leaves the network
 
 Model queue_model(int vehicles) {
-    Scenario scenario = stopline::load_scenario(stopline::data_directory() / "../scenarios/single_light.yaml");
+    Scenario scenario = load_scenario(data_directory() / "../scenarios/single_light.yaml");
     scenario.network.approach.lanes = std::max(1, vehicles / kQueue);
     scenario.network.approach.length_m = 800.0;
     scenario.network.approach.exit_length_m = 2000.0;
     scenario.demand.vehicles = std::min(vehicles, kQueue);
     scenario.signal.first_green_s = kGreen_s;
-    Model model = stopline::build_model(scenario, 0);
+    Model model = build_model(scenario, 0);
     model.demand.entry_headway_s = kHeadway_s;
     return model;
 }
 
-// A model and a simulation of it whose queues stand at the start of green; made once for each number of vehicles.
-struct Queued {
-    explicit Queued(int vehicles, bool scalar) : model(queue_model(vehicles)), simulation(model) {
-        simulation.run_until(kGreen_s);
+// A model and a simulation of it whose platoons drive; made once for each number of vehicles.
+struct Driving {
+    explicit Driving(int vehicles, bool scalar) : model(queue_model(vehicles)), simulation(model) {
+        simulation.run_until(kGreen_s + kDriving_s);
         model.scalar_kernels = scalar;
     }
     Model model;
     Simulation simulation;
 };
 
-void full_dynamics_step(benchmark::State& state, bool scalar) {
-    static std::map<std::pair<std::int64_t, bool>, std::unique_ptr<Queued>> queues;
-    std::unique_ptr<Queued>& queued = queues[{state.range(0), scalar}];
-    if (!queued) queued = std::make_unique<Queued>(static_cast<int>(state.range(0)), scalar);
-    Simulation simulation = queued->simulation;
-    const std::int64_t before = simulation.state().updates;
-    for (auto step : state) simulation.step();
-    const auto updates = static_cast<double>(simulation.state().updates - before);
-    state.counters["updates_per_s"] = benchmark::Counter(updates, benchmark::Counter::kIsRate);
-    state.counters["s_per_update"] =
-        benchmark::Counter(updates, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+const Driving& driving(int vehicles, bool scalar) {
+    static std::map<std::pair<int, bool>, std::unique_ptr<Driving>> made;
+    std::unique_ptr<Driving>& one = made[{vehicles, scalar}];
+    if (!one) one = std::make_unique<Driving>(vehicles, scalar);
+    return *one;
 }
 
-// Steps are few enough that no vehicle leaves the network within them.
-void sizes(benchmark::internal::Benchmark* run) { run->Unit(benchmark::kMicrosecond)->Repetitions(7); }
-BENCHMARK_CAPTURE(full_dynamics_step, batch, false)->Apply(sizes)->Arg(16)->Iterations(5000);
-BENCHMARK_CAPTURE(full_dynamics_step, batch, false)->Apply(sizes)->Arg(160)->Iterations(2000);
-BENCHMARK_CAPTURE(full_dynamics_step, batch, false)->Apply(sizes)->Arg(1600)->Iterations(500);
-BENCHMARK_CAPTURE(full_dynamics_step, batch, false)->Apply(sizes)->Arg(16000)->Iterations(60);
-BENCHMARK_CAPTURE(full_dynamics_step, scalar, true)->Apply(sizes)->Arg(160)->Iterations(1000);
+// One iteration is the same second of simulated time for every number of vehicles; the copy and the first steps are not timed.
+void full_dynamics(benchmark::State& state, bool scalar) {
+    const Driving& begin = driving(static_cast<int>(state.range(0)), scalar);
+    std::int64_t updates = 0;
+    for (auto iteration : state) {
+        if (interrupted()) return state.SkipWithError("interrupted");
+        Simulation simulation = begin.simulation;
+        for (int step = 0; step < kWarmUpSteps; ++step) simulation.step();
+        const std::int64_t before = simulation.state().updates;
+        const auto start = std::chrono::steady_clock::now();
+        for (int step = 0; step < kSteps; ++step) simulation.step();
+        state.SetIterationTime(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+        updates += simulation.state().updates - before;
+    }
+    state.counters["updates_per_s"] = benchmark::Counter(static_cast<double>(updates), benchmark::Counter::kIsRate);
+    state.counters[kCostCounter] =
+        benchmark::Counter(static_cast<double>(updates), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+void add(const char* kernels, int vehicles, int iterations) {
+    const bool scalar = std::string(kernels) == kScalar;
+    benchmark::RegisterBenchmark(benchmark_name(kernels).c_str(), full_dynamics, scalar)
+        ->Unit(benchmark::kMicrosecond)
+        ->UseManualTime()
+        ->Repetitions(7)
+        ->Arg(vehicles)
+        ->Iterations(iterations);
+}
 
 }  // namespace
 
-BENCHMARK_MAIN();
+std::string benchmark_name(const std::string& kernels) { return "full_dynamics_100_steps/" + kernels; }
+
+void add_full_step_benchmarks() {
+    add(kBatch, 16, 100);
+    add(kBatch, 160, 40);
+    add(kBatch, 1600, 8);
+    add(kBatch, 16000, 1);
+    add(kScalar, 160, 20);
+}
+
+}  // namespace stopline

@@ -13,9 +13,6 @@
 
 namespace stopline {
 
-namespace {
-
-// As a shell would need it.
 std::string shell_word(const std::string& text) {
     constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,+%@";
     if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
@@ -23,6 +20,8 @@ std::string shell_word(const std::string& text) {
     for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
     return word + "'";
 }
+
+namespace {
 
 std::uint64_t seed_from(const std::string& text) {
     const ParsedWhole seed = parse_whole(text);
@@ -45,9 +44,13 @@ void append_names(std::string& text, const std::string& heading, const std::stri
 
 }  // namespace
 
-void add_common_options(CLI::App& app, CommonOptions& options, const std::string& output_help) {
+void add_version_option(CLI::App& app) {
     app.get_formatter()->column_width(34);
     app.set_version_flag("--version", std::string("stopline ") + version(), "Print the version and exit");
+}
+
+void add_common_options(CLI::App& app, CommonOptions& options, const std::string& output_help) {
+    add_version_option(app);
     app.add_option("--threads", options.threads, "Threads to use (default: all); results do not depend on it")
         ->check(CLI::Range(1, 1024))
         ->type_name("N");
@@ -85,7 +88,8 @@ Scenario load_with_options(const std::string& file, const CommonOptions& options
 }
 
 std::string command_text(const std::string& program, const std::string& file, const CommonOptions& options) {
-    std::string text = program + " " + shell_word(file);
+    std::string text = program;
+    if (!file.empty()) text += " " + shell_word(file);
     if (options.seed) text += fmt::format(" --seed {}", *options.seed);
     for (const std::string& setting : options.settings) text += " --set " + shell_word(setting);
     return text;

@@ -22,6 +22,9 @@ struct CommonOptions {
     std::vector<std::string> settings;  // --set, of programs that run a scenario
 };
 
+// --help, --version.
+void add_version_option(CLI::App& app);
+
 // --help, --version, --threads, --seed, --output.
 void add_common_options(CLI::App& app, CommonOptions& options, const std::string& output_help);
 
@@ -33,6 +36,9 @@ std::optional<ExitCode> parse_command_line(CLI::App& app, int argc, const char* 
 
 // The scenario with --set and --seed applied.
 Scenario load_with_options(const std::string& file, const CommonOptions& options);
+
+// Quoted as a shell needs it.
+std::string shell_word(const std::string& text);
 
 // The command that makes the results again: --threads and --output do not belong to it, since they change nothing in them.
 std::string command_text(const std::string& program, const std::string& file, const CommonOptions& options);

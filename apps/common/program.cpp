@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <ctime>
 #include <exception>
+#include <system_error>
 
 #include <fmt/core.h>
 #include <omp.h>
@@ -55,6 +56,9 @@ ExitCode guarded(const std::string& name, const std::function<ExitCode()>& body)
         return say_interrupted(name);
     } catch (const std::bad_alloc&) {
         fmt::print(stderr, "{}: out of memory\n", name);
+    } catch (const std::system_error& error) {
+        if (std::ferror(stdout) != 0) return ExitCode::bad_input;  // run_program says so
+        fmt::print(stderr, "{}: internal error: {}\n", name, error.what());
     } catch (const std::exception& error) {
         fmt::print(stderr, "{}: internal error: {}\n", name, error.what());
     }

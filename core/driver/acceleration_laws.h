@@ -73,6 +73,9 @@ STOPLINE_INLINE R slow_down_acceleration(const DriverTablesOf<Number>& d, const 
 // Stopping within `distance_m`: along the speed from which braking with b after the time tau stops there,
 // v_p = -b tau + sqrt((b tau)^2 + 2 b distance) (the safe speed of Krauss 1998 for a standing obstacle), which lands
 // without overshoot. The braking that keeps to the curve is b v / (v_p + b tau).
+//
+// Both numbers are our choice: tau leaves time for the lag of the brake (0.2 s) and for the command to change; the gain takes
+// the vehicle back to the curve within 1 / gain = 0.7 s, slower than the brake answers, so that it does not swing.
 inline constexpr double kLandingTime_s = 0.5;
 
 template <class R, class Number>
@@ -148,6 +151,11 @@ STOPLINE_INLINE R follow_acceleration(const CaccSettingsOf<Number>& c, const R& 
 // Emergency: the deceleration that is needed not to hit the predecessor, once it exceeds the threshold; large (no limit)
 // before. Needed is the greater of: matching a braking predecessor's speed within the room, b_p + closing^2 / (2 room), and
 // stopping behind the place where it will stop, v^2 / (2 (room + v_p^2 / (2 b_p))).
+//
+// Braking is 15 % stronger than needed (our choice), since the brake lags: with exactly what is needed now it would always
+// come late, and the need would grow.
+inline constexpr double kEmergencyMargin = 1.15;
+
 template <class R, class Number>
 STOPLINE_INLINE R emergency_acceleration(const CaccSettingsOf<Number>& c, const R& speed_mps,
                                          const PredecessorView<R>& p) {
@@ -168,7 +176,7 @@ STOPLINE_INLINE R emergency_acceleration(const CaccSettingsOf<Number>& c, const 
     const R urgent = STOPLINE_FLAG(R, over > c.emergency_threshold_mps2 * under);
     const R none = splat<R>(1e3);
     if (!any(urgent)) return none;
-    const R braking = lesser(1.15 * (over / under), c.deceleration_emergency_mps2);
+    const R braking = lesser(kEmergencyMargin * (over / under), c.deceleration_emergency_mps2);
     return choose(urgent, 0.0 - braking, none);
 }
 

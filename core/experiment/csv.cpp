@@ -106,6 +106,7 @@ CsvTable parse_csv(std::string_view text, const std::string& label) {
                                          table.columns.size()));
         }
         table.rows.push_back(std::move(fields));
+        table.lines.push_back(line);
     }
     return table;
 }

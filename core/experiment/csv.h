@@ -28,6 +28,7 @@ struct CsvTable {
     std::string label;  // of the file, for messages
     std::vector<std::string> columns;
     std::vector<std::vector<std::string>> rows;
+    std::vector<int> lines;  // [row] where it begins
 
     // Index of a column; throws InputError that lists the columns.
     std::size_t column(std::string_view name) const;

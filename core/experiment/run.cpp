@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "experiment/build_model.h"
+#include "sim/phases.h"
 
 namespace stopline {
 
@@ -22,6 +23,16 @@ double travelled_before(const Model& model, int route, int route_index) {
     return distance_m;
 }
 
+// NaN without a vehicle ahead. The first one of a lane sees as far beyond it as its radar.
+double net_gap_m(const Model& model, const State& state, int lane, int slot) {
+    const VehicleArrays& v = state.vehicles;
+    const bool first = slot == state.blocks[at(lane)].first;
+    const Ahead ahead =
+        first ? vehicle_ahead(model, state, lane, slot, model.driver.cacc.radar_range_m) : Ahead{slot - 1, 0.0};
+    if (ahead.slot < 0) return std::numeric_limits<double>::quiet_NaN();
+    return ahead.start_m + v.position_m[at(ahead.slot)] - v.length_m[at(ahead.slot)] - v.position_m[at(slot)];
+}
+
 void sample(const Simulation& simulation, std::vector<TrajectoryPoint>& points) {
     const State& state = simulation.state();
     const VehicleArrays& v = state.vehicles;
@@ -29,13 +40,10 @@ void sample(const Simulation& simulation, std::vector<TrajectoryPoint>& points) 
         const LaneBlock& block = state.blocks[at(lane)];
         for (int slot = block.first; slot < block.stop(); ++slot) {
             const std::size_t i = at(slot);
-            const bool alone = v.predecessor[i] < 0;
-            const double gap_m = v.position_m[i - 1] - v.length_m[i - 1] - v.position_m[i];
             points.push_back({simulation.time_s(), v.id[i], v.policy[i], lane,
                               travelled_before(simulation.model(), v.route[i], v.route_index[i]) + v.position_m[i],
                               v.speed_mps[i], v.acceleration_mps2[i], v.request_mps2[i],
-                              alone ? std::numeric_limits<double>::quiet_NaN() : gap_m,
-                              static_cast<int>(v.gear[i]) + 1});
+                              net_gap_m(simulation.model(), state, lane, slot), static_cast<int>(v.gear[i]) + 1});
         }
     }
 }

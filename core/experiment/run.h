@@ -23,7 +23,7 @@ struct TrajectoryPoint {
     double speed_mps;
     double acceleration_mps2;
     double request_mps2;
-    double net_gap_m;  // to the predecessor; NaN without one
+    double net_gap_m;  // to the vehicle ahead on its route; NaN without one
     int gear;          // from 1
 };
 

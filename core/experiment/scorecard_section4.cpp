@@ -6,12 +6,15 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <functional>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "experiment/interrupted.h"
 #include "experiment/intersection_run.h"
 #include "experiment/scorecard_sections.h"
 
@@ -59,13 +62,44 @@ std::size_t index_of(const Scenario& scenario, const std::string& population) {
     return 0;
 }
 
-IntersectionFigures run_point(const Scenario& scenario, const Point& point, int repetition) {
+using OnStep = std::function<bool(const Simulation&)>;
+
+IntersectionFigures run_point(const Scenario& scenario, const Point& point, int repetition, const OnStep& on_step) {
     Scenario own = scenario;
     own.signal.green_s = point.green_s;
     own.demand.left = 0.01 * point.left;
     own.demand.right = 0.01 * point.right;
     own.seed = scenario.seed + static_cast<std::uint64_t>(repetition);
-    return run_intersection(own, index_of(scenario, point.population));
+    return run_intersection(own, index_of(scenario, point.population), on_step);
+}
+
+// All seeds of a point stand side by side. Throws Interrupted.
+std::vector<IntersectionFigures> run_points(const Scenario& scenario, const std::vector<Point>& all,
+                                            const ScorecardOptions& options) {
+    constexpr std::int64_t kTell = 1000;  // steps
+    const int runs = static_cast<int>(all.size()) * kSeeds;
+    std::vector<IntersectionFigures> figures(static_cast<std::size_t>(runs));
+    int done = 0;
+    std::mutex mutex;
+    std::atomic<bool> go_on = true;
+    const auto tell = [&](int ended) {
+        const std::lock_guard lock(mutex);
+        done += ended;
+        if (go_on && options.on_progress && !options.on_progress(static_cast<double>(done) / runs)) go_on = false;
+        return go_on.load();
+    };
+    const OnStep on_step = [&](const Simulation& simulation) {
+        return simulation.state().tick % kTell != 0 || tell(0);
+    };
+#pragma omp parallel for schedule(dynamic) num_threads(options.threads)
+    for (int run = 0; run < runs; ++run) {
+        if (!go_on) continue;
+        const Point& point = all[static_cast<std::size_t>(run / kSeeds)];
+        figures[static_cast<std::size_t>(run)] = run_point(scenario, point, run % kSeeds, on_step);
+        static_cast<void>(tell(1));
+    }
+    if (!go_on) throw Interrupted();
+    return figures;
 }
 
 struct Sum {
@@ -74,23 +108,8 @@ struct Sum {
 
 Measurements measure_intersection(const Scenario& scenario, const ScorecardOptions& options) {
     const std::vector<Point> all = points();
-    const int runs = static_cast<int>(all.size()) * kSeeds;
-    std::vector<IntersectionFigures> figures(static_cast<std::size_t>(runs));
-    int done = 0;
-    std::atomic<bool> go_on = true;
-#pragma omp parallel for schedule(dynamic) num_threads(options.threads)
-    for (int run = 0; run < runs; ++run) {
-        if (!go_on) continue;
-        IntersectionFigures one = run_point(scenario, all[static_cast<std::size_t>(run / kSeeds)], run % kSeeds);
-#pragma omp critical
-        {
-            figures[static_cast<std::size_t>(run)] = std::move(one);
-            ++done;
-            if (options.on_progress && !options.on_progress(static_cast<double>(done) / runs)) go_on = false;
-        }
-    }
+    const std::vector<IntersectionFigures> figures = run_points(scenario, all, options);
     Measurements measured;
-    if (!go_on) return measured;
     double present = 0.0;
     double violations = 0.0;
     for (std::size_t k = 0; k < all.size(); ++k) {

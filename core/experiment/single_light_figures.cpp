@@ -138,6 +138,35 @@ std::string improvement_data(const SingleLight& result, const std::vector<std::s
     return text;
 }
 
+// The ratios of whole counts that the table shows, one block a population; none where a queue is used up before.
+std::string whole_count_data(const SingleLight& result, const std::vector<std::size_t>& order) {
+    std::string text = "# green_s improvement_percent, one block a population\n";
+    for (const std::size_t k : order) {
+        const PopulationSummary& summary = result.populations[k];
+        for (std::size_t i = 0; i < summary.improvement_percent.size(); ++i) {
+            const double green_s = result.scenario.measure.green_s[i];
+            const bool shown =
+                green_s <= last_ratio_s(result, summary) && std::isfinite(summary.improvement_percent[i]);
+            text += fmt::format("{:.6g} {}\n", green_s, shown ? fixed(summary.improvement_percent[i], 2) : "NaN");
+        }
+        text += "\n\n";
+    }
+    return text;
+}
+
+std::string plot_whole_counts(const SingleLight& result, const std::vector<std::size_t>& order,
+                              const std::string& file) {
+    constexpr int kFilledCircle = 7;
+    std::string text;
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        if (order[k] == *result.baseline) continue;
+        text += fmt::format(", \\\n '{}' index {} using 1:2 with points pt {} ps 0.7 lc rgb '{}' notitle", file, k,
+                            kFilledCircle, line_style(style_index(result, order[k])).colour);
+    }
+    return text + fmt::format(", \\\n NaN with points pt {} ps 0.7 lc rgb '#404040' title 'whole counts (table)'",
+                              kFilledCircle);
+}
+
 std::string plot_curves(const SingleLight& result, const std::vector<std::size_t>& order, const std::string& file,
                         const std::string& how) {
     std::string text = "plot";
@@ -174,13 +203,16 @@ Figure improvement_figure(const SingleLight& result, const std::vector<Target>& 
     const std::string& baseline = result.populations[*result.baseline].name;
     Figure figure;
     figure.name = "improvement";
-    figure.data = {{"improvement.dat", improvement_data(result, order)}, {"improvement_paper.dat", paper_data(paper)}};
+    figure.data = {{"improvement.dat", improvement_data(result, order)},
+                   {"improvement_counts.dat", whole_count_data(result, order)},
+                   {"improvement_paper.dat", paper_data(paper)}};
     figure.body = fmt::format("set title {} font ',15'\n", gnuplot_text("Throughput compared with " + baseline)) +
-                  "set xlabel 'Green time [s]'\n" +
+                  "set xlabel 'Green time [s]; curves: counters interpolated between vehicles'\n" +
                   fmt::format("set ylabel {}\n", gnuplot_text("Improvement over " + baseline + " [%]")) +
                   "set key outside right top\n" + green_lines(result) +
                   fmt::format("set xrange [0:{:.6g}]\nset yrange [*:*]\n", end_s) +
                   plot_curves(result, order, "improvement.dat", "lines") +
+                  plot_whole_counts(result, order, "improvement_counts.dat") +
                   plot_paper(result, paper, "improvement_paper.dat", "paper (Fig. 6)") + "\n";
     return figure;
 }

@@ -2,21 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 
 #include <nlopt.hpp>
 
 #include "base/input_error.h"
 #include "base/units.h"
+#include "experiment/interrupted.h"
 #include "experiment/run.h"
 
 namespace stopline {
 
 namespace {
 
-// The car counts as moving from this speed on, as in the measurements (0.1 m/s; OBD reports whole km/h, interpolated).
-constexpr double kMoving_mps = 0.1;
 constexpr double kLeaveRed_s = 60.0;
 constexpr double kSample_s = 0.01;
+constexpr double kLeast = 0.02;  // that is fitted, m/s2 or 1/s
 
 // One vehicle, one light: green long enough for the whole start.
 Scenario lone_start(const Scenario& scenario, double last_s) {
@@ -24,7 +25,7 @@ Scenario lone_start(const Scenario& scenario, double last_s) {
     lone.demand.vehicles = 1;
     lone.network.approach.lanes = 1;
     lone.network.approach.length_m = 300.0;
-    lone.network.approach.exit_length_m = 2000.0;
+    lone.network.approach.exit_length_m = std::max(2000.0, 1.2 * lone.network.approach.speed_limit_mps * last_s);
     lone.signal.first_green_s = kLeaveRed_s;
     lone.signal.green_s = last_s + 20.0;
     lone.signal.cycle_s = 0.0;
@@ -76,19 +77,43 @@ void set_parameters(const std::vector<double>& values, FreeDriveSettings& free) 
 struct FitTask {
     Scenario scenario;
     const StartupCurve* curve = nullptr;
-    const std::function<void(int, double)>* on_progress = nullptr;
+    const std::function<bool(int)>* on_progress = nullptr;
     int evaluations = 0;
-    double best = 1e9;
+    std::exception_ptr error = {};  // that ended the search
 };
 
+// NLopt lets no exception through but its own.
 double deviation(const std::vector<double>& parameters, std::vector<double>& /*gradient*/, void* data) {
     auto& task = *static_cast<FitTask*>(data);
-    set_parameters(parameters, task.scenario.driver.free_drive);
-    const double rms = rms_deviation_mps(*task.curve, simulate_start(task.scenario, task.curve->time_s));
-    ++task.evaluations;
-    task.best = std::min(task.best, rms);
-    if (*task.on_progress) (*task.on_progress)(task.evaluations, task.best);
-    return rms;
+    try {
+        set_parameters(parameters, task.scenario.driver.free_drive);
+        const double rms = rms_deviation_mps(*task.curve, simulate_start(task.scenario, task.curve->time_s));
+        ++task.evaluations;
+        if (*task.on_progress && !(*task.on_progress)(task.evaluations)) throw Interrupted();
+        return rms;
+    } catch (...) {
+        task.error = std::current_exception();
+        throw nlopt::forced_stop();
+    }
+}
+
+// Improves the parameters; returns the deviation reached.
+double search_from(std::vector<double>& parameters, FitTask& task) {
+    constexpr int kMostEvaluations = 500;
+    nlopt::opt search(nlopt::LN_BOBYQA, static_cast<unsigned>(parameters.size()));
+    search.set_lower_bounds(kLeast);
+    search.set_upper_bounds(task.scenario.driver.cacc.acceleration_max_mps2);
+    search.set_min_objective(deviation, &task);
+    search.set_initial_step(0.2);
+    search.set_xtol_abs(1e-3);
+    search.set_maxeval(kMostEvaluations);
+    double reached = 0.0;
+    try {
+        search.optimize(parameters, reached);
+    } catch (const nlopt::forced_stop&) {
+        std::rethrow_exception(task.error);
+    }
+    return reached;
 }
 
 }  // namespace
@@ -126,9 +151,7 @@ double rms_deviation_mps(const StartupCurve& curve, const StartupRun& run) {
 }
 
 StartupFit fit_startup(const Scenario& scenario, const StartupCurve& curve,
-                       const std::function<void(int, double)>& on_progress) {
-    constexpr int kMostEvaluations = 500;  // a start
-    constexpr double kLeast = 0.02;        // m/s2 or 1/s
+                       const std::function<bool(int)>& on_progress) {
     FitTask task{scenario, &curve, &on_progress};
     FreeDriveSettings& free = task.scenario.driver.free_drive;
     const std::vector<double> knots = knots_mps();
@@ -145,15 +168,7 @@ StartupFit fit_startup(const Scenario& scenario, const StartupCurve& curve,
             for (double& value : parameters) {
                 value = std::clamp(value, kLeast, scenario.driver.cacc.acceleration_max_mps2);
             }
-            nlopt::opt search(nlopt::LN_BOBYQA, static_cast<unsigned>(parameters.size()));
-            search.set_lower_bounds(kLeast);
-            search.set_upper_bounds(scenario.driver.cacc.acceleration_max_mps2);
-            search.set_min_objective(deviation, &task);
-            search.set_initial_step(0.2);
-            search.set_xtol_abs(1e-3);
-            search.set_maxeval(kMostEvaluations);
-            double reached = 0.0;
-            search.optimize(parameters, reached);
+            const double reached = search_from(parameters, task);
             if (reached < best) {
                 best = reached;
                 best_parameters = parameters;
@@ -171,19 +186,16 @@ StartupFit fit_startup(const Scenario& scenario, const StartupCurve& curve,
 
 std::vector<BandExit> band_exits(const StartupCurve& curve, const StartupRun& run, bool of_mean) {
     std::vector<BandExit> exits;
+    if (of_mean ? curve.mean_ci_mps.empty() : curve.low_mps.empty()) return exits;
     bool outside_before = false;
     for (std::size_t k = 0; k < curve.time_s.size(); ++k) {
         const double deviation_mps = run.speed_mps[k] - curve.mean_mps[k];
         const bool outside = of_mean ? std::fabs(deviation_mps) > curve.mean_ci_mps[k]
                                      : run.speed_mps[k] < curve.low_mps[k] || run.speed_mps[k] > curve.high_mps[k];
-        if (outside && !outside_before) {
-            const std::size_t earlier = k >= 2 ? k - 2 : 0;
-            exits.push_back({curve.time_s[k], curve.time_s[k], deviation_mps, run.gear[earlier], run.gear[k]});
-        }
+        if (outside && !outside_before) exits.push_back({curve.time_s[k], curve.time_s[k], deviation_mps});
         if (outside) {
             BandExit& exit = exits.back();
             exit.to_s = curve.time_s[k];
-            exit.gear_after = run.gear[k];
             if (std::fabs(deviation_mps) > std::fabs(exit.largest_mps)) exit.largest_mps = deviation_mps;
         }
         outside_before = outside;

@@ -1,53 +1,117 @@
-#include <fstream>
-#include <sstream>
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <optional>
+#include <string>
 
 #include <fmt/format.h>
 
 #include "base/input_error.h"
 #include "base/units.h"
+#include "experiment/csv.h"
+#include "experiment/output.h"
 #include "experiment/startup.h"
+#include "experiment/targets.h"
+#include "scenario/nearest_name.h"
 
 namespace stopline {
 
 namespace {
 
-std::vector<double> numbers_in(const std::string& line, const std::filesystem::path& file, int number) {
+namespace fs = std::filesystem;
+
+constexpr double kLongest_s = 600.0;
+constexpr double kFastest_kmh = 500.0;
+constexpr double kMostStarts = 1e6;
+
+// Numbers and names only, so that nothing of a file that is none reaches a terminal.
+std::string plain_text(const fs::path& file) {
+    constexpr std::uintmax_t kMostBytes = 4U << 20U;
+    if (fs::exists(file) && !fs::is_directory(file) && !fs::is_regular_file(file)) {
+        throw InputError(fmt::format("{}: is not a file that can be read", file.string()));
+    }
+    if (fs::is_regular_file(file) && fs::file_size(file) > kMostBytes) {
+        throw InputError(fmt::format("{}: has more than {} bytes", file.string(), kMostBytes));
+    }
+    std::string text = read_file(file);
+    int line = 1;
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (c == '\n') ++line;
+        if (c == '\n' || c == '\r' || c == '\t' || (byte >= 0x20 && byte < 0x7F)) continue;
+        throw InputError(fmt::format("{}:{}: byte 0x{:02X} is no plain text", file.string(), line, byte));
+    }
+    return text;
+}
+
+// The column of any of these names.
+std::optional<std::size_t> find_column(const CsvTable& table, std::initializer_list<const char*> names) {
+    for (const char* const name : names) {
+        const auto found = std::find(table.columns.begin(), table.columns.end(), name);
+        if (found != table.columns.end()) return static_cast<std::size_t>(found - table.columns.begin());
+    }
+    return std::nullopt;
+}
+
+std::size_t needed_column(const CsvTable& table, const char* name, std::initializer_list<const char*> names) {
+    if (const std::optional<std::size_t> column = find_column(table, names)) return *column;
+    throw InputError(fmt::format(
+        "{}:1: there is no column '{}'; needed are t_s and mean_kmh; where they are known ci95_of_mean (half "
+        "width), p2.5 and p97.5 (km/h) and n (starts)",
+        table.label, name));
+}
+
+[[noreturn]] void refuse(const CsvTable& table, std::size_t row, std::size_t column, const std::string& problem) {
+    throw InputError(fmt::format("{}:{}: column '{}': value '{}' {}", table.label, table.lines[row],
+                                 shortened(table.columns[column]), shortened(table.rows[row][column]), problem));
+}
+
+// All numbers of a column, times `factor`.
+std::vector<double> numbers(const CsvTable& table, std::size_t column, double least, double most, double factor = 1.0) {
     std::vector<double> values;
-    std::istringstream cells(line);
-    for (std::string cell; std::getline(cells, cell, ',');) {
-        std::size_t used = 0;
-        try {
-            values.push_back(std::stod(cell, &used));
-        } catch (const std::exception&) {
-            used = 0;
+    for (std::size_t row = 0; row < table.rows.size(); ++row) {
+        const std::optional<double> number = parse_number(table.rows[row][column]);
+        if (!number) refuse(table, row, column, "is not a number");
+        if (*number < least || *number > most) {
+            refuse(table, row, column, fmt::format("is out of range (allowed: {:g} to {:g})", least, most));
         }
-        if (used == 0) throw InputError(fmt::format("{}:{}: '{}' is not a number", file.string(), number, cell));
+        values.push_back(*number * factor);
     }
     return values;
 }
 
+std::vector<double> speeds_mps(const CsvTable& table, std::size_t column) {
+    return numbers(table, column, 0.0, kFastest_kmh, kMpsPerKmh);
+}
+
+std::vector<double> rising_times_s(const CsvTable& table, std::size_t column) {
+    std::vector<double> times_s = numbers(table, column, 0.0, kLongest_s);
+    if (times_s.size() < 2) throw InputError(fmt::format("{}: at least two rows are needed", table.label));
+    if (times_s.front() != 0.0) refuse(table, 0, column, "must be 0, the time at which the car moves");
+    for (std::size_t row = 1; row < times_s.size(); ++row) {
+        if (times_s[row] <= times_s[row - 1]) refuse(table, row, column, "does not rise");
+    }
+    return times_s;
+}
+
 }  // namespace
 
-StartupCurve load_startup_curve(const std::filesystem::path& file) {
-    std::ifstream in(file);
-    std::string line;
-    if (!std::getline(in, line)) throw InputError(fmt::format("{}: cannot be read or is empty", file.string()));
+StartupCurve load_startup_curve(const fs::path& file) {
+    const CsvTable table = parse_csv(plain_text(file), file.string());
     StartupCurve curve;
-    for (int number = 2; std::getline(in, line); ++number) {
-        if (line.empty() || line[0] == '#') continue;
-        const std::vector<double> v = numbers_in(line, file, number);
-        if (v.size() < 6) {
-            throw InputError(
-                fmt::format("{}:{}: six columns are needed: t_s, mean_kmh, sd_kmh, ci95_of_mean, p2.5, p97.5",
-                            file.string(), number));
-        }
-        curve.time_s.push_back(v[0]);
-        curve.mean_mps.push_back(v[1] * kMpsPerKmh);
-        curve.mean_ci_mps.push_back(v[3] * kMpsPerKmh);
-        curve.low_mps.push_back(v[4] * kMpsPerKmh);
-        curve.high_mps.push_back(v[5] * kMpsPerKmh);
+    const std::size_t time = needed_column(table, "t_s", {"t_s"});
+    const std::size_t mean = needed_column(table, "mean_kmh", {"mean_kmh"});
+    curve.time_s = rising_times_s(table, time);
+    curve.mean_mps = speeds_mps(table, mean);
+    if (const auto width = find_column(table, {"ci95_of_mean", "ci95_of_mean_kmh"})) {
+        curve.mean_ci_mps = speeds_mps(table, *width);
     }
-    if (curve.time_s.size() < 2) throw InputError(fmt::format("{}: at least two rows are needed", file.string()));
+    const bool band = find_column(table, {"p2.5", "p2.5_kmh", "p97.5", "p97.5_kmh"}).has_value();
+    if (band) {
+        curve.low_mps = speeds_mps(table, needed_column(table, "p2.5", {"p2.5", "p2.5_kmh"}));
+        curve.high_mps = speeds_mps(table, needed_column(table, "p97.5", {"p97.5", "p97.5_kmh"}));
+    }
+    if (const auto starts = find_column(table, {"n"})) curve.starts = numbers(table, *starts, 1.0, kMostStarts);
     return curve;
 }
 

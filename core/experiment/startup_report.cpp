@@ -1,5 +1,6 @@
 #include "experiment/startup_report.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -11,13 +12,32 @@ namespace stopline {
 
 namespace {
 
-std::string reason(const BandExit& exit) {
-    if (exit.gear_after > exit.gear_before) {
-        return fmt::format("gear change {}-{}: no torque while it lasts, a mean of 117 starts smears it out",
-                           exit.gear_before, exit.gear_after);
+struct GearChange {
+    double time_s;
+    int from, to;
+};
+
+std::vector<GearChange> gear_changes(const StartupRun& run) {
+    std::vector<GearChange> changes;
+    for (std::size_t k = 1; k < run.gear.size(); ++k) {
+        if (run.gear[k] != run.gear[k - 1]) changes.push_back({run.time_s[k], run.gear[k - 1], run.gear[k]});
     }
-    if (exit.to_s < 1.0) return "torque and brake lag: the measured curve is interpolated from samples 0.9 s apart";
-    return exit.largest_mps > 0.0 ? "runs ahead before the next gear change" : "recovers from the gear change before";
+    return changes;
+}
+
+// What is known of an exit: how time 0 is set, and the gear changes around it.
+std::string remark(const StartupReport& report, const BandExit& exit) {
+    constexpr double kAround_s = 1.0;
+    std::string text;
+    if (exit.from_s == 0.0) {
+        text += fmt::format("; time 0 is where the simulated car reaches {:.1f} km/h", kMoving_mps * kKmhPerMps);
+    }
+    for (const GearChange& change : gear_changes(report.fine)) {
+        if (change.time_s < exit.from_s - kAround_s || change.time_s > exit.to_s + kAround_s) continue;
+        text += fmt::format("; gear change {}-{} at {:.1f} s, no torque while it lasts", change.from, change.to,
+                            change.time_s);
+    }
+    return text;
 }
 
 std::string exits_text(const StartupReport& report, bool of_mean) {
@@ -25,10 +45,37 @@ std::string exits_text(const StartupReport& report, bool of_mean) {
     if (exits.empty()) return "  never\n";
     std::string text;
     for (const BandExit& exit : exits) {
-        text += fmt::format("  {:4.1f} to {:4.1f} s, by {:+.1f} km/h from the mean: {}\n", exit.from_s, exit.to_s,
-                            exit.largest_mps * kKmhPerMps, reason(exit));
+        text += fmt::format("  {:4.1f} to {:4.1f} s, by {:+.1f} km/h from the mean{}\n", exit.from_s, exit.to_s,
+                            exit.largest_mps * kKmhPerMps, remark(report, exit));
     }
     return text;
+}
+
+// "117 starts", or "6 to 15 starts" where their number differs; empty where the file does not say.
+std::string starts_text(const StartupCurve& curve) {
+    if (curve.starts.empty()) return "";
+    const auto [least, most] = std::minmax_element(curve.starts.begin(), curve.starts.end());
+    return *least == *most ? fmt::format("{:g} starts", *least) : fmt::format("{:g} to {:g} starts", *least, *most);
+}
+
+std::string bands_text(const StartupReport& report) {
+    const StartupCurve& curve = report.curve;
+    std::string text;
+    if (!curve.mean_ci_mps.empty()) {
+        const std::string starts = starts_text(curve);
+        const double widest_mps = *std::max_element(curve.mean_ci_mps.begin(), curve.mean_ci_mps.end());
+        text += fmt::format("\nleaves the 95 % interval of the mean ({}half width at most {:.1f} km/h):\n{}",
+                            starts.empty() ? "" : starts + "; ", widest_mps * kKmhPerMps, exits_text(report, true));
+    }
+    if (!curve.low_mps.empty()) {
+        text += "\nleaves the band of single starts (2.5 to 97.5 %):\n" + exits_text(report, false);
+    }
+    return text;
+}
+
+// A value of a band in km/h, not a number where the curve does not have it.
+double band_kmh(const std::vector<double>& band_mps, std::size_t k) {
+    return band_mps.empty() ? std::nan("") : band_mps[k] * kKmhPerMps;
 }
 
 double time_to_reach_s(const StartupRun& run, double speed_mps) {
@@ -53,36 +100,56 @@ std::string startup_csv(const StartupReport& report) {
                    "gear", "distance_m"});
     const StartupCurve& curve = report.curve;
     for (std::size_t k = 0; k < curve.time_s.size(); ++k) {
-        csv.row({fixed(curve.time_s[k], 1), fixed(report.run.speed_mps[k] * kKmhPerMps, 2),
-                 fixed(curve.mean_mps[k] * kKmhPerMps, 2), fixed(curve.mean_ci_mps[k] * kKmhPerMps, 2),
-                 fixed(curve.low_mps[k] * kKmhPerMps, 2), fixed(curve.high_mps[k] * kKmhPerMps, 2),
+        csv.row({fmt::format("{:.6g}", curve.time_s[k]), fixed(report.run.speed_mps[k] * kKmhPerMps, 2),
+                 fixed(curve.mean_mps[k] * kKmhPerMps, 2), fixed(band_kmh(curve.mean_ci_mps, k), 2),
+                 fixed(band_kmh(curve.low_mps, k), 2), fixed(band_kmh(curve.high_mps, k), 2),
                  fmt::format("{}", report.run.gear[k]), fixed(report.run.distance_m[k], 2)});
     }
     return csv.text();
 }
 
 std::string startup_text(const StartupReport& report) {
-    std::string text = fmt::format("{:>7} {:>15} {:>14} {:>12} {:>5} {:>12}\n", "time s", "simulated km/h",
-                                   "measured km/h", "95 % of mean", "gear", "distance m");
-    for (std::size_t k = 0; k < report.curve.time_s.size(); k += 2) {
-        text += fmt::format("{:7.1f} {:15.1f} {:14.1f} {:>12} {:5} {:12.1f}\n", report.curve.time_s[k],
-                            report.run.speed_mps[k] * kKmhPerMps, report.curve.mean_mps[k] * kKmhPerMps,
-                            fmt::format("+-{:.1f}", report.curve.mean_ci_mps[k] * kKmhPerMps), report.run.gear[k],
-                            report.run.distance_m[k]);
+    const StartupCurve& curve = report.curve;
+    const bool interval = !curve.mean_ci_mps.empty();
+    std::string text = fmt::format("{:>7} {:>15} {:>14}{} {:>5} {:>12}\n", "time s", "simulated km/h", "measured km/h",
+                                   interval ? fmt::format(" {:>12}", "95 % of mean") : "", "gear", "distance m");
+    for (std::size_t k = 0; k < curve.time_s.size(); k += 2) {
+        const std::string width = fmt::format("+-{:.1f}", band_kmh(curve.mean_ci_mps, k));
+        text +=
+            fmt::format("{:7.1f} {:15.1f} {:14.1f}{} {:5} {:12.1f}\n", curve.time_s[k],
+                        report.run.speed_mps[k] * kKmhPerMps, curve.mean_mps[k] * kKmhPerMps,
+                        interval ? fmt::format(" {:>12}", width) : "", report.run.gear[k], report.run.distance_m[k]);
     }
     text += fmt::format("\nroot mean square deviation from the mean: {:.2f} km/h\n",
-                        rms_deviation_mps(report.curve, report.run) * kKmhPerMps);
-    text += fmt::format("reaches 49.5 km/h {:.1f} s after it moves\n", time_to_reach_s(report.run, 49.5 * kMpsPerKmh));
-    text += "\nleaves the 95 % interval of the mean (117 starts; half width at most 1.5 km/h):\n" +
-            exits_text(report, true);
-    text += "\nleaves the band of single starts (2.5 to 97.5 %):\n" + exits_text(report, false);
+                        rms_deviation_mps(curve, report.run) * kKmhPerMps);
+    const double reached_s = time_to_reach_s(report.fine, 49.5 * kMpsPerKmh);
+    if (!std::isnan(reached_s)) text += fmt::format("reaches 49.5 km/h {:.1f} s after it moves\n", reached_s);
+    return text + bands_text(report);
+}
+
+namespace {
+
+std::string plot_bands(const StartupCurve& curve) {
+    std::string text;
+    if (!curve.low_mps.empty()) {
+        text +=
+            "'startup.csv' skip 1 using 1:5:6 with filledcurves fc rgb '#e8e8e8' title 'single starts, 2.5 to 97.5 %', ";
+    }
+    if (!curve.mean_ci_mps.empty()) {
+        text +=
+            "'startup.csv' skip 1 using 1:($3-$4):($3+$4) with filledcurves fc rgb '#a8c8e8' "
+            "title '95 % interval of the mean', ";
+    }
     return text;
 }
+
+}  // namespace
 
 Figure startup_figure(const StartupReport& report) {
     Figure figure;
     figure.name = "startup";
     figure.height_px = 640;
+    const std::string starts = starts_text(report.curve);
     CsvWriter fine({"time_s", "simulated_kmh", "gear"});
     for (std::size_t k = 0; k < report.fine.time_s.size(); ++k) {
         fine.row({fixed(report.fine.time_s[k], 2), fixed(report.fine.speed_mps[k] * kKmhPerMps, 3),
@@ -95,19 +162,18 @@ Figure startup_figure(const StartupReport& report) {
         "set lmargin 10\nset rmargin 3\n"
         "set tmargin at screen 0.93\nset bmargin at screen 0.36\n"
         "set title {}\n"
-        "unset xlabel\nset ylabel 'speed [km/h]'\nset xrange [0:20]\nset yrange [0:60]\nset ytics 10\nset format x ''\n"
+        "unset xlabel\nset ylabel 'speed [km/h]'\nset xrange [0:{:g}]\nset yrange [0:*]\nset ytics 10\nset format x ''\n"
         "set key bottom right\n"
-        "plot 'startup.csv' skip 1 using 1:5:6 with filledcurves fc rgb '#e8e8e8' title 'single starts, 2.5 to 97.5 %', \\\n"
-        "     '' skip 1 using 1:($3-$4):($3+$4) with filledcurves fc rgb '#a8c8e8' title '95 % interval of the mean', \\\n"
-        "     '' skip 1 using 1:3 with lines lc rgb '#0072b2' dt 1 lw 3 title 'measured mean of 117 starts', \\\n"
+        "plot {}'startup.csv' skip 1 using 1:3 with lines lc rgb '#0072b2' dt 1 lw 3 title {}, \\\n"
         "     'startup_fine.csv' skip 1 using 1:2 with lines lc rgb '#d55e00' dt 1 lw 2 title 'simulated'\n"
         "unset title\nset tmargin at screen 0.32\nset bmargin at screen 0.11\n"
         "set ylabel 'gear'\nset yrange [0:6]\nset ytics 1\nset format x '%g'\n"
         "set xlabel 'time after the car moves [s]'\nunset key\n"
         "plot 'startup_fine.csv' skip 1 using 1:3 with steps lc rgb '#d55e00' dt 1 lw 2\n"
         "unset multiplot\n",
-        gnuplot_text(
-            fmt::format("Start-up: {} with driver {}, beside measured starts", report.vehicle, report.driver)));
+        gnuplot_text(fmt::format("Start-up: {} with driver {}, beside measured starts", report.vehicle, report.driver)),
+        report.curve.time_s.back(), plot_bands(report.curve),
+        gnuplot_text(starts.empty() ? "measured mean" : "measured mean of " + starts));
     return figure;
 }
 

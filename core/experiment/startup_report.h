@@ -19,10 +19,10 @@ struct StartupReport {
 // Simulates the scenario's start and puts it beside the curve.
 StartupReport report_startup(const Scenario& scenario, const StartupCurve& curve);
 
-// time, simulated and measured speed, both bands, gear, distance; marks the bands that are left.
+// time, simulated and measured speed, both bands (empty where the curve has none), gear, distance
 std::string startup_csv(const StartupReport& report);
 
-// Where the start leaves the bands and why, as sentences.
+// Table, and where the start leaves the bands that the curve has.
 std::string startup_text(const StartupReport& report);
 
 Figure startup_figure(const StartupReport& report);

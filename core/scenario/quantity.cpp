@@ -167,6 +167,11 @@ ParsedQuantity parse_quantity(std::string_view text, const Unit& expected) {
 ParsedWhole parse_whole(std::string_view text) {
     ParsedWhole result;
     const std::string_view number = trimmed(text);
+    if (number.size() > 1 && number.front() == '0' &&
+        number.find_first_not_of("0123456789") == std::string_view::npos) {
+        result.problem = "begins with 0: octal to some readers, decimal to others";
+        return result;
+    }
     const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), result.value);
     if (error == std::errc::result_out_of_range) {
         result.problem = "is too large";

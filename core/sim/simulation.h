@@ -2,13 +2,13 @@
 //
 //     signals    who stops at which line               lane_heads.cpp
 //     give way   who waits before which conflict area               right_of_way.cpp
-//     heads      what the first vehicle of each lane reacts to beyond its lane
+//     heads      what the first vehicle of each lane reacts to beyond its lane; whether it overlaps that
 //     plan       every vehicle's request, from the state at the beginning of the step      full_dynamics.cpp
-//     move       powertrain, speed, position
+//     move       powertrain, speed, position; overlaps on a lane are counted after it
 //     detectors  fronts that passed one                             detectors.cpp
 //     transfer   vehicles that passed the end of their lane                                transfer.cpp
 //     insert     vehicles that enter
-//     verify     invariants: no overlap, nobody lost
+//     verify     nobody is lost                                     verify.cpp
 #pragma once
 
 #include <cstdint>

@@ -16,9 +16,7 @@ namespace stopline {
 
 // The stop line at the end of a lane, as its traffic sees it.
 struct StopLineState {
-    int stopper = -1;      // id of the vehicle that stops at the line; those behind follow it
-    bool decided = false;  // whether the light has turned from green, so that deciding has begun
-    double decided_since_s = 0.0;
+    int stopper = -1;  // id of the vehicle that stops at the line; those behind follow it
 };
 
 // An entry lane. The next vehicle's policy and route are drawn once, when it comes up.

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Ctrl-C ends the runs with exit code 130 and leaves no file; progress is a bar on a terminal and silent for short work.
+# Ctrl-C ends any long work with exit code 130 and leaves no file; progress is a bar on a terminal and silent for short work.
 set -u
 
 failures=0
@@ -25,6 +25,21 @@ timeout --preserve-status --signal=INT 2 "$run" "$scenario" "${endless[@]}" --ou
 grep -q "interrupted" "$work/stderr" || fail "no word of the interrupt: $(cat "$work/stderr")"
 [ -s "$work/stdout" ] && fail "results of runs that did not end: $(head -n 3 "$work/stdout")"
 [ -z "$(find "$work/out" -type f)" ] || fail "files are left: $(ls -A "$work/out")"
+
+# interrupted SECONDS PROGRAM [OPTION...]: exit code 130, no file and nothing on standard output
+interrupted() {
+    local seconds=$1 program=$2
+    shift 2
+    local code=0
+    rm -rf "$work/stopped"
+    timeout --preserve-status --signal=INT "$seconds" "$STOPLINE_BIN/$program" "$@" --output "$work/stopped" \
+        >"$work/stdout" 2>"$work/stderr" || code=$?
+    [ $code -eq 130 ] || fail "$program $*: exit code $code instead of 130: $(cat "$work/stderr")"
+    [ -s "$work/stdout" ] && fail "$program $*: results: $(head -n 3 "$work/stdout")"
+    [ -z "$(find "$work" -path "$work/stopped/*" -type f)" ] || fail "$program $*: files are left: $(ls -R "$work/stopped")"
+}
+interrupted 1 stopline-scorecard --section IV
+interrupted 1 stopline-startup --fit
 
 "$run" "$STOPLINE_SOURCE/scenarios/first_steps.yaml" --no-figures --output "$work/short" >/dev/null 2>"$work/stderr"
 [ -s "$work/stderr" ] && fail "short work shows progress: $(cat "$work/stderr")"

@@ -37,7 +37,8 @@ expect_header trajectories.csv \
     "population,time_s,vehicle,policy,lane,place_m,speed_mps,acceleration_mps2,request_mps2,net_gap_m,gear"
 head -n 1 "$work/out/summary.csv" | grep -q "settled_headway_s,policy_headway_s" || fail "summary.csv has no headways"
 provenance="$work/out/first_steps.provenance.json"
-for part in '"scenario_hash"' '"version"' '"seed": 1' '"command"' '"state_hashes"' 'vehicles: 10' 'trajectories.csv'; do
+for part in '"scenario_hash"' '"version"' '"seed": 1' '"command"' '"state_hashes"' 'vehicles: 10' 'trajectories.csv' \
+    "--trajectories --interval '0.5 s'"; do
     grep -qF -- "$part" "$provenance" || fail "no $part in the provenance"
 done
 if command -v gnuplot >"$work/stdout"; then
@@ -68,6 +69,13 @@ if [ -e /dev/full ]; then
     "$run" "$scenario" --no-figures --output "$work/to_full" >/dev/full 2>"$work/stderr" || code=$?
     [ $code -eq 2 ] || fail "standard output on a full disk: exit code $code"
     grep -q "standard output" "$work/stderr" || fail "standard output on a full disk: no message"
+    for long_text in --schema --describe; do
+        code=0
+        "$run" $long_text >/dev/full 2>"$work/stderr" || code=$?
+        [ $code -eq 2 ] || fail "$long_text on a full disk: exit code $code"
+        [ "$(cat "$work/stderr")" = "stopline-run: cannot write to standard output" ] ||
+            fail "$long_text on a full disk: $(cat "$work/stderr")"
+    done
 fi
 
 # A limit on the size of files stands for a disk that fills up on the way: 8 blocks of 1024 bytes are less than the path of

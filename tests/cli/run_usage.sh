@@ -59,6 +59,18 @@ says "Populations of $scenario" "100 % CTG-Ref" -- "$run" --list "$scenario"
 says "draft-07" -- "$run" --schema
 python3 -c 'import json, sys; json.load(open(sys.argv[1]))' "$work/stdout" || fail "--schema is no JSON"
 
+benchmark="$STOPLINE_BIN/stopline-benchmark"
+says "--help" "--version" "Examples:" "Exit codes: 0 done, 1 " -- "$benchmark" --help
+says "stopline 0." -- "$benchmark" --version
+refuses "--nonsense" -- "$benchmark" --nonsense
+refuses "--benchmark_nonsense" -- "$benchmark" --benchmark_nonsense=1
+refuses "no benchmark matches" -- "$benchmark" --benchmark_filter=nonsense
+if [ -e /dev/full ]; then
+    code=0
+    "$benchmark" --benchmark_filter=batch/16/ >/dev/full 2>"$work/stderr" || code=$?
+    [ $code -eq 2 ] || fail "stopline-benchmark on a full disk: exit code $code"
+fi
+
 refuses "no scenario file given" -- "$run"
 refuses "none.yaml" -- "$run" none.yaml
 refuses "two.yaml" -- "$run" "$scenario" two.yaml

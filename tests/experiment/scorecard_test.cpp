@@ -7,6 +7,7 @@
 #include <set>
 
 #include "experiment/csv.h"
+#include "experiment/interrupted.h"
 #include "scenario/scenario_text.h"
 
 namespace stopline {
@@ -119,6 +120,20 @@ TEST(Scorecard, ReusesWhatTheSameProgramMeasuredForTheSameScenario) {
     EXPECT_TRUE(contains(messages[0], "running"));
     EXPECT_TRUE(contains(messages[1], "measured before"));
     EXPECT_TRUE(contains(messages[2], "running")) << "another seed is another scenario";
+}
+
+class ScorecardInterrupt : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Sections, ScorecardInterrupt, testing::Values("III", "IV"));
+
+TEST_P(ScorecardInterrupt, StoresNothing) {
+    const TemporaryFolder folder;
+    ScorecardOptions options;
+    options.section = GetParam();
+    options.folder = folder.path();
+    options.threads = 2;
+    options.on_progress = [](double /*share*/) { return false; };
+    EXPECT_THROW(make_scorecard(options), Interrupted);
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path() / "measured"));
 }
 
 TEST(Scorecard, RefusesASectionThatThePaperDoesNotHave) {

@@ -89,8 +89,10 @@ TEST(Quantity, RefusesWhatIsNoNumber) {
 TEST(Quantity, WholeNumbersAreDigitsOnly) {
     EXPECT_EQ(parse_whole("60").value, 60u);
     EXPECT_EQ(parse_whole(" 60 ").value, 60u);
+    EXPECT_EQ(parse_whole("0").problem, "");
     EXPECT_EQ(parse_whole("18446744073709551615").value, std::numeric_limits<std::uint64_t>::max());
-    for (const char* text : {"", "-1", "+1", "1.5", "1e3", "0x10", "6 0", "sixty", "18446744073709551616"}) {
+    for (const char* text :
+         {"", "-1", "+1", "1.5", "1e3", "0x10", "6 0", "sixty", "18446744073709551616", "010", "00"}) {
         EXPECT_NE(parse_whole(text).problem, "") << text;
     }
 }

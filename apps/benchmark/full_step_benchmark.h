@@ -1,0 +1,18 @@
+// Cost of the full-dynamics step at 16 to 16,000 vehicles, in platoons of up to 80 a lane that have driven for ten seconds since
+// the light turned green.
+#pragma once
+
+#include <string>
+
+namespace stopline {
+
+inline constexpr const char* kBatch = "batch";    // several vehicles at once
+inline constexpr const char* kScalar = "scalar";  // one vehicle at a time
+inline constexpr const char* kCostCounter = "s_per_update";
+
+// Of the benchmarks with these kernels, without the number of vehicles.
+std::string benchmark_name(const std::string& kernels);
+
+void add_full_step_benchmarks();
+
+}  // namespace stopline
