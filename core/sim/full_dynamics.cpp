@@ -79,13 +79,15 @@ FullTables full_tables(const Model& model) {
     return tables;
 }
 
-void step_full(const Model& model, const FullTables& tables, std::span<const LaneStep> lanes, State& state) {
+void step_full(const Model& model, const FullTables& tables, std::span<const LaneStep> lanes,
+               std::span<const LaneStep> next, State& state) {
     const FullKernels& kernels = full_kernels(model.scalar_kernels);
     const FullStreams streams = streams_of(state);
     const FullGroup group = state.group.streams();
     int vehicles = 0;
-    for (const LaneStep& lane : lanes) vehicles += lane.stop - lane.begin;
+    for (const LaneStep& lane : lanes) vehicles += lane.count();
     kernels.gather(streams, state.radar, state.v2v, lanes, group);
+    kernels.prefetch(streams, next);
     evaluate_gap_laws(model, vehicles, group);
     kernels.plan(tables.driver, group, vehicles, model.step_s);
     for (std::size_t k = 0; k < tables.vehicles.size(); ++k) {

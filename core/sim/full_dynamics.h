@@ -18,6 +18,8 @@ struct FullTables {
 FullTables full_tables(const Model& model);
 
 // One step of the vehicles on some lanes, which state.group must have room for; lanes in any order.
-void step_full(const Model& model, const FullTables& tables, std::span<const LaneStep> lanes, State& state);
+// `next`: lanes whose vehicles are fetched from memory meanwhile.
+void step_full(const Model& model, const FullTables& tables, std::span<const LaneStep> lanes,
+               std::span<const LaneStep> next, State& state);
 
 }  // namespace stopline

@@ -30,6 +30,8 @@ struct FullKernels {
     const char* name;
     // Brings the group together: measures, looks up what is known of predecessors, and what lanes ask of their vehicles.
     void (*gather)(const FullStreams&, const Rows& radar, const Rows& v2v, Lanes, const FullGroup&);
+    // Fetches what another group will need: a lane's share of an array is too short for the processor to see a stream in it.
+    void (*prefetch)(const FullStreams&, Lanes);
     // Driver: what acceleration is asked for, for the first `vehicles` of the group.
     void (*plan)(const DriverTablesOf<float>&, const FullGroup&, int vehicles, double dt);
     // Vehicle: what the powertrain makes of it. `only`: treats vehicles of this type; < 0: all are of the type given.

@@ -64,35 +64,6 @@ STOPLINE_INLINE void gather_at(const FullStreams& s, const Rows& radar, const Ro
     std::memcpy(g.type + k, s.type + i, kWidthOf<R> * sizeof(int));
 }
 
-// Fetches what vehicles i, i + 1, ... will need while others are computed: a lane's share of an array is too short for the
-// processor to see a stream in it.
-STOPLINE_INLINE void prefetch(const FullStreams& s, int i) {
-    for (const double* stream : {s.position, s.speed}) {
-        __builtin_prefetch(stream + i);
-        __builtin_prefetch(stream + i + kSimdWidth / 2);
-    }
-    const std::array<const float*, 19> streams{s.acceleration,
-                                               s.lag,
-                                               s.length,
-                                               s.request,
-                                               s.leads,
-                                               s.gap_now,
-                                               s.gap_late,
-                                               s.torque,
-                                               s.closing_now,
-                                               s.closing_late,
-                                               s.gear_time,
-                                               s.tell_request,
-                                               s.tell_rate,
-                                               s.brake,
-                                               s.heard_acceleration,
-                                               s.gear,
-                                               s.heard_request,
-                                               s.heard_rate,
-                                               s.tell_acceleration};
-    for (const float* stream : streams) __builtin_prefetch(stream + i);
-}
-
 // Calls treat(number type, i) for the slots of a lane, from its first vehicle on: whole batches, and half a batch where that is
 // enough for the last ones.
 template <class R, class Treat>
@@ -103,6 +74,40 @@ STOPLINE_INLINE void for_each_batch(const LaneStep& lane, Treat treat) {
         if (i < lane.stop) treat(Packed<kWidthOf<R> / 2>(0.0), i);
     } else {
         for (; i < lane.stop; i += kWidthOf<R>) treat(R(0.0), i);
+    }
+}
+
+inline void prefetch(const FullStreams& s, FullKernels::Lanes lanes) {
+    for (const LaneStep& lane : lanes) {
+        for (int i = lane.begin; i < lane.stop; i += kSimdWidth) {
+            for (const double* stream : {s.position, s.speed}) {
+                __builtin_prefetch(stream + i);
+                __builtin_prefetch(stream + i + kSimdWidth / 2);
+            }
+            const std::array<const float*, 21> streams{s.acceleration,
+                                                       s.lag,
+                                                       s.length,
+                                                       s.request,
+                                                       s.leads,
+                                                       s.standstill_gap,
+                                                       s.end_speed,
+                                                       s.torque,
+                                                       s.brake,
+                                                       s.gear_time,
+                                                       s.gear,
+                                                       s.gap_now,
+                                                       s.gap_late,
+                                                       s.closing_now,
+                                                       s.closing_late,
+                                                       s.tell_acceleration,
+                                                       s.tell_request,
+                                                       s.tell_rate,
+                                                       s.heard_acceleration,
+                                                       s.heard_request,
+                                                       s.heard_rate};
+            for (const float* stream : streams) __builtin_prefetch(stream + i);
+            for (const int* stream : {s.policy, s.type}) __builtin_prefetch(stream + i);
+        }
     }
 }
 
@@ -117,7 +122,6 @@ void gather(const FullStreams& streams, const Rows& radar_rows, const Rows& v2v_
     for (const LaneStep& lane : lanes) {
         const int to_place = first - lane.begin;
         for_each_batch<R>(lane, [&](auto number, int i) STOPLINE_INLINE_LAMBDA {
-            if (lane.to_next_lane != 0) prefetch(s, i + lane.to_next_lane);
             gather_at<decltype(number)>(s, radar, v2v, lane, i, i + to_place, g);
         });
         for (const auto& [slot, asks] : {std::pair(lane.stop_slot, lane.stop_asks), {lane.hold_slot, lane.hold_asks}}) {
@@ -255,7 +259,7 @@ void scatter(const FullStreams& streams, FullKernels::Lanes lanes, const FullGro
 
 template <class R>
 constexpr FullKernels kernels_of(const char* name) {
-    return {name, gather<R>, plan<R>, drive<R>, scatter<R>};
+    return {name, gather<R>, prefetch, plan<R>, drive<R>, scatter<R>};
 }
 
 }  // namespace

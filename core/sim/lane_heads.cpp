@@ -130,10 +130,40 @@ Ahead vehicle_ahead(const Model& model, const State& state, int lane, int slot, 
     return beside;
 }
 
+namespace {
+
+// Fetches what will be read and written at a lane's head, and at its end by the lane before.
+void prefetch_ends(const State& state, int lane) {
+    const VehicleArrays& v = state.vehicles;
+    const LaneBlock& block = state.blocks[at(lane)];
+    for (const int slot : {block.first - 1, block.last()}) {
+        __builtin_prefetch(&v.position_m[at(slot)]);
+        __builtin_prefetch(&v.speed_mps[at(slot)]);
+        __builtin_prefetch(&v.length_m[at(slot)]);
+        for (const std::size_t row : {state.v2v.late, state.v2v.later}) {
+            __builtin_prefetch(&v.v2v_acceleration_mps2[row + at(slot)]);
+            __builtin_prefetch(&v.v2v_request_mps2[row + at(slot)]);
+            __builtin_prefetch(&v.v2v_rate_1ps[row + at(slot)]);
+        }
+    }
+    __builtin_prefetch(&v.predecessor[at(block.first)]);
+    __builtin_prefetch(&v.route[at(block.first)]);
+    __builtin_prefetch(&v.route_index[at(block.first)]);
+    __builtin_prefetch(&v.id[at(block.last())]);
+}
+
+}  // namespace
+
 void look_beyond_lanes(const Model& model, State& state) {
     constexpr double kNothing_m = 1e6;
+    constexpr std::size_t kLanesAhead = 4;
+    const bool prefetch = state.outgrows_cache();
     VehicleArrays& v = state.vehicles;
-    for (const int lane : state.occupied) {
+    for (std::size_t k = 0; k < state.occupied.size(); ++k) {
+        const int lane = state.occupied[k];
+        if (prefetch && k + kLanesAhead < state.occupied.size()) {
+            prefetch_ends(state, state.occupied[k + kLanesAhead]);
+        }
         const int head = state.blocks[at(lane)].first;
         const std::size_t sentinel = at(head - 1);
         const Ahead ahead = vehicle_ahead(model, state, lane, head, model.driver.cacc.radar_range_m);

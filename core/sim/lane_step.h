@@ -14,7 +14,8 @@ struct LaneStep {
     int hold_slot = -1;      // vehicle that waits to give way
     double hold_asks = 0.0;
     double leader_mps = 0.0;  // mesoscale mode: highest speed of a first vehicle without predecessor; 0: it has one
-    int to_next_lane = 0;     // slots to those of the lane treated next; 0: all is in the cache
+
+    int count() const { return stop - begin; }
 };
 
 }  // namespace stopline

@@ -45,7 +45,7 @@ void step_meso(const Model& model, std::span<const LaneStep> lanes, State& state
     const MesoStep step{model.step_s, dawdle_key(model.seed), static_cast<std::uint64_t>(state.tick),
                         model.driver.deceleration_mps2};
     int vehicles = 0;
-    for (const LaneStep& lane : lanes) vehicles += lane.stop - lane.begin;
+    for (const LaneStep& lane : lanes) vehicles += lane.count();
     kernels.gather(streams, lanes, step, group);
     evaluate_more(model, vehicles, group);
     for (int k = 0; k < static_cast<int>(model.krauss.size()); ++k) {

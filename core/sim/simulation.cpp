@@ -6,13 +6,6 @@
 
 namespace stopline {
 
-namespace {
-
-// About 150 bytes of each vehicle are read and written in a step; a second-level cache holds 1 MiB or more.
-constexpr int kVehiclesInCache = 4000;
-
-}  // namespace
-
 Simulation::Simulation(const Model& model) : model_(model), tables_(full_tables(model)), state_(make_state(model)) {
     check(model);
     form_queues(model_, state_);
@@ -37,26 +30,26 @@ void Simulation::step() {
 // Lanes go through the kernels in groups that fit into the first-level cache.
 void Simulation::move_vehicles() {
     std::vector<LaneStep>& lanes = state_.lane_steps;
-    const bool prefetch = state_.present() > kVehiclesInCache;
-    int vehicles = 0;
     lanes.clear();
-    for (std::size_t k = 0; k < state_.occupied.size(); ++k) {
-        LaneStep lane = lane_step(model_, state_, state_.occupied[k]);
-        const bool last = k + 1 == state_.occupied.size();
-        if (prefetch && !last) {
-            lane.to_next_lane = state_.blocks[static_cast<std::size_t>(state_.occupied[k + 1])].first - lane.begin;
+    for (const int lane : state_.occupied) lanes.push_back(lane_step(model_, state_, lane));
+    const auto group_from = [&lanes](std::size_t first) {
+        std::size_t stop = first;
+        for (int vehicles = 0; stop < lanes.size() && vehicles < State::kVehiclesTogether; ++stop) {
+            vehicles += lanes[stop].count();
         }
-        lanes.push_back(lane);
-        vehicles += lane.stop - lane.begin;
-        if (vehicles < State::kVehiclesTogether && !last) continue;
+        return std::span<const LaneStep>(lanes.data() + first, stop - first);
+    };
+    std::span<const LaneStep> group = group_from(0);
+    for (std::size_t done = 0; !group.empty();) {
+        done += group.size();
+        const std::span<const LaneStep> next = group_from(done);
+        for (const LaneStep& lane : group) state_.updates += lane.count();
         if (model_.meso) {
-            step_meso(model_, lanes, state_);
+            step_meso(model_, group, state_);
         } else {
-            step_full(model_, tables_, lanes, state_);
+            step_full(model_, tables_, group, state_.outgrows_cache() ? next : next.first(0), state_);
         }
-        state_.updates += vehicles;
-        vehicles = 0;
-        lanes.clear();
+        group = next;
     }
 }
 
