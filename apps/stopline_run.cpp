@@ -43,7 +43,8 @@ void declare(CLI::App& app, RunOptionsOfUser& options) {
     add_common_options(app, options.common, "Folder for the results (default: out/NAME of the scenario)");
     add_set_option(app, options.common);
     app.add_flag("--trajectories", options.trajectories,
-                 "Write trajectories.csv too, from 5 s before the green to 25 s after it");
+                 "Write trajectories.csv too: from 5 s before the green to 25 s after it; intersections: of the first "
+                 "measured cycle");
     app.add_option("--interval", options.interval, "Time between its samples (default: 0.1 s)")->type_name("TIME");
     app.add_flag("--no-figures", options.no_figures, "Draw no figures");
     app.add_flag("--describe", options.describe, "List all fields of scenario files and exit");
@@ -75,25 +76,46 @@ double trajectory_interval_s(const RunOptionsOfUser& options, const Scenario& sc
 
 using NamedText = std::pair<std::string, std::string>;
 
-void write_results(const RunOptionsOfUser& options, const SingleLight& result, double interval_s,
-                   const std::filesystem::path& folder) {
-    std::vector<NamedText> files{{"summary.csv", summary_csv(result)},
-                                 {"improvement.csv", improvement_csv(result)},
-                                 {"passages.csv", passages_csv(result)}};
-    if (interval_s > 0.0) files.emplace_back("trajectories.csv", trajectories_csv(result, interval_s));
+using StateHashes = std::vector<std::pair<std::string, std::string>>;
+
+// Tables, and beside them how they came about.
+void write_tables(const RunOptionsOfUser& options, const Scenario& scenario, std::vector<NamedText> files,
+                  StateHashes state_hashes, const std::filesystem::path& folder) {
     Provenance provenance;
     provenance.command = command_text("stopline-run", options.file, options.common);
-    if (interval_s > 0.0) provenance.command += " --trajectories --interval " + shell_word(options.interval);
+    if (options.trajectories) provenance.command += " --trajectories --interval " + shell_word(options.interval);
     for (const NamedText& file : files) provenance.files.push_back(file.first);
-    for (const RunResult& run : result.runs) {
-        provenance.state_hashes.emplace_back(run.population, fmt::format("{:016x}", run.state_hash));
-    }
-    files.emplace_back(result.scenario.name + ".provenance.json", provenance_json(result.scenario, provenance));
+    provenance.state_hashes = std::move(state_hashes);
+    files.emplace_back(scenario.name + ".provenance.json", provenance_json(scenario, provenance));
     fmt::print("\nWritten to {}\n", folder.string());
     for (const auto& [name, text] : files) {
         write_file(folder / name, text);
         fmt::print("  {}\n", name);
     }
+}
+
+void write_results(const RunOptionsOfUser& options, const SingleLight& result, double interval_s,
+                   const std::filesystem::path& folder) {
+    std::vector<NamedText> files{{"summary.csv", summary_csv(result)},
+                                 {"improvement.csv", improvement_csv(result)},
+                                 {"passages.csv", passages_csv(result)}};
+    if (options.trajectories) files.emplace_back("trajectories.csv", trajectories_csv(result, interval_s));
+    StateHashes hashes;
+    for (const RunResult& run : result.runs) {
+        hashes.emplace_back(run.population, fmt::format("{:016x}", run.state_hash));
+    }
+    write_tables(options, result.scenario, std::move(files), std::move(hashes), folder);
+}
+
+void write_results(const RunOptionsOfUser& options, const IntersectionReport& report,
+                   const std::filesystem::path& folder) {
+    std::vector<NamedText> files{{"summary.csv", intersection_csv(report)}, {"headways.csv", headways_csv(report)}};
+    if (options.trajectories) files.emplace_back("trajectories.csv", intersection_trajectories_csv(report));
+    StateHashes hashes;
+    for (const IntersectionFigures& f : report.populations) {
+        hashes.emplace_back(f.population, fmt::format("{:016x}", f.state_hash));
+    }
+    write_tables(options, report.scenario, std::move(files), std::move(hashes), folder);
 }
 
 void draw_all(const std::vector<Figure>& figures, const std::filesystem::path& folder) {
@@ -117,27 +139,16 @@ void print_report(const SingleLight& result) {
 }
 
 // A signalised intersection: a table, files, figures.
-ExitCode run_as_intersection(const RunOptionsOfUser& options, const Scenario& scenario,
+ExitCode run_as_intersection(const RunOptionsOfUser& options, const Scenario& scenario, double interval_s,
                              const std::filesystem::path& folder) {
-    if (options.trajectories) throw InputError("--trajectories: not there yet for intersections");
     const IntersectionReport report = [&] {
         ProgressBar bar(fmt::format("{} runs", scenario.populations.size()));
-        return run_intersections(scenario, threads_or_all(options.common.threads),
-                                 [&bar](double share) { return bar.update(share); });
+        return run_intersections(scenario, {threads_or_all(options.common.threads), interval_s,
+                                            [&bar](double share) { return bar.update(share); }});
     }();
     fmt::print("{}\nscenario {} ({:016x}), seed {}\n\n{}", scenario.title.empty() ? scenario.name : scenario.title,
                scenario.name, scenario.hash, scenario.seed, intersection_text(report));
-    Provenance provenance;
-    provenance.command = command_text("stopline-run", options.file, options.common);
-    provenance.files = {"summary.csv", "headways.csv"};
-    for (const IntersectionFigures& f : report.populations) {
-        provenance.state_hashes.emplace_back(f.population, fmt::format("{:016x}", f.state_hash));
-    }
-    write_file(folder / "summary.csv", intersection_csv(report));
-    write_file(folder / "headways.csv", headways_csv(report));
-    const std::string beside = scenario.name + ".provenance.json";
-    write_file(folder / beside, provenance_json(scenario, provenance));
-    fmt::print("\nWritten to {}\n  summary.csv\n  headways.csv\n  {}\n", folder.string(), beside);
+    write_results(options, report, folder);
     if (!options.no_figures) draw_all(intersection_figures(report), folder);
     fmt::print(
         "\nNext: other greens and turns with --set 'signal.green=10 s' --set 'demand.left=30 %', all permutations with\n"
@@ -156,7 +167,7 @@ ExitCode run(const RunOptionsOfUser& options) {
     const double interval_s = trajectory_interval_s(options, scenario);
     const std::filesystem::path folder = options.common.output.empty() ? "out/" + scenario.name : options.common.output;
     prepare_folder(folder);
-    if (scenario.network.kind == "intersection") return run_as_intersection(options, scenario, folder);
+    if (scenario.network.kind == "intersection") return run_as_intersection(options, scenario, interval_s, folder);
     SingleLightOptions run_options;
     run_options.threads = threads_or_all(options.common.threads);
     run_options.trajectory_interval_s = interval_s;

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "experiment/build_model.h"
 #include "experiment/csv.h"
 #include "experiment/interrupted.h"
 
@@ -26,11 +27,18 @@ bool IntersectionReport::no_violations() const {
                        [](const IntersectionFigures& f) { return f.violations.none(); });
 }
 
-IntersectionReport run_intersections(const Scenario& scenario, int threads,
-                                     const std::function<bool(double)>& on_progress) {
+IntersectionReport run_intersections(const Scenario& scenario, const IntersectionOptions& options) {
     constexpr std::int64_t kTell = 1000;  // steps
     const std::size_t runs = scenario.populations.size();
-    IntersectionReport report{scenario, std::vector<IntersectionFigures>(runs)};
+    IntersectionReport report{scenario, std::vector<IntersectionFigures>(runs), {}};
+    report.trajectories.resize(runs);
+    const TimeWindow traced = first_cycle(scenario);
+    const std::int64_t every = to_ticks(options.trajectory_interval_s, scenario.tick_s());
+    const auto trace = [&](const Simulation& simulation, std::vector<TrajectoryPoint>& points) {
+        if (every < 1 || simulation.state().tick % every != 0) return;
+        if (simulation.time_s() >= traced.from_s && simulation.time_s() < traced.to_s)
+            sample_vehicles(simulation, points);
+    };
     std::vector<std::exception_ptr> errors(runs);
     const double end_s = measured_window(scenario).to_s;
     std::mutex mutex;
@@ -41,14 +49,15 @@ IntersectionReport run_intersections(const Scenario& scenario, int threads,
         shares[run] = share;
         double sum = 0.0;
         for (const double each : shares) sum += each;
-        if (!stopped && on_progress && !on_progress(sum / static_cast<double>(runs))) stopped = true;
+        if (!stopped && options.on_progress && !options.on_progress(sum / static_cast<double>(runs))) stopped = true;
         return !stopped;
     };
-#pragma omp parallel for schedule(dynamic) num_threads(std::max(1, threads))
+#pragma omp parallel for schedule(dynamic) num_threads(std::max(1, options.threads))
     for (std::size_t k = 0; k < runs; ++k) {
         if (stopped) continue;
         try {
             report.populations[k] = run_intersection(scenario, k, [&, k](const Simulation& simulation) {
+                trace(simulation, report.trajectories[k]);
                 return simulation.state().tick % kTell != 0 || tell(k, simulation.time_s() / end_s);
             });
             static_cast<void>(tell(k, 1.0));
@@ -95,6 +104,25 @@ std::string intersection_csv(const IntersectionReport& report) {
             row.push_back(cell);
         }
         csv.row(row);
+    }
+    return csv.text();
+}
+
+std::string intersection_trajectories_csv(const IntersectionReport& report) {
+    CsvWriter csv({"population", "time_s", "vehicle", "policy", "lane", "place_m", "x_m", "y_m", "speed_mps",
+                   "acceleration_mps2", "request_mps2", "net_gap_m", "gear"});
+    for (std::size_t k = 0; k < report.populations.size(); ++k) {
+        const Model model = build_model(report.scenario, k);
+        for (const TrajectoryPoint& point : report.trajectories[k]) {
+            const auto lane = static_cast<std::size_t>(point.lane);
+            const Lane& road = model.graph.lanes[lane];
+            const Point front = place_at(road.shape, road.shape_start_m + point.position_m).point;
+            csv.row({report.populations[k].population, fixed(point.time_s, 3), std::to_string(point.vehicle),
+                     model.policies[static_cast<std::size_t>(point.policy)].settings.name, road.name,
+                     fixed(point.distance_m, 3), fixed(front.x_m, 3), fixed(front.y_m, 3), fixed(point.speed_mps, 4),
+                     fixed(point.acceleration_mps2, 4), fixed(point.request_mps2, 4), fixed(point.net_gap_m, 4),
+                     std::to_string(point.gear)});
+        }
     }
     return csv.text();
 }

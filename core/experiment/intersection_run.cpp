@@ -132,13 +132,21 @@ double road_m(const Scenario& scenario, const Model& model) {
     return static_cast<double>(model.graph.entries.size()) * lane_m;
 }
 
+double cycle_of(const Scenario& scenario) {
+    return 2.0 * (scenario.signal.green_s + scenario.signal.yellow_s + scenario.signal.all_red_s);
+}
+
 }  // namespace
 
-TimeWindow measured_window(const Scenario& scenario) {
-    const double stage_s = scenario.signal.green_s + scenario.signal.yellow_s + scenario.signal.all_red_s;
-    const double cycle_s = 2.0 * stage_s;
+TimeWindow first_cycle(const Scenario& scenario) {
+    const double cycle_s = cycle_of(scenario);
     const double from_s = scenario.signal.first_green_s + scenario.measure.warmup_cycles * cycle_s;
-    if (scenario.duration_s == 0.0) return {from_s, from_s + scenario.measure.cycles * cycle_s};
+    return {from_s, from_s + cycle_s};
+}
+
+TimeWindow measured_window(const Scenario& scenario) {
+    const double from_s = first_cycle(scenario).from_s;
+    if (scenario.duration_s == 0.0) return {from_s, from_s + scenario.measure.cycles * cycle_of(scenario)};
     return {from_s, scenario.duration_s};
 }
 

@@ -48,6 +48,7 @@ struct IntersectionFigures {
 
 // The window that a scenario measures: whole cycles up to the end of the run.
 TimeWindow measured_window(const Scenario& scenario);
+TimeWindow first_cycle(const Scenario& scenario);  // of it
 
 // `on_step` is called before every step, with the state at its beginning; return false to stop early.
 IntersectionFigures run_intersection(const Scenario& scenario, std::size_t population,

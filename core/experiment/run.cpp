@@ -33,21 +33,6 @@ double net_gap_m(const Model& model, const State& state, int lane, int slot) {
     return ahead.start_m + v.position_m[at(ahead.slot)] - v.length_m[at(ahead.slot)] - v.position_m[at(slot)];
 }
 
-void sample(const Simulation& simulation, std::vector<TrajectoryPoint>& points) {
-    const State& state = simulation.state();
-    const VehicleArrays& v = state.vehicles;
-    for (int lane = 0; lane < static_cast<int>(state.blocks.size()); ++lane) {
-        const LaneBlock& block = state.blocks[at(lane)];
-        for (int slot = block.first; slot < block.stop(); ++slot) {
-            const std::size_t i = at(slot);
-            points.push_back({simulation.time_s(), v.id[i], v.policy[i], lane,
-                              travelled_before(simulation.model(), v.route[i], v.route_index[i]) + v.position_m[i],
-                              v.speed_mps[i], v.acceleration_mps2[i], v.request_mps2[i],
-                              net_gap_m(simulation.model(), state, lane, slot), static_cast<int>(v.gear[i]) + 1});
-        }
-    }
-}
-
 std::vector<double> queue_gaps(const State& state) {
     std::vector<double> gaps;
     const LaneBlock& block = state.blocks[0];
@@ -76,6 +61,21 @@ void finish(const Simulation& simulation, RunResult& result) {
 
 }  // namespace
 
+void sample_vehicles(const Simulation& simulation, std::vector<TrajectoryPoint>& points) {
+    const State& state = simulation.state();
+    const VehicleArrays& v = state.vehicles;
+    for (int lane = 0; lane < static_cast<int>(state.blocks.size()); ++lane) {
+        const LaneBlock& block = state.blocks[at(lane)];
+        for (int slot = block.first; slot < block.stop(); ++slot) {
+            const std::size_t i = at(slot);
+            points.push_back({simulation.time_s(), v.id[i], v.policy[i], lane,
+                              travelled_before(simulation.model(), v.route[i], v.route_index[i]) + v.position_m[i],
+                              v.position_m[i], v.speed_mps[i], v.acceleration_mps2[i], v.request_mps2[i],
+                              net_gap_m(simulation.model(), state, lane, slot), static_cast<int>(v.gear[i]) + 1});
+        }
+    }
+}
+
 int RunResult::passed_within(double green_s) const {
     const auto end = std::upper_bound(stop_line_times_s.begin(), stop_line_times_s.end(), green_s);
     return static_cast<int>(end - stop_line_times_s.begin());
@@ -99,7 +99,7 @@ RunResult run_population(const Scenario& scenario, std::size_t population, const
         const double now_s = simulation.time_s();
         const bool sampled = options.trajectory_interval_s > 0.0 && now_s >= options.trajectory_from_s &&
                              now_s <= options.trajectory_until_s;
-        if (sampled && tick % every == 0) sample(simulation, result.trajectory);
+        if (sampled && tick % every == 0) sample_vehicles(simulation, result.trajectory);
         if (options.on_progress && tick % kReport == 0) {
             result.complete = options.on_progress(static_cast<double>(tick) / static_cast<double>(last));
             if (!result.complete) break;

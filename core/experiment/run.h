@@ -20,12 +20,16 @@ struct TrajectoryPoint {
     int policy;         // index into the population's components
     int lane;           // index into the lane graph
     double distance_m;  // of the front from the start of its route
+    double position_m;  // of the front from the start of its lane
     double speed_mps;
     double acceleration_mps2;
     double request_mps2;
     double net_gap_m;  // to the vehicle ahead on its route; NaN without one
     int gear;          // from 1
 };
+
+// Appends all vehicles present, lane by lane.
+void sample_vehicles(const Simulation& simulation, std::vector<TrajectoryPoint>& points);
 
 struct RunOptions {
     double trajectory_interval_s = 0.0;  // 0: keep none

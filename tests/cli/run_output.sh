@@ -35,6 +35,12 @@ expect_header passages.csv "population,lane,position,vehicle,policy,time_s,headw
 expect_header improvement.csv "population,green_s,passed_veh,baseline,baseline_passed_veh,improvement_percent"
 expect_header trajectories.csv \
     "population,time_s,vehicle,policy,lane,place_m,speed_mps,acceleration_mps2,request_mps2,net_gap_m,gear"
+"$run" "$STOPLINE_SOURCE/scenarios/intersection.yaml" --set 'populations=[CDG]' --set measure.baseline=CDG \
+    --set measure.cycles=1 --no-figures --trajectories --interval "1 s" --output "$work/crossing" >"$work/table" ||
+    fail "intersection: exit code $?"
+[ "$(head -n 1 "$work/crossing/trajectories.csv")" = "population,time_s,vehicle,policy,lane,place_m,x_m,y_m,speed_mps,\
+acceleration_mps2,request_mps2,net_gap_m,gear" ] || fail "intersection: $(head -n 1 "$work/crossing/trajectories.csv")"
+[ "$(wc -l <"$work/crossing/trajectories.csv")" -gt 5000 ] || fail "intersection: few rows of trajectories"
 head -n 1 "$work/out/summary.csv" | grep -q "settled_headway_s,policy_headway_s" || fail "summary.csv has no headways"
 provenance="$work/out/first_steps.provenance.json"
 for part in '"scenario_hash"' '"version"' '"seed": 1' '"command"' '"state_hashes"' 'vehicles: 10' 'trajectories.csv' \

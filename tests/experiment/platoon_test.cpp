@@ -19,7 +19,7 @@ std::vector<TrajectoryPoint> samples(int vehicle, int policy, double until_s,
     std::vector<TrajectoryPoint> points;
     for (int k = 0; k * kInterval_s <= until_s; ++k) {
         const double time_s = k * kInterval_s;
-        points.push_back({time_s, vehicle, policy, 0, 0.0, speed_mps(time_s), 0.0, 0.0, gap_m(time_s), 1});
+        points.push_back({time_s, vehicle, policy, 0, 0.0, 0.0, speed_mps(time_s), 0.0, 0.0, gap_m(time_s), 1});
     }
     return points;
 }
