@@ -30,7 +30,7 @@ inline void gather(const MesoStreams& streams, MesoKernels::Lanes lanes, const M
             g.ahead[k] = speed[i - 1];
             g.gap[k] = position[i - 1] - static_cast<double>(length[i - 1]) - position[i];
             // Towards a lower limit at the end of the lane: v^2 = v_end^2 + 2 b distance.
-            const double end_mps = static_cast<double>(end_speed[i]);
+            const auto end_mps = static_cast<double>(end_speed[i]);
             const double to_turn_m = std::max(turn_m - position[i], 0.0);
             const double slow_mps = std::sqrt(end_mps * end_mps + 2.0 * slow_down_mps2 * to_turn_m);
             g.cap[k] = std::min(limit_mps, slow_mps);
