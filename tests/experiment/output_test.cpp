@@ -48,7 +48,7 @@ TEST(WriteFile, KeepsTheOldFileWhereTheNewOneCannotBeWritten) {
 }
 
 TEST(WriteFile, WritesToADeviceAndReportsThatItIsFull) {
-    if (!fs::exists("/dev/full")) GTEST_SKIP();
+    if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
     const std::string error = input_error_of([] { write_file("/dev/full", "text"); });
     EXPECT_TRUE(contains(error, "/dev/full"));
     EXPECT_TRUE(contains(error, "No space left on device"));
