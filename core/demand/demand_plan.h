@@ -10,13 +10,14 @@
 namespace stopline {
 
 struct DemandPlan {
+    // A lane where vehicles get a route: an entry, or a link between intersections, where they get their next.
     struct Inlet {
         int lane = 0;
-        std::int64_t vehicles = 0;   // that enter in all
+        std::int64_t vehicles = 0;   // that enter the network here in all; 0 on links
         std::vector<int> routes;     // candidate routes, and ...
         std::vector<double> shares;  // ... their shares, summing to 1
     };
-    std::vector<Inlet> inlets;
+    std::vector<Inlet> inlets;  // entries, then links
     double entry_speed_mps = 0.0;
     double entry_headway_s = 2.0;  // at least, between two fronts at the entry
     // Inlets never run dry: each vehicle enters as part of an endless platoon, in the gap of its policy and with the speed of

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/input_error.h"
 
@@ -47,6 +49,34 @@ double share_of(const Scenario& scenario, const Model& model, const Route& route
     return 1.0 - left - (possible(Turn::right) ? scenario.demand.right : 0.0);
 }
 
+DemandPlan::Inlet inlet_of(const Scenario& scenario, const Model& model, int lane, std::int64_t vehicles) {
+    DemandPlan::Inlet inlet{lane, vehicles, {}, {}};
+    for (std::size_t k = 0; k < model.graph.routes.size(); ++k) {
+        const Route& route = model.graph.routes[k];
+        if (route.lanes[0] != lane) continue;
+        inlet.routes.push_back(static_cast<int>(k));
+        inlet.shares.push_back(share_of(scenario, model, route));
+    }
+    return inlet;
+}
+
+bool enters(const DemandSettings& demand, const std::string& lane) {
+    const auto begins = [&](const std::string& arm) { return lane.starts_with(arm + "_"); };
+    return demand.arms.empty() || std::any_of(demand.arms.begin(), demand.arms.end(), begins);
+}
+
+// Throws InputError for an arm that the network does not have.
+void check_arms(const DemandSettings& demand, const LaneGraph& graph) {
+    std::vector<std::string> lanes;
+    for (const int entry : graph.entries) lanes.push_back(graph.lanes[at(entry)].name);
+    for (const std::string& arm : demand.arms) {
+        const auto begins = [&](const std::string& lane) { return lane.starts_with(arm + "_"); };
+        if (std::any_of(lanes.begin(), lanes.end(), begins)) continue;
+        throw InputError(fmt::format("demand.arms: no entry lane has a name that begins with '{}'; there are {}", arm,
+                                     fmt::join(lanes, ", ")));
+    }
+}
+
 void add_demand(const Scenario& scenario, Model& model) {
     model.demand.entry_speed_mps = scenario.demand.entry_speed_mps;
     model.demand.seed = scenario.seed;
@@ -56,37 +86,59 @@ void add_demand(const Scenario& scenario, Model& model) {
         scenario.demand.order == "random" ? DemandPlan::Pattern::random : DemandPlan::Pattern::balanced;
     const std::int64_t vehicles =
         model.demand.saturated ? std::numeric_limits<std::int64_t>::max() : scenario.demand.vehicles;
-    for (const int entry : model.graph.entries) {
-        DemandPlan::Inlet inlet{entry, vehicles, {}, {}};
-        for (std::size_t k = 0; k < model.graph.routes.size(); ++k) {
-            const Route& route = model.graph.routes[k];
-            if (route.lanes[0] != entry) continue;
-            inlet.routes.push_back(static_cast<int>(k));
-            inlet.shares.push_back(share_of(scenario, model, route));
-        }
-        model.demand.inlets.push_back(inlet);
+    const LaneGraph& graph = model.graph;
+    for (const int entry : graph.entries) {
+        const bool used = enters(scenario.demand, graph.lanes[at(entry)].name);
+        model.demand.inlets.push_back(inlet_of(scenario, model, entry, used ? vehicles : 0));
+    }
+    for (const int link : graph.links) model.demand.inlets.push_back(inlet_of(scenario, model, link, 0));
+    check_arms(scenario.demand, graph);
+}
+
+void add_zones(const Scenario& scenario, int lane, Model& model) {
+    const Lane& road = model.graph.lanes[at(lane)];
+    const bool entry = road.signal_group >= 0;
+    const std::vector<double>& zones = scenario.measure.zone_radius_m;
+    for (std::size_t zone = 0; zone < zones.size(); ++zone) {
+        const double beyond_m = zones[zone] - scenario.network.intersection.radius_m;
+        model.detectors.push_back({lane, entry ? road.stop_line_m - beyond_m : beyond_m, Detector::Kind::zone,
+                                   static_cast<int>(zone), !entry});
     }
 }
 
+// Behind each intersection, once vehicles are wholly out of it, and in the middle between two.
+void add_counters(const Scenario& scenario, int lane, Model& model) {
+    const Lane& road = model.graph.lanes[at(lane)];
+    const std::vector<int>& entries = model.graph.entries;
+    const bool entry = std::find(entries.begin(), entries.end(), lane) != entries.end();
+    if (entry) return;
+    model.detectors.push_back({lane, scenario.vehicle.length_m, Detector::Kind::exit});
+    if (road.signal_group >= 0) model.detectors.push_back({lane, 0.5 * road.stop_line_m, Detector::Kind::middle});
+}
+
 void add_detectors(const Scenario& scenario, Model& model) {
-    const std::vector<double>& zones = scenario.measure.zone_radius_m;
-    const double radius_m = scenario.network.intersection.radius_m;
     for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {
         const Lane& road = model.graph.lanes[at(lane)];
-        const bool entry = road.signal_group >= 0;
-        if (entry) model.detectors.push_back({lane, road.stop_line_m, -1, false});
-        if (road.origin >= 0 || scenario.network.kind != "intersection") continue;
-        for (std::size_t zone = 0; zone < zones.size(); ++zone) {
-            const double beyond_m = zones[zone] - radius_m;
-            model.detectors.push_back(
-                {lane, entry ? road.stop_line_m - beyond_m : beyond_m, static_cast<int>(zone), !entry});
-        }
+        if (road.signal_group >= 0) model.detectors.push_back({lane, road.stop_line_m, Detector::Kind::stop_line});
+        if (road.origin >= 0) continue;
+        if (scenario.network.kind == "intersection") add_zones(scenario, lane, model);
+        if (scenario.network.kind == "grid") add_counters(scenario, lane, model);
     }
 }
 
 void add_network(const Scenario& scenario, Model& model) {
-    if (scenario.network.kind == "intersection") {
-        model.graph = make_intersection(scenario.network.intersection);
+    const NetworkSettings& network = scenario.network;
+    if (network.kind == "grid") {
+        model.graph = make_grid(network.grid, network.intersection);
+        for (const GridPlace& place : grid_places(network.grid)) {
+            SignalSettings signal = scenario.signal;
+            signal.first_green_s += (place.column + place.row) * signal.offset_s;
+            for (GroupProgramme& one : make_stages(signal, 2, scenario.tick_s())) {
+                model.signals.push_back(std::move(one));
+            }
+        }
+    } else if (network.kind == "intersection") {
+        model.graph = make_intersection(network.intersection);
         model.signals = make_stages(scenario.signal, model.graph.signal_groups, scenario.tick_s());
     } else {
         model.graph = make_approach(scenario.network.approach);

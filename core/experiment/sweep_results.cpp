@@ -82,6 +82,14 @@ std::string result_text(const Sweep& sweep, std::size_t point, const std::vector
     return text;
 }
 
+std::string value_in(const std::string& result, const std::string& column) {
+    std::string found;
+    for_each_value(result, [&](std::string_view name, std::string_view value) {
+        if (name == column) found = std::string(value);
+    });
+    return found;
+}
+
 std::int64_t count_in(const std::string& result, const std::string& column) {
     std::int64_t count = 0;
     for_each_value(result, [&](std::string_view name, std::string_view value) {

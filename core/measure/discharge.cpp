@@ -39,11 +39,11 @@ Discharge discharge(const Model& model, std::span<const Crossing> crossings, con
     std::vector<Green> greens(model.detectors.size());
     int vehicles = 0;
     int lanes = 0;
-    for (const Detector& detector : model.detectors) lanes += detector.zone < 0 ? 1 : 0;
+    for (const Detector& detector : model.detectors) lanes += detector.kind == Detector::Kind::stop_line ? 1 : 0;
     for (const Crossing& crossing : crossings) {
         const auto d = static_cast<std::size_t>(crossing.detector);
         const Detector& detector = model.detectors[d];
-        if (detector.zone >= 0 || crossing.time_s < window.from_s || crossing.time_s >= window.to_s) continue;
+        if (detector.kind != Detector::Kind::stop_line || !window.contains(crossing.time_s)) continue;
         const Lane& lane = model.graph.lanes[static_cast<std::size_t>(detector.lane)];
         const GroupProgramme& programme = model.signals[static_cast<std::size_t>(lane.signal_group)];
         const auto tick = static_cast<std::int64_t>(crossing.time_s / model.step_s);

@@ -26,7 +26,7 @@ ZoneFigures zone_figures(std::span<const Detector> detectors, std::span<const Cr
     };
     for (const Crossing& crossing : crossings) {
         const Detector& detector = detectors[static_cast<std::size_t>(crossing.detector)];
-        if (detector.zone != zone) continue;
+        if (detector.kind != Detector::Kind::zone || detector.zone != zone) continue;
         if (!detector.leaves) {
             inside[crossing.vehicle] = {crossing.time_s, static_cast<double>(crossing.length_m)};
             continue;

@@ -14,6 +14,7 @@ struct TimeWindow {
     double from_s = 0.0;
     double to_s = 0.0;
     double length_s() const { return to_s - from_s; }
+    bool contains(double time_s) const { return time_s >= from_s && time_s < to_s; }
 };
 
 struct ZoneFigures {

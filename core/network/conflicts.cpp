@@ -32,6 +32,27 @@ std::optional<Stretch> near_part(const Polyline& a, const Polyline& b, double cl
     return part;
 }
 
+struct Box {
+    Point low;
+    Point high;
+};
+
+Box box_of(const Polyline& line) {
+    Box box{line.front(), line.front()};
+    for (const Point& p : line) {
+        box.low = {std::min(box.low.x_m, p.x_m), std::min(box.low.y_m, p.y_m)};
+        box.high = {std::max(box.high.x_m, p.x_m), std::max(box.high.y_m, p.y_m)};
+    }
+    return box;
+}
+
+bool apart(const Box& a, const Box& b, double clearance_m) {
+    const auto beyond = [&](const Box& one, const Box& other) {
+        return one.low.x_m > other.high.x_m + clearance_m || one.low.y_m > other.high.y_m + clearance_m;
+    };
+    return beyond(a, b) || beyond(b, a);
+}
+
 int rank(Turn turn) { return turn == Turn::left ? 2 : turn == Turn::right ? 1 : 0; }
 
 }  // namespace
@@ -46,13 +67,15 @@ double shared_stretch_m(const Polyline& a, const Polyline& b, double clearance_m
 void find_conflicts(LaneGraph& graph, double clearance_m) {
     graph.conflicts.assign(graph.lanes.size(), {});
     const auto count = static_cast<int>(graph.lanes.size());
+    std::vector<Box> boxes;
+    for (const Lane& lane : graph.lanes) boxes.push_back(lane.shape.empty() ? Box{} : box_of(lane.shape));
     const auto group = [&](const Lane& lane) { return graph.lanes[at(lane.origin)].signal_group; };
     for (int i = 0; i < count; ++i) {
         const Lane& one = graph.lanes[at(i)];
         if (one.origin < 0) continue;
         for (int k = i + 1; k < count; ++k) {
             const Lane& two = graph.lanes[at(k)];
-            if (two.origin < 0 || two.origin == one.origin) continue;
+            if (two.origin < 0 || two.origin == one.origin || apart(boxes[at(i)], boxes[at(k)], clearance_m)) continue;
             const auto on_one = near_part(one.shape, two.shape, clearance_m);
             const auto on_two = near_part(two.shape, one.shape, clearance_m);
             if (!on_one || !on_two) continue;

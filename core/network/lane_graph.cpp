@@ -56,6 +56,11 @@ void check(const LaneGraph& graph) {
         if (!std::all_of(route.lanes.begin(), route.lanes.end(), known)) {
             throw InputError(fmt::format("route '{}' names a lane that does not exist", route.name));
         }
+        const int last = route.lanes.back();
+        const bool goes_on = std::find(graph.links.begin(), graph.links.end(), last) != graph.links.end();
+        if (!graph.lanes[static_cast<std::size_t>(last)].next.empty() && !goes_on) {
+            throw InputError(fmt::format("route '{}' ends on a lane that leads on", route.name));
+        }
         for (std::size_t k = 1; k < route.lanes.size(); ++k) {
             const Lane& from = graph.lanes[static_cast<std::size_t>(route.lanes[k - 1])];
             if (std::find(from.next.begin(), from.next.end(), route.lanes[k]) == from.next.end()) {

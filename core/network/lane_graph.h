@@ -40,7 +40,7 @@ struct Conflict {
     bool other_yields = false;  // the other gives way to this one
 };
 
-// A sequence of lanes from an entry to an exit.
+// A sequence of lanes from an entry to an exit, or to a lane where other routes begin: there a vehicle gets its next one.
 struct Route {
     std::string name;
     std::vector<int> lanes;
@@ -49,7 +49,8 @@ struct Route {
 struct LaneGraph {
     std::vector<Lane> lanes;
     std::vector<Route> routes;
-    std::vector<int> entries;  // lanes where vehicles enter; route k starts at one of these
+    std::vector<int> entries;  // lanes where vehicles enter
+    std::vector<int> links;    // lanes from one intersection to the next; routes start at entries and links
     int signal_groups = 0;
     std::vector<std::vector<Conflict>> conflicts;  // [lane], in the order of from_m; empty where no lane has any
 
@@ -64,6 +65,18 @@ LaneGraph make_approach(const ApproachSettings& settings);
 // south, east and north. Signal group 0 is west and east, group 1 south and north. Entry lanes end where their movements part,
 // lanes inside lead from there to the exit lanes, which begin at `radius_m` from the centre.
 LaneGraph make_intersection(const IntersectionSettings& settings);
+
+// The same at every crossing of a grid: signal groups 2 n and 2 n + 1 at intersection n, counted row by row from the south-west.
+// Lanes between two intersections are exits of one and approaches of the other. Names of lanes begin with column and row, such as
+// c1r0_south_in_0; those of a single intersection do not.
+LaneGraph make_grid(const GridSettings& grid, const IntersectionSettings& settings);
+
+// Column and row of intersection n.
+struct GridPlace {
+    int column;
+    int row;
+};
+std::vector<GridPlace> grid_places(const GridSettings& grid);
 
 // Throws InputError where lanes, routes or signal groups do not fit together.
 void check(const LaneGraph& graph);

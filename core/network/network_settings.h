@@ -22,18 +22,32 @@ struct IntersectionSettings {
     };
     std::vector<LaneMovements> lanes = {};  // of each arm, from the left
     double radius_m = 20.0;                 // centre to stop line
-    double approach_length_m = 200.0;       // entry to stop line
-    double exit_length_m = 100.0;
+    double approach_length_m = 200.0;       // entry of the network to stop line
+    double exit_length_m = 100.0;           // to the end of the network
     double lane_width_m = 3.5;
     double speed_limit_mps = 50.0 / 3.6;
     double turn_speed_mps = 7.0;  // 2.5 m/s2 lateral on a radius of 20 m (Section IV.A)
     double clearance_m = 2.0;     // between centre lines below which vehicles touch: a car's width and a little more
 };
 
+// Intersections, all alike, where `columns` streets from south to north cross `rows` streets from west to east.
+struct GridSettings {
+    int columns = 1;
+    int rows = 1;
+    double column_spacing_m = 276.5;  // between the centres of neighbours (Section VI)
+    double row_spacing_m = 192.5;
+    std::string shape = "rectangle";  // without_corners: three by three are then one and its four neighbours
+
+    bool has_corners() const { return shape == "rectangle"; }
+};
+
 struct NetworkSettings {
     std::string kind = "approach";
     ApproachSettings approach;
     IntersectionSettings intersection;
+    GridSettings grid;
+
+    bool has_intersections() const { return kind != "approach"; }
 };
 
 }  // namespace stopline

@@ -57,6 +57,26 @@ const Table& intersection_table() {
     return table;
 }
 
+const Table& grid_table() {
+    using S = GridSettings;
+    static const Table table = make_table<S>(
+        "intersections, all alike, where streets cross",
+        {
+            whole<&S::columns>("columns", {1, 100}, "streets from south to north"),
+            whole<&S::rows>("rows", {1, 100}, "streets from west to east"),
+            number<&S::column_spacing_m>("column_spacing", "m", {50, 10'000}, "between centres, from west to east"),
+            number<&S::row_spacing_m>("row_spacing", "m", {50, 10'000}, "between centres, from south to north"),
+            choice<&S::shape>("shape", {"rectangle", "without_corners"},
+                              "without_corners: three by three are then an intersection and its four neighbours"),
+        },
+        [](const S& s, Checker& check) {
+            if (!s.has_corners() && (s.columns < 3 || s.rows < 3)) {
+                check.error("shape", "only a grid of three by three or more can do without its corners");
+            }
+        });
+    return table;
+}
+
 std::string seconds(double value) { return short_text(value, unit("s")); }
 
 void check_signal(const SignalSettings& signal, Checker& check) {
@@ -73,12 +93,14 @@ const Table& network_table() {
     static const Table table = make_table<NetworkSettings>(
         "the roads",
         {
-            choice<&NetworkSettings::kind>("kind", {"approach", "intersection"}, "which generator builds the network"),
+            choice<&NetworkSettings::kind>("kind", {"approach", "intersection", "grid"},
+                                           "which generator builds the network"),
             section<&NetworkSettings::approach>("approach", approach_table, "parameters of the kind 'approach'")
                 .only("kind", {"approach"}),
             section<&NetworkSettings::intersection>("intersection", intersection_table,
-                                                    "parameters of the kind 'intersection'")
-                .only("kind", {"intersection"}),
+                                                    "parameters of intersections, single or in a grid")
+                .only("kind", {"intersection", "grid"}),
+            section<&NetworkSettings::grid>("grid", grid_table, "parameters of the kind 'grid'").only("kind", {"grid"}),
         });
     return table;
 }
@@ -92,6 +114,9 @@ const Table& signal_table() {
             number<&SignalSettings::green_s>("green", "s", {0.1, 7200}, "green time"),
             number<&SignalSettings::yellow_s>("yellow", "s", {0, 60}, "yellow after green"),
             number<&SignalSettings::all_red_s>("all_red", "s", {0, 600}, "all approaches red after yellow"),
+            number<&SignalSettings::offset_s>("offset", "s", {0, 7200},
+                                              "of a grid: green starts later by this for each column to the east and "
+                                              "row to the north"),
             number<&SignalSettings::cycle_s>("cycle", "s", {0, 14'400},
                                              "from one green to the next; 0 s: a single green, then red"),
         },
@@ -106,15 +131,16 @@ const Table& demand_table() {
             choice<&DemandSettings::kind>("kind", {"queue", "saturated"},
                                           "queue: `vehicles` a lane enter as soon as there is room, then none; "
                                           "saturated: inlets never run dry"),
+            texts<&DemandSettings::arms>("arms", TextField::Rule::name, {0, 1000},
+                                         "where vehicles enter: how the names of entry lanes begin, such as south or "
+                                         "c1r0_south; none: everywhere")
+                .fallback("[]"),
             whole<&DemandSettings::vehicles>("vehicles", {1, 100'000}, "vehicles a lane").only("kind", {"queue"}),
             number<&DemandSettings::entry_speed_mps>("entry_speed", "km/h", {0, 150}, "speed on entering"),
-            number<&DemandSettings::right>("right", "%", {0, 100}, "turning right, on lanes where others go elsewhere")
-                .only("kind", {"saturated"}),
-            number<&DemandSettings::left>("left", "%", {0, 100}, "turning left, on lanes where others go elsewhere")
-                .only("kind", {"saturated"}),
+            number<&DemandSettings::right>("right", "%", {0, 100}, "turning right, on lanes where others go elsewhere"),
+            number<&DemandSettings::left>("left", "%", {0, 100}, "turning left, on lanes where others go elsewhere"),
             choice<&DemandSettings::order>("order", {"balanced", "random"},
-                                           "order of the turns; balanced: shares hold in every 20 vehicles of a lane")
-                .only("kind", {"saturated"}),
+                                           "order of the turns; balanced: shares hold in every 20 vehicles of a lane"),
             choice<&DemandSettings::start>(
                 "start", {"empty", "queued"},
                 "what is on the approaches at first; queued: standing vehicles from the stop "

@@ -8,7 +8,8 @@ struct SignalSettings {
     double green_s = 60.0;
     double yellow_s = 3.0;
     double all_red_s = 5.0;
-    double cycle_s = 0.0;  // 0: a single green, red for the rest of the run
+    double offset_s = 0.0;  // of a grid: greens start later by this from one intersection to the next
+    double cycle_s = 0.0;   // 0: a single green, red for the rest of the run
 };
 
 }  // namespace stopline

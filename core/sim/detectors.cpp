@@ -34,7 +34,7 @@ void watch_detectors(const Model& model, State& state) {
             state.crossings.push_back({passing_time_s(model, state, slot, detector.position_m), v.id[at(slot)],
                                        v.policy[at(slot)], static_cast<int>(k),
                                        static_cast<float>(v.speed_mps[at(slot)]), v.length_m[at(slot)]});
-            if (detector.zone < 0) pass_stop_line(model, state, detector.lane, slot);
+            if (detector.kind == Detector::Kind::stop_line) pass_stop_line(model, state, detector.lane, slot);
         }
     }
 }

@@ -31,9 +31,16 @@ DelayLine make_delay(double delay_s, double step_s);
 
 // Where passing fronts are noted.
 struct Detector {
+    enum class Kind : std::uint8_t {
+        stop_line,
+        zone,
+        exit,
+        middle
+    };  // exit: behind an intersection; middle: of a link
     int lane = -1;
     double position_m = 0.0;
-    int zone = -1;        // index of the zone that it bounds; -1: a stop line
+    Kind kind = Kind::stop_line;
+    int zone = -1;        // index of the zone that it bounds
     bool leaves = false;  // whether vehicles leave the zone here
 };
 

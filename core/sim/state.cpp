@@ -58,6 +58,10 @@ State make_state(const Model& model) {
     }
     state.occupied.reserve(model.graph.lanes.size());
     state.inlets.resize(model.demand.inlets.size());
+    state.inlet_of.assign(model.graph.lanes.size(), -1);
+    for (std::size_t k = 0; k < model.demand.inlets.size(); ++k) {
+        state.inlet_of[static_cast<std::size_t>(model.demand.inlets[k].lane)] = static_cast<int>(k);
+    }
     int longest = 0;
     for (const LaneBlock& block : state.blocks) longest = std::max(longest, block.end - block.begin);
     const int together = State::kVehiclesTogether + longest + kSimdWidth;

@@ -19,9 +19,9 @@ struct StopLineState {
     int stopper = -1;  // id of the vehicle that stops at the line; those behind follow it
 };
 
-// An entry lane. The next vehicle's policy and route are drawn once, when it comes up.
+// An entry lane. The next vehicle's policy and route are drawn once, when it comes up. Or a link.
 struct InletState {
-    std::int64_t entered = 0;
+    std::int64_t entered = 0;  // vehicles that got their route here
     int next_policy = -1;
     int next_route = -1;
     double last_entry_s = -1e9;
@@ -62,6 +62,7 @@ struct State {
     std::vector<Crossing> crossings;             // of the whole run, in order
     std::vector<GapAccepted> gaps_accepted;
     std::vector<InletState> inlets;
+    std::vector<int> inlet_of;      // [lane] -1: no routes begin there
     std::vector<Passage> passages;  // of the whole run, in order
     Violations violations;
     std::int64_t entered = 0;

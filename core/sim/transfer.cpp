@@ -42,6 +42,14 @@ void move_up(State& state, LaneBlock& block) {
     block.first = block.begin;
 }
 
+// On a link the vehicle gets its next route.
+void choose_way_on(const Model& model, State& state, int lane, int slot) {
+    const int inlet = state.inlet_of[at(lane)];
+    if (inlet < 0) return;
+    state.vehicles.route[at(slot)] = model.demand.route_of(inlet, state.inlets[at(inlet)].entered++);
+    set_route_index(model, state.vehicles, slot, 0);
+}
+
 // Moves the first vehicle of a lane on along its route, or out of the network.
 void pass_on(const Model& model, State& state, int lane) {
     VehicleArrays& v = state.vehicles;
@@ -61,6 +69,7 @@ void pass_on(const Model& model, State& state, int lane) {
         v.position_m[at(target)] -= length_m;
         v.came_from[at(target)] = lane;
         set_route_index(model, v, target, index);
+        choose_way_on(model, state, next, target);
     }
     LaneBlock& block = state.blocks[at(lane)];
     ++block.first;

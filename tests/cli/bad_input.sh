@@ -5,15 +5,8 @@ set -u
 
 run="$STOPLINE_BIN/stopline-run"
 [ -x "$run" ] || { echo "no $run: skipped"; exit 77; }
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+. "$STOPLINE_SOURCE/tests/tools/cli.sh"
 good="$STOPLINE_SOURCE/scenarios/first_steps.yaml"
-failures=0
-
-fail() {
-    echo "FAILED: $*"
-    failures=$((failures + 1))
-}
 
 # refused WHAT PART... -- ARGUMENTS...: exit code 2, nothing on standard output, and each PART in the message.
 refused() {

@@ -2,17 +2,10 @@
 # Ctrl-C ends any long work with exit code 130 and leaves no file; progress is a bar on a terminal and silent for short work.
 set -u
 
-failures=0
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+. "$STOPLINE_SOURCE/tests/tools/cli.sh"
 run="$STOPLINE_BIN/stopline-run"
 scenario="$STOPLINE_SOURCE/scenarios/single_light.yaml"
 endless=(--set "duration=1000000 s" --no-figures --threads 2)
-
-fail() {
-    echo "FAILED: $*"
-    failures=$((failures + 1))
-}
 
 code=0
 timeout --signal=INT 2 "$run" "$scenario" "${endless[@]}" --output "$work/out" >"$work/stdout" 2>"$work/stderr" || code=$?
@@ -44,11 +37,8 @@ interrupted 1 stopline-startup --fit
 "$run" "$STOPLINE_SOURCE/scenarios/first_steps.yaml" --no-figures --output "$work/short" >/dev/null 2>"$work/stderr"
 [ -s "$work/stderr" ] && fail "short work shows progress: $(cat "$work/stderr")"
 
-# script runs the program on a terminal of its own.
 if command -v script >/dev/null; then
-    printf -v command '%q ' timeout --signal=INT 4 "$run" "$scenario" "${endless[@]}" --output "$work/out"
-    script --quiet --command "$command" "$work/typescript" </dev/null >/dev/null
-    grep -qE '8 runs \[[#.]{30}\] +[0-9]+ %, .* left' "$work/typescript" || fail "no bar on a terminal"
+    on_terminal '8 runs \[[#.]{30}\] +[0-9]+ %, .* left' "$run" "$scenario" "${endless[@]}" --output "$work/out"
     [ "$(grep -c left "$work/typescript")" -le 1 ] || fail "the bar takes more than one line"
 fi
 

@@ -2,16 +2,9 @@
 # What stopline-run writes: whole files with units in their headers, or a message with path and reason and exit code 2.
 set -u
 
-failures=0
-work=$(mktemp -d)
-trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
+. "$STOPLINE_SOURCE/tests/tools/cli.sh"
 run="$STOPLINE_BIN/stopline-run"
 scenario="$STOPLINE_SOURCE/scenarios/first_steps.yaml"
-
-fail() {
-    echo "FAILED: $*"
-    failures=$((failures + 1))
-}
 
 # cannot_write REASON FOLDER [OPTION...]
 cannot_write() {

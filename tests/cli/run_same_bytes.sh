@@ -3,14 +3,7 @@
 # The same bytes whatever the number of threads, from run to run, and with and without optimisation.
 set -u
 
-failures=0
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-
-fail() {
-    echo "FAILED: $*"
-    failures=$((failures + 1))
-}
+. "$STOPLINE_SOURCE/tests/tools/cli.sh"
 
 # results FOLDER BIN THREADS SCENARIO [OPTION...]
 results() {

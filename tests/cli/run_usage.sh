@@ -2,15 +2,8 @@
 # Every program explains itself, and refuses wrong usage with exit code 2 and a message.
 set -u
 
-failures=0
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+. "$STOPLINE_SOURCE/tests/tools/cli.sh"
 scenario="$STOPLINE_SOURCE/scenarios/first_steps.yaml"
-
-fail() {
-    echo "FAILED: $*"
-    failures=$((failures + 1))
-}
 
 # says PART... -- COMMAND...: exit code 0, nothing on standard error, each PART on standard output
 says() {

@@ -2,15 +2,8 @@
 # stopline-scorecard: the columns promised, rows by section, reuse, and the exit codes.
 set -u
 
-failures=0
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+. "$STOPLINE_SOURCE/tests/tools/cli.sh"
 scorecard="$STOPLINE_BIN/stopline-scorecard"
-
-fail() {
-    echo "FAILED: $*"
-    failures=$((failures + 1))
-}
 
 "$scorecard" --section III --csv --output "$work/out" >"$work/rows.csv" 2>"$work/stderr" || fail "exit code $?"
 [ "$(head -n 1 "$work/rows.csv")" = "id,section,paper,ours,unit,tolerance,verdict,explanation" ] || fail "other columns"

@@ -3,16 +3,9 @@
 # in their file; its provenance makes the results again.
 set -u
 
-failures=0
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+. "$STOPLINE_SOURCE/tests/tools/cli.sh"
 startup="$STOPLINE_BIN/stopline-startup"
 data="$STOPLINE_SOURCE/data/startup"
-
-fail() {
-    echo "FAILED: $*"
-    failures=$((failures + 1))
-}
 
 # refused PART TEXT: a file of that text ends with exit code 2 and PART in the message, which is plain text
 refused() {

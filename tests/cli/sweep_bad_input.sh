@@ -2,17 +2,10 @@
 # stopline-sweep explains itself, and refuses what it cannot run with exit code 2 and a message before anything runs.
 set -u
 
-failures=0
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+. "$STOPLINE_SOURCE/tests/tools/cli.sh"
 program="$STOPLINE_BIN/stopline-sweep"
 good="$STOPLINE_SOURCE/scenarios/sweeps/single_light.yaml"
 cp "$STOPLINE_SOURCE/scenarios/first_steps.yaml" "$work/short.yaml"
-
-fail() {
-    echo "FAILED: $*"
-    failures=$((failures + 1))
-}
 
 # refused WHAT PART... -- ARGUMENTS...: exit code 2, nothing on standard output or kept, each PART in the message
 refused() {

@@ -2,17 +2,10 @@
 # Shards that are joined, and ranks of mpirun, give the same bytes as one program; overlaps and holes are refused.
 set -u
 
-failures=0
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+. "$STOPLINE_SOURCE/tests/tools/cli.sh"
 program="$STOPLINE_BIN/stopline-sweep"
 sweep="$STOPLINE_SOURCE/scenarios/sweeps/single_light.yaml"
 short=(--set "duration=300 s" --set "demand.vehicles=10")
-
-fail() {
-    echo "FAILED: $*"
-    failures=$((failures + 1))
-}
 
 # refused WHAT PART COMMAND...: exit code 2, PART in the message
 refused() {

@@ -7,18 +7,11 @@ program="$STOPLINE_BIN/stopline-sweep"
 command -v mpirun >/dev/null || { echo "no mpirun: skipped"; exit 77; }
 ldd "$program" | grep -q libmpi || { echo "built without MPI: skipped"; exit 77; }
 
-failures=0
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+. "$STOPLINE_SOURCE/tests/tools/cli.sh"
 sweep="$STOPLINE_SOURCE/scenarios/sweeps/single_light.yaml"
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 # mpirun puts its sockets there; the names of such must be short.
 export TMPDIR=/tmp
-
-fail() {
-    echo "FAILED: $*"
-    failures=$((failures + 1))
-}
 
 # ranks COUNT FOLDER [OPTION...]
 ranks() {

@@ -9,7 +9,9 @@
 namespace stopline {
 namespace {
 
-const std::vector<Detector> kDetectors{{0, 10.0, 0, false}, {1, 10.0, 0, true}, {0, 50.0, -1, false}};
+const std::vector<Detector> kDetectors{{0, 10.0, Detector::Kind::zone, 0, false},
+                                       {1, 10.0, Detector::Kind::zone, 0, true},
+                                       {0, 50.0, Detector::Kind::stop_line, -1, false}};
 
 Crossing at(double time_s, int vehicle, int detector) { return {time_s, vehicle, 0, detector, 10.0F, 5.0F}; }
 

@@ -155,7 +155,7 @@ TEST(RightOfWay, EveryArmPassesTheSameWithoutTurns) {
     std::map<int, int> passed;  // by entry lane
     for (const Crossing& crossing : simulation.state().crossings) {
         const Detector& detector = model.detectors[at(crossing.detector)];
-        if (detector.zone < 0) ++passed[detector.lane];
+        if (detector.kind == Detector::Kind::stop_line) ++passed[detector.lane];
     }
     ASSERT_EQ(passed.size(), 8u);
     for (const auto& [lane, vehicles] : passed) {
