@@ -11,7 +11,7 @@
 namespace stopline {
 
 // What a number is drawn for. Append only: the values enter the key.
-enum class Purpose : std::uint64_t { policy = 1, turn = 2, dawdle = 3, insertion = 4, vehicle_type = 5 };
+enum class Purpose : std::uint64_t { policy = 1, turn = 2, dawdle = 3, insertion = 4, vehicle_type = 5, fit_start = 6 };
 
 constexpr std::uint64_t mix64(std::uint64_t z) {
     z += 0x9e3779b97f4a7c15ULL;

@@ -21,6 +21,8 @@ const Table& measure_table();     // MeasureSettings
 
 const Table& sweep_table();  // SweepSettings (sweep_settings.h): the root of a sweep file
 
+const Table& accepted_table();  // AcceptedFile (load_accepted.h): the root of a file of accepted differences
+
 // The root of data/policies/*.yaml.
 struct PolicyFile {
     std::vector<GapPolicySettings> policies;

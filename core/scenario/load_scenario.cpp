@@ -62,6 +62,18 @@ S load_data(const Table& table, const std::string& folder, const std::string& na
     return settings;
 }
 
+// Lines of text as lines of comment.
+std::string as_comment(const std::string& text) {
+    std::string lines;
+    std::size_t begin = 0;
+    while (begin < text.size()) {
+        const std::size_t end = std::min(text.find('\n', begin), text.size());
+        lines += "# " + text.substr(begin, end - begin) + "\n";
+        begin = end + 1;
+    }
+    return lines;
+}
+
 }  // namespace
 
 Scenario load_scenario(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
@@ -85,15 +97,16 @@ std::vector<GapPolicySettings> load_policies(const std::string& name_or_path, co
     return load_data<PolicyFile>(policy_file_table(), "policies", name_or_path, directory).policies;
 }
 
+MesoSettings load_meso(const std::string& name_or_path, const std::filesystem::path& directory) {
+    return load_data<MesoSettings>(meso_table(), "meso", name_or_path, directory);
+}
+
 std::string driver_yaml(const DriverSettings& driver, const std::string& comment) {
-    std::string text;
-    std::size_t begin = 0;
-    while (begin < comment.size()) {
-        const std::size_t end = std::min(comment.find('\n', begin), comment.size());
-        text += "# " + comment.substr(begin, end - begin) + "\n";
-        begin = end + 1;
-    }
-    return text + write_fields(driver_table(), &driver);
+    return as_comment(comment) + write_fields(driver_table(), &driver);
+}
+
+std::string meso_yaml(const MesoSettings& meso, const std::string& comment) {
+    return as_comment(comment) + write_fields(meso_table(), &meso);
 }
 
 std::string canonical_text(const Scenario& scenario) { return write_fields(scenario_table(), &scenario); }

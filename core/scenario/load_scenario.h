@@ -42,6 +42,10 @@ std::vector<std::string> data_names(const std::string& folder);
 // A driver file with `comment` (may have several lines) on top. load_driver reads the same numbers back, bit for bit.
 std::string driver_yaml(const DriverSettings& driver, const std::string& comment);
 
+// The same for a file of parameters of the mesoscale mode.
+MesoSettings load_meso(const std::string& name_or_path, const std::filesystem::path& directory = ".");
+std::string meso_yaml(const MesoSettings& meso, const std::string& comment);
+
 // Every field with full precision, vehicle, driver and policies included. It is itself a scenario file: loading it gives
 // the same scenario. `Scenario::hash` is its 64-bit FNV-1a hash.
 std::string canonical_text(const Scenario& scenario);

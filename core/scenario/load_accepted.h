@@ -1,0 +1,28 @@
+// Differences between full dynamics and the mesoscale mode that someone has looked at and accepts: the paper's subjective
+// criterion (Section V.B). Read through the same tables of fields as scenarios.
+//
+//     accepted:
+//     - permutation: green = 15 s, offset = 0 s, population = CDG
+//       detector: c1r2_south_in_0 middle
+//       reason: the 15th vehicle stops on the detector in one mode and in front of it in the other
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace stopline {
+
+struct AcceptedDifference {
+    std::string permutation;  // values of the axes, as in the report
+    std::string detector;
+    std::string reason;
+};
+
+struct AcceptedFile {
+    std::vector<AcceptedDifference> accepted;
+};
+
+AcceptedFile load_accepted(const std::filesystem::path& file);
+
+}  // namespace stopline
