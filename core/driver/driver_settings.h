@@ -65,6 +65,7 @@ struct DriverSettings {
 // A model of the Krauss family (krauss.h), as Table 2 of the paper writes it.
 struct KraussSettings {
     double acceleration_mps2 = 1.7;
+    double acceleration_until_mps = 500.0 / 3.6;  // beyond it the power is constant: acceleration falls with 1 / v
     double deceleration_mps2 = 4.7;
     double reaction_s = 0.9;         // tau
     double standstill_gap_m = 2.95;  // minGap
@@ -76,6 +77,7 @@ struct MesoSettings {
     std::string name;  // of the file in data/meso
     double step_s = 0.1;
     double leader_share = 0.95;  // of the limit, for vehicles without a predecessor (Section V.A)
+    double start_delay_s = 0.0;  // by which the first vehicle at a stop line sets out later: what the powertrain takes
     KraussSettings constant_time;
     KraussSettings constant_distance;
     double band_m = 0.5;       // s_t of equation (1)

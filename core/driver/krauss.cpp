@@ -9,6 +9,7 @@ Krauss krauss_of(const MesoSettings& settings, const GapPolicySettings& policy) 
     const KraussSettings& s = time_gap ? settings.constant_time : settings.constant_distance;
     Krauss k;
     k.acceleration_mps2 = s.acceleration_mps2;
+    k.until_mps = s.acceleration_until_mps;
     k.deceleration_mps2 = s.deceleration_mps2;
     k.reaction_s = s.reaction_s;
     k.standstill_gap_m = s.standstill_gap_m + policy.standstill_gap_m - settings.calibrated_standstill_gap_m;

@@ -8,9 +8,10 @@
 // place of s_0 where s > s_0; v_l for s_0 - s_t < s <= s_0; d v_l below. It jumps at s_0, as printed. Both stand still at
 // s_0 (+ s_t) and follow at speed v in the gap s_0 (+ s_t) + tau v.
 //
-//   v' = min(v_safe, v + a dt, cap),  v <- max(0, v' - sigma dt xi min(v', a 1 s)),  x <- x + v dt
+//   v' = min(v_safe, v + a(v) dt, cap),  v <- max(0, v' - sigma dt xi min(v', a 1 s)),  x <- x + v dt
 //
-// xi is uniform in [0, 1); slow vehicles dawdle less, so that nobody is kept from starting (as in SUMO). Policies with a gap
+// a(v) = a min(1, v_p / v): constant power beyond the speed v_p. The paper's models have none (v_p beyond all limits). xi is
+// uniform in [0, 1); slow vehicles dawdle less, so that nobody is kept from starting (as in SUMO). Policies with a gap
 // that grows above a switching speed (SWITCH) are the variant with s_0 raised by what the policy adds at the own speed.
 #pragma once
 
@@ -27,6 +28,7 @@ namespace stopline {
 // One policy, ready for use. SI units.
 struct Krauss {
     double acceleration_mps2 = 0.0;  // a
+    double until_mps = 1e9;          // v_p
     double deceleration_mps2 = 0.0;  // b
     double reaction_s = 0.0;         // tau
     double standstill_gap_m = 0.0;   // s_0
@@ -66,7 +68,8 @@ struct KraussInput {
 // `random`: in [0, 1).
 STOPLINE_INLINE double next_speed_mps(const Krauss& k, const KraussInput& in, double random, double dt) {
     const double safe = safe_speed_mps(k, in.gap_m, in.ahead_mps, in.more_m);
-    const double faster = in.speed_mps + k.acceleration_mps2 * dt;
+    const double share = std::min(1.0, k.until_mps / std::max(in.speed_mps, 1e-3));
+    const double faster = in.speed_mps + k.acceleration_mps2 * share * dt;
     const double wanted = std::max(std::min(std::min(safe, faster), in.cap_mps), 0.0);
     constexpr double kSlow_s = 1.0;  // vehicles slower than a x 1 s dawdle in proportion to their speed
     return wanted - k.dawdling * dt * random * std::min(wanted, k.acceleration_mps2 * kSlow_s);

@@ -23,7 +23,6 @@ void add_policies(const Scenario& scenario, const PopulationSettings& population
         model.demand.policies.push_back(static_cast<int>(model.policies.size()));
         model.demand.policy_shares.push_back(component.share);
         model.policies.push_back({*found, &find_gap_law(found->law)});
-        if (scenario.is_meso()) model.krauss.push_back(krauss_of(scenario.meso, *found));
     }
     using Pattern = PopulationSettings::Pattern;
     model.demand.pattern = population.pattern == Pattern::random     ? DemandPlan::Pattern::random
@@ -81,7 +80,7 @@ void add_demand(const Scenario& scenario, Model& model) {
     model.demand.entry_speed_mps = scenario.demand.entry_speed_mps;
     model.demand.seed = scenario.seed;
     model.demand.saturated = scenario.demand.kind == "saturated";
-    model.demand.queued = model.demand.saturated && scenario.demand.start == "queued";
+    model.demand.queued = scenario.demand.start == "queued";
     model.demand.route_pattern =
         scenario.demand.order == "random" ? DemandPlan::Pattern::random : DemandPlan::Pattern::balanced;
     const std::int64_t vehicles =
@@ -148,6 +147,13 @@ void add_network(const Scenario& scenario, Model& model) {
 
 }  // namespace
 
+void set_meso(const Scenario& scenario, const MesoSettings& settings, Model& model) {
+    model.krauss.clear();
+    for (const CompiledPolicy& policy : model.policies) model.krauss.push_back(krauss_of(settings, policy.settings));
+    model.leader_share = settings.leader_share;
+    model.hesitation_ticks = to_ticks(scenario.driver.free_drive.hesitation_s + settings.start_delay_s, model.step_s);
+}
+
 Model build_model(const Scenario& scenario, std::size_t population) {
     Model model;
     model.step_s = scenario.tick_s();
@@ -161,7 +167,6 @@ Model build_model(const Scenario& scenario, std::size_t population) {
     model.v2v = make_delay(scenario.driver.cacc.v2v_delay_s, scenario.tick_s());
     if (scenario.is_meso()) {  // nobody looks back in time
         model.meso = true;
-        model.leader_share = scenario.meso.leader_share;
         model.radar = make_delay(0.0, model.step_s);
         model.v2v = make_delay(model.step_s, model.step_s);
     }
@@ -169,6 +174,7 @@ Model build_model(const Scenario& scenario, std::size_t population) {
     add_detectors(scenario, model);
     add_policies(scenario, scenario.populations.at(population), model);
     add_demand(scenario, model);
+    if (scenario.is_meso()) set_meso(scenario, scenario.meso, model);
     check(model);
     return model;
 }

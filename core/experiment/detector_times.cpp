@@ -96,13 +96,20 @@ DetectorTimes times_of(const std::string& result, const Model& model) {
     return times;
 }
 
+int PairedTimes::unpaired_in_all() const {
+    int all = 0;
+    for (const auto& [detector, more] : unpaired) all += more;
+    return all;
+}
+
 PairedTimes pair_up(const DetectorTimes& reference, const DetectorTimes& other) {
     PairedTimes paired;
     for (std::size_t detector = 0; detector < reference.size(); ++detector) {
         const std::vector<double>& one = reference[detector];
         const std::vector<double>& two = other[detector];
         const std::size_t both = std::min(one.size(), two.size());
-        paired.unpaired += static_cast<int>(std::max(one.size(), two.size()) - both);
+        const auto more = static_cast<int>(std::max(one.size(), two.size()) - both);
+        if (more > 0) paired.unpaired[static_cast<int>(detector)] = more;
         for (std::size_t k = 0; k < both; ++k) {
             paired.pairs.push_back({static_cast<int>(detector), static_cast<int>(k), one[k], two[k]});
         }
@@ -115,7 +122,7 @@ Agreement agreement(std::span<const SizedPairs> permutations, double limit_s) {
     std::vector<double> differences_s;
     std::size_t within = 0;
     for (const SizedPairs& permutation : permutations) {
-        total.unpaired += static_cast<std::size_t>(permutation.times->unpaired);
+        total.unpaired += static_cast<std::size_t>(permutation.times->unpaired_in_all());
         for (const PassagePair& pair : permutation.times->pairs) {
             const double difference_s = std::abs(pair.difference_s());
             differences_s.push_back(difference_s);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -44,7 +45,9 @@ struct PassagePair {
 
 struct PairedTimes {
     std::vector<PassagePair> pairs;
-    int unpaired = 0;  // passages of one run that the other does not have
+    std::map<int, int>
+        unpaired;  // by detector: passages of one run that the other does not have; only where there are any
+    int unpaired_in_all() const;
 };
 PairedTimes pair_up(const DetectorTimes& reference, const DetectorTimes& other);
 

@@ -10,6 +10,7 @@
 
 #include "base/arithmetic.h"
 #include "base/random.h"
+#include "experiment/build_model.h"
 #include "experiment/interrupted.h"
 
 namespace stopline {
@@ -137,16 +138,29 @@ std::vector<double> start_values(std::vector<double> values, const std::vector<s
 const std::vector<FitParameter>& fit_parameters() {
     using S = MesoSettings;
     static const std::vector<FitParameter> kAll{
-        {"constant_time.acceleration", "m/s2", false, 0.8, 4.0, [](S& s) -> double& { return s.constant_time.acceleration_mps2; }},
-        {"constant_time.deceleration", "m/s2", false, 1.0, 9.0, [](S& s) -> double& { return s.constant_time.deceleration_mps2; }},
+        {"start_delay", "s", false, 0.0, 1.0, [](S& s) -> double& { return s.start_delay_s; }},
+        {"constant_time.acceleration", "m/s2", false, 0.8, 4.0,
+         [](S& s) -> double& { return s.constant_time.acceleration_mps2; }},
+        {"constant_time.acceleration_until", "m/s", false, 2.0, 16.0,
+         [](S& s) -> double& { return s.constant_time.acceleration_until_mps; }},
+        {"constant_time.deceleration", "m/s2", false, 1.0, 9.0,
+         [](S& s) -> double& { return s.constant_time.deceleration_mps2; }},
         {"constant_time.reaction", "s", false, 0.3, 1.3, [](S& s) -> double& { return s.constant_time.reaction_s; }},
-        {"constant_time.standstill_gap", "m", false, 1.5, 4.5, [](S& s) -> double& { return s.constant_time.standstill_gap_m; }},
+        {"constant_time.standstill_gap", "m", false, 1.5, 4.5,
+         [](S& s) -> double& { return s.constant_time.standstill_gap_m; }},
         {"constant_time.dawdling", "", false, 0.0, 1.0, [](S& s) -> double& { return s.constant_time.dawdling; }},
-        {"constant_distance.acceleration", "m/s2", true, 0.8, 4.0, [](S& s) -> double& { return s.constant_distance.acceleration_mps2; }},
-        {"constant_distance.deceleration", "m/s2", true, 1.0, 9.0, [](S& s) -> double& { return s.constant_distance.deceleration_mps2; }},
-        {"constant_distance.reaction", "s", true, 0.0, 0.3, [](S& s) -> double& { return s.constant_distance.reaction_s; }},
-        {"constant_distance.standstill_gap", "m", true, 1.0, 3.5, [](S& s) -> double& { return s.constant_distance.standstill_gap_m; }},
-        {"constant_distance.dawdling", "", true, 0.0, 1.0, [](S& s) -> double& { return s.constant_distance.dawdling; }},
+        {"constant_distance.acceleration", "m/s2", true, 0.8, 4.0,
+         [](S& s) -> double& { return s.constant_distance.acceleration_mps2; }},
+        {"constant_distance.acceleration_until", "m/s", true, 2.0, 16.0,
+         [](S& s) -> double& { return s.constant_distance.acceleration_until_mps; }},
+        {"constant_distance.deceleration", "m/s2", true, 1.0, 9.0,
+         [](S& s) -> double& { return s.constant_distance.deceleration_mps2; }},
+        {"constant_distance.reaction", "s", true, 0.0, 0.3,
+         [](S& s) -> double& { return s.constant_distance.reaction_s; }},
+        {"constant_distance.standstill_gap", "m", true, 1.0, 3.5,
+         [](S& s) -> double& { return s.constant_distance.standstill_gap_m; }},
+        {"constant_distance.dawdling", "", true, 0.0, 1.0,
+         [](S& s) -> double& { return s.constant_distance.dawdling; }},
         {"band", "m", true, 0.05, 1.0, [](S& s) -> double& { return s.band_m; }},
         {"below_band", "", true, 0.7, 1.0, [](S& s) -> double& { return s.below_band; }},
     };
@@ -155,20 +169,18 @@ const std::vector<FitParameter>& fit_parameters() {
 
 DetectorRun run_case(const FitCase& fit_case, const MesoSettings& settings) {
     Model model = fit_case.model;
-    for (std::size_t k = 0; k < model.krauss.size(); ++k) {
-        model.krauss[k] = krauss_of(settings, model.policies[k].settings);
-    }
-    model.leader_share = settings.leader_share;
+    set_meso(fit_case.scenario, settings, model);
     return run_detectors(fit_case.scenario, model);
 }
 
 double fit_loss(const PairedTimes& pairs, double limit_s) {
-    double sum = pairs.unpaired;
+    const double unpaired = pairs.unpaired_in_all();
+    double sum = unpaired;
     for (const PassagePair& pair : pairs.pairs) {
         const double d2 = square(pair.difference_s());
         sum += d2 / (d2 + square(limit_s));
     }
-    return sum / std::max(static_cast<double>(pairs.pairs.size()) + pairs.unpaired, 1.0);
+    return sum / std::max(static_cast<double>(pairs.pairs.size()) + unpaired, 1.0);
 }
 
 MesoFit fit_meso(const std::vector<FitCase>& cases, const MesoSettings& start, const FitOptions& options) {
@@ -193,14 +205,23 @@ MesoFit fit_meso(const std::vector<FitCase>& cases, const MesoSettings& start, c
         }
         return free;
     };
-    const auto planned = static_cast<std::size_t>(2 * options.starts * options.evaluations_apart + options.evaluations_together);
+    const auto planned =
+        static_cast<std::size_t>(2 * options.starts * options.evaluations_apart + options.evaluations_together);
 
-    for (const auto& [which, name] : {std::pair{Part::constant_time, "constant_time"}, std::pair{Part::constant_distance, "constant_distance"}}) {
+    for (const auto& [which, name] :
+         {std::pair{Part::constant_time, "constant_time"}, std::pair{Part::constant_distance, "constant_distance"}}) {
         if (part(which).empty()) continue;
         double best_loss = 2.0;
         std::vector<double> best = values;
         for (int k = 0; k < options.starts; ++k) {
-            Search search{part(which), parameters(which), start_values(values, parameters(which), k), fmt::format("{} {}", name, k + 1), options, start, fit.history, planned};
+            Search search{part(which),
+                          parameters(which),
+                          start_values(values, parameters(which), k),
+                          fmt::format("{} {}", name, k + 1),
+                          options,
+                          start,
+                          fit.history,
+                          planned};
             improve(search, 0.15, options.evaluations_apart);
             if (search.best_loss >= best_loss) continue;
             best_loss = search.best_loss;

@@ -15,6 +15,9 @@ namespace stopline {
 // several machines can be joined anywhere.
 std::string result_text(const Sweep& sweep, std::size_t point, const std::vector<RunMetric>& metrics);
 
+// The names of its columns, in their order.
+std::vector<std::string> columns_in(const std::string& result);
+
 // The text in a column of it; "" where there is none.
 std::string value_in(const std::string& result, const std::string& column);
 

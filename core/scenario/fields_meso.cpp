@@ -11,6 +11,11 @@ const Table& krauss_table() {
         "a model of the Krauss family",
         {
             number<&S::acceleration_mps2>("acceleration", "m/s2", {0.1, 10}, "a: highest acceleration"),
+            number<&S::acceleration_until_mps>(
+                "acceleration_until", "km/h", {5, 500},
+                "speed up to which a is available; beyond it the power is constant and "
+                "the acceleration falls with 1 / v (500 km/h: a at all speeds, as in the "
+                "paper)"),
             number<&S::deceleration_mps2>("deceleration", "m/s2", {0.1, 12}, "b: braking that safe speeds reckon with"),
             number<&S::reaction_s>("reaction", "s", {0, 5}, "tau: time before braking that safe speeds reckon with"),
             number<&S::standstill_gap_m>("standstill_gap", "m", {0.1, 20}, "s_0, minGap: net gap at standstill"),
@@ -31,6 +36,9 @@ const Table& meso_table() {
             number<&S::leader_share>("leader_share", "%", {50, 100},
                                      "share of the limit that vehicles without a predecessor drive, so that others can "
                                      "catch up with them"),
+            number<&S::start_delay_s>("start_delay", "s", {0, 5},
+                                      "time that the first vehicle at a stop line takes to set out, besides the "
+                                      "driver's hesitation: the powertrain's"),
             section<&S::constant_time>("constant_time", krauss_table, "policies with a time gap: the Krauss model"),
             section<&S::constant_distance>("constant_distance", krauss_table,
                                            "all other policies: the paper's equation (1)"),

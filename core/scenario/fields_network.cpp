@@ -144,8 +144,7 @@ const Table& demand_table() {
             choice<&DemandSettings::start>(
                 "start", {"empty", "queued"},
                 "what is on the approaches at first; queued: standing vehicles from the stop "
-                "line to the entry")
-                .only("kind", {"saturated"}),
+                "line to the entry"),
         });
     return table;
 }

@@ -14,7 +14,8 @@ const Table& difference_table() {
     static const Table table = make_table<S>(
         "a detector of a permutation",
         {
-            text<&S::permutation>("permutation", TextField::Rule::title, "values of the axes, as in the report").required(),
+            text<&S::permutation>("permutation", TextField::Rule::title, "values of the axes, as in the report")
+                .required(),
             text<&S::detector>("detector", TextField::Rule::title, "name, as in the report").required(),
             text<&S::reason>("reason", TextField::Rule::title, "why its differences are accepted").required(),
         });

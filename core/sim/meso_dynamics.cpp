@@ -29,7 +29,8 @@ void evaluate_more(const Model& model, int vehicles, const MesoGroup& g) {
 }  // namespace
 
 double stopping_speed_mps(const Model& model, const VehicleArrays& v, int slot, double room_m) {
-    const Krauss& krauss = model.krauss[at(v.policy[at(slot)])];
+    Krauss krauss = model.krauss[at(v.policy[at(slot)])];
+    krauss.deceleration_mps2 = std::min(krauss.deceleration_mps2, model.driver.stop.deceleration_mps2);
     const double hardest_mps2 = model.driver.cacc.deceleration_emergency_mps2;
     const double lowest_mps = v.speed_mps[at(slot)] - hardest_mps2 * model.step_s;
     return std::max(braking_speed_mps(krauss, std::max(room_m, 0.0), 0.0), lowest_mps);

@@ -203,7 +203,7 @@ void form_queues(const Model& model, State& state) {
     for (int k = 0; k < static_cast<int>(model.demand.inlets.size()); ++k) {
         const int lane = model.demand.inlets[at(k)].lane;
         double front_m = model.graph.lanes[at(lane)].stop_line_m - model.driver.stop.margin_m;
-        while (front_m >= 0.0) {
+        while (front_m >= 0.0 && state.inlets[at(k)].entered < model.demand.inlets[at(k)].vehicles) {
             draw_next(model, state, k);
             enter(model, state, k, {true, front_m, 0.0});
             const VehicleArrays& v = state.vehicles;
