@@ -13,7 +13,7 @@ struct DemandPlan {
     // A lane where vehicles get a route: an entry, or a link between intersections, where they get their next.
     struct Inlet {
         int lane = 0;
-        std::int64_t vehicles = 0;   // that enter the network here in all; 0 on links
+        std::int64_t vehicles = 0;   // that enter the network here in all; mostly 0 on links
         std::vector<int> routes;     // candidate routes, and ...
         std::vector<double> shares;  // ... their shares, summing to 1
     };

@@ -10,7 +10,7 @@ struct DemandSettings {
     // queue: `vehicles` a lane enter as soon as there is room, then none; saturated: inlets never run dry
     std::string kind = "queue";
     int vehicles = 60;
-    std::vector<std::string> arms = {};  // where vehicles enter: how names of entry lanes begin; none: everywhere
+    std::vector<std::string> arms = {};  // where vehicles enter: how names of lanes begin; none: all entries
     double entry_speed_mps = 50.0 / 3.6;
     // Of the vehicles on lanes from which one can turn and go straight on.
     double right = 0.0;

@@ -66,6 +66,8 @@ struct DriverSettings {
 struct KraussSettings {
     double acceleration_mps2 = 1.7;
     double acceleration_until_mps = 500.0 / 3.6;  // beyond it the power is constant: acceleration falls with 1 / v
+    double catch_up = 1.0;                        // times the acceleration, for those close behind a predecessor
+    double transient_gap_s2 = 0.0;                // added to the gap for each m/s2 that the predecessor accelerates
     double deceleration_mps2 = 4.7;
     double reaction_s = 0.9;         // tau
     double standstill_gap_m = 2.95;  // minGap
@@ -76,7 +78,9 @@ struct KraussSettings {
 struct MesoSettings {
     std::string name;  // of the file in data/meso
     double step_s = 0.1;
-    double leader_share = 0.95;  // of the limit, for vehicles without a predecessor (Section V.A)
+    double leader_share = 0.95;    // of the limit, for vehicles without a predecessor (Section V.A)
+    double speed_factor = 1.0;     // of every limit
+    double speed_gain_1ps = 1000;  // acceleration towards a limit, a second and m/s below it
     double start_delay_s = 0.0;  // by which the first vehicle at a stop line sets out later: what the powertrain takes
     KraussSettings constant_time;
     KraussSettings constant_distance;

@@ -29,6 +29,8 @@ namespace stopline {
 struct Krauss {
     double acceleration_mps2 = 0.0;  // a
     double until_mps = 1e9;          // v_p
+    double transient_gap_s2 = 0.0;   // times the predecessor's acceleration, where it accelerates: added to the gap
+    double catch_up = 1.0;           // times the acceleration, close behind a predecessor
     double deceleration_mps2 = 0.0;  // b
     double reaction_s = 0.0;         // tau
     double standstill_gap_m = 0.0;   // s_0
@@ -60,16 +62,21 @@ STOPLINE_INLINE double safe_speed_mps(const Krauss& k, double gap_m, double ahea
 struct KraussInput {
     double speed_mps;
     double gap_m;
-    double ahead_mps;  // speed of the predecessor
-    double more_m;     // see safe_speed_mps
-    double cap_mps;    // the limit, or what a stop line allows
+    double ahead_mps;   // speed of the predecessor
+    double ahead_mps2;  // its acceleration in the last step; 0 where it brakes
+    double more_m;      // see safe_speed_mps
+    double cap_mps;     // the limit, or what a stop line allows
 };
 
 // `random`: in [0, 1).
 STOPLINE_INLINE double next_speed_mps(const Krauss& k, const KraussInput& in, double random, double dt) {
-    const double safe = safe_speed_mps(k, in.gap_m, in.ahead_mps, in.more_m);
+    const double more_m = in.more_m + k.transient_gap_s2 * in.ahead_mps2;
+    const double safe = safe_speed_mps(k, in.gap_m, in.ahead_mps, more_m);
     const double share = std::min(1.0, k.until_mps / std::max(in.speed_mps, 1e-3));
-    const double faster = in.speed_mps + k.acceleration_mps2 * share * dt;
+    constexpr double kClose_m = 2.0;
+    const bool close = in.gap_m - in.more_m < k.equilibrium_gap_m(in.speed_mps) + kClose_m;
+    const double more = close ? k.catch_up : 1.0;
+    const double faster = in.speed_mps + k.acceleration_mps2 * share * more * dt;
     const double wanted = std::max(std::min(std::min(safe, faster), in.cap_mps), 0.0);
     constexpr double kSlow_s = 1.0;  // vehicles slower than a x 1 s dawdle in proportion to their speed
     return wanted - k.dawdling * dt * random * std::min(wanted, k.acceleration_mps2 * kSlow_s);

@@ -68,11 +68,13 @@ bool enters(const DemandSettings& demand, const std::string& lane) {
 void check_arms(const DemandSettings& demand, const LaneGraph& graph) {
     std::vector<std::string> lanes;
     for (const int entry : graph.entries) lanes.push_back(graph.lanes[at(entry)].name);
+    for (const int link : graph.links) lanes.push_back(graph.lanes[at(link)].name);
     for (const std::string& arm : demand.arms) {
         const auto begins = [&](const std::string& lane) { return lane.starts_with(arm + "_"); };
         if (std::any_of(lanes.begin(), lanes.end(), begins)) continue;
-        throw InputError(fmt::format("demand.arms: no entry lane has a name that begins with '{}'; there are {}", arm,
-                                     fmt::join(lanes, ", ")));
+        throw InputError(
+            fmt::format("demand.arms: no lane to an intersection has a name that begins with '{}'; there are {}", arm,
+                        fmt::join(lanes, ", ")));
     }
 }
 
@@ -90,7 +92,10 @@ void add_demand(const Scenario& scenario, Model& model) {
         const bool used = enters(scenario.demand, graph.lanes[at(entry)].name);
         model.demand.inlets.push_back(inlet_of(scenario, model, entry, used ? vehicles : 0));
     }
-    for (const int link : graph.links) model.demand.inlets.push_back(inlet_of(scenario, model, link, 0));
+    for (const int link : graph.links) {
+        const bool used = !scenario.demand.arms.empty() && enters(scenario.demand, graph.lanes[at(link)].name);
+        model.demand.inlets.push_back(inlet_of(scenario, model, link, used ? vehicles : 0));
+    }
     check_arms(scenario.demand, graph);
 }
 
@@ -150,7 +155,9 @@ void add_network(const Scenario& scenario, Model& model) {
 void set_meso(const Scenario& scenario, const MesoSettings& settings, Model& model) {
     model.krauss.clear();
     for (const CompiledPolicy& policy : model.policies) model.krauss.push_back(krauss_of(settings, policy.settings));
+    model.speed_factor = settings.speed_factor;
     model.leader_share = settings.leader_share;
+    model.approach_share = std::min(settings.speed_gain_1ps * model.step_s, 1.0);
     model.hesitation_ticks = to_ticks(scenario.driver.free_drive.hesitation_s + settings.start_delay_s, model.step_s);
 }
 

@@ -16,6 +16,13 @@ const Table& krauss_table() {
                 "speed up to which a is available; beyond it the power is constant and "
                 "the acceleration falls with 1 / v (500 km/h: a at all speeds, as in the "
                 "paper)"),
+            number<&S::catch_up>("catch_up", "", {1, 5},
+                                 "times the acceleration, for a vehicle no further than 2 m beyond its gap: what it "
+                                 "needs to make up for the step that it starts later than its predecessor (1: none, as "
+                                 "in the paper)"),
+            number<&S::transient_gap_s2>("transient_gap", "", {0, 5},
+                                         "metres of gap for each m/s2 of the predecessor's acceleration: what the "
+                                         "controller falls behind meanwhile (0: nothing, as in the paper)"),
             number<&S::deceleration_mps2>("deceleration", "m/s2", {0.1, 12}, "b: braking that safe speeds reckon with"),
             number<&S::reaction_s>("reaction", "s", {0, 5}, "tau: time before braking that safe speeds reckon with"),
             number<&S::standstill_gap_m>("standstill_gap", "m", {0.1, 20}, "s_0, minGap: net gap at standstill"),
@@ -36,6 +43,10 @@ const Table& meso_table() {
             number<&S::leader_share>("leader_share", "%", {50, 100},
                                      "share of the limit that vehicles without a predecessor drive, so that others can "
                                      "catch up with them"),
+            number<&S::speed_factor>("speed_factor", "%", {50, 150}, "of every limit, as in SUMO"),
+            number<&S::speed_gain_1ps>("speed_gain", "1/s", {0.05, 1000},
+                                       "acceleration for each m/s below the limit, which is thus approached gradually, "
+                                       "as in full dynamics (1000 1/s: with the full acceleration, as in the paper)"),
             number<&S::start_delay_s>("start_delay", "s", {0, 5},
                                       "time that the first vehicle at a stop line takes to set out, besides the "
                                       "driver's hesitation: the powertrain's"),

@@ -132,8 +132,8 @@ const Table& demand_table() {
                                           "queue: `vehicles` a lane enter as soon as there is room, then none; "
                                           "saturated: inlets never run dry"),
             texts<&DemandSettings::arms>("arms", TextField::Rule::name, {0, 1000},
-                                         "where vehicles enter: how the names of entry lanes begin, such as south or "
-                                         "c1r0_south; none: everywhere")
+                                         "where vehicles enter: how the names of lanes to an intersection begin, such "
+                                         "as south or c1r0_south; none: wherever the network begins")
                 .fallback("[]"),
             whole<&DemandSettings::vehicles>("vehicles", {1, 100'000}, "vehicles a lane").only("kind", {"queue"}),
             number<&DemandSettings::entry_speed_mps>("entry_speed", "km/h", {0, 150}, "speed on entering"),

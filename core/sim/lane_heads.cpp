@@ -172,6 +172,7 @@ void look_beyond_lanes(const Model& model, State& state) {
         v.position_m[sentinel] = seen ? ahead.start_m + v.position_m[other] : kNothing_m;
         v.speed_mps[sentinel] = v.speed_mps[other];
         v.length_m[sentinel] = v.length_m[other];
+        v.acceleration_mps2[sentinel] = seen ? v.acceleration_mps2[other] : 0.0F;
         const double rear_m = v.position_m[sentinel] - v.length_m[sentinel];
         state.violations.overlaps += static_cast<std::int64_t>(seen && rear_m < v.position_m[at(head)]);
         for (const std::size_t row : {state.v2v.late, state.v2v.later}) {
@@ -209,8 +210,9 @@ LaneStep lane_step(const Model& model, const State& state, int lane) {
     };
     if (step.stop_slot >= 0) step.stop_asks = asks(step.stop_slot, road.stop_line_m - model.driver.stop.margin_m);
     if (step.hold_slot >= 0) step.hold_asks = asks(step.hold_slot, state.hold_m[at(lane)]);
-    if (model.meso && state.vehicles.predecessor[at(step.begin)] < 0) {
-        step.leader_mps = model.leader_share * road.limit_mps;
+    if (model.meso) {
+        step.limit_mps *= model.speed_factor;
+        if (state.vehicles.predecessor[at(step.begin)] < 0) step.leader_mps = model.leader_share * step.limit_mps;
     }
     return step;
 }

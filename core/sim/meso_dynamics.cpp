@@ -44,7 +44,7 @@ void step_meso(const Model& model, std::span<const LaneStep> lanes, State& state
                               v.acceleration_mps2.data()};
     const MesoGroup group = state.meso_group.streams();
     const MesoStep step{model.step_s, dawdle_key(model.seed), static_cast<std::uint64_t>(state.tick),
-                        model.driver.deceleration_mps2};
+                        model.driver.deceleration_mps2, model.approach_share};
     int vehicles = 0;
     for (const LaneStep& lane : lanes) vehicles += lane.count();
     kernels.gather(streams, lanes, step, group);

@@ -14,8 +14,8 @@ namespace stopline {
 
 // Vehicles of several lanes side by side, one value a vehicle.
 struct MesoGroup {
-    double *speed, *gap, *ahead, *more, *cap;  // see KraussInput
-    double* next;                              // speed after the step
+    double *speed, *gap, *ahead, *ahead_acceleration, *more, *cap;  // see KraussInput
+    double* next;                                                   // speed after the step
     int *id, *policy;
 };
 
@@ -45,6 +45,7 @@ struct MesoStep {
     std::uint64_t key;  // see dawdle_key
     std::uint64_t tick;
     double slow_down_mps2;  // towards a lower limit
+    double approach_share;  // of what is missing to the limit, gained in this step
 };
 
 struct MesoKernels {

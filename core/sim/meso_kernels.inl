@@ -11,16 +11,24 @@ namespace stopline {
 
 namespace {
 
+// The speed of the next step on the way to a limit: at once where that is lower, else a share of what is missing.
+inline double approached(double speed_mps, double limit_mps, double share) {
+    const double missing_mps = limit_mps - speed_mps;
+    return missing_mps > 0.0 ? speed_mps + share * missing_mps : limit_mps;
+}
+
 inline void gather(const MesoStreams& streams, MesoKernels::Lanes lanes, const MesoStep& step, const MesoGroup& group) {
     const MesoStreams s = streams;  // own copies: nothing that is written here can change them
     const MesoGroup g = group;
     const double slow_down_mps2 = step.slow_down_mps2;
+    const double share = step.approach_share;
     int first = 0;  // place of the lane's first vehicle
     for (const LaneStep& lane : lanes) {
         const int n = lane.stop - lane.begin;
         const double* const position = s.position + lane.begin;
         const double* const speed = s.speed + lane.begin;
         const float* const length = s.length + lane.begin;
+        const float* const acceleration = s.acceleration + lane.begin;
         const float* const end_speed = s.end_speed + lane.begin;
         const double turn_m = lane.turn_m;
         const double limit_mps = lane.limit_mps;
@@ -28,17 +36,20 @@ inline void gather(const MesoStreams& streams, MesoKernels::Lanes lanes, const M
             const int k = first + i;
             g.speed[k] = speed[i];
             g.ahead[k] = speed[i - 1];
+            g.ahead_acceleration[k] = std::max(static_cast<double>(acceleration[i - 1]), 0.0);
             g.gap[k] = position[i - 1] - static_cast<double>(length[i - 1]) - position[i];
             // Towards a lower limit at the end of the lane: v^2 = v_end^2 + 2 b distance.
             const auto end_mps = static_cast<double>(end_speed[i]);
             const double to_turn_m = std::max(turn_m - position[i], 0.0);
             const double slow_mps = std::sqrt(end_mps * end_mps + 2.0 * slow_down_mps2 * to_turn_m);
-            g.cap[k] = std::min(limit_mps, slow_mps);
+            g.cap[k] = approached(speed[i], std::min(limit_mps, slow_mps), share);
             g.more[k] = 0.0;
         }
         std::copy_n(s.id + lane.begin, n, g.id + first);
         std::copy_n(s.policy + lane.begin, n, g.policy + first);
-        if (lane.leader_mps > 0.0) g.cap[first] = std::min(g.cap[first], lane.leader_mps);
+        if (lane.leader_mps > 0.0) {
+            g.cap[first] = std::min(g.cap[first], approached(g.speed[first], lane.leader_mps, share));
+        }
         for (const auto& [slot, asks] : {std::pair(lane.stop_slot, lane.stop_asks), {lane.hold_slot, lane.hold_asks}}) {
             if (slot < 0) continue;
             double& cap_mps = g.cap[first + slot - lane.begin];
@@ -54,6 +65,7 @@ inline void follow(const Krauss& model, const MesoStep& step, const MesoGroup& g
     const double* __restrict const speed = group.speed;
     const double* __restrict const gap = group.gap;
     const double* __restrict const ahead = group.ahead;
+    const double* __restrict const ahead_mps2 = group.ahead_acceleration;
     const double* __restrict const more = group.more;
     const double* __restrict const cap = group.cap;
     const int* __restrict const id = group.id;
@@ -62,13 +74,14 @@ inline void follow(const Krauss& model, const MesoStep& step, const MesoGroup& g
     if (only < 0) {
         for (int i = 0; i < vehicles; ++i) {
             const double random = dawdle_uniform(t.key, id[i], t.tick);
-            next[i] = next_speed_mps(k, {speed[i], gap[i], ahead[i], more[i], cap[i]}, random, t.dt);
+            next[i] = next_speed_mps(k, {speed[i], gap[i], ahead[i], ahead_mps2[i], more[i], cap[i]}, random, t.dt);
         }
         return;
     }
     for (int i = 0; i < vehicles; ++i) {
         const double random = dawdle_uniform(t.key, id[i], t.tick);
-        const double mine = next_speed_mps(k, {speed[i], gap[i], ahead[i], more[i], cap[i]}, random, t.dt);
+        const double mine =
+            next_speed_mps(k, {speed[i], gap[i], ahead[i], ahead_mps2[i], more[i], cap[i]}, random, t.dt);
         next[i] = policy[i] == only ? mine : next[i];
     }
 }

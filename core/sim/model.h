@@ -60,7 +60,9 @@ struct Model {
     DelayLine v2v;
     bool meso = false;            // the mesoscale mode; else full dynamics
     std::vector<Krauss> krauss;   // [policy], mesoscale mode
-    double leader_share = 1.0;    // of the limit, for vehicles without a predecessor, mesoscale mode
+    double speed_factor = 1.0;    // of all limits, mesoscale mode
+    double leader_share = 1.0;    // of that, for vehicles without a predecessor
+    double approach_share = 1.0;  // of what is missing to the limit, gained in a step
     bool scalar_kernels = false;  // the oracle: one vehicle at a time, same bits
 
     double time_s(std::int64_t tick) const { return static_cast<double>(tick) * step_s; }

@@ -198,6 +198,22 @@ void transfer_vehicles(const Model& model, State& state) {
     }
 }
 
+namespace {
+
+// Vehicles that stand beyond a counter have not passed it. Zones are another matter: what stands in them counts as entered.
+void stand_beyond_counters(const Model& model, State& state) {
+    for (std::size_t k = 0; k < model.detectors.size(); ++k) {
+        const Detector& detector = model.detectors[k];
+        if (detector.kind == Detector::Kind::zone) continue;
+        const LaneBlock& block = state.blocks[at(detector.lane)];
+        int& upstream = state.upstream[k];
+        while (upstream > 0 && state.vehicles.position_m[at(block.stop() - upstream)] >= detector.position_m)
+            --upstream;
+    }
+}
+
+}  // namespace
+
 void form_queues(const Model& model, State& state) {
     if (!model.demand.queued) return;
     for (int k = 0; k < static_cast<int>(model.demand.inlets.size()); ++k) {
@@ -212,6 +228,7 @@ void form_queues(const Model& model, State& state) {
             front_m -= v.length_m[at(last)] + desired_gap_m(model, state.inlets[at(k)].next_policy, 0.0);
         }
     }
+    stand_beyond_counters(model, state);
 }
 
 void insert_vehicles(const Model& model, State& state) {
