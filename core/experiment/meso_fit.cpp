@@ -56,7 +56,11 @@ struct Search {
 
 MesoSettings with_values(MesoSettings settings, const std::vector<double>& values) {
     for (std::size_t k = 0; k < values.size(); ++k) fit_parameters()[k].in(settings) = values[k];
-    settings.band_m = std::min(settings.band_m, 0.9 * settings.constant_distance.standstill_gap_m);
+    // Nobody stands further behind another than the policy says: a queue is as long in either mode.
+    const double most_m = settings.calibrated_standstill_gap_m;
+    double& gap_m = settings.constant_distance.standstill_gap_m;
+    gap_m = std::min(gap_m, most_m - settings.band_m);
+    settings.constant_time.standstill_gap_m = std::min(settings.constant_time.standstill_gap_m, most_m);
     return settings;
 }
 
@@ -149,7 +153,7 @@ const std::vector<FitParameter>& fit_parameters() {
         {"constant_time.deceleration", "m/s2", false, 1.0, 9.0,
          [](S& s) -> double& { return s.constant_time.deceleration_mps2; }},
         {"constant_time.reaction", "s", false, 0.3, 1.3, [](S& s) -> double& { return s.constant_time.reaction_s; }},
-        {"constant_time.standstill_gap", "m", false, 1.5, 4.5,
+        {"constant_time.standstill_gap", "m", false, 2.0, 2.95,
          [](S& s) -> double& { return s.constant_time.standstill_gap_m; }},
         {"constant_time.dawdling", "", false, 0.0, 1.0, [](S& s) -> double& { return s.constant_time.dawdling; }},
         {"constant_distance.acceleration", "m/s2", true, 0.8, 4.0,
@@ -164,7 +168,7 @@ const std::vector<FitParameter>& fit_parameters() {
          [](S& s) -> double& { return s.constant_distance.deceleration_mps2; }},
         {"constant_distance.reaction", "s", true, 0.0, 0.3,
          [](S& s) -> double& { return s.constant_distance.reaction_s; }},
-        {"constant_distance.standstill_gap", "m", true, 1.0, 3.5,
+        {"constant_distance.standstill_gap", "m", true, 1.5, 2.95,
          [](S& s) -> double& { return s.constant_distance.standstill_gap_m; }},
         {"constant_distance.dawdling", "", true, 0.0, 1.0,
          [](S& s) -> double& { return s.constant_distance.dawdling; }},
