@@ -164,6 +164,10 @@ ExitCode run(const RunOptionsOfUser& options) {
         throw InputError("no scenario file given; try: stopline-run scenarios/single_light.yaml (or --help)");
     }
     const Scenario scenario = load_with_options(options.file, options.common);
+    if (scenario.network.kind == "grid") {
+        throw InputError(
+            "network.kind: a grid is for stopline-calibrate so far; its own experiments (Section VI) are to come");
+    }
     const double interval_s = trajectory_interval_s(options, scenario);
     const std::filesystem::path folder = options.common.output.empty() ? "out/" + scenario.name : options.common.output;
     prepare_folder(folder);

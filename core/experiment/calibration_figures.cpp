@@ -16,6 +16,9 @@ namespace {
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
+// For keys of figures, which take text as it is.
+std::string in_key(const std::string& text) { return "'" + text + "'"; }
+
 // The detectors with most passages: more lines than this nobody can tell apart.
 constexpr std::size_t kLines = 8;
 
@@ -49,10 +52,9 @@ Figure counters(const std::string& name, const std::string& what, const PairedTi
         figure.data.emplace_back(file, csv.text());
         const std::string colour = line_style(k).colour;
         figure.body += fmt::format(
-            "  '{0}' using 2:1 with steps lw 2 lc rgb '{1}' title {2}, \\\n"
+            "  '{0}' using 2:1 with steps dt 1 lw 2 lc rgb '{1}' title {2}, \\\n"
             "  '{0}' using 3:1 with points pt 6 ps 0.6 lc rgb '{1}' notitle{3}\n",
-            file, colour, gnuplot_text(detector_name(c.fit.model, at(detectors[k]))),
-            k + 1 < detectors.size() ? ", \\" : "");
+            file, colour, in_key(detector_name(c.fit.model, at(detectors[k]))), k + 1 < detectors.size() ? ", \\" : "");
     }
     figure.body = "set datafile separator ','\nset datafile columnheaders\n" + figure.body;
     return figure;
@@ -83,9 +85,8 @@ Figure histogram(const std::vector<TimingResult>& results) {
         }
         const std::string file = fmt::format("differences_{}.csv", results[r].name);
         figure.data.emplace_back(file, csv.text());
-        figure.body +=
-            fmt::format("  '{}' using 1:2 with steps lw 2 lc rgb '{}' title {}{}\n", file, line_style(r).colour,
-                        gnuplot_text(results[r].name), r + 1 < results.size() ? ", \\" : "");
+        figure.body += fmt::format("  '{}' using 1:2 with steps dt 1 lw 2 lc rgb '{}' title {}{}\n", file,
+                                   line_style(r).colour, in_key(results[r].name), r + 1 < results.size() ? ", \\" : "");
     }
     return figure;
 }
@@ -111,9 +112,9 @@ Figure fit_history(const std::vector<FitEvaluation>& history) {
         const std::string file = fmt::format("fit_history_{}.csv", s + 1);
         figure.data.emplace_back(file, csv.text());
         figure.body += fmt::format(
-            "  '{0}' using 1:2 with dots lc rgb '{1}' notitle, \\\n  '{0}' using 1:3 with steps lw 2 lc rgb '{1}' title "
+            "  '{0}' using 1:2 with points pt 7 ps 0.15 lc rgb '{1}' notitle, \\\n  '{0}' using 1:3 with steps dt 1 lw 2 lc rgb '{1}' title "
             "{2}{3}\n",
-            file, line_style(s).colour, gnuplot_text(stages[s]), s + 1 < stages.size() ? ", \\" : "");
+            file, line_style(s).colour, in_key(stages[s]), s + 1 < stages.size() ? ", \\" : "");
     }
     return figure;
 }

@@ -139,6 +139,7 @@ std::vector<double> start_values(std::vector<double> values, const std::vector<s
 
 }  // namespace
 
+// Nobody brakes harder than 7 m/s2, what brakes give on a dry road.
 const std::vector<FitParameter>& fit_parameters() {
     using S = MesoSettings;
     static const std::vector<FitParameter> kAll{
@@ -150,7 +151,7 @@ const std::vector<FitParameter>& fit_parameters() {
         {"constant_time.catch_up", "", false, 1.0, 3.0, [](S& s) -> double& { return s.constant_time.catch_up; }},
         {"constant_time.transient_gap", "", false, 0.0, 1.5,
          [](S& s) -> double& { return s.constant_time.transient_gap_s2; }},
-        {"constant_time.deceleration", "m/s2", false, 1.0, 9.0,
+        {"constant_time.deceleration", "m/s2", false, 1.0, 7.0,
          [](S& s) -> double& { return s.constant_time.deceleration_mps2; }},
         {"constant_time.reaction", "s", false, 0.3, 1.3, [](S& s) -> double& { return s.constant_time.reaction_s; }},
         {"constant_time.standstill_gap", "m", false, 2.0, 2.95,
@@ -164,7 +165,7 @@ const std::vector<FitParameter>& fit_parameters() {
          [](S& s) -> double& { return s.constant_distance.catch_up; }},
         {"constant_distance.transient_gap", "", true, 0.0, 1.5,
          [](S& s) -> double& { return s.constant_distance.transient_gap_s2; }},
-        {"constant_distance.deceleration", "m/s2", true, 1.0, 9.0,
+        {"constant_distance.deceleration", "m/s2", true, 1.0, 7.0,
          [](S& s) -> double& { return s.constant_distance.deceleration_mps2; }},
         {"constant_distance.reaction", "s", true, 0.0, 0.3,
          [](S& s) -> double& { return s.constant_distance.reaction_s; }},

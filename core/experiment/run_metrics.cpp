@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/input_error.h"
 #include "experiment/csv.h"
 #include "experiment/intersection_run.h"
 #include "experiment/single_light.h"
@@ -89,6 +90,10 @@ RunMetric count_metric(std::string name, std::string unit, std::int64_t value) {
 
 std::vector<RunMetric> run_metrics(const Scenario& scenario, std::size_t population,
                                    const std::function<bool()>& keep_going) {
+    if (scenario.network.kind == "grid") {
+        throw InputError(
+            "network.kind: a grid is for stopline-calibrate so far; its own experiments (Section VI) are to come");
+    }
     if (scenario.network.kind == "intersection") return intersection_metrics(scenario, population, keep_going);
     RunOptions options;
     options.trajectory_interval_s = sample_interval_s(scenario);

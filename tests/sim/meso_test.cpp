@@ -16,13 +16,14 @@ using namespace testing_support;
 
 constexpr double kLine_m = 900.0;
 
-using Conformance = testing::TestWithParam<std::tuple<std::string, double>>;
+using Conformance = testing::TestWithParam<std::tuple<std::string, double, const char*>>;
 
-TrackPlan meso_plan(const std::string& policy, double step_s, double dawdling = 0.0) {
+TrackPlan meso_plan(const std::string& policy, double step_s, double dawdling = 0.0,
+                    const std::string& parameters = "table2") {
     TrackPlan plan;
     plan.policy = policy;
     plan.length_m = kLine_m;
-    plan.overrides = {"fidelity=meso", "meso={base: table2, step: " +
+    plan.overrides = {"fidelity=meso", "meso={base: " + parameters + ", step: " +
                                            std::to_string(static_cast<int>(std::lround(1e3 * step_s))) + " ms}"};
     if (dawdling >= 0.0) {
         const std::string value = std::to_string(dawdling);
@@ -42,6 +43,9 @@ class MesoModel : public Conformance {
 protected:
     const std::string& policy() const { return std::get<0>(GetParam()); }
     double step_s() const { return std::get<1>(GetParam()); }
+    TrackPlan plan(double dawdling = 0.0) const {
+        return meso_plan(policy(), step_s(), dawdling, std::get<2>(GetParam()));
+    }
     static Model dawdling_like(Model model, double sigma) {
         for (Krauss& krauss : model.krauss) krauss.dawdling = sigma;
         return model;
@@ -53,18 +57,19 @@ protected:
     }
 };
 INSTANTIATE_TEST_SUITE_P(EveryPolicy, MesoModel,
-                         testing::Combine(testing::ValuesIn(policy_names()), testing::Values(0.05, 0.1, 0.2)),
+                         testing::Combine(testing::ValuesIn(policy_names()), testing::Values(0.05, 0.1, 0.2),
+                                          testing::Values("table2", "fitted")),
                          [](const testing::TestParamInfo<MesoModel::ParamType>& setting) {
                              std::string name = std::get<0>(setting.param);
                              std::replace_if(
                                  name.begin(), name.end(), [](char c) { return std::isalnum(c) == 0; }, '_');
                              return name + "_" + std::to_string(static_cast<int>(1e3 * std::get<1>(setting.param))) +
-                                    "ms";
+                                    "ms_" + std::get<2>(setting.param);
                          });
 
 TEST_P(MesoModel, SettlesInTheEquilibriumGap) {
     for (const double kmh : {10.0, 25.0, 40.0, 47.0}) {
-        Track track(meso_plan(policy(), step_s()));
+        Track track(this->plan());
         const double v = kmh / 3.6;
         const double expected_m = track.model().krauss[0].equilibrium_gap_m(v) + more_m(track.model(), v);
         // From twice the gap: the band's own equilibria lie below.
@@ -85,7 +90,7 @@ TEST_P(MesoModel, SettlesInTheEquilibriumGap) {
 // From every state from which the model's own braking avoids a collision, behind a leader that brakes as hard as the model
 // reckons with and then stands.
 TEST_P(MesoModel, NeverCollidesFromAFeasibleState) {
-    const Model model = build_model(scenario_of(meso_plan(policy(), step_s())), 0);
+    const Model model = build_model(scenario_of(this->plan()), 0);
     for (const double own_kmh : {5.0, 20.0, 35.0, 50.0}) {
         for (const double ahead_kmh : {0.0, 10.0, 30.0, 50.0}) {
             for (const double spare_m : {0.0, 0.3, 2.0, 20.0}) {
@@ -118,7 +123,7 @@ TEST_P(MesoModel, NeverCollidesFromAFeasibleState) {
 }
 
 TEST_P(MesoModel, StopsAtRedFromEveryFeasibleState) {
-    TrackPlan plan = meso_plan(policy(), step_s());
+    TrackPlan plan = this->plan();
     plan.green_from_s = kForever_s;
     const Model model = build_model(scenario_of(plan), 0);
     for (const double kmh : {5.0, 20.0, 35.0, 50.0}) {
@@ -143,7 +148,7 @@ TEST_P(MesoModel, StopsAtRedFromEveryFeasibleState) {
 
 TEST_P(MesoModel, AQueueStartsAndStopsWithoutCollision) {
     for (const double dawdling : {-1.0, 0.0, 1.0}) {
-        TrackPlan plan = meso_plan(policy(), step_s(), dawdling);
+        TrackPlan plan = this->plan(dawdling);
         plan.green_from_s = 2.0;
         plan.green_s = 12.0;
         Track track(plan);

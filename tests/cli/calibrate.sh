@@ -1,0 +1,71 @@
+#!/usr/bin/env bash
+# ctest-labels: slow
+# stopline-calibrate: both steps on small sweeps; killed and started again it ends with the same files; bad input is refused.
+set -u
+
+. "$STOPLINE_SOURCE/tests/tools/cli.sh"
+program="$STOPLINE_BIN/stopline-calibrate"
+
+cat >"$work/timing.yaml" <<YAML
+scenario: $STOPLINE_SOURCE/scenarios/calibration.yaml
+axes:
+- {name: green, path: signal.green, values: [10 s, 20 s, 30 s]}
+- {name: population, populations: [CTG-Ref, CDG]}
+YAML
+cat >"$work/metrics.yaml" <<YAML
+scenario: $STOPLINE_SOURCE/scenarios/intersection.yaml
+axes:
+- {name: step, path: step, values: [20 ms]}
+- {name: left, path: demand.left, values: [0 %, 15 %]}
+- {name: population, populations: [CDG]}
+repetitions: 3
+YAML
+
+# fit FOLDER [OPTION...]: step I
+fit() {
+    local folder=$1
+    shift
+    "$program" "$work/timing.yaml" --step I --starts 1 --evaluations-apart 30 --evaluations 30 --output "$folder" "$@"
+}
+
+fit "$work/whole" >"$work/stdout" 2>"$work/stderr" || fail "exit code $?: $(cat "$work/stderr")"
+grep -q "held out" "$work/stdout" || fail "no held-out permutations in: $(cat "$work/stdout")"
+for file in fitted.yaml permutations.csv differences.csv misses.csv fit_history.csv; do
+    [ -s "$work/whole/$file" ] || fail "no $file"
+done
+
+# Killed in the middle of the fit.
+"$program" "$work/timing.yaml" --step I --starts 1 --evaluations-apart 30 --evaluations 30 --output "$work/killed" \
+    >/dev/null 2>&1 &
+pid=$!
+wait_for [ -s "$work/killed/fit.sqlite-wal" ]
+sleep 0.2
+kill -KILL $pid 2>/dev/null
+wait $pid 2>/dev/null
+fit "$work/killed" --threads 1 >/dev/null 2>"$work/stderr" || fail "after a kill: exit code $?: $(cat "$work/stderr")"
+for file in fitted.yaml permutations.csv differences.csv misses.csv fit_history.csv; do
+    cmp "$work/whole/$file" "$work/killed/$file" || fail "after a kill: another $file"
+done
+
+# Step II, with the parameters just found.
+"$program" --step II --metrics-sweep "$work/metrics.yaml" --parameters "$work/whole/fitted.yaml" --output "$work/two" \
+    >"$work/stdout" 2>"$work/stderr" || fail "step II: exit code $?: $(cat "$work/stderr")"
+grep -q "throughput_veh_h" "$work/stdout" || fail "no bands in: $(cat "$work/stdout")"
+[ "$(wc -l <"$work/two/bands_calibrated.csv")" -eq 7 ] || fail "not 2 permutations and 3 metrics"
+
+# refused PART OPTION...: exit code 2, PART in the message
+refused() {
+    local part=$1 code=0
+    shift
+    rm -rf "$work/bad"
+    "$program" --output "$work/bad" "$@" >"$work/stdout" 2>"$work/stderr" || code=$?
+    [ $code -eq 2 ] || fail "$*: exit code $code instead of 2"
+    grep -qF -- "$part" "$work/stderr" || fail "$*: no '$part' in: $(cat "$work/stderr")"
+}
+refused "nonsense" "$work/timing.yaml" --step I --start nonsense
+refused "accepted" "$work/timing.yaml" --step I --accepted "$work/timing.yaml"
+sed 's/repetitions: 3/repetitions: 2/' "$work/metrics.yaml" >"$work/few.yaml"
+refused "at least 3 runs" --step II --metrics-sweep "$work/few.yaml" --parameters fitted
+refused "no result 'nonsense'" --step II --metrics-sweep "$work/metrics.yaml" --parameters fitted --metric nonsense
+
+exit $((failures > 0))

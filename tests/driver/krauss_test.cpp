@@ -1,0 +1,62 @@
+// What the mesoscale models add to those of the paper, each against its closed form.
+#include "driver/krauss.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace stopline {
+namespace {
+
+constexpr double kFar_m = 1e6;
+constexpr double kStep_s = 0.1;
+
+Krauss model() {
+    Krauss k;
+    k.acceleration_mps2 = 2.0;
+    k.deceleration_mps2 = 4.5;
+    k.reaction_s = 0.9;
+    k.standstill_gap_m = 2.95;
+    return k;
+}
+
+// Speed after `time_s` from standstill on a free road.
+double speed_after(const Krauss& k, double time_s) {
+    double speed = 0.0;
+    for (int n = 0; n < static_cast<int>(std::lround(time_s / kStep_s)); ++n) {
+        speed = next_speed_mps(k, {speed, kFar_m, speed, 0.0, 0.0, 1e3}, 0.0, kStep_s);
+    }
+    return speed;
+}
+
+TEST(Krauss, AcceleratesEvenlyWithoutAPowerLimit) { EXPECT_NEAR(speed_after(model(), 20.0), 40.0, 1e-9); }
+
+// Constant power: v dv/dt = a v_p, so v^2 = v_p^2 + 2 a v_p (t - v_p / a).
+TEST(Krauss, AcceleratesWithConstantPowerBeyondASpeed) {
+    Krauss k = model();
+    k.until_mps = 5.0;
+    for (const double time_s : {5.0, 10.0, 20.0}) {
+        EXPECT_NEAR(speed_after(k, time_s), std::sqrt(25.0 + 20.0 * (time_s - 2.5)), 0.06) << time_s;
+    }
+}
+
+TEST(Krauss, FallsBackByTheTransientGap) {
+    Krauss k = model();
+    k.transient_gap_s2 = 0.5;
+    const double gap_m = k.equilibrium_gap_m(8.0) + 0.5 * 1.5;
+    EXPECT_NEAR(safe_speed_mps(k, gap_m, 8.0, 0.5 * 1.5), 8.0, 1e-9);
+    EXPECT_NEAR(next_speed_mps(k, {8.0, gap_m, 8.0, 1.5, 0.0, 1e3}, 0.0, kStep_s), 8.0, 1e-9);
+    EXPECT_GT(next_speed_mps(k, {8.0, gap_m, 8.0, 0.0, 0.0, 1e3}, 0.0, kStep_s), 8.05);
+}
+
+TEST(Krauss, CatchesUpOnlyCloseBehindAPredecessor) {
+    Krauss k = model();
+    k.catch_up = 1.5;
+    const double near_m = k.equilibrium_gap_m(5.0) + 1.9;
+    const double far_m = k.equilibrium_gap_m(5.0) + 2.1;
+    EXPECT_NEAR(next_speed_mps(k, {5.0, near_m, 30.0, 0.0, 0.0, 1e3}, 0.0, kStep_s), 5.3, 1e-9);
+    EXPECT_NEAR(next_speed_mps(k, {5.0, far_m, 30.0, 0.0, 0.0, 1e3}, 0.0, kStep_s), 5.2, 1e-9);
+}
+
+}  // namespace
+}  // namespace stopline
