@@ -62,7 +62,8 @@ Figure counters(const std::string& name, const std::string& what, const PairedTi
 
 // Shares of pairs by difference, in bins of 0.1 s; the outer bins hold all beyond.
 Figure histogram(const std::vector<TimingResult>& results) {
-    constexpr int kBins = 41;
+    constexpr int kMiddle = 20;
+    constexpr int kBins = 2 * kMiddle + 1;
     constexpr double kBin_s = 0.1;
     Figure figure;
     figure.name = "differences";
@@ -74,14 +75,14 @@ Figure histogram(const std::vector<TimingResult>& results) {
         double all = 0.0;
         for (const PairedTimes& times : results[r].pairs) {
             for (const PassagePair& pair : times.pairs) {
-                const int bin = static_cast<int>(std::lround(pair.difference_s() / kBin_s)) + kBins / 2;
+                const int bin = static_cast<int>(std::lround(pair.difference_s() / kBin_s)) + kMiddle;
                 count[at(std::clamp(bin, 0, kBins - 1))] += 1.0;
                 all += 1.0;
             }
         }
         CsvWriter csv({"difference_s", "share_percent"});
         for (int bin = 0; bin < kBins; ++bin) {
-            csv.row({fixed((bin - kBins / 2) * kBin_s, 1), fixed(100.0 * count[at(bin)] / std::max(all, 1.0), 3)});
+            csv.row({fixed((bin - kMiddle) * kBin_s, 1), fixed(100.0 * count[at(bin)] / std::max(all, 1.0), 3)});
         }
         const std::string file = fmt::format("differences_{}.csv", results[r].name);
         figure.data.emplace_back(file, csv.text());

@@ -35,7 +35,7 @@ refuses() {
 run="$STOPLINE_BIN/stopline-run"
 scorecard="$STOPLINE_BIN/stopline-scorecard"
 
-for program in "$run" "$scorecard"; do
+for program in "$run" "$scorecard" "$STOPLINE_BIN/stopline-calibrate"; do
     says "--help" "--version" "--threads" "--seed" "--output" "Examples:" "Exit codes: 0 done, 1 " -- "$program" --help
     says "stopline 0." -- "$program" --version
     refuses "--nonsense" -- "$program" --nonsense
