@@ -67,12 +67,12 @@ double earliest_s(double distance_m, double speed_mps, double acceleration_mps2,
     return to_limit_mps / acceleration_mps2 + (distance_m - to_limit_m) / std::max(limit_mps, speed_mps);
 }
 
-// The head of a lane that stands right behind a vehicle that stands: nobody on this lane will come.
-bool blocked(const State& state, const LaneBlock& block) {
+// Stands right behind a vehicle that stands: it will not come, nor will those behind it.
+bool blocked(const State& state, int slot) {
     const VehicleArrays& v = state.vehicles;
-    const std::size_t head = at(block.first);
-    const double gap_m = v.position_m[head - 1] - v.length_m[head - 1] - v.position_m[head];
-    return v.predecessor[head] >= 0 && v.speed_mps[head] < kStanding_mps && v.speed_mps[head - 1] < kStanding_mps &&
+    const std::size_t i = at(slot);
+    const double gap_m = v.position_m[i - 1] - v.length_m[i - 1] - v.position_m[i];
+    return v.predecessor[i] >= 0 && v.speed_mps[i] < kStanding_mps && v.speed_mps[i - 1] < kStanding_mps &&
            gap_m < kCloseBehind_m;
 }
 
@@ -88,12 +88,12 @@ double next_arrival_s(const Model& model, const State& state, const Conflict& co
     double soonest_s = kNever_s;
     for (const Insider& w : state.insiders[at(conflict.other)]) {
         if (w.front_m >= conflict.other_from_m) continue;
-        if (held(state, w.slot) || w.slot == stopping) return soonest_s;  // nor will those behind it come
+        if (held(state, w.slot) || w.slot == stopping || blocked(state, w.slot)) return soonest_s;
         const double distance_m = conflict.other_from_m - w.front_m;
         soonest_s = std::min(soonest_s, earliest_s(distance_m, v.speed_mps[at(w.slot)], a, other.limit_mps));
     }
     const LaneBlock& block = state.blocks[at(other.origin)];
-    if (block.count == 0 || blocked(state, block) || held(state, block.first)) return soonest_s;
+    if (block.count == 0 || blocked(state, block.first) || held(state, block.first)) return soonest_s;
     for (int slot = block.first; slot < block.stop(); ++slot) {
         const double distance_m = origin.length_m + conflict.other_from_m - v.position_m[at(slot)];
         if (distance_m > horizon_s * origin.limit_mps) break;

@@ -16,7 +16,7 @@ namespace {
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
-Scenario reference(std::vector<std::string> overrides = {}) {
+Scenario reference(const std::vector<std::string>& overrides = {}) {
     return load_scenario(STOPLINE_SOURCE_DIR "/scenarios/intersection.yaml", overrides);
 }
 
@@ -52,6 +52,20 @@ TEST(RightOfWay, LeftTurnersDoNotWaitWithoutOncomingTraffic) {
     }
     EXPECT_GT(slowest_mps, 3.0);
     EXPECT_GT(simulation.state().gaps_accepted.size(), 8u);
+}
+
+// A queue that closes up to 2.45 m puts a vehicle past the stop line, behind the left turner that waits: it is not coming, and
+// must not keep the left turner opposite from going once the light is red.
+TEST(RightOfWay, SlowVehiclesThatStandBehindALeftTurnerDoNotHoldUpTheOneOpposite) {
+    const Scenario scenario =
+        reference({"fidelity=meso", "meso={base: fitted, constant_time: {standstill_gap: 2.45 m}}", "demand.left=15 %",
+                   "demand.right=10 %", "signal.green=25 s"});
+    const Model model = build_model(scenario, 0);
+    Simulation simulation(model);
+    while (simulation.time_s() < 400.0) simulation.step();
+    EXPECT_LT(model.time_s(simulation.state().longest_inside), 66.0);  // a cycle
+    EXPECT_GT(simulation.state().left, 400);
+    EXPECT_TRUE(simulation.state().violations.none());
 }
 
 TEST(RightOfWay, TurnsAreDrivenAtTheirSpeed) {
