@@ -76,6 +76,12 @@ bool blocked(const State& state, int slot) {
            gap_m < kCloseBehind_m;
 }
 
+// The same of one past the stop line, whose predecessor waits for others.
+bool behind_held(const State& state, int slot) {
+    const VehicleArrays& v = state.vehicles;
+    return v.predecessor[at(slot)] == v.id[at(slot - 1)] && held(state, slot - 1) && blocked(state, slot);
+}
+
 // When the next vehicle of the other lane, inside or before its stop line, can be at the conflict area; those that will stop
 // at the light do not count. Looks no further ahead than `horizon_s`.
 double next_arrival_s(const Model& model, const State& state, const Conflict& conflict, double horizon_s) {
@@ -88,7 +94,7 @@ double next_arrival_s(const Model& model, const State& state, const Conflict& co
     double soonest_s = kNever_s;
     for (const Insider& w : state.insiders[at(conflict.other)]) {
         if (w.front_m >= conflict.other_from_m) continue;
-        if (held(state, w.slot) || w.slot == stopping || blocked(state, w.slot)) return soonest_s;
+        if (held(state, w.slot) || w.slot == stopping || behind_held(state, w.slot)) return soonest_s;
         const double distance_m = conflict.other_from_m - w.front_m;
         soonest_s = std::min(soonest_s, earliest_s(distance_m, v.speed_mps[at(w.slot)], a, other.limit_mps));
     }

@@ -26,21 +26,25 @@ TEST_P(OnGrid, SlowEveryVehicleOfAQueueComesThroughWithoutHarm) {
         const Scenario scenario = calibration({std::string("fidelity=") + GetParam(), green, "signal.offset=15 s"});
         const Model model = build_model(scenario, 4);
         Simulation simulation(model);
-        while (simulation.time_s() < 1000.0 && simulation.state().left < 60) simulation.step();
-        EXPECT_EQ(simulation.state().entered, 60);
-        EXPECT_EQ(simulation.state().left, 60);
+        while (simulation.time_s() < 1000.0 && simulation.state().left < 36) simulation.step();
+        EXPECT_EQ(simulation.state().entered, 36);
+        EXPECT_EQ(simulation.state().left, 36);
         EXPECT_TRUE(simulation.state().violations.none());
     }
 }
 
-// Of all that pass an intersection behind another one: a fifth of each lane turns, in every 20 vehicles.
+// Traffic from one side only, which nothing holds up for long: of all that come to the intersections behind, a fifth of each lane
+// turns, in every 20 vehicles.
 TEST_P(OnGrid, SlowTurnsHaveTheirShareBehindEveryIntersection) {
-    Scenario scenario = calibration({std::string("fidelity=") + GetParam(), "signal.green=20 s"});
-    scenario.demand.kind = "saturated";
-    scenario.demand.arms.clear();
+    constexpr int kVehicles = 300;  // a lane
+    Scenario scenario =
+        calibration({std::string("fidelity=") + GetParam(), "signal.green=20 s", "demand.vehicles=300"});
+    scenario.demand.arms = {"c1r0_south"};
+    scenario.demand.left = scenario.demand.right = 0.2;
     const Model model = build_model(scenario, 0);
     Simulation simulation(model);
-    while (simulation.time_s() < 1500.0) simulation.step();
+    while (simulation.time_s() < 4000.0 && simulation.state().left < 2 * kVehicles) simulation.step();
+    EXPECT_EQ(simulation.state().left, 2 * kVehicles);
     EXPECT_TRUE(simulation.state().violations.none());
     std::vector<int> turned(model.graph.lanes.size(), 0);
     std::vector<int> passed(model.graph.lanes.size(), 0);
@@ -50,11 +54,14 @@ TEST_P(OnGrid, SlowTurnsHaveTheirShareBehindEveryIntersection) {
         ++passed[at(inside.origin)];
         turned[at(inside.origin)] += inside.turn != Turn::straight ? 1 : 0;
     }
+    int used = 0;
     for (const int link : model.graph.links) {
-        ASSERT_GT(passed[at(link)], 40) << model.graph.lanes[at(link)].name;
-        // Of a block of 20 that is not complete, at most 3 turns are missing or ahead.
-        EXPECT_NEAR(turned[at(link)], 0.2 * passed[at(link)], 3.2) << model.graph.lanes[at(link)].name;
+        if (passed[at(link)] == 0) continue;
+        ++used;
+        // Of a block of 20 that is not complete, at most 4 turns are missing or ahead.
+        EXPECT_NEAR(turned[at(link)], 0.2 * passed[at(link)], 4.0) << model.graph.lanes[at(link)].name;
     }
+    EXPECT_EQ(used, 6);  // to the centre and, beyond it, to the north on both lanes, to the west and the east on one
 }
 
 INSTANTIATE_TEST_SUITE_P(Modes, OnGrid, testing::Values("full", "meso"));
