@@ -110,7 +110,7 @@ grep -q "of 40 runs are stored; the same command continues" "$work/stderr" || fa
 # A bar with the time left, where there is a terminal.
 if command -v script >/dev/null; then
     on_terminal '40 runs \[[#.]{30}\] +[0-9]+ %, .* left' "$program" "$work/sweep.yaml" --output "$work/bar" --threads 2 \
-        --set "duration=6000 s"
+        --set "duration=60000 s"
 fi
 
 # refused WHAT PART COMMAND...: exit code 2, PART in the message

@@ -29,6 +29,6 @@ on_terminal() {
     script --quiet --flush --command "echo \$\$ >'$work/pid'; exec $words" "$work/typescript" </dev/null >/dev/null &
     local terminal=$!
     wait_for grep -qE "$pattern" "$work/typescript" || fail "the terminal never shows '$pattern'"
-    kill -INT "$(cat "$work/pid")"
+    kill -INT "$(cat "$work/pid")" 2>/dev/null
     wait $terminal
 }
