@@ -247,8 +247,6 @@ void write_all(const std::vector<std::pair<std::string, std::string>>& files, co
     }
 }
 
-bool any(const Violations& v) { return !v.none(); }
-
 // Returns the parameters to go on with.
 MesoSettings step_one(const CalibrateOptions& options, const std::filesystem::path& folder, bool& sound) {
     const std::string file = options.timing_sweep.empty() ? scenario_file("calibration.yaml") : options.timing_sweep;
@@ -283,7 +281,7 @@ MesoSettings step_one(const CalibrateOptions& options, const std::filesystem::pa
     }
     write_all(files, folder);
     draw_all(timing_figures(results, cases, fit.history), folder);
-    for (const TimingResult& result : results) sound = sound && !any(result.violations);
+    for (const TimingResult& result : results) sound = sound && result.violations.none();
     sound = sound && full.totals.runs_with_violations == 0;
     return chosen;
 }
@@ -309,9 +307,9 @@ void step_two(const CalibrateOptions& options, const std::filesystem::path& fold
         run_sweep(options, file, {"fidelity=full"}, folder / "metrics_full.sqlite", run_metrics, "full dynamics");
     const std::vector<std::string> metrics = band_metrics(full.store, options.metrics);
     std::vector<std::pair<std::string, std::string>> files;
-    std::vector<Figure> figures;
-    std::vector<std::pair<std::string, std::string>> sets{{options.beside, options.beside}};
-    if (chosen.name != options.beside) sets.emplace_back("calibrated", std::filesystem::absolute(parameters).string());
+    const std::string beside = load_meso(options.beside).name;
+    std::vector<std::pair<std::string, std::string>> sets{{beside, options.beside}};
+    if (chosen.name != beside) sets.emplace_back("calibrated", std::filesystem::absolute(parameters).string());
     std::vector<BandCheck> checks;
     for (const auto& [name, meso] : sets) {
         const Runs runs = run_sweep(options, file, {"fidelity=meso", "meso=" + meso},
@@ -339,8 +337,8 @@ ExitCode calibrate(const CalibrateOptions& options) {
         chosen = load_meso(options.parameters.empty() ? (folder / "fitted.yaml").string() : options.parameters);
     }
     if (options.step != "I") step_two(options, folder, chosen, sound);
-    fmt::print("\nNext: 'fidelity: meso' and 'meso: {}/fitted.yaml' in a scenario, or --set of both.\n",
-               folder.string());
+    fmt::print("\nNext: 'fidelity: meso' and 'meso: {}' in a scenario, or --set of both.\n",
+               options.parameters.empty() ? (folder / "fitted.yaml").string() : options.parameters);
     if (!sound) fmt::print("Vehicles overlapped, entered on red or were lost in some runs: see the stores.\n");
     return sound ? ExitCode::done : ExitCode::check_failed;
 }
