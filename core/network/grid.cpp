@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "base/input_error.h"
 #include "network/conflicts.h"
 
 namespace stopline {
