@@ -14,6 +14,7 @@
 #include "common/command_line.h"
 #include "common/program.h"
 #include "common/progress_bar.h"
+#include "common/results.h"
 #include "common/text_table.h"
 #include "experiment/calibration.h"
 #include "experiment/calibration_figures.h"
@@ -87,12 +88,6 @@ void declare(CLI::App& app, CalibrateOptions& options) {
             "  stopline-calibrate --step I my_sweep.yaml --start fitted --output out/mine\n\n"
             "Next: name the result in a scenario, fidelity: meso and meso: out/calibration/fitted.yaml.\n\n") +
         kExitCodesText);
-}
-
-std::string identity_of_program() {
-    const std::optional<std::string> identity = program_identity();
-    if (!identity) throw InputError("cannot read this program's own file, so that stored runs could not be told apart");
-    return *identity;
 }
 
 RunStore store_of(const std::filesystem::path& file, const std::string& name, const std::string& key,
@@ -199,7 +194,7 @@ void print_timing(const std::vector<TimingResult>& results, const std::vector<Ca
                "unpaired"});
     for (const TimingResult& result : results) {
         const std::vector<TimingMiss> misses = timing_misses(result, cases, accepted);
-        for (const auto& [chosen, name] : {std::pair{Chosen::fitted, "fitted"}, {Chosen::held_out, "held out"}}) {
+        for (const auto& [chosen, name] : {std::pair{Chosen::fitted, "in the fit"}, {Chosen::held_out, "held out"}}) {
             const Agreement a = agreement_of(result, cases, chosen);
             table.row({result.name, name, fmt::format("{}", a.pairs), percent(a.within_share),
                        percent(valid_share(result, cases, misses, chosen)), fmt::format("{:.2f} s", a.median_s),
@@ -225,18 +220,6 @@ void print_parameters(const std::vector<TimingResult>& results) {
         table.row(row);
     }
     fmt::print("\n{}", table.text());
-}
-
-void draw_all(const std::vector<Figure>& figures, const std::filesystem::path& folder) {
-    if (!gnuplot_installed()) {
-        fmt::print("  no figures: gnuplot is not installed (Debian package gnuplot-nox)\n");
-        return;
-    }
-    for (const Figure& figure : figures) {
-        if (interrupted()) throw Interrupted();
-        draw(figure, folder);
-        fmt::print("  {0}.svg, {0}.png\n", figure.name);
-    }
 }
 
 void write_all(const std::vector<std::pair<std::string, std::string>>& files, const std::filesystem::path& folder) {
@@ -288,13 +271,14 @@ MesoSettings step_one(const CalibrateOptions& options, const std::filesystem::pa
 
 void print_bands(const std::string& name, const BandCheck& check) {
     TextTable table("lr");
-    table.row({name, "paper", "student", "mean difference"});
+    table.row({name, "paper", "student", "mean |difference|", "mean difference", "half of a band"});
     for (const MetricBands& metric : check.metrics) {
         table.row({metric.metric, percent(metric.share_inside(Band::paper)),
-                   percent(metric.share_inside(Band::student)), percent(metric.mean_difference_share())});
+                   percent(metric.share_inside(Band::student)), percent(metric.mean_difference_share()),
+                   percent(metric.mean_shift_share()), percent(metric.median_half_width_share())});
     }
-    table.row(
-        {"all of them", percent(check.share_inside(Band::paper)), percent(check.share_inside(Band::student)), ""});
+    table.row({"all of them", percent(check.share_inside(Band::paper)), percent(check.share_inside(Band::student)), "",
+               "", ""});
     fmt::print("\n{}", table.text());
 }
 

@@ -13,6 +13,7 @@
 #include "common/intersection_text.h"
 #include "common/program.h"
 #include "common/progress_bar.h"
+#include "common/results.h"
 #include "common/single_light_text.h"
 #include "experiment/intersection_figures.h"
 #include "experiment/output.h"
@@ -116,18 +117,6 @@ void write_results(const RunOptionsOfUser& options, const IntersectionReport& re
         hashes.emplace_back(f.population, fmt::format("{:016x}", f.state_hash));
     }
     write_tables(options, report.scenario, std::move(files), std::move(hashes), folder);
-}
-
-void draw_all(const std::vector<Figure>& figures, const std::filesystem::path& folder) {
-    if (!gnuplot_installed()) {
-        fmt::print("  no figures: gnuplot is not installed (Debian package gnuplot-nox)\n");
-        return;
-    }
-    for (const Figure& figure : figures) {
-        if (interrupted()) throw Interrupted();
-        draw(figure, folder);
-        fmt::print("  {0}.svg, {0}.png\n", figure.name);
-    }
 }
 
 void print_report(const SingleLight& result) {

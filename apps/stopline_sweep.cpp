@@ -15,10 +15,10 @@
 #include "common/command_line.h"
 #include "common/program.h"
 #include "common/progress_bar.h"
+#include "common/results.h"
 #include "common/text_table.h"
 #include "experiment/csv.h"
 #include "experiment/output.h"
-#include "experiment/program_identity.h"
 #include "experiment/sweep_merge.h"
 #include "experiment/sweep_results.h"
 #include "experiment/sweep_run.h"
@@ -101,12 +101,6 @@ std::string list_of_points(const Sweep& sweep, const Shard& shard) {
     return csv.text();
 }
 
-std::string identity_of_program() {
-    const std::optional<std::string> identity = program_identity();
-    if (!identity) throw InputError("cannot read this program's own file, so that stored runs could not be told apart");
-    return *identity;
-}
-
 RunStore store_for(const Sweep& sweep, const Shard& shard, const SweepFiles& files, const SweepOptionsOfUser& options) {
     StoreIdentity identity;
     identity.name = sweep.settings().name;
@@ -183,6 +177,7 @@ std::string totals_text(const SweepTotals& totals) {
     table.row({"overlaps", fmt::format("{}", totals.overlaps)});
     table.row({"entries on red", fmt::format("{}", totals.red_entries)});
     table.row({"lost vehicles", fmt::format("{}", totals.lost_vehicles)});
+    table.row({"deadlocks", fmt::format("{}", totals.deadlocks)});
     table.row({"runs with such violations", fmt::format("{}", totals.runs_with_violations)});
     if (totals.longest_inside_s > 0.0) {
         table.row({"longest way through an intersection", fmt::format("{:.1f} s", totals.longest_inside_s)});
@@ -206,20 +201,24 @@ ExitCode report_failures(const Work& work, const SweepSession& session) {
     return ExitCode::check_failed;
 }
 
+void print_orders(const Orders& orders) {
+    const std::string most =
+        orders.rises == 0 ? ""
+                          : fmt::format(", at most by {:.1f} % ({})", orders.largest_rise_percent, orders.largest_rise);
+    fmt::print("  throughput falls with turns in {} of {} steps, rises in {}{}\n", orders.steps - orders.rises,
+               orders.steps, orders.rises, most);
+    fmt::print("  it grows more than in proportion to the share of CDG at {} of {} points\n",
+               orders.points - orders.above, orders.points);
+}
+
 // Figures and the paper's Table 1, where the sweep went over an intersection's greens and turns.
 void draw_turns(const std::string& csv, const std::filesystem::path& file) {
     const CsvTable results = parse_csv(csv, file.string());
     if (!has_turns(results)) return;
     write_file(file.parent_path() / "table1.csv", table1_csv(results, load_targets()));
     fmt::print("  table1.csv\n");
-    if (!gnuplot_installed()) {
-        fmt::print("  no figures: gnuplot is not installed (Debian package gnuplot-nox)\n");
-        return;
-    }
-    for (const Figure& figure : turn_figures(results)) {
-        draw(figure, file.parent_path());
-        fmt::print("  {0}.svg, {0}.png\n", figure.name);
-    }
+    print_orders(orders_of(results));
+    draw_all(turn_figures(results), file.parent_path());
 }
 
 ExitCode finish(Work& work, const SweepSession& session, const std::string& by) {

@@ -21,11 +21,12 @@ std::string intersection_text(const IntersectionReport& report) {
         std::vector<std::string> row{f.population, fmt::format("{:.0f}", f.throughput_veh_h),
                                      gain == gain ? fmt::format("{:.0f}", gain) : "-"};
         for (const ZoneFigures& zone : f.zones) row.push_back(fmt::format("{:.1f}", zone.travel_time_s));
+        const bool known = f.discharge.lost_time_s == f.discharge.lost_time_s;  // greens of more than four vehicles
         for (const std::string& cell :
              {fmt::format("{:.1f}", 100.0 * f.occupied), fmt::format("{:.0f}", f.vehicles_present),
               fmt::format("{:.2f}", f.discharge.vehicles_per_green),
-              fmt::format("{:.0f}", f.discharge.saturation_flow_veh_h), fmt::format("{:.1f}", f.discharge.lost_time_s),
-              fmt::format("{:.1f}", f.queue_veh)}) {
+              known ? fmt::format("{:.0f}", f.discharge.saturation_flow_veh_h) : "-",
+              known ? fmt::format("{:.1f}", f.discharge.lost_time_s) : "-", fmt::format("{:.1f}", f.queue_veh)}) {
             row.push_back(cell);
         }
         table.row(row);
@@ -37,9 +38,10 @@ std::string intersection_text(const IntersectionReport& report) {
         "of all road metres; veh/green: a lane and green, those on yellow included; saturation: from the fifth vehicle on;\n"
         "queue: standing when green begins, mean of the lanes. Measured from {:.0f} to {:.0f} s, {} cycles.\n",
         window.from_s, window.to_s, report.populations.empty() ? 0 : report.populations[0].discharge.greens);
-    const std::string verdict = violations == 0
-                                    ? "No overlaps on lanes or in conflict areas, no entries on red, no vehicle lost.\n"
-                                    : fmt::format("VIOLATIONS in {} runs: see summary.csv.\n", violations);
+    const std::string verdict =
+        violations == 0
+            ? "No overlaps on lanes or in conflict areas, no entries on red, no deadlock, no vehicle lost.\n"
+            : fmt::format("VIOLATIONS in {} runs: see summary.csv.\n", violations);
     return table.text() + "\n" + notes + "\n" + verdict;
 }
 

@@ -50,6 +50,21 @@ double MetricBands::mean_difference_share() const {
     return sum / static_cast<double>(std::max<std::size_t>(points.size(), 1));
 }
 
+double MetricBands::mean_shift_share() const {
+    double sum = 0.0;
+    for (const BandPoint& p : points) sum += p.meso_mean / p.full_mean - 1.0;
+    return sum / static_cast<double>(std::max<std::size_t>(points.size(), 1));
+}
+
+double MetricBands::median_half_width_share() const {
+    std::vector<double> widths;
+    for (const BandPoint& p : points) widths.push_back(0.5 * (p.paper.high - p.paper.low) / p.full_mean);
+    if (widths.empty()) return 0.0;
+    const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
+    std::nth_element(widths.begin(), middle, widths.end());
+    return *middle;
+}
+
 double BandCheck::share_inside(Band band) const {
     std::size_t all_inside = 0;
     for (std::size_t k = 0; k < permutations; ++k) {

@@ -26,7 +26,9 @@ struct MetricBands {
     std::vector<BandPoint> points;
 
     double share_inside(Band band) const;
-    double mean_difference_share() const;  // mean of |meso / full - 1|
+    double mean_difference_share() const;    // mean of |meso / full - 1|
+    double mean_shift_share() const;         // the same with its sign
+    double median_half_width_share() const;  // of the paper's bands, over the mean
 };
 
 struct BandCheck {

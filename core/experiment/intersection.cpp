@@ -82,7 +82,7 @@ std::string intersection_csv(const IntersectionReport& report) {
     for (const char* const column :
          {"density_network_percent", "vehicles_present", "vehicles_per_green", "saturation_flow_veh_h", "lost_time_s",
           "queue_veh", "longest_queue_m", "turned_right_percent", "turned_left_percent", "longest_inside_s", "overlaps",
-          "conflicts", "red_entries", "forced_red_entries", "lost_vehicles"}) {
+          "conflicts", "red_entries", "forced_red_entries", "lost_vehicles", "deadlocks"}) {
         columns.emplace_back(column);
     }
     CsvWriter csv(columns);
@@ -100,7 +100,8 @@ std::string intersection_csv(const IntersectionReport& report) {
               fixed(f.discharge.saturation_flow_veh_h, 1), fixed(f.discharge.lost_time_s, 3), fixed(f.queue_veh, 2),
               fixed(f.longest_queue_m, 2), fixed(100.0 * f.right, 2), fixed(100.0 * f.left, 2),
               fixed(f.longest_inside_s, 2), std::to_string(v.overlaps), std::to_string(v.conflicts),
-              std::to_string(v.red_entries), std::to_string(v.forced_red_entries), std::to_string(v.lost_vehicles)}) {
+              std::to_string(v.red_entries), std::to_string(v.forced_red_entries), std::to_string(v.lost_vehicles),
+              std::to_string(v.deadlocks)}) {
             row.push_back(cell);
         }
         csv.row(row);

@@ -182,6 +182,7 @@ IntersectionFigures run_intersection(const Scenario& scenario, std::size_t popul
     figures.gaps_accepted = static_cast<std::int64_t>(state.gaps_accepted.size());
     figures.longest_inside_s = model.time_s(state.longest_inside);
     figures.violations = state.violations;
+    figures.violations.deadlocks = figures.longest_inside_s >= 2.0 * cycle_of(scenario) ? 1 : 0;
     figures.entered = state.entered;
     figures.left_network = state.left;
     figures.updates = state.updates;

@@ -44,6 +44,7 @@ void add_counts(std::int64_t entered, std::int64_t left, const Violations& viola
     metrics.push_back(count_metric("red_entries", "", violations.red_entries));
     metrics.push_back(count_metric("forced_red_entries", "", violations.forced_red_entries));
     metrics.push_back(count_metric("lost_vehicles", "", violations.lost_vehicles));
+    metrics.push_back(count_metric("deadlocks", "", violations.deadlocks));
     metrics.push_back(count_metric("updates", "", updates));
     metrics.push_back({"state_hash", "", fmt::format("{:016x}", state_hash)});
 }

@@ -57,6 +57,12 @@ std::string reason(int code, sqlite3* database) {
     if (kind == SQLITE_NOTADB || kind == SQLITE_CORRUPT)
         return "this is not a store of stopline-sweep, or it is damaged";
     if (kind == SQLITE_FULL) return "cannot write: the disk is full";
+    if (kind == SQLITE_READONLY || kind == SQLITE_CANTOPEN || kind == SQLITE_PERM || kind == SQLITE_IOERR) {
+        return fmt::format(
+            "the store cannot be written: the file or its folder is read-only or the disk fails (SQLite: {}, {}). A "
+            "store that one may only read must be copied first",
+            sqlite3_errstr(code), code);
+    }
     const std::string message = database == nullptr ? sqlite3_errstr(code) : sqlite3_errmsg(database);
     return fmt::format("the store cannot be used: {} ({})", message, code);
 }

@@ -121,7 +121,8 @@ Measurements measure_intersection(const Scenario& scenario, const ScorecardOptio
             sum.density += 100.0 * f.occupied / kSeeds;
             sum.present += f.vehicles_present / kSeeds;
             const Violations& v = f.violations;
-            sum.violations += static_cast<double>(v.overlaps + v.conflicts + v.red_entries + std::abs(v.lost_vehicles));
+            sum.violations +=
+                static_cast<double>(v.overlaps + v.conflicts + v.red_entries + std::abs(v.lost_vehicles) + v.deadlocks);
         }
         measured.set(all[k].named("throughput"), sum.throughput);
         measured.set(all[k].named("travel_time"), sum.travel_s);

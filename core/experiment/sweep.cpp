@@ -68,12 +68,40 @@ void require_populations(const Scenario& scenario, const std::vector<std::string
 }
 
 // A setting for an axis' own field would be overwritten by it, without a word.
+// The same field, or a section and something in it.
+bool overlap(const std::string& a, const std::string& b) {
+    const auto holds = [](const std::string& section, const std::string& path) {
+        return path.rfind(section, 0) == 0 &&
+               (path.size() == section.size() || path[section.size()] == '.' || path[section.size()] == '[');
+    };
+    return holds(a, b) || holds(b, a);
+}
+
+// One would undo what the other sets, and the table would name values that were not run.
+void refuse_axes_within_axes(const SweepSettings& settings) {
+    for (std::size_t k = 0; k < settings.axes.size(); ++k) {
+        for (std::size_t other = 0; other < k; ++other) {
+            for (const std::string& path : settings.axes[k].paths) {
+                for (const std::string& before : settings.axes[other].paths) {
+                    if (!overlap(path, before)) continue;
+                    throw InputError(fmt::format("{}: the axes '{}' and '{}' both change '{}': make them one axis",
+                                                 settings.name, settings.axes[other].name, settings.axes[k].name,
+                                                 path.size() < before.size() ? before : path));
+                }
+            }
+        }
+    }
+}
+
 void refuse_overridden_axes(const SweepSettings& settings, const std::vector<std::string>& overrides) {
     for (const std::string& text : overrides) {
         const std::string path = text.substr(0, text.find('='));
         for (const SweepAxis& axis : settings.axes) {
-            if (std::find(axis.paths.begin(), axis.paths.end(), path) == axis.paths.end()) continue;
-            throw InputError(fmt::format("--set '{}': '{}' is an axis of the sweep ('{}')", text, path, axis.name));
+            for (const std::string& changed : axis.paths) {
+                if (!overlap(path, changed)) continue;
+                throw InputError(
+                    fmt::format("--set '{}': '{}' is an axis of the sweep ('{}')", text, changed, axis.name));
+            }
         }
     }
 }
@@ -88,6 +116,7 @@ std::size_t product(std::size_t a, std::size_t b) {
 
 Sweep::Sweep(SweepSettings settings, const SweepOptions& options)
     : settings_(std::move(settings)), overrides_(options.overrides) {
+    refuse_axes_within_axes(settings_);
     refuse_overridden_axes(settings_, overrides_);
     base_ = load_scenario(settings_.scenario, overrides_);
     add_columns();

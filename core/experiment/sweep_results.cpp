@@ -49,6 +49,7 @@ void add_to(SweepTotals& totals, const std::string& result) {
     const std::int64_t overlaps = count_in(result, "overlaps");
     const std::int64_t red_entries = count_in(result, "red_entries");
     const std::int64_t lost_vehicles = count_in(result, "lost_vehicles");
+    const std::int64_t deadlocks = count_in(result, "deadlocks");
     for_each_value(result, [&](std::string_view name, std::string_view value) {
         if (name != "longest_inside_s") return;
         totals.longest_inside_s = std::max(totals.longest_inside_s, std::strtod(std::string(value).c_str(), nullptr));
@@ -58,7 +59,8 @@ void add_to(SweepTotals& totals, const std::string& result) {
     totals.overlaps += overlaps;
     totals.red_entries += red_entries;
     totals.lost_vehicles += lost_vehicles;
-    if (overlaps != 0 || red_entries != 0 || lost_vehicles != 0) ++totals.runs_with_violations;
+    totals.deadlocks += deadlocks;
+    if (overlaps != 0 || red_entries != 0 || lost_vehicles != 0 || deadlocks != 0) ++totals.runs_with_violations;
 }
 
 }  // namespace

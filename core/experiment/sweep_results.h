@@ -31,6 +31,7 @@ struct SweepTotals {
     std::int64_t red_entries = 0;
     std::int64_t lost_vehicles = 0;
     std::size_t runs_with_violations = 0;
+    std::int64_t deadlocks = 0;
     double longest_inside_s = 0.0;  // see IntersectionFigures
 };
 

@@ -159,4 +159,56 @@ std::string table1_csv(const CsvTable& results, const std::vector<Target>& targe
     return csv.text();
 }
 
+namespace {
+
+// 25 for P25.
+std::optional<double> percent_of(const std::string& population) {
+    return population.starts_with("P") ? parse_number(population.substr(1)) : std::nullopt;
+}
+
+void add_step(const Means& means, double green_s, const std::string& population, const Turns& from, const Turns& to,
+              Orders& orders) {
+    const std::optional<double> before = means.find("throughput", green_s, from, population);
+    const std::optional<double> after = means.find("throughput", green_s, to, population);
+    if (!before || !after) return;
+    ++orders.steps;
+    if (*after <= *before) return;
+    ++orders.rises;
+    const double percent = 100.0 * (*after / *before - 1.0);
+    if (percent <= orders.largest_rise_percent) return;
+    orders.largest_rise_percent = percent;
+    orders.largest_rise = fmt::format("{}, green {:g} s, left {:g} %, right {:g} to {:g} %", population, green_s,
+                                      to.left, from.right, to.right);
+}
+
+}  // namespace
+
+Orders orders_of(const CsvTable& results) {
+    const Means means(results);
+    Orders orders;
+    const std::vector<Turns>& turns = means.turns();
+    for (const double green_s : means.greens_s) {
+        for (const Turns& from : turns) {
+            // The next larger one of either.
+            const auto right = std::find_if(turns.begin(), turns.end(), [&](const Turns& t) {
+                return t.left == from.left && t.right > from.right;
+            });
+            const auto left = std::find_if(turns.begin(), turns.end(),
+                                           [&](const Turns& t) { return t.right == from.right && t.left > from.left; });
+            for (const std::string& population : means.populations) {
+                if (right != turns.end()) add_step(means, green_s, population, from, *right, orders);
+                if (left != turns.end()) add_step(means, green_s, population, from, *left, orders);
+                const std::optional<double> share = percent_of(population);
+                const std::optional<double> none = means.find("throughput", green_s, from, "CTG-Ref");
+                const std::optional<double> all = means.find("throughput", green_s, from, "CDG");
+                const std::optional<double> here = means.find("throughput", green_s, from, population);
+                if (!share || !none || !all || !here) continue;
+                ++orders.points;
+                if (*here > *none + 0.01 * *share * (*all - *none)) ++orders.above;
+            }
+        }
+    }
+    return orders;
+}
+
 }  // namespace stopline

@@ -18,6 +18,12 @@ struct Green {
     std::size_t position = 0;
 };
 
+// First tick of the green that is on or was the last one; -1: there was none.
+std::int64_t last_green(const GroupProgramme& programme, std::int64_t tick) {
+    while (tick >= 0 && programme.light(tick) != Light::green) tick = programme.since(tick) - 1;
+    return tick < 0 ? -1 : programme.since(tick);
+}
+
 void summarise(Discharge& result) {
     double sum_s = 0.0;
     int samples = 0;
@@ -27,6 +33,7 @@ void summarise(Discharge& result) {
     }
     result.saturation_headway_s = samples > 0 ? sum_s / samples : std::numeric_limits<double>::quiet_NaN();
     result.saturation_flow_veh_h = 3600.0 / result.saturation_headway_s;
+    if (samples == 0) result.lost_time_s = std::numeric_limits<double>::quiet_NaN();
     for (std::size_t k = 0; k < std::min(kLostPositions, result.headway_s.size()); ++k) {
         result.lost_time_s += result.headway_s[k] - result.saturation_headway_s;
     }
@@ -49,9 +56,8 @@ Discharge discharge(const Model& model, std::span<const Crossing> crossings, con
         const auto tick = static_cast<std::int64_t>(crossing.time_s / model.step_s);
         ++vehicles;
         Green& green = greens[d];
-        if (programme.light(tick) == Light::green && model.time_s(programme.since(tick)) > green.start_s) {
-            green = {model.time_s(programme.since(tick)), model.time_s(programme.since(tick)), 0};
-        }
+        const double start_s = model.time_s(last_green(programme, tick));
+        if (start_s > green.start_s) green = {start_s, start_s, 0};
         // A green that began before the window is not whole.
         if (green.start_s < window.from_s) continue;
         if (result.headway_s.size() <= green.position) {

@@ -15,7 +15,7 @@ struct Discharge {
     std::vector<int> samples;           // [position]
     double saturation_headway_s = 0.0;  // NaN where no fifth vehicle passed
     double saturation_flow_veh_h = 0.0;
-    double lost_time_s = 0.0;
+    double lost_time_s = 0.0;         // NaN likewise
     double vehicles_per_green = 0.0;  // per lane and green, those on yellow included
     int greens = 0;                   // per lane, whole within the window
 };

@@ -100,9 +100,9 @@ void check_queue(const Scenario& scenario, Checker& check) {
 void check_intersection(const Scenario& scenario, Checker& check) {
     const IntersectionSettings& layout = scenario.network.intersection;
     const double stage_s = scenario.signal.green_s + scenario.signal.yellow_s + scenario.signal.all_red_s;
-    const double shortest_s = scenario.signal.first_green_s + 2.0 * scenario.measure.warmup_cycles * stage_s;
-    if (scenario.duration_s != 0.0 && scenario.duration_s <= shortest_s) {
-        check.error("duration", "nothing is left to measure after first_green and warmup_cycles, " +
+    const double shortest_s = scenario.signal.first_green_s + 2.0 * (scenario.measure.warmup_cycles + 1) * stage_s;
+    if (scenario.duration_s != 0.0 && scenario.duration_s < shortest_s) {
+        check.error("duration", "not a whole cycle is left to measure after first_green and warmup_cycles: at least " +
                                     short_text(shortest_s, unit("s")));
     }
     if (scenario.demand.left + scenario.demand.right > 1.0) check.error("demand.left", "left and right exceed 100 %");

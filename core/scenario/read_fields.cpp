@@ -23,9 +23,10 @@ std::string kind_name(const SourceNode& node) {
 }
 
 bool is_name(const std::string& text) {
-    return !text.empty() && text.size() <= 64 && std::all_of(text.begin(), text.end(), [](char c) {
-        return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || c == '.' || c == '+';
-    });
+    const auto alphanumeric = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
+    return text.size() <= 64 && std::any_of(text.begin(), text.end(), alphanumeric) &&
+           std::all_of(text.begin(), text.end(),
+                       [&](char c) { return alphanumeric(c) || c == '-' || c == '_' || c == '.' || c == '+'; });
 }
 
 bool is_title(const std::string& text) {

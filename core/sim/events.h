@@ -41,8 +41,11 @@ struct Violations {
     std::int64_t red_entries = 0;         // passed a stop line on red although stopping had been possible
     std::int64_t forced_red_entries = 0;  // passed on red because stopping was not possible (no violation by itself)
     std::int64_t lost_vehicles = 0;       // entered minus left minus present
+    std::int64_t deadlocks = 0;           // runs in which a vehicle was inside an intersection for two cycles
 
-    bool none() const { return overlaps == 0 && conflicts == 0 && red_entries == 0 && lost_vehicles == 0; }
+    bool none() const {
+        return overlaps == 0 && conflicts == 0 && red_entries == 0 && lost_vehicles == 0 && deadlocks == 0;
+    }
 };
 
 }  // namespace stopline

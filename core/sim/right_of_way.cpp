@@ -20,6 +20,7 @@ namespace {
 constexpr double kNever_s = 1e9;
 constexpr double kStanding_mps = 1.0;
 constexpr double kCloseBehind_m = 6.0;
+constexpr double kSeen_m = 20.0;
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
@@ -76,10 +77,13 @@ bool blocked(const State& state, int slot) {
            gap_m < kCloseBehind_m;
 }
 
-// The same of one past the stop line, whose predecessor waits for others.
-bool behind_held(const State& state, int slot) {
-    const VehicleArrays& v = state.vehicles;
-    return v.predecessor[at(slot)] == v.id[at(slot - 1)] && held(state, slot - 1) && blocked(state, slot);
+// The same of one past the stop line on the way to `lane`, whose predecessor waits for others.
+bool behind_held(const Model& model, const State& state, int lane, const Insider& w) {
+    if (!blocked(state, w.slot)) return false;
+    const int on = w.front_m > 0.0 ? lane : model.graph.lanes[at(lane)].origin;
+    const bool first = w.slot == state.blocks[at(on)].first;
+    const int ahead = first ? vehicle_ahead(model, state, on, w.slot, kSeen_m).slot : w.slot - 1;
+    return ahead >= 0 && held(state, ahead);
 }
 
 // When the next vehicle of the other lane, inside or before its stop line, can be at the conflict area; those that will stop
@@ -94,7 +98,9 @@ double next_arrival_s(const Model& model, const State& state, const Conflict& co
     double soonest_s = kNever_s;
     for (const Insider& w : state.insiders[at(conflict.other)]) {
         if (w.front_m >= conflict.other_from_m) continue;
-        if (held(state, w.slot) || w.slot == stopping || behind_held(state, w.slot)) return soonest_s;
+        if (held(state, w.slot) || w.slot == stopping || behind_held(model, state, conflict.other, w)) {
+            return soonest_s;
+        }
         const double distance_m = conflict.other_from_m - w.front_m;
         soonest_s = std::min(soonest_s, earliest_s(distance_m, v.speed_mps[at(w.slot)], a, other.limit_mps));
     }
@@ -114,6 +120,7 @@ struct Candidate {
     int slot;
     double front_m;  // along the lane inside
     bool inside;
+    bool stands;
 };
 
 // Whether the other lane's vehicles let this one into the area, without regard to gaps.
@@ -128,6 +135,8 @@ bool area_free(const Model& model, const State& state, const Conflict& conflict,
             if (state.vehicles.cleared_for[at(w.slot)] == conflict.other && !held(state, w.slot)) return false;
             continue;
         }
+        // Two that stand and wait for each other: who can go does. The other sees it in the area.
+        if (v.stands && (held(state, w.slot) || behind_held(model, state, conflict.other, w))) continue;
         const bool before = w.since < since || (w.since == since && w.slot < v.slot);
         if (!v.inside || before) return false;
     }
@@ -155,11 +164,13 @@ bool accepts_gap(const Model& model, State& state, int lane, const Candidate& v,
 constexpr double kNowhere_m = 1e9;
 
 double waiting_place(const Model& model, State& state, int lane, const Candidate& v) {
-    const VehicleArrays& arrays = state.vehicles;
+    VehicleArrays& arrays = state.vehicles;
     const double speed = arrays.speed_mps[at(v.slot)];
     const double margin_m = model.give_way.margin_m;
     // Nearer than this it must know whether it can go on.
     const double ahead_m = 0.5 * square(speed) / model.driver.stop.deceleration_mps2 + 1.5 * speed + 3.0;
+    // A gap that it could not use, because somebody stands in front, is lost; others must not wait for it.
+    if (v.stands && blocked(state, v.slot)) arrays.cleared_for[at(v.slot)] = -1;
     bool decided = arrays.cleared_for[at(v.slot)] == lane;
     for (const Conflict& conflict : model.graph.conflicts[at(lane)]) {
         const double hold_m = conflict.from_m - margin_m;
@@ -189,7 +200,8 @@ void decide(const Model& model, State& state, int lane) {
     const VehicleArrays& v = state.vehicles;
     const LaneBlock& block = state.blocks[at(lane)];
     for (int slot = block.first; slot < block.stop(); ++slot) {
-        const double hold_m = waiting_place(model, state, lane, {slot, v.position_m[at(slot)], true});
+        const double hold_m = waiting_place(
+            model, state, lane, {slot, v.position_m[at(slot)], true, v.speed_mps[at(slot)] < kStanding_mps});
         if (hold_m < kNowhere_m) return wait(state, lane, slot, hold_m);
     }
     constexpr double kLookBack_m = 60.0;
@@ -198,7 +210,8 @@ void decide(const Model& model, State& state, int lane) {
         const double position_m = v.position_m[at(slot)];
         if (origin.length_m - position_m > kLookBack_m || slot == state.stop_slot[at(road.origin)]) break;
         if (v.next_lane[at(slot)] != lane) continue;
-        const Candidate candidate{slot, position_m - origin.length_m, position_m > origin.stop_line_m};
+        const Candidate candidate{slot, position_m - origin.length_m, position_m > origin.stop_line_m,
+                                  v.speed_mps[at(slot)] < kStanding_mps};
         const double hold_m = waiting_place(model, state, lane, candidate);
         if (hold_m < kNowhere_m) return wait(state, road.origin, slot, hold_m + origin.length_m);
     }

@@ -114,6 +114,10 @@ TEST(Sweep, RefusesWhatCannotBeRun) {
     EXPECT_TRUE(
         contains(error_of_sweep("axes:\n- {name: g, path: signal.green, values: [60 s, 1 min]}\n"), "same value"));
     EXPECT_TRUE(contains(ShortSweep().error({"signal.green=5 s"}), "'signal.green' is an axis"));
+    EXPECT_TRUE(contains(ShortSweep().error({"signal={green: 5 s}"}), "'signal.green' is an axis"));
+    EXPECT_TRUE(contains(error_of_sweep("axes:\n- {name: mass, path: vehicle.mass, values: [1 t, 2 t]}\n"
+                                        "- {name: car, path: vehicle, values: [petrol_eu4_72kw]}\n"),
+                         "the axes 'mass' and 'car' both change 'vehicle.mass'"));
     EXPECT_TRUE(contains(ShortSweep("scenario: none.yaml\n").error(), "none.yaml: no such file"));
 }
 

@@ -47,6 +47,25 @@ TEST(Table1, HasOursWherePointsAreThereAndTheDifference) {
     EXPECT_NE(csv.find("T27,CDG,15,30,0,120,,\n"), std::string::npos) << csv;
 }
 
+TEST(Orders, CountStepsThatRiseAndSharesAboveTheStraightLine) {
+    const Orders orders = orders_of(parse_csv(
+        "green_s,left_percent,right_percent,population,seed,throughput_veh_h,travel_time_94m_s,density_network_percent\n"
+        "15,0,0,CTG-Ref,1,5000,55,31\n"
+        "15,0,0,P40,1,7100,55,31\n"  // 7,000 would be in proportion
+        "15,0,0,CDG,1,10000,31,42\n"
+        "15,0,10,CTG-Ref,1,4000,55,31\n"
+        "15,0,10,P40,1,5000,55,31\n"  // 5,600
+        "15,0,10,CDG,1,8000,31,42\n"
+        "15,5,0,CTG-Ref,1,4900,55,31\n"
+        "15,5,0,CDG,1,10200,31,42\n",
+        "by hand"));
+    EXPECT_EQ(orders.steps, 5);
+    EXPECT_EQ(orders.rises, 1);
+    EXPECT_NEAR(orders.largest_rise_percent, 2.0, 1e-9);
+    EXPECT_EQ(orders.points, 2);
+    EXPECT_EQ(orders.above, 1);
+}
+
 TEST(TurnCondition, IsReadWholeOrNotAtAll) {
     const std::optional<TurnCondition> mix = parse_turn_condition("MIX green=5 left=30 right=0");
     ASSERT_TRUE(mix.has_value());

@@ -1,0 +1,18 @@
+// What programs that keep or draw results share.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "experiment/gnuplot.h"
+
+namespace stopline {
+
+// program_identity(), for stores. Throws InputError where the program cannot be read.
+std::string identity_of_program();
+
+// Draws them as SVG and PNG, naming each; says so where gnuplot is missing. Throws Interrupted.
+void draw_all(const std::vector<Figure>& figures, const std::filesystem::path& folder);
+
+}  // namespace stopline

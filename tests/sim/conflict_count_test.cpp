@@ -1,0 +1,134 @@
+// What counts as being in each other's way, and how long anyone has been inside: vehicles placed by hand, the phase called once.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "support/track.h"
+
+namespace stopline {
+namespace {
+
+using testing_support::at;
+using testing_support::Track;
+
+// The reference intersection without vehicles.
+class ConflictCount : public testing::Test {
+protected:
+    ConflictCount() : track_(empty()) { track_.editable().tick = 1000; }
+
+    static Model empty() {
+        Model model = build_model(load_scenario(STOPLINE_SOURCE_DIR "/scenarios/intersection.yaml"), 0);
+        for (DemandPlan::Inlet& inlet : model.demand.inlets) inlet.vehicles = 0;
+        return model;
+    }
+
+    const LaneGraph& graph() const { return track_.model().graph; }
+
+    int lane(const std::string& name) const {
+        const auto named = [&](const Lane& lane) { return lane.name == name; };
+        return static_cast<int>(std::find_if(graph().lanes.begin(), graph().lanes.end(), named) -
+                                graph().lanes.begin());
+    }
+
+    Conflict conflict(const std::string& one, const std::string& two) const {
+        for (const Conflict& c : graph().conflicts_of(lane(one))) {
+            if (c.other == lane(two)) return c;
+        }
+        ADD_FAILURE() << one << " and " << two << " do not meet";
+        return {};
+    }
+
+    // A vehicle that stands, its front `front_m` along a lane inside, past its stop line for `inside` ticks. Fronts before the
+    // lane's start are on its origin, fronts beyond its end on the exit.
+    void place(const std::string& inside_lane, double front_m, int inside = 0) {
+        const int number = lane(inside_lane);
+        const Lane& road = graph().lanes[at(number)];
+        const double origin_m = graph().lanes[at(road.origin)].length_m;
+        const int on = front_m < 0.0 ? road.origin : front_m < road.length_m ? number : road.next[0];
+        const double from_m = on == road.origin ? -origin_m : on == number ? 0.0 : road.length_m;
+        track_.place(on, front_m - from_m, 0.0);
+        State& state = track_.editable();
+        const std::size_t slot = at(state.blocks[at(on)].last());
+        state.vehicles.next_lane[slot] = on == road.origin ? number : -1;
+        state.vehicles.came_from[slot] = number;
+        state.vehicles.inside_since[slot] = static_cast<int>(state.tick) - inside;
+    }
+
+    // How many more after one step.
+    std::int64_t counted() {
+        const std::int64_t before = track_.state().violations.conflicts;
+        give_way(track_.model(), track_.editable());
+        return track_.state().violations.conflicts - before;
+    }
+
+    double length_m() const { return track_.model().vehicles[0].length_m; }
+
+    Track track_;
+};
+
+TEST_F(ConflictCount, IsOneForAPairInItsAreaInEachStep) {
+    const Conflict c = conflict("west_0_straight", "south_0_straight");
+    place("west_0_straight", c.from_m + 0.1);
+    EXPECT_EQ(counted(), 0) << "alone";
+    place("south_0_straight", c.other_from_m + 0.1);
+    EXPECT_EQ(counted(), 1);
+    EXPECT_EQ(counted(), 1) << "the next step";
+    EXPECT_FALSE(track_.state().violations.none());
+}
+
+TEST_F(ConflictCount, BeginsWithTheFrontAndEndsWithTheRear) {
+    const Conflict c = conflict("west_0_straight", "south_0_straight");
+    place("west_0_straight", c.to_m + length_m() - 0.1);
+    place("south_0_straight", c.other_from_m + 0.1);
+    EXPECT_EQ(counted(), 1) << "its rear is still in";
+    VehicleArrays& v = track_.editable().vehicles;
+    const std::size_t south = track_.slot(lane("south_0_straight"), 0);
+    const std::size_t west = track_.slot(lane("west_0_straight"), 0);
+    v.position_m[south] = c.other_from_m - 0.1;
+    EXPECT_EQ(counted(), 0) << "not in yet";
+    v.position_m[south] = c.other_from_m + 0.1;
+    v.position_m[west] = c.to_m + length_m() + 0.1;
+    EXPECT_EQ(counted(), 0) << "out";
+}
+
+TEST_F(ConflictCount, IsOneForEveryPair) {
+    const Conflict c = conflict("west_0_straight", "south_0_straight");
+    place("west_0_straight", c.to_m + length_m() - 0.1);
+    place("west_0_straight", c.to_m - 0.4);
+    place("south_0_straight", c.other_from_m + 0.1);
+    EXPECT_EQ(counted(), 2);
+}
+
+TEST_F(ConflictCount, SeesBodiesThatReachBackFromTheExit) {
+    const Conflict c = conflict("west_1_right", "north_1_straight");  // they merge: the area ends with the lanes
+    place("west_1_right", graph().lanes[at(lane("west_1_right"))].length_m + 1.0);
+    ASSERT_EQ(track_.count(lane("west_1_right")), 0);
+    place("north_1_straight", c.other_from_m + 0.5);
+    EXPECT_EQ(counted(), 1);
+}
+
+TEST_F(ConflictCount, IsNothingWherePathsDoNotMeet) {
+    for (const char* name : {"west_0_left", "east_0_left", "west_1_straight", "east_1_straight"}) place(name, 0.5);
+    EXPECT_EQ(counted(), 0);
+}
+
+TEST_F(ConflictCount, LongestInsideIsOfTheFirstOfALaneAndStays) {
+    place("west_0_straight", 20.0, 120);
+    place("west_0_straight", -0.5, 40);  // past its stop line, on the stretch that movements share
+    give_way(track_.model(), track_.editable());
+    EXPECT_EQ(track_.state().longest_inside, 120);
+    track_.editable().tick += 30;
+    give_way(track_.model(), track_.editable());
+    EXPECT_EQ(track_.state().longest_inside, 150);
+    track_.editable().blocks[at(lane("west_0_straight"))].count = 0;  // gone; the other has been there for 70
+    give_way(track_.model(), track_.editable());
+    EXPECT_EQ(track_.state().longest_inside, 150);
+    track_.editable().tick += 100;
+    give_way(track_.model(), track_.editable());
+    EXPECT_EQ(track_.state().longest_inside, 170);
+}
+
+}  // namespace
+}  // namespace stopline
