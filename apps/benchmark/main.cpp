@@ -11,6 +11,7 @@
 
 #include "base/input_error.h"
 #include "benchmark/full_step_benchmark.h"
+#include "benchmark/meso_benchmark.h"
 #include "common/command_line.h"
 #include "common/program.h"
 
@@ -40,7 +41,11 @@ public:
     }
 
     std::optional<double> least_ns(const std::string& kernels, int vehicles) const {
-        const auto found = least_ns_.find(fmt::format("{}/{}", benchmark_name(kernels), vehicles));
+        return least_ns_named(fmt::format("{}/{}", benchmark_name(kernels), vehicles));
+    }
+
+    std::optional<double> least_ns_named(const std::string& name) const {
+        const auto found = least_ns_.find(name);
         return found == least_ns_.end() ? std::nullopt : std::optional(found->second);
     }
 
@@ -72,6 +77,23 @@ std::string limits_text(const TableReporter& table) {
     return text;
 }
 
+std::string meso_limits_text(const TableReporter& table) {
+    const std::optional<double> loop = table.least_ns_named(fmt::format("{}/{}", following_name(kBatch), kFollowers));
+    const std::optional<double> scalar =
+        table.least_ns_named(fmt::format("{}/{}", following_name(kScalar), kFollowers));
+    const std::optional<double> step = table.least_ns_named(fmt::format("{}/0", kMesoStep));
+    if (!loop || !scalar || !step) return "";
+    const double gain = *scalar / *loop;
+    std::string text = "\nWhat bounds the mesoscale mode (least of the repetitions, ns an update):\n";
+    text += fmt::format("  car following    {:6.1f} in batches, {:.1f} one at a time: {:.1f} times. {}\n", *loop,
+                        *scalar, gain, gain > 2.0 ? "It is arithmetic." : "Batches hardly pay.");
+    text += fmt::format(
+        "  a whole step     {:6.1f} at the reference intersection: {:.0f} % of it is work at lane heads, "
+        "conflict\n                   areas, detectors and in moving vehicles about.\n",
+        *step, 100.0 * (1.0 - *loop / *step));
+    return text;
+}
+
 // Only what Google Benchmark understands, since it stops the program at anything else.
 void check(const std::vector<std::string>& flags) {
     for (const std::string& flag : flags) {
@@ -91,12 +113,13 @@ ExitCode run(std::vector<std::string> flags) {
     benchmark::Initialize(&count, arguments.data());
     if (count > 1) throw InputError(fmt::format("unknown option '{}'; see --help", arguments[1]));
     add_full_step_benchmarks();
+    add_meso_benchmarks();
     TableReporter table;
     if (benchmark::RunSpecifiedBenchmarks(console ? &table : nullptr) == 0) {
         throw InputError("no benchmark matches the filter");
     }
     if (interrupted()) throw Interrupted();
-    if (console) fmt::print("{}", limits_text(table));
+    if (console) fmt::print("{}{}", limits_text(table), meso_limits_text(table));
     return ExitCode::done;
 }
 
@@ -104,7 +127,7 @@ ExitCode run(std::vector<std::string> flags) {
 
 int benchmark_main(int argc, const char* const* argv) {
     return run_program("stopline-benchmark", [&] {
-        CLI::App app("Measures what a vehicle update costs, at 16 to 16,000 vehicles, and says what bounds it.",
+        CLI::App app("Measures what a vehicle update costs in both fidelities and says what bounds it.",
                      "stopline-benchmark");
         add_version_option(app);
         app.footer(kFooter + std::string(kExitCodesText));

@@ -12,6 +12,7 @@ Krauss krauss_of(const MesoSettings& settings, const GapPolicySettings& policy) 
     k.until_mps = s.acceleration_until_mps;
     k.transient_gap_s2 = s.transient_gap_s2;
     k.catch_up = s.catch_up;
+    k.anticipation_s = s.anticipation_s;
     k.deceleration_mps2 = s.deceleration_mps2;
     k.reaction_s = s.reaction_s;
     k.standstill_gap_m = s.standstill_gap_m + policy.standstill_gap_m - settings.calibrated_standstill_gap_m;

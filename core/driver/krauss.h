@@ -31,6 +31,7 @@ struct Krauss {
     double until_mps = 1e9;          // v_p
     double transient_gap_s2 = 0.0;   // times the predecessor's acceleration, where it accelerates: added to the gap
     double catch_up = 1.0;           // times the acceleration, close behind a predecessor
+    double anticipation_s = 0.0;     // the predecessor is seen as fast as it will be then, if it goes on accelerating
     double deceleration_mps2 = 0.0;  // b
     double reaction_s = 0.0;         // tau
     double standstill_gap_m = 0.0;   // s_0
@@ -71,7 +72,8 @@ struct KraussInput {
 // `random`: in [0, 1).
 STOPLINE_INLINE double next_speed_mps(const Krauss& k, const KraussInput& in, double random, double dt) {
     const double more_m = in.more_m + k.transient_gap_s2 * in.ahead_mps2;
-    const double safe = safe_speed_mps(k, in.gap_m, in.ahead_mps, more_m);
+    const double ahead_mps = in.ahead_mps + k.anticipation_s * in.ahead_mps2;
+    const double safe = safe_speed_mps(k, in.gap_m, ahead_mps, more_m);
     const double share = std::min(1.0, k.until_mps / std::max(in.speed_mps, 1e-3));
     constexpr double kClose_m = 2.0;
     const bool close = in.gap_m - in.more_m < k.equilibrium_gap_m(in.speed_mps) + kClose_m;

@@ -158,6 +158,9 @@ void set_meso(const Scenario& scenario, const MesoSettings& settings, Model& mod
     model.speed_factor = settings.speed_factor;
     model.leader_share = settings.leader_share;
     model.approach_share = std::min(settings.speed_gain_1ps * model.step_s, 1.0);
+    model.turn_share = std::min(settings.turn_gain_1ps * model.step_s, 1.0);
+    model.leader_mps2 = settings.leader_mps2;
+    model.leader_until_mps = settings.leader_until_mps;
     model.hesitation_ticks = to_ticks(scenario.driver.free_drive.hesitation_s + settings.start_delay_s, model.step_s);
 }
 

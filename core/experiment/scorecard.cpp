@@ -18,9 +18,9 @@ namespace stopline {
 namespace {
 
 template <class T>
-std::vector<T> joined(std::span<const T> first, std::span<const T> second) {
-    std::vector<T> all(first.begin(), first.end());
-    all.insert(all.end(), second.begin(), second.end());
+std::vector<T> joined(std::initializer_list<std::span<const T>> parts) {
+    std::vector<T> all;
+    for (const std::span<const T> part : parts) all.insert(all.end(), part.begin(), part.end());
     return all;
 }
 
@@ -92,11 +92,12 @@ std::map<std::string, Measurements> measure_for(const std::vector<Target>& targe
 
 // One line a section.
 std::span<const Experiment> experiments() {
-    static const std::vector<Experiment> kAll = joined(section3_experiments(), section4_experiments());
+    static const std::vector<Experiment> kAll =
+        joined<Experiment>({section3_experiments(), section4_experiments(), section5_experiments()});
     return kAll;
 }
 std::span<const RowJudge> row_judges() {
-    static const std::vector<RowJudge> kAll = joined(section3_rows(), section4_rows());
+    static const std::vector<RowJudge> kAll = joined<RowJudge>({section3_rows(), section4_rows(), section5_rows()});
     return kAll;
 }
 

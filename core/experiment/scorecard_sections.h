@@ -13,4 +13,7 @@ std::span<const RowJudge> section3_rows();
 std::span<const Experiment> section4_experiments();
 std::span<const RowJudge> section4_rows();
 
+std::span<const Experiment> section5_experiments();
+std::span<const RowJudge> section5_rows();
+
 }  // namespace stopline

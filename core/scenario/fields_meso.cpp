@@ -20,6 +20,10 @@ const Table& krauss_table() {
                                  "times the acceleration, for a vehicle no further than 2 m beyond its gap: what it "
                                  "needs to make up for the step that it starts later than its predecessor (1: none, as "
                                  "in the paper)"),
+            number<&S::anticipation_s>(
+                "anticipation", "s", {0, 1},
+                "an accelerating predecessor's speed is reckoned with as it will be then, as V2V "
+                "tells (0 s: as it is, as in the paper)"),
             number<&S::transient_gap_s2>("transient_gap", "", {0, 5},
                                          "metres of gap for each m/s2 of the predecessor's acceleration: what the "
                                          "controller falls behind meanwhile (0: nothing, as in the paper)"),
@@ -47,6 +51,16 @@ const Table& meso_table() {
             number<&S::speed_gain_1ps>("speed_gain", "1/s", {0.05, 1000},
                                        "acceleration for each m/s below the limit, which is thus approached gradually, "
                                        "as in full dynamics (1000 1/s: with the full acceleration, as in the paper)"),
+            number<&S::turn_gain_1ps>(
+                "turn_gain", "1/s", {0.05, 1000},
+                "the same on the way to a turn: acceleration for each m/s below the speed that "
+                "braking in time allows, less that braking (1000 1/s: that speed at once, as in the paper)"),
+            number<&S::leader_mps2>(
+                "leader_acceleration", "m/s2", {0, 10},
+                "highest acceleration of leaders of platoons, whatever their policy (0 m/s2: as the "
+                "policy's model says, as in the paper)"),
+            number<&S::leader_until_mps>("leader_acceleration_until", "km/h", {5, 500},
+                                         "speed up to which leader_acceleration is available"),
             number<&S::start_delay_s>("start_delay", "s", {0, 5},
                                       "time that the first vehicle at a stop line takes to set out, besides the "
                                       "driver's hesitation: the powertrain's"),

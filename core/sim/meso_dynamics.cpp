@@ -26,6 +26,23 @@ void evaluate_more(const Model& model, int vehicles, const MesoGroup& g) {
     }
 }
 
+// Leaders of platoons accelerate alike, whatever their policy, until following asks for less.
+void lead(const Model& model, std::span<const LaneStep> lanes, const MesoGroup& g, VehicleArrays& v) {
+    int k = -1;
+    for (const LaneStep& lane : lanes) {
+        for (int slot = lane.begin; slot < lane.stop; ++slot) {
+            ++k;
+            if (v.leads[at(slot)] == 0.0F) continue;
+            const double share = std::min(1.0, model.leader_until_mps / std::max(g.speed[k], 1e-3));
+            const double faster_mps = g.speed[k] + model.leader_mps2 * share * model.step_s;
+            const double drive_mps = std::min(faster_mps, g.cap[k]);
+            const double safe_mps = safe_speed_mps(model.krauss[at(g.policy[k])], g.gap[k], g.ahead[k], g.more[k]);
+            g.next[k] = std::max(std::min(safe_mps, drive_mps), 0.0);
+            if (safe_mps < faster_mps) v.leads[at(slot)] = 0.0F;
+        }
+    }
+}
+
 }  // namespace
 
 double stopping_speed_mps(const Model& model, const VehicleArrays& v, int slot, double room_m) {
@@ -43,8 +60,12 @@ void step_meso(const Model& model, std::span<const LaneStep> lanes, State& state
                               v.end_speed_mps.data(),    v.id.data(),        v.policy.data(),
                               v.acceleration_mps2.data()};
     const MesoGroup group = state.meso_group.streams();
-    const MesoStep step{model.step_s, dawdle_key(model.seed), static_cast<std::uint64_t>(state.tick),
-                        model.driver.deceleration_mps2, model.approach_share};
+    const MesoStep step{model.step_s,
+                        dawdle_key(model.seed),
+                        static_cast<std::uint64_t>(state.tick),
+                        model.driver.deceleration_mps2,
+                        model.approach_share,
+                        model.turn_share};
     int vehicles = 0;
     for (const LaneStep& lane : lanes) vehicles += lane.count();
     kernels.gather(streams, lanes, step, group);
@@ -53,6 +74,7 @@ void step_meso(const Model& model, std::span<const LaneStep> lanes, State& state
         const int only = model.krauss.size() == 1 ? -1 : k;
         kernels.follow(model.krauss[at(k)], step, group, vehicles, only);
     }
+    if (model.leader_mps2 > 0.0) lead(model, lanes, group, v);
     kernels.scatter(streams, lanes, step, group);
     state.violations.overlaps += overlaps(v, lanes);
 }

@@ -46,6 +46,7 @@ struct MesoStep {
     std::uint64_t tick;
     double slow_down_mps2;  // towards a lower limit
     double approach_share;  // of what is missing to the limit, gained in this step
+    double turn_share;      // of what is missing to what the way to a turn allows
 };
 
 struct MesoKernels {

@@ -17,11 +17,20 @@ inline double approached(double speed_mps, double limit_mps, double share) {
     return missing_mps > 0.0 ? speed_mps + share * missing_mps : limit_mps;
 }
 
+// The same on the way to a turn, whose allowed speed falls with the distance: slow_down_acceleration of full dynamics.
+inline double slowed(double speed_mps, double allowed_mps, double share, double braked_mps) {
+    const double next_mps =
+        speed_mps + share * (allowed_mps - speed_mps) - braked_mps * speed_mps / std::max(allowed_mps, 1.0);
+    return share < 1.0 ? next_mps : allowed_mps;
+}
+
 inline void gather(const MesoStreams& streams, MesoKernels::Lanes lanes, const MesoStep& step, const MesoGroup& group) {
     const MesoStreams s = streams;  // own copies: nothing that is written here can change them
     const MesoGroup g = group;
     const double slow_down_mps2 = step.slow_down_mps2;
     const double share = step.approach_share;
+    const double turn_share = step.turn_share;
+    const double braked_mps = slow_down_mps2 * step.dt;
     int first = 0;  // place of the lane's first vehicle
     for (const LaneStep& lane : lanes) {
         const int n = lane.stop - lane.begin;
@@ -42,7 +51,8 @@ inline void gather(const MesoStreams& streams, MesoKernels::Lanes lanes, const M
             const auto end_mps = static_cast<double>(end_speed[i]);
             const double to_turn_m = std::max(turn_m - position[i], 0.0);
             const double slow_mps = std::sqrt(end_mps * end_mps + 2.0 * slow_down_mps2 * to_turn_m);
-            g.cap[k] = approached(speed[i], std::min(limit_mps, slow_mps), share);
+            g.cap[k] =
+                std::min(approached(speed[i], limit_mps, share), slowed(speed[i], slow_mps, turn_share, braked_mps));
             g.more[k] = 0.0;
         }
         std::copy_n(s.id + lane.begin, n, g.id + first);

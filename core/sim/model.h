@@ -63,6 +63,9 @@ struct Model {
     double speed_factor = 1.0;    // of all limits, mesoscale mode
     double leader_share = 1.0;    // of that, for vehicles without a predecessor
     double approach_share = 1.0;  // of what is missing to the limit, gained in a step
+    double turn_share = 1.0;      // of what is missing to what the way to a turn allows
+    double leader_mps2 = 0.0;     // acceleration of platoon leaders, up to a speed; 0: that of their policy's model
+    double leader_until_mps = 0.0;
     bool scalar_kernels = false;  // the oracle: one vehicle at a time, same bits
 
     double time_s(std::int64_t tick) const { return static_cast<double>(tick) * step_s; }

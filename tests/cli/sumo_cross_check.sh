@@ -4,3 +4,6 @@
 set -u
 
 python3 "$STOPLINE_SOURCE/tests/sumo/cross_check.py" "$STOPLINE_BIN/stopline-calibrate"
+code=$?
+[ $code -eq 0 ] || exit $code
+python3 "$STOPLINE_SOURCE/tests/sumo/intersection.py" "$STOPLINE_BIN"

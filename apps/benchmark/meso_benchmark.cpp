@@ -1,0 +1,107 @@
+#include "benchmark/meso_benchmark.h"
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+
+#include <benchmark/benchmark.h>
+
+#include "benchmark/full_step_benchmark.h"
+#include "common/program.h"
+#include "experiment/build_model.h"
+#include "scenario/load_scenario.h"
+#include "sim/meso_kernels.h"
+#include "sim/simulation.h"
+
+namespace stopline {
+
+namespace {
+
+constexpr int kPasses = 200;       // over all followers, an iteration
+constexpr int kSteps = 1000;       // of the intersection: 100 s, about two cycles
+constexpr double kFilled_s = 100;  // by then the arms are full
+
+Model intersection_model() {
+    return build_model(load_scenario(data_directory() / "../scenarios/intersection.yaml", {"fidelity=meso"}), 0);
+}
+
+void set_cost(benchmark::State& state, std::int64_t updates) {
+    state.counters["updates_per_s"] = benchmark::Counter(static_cast<double>(updates), benchmark::Counter::kIsRate);
+    state.counters[kCostCounter] =
+        benchmark::Counter(static_cast<double>(updates), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+// The car-following equation alone, over arrays: speeds of the next step from gaps and speeds of this one.
+void following(benchmark::State& state, bool scalar) {
+    const Model model = intersection_model();
+    MesoGroupArrays arrays;
+    arrays.resize(kFollowers);
+    const MesoGroup g = arrays.streams();
+    for (int k = 0; k < kFollowers; ++k) {
+        g.speed[k] = 13.0 + 0.01 * (k % 50);
+        g.ahead[k] = 13.0 + 0.01 * ((k + 7) % 50);
+        g.gap[k] = 14.0 + 0.02 * (k % 90);
+        g.cap[k] = 14.6;
+        g.id[k] = k;
+    }
+    const MesoKernels& kernels = meso_kernels(scalar);
+    MesoStep step{model.step_s, dawdle_key(model.seed), 0, model.driver.deceleration_mps2, 1.0, 1.0};
+    std::int64_t updates = 0;
+    for (auto iteration : state) {
+        if (interrupted()) return state.SkipWithError("interrupted");
+        const auto start = std::chrono::steady_clock::now();
+        for (int pass = 0; pass < kPasses; ++pass) {
+            ++step.tick;
+            kernels.follow(model.krauss[0], step, g, kFollowers, -1);
+            benchmark::DoNotOptimize(g.next[0]);
+            benchmark::ClobberMemory();
+        }
+        state.SetIterationTime(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+        updates += static_cast<std::int64_t>(kPasses) * kFollowers;
+    }
+    set_cost(state, updates);
+}
+
+void intersection(benchmark::State& state) {
+    const Model model = intersection_model();
+    Simulation begin(model);
+    begin.run_until(kFilled_s);
+    std::int64_t updates = 0;
+    for (auto iteration : state) {
+        if (interrupted()) return state.SkipWithError("interrupted");
+        Simulation simulation = begin;
+        const std::int64_t before = simulation.state().updates;
+        const auto start = std::chrono::steady_clock::now();
+        for (int k = 0; k < kSteps; ++k) simulation.step();
+        state.SetIterationTime(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+        updates += simulation.state().updates - before;
+    }
+    set_cost(state, updates);
+}
+
+void add_following(const char* kernels) {
+    const bool scalar = std::string(kernels) == kScalar;
+    benchmark::RegisterBenchmark(following_name(kernels).c_str(), following, scalar)
+        ->Unit(benchmark::kMicrosecond)
+        ->UseManualTime()
+        ->Repetitions(7)
+        ->Arg(kFollowers)
+        ->Iterations(10);
+}
+
+}  // namespace
+
+std::string following_name(const std::string& kernels) { return "meso_following_200_passes/" + kernels; }
+
+void add_meso_benchmarks() {
+    add_following(kBatch);
+    add_following(kScalar);
+    benchmark::RegisterBenchmark(kMesoStep, intersection)
+        ->Unit(benchmark::kMicrosecond)
+        ->UseManualTime()
+        ->Repetitions(7)
+        ->Arg(0)
+        ->Iterations(20);
+}
+
+}  // namespace stopline
