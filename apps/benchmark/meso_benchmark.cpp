@@ -17,7 +17,7 @@ namespace stopline {
 
 namespace {
 
-constexpr int kPasses = 200;       // over all followers, an iteration
+constexpr int kPasses = 1600;      // over all followers, an iteration
 constexpr int kSteps = 1000;       // of the intersection: 100 s, about two cycles
 constexpr double kFilled_s = 100;  // by then the arms are full
 
@@ -91,7 +91,7 @@ void add_following(const char* kernels) {
 
 }  // namespace
 
-std::string following_name(const std::string& kernels) { return "meso_following_200_passes/" + kernels; }
+std::string following_name(const std::string& kernels) { return "meso_following_1600_passes/" + kernels; }
 
 void add_meso_benchmarks() {
     add_following(kBatch);

@@ -69,12 +69,17 @@ struct KraussInput {
     double cap_mps;     // the limit, or what a stop line allows
 };
 
-// `random`: in [0, 1).
+// Whether the model's power is ever the limit: the same for all vehicles of a loop, and a division each that is spared.
+inline bool has_power_limit(const Krauss& k) { return k.until_mps < 100.0; }
+
+// `random`: in [0, 1). `power_limit`: see has_power_limit.
+template <bool power_limit = true>
 STOPLINE_INLINE double next_speed_mps(const Krauss& k, const KraussInput& in, double random, double dt) {
     const double more_m = in.more_m + k.transient_gap_s2 * in.ahead_mps2;
     const double ahead_mps = in.ahead_mps + k.anticipation_s * in.ahead_mps2;
     const double safe = safe_speed_mps(k, in.gap_m, ahead_mps, more_m);
-    const double share = std::min(1.0, k.until_mps / std::max(in.speed_mps, 1e-3));
+    double share = 1.0;
+    if constexpr (power_limit) share = std::min(1.0, k.until_mps / std::max(in.speed_mps, 1e-3));
     constexpr double kClose_m = 2.0;
     const bool close = in.gap_m - in.more_m < k.equilibrium_gap_m(in.speed_mps) + kClose_m;
     const double more = close ? k.catch_up : 1.0;

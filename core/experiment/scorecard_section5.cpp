@@ -28,19 +28,19 @@ constexpr const char* kTimes = "calibration_times";
 constexpr const char* kBands = "calibration_bands";
 constexpr const char* kFitted = "fitted";
 
+void set_model(Measurements& measured, const char* name, const KraussSettings& model) {
+    measured.set(fmt::format("krauss_decel {}", name), model.deceleration_mps2);
+    measured.set(fmt::format("krauss_accel {}", name), model.acceleration_mps2);
+    measured.set(fmt::format("krauss_tau {}", name), model.reaction_s);
+    measured.set(fmt::format("krauss_min_gap {}", name), model.standstill_gap_m);
+    measured.set(fmt::format("krauss_sigma {}", name), model.dawdling);
+}
+
 Measurements measure_parameters(const Scenario& /*scenario*/, const ScorecardOptions& /*options*/) {
     const MesoSettings meso = load_meso(kFitted);
     Measurements measured;
-    for (const auto& [name, model] : {std::pair{"CTG", meso.constant_time}, {"CDG", meso.constant_distance}}) {
-        const auto set = [&](const char* quantity, double value) {
-            measured.set(fmt::format("{} {}", quantity, name), value);
-        };
-        set("krauss_decel", model.deceleration_mps2);
-        set("krauss_accel", model.acceleration_mps2);
-        set("krauss_tau", model.reaction_s);
-        set("krauss_min_gap", model.standstill_gap_m);
-        set("krauss_sigma", model.dawdling);
-    }
+    set_model(measured, "CTG", meso.constant_time);
+    set_model(measured, "CDG", meso.constant_distance);
     return measured;
 }
 

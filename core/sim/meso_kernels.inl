@@ -69,7 +69,8 @@ inline void gather(const MesoStreams& streams, MesoKernels::Lanes lanes, const M
     }
 }
 
-inline void follow(const Krauss& model, const MesoStep& step, const MesoGroup& group, int vehicles, int only) {
+template <bool power_limit>
+inline void follow_with(const Krauss& model, const MesoStep& step, const MesoGroup& group, int vehicles, int only) {
     const Krauss k = model;
     const MesoStep t = step;
     const double* __restrict const speed = group.speed;
@@ -81,19 +82,23 @@ inline void follow(const Krauss& model, const MesoStep& step, const MesoGroup& g
     const int* __restrict const id = group.id;
     const int* __restrict const policy = group.policy;
     double* __restrict const next = group.next;
+    const auto next_of = [&](int i) STOPLINE_INLINE_LAMBDA {
+        const KraussInput in{speed[i], gap[i], ahead[i], ahead_mps2[i], more[i], cap[i]};
+        return next_speed_mps<power_limit>(k, in, dawdle_uniform(t.key, id[i], t.tick), t.dt);
+    };
     if (only < 0) {
-        for (int i = 0; i < vehicles; ++i) {
-            const double random = dawdle_uniform(t.key, id[i], t.tick);
-            next[i] = next_speed_mps(k, {speed[i], gap[i], ahead[i], ahead_mps2[i], more[i], cap[i]}, random, t.dt);
-        }
+        for (int i = 0; i < vehicles; ++i) next[i] = next_of(i);
         return;
     }
     for (int i = 0; i < vehicles; ++i) {
-        const double random = dawdle_uniform(t.key, id[i], t.tick);
-        const double mine =
-            next_speed_mps(k, {speed[i], gap[i], ahead[i], ahead_mps2[i], more[i], cap[i]}, random, t.dt);
+        const double mine = next_of(i);
         next[i] = policy[i] == only ? mine : next[i];
     }
+}
+
+inline void follow(const Krauss& model, const MesoStep& step, const MesoGroup& group, int vehicles, int only) {
+    const auto loop = has_power_limit(model) ? follow_with<true> : follow_with<false>;
+    loop(model, step, group, vehicles, only);
 }
 
 inline void scatter(const MesoStreams& streams, MesoKernels::Lanes lanes, const MesoStep& step,
