@@ -42,7 +42,8 @@ std::string table_text(const Scorecard& scorecard) {
     for (const ScoredRow& row : scorecard.rows) {
         const bool claim = row.target.kind == "claim";
         const bool open = row.verdict == Verdict::open;
-        std::string ours = open ? "-" : row.ours;
+        std::string ours =
+            row.ours.empty() ? "-" : row.ours;  // some rows state no tolerance: both are shown, neither is judged
         if (claim && !open) ours = row.verdict == Verdict::inside ? "holds" : "fails";
         table.row({row.target.id, row.target.section, row.target.quantity, row.target.condition,
                    claim ? "claim" : row.target.value, ours, claim ? "" : row.target.unit, tolerance_text(row.target),
