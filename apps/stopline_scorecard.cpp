@@ -42,8 +42,7 @@ std::string table_text(const Scorecard& scorecard) {
     for (const ScoredRow& row : scorecard.rows) {
         const bool claim = row.target.kind == "claim";
         const bool open = row.verdict == Verdict::open;
-        std::string ours =
-            row.ours.empty() ? "-" : row.ours;  // some rows state no tolerance: both are shown, neither is judged
+        std::string ours = row.ours.empty() ? "-" : row.ours;
         if (claim && !open) ours = row.verdict == Verdict::inside ? "holds" : "fails";
         table.row({row.target.id, row.target.section, row.target.quantity, row.target.condition,
                    claim ? "claim" : row.target.value, ours, claim ? "" : row.target.unit, tolerance_text(row.target),

@@ -68,9 +68,7 @@ void full_dynamics(benchmark::State& state, bool scalar) {
         state.SetIterationTime(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
         updates += simulation.state().updates - before;
     }
-    state.counters["updates_per_s"] = benchmark::Counter(static_cast<double>(updates), benchmark::Counter::kIsRate);
-    state.counters[kCostCounter] =
-        benchmark::Counter(static_cast<double>(updates), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+    set_cost(state, updates);
 }
 
 void add(const char* kernels, int vehicles, int iterations) {
@@ -84,6 +82,12 @@ void add(const char* kernels, int vehicles, int iterations) {
 }
 
 }  // namespace
+
+void set_cost(benchmark::State& state, std::int64_t updates) {
+    state.counters["updates_per_s"] = benchmark::Counter(static_cast<double>(updates), benchmark::Counter::kIsRate);
+    state.counters[kCostCounter] =
+        benchmark::Counter(static_cast<double>(updates), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
 
 std::string benchmark_name(const std::string& kernels) { return "full_dynamics_100_steps/" + kernels; }
 

@@ -2,7 +2,10 @@
 // the light turned green.
 #pragma once
 
+#include <cstdint>
 #include <string>
+
+#include <benchmark/benchmark.h>
 
 namespace stopline {
 
@@ -12,6 +15,9 @@ inline constexpr const char* kCostCounter = "s_per_update";
 
 // Of the benchmarks with these kernels, without the number of vehicles.
 std::string benchmark_name(const std::string& kernels);
+
+// Counters of all benchmarks: updates a second, and the cost of one.
+void set_cost(benchmark::State& state, std::int64_t updates);
 
 void add_full_step_benchmarks();
 

@@ -25,12 +25,6 @@ Model intersection_model() {
     return build_model(load_scenario(data_directory() / "../scenarios/intersection.yaml", {"fidelity=meso"}), 0);
 }
 
-void set_cost(benchmark::State& state, std::int64_t updates) {
-    state.counters["updates_per_s"] = benchmark::Counter(static_cast<double>(updates), benchmark::Counter::kIsRate);
-    state.counters[kCostCounter] =
-        benchmark::Counter(static_cast<double>(updates), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
-}
-
 // The car-following equation alone, over arrays: speeds of the next step from gaps and speeds of this one.
 void following(benchmark::State& state, bool scalar) {
     const Model model = intersection_model();

@@ -1,6 +1,7 @@
 #include "common/intersection_text.h"
 
 #include <fmt/format.h>
+#include <cmath>
 
 #include "common/text_table.h"
 
@@ -21,7 +22,7 @@ std::string intersection_text(const IntersectionReport& report) {
         std::vector<std::string> row{f.population, fmt::format("{:.0f}", f.throughput_veh_h),
                                      gain == gain ? fmt::format("{:.0f}", gain) : "-"};
         for (const ZoneFigures& zone : f.zones) row.push_back(fmt::format("{:.1f}", zone.travel_time_s));
-        const bool known = f.discharge.lost_time_s == f.discharge.lost_time_s;  // greens of more than four vehicles
+        const bool known = !std::isnan(f.discharge.lost_time_s);  // greens of more than four vehicles
         for (const std::string& cell :
              {fmt::format("{:.1f}", 100.0 * f.occupied), fmt::format("{:.0f}", f.vehicles_present),
               fmt::format("{:.2f}", f.discharge.vehicles_per_green),

@@ -83,8 +83,8 @@ struct MesoSettings {
     double speed_factor = 1.0;              // of every limit
     double speed_gain_1ps = 1000;           // acceleration towards a limit, a second and m/s below it
     double turn_gain_1ps = 1000;            // the same towards the speed allowed on the way to a turn
-    double leader_mps2 = 0.0;               // acceleration of platoon leaders, ...
-    double leader_until_mps = 500.0 / 3.6;  // ... and the speed up to which it is available; 0: both as the model says
+    double leader_mps2 = 0.0;               // acceleration of platoon leaders (0: as the model says), ...
+    double leader_until_mps = 500.0 / 3.6;  // ... and the speed up to which it is available
     double start_delay_s = 0.0;  // by which the first vehicle at a stop line sets out later: what the powertrain takes
     KraussSettings constant_time;
     KraussSettings constant_distance;

@@ -10,6 +10,8 @@
 //
 //   v' = min(v_safe, v + a(v) dt, cap),  v <- max(0, v' - sigma dt xi min(v', a 1 s)),  x <- x + v dt
 //
+// Where the predecessor accelerates with a_l, v_l + T a_l stands for v_l (T: anticipation; 0 in the paper's models).
+//
 // a(v) = a min(1, v_p / v): constant power beyond the speed v_p. The paper's models have none (v_p beyond all limits). xi is
 // uniform in [0, 1); slow vehicles dawdle less, so that nobody is kept from starting (as in SUMO). Policies with a gap
 // that grows above a switching speed (SWITCH) are the variant with s_0 raised by what the policy adds at the own speed.

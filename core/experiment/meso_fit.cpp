@@ -140,9 +140,9 @@ std::vector<double> start_values(std::vector<double> values, const std::vector<s
 
 }  // namespace
 
-// Nobody brakes harder than 7 m/s2, what brakes give on a dry road; without a reaction time 5 m/s2 are what a vehicle reaches in time for
-// a stop line. Nobody anticipates more than a step of 100 ms: beyond it policies whose gap grows with the speed swing. s_0 of the models with a time gap is what the policy says, and
-// not fitted: a queue is as long in either mode. In equation (1) s_0 and s_t share it.
+// Nobody brakes harder than 7 m/s2, what brakes give on a dry road; without a reaction time 5 m/s2 are what a vehicle reaches
+// in time for a stop line. Nobody anticipates more than a step of 100 ms: beyond it policies whose gap grows with the speed
+// swing. s_0 of the models with a time gap is what the policy says, and not fitted; in equation (1) s_0 and s_t share it.
 const std::vector<FitParameter>& fit_parameters() {
     using S = MesoSettings;
     static const std::vector<FitParameter> kAll{

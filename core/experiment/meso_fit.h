@@ -16,7 +16,8 @@
 
 namespace stopline {
 
-// start_delay and the leaders' acceleration, which all vehicles share and which are fitted with the models with a time gap; then a, v_p, b, tau, sigma of either model, s_0, s_t and d.
+// start_delay and the leaders' acceleration, which all vehicles share and which are fitted with the models with a time gap;
+// then a, v_p, b, tau, sigma of either model, s_0, s_t and d, and what was added to the models.
 struct FitParameter {
     const char* name;  // path within MesoSettings, as in a file
     const char* unit;

@@ -29,7 +29,7 @@ struct ScorecardOptions {
 struct Experiment {
     const char* name;      // of its file in the folder of measurements
     const char* scenario;  // file in scenarios/ without .yaml
-    bool runs;             // false: it reads the scenario only, and there is nothing worth keeping
+    bool runs;             // false: it reads files only, or keeps its runs itself
     Measurements (*measure)(const Scenario& scenario, const ScorecardOptions& options);
 };
 

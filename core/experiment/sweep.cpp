@@ -79,16 +79,17 @@ bool overlap(const std::string& a, const std::string& b) {
 
 // One would undo what the other sets, and the table would name values that were not run.
 void refuse_axes_within_axes(const SweepSettings& settings) {
-    for (std::size_t k = 0; k < settings.axes.size(); ++k) {
-        for (std::size_t other = 0; other < k; ++other) {
-            for (const std::string& path : settings.axes[k].paths) {
-                for (const std::string& before : settings.axes[other].paths) {
-                    if (!overlap(path, before)) continue;
-                    throw InputError(fmt::format("{}: the axes '{}' and '{}' both change '{}': make them one axis",
-                                                 settings.name, settings.axes[other].name, settings.axes[k].name,
-                                                 path.size() < before.size() ? before : path));
-                }
+    std::vector<std::pair<std::string, std::string>> before;  // path, axis
+    for (const SweepAxis& axis : settings.axes) {
+        for (const std::string& path : axis.paths) {
+            const auto same = std::find_if(before.begin(), before.end(), [&](const auto& other) {
+                return other.second != axis.name && overlap(path, other.first);
+            });
+            if (same != before.end()) {
+                throw InputError(fmt::format("{}: the axes '{}' and '{}' both change '{}': make them one axis",
+                                             settings.name, same->second, axis.name, std::max(path, same->first)));
             }
+            before.emplace_back(path, axis.name);
         }
     }
 }

@@ -177,8 +177,8 @@ void add_step(const Means& means, double green_s, const std::string& population,
     const double percent = 100.0 * (*after / *before - 1.0);
     if (percent <= orders.largest_rise_percent) return;
     orders.largest_rise_percent = percent;
-    orders.largest_rise = fmt::format("{}, green {:g} s, left {:g} %, right {:g} to {:g} %", population, green_s,
-                                      to.left, from.right, to.right);
+    orders.largest_rise = fmt::format("{}, green {:g} s, left/right {:g}/{:g} to {:g}/{:g} %", population, green_s,
+                                      from.left, from.right, to.left, to.right);
 }
 
 }  // namespace
