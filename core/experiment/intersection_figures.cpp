@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -90,12 +92,15 @@ Figure intersection_picture(const IntersectionReport& report, std::size_t popula
     return figure;
 }
 
-Figure headway_figure(const IntersectionReport& report) {
+namespace {
+
+// None where no position has samples enough.
+std::optional<Figure> headway_figure(const IntersectionReport& report) {
     constexpr int kEnough = 8;  // samples behind a point
     Figure figure;
     figure.name = "headways";
     std::string plots;
-    double last = 1.0;
+    double last = 0.0;
     for (std::size_t k = 0; k < report.populations.size(); ++k) {
         const IntersectionFigures& f = report.populations[k];
         std::string text = "# position headway_s\n";
@@ -113,12 +118,15 @@ Figure headway_figure(const IntersectionReport& report) {
                              ordered_colour(k, report.populations.size()), line_style(k).hollow_point,
                              gnuplot_text(f.population));
     }
+    if (last == 0.0) return std::nullopt;
     figure.body = fmt::format(
         "set title 'Mean headway by position in the queue'\nset xlabel 'position in the queue (1: from the start of green)'\nset "
         "ylabel 'headway at the stop line [s]'\nset xrange [0.5:{:.6g}]\nset yrange [0:*]\nset key outside right\nplot {}\n",
         last + 0.5, plots);
     return figure;
 }
+
+}  // namespace
 
 std::vector<Figure> intersection_figures(const IntersectionReport& report) {
     const std::vector<PopulationSettings>& all = report.scenario.populations;
@@ -133,7 +141,9 @@ std::vector<Figure> intersection_figures(const IntersectionReport& report) {
             mixed = k;
         }
     }
-    return {intersection_picture(report, mixed), headway_figure(report)};
+    std::vector<Figure> figures{intersection_picture(report, mixed)};
+    if (std::optional<Figure> headways = headway_figure(report)) figures.push_back(*std::move(headways));
+    return figures;
 }
 
 }  // namespace stopline

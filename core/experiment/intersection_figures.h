@@ -11,9 +11,7 @@ namespace stopline {
 // The network to scale with the vehicles of one population at `picture_s`, coloured by policy.
 Figure intersection_picture(const IntersectionReport& report, std::size_t population);
 
-Figure headway_figure(const IntersectionReport& report);
-
-// Both; the picture is of the population with most policies.
+// The picture, of the population with most policies, and the headways by position in the queue where there were enough.
 std::vector<Figure> intersection_figures(const IntersectionReport& report);
 
 }  // namespace stopline

@@ -57,6 +57,9 @@ refused_text "NUL byte" 'title: a\0b\n' "bad.yaml:1:9" "0x00"
 refused_text "broken UTF-8" 'title: \xc3\x28\n' "bad.yaml:1:8" "0xC3"
 refused_text "no queue fits" 'network: {approach: {length: 50 m}}\n' "'network.approach.length'" "a queue of 60 vehicles"
 
+refused_text "name of the folder above" 'populations: [{name: .., components: [{policy: CDG, share: 100 %}]}]\n' \
+    "'populations[0].name'" "'..' cannot be used as a name"
+
 laughs='a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n'
 for i in 1 2 3 4 5 6 7 8 9; do
     below="*a$((i - 1))"
@@ -69,6 +72,9 @@ head -c 104857600 /dev/urandom >"$work/garbage.yaml"
 refused "100 MB of garbage" "garbage.yaml" "100.0 MB" -- "$work/garbage.yaml"
 head -c 1000000 "$work/garbage.yaml" >"$work/small_garbage.yaml"
 refused "1 MB of garbage" "small_garbage.yaml" -- "$work/small_garbage.yaml"
+
+refused "shorter than a cycle" "'duration'" "not a whole cycle" -- \
+    "$STOPLINE_SOURCE/scenarios/intersection.yaml" --set 'duration=10 s'
 
 refused "directory" "is a directory" -- "$work"
 refused "missing file" "no such file" -- "$work/none.yaml"

@@ -110,6 +110,38 @@ TEST(Emergency, BrakesEnoughOrNotAtAll) {
     }
 }
 
+TEST(KeepRoom, IsMonotone) {
+    const CaccSettings cacc = shipped().cacc;
+    for (const double v : kSpeeds) {
+        for (const double a_p : kAccelerations) {
+            const auto answer = [&](double gap, double closing) {
+                return keep_room_acceleration<double>(cacc, v, {gap, closing, a_p, 0.0, 4.0});
+            };
+            expect_monotone(answer, "keeping room at " + std::to_string(v));
+        }
+    }
+}
+
+// Two vehicles that brake alike, from where the law begins to ask for something: the one behind just touches.
+TEST(KeepRoom, BeginsWhereBrakingAlikeWouldJustBeEnough) {
+    const CaccSettings c = shipped().cacc;
+    const double b = c.deceleration_emergency_mps2;
+    for (double v_p = 0.0; v_p < 15.0; v_p += 1.0) {
+        for (double closing = 0.25; closing < 6.0; closing += 0.25) {
+            const double v = v_p + closing;
+            const double room_m = (v * v - v_p * v_p) / (2.0 * b);
+            if (room_m < 0.1) continue;  // less than 0.05 m does not count as less
+            const double just_m = room_m + c.radar_delay_s * closing + c.emergency_gap_m;
+            const auto answer = [&](double gap_m) {
+                return keep_room_acceleration<double>(c, v, {gap_m, closing, 1.0, 1.0, 4.0});
+            };
+            EXPECT_GT(answer(just_m + 0.01), 100.0) << v << ' ' << closing;
+            EXPECT_LT(answer(just_m - 0.01), -0.9 * b * closing / v) << v << ' ' << closing;
+            EXPECT_GE(answer(0.0), -b);
+        }
+    }
+}
+
 TEST(Stop, IsMonotoneInDistanceAndSpeed) {
     const DriverTables d = shipped();
     const std::vector<double> distances{-1.0, -1e-9, 0.0, 1e-9, 0.01, 0.1, 1.0, 5.0, 20.0, 100.0, 1e6};
@@ -141,6 +173,7 @@ TEST(EveryAnswer, IsFinite) {
                             follow_acceleration<double>(d.cacc, 1.0, 1.0 / rate, rate, -1.0, 3.0, slope, p, 0.01);
                         ASSERT_TRUE(std::isfinite(follow)) << gap << ' ' << closing << ' ' << rate << ' ' << slope;
                         ASSERT_TRUE(std::isfinite(emergency_acceleration(d.cacc, v, p)));
+                        ASSERT_TRUE(std::isfinite(keep_room_acceleration(d.cacc, v, p)));
                     }
                 }
             }

@@ -160,6 +160,21 @@ TEST_P(SlowIntersection, NobodyIsInAnothersWayAndNobodyIsStuck) {
     EXPECT_LT(figures.zones[0].travel_time_s, 12.0 * 2.0 * (GetParam().green_s + 8.0));
 }
 
+// Platoons of CDG that turners slow down and the yellow cuts: here the vehicle behind once was 1.2 m away and closing.
+TEST(RightOfWay, PlatoonsCutOnYellowDoNotCollide) {
+    std::vector<std::string> overrides = turning(10, 20);
+    for (const char* more : {"network.intersection.lanes=[{movements: straight+left+right}]", "signal.green=22 s",
+                             "signal.all_red=2 s", "seed=2"}) {
+        overrides.emplace_back(more);
+    }
+    const Scenario scenario = reference(overrides);
+    const Model model = build_model(scenario, scenario.populations.size() - 1);
+    Simulation simulation(model);
+    while (simulation.time_s() < 180.0) simulation.step();
+    EXPECT_TRUE(simulation.state().violations.none());
+    EXPECT_EQ(simulation.state().violations.overlaps, 0);
+}
+
 TEST(RightOfWay, EveryArmPassesTheSameWithoutTurns) {
     const Scenario scenario = reference();
     const Model model = build_model(scenario, 6);
