@@ -19,7 +19,8 @@ struct DemandPlan {
     };
     std::vector<Inlet> inlets;  // entries, then links
     double entry_speed_mps = 0.0;
-    double entry_headway_s = 2.0;  // at least, between two fronts at the entry
+    double entry_headway_s = 2.0;  // at least, between two fronts at the entry; on average, ...
+    bool evenly = false;           // ... where vehicles arrive evenly and wait outside while there is no room
     // Inlets never run dry: each vehicle enters as part of an endless platoon, in the gap of its policy and with the speed of
     // the vehicle ahead.
     bool saturated = false;

@@ -41,11 +41,13 @@ double share_of(const Scenario& scenario, const Model& model, const Route& route
     const auto possible = [&](Turn turn) {
         return std::any_of(ways.begin(), ways.end(), [&](int lane) { return graph.lanes[at(lane)].turn == turn; });
     };
-    double left = possible(Turn::left) ? scenario.demand.left : 0.0;
-    if (!possible(Turn::straight)) left = 1.0 - scenario.demand.right;
+    const bool crosses = scenario.demand.cross_turns == "own" && graph.lanes[at(route.lanes[0])].signal_group % 2 == 1;
+    const double right = crosses ? scenario.demand.cross_right : scenario.demand.right;
+    double left = !possible(Turn::left) ? 0.0 : crosses ? scenario.demand.cross_left : scenario.demand.left;
+    if (!possible(Turn::straight)) left = 1.0 - right;
     if (own == Turn::left) return left;
-    if (own == Turn::right) return possible(Turn::straight) ? scenario.demand.right : 1.0 - left;
-    return 1.0 - left - (possible(Turn::right) ? scenario.demand.right : 0.0);
+    if (own == Turn::right) return possible(Turn::straight) ? right : 1.0 - left;
+    return 1.0 - left - (possible(Turn::right) ? right : 0.0);
 }
 
 DemandPlan::Inlet inlet_of(const Scenario& scenario, const Model& model, int lane, std::int64_t vehicles) {
@@ -86,8 +88,15 @@ void add_demand(const Scenario& scenario, Model& model) {
     model.demand.route_pattern =
         scenario.demand.order == "random" ? DemandPlan::Pattern::random : DemandPlan::Pattern::balanced;
     const std::int64_t vehicles =
-        model.demand.saturated ? std::numeric_limits<std::int64_t>::max() : scenario.demand.vehicles;
+        scenario.demand.kind == "queue" ? scenario.demand.vehicles : std::numeric_limits<std::int64_t>::max();
     const LaneGraph& graph = model.graph;
+    if (scenario.demand.kind == "rate") {
+        const IntersectionSettings& layout = scenario.network.intersection;
+        const int lanes = scenario.network.has_intersections() ? static_cast<int>(layout.lanes.size())
+                                                               : scenario.network.approach.lanes;
+        model.demand.entry_headway_s = lanes / scenario.demand.inflow_1ps;
+        model.demand.evenly = true;
+    }
     for (const int entry : graph.entries) {
         const bool used = enters(scenario.demand, graph.lanes[at(entry)].name);
         model.demand.inlets.push_back(inlet_of(scenario, model, entry, used ? vehicles : 0));
@@ -118,6 +127,26 @@ void add_counters(const Scenario& scenario, int lane, Model& model) {
     if (entry) return;
     model.detectors.push_back({lane, scenario.vehicle.length_m, Detector::Kind::exit});
     if (road.signal_group >= 0) model.detectors.push_back({lane, 0.5 * road.stop_line_m, Detector::Kind::middle});
+}
+
+void add_ways_in(Model& model) {
+    model.leads_to.resize(model.graph.lanes.size());
+    for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {
+        if (model.graph.lanes[at(lane)].origin < 0) continue;
+        model.leads_to[at(model.graph.lanes[at(lane)].next[0])].push_back(lane);
+    }
+}
+
+void add_rules(const Scenario& scenario, Model& model) {
+    const SignalSettings& signal = scenario.signal;
+    const HindranceRules& rules = scenario.rules;
+    const double green_s = std::max(signal.green_of_s(0), signal.green_of_s(1));
+    model.rules.keep_clear = rules.keep_clear == "on";
+    model.rules.sight_m = rules.sight_m;
+    model.rules.teleport_ticks = to_ticks(rules.teleport_cycles * signal.both_stages_s(), model.step_s);
+    model.rules.pass_blocker_ticks = to_ticks(rules.pass_blocker_greens * green_s, model.step_s);
+    const bool needs_watch = model.rules.teleport_ticks > 0 || model.rules.pass_blocker_ticks > 0;
+    model.rules.watch_ticks = needs_watch ? std::max<std::int64_t>(to_ticks(1.0, model.step_s), 1) : 0;
 }
 
 void add_detectors(const Scenario& scenario, Model& model) {
@@ -181,6 +210,8 @@ Model build_model(const Scenario& scenario, std::size_t population) {
         model.v2v = make_delay(model.step_s, model.step_s);
     }
     model.give_way = scenario.driver.give_way;
+    add_ways_in(model);
+    if (scenario.network.has_intersections()) add_rules(scenario, model);
     add_detectors(scenario, model);
     add_policies(scenario, scenario.populations.at(population), model);
     add_demand(scenario, model);

@@ -132,9 +132,7 @@ double road_m(const Scenario& scenario, const Model& model) {
     return static_cast<double>(model.graph.entries.size()) * lane_m;
 }
 
-double cycle_of(const Scenario& scenario) {
-    return 2.0 * (scenario.signal.green_s + scenario.signal.yellow_s + scenario.signal.all_red_s);
-}
+double cycle_of(const Scenario& scenario) { return scenario.signal.both_stages_s(); }
 
 }  // namespace
 
@@ -160,10 +158,8 @@ IntersectionFigures run_intersection(const Scenario& scenario, std::size_t popul
     figures.complete = true;
     Sampler sampler(model, figures.window);
     const std::int64_t last = to_ticks(figures.window.to_s, model.step_s);
-    const double stage_s = scenario.signal.green_s + scenario.signal.yellow_s + scenario.signal.all_red_s;
-    const double green_s = (model.graph.signal_groups - 1) * stage_s;  // of the last group, within a cycle
-    const std::int64_t picture =
-        to_ticks(figures.window.from_s + green_s + 0.5 * scenario.signal.green_s, model.step_s);
+    const double second_s = figures.window.from_s + scenario.signal.stage_s(0);  // green of the streets that cross
+    const std::int64_t picture = to_ticks(second_s + 0.5 * scenario.signal.green_of_s(1), model.step_s);
     while (simulation.state().tick < last) {
         if (on_step && !on_step(simulation)) {
             figures.complete = false;

@@ -154,6 +154,28 @@ const Table& driver_table() {
     return table;
 }
 
+const Table& rules_table() {
+    using S = HindranceRules;
+    static const Table table =
+        make_table<S>("rules that keep traffic going where queues reach back into intersections",
+                      {
+                          choice<&S::keep_clear>(
+                              "keep_clear", {"off", "on"},
+                              "nobody passes the stop line unless there is room behind the last vehicle that stands "
+                              "in the exit"),
+                          number<&S::sight_m>("sight", "m", {1, 10'000}, "how far into the exit drivers look for that"),
+                          number<&S::teleport_cycles>(
+                              "teleport_cycles", "", {0, 1000},
+                              "the first vehicle of a lane that has stood for this many cycles is moved on past "
+                              "the intersection; 0: never"),
+                          number<&S::pass_blocker_greens>(
+                              "pass_blocker_greens", "", {0, 1000},
+                              "who has stood inside an intersection for this many greens no longer holds up "
+                              "those that cross; 0: never"),
+                      });
+    return table;
+}
+
 const Table& gap_policy_table() {
     using S = GapPolicySettings;
     static const Table table = make_table<S>(

@@ -112,6 +112,10 @@ const Table& signal_table() {
             number<&SignalSettings::first_green_s>("first_green", "s", {0, 7200},
                                                    "start of the first green; red until then, so that a queue forms"),
             number<&SignalSettings::green_s>("green", "s", {0.1, 7200}, "green time"),
+            number<&SignalSettings::cross_green_s>(
+                "cross_green", "s", {0, 7200},
+                "intersections: green time of the streets from south to north; 0 s: as "
+                "green"),
             number<&SignalSettings::yellow_s>("yellow", "s", {0, 60}, "yellow after green"),
             number<&SignalSettings::all_red_s>("all_red", "s", {0, 600}, "all approaches red after yellow"),
             number<&SignalSettings::offset_s>("offset", "s", {0, 7200},
@@ -128,17 +132,26 @@ const Table& demand_table() {
     static const Table table = make_table<DemandSettings>(
         "the traffic that enters",
         {
-            choice<&DemandSettings::kind>("kind", {"queue", "saturated"},
+            choice<&DemandSettings::kind>("kind", {"queue", "saturated", "rate"},
                                           "queue: `vehicles` a lane enter as soon as there is room, then none; "
-                                          "saturated: inlets never run dry"),
+                                          "saturated: inlets never run dry; rate: `inflow` an arm"),
             texts<&DemandSettings::arms>("arms", TextField::Rule::name, {0, 1000},
                                          "where vehicles enter: how the names of lanes to an intersection begin, such "
                                          "as south or c1r0_south; none: wherever the network begins")
                 .fallback("[]"),
             whole<&DemandSettings::vehicles>("vehicles", {1, 100'000}, "vehicles a lane").only("kind", {"queue"}),
+            number<&DemandSettings::inflow_1ps>("inflow", "veh/h", {1, 100'000},
+                                                "vehicles that arrive on an arm, evenly in time and over its lanes")
+                .only("kind", {"rate"}),
             number<&DemandSettings::entry_speed_mps>("entry_speed", "km/h", {0, 150}, "speed on entering"),
             number<&DemandSettings::right>("right", "%", {0, 100}, "turning right, on lanes where others go elsewhere"),
             number<&DemandSettings::left>("left", "%", {0, 100}, "turning left, on lanes where others go elsewhere"),
+            choice<&DemandSettings::cross_turns>("cross_turns", {"alike", "own"},
+                                                 "turns from streets from south to north; alike: as right and left"),
+            number<&DemandSettings::cross_right>("cross_right", "%", {0, 100}, "turning right from those streets")
+                .only("cross_turns", {"own"}),
+            number<&DemandSettings::cross_left>("cross_left", "%", {0, 100}, "turning left from those streets")
+                .only("cross_turns", {"own"}),
             choice<&DemandSettings::order>("order", {"balanced", "random"},
                                            "order of the turns; balanced: shares hold in every 20 vehicles of a lane"),
             choice<&DemandSettings::start>(

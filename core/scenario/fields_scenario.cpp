@@ -99,8 +99,8 @@ void check_queue(const Scenario& scenario, Checker& check) {
 
 void check_intersection(const Scenario& scenario, Checker& check) {
     const IntersectionSettings& layout = scenario.network.intersection;
-    const double stage_s = scenario.signal.green_s + scenario.signal.yellow_s + scenario.signal.all_red_s;
-    const double shortest_s = scenario.signal.first_green_s + 2.0 * (scenario.measure.warmup_cycles + 1) * stage_s;
+    const double cycle_s = scenario.signal.both_stages_s();
+    const double shortest_s = scenario.signal.first_green_s + (scenario.measure.warmup_cycles + 1) * cycle_s;
     if (scenario.duration_s != 0.0 && scenario.duration_s < shortest_s) {
         check.error("duration", "not a whole cycle is left to measure after first_green and warmup_cycles: at least " +
                                     short_text(shortest_s, unit("s")));
@@ -167,6 +167,12 @@ const Table& measure_table() {
                                                            "intersections: radii within which travel time and density "
                                                            "are measured; the first is the one that is reported",
                                                            false),
+                                number<&S::outside_m>("outside", "m", {0, 10'000},
+                                                      "grids: measured is what lies within this distance of the outer "
+                                                      "intersections' stop lines"),
+                                number<&S::interval_s>("interval", "s", {1, 86'400}, "grids: step of the time series"),
+                                number<&S::steady_s>("steady", "s", {1, 1'000'000},
+                                                     "grids: figures are means over this long, to the end of the run"),
                             });
     return table;
 }
@@ -190,6 +196,7 @@ const Table& scenario_table() {
             section<&S::demand>("demand", demand_table, "the traffic that enters"),
             section<&S::vehicle>("vehicle", vehicle_table, "the vehicles", "vehicles").fallback("petrol_eu4_72kw"),
             section<&S::driver>("driver", driver_table, "the drivers", "drivers").fallback("startup_kit"),
+            section<&S::rules>("rules", rules_table, "what drivers do where queues block intersections"),
             section<&S::meso>("meso", meso_table, "the mesoscale mode", "meso").fallback("table2"),
             list<&S::policies>("policies", gap_policy_table, {0, 1000},
                                "own spacing policies, beside those of data/policies/paper.yaml", "policies/paper")

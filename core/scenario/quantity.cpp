@@ -31,6 +31,7 @@ constexpr std::array kDimensionNames{
     DimensionName{Dimension::rate, "rate"},
     DimensionName{Dimension::rate_squared, "squared rate"},
     DimensionName{Dimension::time_per_length, "time per length"},
+    DimensionName{Dimension::flow, "flow of vehicles"},
 };
 
 std::string_view trimmed(std::string_view text) {
@@ -127,6 +128,8 @@ const std::vector<Unit>& units() {
         {"1/s^2", Dimension::rate_squared},
         {"1/s²", Dimension::rate_squared},
         {"s/m", Dimension::time_per_length},
+        {"veh/s", Dimension::flow},
+        {"veh/h", Dimension::flow, 1.0, 3600.0},
     };
     return all;
 }

@@ -23,6 +23,7 @@ enum class Dimension {
     rate,             // 1/s
     rate_squared,     // 1/s2
     time_per_length,  // s/m
+    flow,             // vehicles/s
 };
 
 struct Unit {

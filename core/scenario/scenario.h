@@ -7,6 +7,7 @@
 
 #include "demand/demand_settings.h"
 #include "driver/driver_settings.h"
+#include "driver/hindrance_rules.h"
 #include "network/network_settings.h"
 #include "signals/signal_settings.h"
 #include "vehicle/powertrain_settings.h"
@@ -20,6 +21,11 @@ struct MeasureSettings {
     int warmup_cycles = 1;
     int cycles = 5;
     std::vector<double> zone_radius_m = {};
+    // Grids: what lies within this distance of the outer intersections' stop lines is measured; series are taken in steps of
+    // `interval_s`; figures are means over the last `steady_s` of the run.
+    double outside_m = 20.0;
+    double interval_s = 60.0;
+    double steady_s = 18000.0;
 };
 
 struct Scenario {
@@ -36,6 +42,7 @@ struct Scenario {
     std::string driver_name;   // file stem in data/drivers
     PowertrainSettings vehicle;
     DriverSettings driver;
+    HindranceRules rules;
     MesoSettings meso;
     std::vector<GapPolicySettings> policies;      // all named policies that may be used
     std::vector<PopulationSettings> populations;  // one run each

@@ -53,12 +53,16 @@ GroupProgramme make_single_light(const SignalSettings& s, double step_s) {
 }
 
 std::vector<GroupProgramme> make_stages(const SignalSettings& settings, int groups, double step_s) {
-    const double stage_s = settings.green_s + settings.yellow_s + settings.all_red_s;
+    double cycle_s = 0.0;
+    for (int group = 0; group < groups; ++group) cycle_s += settings.stage_s(group);
     std::vector<GroupProgramme> programmes;
+    double begin_s = settings.first_green_s;
     for (int group = 0; group < groups; ++group) {
         SignalSettings own = settings;
-        own.first_green_s += group * stage_s;
-        own.cycle_s = groups * stage_s;
+        own.first_green_s = begin_s;
+        own.green_s = settings.green_of_s(group);
+        own.cycle_s = cycle_s;
+        begin_s += settings.stage_s(group);
         programmes.push_back(make_single_light(own, step_s));
     }
     return programmes;

@@ -31,9 +31,11 @@ void watch_detectors(const Model& model, State& state) {
         for (; upstream > 0; --upstream) {
             const int slot = block.stop() - upstream;
             if (v.position_m[at(slot)] < detector.position_m) break;
-            state.crossings.push_back({passing_time_s(model, state, slot, detector.position_m), v.id[at(slot)],
-                                       v.policy[at(slot)], static_cast<int>(k),
-                                       static_cast<float>(v.speed_mps[at(slot)]), v.length_m[at(slot)]});
+            const bool recorded = model.records_all || detector.kind == Detector::Kind::zone;
+            if (recorded)
+                state.crossings.push_back({passing_time_s(model, state, slot, detector.position_m), v.id[at(slot)],
+                                           v.policy[at(slot)], static_cast<int>(k),
+                                           static_cast<float>(v.speed_mps[at(slot)]), v.length_m[at(slot)]});
             if (detector.kind == Detector::Kind::stop_line) pass_stop_line(model, state, detector.lane, slot);
         }
     }

@@ -124,8 +124,8 @@ void gather(const FullStreams& streams, const Rows& radar_rows, const Rows& v2v_
         for_each_batch<R>(lane, [&](auto number, int i) STOPLINE_INLINE_LAMBDA {
             gather_at<decltype(number)>(s, radar, v2v, lane, i, i + to_place, g);
         });
-        for (const auto& [slot, asks] : {std::pair(lane.stop_slot, lane.stop_asks), {lane.hold_slot, lane.hold_asks}}) {
-            if (slot < 0) continue;
+        for (int n_imposed = 0; n_imposed < lane.imposed_count; ++n_imposed) {
+            const auto [slot, asks] = lane.imposed[static_cast<std::size_t>(n_imposed)];
             float& imposed = g.imposed[slot + to_place];
             imposed = std::min(imposed, static_cast<float>(asks));
         }

@@ -1,5 +1,6 @@
 // The scalar part of a step, at the heads of lanes: who stops at the line, and what the first vehicle sees beyond it.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/arithmetic.h"
@@ -48,6 +49,71 @@ bool line_is_open(const Model& model, const State& state, const Lane& lane, cons
            state.tick >= model.signals[at(lane.signal_group)].since(state.tick) + model.hesitation_ticks;
 }
 
+// Room that one exit of an intersection still has.
+struct ExitRoom {
+    int inside = -1;      // lane that leads to it
+    double room_m = 1e9;  // before the last vehicle that stands within sight, less what those on their way there need
+    int standing = -1;    // its slot
+};
+
+double needs_m(const VehicleArrays& v, int slot) {
+    return static_cast<double>(v.length_m[at(slot)]) + static_cast<double>(v.standstill_gap_m[at(slot)]);
+}
+
+ExitRoom look_into_exit(const Model& model, const State& state, int inside) {
+    constexpr double kStands_mps = 0.1;
+    const VehicleArrays& v = state.vehicles;
+    const int exit = model.graph.lanes[at(inside)].next[0];
+    const LaneBlock& block = state.blocks[at(exit)];
+    ExitRoom room;
+    room.inside = inside;
+    double moving_m = 0.0;
+    for (int slot = block.last(); slot >= block.first; --slot) {
+        const double rear_m = v.position_m[at(slot)] - static_cast<double>(v.length_m[at(slot)]);
+        if (rear_m > model.rules.sight_m) return room;
+        if (v.speed_mps[at(slot)] < kStands_mps) {
+            room.standing = slot;
+            room.room_m = rear_m - moving_m;
+            break;
+        }
+        moving_m += needs_m(v, slot);
+    }
+    if (room.standing < 0) return room;
+    for (const int other : model.leads_to[at(exit)]) {
+        const LaneBlock& inner = state.blocks[at(other)];
+        for (int slot = inner.first; slot < inner.stop(); ++slot) room.room_m -= needs_m(v, slot);
+    }
+    return room;
+}
+
+// The first vehicle that finds no room in its exit and can stop comfortably; -1: none.
+int keep_clear(const Model& model, State& state, int index) {
+    constexpr std::size_t kMostWays = 8;
+    constexpr double kDecides_m = 80.0;  // before the stop line, at most
+    const VehicleArrays& v = state.vehicles;
+    const Lane& lane = model.graph.lanes[at(index)];
+    const LaneBlock& block = state.blocks[at(index)];
+    std::array<ExitRoom, kMostWays> ways;
+    std::size_t known = 0;
+    for (int slot = block.first; slot < block.stop(); ++slot) {
+        if (v.position_m[at(slot)] < lane.stop_line_m - kDecides_m) break;
+        const int inside = v.next_lane[at(slot)];
+        std::size_t way = 0;
+        while (way < known && ways[way].inside != inside) ++way;
+        if (way == known) {
+            if (known == kMostWays) break;
+            ways[known++] = look_into_exit(model, state, inside);
+        }
+        ExitRoom& room = ways[way];
+        room.room_m -= needs_m(v, slot);
+        if (room.room_m >= 0.0 || v.position_m[at(slot)] > lane.stop_line_m) continue;
+        if (!can_stop(model, v, slot, lane.stop_line_m, model.driver.cacc.deceleration_comfort_mps2)) continue;
+        state.exit_full[at(index)] = room.standing;
+        return slot;
+    }
+    return -1;
+}
+
 }  // namespace
 
 void read_signals(const Model& model, State& state) {
@@ -66,12 +132,14 @@ void find_occupied_lanes(const Model& model, State& state) {
 void decide_stops(const Model& model, State& state) {
     for (const int index : state.occupied) {
         const Lane& lane = model.graph.lanes[at(index)];
+        state.exit_full[at(index)] = -1;
         if (lane.signal_group < 0) continue;
         StopLineState& line = state.stop_lines[at(index)];
         const LaneBlock& block = state.blocks[at(index)];
         int stop_slot = -1;
         if (line_is_open(model, state, lane, line)) {
             line.stopper = -1;
+            if (model.rules.keep_clear) stop_slot = keep_clear(model, state, index);
         } else {
             if (line.stopper >= 0) stop_slot = slot_of(state.vehicles, block, line.stopper);
             if (stop_slot < 0) {
@@ -201,15 +269,16 @@ LaneStep lane_step(const Model& model, const State& state, int lane) {
     step.turn_m = road.signal_group >= 0 ? road.stop_line_m : road.length_m;
     step.limit_mps = road.limit_mps;
     step.sine = state.sine[at(lane)];
-    step.stop_slot = state.stop_slot[at(lane)];
-    step.hold_slot = state.hold_slot[at(lane)];
-    const auto asks = [&](int slot, double place_m) {
+    const auto impose = [&](int slot, double place_m) {
         const double room_m = place_m - state.vehicles.position_m[at(slot)];
-        return model.meso ? stopping_speed_mps(model, state.vehicles, slot, room_m)
-                          : stop_at_line_mps2(model.driver, state.vehicles.speed_mps[at(slot)], room_m);
+        const double asks = model.meso ? stopping_speed_mps(model, state.vehicles, slot, room_m)
+                                       : stop_at_line_mps2(model.driver, state.vehicles.speed_mps[at(slot)], room_m);
+        step.imposed[at(step.imposed_count++)] = {slot, asks};
     };
-    if (step.stop_slot >= 0) step.stop_asks = asks(step.stop_slot, road.stop_line_m - model.driver.stop.margin_m);
-    if (step.hold_slot >= 0) step.hold_asks = asks(step.hold_slot, state.hold_m[at(lane)]);
+    const int stopper = state.stop_slot[at(lane)];
+    if (stopper >= 0) impose(stopper, road.stop_line_m - model.driver.stop.margin_m);
+    const Holds& holds = state.holds[at(lane)];
+    for (int k = 0; k < holds.count; ++k) impose(holds.each[at(k)].slot, holds.each[at(k)].place_m);
     if (model.meso) {
         step.limit_mps *= model.speed_factor;
         if (state.vehicles.predecessor[at(step.begin)] < 0) step.leader_mps = model.leader_share * step.limit_mps;

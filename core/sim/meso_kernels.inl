@@ -60,8 +60,8 @@ inline void gather(const MesoStreams& streams, MesoKernels::Lanes lanes, const M
         if (lane.leader_mps > 0.0) {
             g.cap[first] = std::min(g.cap[first], approached(g.speed[first], lane.leader_mps, share));
         }
-        for (const auto& [slot, asks] : {std::pair(lane.stop_slot, lane.stop_asks), {lane.hold_slot, lane.hold_asks}}) {
-            if (slot < 0) continue;
+        for (int n_imposed = 0; n_imposed < lane.imposed_count; ++n_imposed) {
+            const auto [slot, asks] = lane.imposed[static_cast<std::size_t>(n_imposed)];
             double& cap_mps = g.cap[first + slot - lane.begin];
             cap_mps = std::min(cap_mps, asks);
         }

@@ -44,11 +44,23 @@ struct Detector {
     bool leaves = false;  // whether vehicles leave the zone here
 };
 
+// Rules of hindrance (driver/hindrance_rules.h), compiled; 0 ticks: never.
+struct RulesPlan {
+    bool keep_clear = false;
+    double sight_m = 0.0;
+    std::int64_t teleport_ticks = 0;
+    std::int64_t pass_blocker_ticks = 0;
+    std::int64_t watch_ticks = 0;  // hindrance is looked for this often
+
+    bool watches() const { return watch_ticks > 0; }
+};
+
 struct Model {
     double step_s = 0.01;
     std::uint64_t seed = 1;
     LaneGraph graph;
-    std::vector<GroupProgramme> signals;  // [signal group]
+    std::vector<std::vector<int>> leads_to;  // [lane] lanes inside an intersection that lead to it
+    std::vector<GroupProgramme> signals;     // [signal group]
     std::vector<PowertrainTables> vehicles;
     std::vector<CompiledPolicy> policies;
     DriverTables driver;
@@ -56,6 +68,7 @@ struct Model {
     DemandPlan demand;
     std::vector<Detector> detectors;
     GiveWaySettings give_way;
+    RulesPlan rules;
     DelayLine radar;
     DelayLine v2v;
     bool meso = false;            // the mesoscale mode; else full dynamics
@@ -66,6 +79,7 @@ struct Model {
     double turn_share = 1.0;      // of what is missing to what the way to a turn allows
     double leader_mps2 = 0.0;     // acceleration of platoon leaders, up to a speed; 0: that of their policy's model
     double leader_until_mps = 0.0;
+    bool records_all = true;      // passages, accepted gaps, all detectors; else crossings of zones only
     bool scalar_kernels = false;  // the oracle: one vehicle at a time, same bits
 
     double time_s(std::int64_t tick) const { return static_cast<double>(tick) * step_s; }

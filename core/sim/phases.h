@@ -14,6 +14,8 @@ void find_occupied_lanes(const Model& model, State& state);
 void decide_stops(const Model& model, State& state);
 void give_way(const Model& model, State& state);
 void look_beyond_lanes(const Model& model, State& state);
+void watch_hindrance(const Model& model, State& state);  // hindrance.h
+void move_blocked_on(const Model& model, State& state);
 void watch_detectors(const Model& model, State& state);
 void transfer_vehicles(const Model& model, State& state);
 void form_queues(const Model& model, State& state);  // before the first step
@@ -31,6 +33,15 @@ double passing_time_s(const Model& model, const State& state, int slot, double l
 
 // Appends a free slot at the back of a lane, moving its vehicles up where the block's end is reached. Returns the slot.
 int append_slot(State& state, int lane);
+
+// Takes the first vehicle off a lane.
+void remove_first(State& state, int lane);
+
+// Gives a vehicle its place in its route.
+void put_on_route(const Model& model, VehicleArrays& vehicles, int slot, int route_index);
+
+// On a link the vehicle gets its next route.
+void choose_way_on(const Model& model, State& state, int lane, int slot);
 
 // The vehicle ahead of the first one on a lane, along its route: distance in front of the lane's start, and its slot.
 struct Ahead {

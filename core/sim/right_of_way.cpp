@@ -9,6 +9,7 @@
 //     before is still to come.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/arithmetic.h"
 #include "sim/phases.h"
@@ -88,32 +89,42 @@ bool behind_held(const Model& model, const State& state, int lane, const Insider
 
 // When the next vehicle of the other lane, inside or before its stop line, can be at the conflict area; those that will stop
 // at the light do not count. Looks no further ahead than `horizon_s`.
-double next_arrival_s(const Model& model, const State& state, const Conflict& conflict, double horizon_s) {
+struct Arrival {
+    double in_s = kNever_s;
+    int slot = -1;
+
+    void earlier(double in, int who) {
+        if (in < in_s) *this = {in, who};
+    }
+};
+
+Arrival next_arrival(const Model& model, const State& state, const Conflict& conflict, double horizon_s) {
     const VehicleArrays& v = state.vehicles;
     const Lane& other = model.graph.lanes[at(conflict.other)];
     const Lane& origin = model.graph.lanes[at(other.origin)];
     const double a = model.give_way.approach_mps2;
     const bool green = state.lights[at(origin.signal_group)] == Light::green;
     const int stopping = green ? -1 : state.stop_slot[at(other.origin)];
-    double soonest_s = kNever_s;
+    Arrival soonest;
     for (const Insider& w : state.insiders[at(conflict.other)]) {
         if (w.front_m >= conflict.other_from_m) continue;
         if (held(state, w.slot) || w.slot == stopping || behind_held(model, state, conflict.other, w)) {
-            return soonest_s;
+            return soonest;
         }
         const double distance_m = conflict.other_from_m - w.front_m;
-        soonest_s = std::min(soonest_s, earliest_s(distance_m, v.speed_mps[at(w.slot)], a, other.limit_mps));
+        soonest.earlier(earliest_s(distance_m, v.speed_mps[at(w.slot)], a, other.limit_mps), w.slot);
     }
     const LaneBlock& block = state.blocks[at(other.origin)];
-    if (block.count == 0 || blocked(state, block.first) || held(state, block.first)) return soonest_s;
+    if (block.count == 0 || blocked(state, block.first) || held(state, block.first)) return soonest;
     for (int slot = block.first; slot < block.stop(); ++slot) {
         const double distance_m = origin.length_m + conflict.other_from_m - v.position_m[at(slot)];
         if (distance_m > horizon_s * origin.limit_mps) break;
         if (slot == stopping) break;
         if (v.position_m[at(slot)] > origin.stop_line_m || v.next_lane[at(slot)] != conflict.other) continue;
-        return std::min(soonest_s, earliest_s(distance_m, v.speed_mps[at(slot)], a, other.limit_mps));
+        soonest.earlier(earliest_s(distance_m, v.speed_mps[at(slot)], a, other.limit_mps), slot);
+        break;
     }
-    return soonest_s;
+    return soonest;
 }
 
 struct Candidate {
@@ -123,47 +134,72 @@ struct Candidate {
     bool stands;
 };
 
-// Whether the other lane's vehicles let this one into the area, without regard to gaps.
-bool area_free(const Model& model, const State& state, const Conflict& conflict, const Candidate& v,
-               std::int64_t since) {
+// Whether `vehicle` may pass one that has stood inside for long, although it is in its way. Where ways merge it cannot. Once it may, it
+// may until it is through: it could be too late to stop when the other sets out at last.
+bool may_pass(const Model& model, State& state, int vehicle, int lane, int blocker, int other) {
+    const VehicleArrays& v = state.vehicles;
+    if (model.rules.pass_blocker_ticks == 0) return false;
+    for (Passing& known : state.passing) {
+        if (known.vehicle != v.id[at(vehicle)] || known.blocker != v.id[at(blocker)]) continue;
+        known.seen = state.tick;
+        return true;
+    }
+    const std::int64_t stood = state.tick - v.stands_since[at(blocker)];
+    if (stood < model.rules.pass_blocker_ticks) return false;
+    if (model.graph.lanes[at(lane)].next[0] == model.graph.lanes[at(other)].next[0]) return false;
+    state.passing.push_back({v.id[at(vehicle)], v.id[at(blocker)], state.tick, stood, false});
+    return true;
+}
+
+// The slot of a vehicle of the other lane that keeps this one out of the area, without regard to gaps; -1: none.
+int keeps_out(const Model& model, State& state, int lane, const Conflict& conflict, const Candidate& v) {
+    const std::int64_t since = state.vehicles.inside_since[at(v.slot)];
     const int stopping = state.stop_slot[at(model.graph.lanes[at(conflict.other)].origin)];
     for (const Insider& w : state.insiders[at(conflict.other)]) {
         if (w.rear_m >= conflict.other_to_m) continue;
-        if (w.front_m > conflict.other_from_m) return false;
+        if (may_pass(model, state, v.slot, lane, w.slot, conflict.other)) continue;
+        if (w.front_m > conflict.other_from_m) return w.slot;
         if (conflict.yields || w.slot == stopping) continue;
         if (conflict.other_yields) {
-            if (state.vehicles.cleared_for[at(w.slot)] == conflict.other && !held(state, w.slot)) return false;
+            if (state.vehicles.cleared_for[at(w.slot)] == conflict.other && !held(state, w.slot)) return w.slot;
             continue;
         }
         // Two that stand and wait for each other: who can go does. The other sees it in the area.
         if (v.stands && (held(state, w.slot) || behind_held(model, state, conflict.other, w))) continue;
         const bool before = w.since < since || (w.since == since && w.slot < v.slot);
-        if (!v.inside || before) return false;
+        if (!v.inside || before) return w.slot;
     }
-    return true;
+    return -1;
 }
 
-// Whether every vehicle with priority is far enough for this one to go; notes the decision.
-bool accepts_gap(const Model& model, State& state, int lane, const Candidate& v, double to_hold_m) {
+// The slot of a vehicle with priority that is too near for this one to go. -1: none; the decision is noted.
+int comes_first(const Model& model, State& state, int lane, const Candidate& v, double to_hold_m) {
     VehicleArrays& arrays = state.vehicles;
     const double reach_s = to_hold_m / std::max(arrays.speed_mps[at(v.slot)], 2.0);
     const double needed_s = model.give_way.critical_gap_s + std::max(reach_s, 0.0);
-    double gap_s = kNever_s;
+    Arrival next;
     for (const Conflict& conflict : model.graph.conflicts[at(lane)]) {
         if (!conflict.yields || v.front_m > conflict.from_m) continue;
-        gap_s = std::min(gap_s, next_arrival_s(model, state, conflict, needed_s));
-        if (gap_s < needed_s) return false;
+        const Arrival arrival = next_arrival(model, state, conflict, needed_s);
+        next.earlier(arrival.in_s, arrival.slot);
+        if (next.in_s < needed_s) return next.slot;
     }
     arrays.cleared_for[at(v.slot)] = lane;
-    state.gaps_accepted.push_back({model.time_s(state.tick), arrays.id[at(v.slot)], lane, static_cast<float>(gap_s),
+    if (!model.records_all) return -1;
+    state.gaps_accepted.push_back({model.time_s(state.tick), arrays.id[at(v.slot)], lane, static_cast<float>(next.in_s),
                                    static_cast<float>(needed_s)});
-    return true;
+    return -1;
 }
 
-// Where this vehicle must wait, along the lane inside; beyond the lane where it need not.
+// Where this vehicle must wait, along the lane inside, and for what; beyond the lane where it need not.
 constexpr double kNowhere_m = 1e9;
+struct Wait {
+    double place_m = kNowhere_m;
+    int blocker = -1;
+    bool priority = false;
+};
 
-double waiting_place(const Model& model, State& state, int lane, const Candidate& v) {
+Wait waiting_place(const Model& model, State& state, int lane, const Candidate& v) {
     VehicleArrays& arrays = state.vehicles;
     const double speed = arrays.speed_mps[at(v.slot)];
     const double margin_m = model.give_way.margin_m;
@@ -176,22 +212,37 @@ double waiting_place(const Model& model, State& state, int lane, const Candidate
         const double hold_m = conflict.from_m - margin_m;
         if (v.front_m > conflict.from_m) continue;
         if (hold_m - v.front_m > ahead_m) break;
-        if (!area_free(model, state, conflict, v, arrays.inside_since[at(v.slot)])) return hold_m;
+        const int blocker = keeps_out(model, state, lane, conflict, v);
+        if (blocker >= 0) return {hold_m, blocker, false};
         if (conflict.yields && !decided) {
-            decided = accepts_gap(model, state, lane, v, hold_m - v.front_m);
-            if (!decided) return hold_m;
+            const int first = comes_first(model, state, lane, v, hold_m - v.front_m);
+            if (first >= 0) return {hold_m, first, true};
+            decided = true;
         }
     }
-    return kNowhere_m;
+    return {};
 }
 
-// Remembers the first waiting vehicle of a lane.
-void wait(State& state, int lane, int slot, double place_m) {
+// The same of one behind a vehicle that waits, which follows it: only where somebody is in the area already.
+Wait waiting_place_behind(const Model& model, State& state, int lane, const Candidate& v) {
+    const double speed = state.vehicles.speed_mps[at(v.slot)];
+    const double ahead_m = 0.5 * square(speed) / model.driver.stop.deceleration_mps2 + 1.5 * speed + 3.0;
+    for (const Conflict& conflict : model.graph.conflicts[at(lane)]) {
+        const double hold_m = conflict.from_m - model.give_way.margin_m;
+        if (v.front_m > conflict.from_m) continue;
+        if (hold_m - v.front_m > ahead_m) break;
+        for (const Insider& w : state.insiders[at(conflict.other)]) {
+            if (w.rear_m >= conflict.other_to_m || w.front_m <= conflict.other_from_m) continue;
+            if (!may_pass(model, state, v.slot, lane, w.slot, conflict.other)) return {hold_m, w.slot, false};
+        }
+    }
+    return {};
+}
+
+// Remembers who waits; of those on one lane the first ones.
+void wait(State& state, int lane, int slot, double place_m, const Wait& wait) {
     state.vehicles.held_at[at(slot)] = static_cast<int>(state.tick);
-    int& waiting = state.hold_slot[at(lane)];
-    if (waiting >= 0 && waiting <= slot) return;
-    waiting = slot;
-    state.hold_m[at(lane)] = place_m;
+    state.holds[at(lane)].add({slot, place_m, wait.blocker, wait.priority});
 }
 
 void decide(const Model& model, State& state, int lane) {
@@ -199,10 +250,16 @@ void decide(const Model& model, State& state, int lane) {
     const Lane& origin = model.graph.lanes[at(road.origin)];
     const VehicleArrays& v = state.vehicles;
     const LaneBlock& block = state.blocks[at(lane)];
+    bool behind = false;
+    const auto place_of = [&](const Candidate& candidate) {
+        const Wait found =
+            behind ? waiting_place_behind(model, state, lane, candidate) : waiting_place(model, state, lane, candidate);
+        behind = behind || found.place_m < kNowhere_m;
+        return found;
+    };
     for (int slot = block.first; slot < block.stop(); ++slot) {
-        const double hold_m = waiting_place(
-            model, state, lane, {slot, v.position_m[at(slot)], true, v.speed_mps[at(slot)] < kStanding_mps});
-        if (hold_m < kNowhere_m) return wait(state, lane, slot, hold_m);
+        const Wait found = place_of({slot, v.position_m[at(slot)], true, v.speed_mps[at(slot)] < kStanding_mps});
+        if (found.place_m < kNowhere_m) wait(state, lane, slot, found.place_m, found);
     }
     constexpr double kLookBack_m = 60.0;
     const LaneBlock& before = state.blocks[at(road.origin)];
@@ -212,22 +269,48 @@ void decide(const Model& model, State& state, int lane) {
         if (v.next_lane[at(slot)] != lane) continue;
         const Candidate candidate{slot, position_m - origin.length_m, position_m > origin.stop_line_m,
                                   v.speed_mps[at(slot)] < kStanding_mps};
-        const double hold_m = waiting_place(model, state, lane, candidate);
-        if (hold_m < kNowhere_m) return wait(state, road.origin, slot, hold_m + origin.length_m);
+        const Wait found = place_of(candidate);
+        if (found.place_m < kNowhere_m) wait(state, road.origin, slot, found.place_m + origin.length_m, found);
     }
 }
 
-std::int64_t vehicles_in(const std::vector<Insider>& insiders, double from_m, double to_m) {
-    return std::count_if(insiders.begin(), insiders.end(),
-                         [&](const Insider& w) { return w.front_m > from_m && w.rear_m < to_m; });
+// Whether one of two vehicles in the same area passes the other by the rule for blockers; notes when it begins to.
+bool passes(const Model& model, State& state, int one, int two, int lane) {
+    const std::pair<int, int> pair = std::minmax(state.vehicles.id[at(one)], state.vehicles.id[at(two)]);
+    for (Passing& known : state.passing) {
+        if (std::pair<int, int>(std::minmax(known.vehicle, known.blocker)) != pair) continue;
+        known.seen = state.tick;
+        if (known.begun) return true;
+        known.begun = true;
+        ++state.hindrance.passed_blockers;
+        state.hindrance.rules.push_back({RuleUse::Kind::passed_blocker, model.time_s(state.tick), known.vehicle, lane,
+                                         known.blocker, model.time_s(known.stood)});
+        return true;
+    }
+    return false;
+}
+
+// Pairs of vehicles that are in the area at the same time, but for those that pass each other by a rule.
+std::int64_t pairs_in(const Model& model, State& state, int lane, const Conflict& c) {
+    std::int64_t pairs = 0;
+    for (const Insider& w : state.insiders[at(lane)]) {
+        if (w.front_m <= c.from_m || w.rear_m >= c.to_m) continue;
+        for (const Insider& x : state.insiders[at(c.other)]) {
+            if (x.front_m <= c.other_from_m || x.rear_m >= c.other_to_m) continue;
+            pairs += passes(model, state, w.slot, x.slot, lane) ? 0 : 1;
+        }
+    }
+    return pairs;
 }
 
 }  // namespace
 
 void give_way(const Model& model, State& state) {
+    // Between two areas of the same pair there may be some steps.
+    std::erase_if(state.passing, [&](const Passing& p) { return state.tick - p.seen > model.rules.watch_ticks; });
     const auto lanes = static_cast<int>(model.graph.conflicts.size());
     for (int lane = 0; lane < lanes; ++lane) {
-        state.hold_slot[at(lane)] = -1;
+        state.holds[at(lane)].count = 0;
         if (model.graph.lanes[at(lane)].origin < 0) continue;
         std::vector<Insider>& insiders = state.insiders[at(lane)];
         list_insiders(model, state, lane, insiders);
@@ -243,8 +326,7 @@ void give_way(const Model& model, State& state) {
         if (state.insiders[at(lane)].empty()) continue;
         for (const Conflict& c : conflicts) {
             if (c.other < lane || state.insiders[at(c.other)].empty()) continue;
-            state.violations.conflicts += vehicles_in(state.insiders[at(lane)], c.from_m, c.to_m) *
-                                          vehicles_in(state.insiders[at(c.other)], c.other_from_m, c.other_to_m);
+            state.violations.conflicts += pairs_in(model, state, lane, c);
         }
     }
 }

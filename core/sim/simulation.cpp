@@ -19,10 +19,12 @@ void Simulation::step() {
     decide_stops(model_, state_);
     give_way(model_, state_);
     look_beyond_lanes(model_, state_);
+    watch_hindrance(model_, state_);
     move_vehicles();
     watch_detectors(model_, state_);
     transfer_vehicles(model_, state_);
     insert_vehicles(model_, state_);
+    move_blocked_on(model_, state_);
     verify(state_);
     ++state_.tick;
 }

@@ -30,6 +30,15 @@ Rows rows_at(const DelayLine& line, std::int64_t tick, int slots) {
     return {row(0), row(1), row(line.steps), row(line.steps + 1), 1.0 - line.share, line.share};
 }
 
+void Holds::add(const Hold& hold) {
+    int place = count;
+    while (place > 0 && each[static_cast<std::size_t>(place - 1)].slot > hold.slot) --place;
+    if (place == kMost) return;
+    count = std::min(count + 1, kMost);
+    for (int k = count - 1; k > place; --k) each[static_cast<std::size_t>(k)] = each[static_cast<std::size_t>(k - 1)];
+    each[static_cast<std::size_t>(place)] = hold;
+}
+
 State make_state(const Model& model) {
     State state;
     int slots = 0;
@@ -42,13 +51,18 @@ State make_state(const Model& model) {
         state.blocks.push_back(block);
         state.sine.push_back(lane.gradient / std::sqrt(1.0 + square(lane.gradient)));
     }
+    if (model.rules.teleport_ticks > 0) {
+        const int most = rounded_up(64 + static_cast<int>(model.graph.lanes.size()));
+        state.limbo = {slots + kSimdWidth, slots + kSimdWidth + most, slots + kSimdWidth, 0};
+        slots = state.limbo.end;
+    }
     slots = rounded_up(slots) + kSimdWidth;  // the last batch of a lane reaches beyond its block
     state.vehicles.resize(slots, model.radar.rows, model.v2v.rows);
     state.lights.assign(model.signals.size(), Light::red);
     state.stop_lines.resize(model.graph.lanes.size());
     state.stop_slot.assign(model.graph.lanes.size(), -1);
-    state.hold_slot.assign(model.graph.lanes.size(), -1);
-    state.hold_m.assign(model.graph.lanes.size(), 0.0);
+    state.holds.resize(model.graph.lanes.size());
+    state.exit_full.assign(model.graph.lanes.size(), -1);
     state.insiders.resize(model.graph.lanes.size());
     for (std::vector<Insider>& insiders : state.insiders) insiders.reserve(32);
     state.detectors_of.resize(model.graph.lanes.size());

@@ -1,12 +1,14 @@
 // All that changes during one run. One State per run; runs side by side share nothing but the Model.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "sim/events.h"
 #include "sim/full_group.h"
+#include "sim/hindrance.h"
 #include "sim/lane_step.h"
 #include "sim/meso_kernels.h"
 #include "sim/model.h"
@@ -43,18 +45,59 @@ struct Insider {
     std::int64_t since;  // tick at which it passed the stop line
 };
 
+// A vehicle that waits to give way.
+struct Hold {
+    int slot = -1;
+    double place_m = 0.0;   // from the lane's start
+    int blocker = -1;       // slot of the vehicle that it waits for
+    bool priority = false;  // which comes first; else it is in the conflict area
+};
+
+// Those of one lane: the first ones, from the front.
+struct Holds {
+    static constexpr int kMost = 3;
+    std::array<Hold, kMost> each;
+    int count = 0;
+
+    void add(const Hold& hold);
+    const Hold* of(int slot) const {
+        for (int k = 0; k < count; ++k) {
+            if (each[static_cast<std::size_t>(k)].slot == slot) return &each[static_cast<std::size_t>(k)];
+        }
+        return nullptr;
+    }
+};
+
+// A vehicle that was taken out and waits for room to be put back.
+struct Removed {
+    int lane = -1;           // where it shall be put back
+    std::int64_t since = 0;  // tick from which it has waited for room there
+};
+
+// A vehicle that may pass one that has stood inside an intersection for long.
+struct Passing {
+    int vehicle = -1;  // by number
+    int blocker = -1;
+    std::int64_t seen = 0;   // last tick at which it mattered
+    std::int64_t stood = 0;  // ticks, the blocker, when that was decided
+    bool begun = false;      // both have been in the same area
+};
+
 struct State {
     std::int64_t tick = 0;
     VehicleArrays vehicles;
     Rows radar;  // of this step
     Rows v2v;
-    std::vector<LaneBlock> blocks;               // [lane]
-    std::vector<int> occupied;                   // lanes with vehicles, in lane order
-    std::vector<Light> lights;                   // [signal group] in this step
-    std::vector<StopLineState> stop_lines;       // [lane]
-    std::vector<int> stop_slot;                  // [lane] slot of the vehicle that stops at the line; -1: none
-    std::vector<int> hold_slot;                  // [lane] slot of the first vehicle that waits to give way; -1: none
-    std::vector<double> hold_m;                  // [lane] where it waits, from the lane's start
+    std::vector<LaneBlock> blocks;          // [lane]
+    std::vector<int> occupied;              // lanes with vehicles, in lane order
+    std::vector<Light> lights;              // [signal group] in this step
+    std::vector<StopLineState> stop_lines;  // [lane]
+    std::vector<int> stop_slot;             // [lane] slot of the vehicle that stops at the line; -1: none
+    std::vector<Holds> holds;               // [lane] vehicles that wait to give way
+    std::vector<int> exit_full;  // [lane] slot of the vehicle that stands in the exit, whom who stops waits for
+    std::vector<Passing> passing;
+    LaneBlock limbo;                             // vehicles that were taken out ...
+    std::vector<Removed> removed;                // ... and where each of them goes
     std::vector<double> sine;                    // [lane] of the slope
     std::vector<std::vector<Insider>> insiders;  // [lane inside an intersection], from the front
     std::vector<std::vector<int>> detectors_of;  // [lane]
@@ -65,6 +108,8 @@ struct State {
     std::vector<int> inlet_of;      // [lane] -1: no routes begin there
     std::vector<Passage> passages;  // of the whole run, in order
     Violations violations;
+    HindranceLog hindrance;
+    HindranceWatch watch;
     std::int64_t entered = 0;
     std::int64_t left = 0;
     std::int64_t updates = 0;  // vehicle updates computed

@@ -1,6 +1,8 @@
 // Vehicles that change lanes along their route, enter and leave.
 #include <algorithm>
+#include <cstdint>
 
+#include "base/random.h"
 #include "sim/phases.h"
 
 namespace stopline {
@@ -8,6 +10,8 @@ namespace stopline {
 namespace {
 
 constexpr float kNoLowerLimit_mps = 1e3F;
+constexpr double kFar_s = 1e9;
+constexpr double kEntryHeadway_s = 2.0;  // of vehicles that waited outside
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
@@ -17,13 +21,6 @@ float end_speed(const Model& model, const Route& route, int index) {
     const double here = model.graph.lanes[at(route.lanes[at(index)])].limit_mps;
     const double next = model.graph.lanes[at(route.lanes[at(index) + 1])].limit_mps;
     return next < here ? static_cast<float>(next) : kNoLowerLimit_mps;
-}
-
-void set_route_index(const Model& model, VehicleArrays& v, int slot, int index) {
-    const Route& route = model.graph.routes[at(v.route[at(slot)])];
-    v.route_index[at(slot)] = index;
-    v.next_lane[at(slot)] = at(index) + 1 < route.lanes.size() ? route.lanes[at(index) + 1] : -1;
-    v.end_speed_mps[at(slot)] = end_speed(model, route, index);
 }
 
 void note(State& state, double time_s, int slot, int from, int to) {
@@ -42,14 +39,6 @@ void move_up(State& state, LaneBlock& block) {
     block.first = block.begin;
 }
 
-// On a link the vehicle gets its next route.
-void choose_way_on(const Model& model, State& state, int lane, int slot) {
-    const int inlet = state.inlet_of[at(lane)];
-    if (inlet < 0) return;
-    state.vehicles.route[at(slot)] = model.demand.route_of(inlet, state.inlets[at(inlet)].entered++);
-    set_route_index(model, state.vehicles, slot, 0);
-}
-
 // Moves the first vehicle of a lane on along its route, or out of the network.
 void pass_on(const Model& model, State& state, int lane) {
     VehicleArrays& v = state.vehicles;
@@ -60,7 +49,7 @@ void pass_on(const Model& model, State& state, int lane) {
     const int index = v.route_index[at(slot)] + 1;
     const bool leaves = at(index) >= route.lanes.size();
     const int next = leaves ? -1 : route.lanes[at(index)];
-    note(state, time_s, slot, lane, next);
+    if (model.records_all) note(state, time_s, slot, lane, next);
     if (leaves) {
         ++state.left;
     } else {
@@ -68,13 +57,10 @@ void pass_on(const Model& model, State& state, int lane) {
         v.copy(slot, target);
         v.position_m[at(target)] -= length_m;
         v.came_from[at(target)] = lane;
-        set_route_index(model, v, target, index);
+        put_on_route(model, v, target, index);
         choose_way_on(model, state, next, target);
     }
-    LaneBlock& block = state.blocks[at(lane)];
-    ++block.first;
-    --block.count;
-    if (block.count <= kMovedUp) move_up(state, block);
+    remove_first(state, lane);
 }
 
 // Who enters next, drawn once for each vehicle.
@@ -115,7 +101,8 @@ Entry entry_of(const Model& model, const State& state, int lane, int policy) {
         const double position_m = rear_m - desired_gap_m(model, policy, speed_mps);
         return {position_m >= 0.0, position_m, speed_mps};
     }
-    const double room_m = desired_gap_m(model, policy, speed_mps) + speed_mps * model.demand.entry_headway_s * 0.5;
+    const double headway_s = model.demand.evenly ? kEntryHeadway_s : model.demand.entry_headway_s;
+    const double room_m = desired_gap_m(model, policy, speed_mps) + speed_mps * headway_s * 0.5;
     return {rear_m >= room_m, 0.0, speed_mps};
 }
 
@@ -157,9 +144,10 @@ void enter(const Model& model, State& state, int inlet_index, const Entry& entry
     v.id[i] = state.next_id++;
     v.route[i] = route;
     v.came_from[i] = -1;
-    set_route_index(model, v, slot, 0);
+    put_on_route(model, v, slot, 0);
     v.cleared_for[i] = -1;
     v.inside_since[i] = 0;
+    v.stands_since[i] = static_cast<int>(state.tick);
     v.held_at[i] = -2;
     v.predecessor[i] = first ? -1 : v.id[i - 1];
     const double gap_m = first ? 1e6 : v.position_m[i - 1] - v.length_m[i - 1] - v.position_m[i];
@@ -168,10 +156,31 @@ void enter(const Model& model, State& state, int inlet_index, const Entry& entry
     ++entered.entered;
     entered.last_entry_s = model.time_s(state.tick + 1);
     ++state.entered;
-    note(state, entered.last_entry_s, slot, -1, inlet.lane);
+    if (model.records_all) note(state, entered.last_entry_s, slot, -1, inlet.lane);
 }
 
 }  // namespace
+
+void remove_first(State& state, int lane) {
+    LaneBlock& block = state.blocks[at(lane)];
+    ++block.first;
+    --block.count;
+    if (block.count <= kMovedUp) move_up(state, block);
+}
+
+void put_on_route(const Model& model, VehicleArrays& v, int slot, int index) {
+    const Route& route = model.graph.routes[at(v.route[at(slot)])];
+    v.route_index[at(slot)] = index;
+    v.next_lane[at(slot)] = at(index) + 1 < route.lanes.size() ? route.lanes[at(index) + 1] : -1;
+    v.end_speed_mps[at(slot)] = end_speed(model, route, index);
+}
+
+void choose_way_on(const Model& model, State& state, int lane, int slot) {
+    const int inlet = state.inlet_of[at(lane)];
+    if (inlet < 0) return;
+    state.vehicles.route[at(slot)] = model.demand.route_of(inlet, state.inlets[at(inlet)].entered++);
+    put_on_route(model, state.vehicles, slot, 0);
+}
 
 // When the front passed `line_m` within the last step, from the mean speed of the step (mesoscale mode: all at the new speed).
 double passing_time_s(const Model& model, const State& state, int slot, double line_m) {
@@ -231,14 +240,27 @@ void form_queues(const Model& model, State& state) {
     stand_beyond_counters(model, state);
 }
 
+namespace {
+
+// Not before this does the next vehicle enter.
+double next_entry_s(const Model& model, const State& state, int inlet) {
+    if (model.demand.saturated) return -kFar_s;
+    const InletState& entered = state.inlets[at(inlet)];
+    const double headway_s = model.demand.entry_headway_s;
+    if (!model.demand.evenly) return entered.last_entry_s + headway_s;
+    const double shift = random_uniform(model.seed, static_cast<std::uint64_t>(inlet), 0, Purpose::insertion);
+    return (static_cast<double>(entered.entered) + shift) * headway_s;
+}
+
+}  // namespace
+
 void insert_vehicles(const Model& model, State& state) {
     for (int k = 0; k < static_cast<int>(model.demand.inlets.size()); ++k) {
         const DemandPlan::Inlet& inlet = model.demand.inlets[at(k)];
         InletState& entered = state.inlets[at(k)];
         if (entered.entered >= inlet.vehicles) continue;
         draw_next(model, state, k);
-        const double headway_s = model.demand.saturated ? 0.0 : model.demand.entry_headway_s;
-        if (model.time_s(state.tick + 1) - entered.last_entry_s < headway_s) continue;
+        if (model.time_s(state.tick + 1) < next_entry_s(model, state, k)) continue;
         const Entry entry = entry_of(model, state, inlet.lane, entered.next_policy);
         if (entry.possible) enter(model, state, k, entry);
     }

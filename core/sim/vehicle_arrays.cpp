@@ -10,7 +10,7 @@ void VehicleArrays::for_each_array(Visit visit) {
     visit(brake_N), visit(gear_time_s), visit(lag_s), visit(length_m), visit(gear), visit(leads);
     visit(standstill_gap_m), visit(end_speed_mps), visit(policy), visit(type), visit(id), visit(predecessor);
     visit(route), visit(route_index), visit(cleared_for), visit(inside_since), visit(held_at);
-    visit(next_lane), visit(came_from);
+    visit(next_lane), visit(came_from), visit(stands_since);
 }
 
 void VehicleArrays::resize(int slot_count, int radar_row_count, int v2v_row_count) {

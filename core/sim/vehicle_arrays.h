@@ -58,6 +58,7 @@ struct VehicleArrays {
     LargeArray<int> route_index;   // place in the route of the lane the vehicle is on
     LargeArray<int> next_lane;     // on the route; -1: it leaves
     LargeArray<int> came_from;     // lane before; -1: it entered here
+    LargeArray<int> stands_since;  // tick at which it was last seen to move
 
     int slots = 0;
     int radar_rows = 0;

@@ -18,7 +18,7 @@ std::int64_t overlaps(const VehicleArrays& v, std::span<const LaneStep> lanes) {
 }
 
 void verify(State& state) {
-    std::int64_t present = 0;
+    std::int64_t present = state.limbo.count;
     for (const LaneBlock& block : state.blocks) present += block.count;
     state.violations.lost_vehicles = state.entered - state.left - present;
 }

@@ -76,7 +76,7 @@ protected:
 
     // A left turner before the area; that may be on the stretch which its entry lane shares among movements.
     bool waits(const State& state) const {
-        return state.hold_slot[at(turner_)] >= 0 || state.hold_slot[at(model_.graph.lanes[at(turner_)].origin)] >= 0;
+        return state.holds[at(turner_)].count > 0 || state.holds[at(model_.graph.lanes[at(turner_)].origin)].count > 0;
     }
 
     Model model_;

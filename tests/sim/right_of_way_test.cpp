@@ -43,7 +43,7 @@ TEST(RightOfWay, LeftTurnersDoNotWaitWithoutOncomingTraffic) {
         const State& state = simulation.state();
         for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {
             if (model.graph.lanes[at(lane)].origin < 0) continue;
-            ASSERT_EQ(state.hold_slot[at(lane)], -1);
+            ASSERT_EQ(state.holds[at(lane)].count, 0);
             const LaneBlock& block = state.blocks[at(lane)];
             for (int slot = block.first; slot < block.stop(); ++slot) {
                 slowest_mps = std::min(slowest_mps, state.vehicles.speed_mps[at(slot)]);

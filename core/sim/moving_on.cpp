@@ -1,0 +1,143 @@
+// Vehicles that have stood for too long at the head of a lane are moved on past the intersection (HindranceRules).
+#include <algorithm>
+#include <cstddef>
+
+#include "base/arithmetic.h"
+#include "sim/phases.h"
+
+namespace stopline {
+
+namespace {
+
+constexpr double kReaction_s = 1.0;
+constexpr double kApproach_m = 60.0;  // before an intersection within which vehicles may be about to come
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+// Where a vehicle on that lane is put back: behind the intersection that its route leads over; -1: it is behind it already.
+int lane_beyond(const Model& model, const State& state, int lane, int slot) {
+    const VehicleArrays& v = state.vehicles;
+    const Route& route = model.graph.routes[at(v.route[at(slot)])];
+    const bool before = model.graph.lanes[at(lane)].signal_group >= 0 || model.graph.lanes[at(lane)].origin >= 0;
+    return before ? route.lanes.back() : -1;
+}
+
+void note(const Model& model, State& state, RuleUse::Kind kind, int slot, int lane) {
+    const VehicleArrays& v = state.vehicles;
+    const double stood_s = model.time_s(state.tick - v.stands_since[at(slot)]);
+    state.hindrance.rules.push_back({kind, model.time_s(state.tick), v.id[at(slot)], lane, -1, stood_s});
+}
+
+void take_out(const Model& model, State& state, int lane) {
+    LaneBlock& block = state.blocks[at(lane)];
+    const int slot = block.first;
+    const int beyond = lane_beyond(model, state, lane, slot);
+    if (beyond < 0 || state.limbo.stop() == state.limbo.end) return;
+    // Detectors that it has not passed will not see it.
+    for (const int detector : state.detectors_of[at(lane)]) {
+        int& upstream = state.upstream[at(detector)];
+        upstream = std::min(upstream, block.count - 1);
+    }
+    note(model, state, RuleUse::Kind::taken_out, slot, lane);
+    ++state.hindrance.taken_out;
+    state.vehicles.copy(slot, state.limbo.stop());
+    ++state.limbo.count;
+    state.removed.push_back({beyond, state.tick});
+    remove_first(state, lane);
+}
+
+// Whether a vehicle on its way to the lane could not stop behind one that is put at its start.
+bool somebody_comes(const Model& model, const State& state, int lane) {
+    const VehicleArrays& v = state.vehicles;
+    const double b = model.driver.cacc.deceleration_comfort_mps2;
+    const auto too_near = [&](int slot, double distance_m) {
+        const double speed = v.speed_mps[at(slot)];
+        return speed * kReaction_s + 0.5 * square(speed) / b + v.standstill_gap_m[at(slot)] > distance_m;
+    };
+    for (const int inside : model.leads_to[at(lane)]) {
+        const Lane& way = model.graph.lanes[at(inside)];
+        const LaneBlock& inner = state.blocks[at(inside)];
+        for (int slot = inner.first; slot < inner.stop(); ++slot) {
+            if (too_near(slot, way.length_m - v.position_m[at(slot)])) return true;
+        }
+        const LaneBlock& before = state.blocks[at(way.origin)];
+        const double from_m = model.graph.lanes[at(way.origin)].length_m + way.length_m;
+        for (int slot = before.first; slot < before.stop(); ++slot) {
+            const double distance_m = from_m - v.position_m[at(slot)];
+            if (distance_m > way.length_m + kApproach_m) break;
+            if (v.next_lane[at(slot)] == inside && too_near(slot, distance_m)) return true;
+        }
+    }
+    return false;
+}
+
+// Puts a vehicle at the start of its lane, its rear just behind the intersection. False: there is no room.
+bool put_back(const Model& model, State& state, int waiting, const Removed& removed) {
+    VehicleArrays& v = state.vehicles;
+    const LaneBlock& block = state.blocks[at(removed.lane)];
+    const double front_m = v.length_m[at(waiting)];
+    const double gap_m = v.standstill_gap_m[at(waiting)];
+    double speed_mps = model.graph.lanes[at(removed.lane)].limit_mps;
+    if (block.count > 0) {
+        const int last = block.last();
+        const double room_m = v.position_m[at(last)] - static_cast<double>(v.length_m[at(last)]) - front_m - gap_m;
+        if (room_m < 0.0) return false;
+        speed_mps = std::min(v.speed_mps[at(last)], 0.5 * room_m);
+    }
+    if (somebody_comes(model, state, removed.lane)) return false;
+    const int slot = append_slot(state, removed.lane);
+    v.copy(waiting, slot);
+    const auto i = at(slot);
+    const bool first = state.blocks[at(removed.lane)].count == 1;
+    v.position_m[i] = front_m;
+    v.speed_mps[i] = speed_mps;
+    v.acceleration_mps2[i] = v.request_mps2[i] = v.torque_Nm[i] = v.brake_N[i] = 0.0F;
+    v.gear[i] = static_cast<float>(gear_for(model.vehicles[at(v.type[i])], speed_mps));
+    v.leads[i] = 1.0F;
+    v.came_from[i] = v.cleared_for[i] = -1;
+    v.predecessor[i] = first ? -1 : v.id[i - 1];
+    const double ahead_m = first ? 1e6 : v.position_m[i - 1] - static_cast<double>(v.length_m[i - 1]) - front_m;
+    v.reset_radar(slot, ahead_m, first ? 0.0 : speed_mps - v.speed_mps[i - 1]);
+    v.reset_v2v(slot);
+    const int index = static_cast<int>(model.graph.routes[at(v.route[i])].lanes.size()) - 1;
+    put_on_route(model, v, slot, index);
+    choose_way_on(model, state, removed.lane, slot);
+    note(model, state, RuleUse::Kind::put_back, slot, removed.lane);
+    v.stands_since[i] = static_cast<int>(state.tick);
+    return true;
+}
+
+// A lane that stays full for as long as driving along it takes is behind the vehicle too.
+void look_further(const Model& model, State& state, int waiting, Removed& removed) {
+    const Lane& lane = model.graph.lanes[at(removed.lane)];
+    if (lane.signal_group < 0 || model.time_s(state.tick - removed.since) < lane.length_m / lane.limit_mps) return;
+    choose_way_on(model, state, removed.lane, waiting);
+    removed = {model.graph.routes[at(state.vehicles.route[at(waiting)])].lanes.back(), state.tick};
+}
+
+}  // namespace
+
+void move_blocked_on(const Model& model, State& state) {
+    const RulesPlan& rules = model.rules;
+    if (rules.teleport_ticks == 0 || state.tick % rules.watch_ticks != 0) return;
+    LaneBlock& limbo = state.limbo;
+    for (int waiting = limbo.first; waiting < limbo.stop();) {
+        const auto k = at(waiting - limbo.first);
+        if (!put_back(model, state, waiting, state.removed[k])) {
+            look_further(model, state, waiting, state.removed[k]);
+            ++waiting;
+            continue;
+        }
+        state.vehicles.move(waiting + 1, limbo.stop() - waiting - 1, waiting);
+        state.removed.erase(state.removed.begin() + static_cast<std::ptrdiff_t>(k));
+        --limbo.count;
+    }
+    for (const int lane : state.occupied) {
+        const LaneBlock& block = state.blocks[at(lane)];
+        if (block.count == 0) continue;
+        if (state.tick - state.vehicles.stands_since[at(block.first)] >= rules.teleport_ticks)
+            take_out(model, state, lane);
+    }
+}
+
+}  // namespace stopline
