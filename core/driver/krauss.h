@@ -86,7 +86,10 @@ STOPLINE_INLINE double next_speed_mps(const Krauss& k, const KraussInput& in, do
     const bool close = in.gap_m - in.more_m < k.equilibrium_gap_m(in.speed_mps) + kClose_m;
     const double more = close ? k.catch_up : 1.0;
     const double faster = in.speed_mps + k.acceleration_mps2 * share * more * dt;
-    const double wanted = std::max(std::min(std::min(safe, faster), in.cap_mps), 0.0);
+    // Models with anticipation or short gaps can ask for too little braking when a predecessor stops more suddenly than it would by
+    // itself (at a conflict area): nobody drives further than to where the rear ahead was.
+    const double touch = std::max(in.gap_m, 0.0) / dt;
+    const double wanted = std::max(std::min(std::min(std::min(safe, touch), faster), in.cap_mps), 0.0);
     constexpr double kSlow_s = 1.0;  // vehicles slower than a x 1 s dawdle in proportion to their speed
     return wanted - k.dawdling * dt * random * std::min(wanted, k.acceleration_mps2 * kSlow_s);
 }

@@ -145,6 +145,7 @@ void add_rules(const Scenario& scenario, Model& model) {
     model.rules.sight_m = rules.sight_m;
     model.rules.teleport_ticks = to_ticks(rules.teleport_cycles * signal.both_stages_s(), model.step_s);
     model.rules.pass_blocker_ticks = to_ticks(rules.pass_blocker_greens * green_s, model.step_s);
+    model.rules.memory_ticks = to_ticks(2.0, model.step_s);
     const bool needs_watch = model.rules.teleport_ticks > 0 || model.rules.pass_blocker_ticks > 0;
     model.rules.watch_ticks = needs_watch ? std::max<std::int64_t>(to_ticks(1.0, model.step_s), 1) : 0;
 }

@@ -36,7 +36,9 @@ void lead(const Model& model, std::span<const LaneStep> lanes, const MesoGroup& 
             const double share = std::min(1.0, model.leader_until_mps / std::max(g.speed[k], 1e-3));
             const double faster_mps = g.speed[k] + model.leader_mps2 * share * model.step_s;
             const double drive_mps = std::min(faster_mps, g.cap[k]);
-            const double safe_mps = safe_speed_mps(model.krauss[at(g.policy[k])], g.gap[k], g.ahead[k], g.more[k]);
+            const double touch_mps = std::max(g.gap[k], 0.0) / model.step_s;
+            const double safe_mps =
+                std::min(safe_speed_mps(model.krauss[at(g.policy[k])], g.gap[k], g.ahead[k], g.more[k]), touch_mps);
             g.next[k] = std::max(std::min(safe_mps, drive_mps), 0.0);
             if (safe_mps < faster_mps) v.leads[at(slot)] = 0.0F;
         }

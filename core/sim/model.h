@@ -50,7 +50,8 @@ struct RulesPlan {
     double sight_m = 0.0;
     std::int64_t teleport_ticks = 0;
     std::int64_t pass_blocker_ticks = 0;
-    std::int64_t watch_ticks = 0;  // hindrance is looked for this often
+    std::int64_t watch_ticks = 0;   // hindrance is looked for this often
+    std::int64_t memory_ticks = 0;  // who may pass a blocker may, until this long after it mattered last
 
     bool watches() const { return watch_ticks > 0; }
 };

@@ -151,6 +151,15 @@ bool may_pass(const Model& model, State& state, int vehicle, int lane, int block
     return true;
 }
 
+// The agreement between two without priority that the first goes, if there is one.
+Agreed* agreement(State& state, int goes, int waits) {
+    const VehicleArrays& v = state.vehicles;
+    const auto found = std::find_if(state.agreed.begin(), state.agreed.end(), [&](const Agreed& a) {
+        return a.goes == v.id[at(goes)] && a.waits == v.id[at(waits)];
+    });
+    return found == state.agreed.end() ? nullptr : &*found;
+}
+
 // The slot of a vehicle of the other lane that keeps this one out of the area, without regard to gaps; -1: none.
 int keeps_out(const Model& model, State& state, int lane, const Conflict& conflict, const Candidate& v) {
     const std::int64_t since = state.vehicles.inside_since[at(v.slot)];
@@ -164,8 +173,16 @@ int keeps_out(const Model& model, State& state, int lane, const Conflict& confli
             if (state.vehicles.cleared_for[at(w.slot)] == conflict.other && !held(state, w.slot)) return w.slot;
             continue;
         }
-        // Two that stand and wait for each other: who can go does. The other sees it in the area.
-        if (v.stands && (held(state, w.slot) || behind_held(model, state, conflict.other, w))) continue;
+        // Two that stand and wait for each other: who can go does, and the other waits for it as long as nothing else holds it up.
+        if (agreement(state, w.slot, v.slot) != nullptr) return w.slot;
+        if (Agreed* const agreed = agreement(state, v.slot, w.slot)) {
+            agreed->seen = state.tick;
+            continue;
+        }
+        if (v.stands && (held(state, w.slot) || behind_held(model, state, conflict.other, w))) {
+            state.agreed.push_back({state.vehicles.id[at(v.slot)], state.vehicles.id[at(w.slot)], state.tick});
+            continue;
+        }
         const bool before = w.since < since || (w.since == since && w.slot < v.slot);
         if (!v.inside || before) return w.slot;
     }
@@ -199,7 +216,8 @@ struct Wait {
     bool priority = false;
 };
 
-Wait waiting_place(const Model& model, State& state, int lane, const Candidate& v) {
+// `ahead`: slot of one that waits ahead on the same way, -1: none. Behind it no gap is looked for.
+Wait waiting_place(const Model& model, State& state, int lane, const Candidate& v, int ahead) {
     VehicleArrays& arrays = state.vehicles;
     const double speed = arrays.speed_mps[at(v.slot)];
     const double margin_m = model.give_way.margin_m;
@@ -215,25 +233,9 @@ Wait waiting_place(const Model& model, State& state, int lane, const Candidate& 
         const int blocker = keeps_out(model, state, lane, conflict, v);
         if (blocker >= 0) return {hold_m, blocker, false};
         if (conflict.yields && !decided) {
-            const int first = comes_first(model, state, lane, v, hold_m - v.front_m);
+            const int first = ahead >= 0 ? ahead : comes_first(model, state, lane, v, hold_m - v.front_m);
             if (first >= 0) return {hold_m, first, true};
             decided = true;
-        }
-    }
-    return {};
-}
-
-// The same of one behind a vehicle that waits, which follows it: only where somebody is in the area already.
-Wait waiting_place_behind(const Model& model, State& state, int lane, const Candidate& v) {
-    const double speed = state.vehicles.speed_mps[at(v.slot)];
-    const double ahead_m = 0.5 * square(speed) / model.driver.stop.deceleration_mps2 + 1.5 * speed + 3.0;
-    for (const Conflict& conflict : model.graph.conflicts[at(lane)]) {
-        const double hold_m = conflict.from_m - model.give_way.margin_m;
-        if (v.front_m > conflict.from_m) continue;
-        if (hold_m - v.front_m > ahead_m) break;
-        for (const Insider& w : state.insiders[at(conflict.other)]) {
-            if (w.rear_m >= conflict.other_to_m || w.front_m <= conflict.other_from_m) continue;
-            if (!may_pass(model, state, v.slot, lane, w.slot, conflict.other)) return {hold_m, w.slot, false};
         }
     }
     return {};
@@ -250,11 +252,14 @@ void decide(const Model& model, State& state, int lane) {
     const Lane& origin = model.graph.lanes[at(road.origin)];
     const VehicleArrays& v = state.vehicles;
     const LaneBlock& block = state.blocks[at(lane)];
-    bool behind = false;
+    int ahead = -1;
     const auto place_of = [&](const Candidate& candidate) {
-        const Wait found =
-            behind ? waiting_place_behind(model, state, lane, candidate) : waiting_place(model, state, lane, candidate);
-        behind = behind || found.place_m < kNowhere_m;
+        const Wait found = waiting_place(model, state, lane, candidate, ahead);
+        if (found.place_m < kNowhere_m) {
+            ahead = candidate.slot;
+            // A gap accepted before is lost: when it sets out again, others have come.
+            if (candidate.stands) state.vehicles.cleared_for[at(candidate.slot)] = -1;
+        }
         return found;
     };
     for (int slot = block.first; slot < block.stop(); ++slot) {
@@ -307,7 +312,9 @@ std::int64_t pairs_in(const Model& model, State& state, int lane, const Conflict
 
 void give_way(const Model& model, State& state) {
     // Between two areas of the same pair there may be some steps.
-    std::erase_if(state.passing, [&](const Passing& p) { return state.tick - p.seen > model.rules.watch_ticks; });
+    constexpr std::int64_t kAgreed_steps = 5;
+    std::erase_if(state.agreed, [&](const Agreed& a) { return state.tick - a.seen > kAgreed_steps; });
+    std::erase_if(state.passing, [&](const Passing& p) { return state.tick - p.seen > model.rules.memory_ticks; });
     const auto lanes = static_cast<int>(model.graph.conflicts.size());
     for (int lane = 0; lane < lanes; ++lane) {
         state.holds[at(lane)].count = 0;

@@ -83,6 +83,13 @@ struct Passing {
     bool begun = false;      // both have been in the same area
 };
 
+// Two that stood and waited for each other, neither with priority: one goes, the other waits.
+struct Agreed {
+    int goes = -1;  // by number
+    int waits = -1;
+    std::int64_t seen = 0;  // last tick at which it mattered
+};
+
 struct State {
     std::int64_t tick = 0;
     VehicleArrays vehicles;
@@ -96,6 +103,7 @@ struct State {
     std::vector<Holds> holds;               // [lane] vehicles that wait to give way
     std::vector<int> exit_full;  // [lane] slot of the vehicle that stands in the exit, whom who stops waits for
     std::vector<Passing> passing;
+    std::vector<Agreed> agreed;
     LaneBlock limbo;                             // vehicles that were taken out ...
     std::vector<Removed> removed;                // ... and where each of them goes
     std::vector<double> sine;                    // [lane] of the slope

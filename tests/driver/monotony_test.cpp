@@ -131,7 +131,7 @@ TEST(KeepRoom, BeginsWhereBrakingAlikeWouldJustBeEnough) {
             const double v = v_p + closing;
             const double room_m = (v * v - v_p * v_p) / (2.0 * b);
             if (room_m < 0.1) continue;  // less than 0.05 m does not count as less
-            const double just_m = room_m + c.radar_delay_s * closing + c.emergency_gap_m;
+            const double just_m = room_m + (c.radar_delay_s + kBrakeReserve_s) * closing + c.emergency_gap_m;
             const auto answer = [&](double gap_m) {
                 return keep_room_acceleration<double>(c, v, {gap_m, closing, 1.0, 1.0, 4.0});
             };
