@@ -11,6 +11,7 @@
 #include "base/input_error.h"
 #include "common/command_line.h"
 #include "common/intersection_text.h"
+#include "common/network_text.h"
 #include "common/program.h"
 #include "common/progress_bar.h"
 #include "common/results.h"
@@ -55,6 +56,7 @@ void declare(CLI::App& app, RunOptionsOfUser& options) {
         std::string("\nExamples:\n"
                     "  stopline-run scenarios/single_light.yaml\n"
                     "  stopline-run scenarios/intersection.yaml --set 'demand.left=15 %'\n"
+                    "  stopline-run scenarios/grid.yaml --set 'duration=2000 s'\n"
                     "  stopline-run scenarios/single_light.yaml --set 'populations=[CDG, CTG-Ref]' --trajectories\n"
                     "  stopline-run scenarios/first_steps.yaml --set vehicle=electric_100kw --output out/electric\n"
                     "  stopline-run --list scenarios/single_light.yaml\n\n") +
@@ -145,6 +147,36 @@ ExitCode run_as_intersection(const RunOptionsOfUser& options, const Scenario& sc
     return report.no_violations() ? ExitCode::done : ExitCode::check_failed;
 }
 
+// Several intersections: the same, with what they do to each other.
+ExitCode run_as_network(const RunOptionsOfUser& options, const Scenario& scenario,
+                        const std::filesystem::path& folder) {
+    if (options.trajectories) throw InputError("--trajectories: not for grids; see series.csv and hindrance.csv");
+    const NetworkReport report = [&] {
+        ProgressBar bar(fmt::format("{} runs", scenario.populations.size()));
+        return run_networks(scenario, {threads_or_all(options.common.threads),
+                                       [&bar](double share) { return bar.update(share); }});
+    }();
+    fmt::print("{}\nscenario {} ({:016x}), seed {}\n\n{}", scenario.title.empty() ? scenario.name : scenario.title,
+               scenario.name, scenario.hash, scenario.seed, network_text(report));
+    StateHashes hashes;
+    for (const NetworkFigures& f : report.populations) {
+        hashes.emplace_back(f.population, fmt::format("{:016x}", f.state_hash));
+    }
+    write_tables(options, scenario,
+                 {{"summary.csv", network_csv(report)},
+                  {"series.csv", network_series_csv(report)},
+                  {"ways.csv", network_ways_csv(report)},
+                  {"hindrance.csv", hindrance_csv(report)},
+                  {"gridlocks.csv", gridlocks_csv(report)},
+                  {"rules.csv", rules_csv(report)}},
+                 std::move(hashes), folder);
+    if (!options.no_figures) draw_all({network_series_figure(report), hindrance_figure(report)}, folder);
+    fmt::print(
+        "\nNext: hindrance.csv says who was held up by whom, where and since when; other greens, offsets and turns with --set\n"
+        "'signal.green=10 s' --set 'signal.offset=15 s' --set 'demand.left=5 %', all of them with stopline-sweep.\n");
+    return report.no_violations() ? ExitCode::done : ExitCode::check_failed;
+}
+
 ExitCode run(const RunOptionsOfUser& options) {
     if (options.describe) return fmt::print("{}", describe_fields()), ExitCode::done;
     if (options.schema) return fmt::print("{}", json_schema()), ExitCode::done;
@@ -153,14 +185,11 @@ ExitCode run(const RunOptionsOfUser& options) {
         throw InputError("no scenario file given; try: stopline-run scenarios/single_light.yaml (or --help)");
     }
     const Scenario scenario = load_with_options(options.file, options.common);
-    if (scenario.network.kind == "grid") {
-        throw InputError(
-            "network.kind: a grid is for stopline-calibrate so far; its own experiments (Section VI) are to come");
-    }
     const double interval_s = trajectory_interval_s(options, scenario);
     const std::filesystem::path folder = options.common.output.empty() ? "out/" + scenario.name : options.common.output;
     prepare_folder(folder);
     if (scenario.network.kind == "intersection") return run_as_intersection(options, scenario, interval_s, folder);
+    if (scenario.network.kind == "grid") return run_as_network(options, scenario, folder);
     SingleLightOptions run_options;
     run_options.threads = threads_or_all(options.common.threads);
     run_options.trajectory_interval_s = interval_s;

@@ -1,16 +1,13 @@
 #include "experiment/intersection.h"
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
 #include <limits>
-#include <mutex>
 
 #include <fmt/format.h>
 
 #include "experiment/build_model.h"
 #include "experiment/csv.h"
-#include "experiment/interrupted.h"
+#include "experiment/side_by_side.h"
 
 namespace stopline {
 
@@ -39,36 +36,14 @@ IntersectionReport run_intersections(const Scenario& scenario, const Intersectio
         if (simulation.time_s() >= traced.from_s && simulation.time_s() < traced.to_s)
             sample_vehicles(simulation, points);
     };
-    std::vector<std::exception_ptr> errors(runs);
     const double end_s = measured_window(scenario).to_s;
-    std::mutex mutex;
-    std::vector<double> shares(runs, 0.0);
-    std::atomic<bool> stopped = false;
-    const auto tell = [&](std::size_t run, double share) {
-        const std::lock_guard lock(mutex);
-        shares[run] = share;
-        double sum = 0.0;
-        for (const double each : shares) sum += each;
-        if (!stopped && options.on_progress && !options.on_progress(sum / static_cast<double>(runs))) stopped = true;
-        return !stopped;
-    };
-#pragma omp parallel for schedule(dynamic) num_threads(std::max(1, options.threads))
-    for (std::size_t k = 0; k < runs; ++k) {
-        if (stopped) continue;
-        try {
-            report.populations[k] = run_intersection(scenario, k, [&, k](const Simulation& simulation) {
-                trace(simulation, report.trajectories[k]);
-                return simulation.state().tick % kTell != 0 || tell(k, simulation.time_s() / end_s);
-            });
-            static_cast<void>(tell(k, 1.0));
-        } catch (...) {
-            errors[k] = std::current_exception();
-        }
-    }
-    for (const std::exception_ptr& error : errors) {
-        if (error) std::rethrow_exception(error);
-    }
-    if (stopped) throw Interrupted();
+    run_side_by_side(runs, options.threads, options.on_progress,
+                     [&](std::size_t k, const std::function<bool(double)>& tell) {
+                         report.populations[k] = run_intersection(scenario, k, [&](const Simulation& simulation) {
+                             trace(simulation, report.trajectories[k]);
+                             return simulation.state().tick % kTell != 0 || tell(simulation.time_s() / end_s);
+                         });
+                     });
     return report;
 }
 

@@ -8,6 +8,7 @@
 #include "base/input_error.h"
 #include "experiment/csv.h"
 #include "experiment/intersection_run.h"
+#include "experiment/network_run.h"
 #include "experiment/single_light.h"
 #include "sim/model.h"
 
@@ -79,6 +80,47 @@ std::vector<RunMetric> intersection_metrics(const Scenario& scenario, std::size_
     return metrics;
 }
 
+std::vector<RunMetric> network_metrics(const Scenario& scenario, std::size_t population,
+                                       const std::function<bool()>& keep_going) {
+    constexpr std::int64_t kAsk = 200;  // steps
+    const NetworkFigures f = run_network(scenario, population, [&](const Simulation& simulation) {
+        return !keep_going || simulation.state().tick % kAsk != 0 || keep_going();
+    });
+    if (!f.complete) return {};
+    const HindranceLog& log = f.hindrance;
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    std::vector<RunMetric> metrics;
+    metrics.push_back(number_metric("throughput", "veh_h", f.steady.throughput_veh_h(), 6));
+    metrics.push_back(number_metric("travel_time", "s", f.steady.travel_time_s, 6));
+    metrics.push_back(number_metric("density", "percent", 100.0 * f.steady.occupied, 6));
+    for (const WayFigures& way : f.ways) {
+        const int across = std::abs(static_cast<int>(way.from) - static_cast<int>(way.to));
+        if (across != 2) continue;
+        const std::string name = fmt::format("{}_{}", kSideNames[static_cast<std::size_t>(way.from)],
+                                             kSideNames[static_cast<std::size_t>(way.to)]);
+        metrics.push_back(
+            number_metric("throughput_" + name, "veh_h", way.left * 3600.0 / f.steady.window.length_s(), 6));
+        metrics.push_back(number_metric("travel_time_" + name, "s", way.travel_time_s, 6));
+    }
+    metrics.push_back(number_metric("vehicles_in_area", "veh", f.steady.vehicles, 6));
+    metrics.push_back(number_metric("vehicles_present", "veh", f.vehicles_present, 6));
+    metrics.push_back(count_metric("most_present", "veh", f.most_present));
+    metrics.push_back(number_metric("warm_up", "s", f.warm_up_s, 1));
+    metrics.push_back({"stability", "", kStabilityNames[static_cast<std::size_t>(f.stability)]});
+    metrics.push_back(number_metric("collapse", "s", f.collapse_s.value_or(none), 1));
+    metrics.push_back(count_metric("gridlocks", "", static_cast<std::int64_t>(log.gridlocks.size())));
+    metrics.push_back(number_metric("first_gridlock", "s", log.gridlocks.empty() ? none : log.gridlocks[0].from_s, 1));
+    metrics.push_back(count_metric("moved_on", "", log.taken_out));
+    metrics.push_back(count_metric("passed_blockers", "", log.passed_blockers));
+    for (std::size_t cause = 1; cause < kCauseNames.size(); ++cause) {
+        metrics.push_back(number_metric(fmt::format("lost_{}", kCauseNames[cause]), "h", log.lost_s[cause] / 3600.0, 6));
+    }
+    metrics.push_back(number_metric("longest_stand", "s", log.longest_stand_s, 1));
+    metrics.push_back(number_metric("longest_inside", "s", f.longest_inside_s, 2));
+    add_counts(f.entered, f.left_network, f.violations, f.updates, f.state_hash, metrics);
+    return metrics;
+}
+
 }  // namespace
 
 RunMetric number_metric(std::string name, std::string unit, double value, int decimals) {
@@ -91,10 +133,7 @@ RunMetric count_metric(std::string name, std::string unit, std::int64_t value) {
 
 std::vector<RunMetric> run_metrics(const Scenario& scenario, std::size_t population,
                                    const std::function<bool()>& keep_going) {
-    if (scenario.network.kind == "grid") {
-        throw InputError(
-            "network.kind: a grid is for stopline-calibrate so far; its own experiments (Section VI) are to come");
-    }
+    if (scenario.network.kind == "grid") return network_metrics(scenario, population, keep_going);
     if (scenario.network.kind == "intersection") return intersection_metrics(scenario, population, keep_going);
     RunOptions options;
     options.trajectory_interval_s = sample_interval_s(scenario);

@@ -1,0 +1,56 @@
+#include "common/network_text.h"
+
+#include <fmt/format.h>
+#include <cmath>
+
+#include "common/text_table.h"
+
+namespace stopline {
+
+namespace {
+
+std::string number(double value, int decimals) {
+    return std::isnan(value) ? "-" : fmt::format("{:.{}f}", value, decimals);
+}
+
+std::string share_text(const HindranceLog& log, Cause cause) {
+    double all_s = 0.0;
+    for (std::size_t k = 1; k < kCauseNames.size(); ++k) all_s += log.lost_s[k];
+    const double lost_s = log.lost_s[static_cast<std::size_t>(cause)];
+    return number(all_s > 0.0 ? 100.0 * lost_s / all_s : 0.0, 1);
+}
+
+}  // namespace
+
+std::string network_text(const NetworkReport& report) {
+    TextTable table;
+    table.row({"", "veh/h", "gain %", "s", "saved %", "density %", "present", "junction %", "turn %", "spillback %",
+               "gridlock %", "gridlocks", "moved on", "passed", "stability"});
+    std::int64_t violations = 0;
+    for (const NetworkFigures& f : report.populations) {
+        const HindranceLog& log = f.hindrance;
+        std::string stability = kStabilityNames[static_cast<std::size_t>(f.stability)];
+        if (f.collapse_s) stability += fmt::format(", less from {:.0f} s on", *f.collapse_s);
+        table.row({f.population, number(f.steady.throughput_veh_h(), 0), number(report.improvement_percent(f), 1),
+                   number(f.steady.travel_time_s, 1), number(report.time_saved_percent(f), 1),
+                   number(100.0 * f.steady.occupied, 1), number(f.vehicles_present, 0),
+                   share_text(log, Cause::junction_blocking), share_text(log, Cause::turn_blocking),
+                   share_text(log, Cause::spillback), share_text(log, Cause::gridlock),
+                   std::to_string(log.gridlocks.size()), std::to_string(log.taken_out),
+                   std::to_string(log.passed_blockers), stability});
+        violations += f.violations.none() ? 0 : 1;
+    }
+    const AreaFigures* const first = report.populations.empty() ? nullptr : &report.populations[0].steady;
+    const std::string notes = fmt::format(
+        "Area: up to {:g} m outside the outer stop lines. veh/h: vehicles that leave it; s: their mean time in it; density: share of\n"
+        "its lanes' metres; junction, turn, spillback, gridlock: share of the time that vehicles stand, by what holds up their\n"
+        "queue; moved on, passed: uses of the rules. Measured from {:.0f} to {:.0f} s.\n",
+        report.scenario.measure.outside_m, first ? first->window.from_s : 0.0, first ? first->window.to_s : 0.0);
+    const std::string verdict =
+        violations == 0 ? "No overlaps on lanes or in conflict areas but by the rule for blockers, no entries on red, no vehicle "
+                          "lost.\n"
+                        : fmt::format("VIOLATIONS in {} runs: see summary.csv.\n", violations);
+    return table.text() + "\n" + notes + "\n" + verdict;
+}
+
+}  // namespace stopline

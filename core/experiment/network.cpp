@@ -1,0 +1,194 @@
+#include "experiment/network.h"
+
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "experiment/csv.h"
+#include "experiment/side_by_side.h"
+#include "network/lane_graph.h"
+
+namespace stopline {
+
+namespace {
+
+constexpr double kHour_s = 3600.0;
+
+const NetworkFigures* baseline_of(const NetworkReport& report) {
+    for (const NetworkFigures& one : report.populations) {
+        if (one.population == report.scenario.measure.baseline) return &one;
+    }
+    return nullptr;
+}
+
+const std::string& lane_name(const NetworkReport& report, int lane) {
+    static const std::string kNone;
+    return lane < 0 ? kNone : report.lanes.at(static_cast<std::size_t>(lane));
+}
+
+std::string number_or_none(int number) { return number < 0 ? "" : std::to_string(number); }
+
+}  // namespace
+
+double NetworkReport::improvement_percent(const NetworkFigures& figures) const {
+    const NetworkFigures* const base = baseline_of(*this);
+    if (base == nullptr) return std::numeric_limits<double>::quiet_NaN();
+    return 100.0 * (figures.steady.throughput_veh_h() / base->steady.throughput_veh_h() - 1.0);
+}
+
+double NetworkReport::time_saved_percent(const NetworkFigures& figures) const {
+    const NetworkFigures* const base = baseline_of(*this);
+    if (base == nullptr) return std::numeric_limits<double>::quiet_NaN();
+    return 100.0 * (1.0 - figures.steady.travel_time_s / base->steady.travel_time_s);
+}
+
+bool NetworkReport::no_violations() const {
+    return std::all_of(populations.begin(), populations.end(),
+                       [](const NetworkFigures& f) { return f.violations.none(); });
+}
+
+NetworkReport run_networks(const Scenario& scenario, const NetworkOptions& options) {
+    constexpr std::int64_t kTell = 200;  // steps
+    NetworkReport report{scenario, std::vector<NetworkFigures>(scenario.populations.size()), {}};
+    for (const Lane& lane : make_grid(scenario.network.grid, scenario.network.intersection).lanes) {
+        report.lanes.push_back(lane.name);
+    }
+    run_side_by_side(report.populations.size(), options.threads, options.on_progress,
+                     [&](std::size_t k, const std::function<bool(double)>& tell) {
+                         report.populations[k] = run_network(scenario, k, [&](const Simulation& simulation) {
+                             return simulation.state().tick % kTell != 0 ||
+                                    tell(simulation.time_s() / scenario.duration_s);
+                         });
+                     });
+    return report;
+}
+
+std::string network_csv(const NetworkReport& report) {
+    std::vector<std::string> columns{
+        "population",       "throughput_veh_h", "improvement_percent", "travel_time_s", "travel_time_saved_percent",
+        "density_percent",  "vehicles_in_area", "vehicles_present",    "most_present",  "window_from_s",
+        "window_to_s",      "warm_up_s",        "stability",           "collapse_s",    "gridlocks",
+        "first_gridlock_s", "moved_on",         "passed_blockers"};
+    for (std::size_t cause = 1; cause < kCauseNames.size(); ++cause) {
+        columns.push_back(fmt::format("lost_{}_h", kCauseNames[cause]));
+    }
+    for (const char* const column : {"longest_stand_s", "longest_inside_s", "entered", "left", "overlaps", "conflicts",
+                                     "red_entries", "forced_red_entries", "lost_vehicles"}) {
+        columns.emplace_back(column);
+    }
+    CsvWriter csv(columns);
+    for (const NetworkFigures& f : report.populations) {
+        const HindranceLog& log = f.hindrance;
+        std::vector<std::string> row{f.population,
+                                     fixed(f.steady.throughput_veh_h(), 2),
+                                     fixed(report.improvement_percent(f), 2),
+                                     fixed(f.steady.travel_time_s, 3),
+                                     fixed(report.time_saved_percent(f), 2),
+                                     fixed(100.0 * f.steady.occupied, 3),
+                                     fixed(f.steady.vehicles, 2),
+                                     fixed(f.vehicles_present, 2),
+                                     std::to_string(f.most_present),
+                                     fixed(f.steady.window.from_s, 0),
+                                     fixed(f.steady.window.to_s, 0),
+                                     fixed(f.warm_up_s, 0),
+                                     kStabilityNames[static_cast<std::size_t>(f.stability)],
+                                     f.collapse_s ? fixed(*f.collapse_s, 0) : "",
+                                     std::to_string(log.gridlocks.size()),
+                                     log.gridlocks.empty() ? "" : fixed(log.gridlocks[0].from_s, 0),
+                                     std::to_string(log.taken_out),
+                                     std::to_string(log.passed_blockers)};
+        for (std::size_t cause = 1; cause < kCauseNames.size(); ++cause) {
+            row.push_back(fixed(log.lost_s[cause] / kHour_s, 3));
+        }
+        const Violations& v = f.violations;
+        for (const std::string& cell :
+             {fixed(log.longest_stand_s, 0), fixed(f.longest_inside_s, 1), std::to_string(f.entered),
+              std::to_string(f.left_network), std::to_string(v.overlaps), std::to_string(v.conflicts),
+              std::to_string(v.red_entries), std::to_string(v.forced_red_entries), std::to_string(v.lost_vehicles)}) {
+            row.push_back(cell);
+        }
+        csv.row(row);
+    }
+    return csv.text();
+}
+
+std::string network_series_csv(const NetworkReport& report) {
+    std::vector<std::string> columns{"population",      "from_s",           "throughput_veh_h", "travel_time_s",
+                                     "density_percent", "vehicles_in_area", "moved_on"};
+    for (std::size_t cause = 1; cause < kCauseNames.size(); ++cause) {
+        columns.push_back(fmt::format("lost_{}_h", kCauseNames[cause]));
+    }
+    CsvWriter csv(columns);
+    for (const NetworkFigures& f : report.populations) {
+        for (const NetworkInterval& each : f.series) {
+            std::vector<std::string> row{f.population,
+                                         fixed(each.area.window.from_s, 0),
+                                         fixed(each.area.throughput_veh_h(), 1),
+                                         fixed(each.area.travel_time_s, 3),
+                                         fixed(100.0 * each.area.occupied, 3),
+                                         fixed(each.area.vehicles, 2),
+                                         std::to_string(each.taken_out)};
+            for (std::size_t cause = 1; cause < kCauseNames.size(); ++cause) {
+                row.push_back(fixed(each.lost_s[cause] / kHour_s, 4));
+            }
+            csv.row(row);
+        }
+    }
+    return csv.text();
+}
+
+std::string network_ways_csv(const NetworkReport& report) {
+    CsvWriter csv({"population", "from", "to", "throughput_veh_h", "travel_time_s"});
+    for (const NetworkFigures& f : report.populations) {
+        for (const WayFigures& way : f.ways) {
+            if (way.left == 0) continue;
+            csv.row({f.population, kSideNames[static_cast<std::size_t>(way.from)],
+                     kSideNames[static_cast<std::size_t>(way.to)],
+                     fixed(way.left * kHour_s / f.steady.window.length_s(), 2), fixed(way.travel_time_s, 3)});
+        }
+    }
+    return csv.text();
+}
+
+std::string hindrance_csv(const NetworkReport& report) {
+    CsvWriter csv({"population", "cause", "lane", "vehicle", "blocker", "blocker_lane", "from_s", "to_s",
+                   "most_vehicles", "lost_s"});
+    for (const NetworkFigures& f : report.populations) {
+        for (const HindranceEpisode& e : f.hindrance.episodes) {
+            csv.row({f.population, kCauseNames[static_cast<std::size_t>(e.cause)], lane_name(report, e.lane),
+                     std::to_string(e.vehicle), number_or_none(e.blocker), lane_name(report, e.blocker_lane),
+                     fixed(e.from_s, 1), fixed(e.to_s, 1), std::to_string(e.most), fixed(e.lost_s, 1)});
+        }
+    }
+    return csv.text();
+}
+
+std::string gridlocks_csv(const NetworkReport& report) {
+    CsvWriter csv({"population", "gridlock", "from_s", "to_s", "vehicle", "lane"});
+    for (const NetworkFigures& f : report.populations) {
+        for (std::size_t k = 0; k < f.hindrance.gridlocks.size(); ++k) {
+            const Gridlock& g = f.hindrance.gridlocks[k];
+            for (std::size_t member = 0; member < g.vehicles.size(); ++member) {
+                csv.row({f.population, std::to_string(k + 1), fixed(g.from_s, 1), fixed(g.to_s, 1),
+                         std::to_string(g.vehicles[member]), lane_name(report, g.lanes[member])});
+            }
+        }
+    }
+    return csv.text();
+}
+
+std::string rules_csv(const NetworkReport& report) {
+    static constexpr std::array<const char*, 3> kKinds{"moved_on", "put_back", "passed_blocker"};
+    CsvWriter csv({"population", "time_s", "rule", "vehicle", "lane", "blocker", "stood_s"});
+    for (const NetworkFigures& f : report.populations) {
+        for (const RuleUse& use : f.hindrance.rules) {
+            csv.row({f.population, fixed(use.time_s, 1), kKinds[static_cast<std::size_t>(use.kind)],
+                     std::to_string(use.vehicle), lane_name(report, use.lane), number_or_none(use.blocker),
+                     fixed(use.stood_s, 1)});
+        }
+    }
+    return csv.text();
+}
+
+}  // namespace stopline

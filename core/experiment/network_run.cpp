@@ -1,0 +1,203 @@
+#include "experiment/network_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "experiment/build_model.h"
+#include "measure/steady_state.h"
+
+namespace stopline {
+
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+bool is_entry(const LaneGraph& graph, int lane) {
+    return std::find(graph.entries.begin(), graph.entries.end(), lane) != graph.entries.end();
+}
+
+// Where vehicles come into the area that is measured, or leave it: on the lanes by which they enter and leave the network.
+void watch_area(const Scenario& scenario, Model& model) {
+    std::erase_if(model.detectors, [](const Detector& d) { return d.kind != Detector::Kind::stop_line; });
+    const double outside_m = scenario.measure.outside_m;
+    for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {
+        const Lane& road = model.graph.lanes[at(lane)];
+        if (road.origin >= 0) continue;
+        if (road.signal_group < 0) {
+            model.detectors.push_back({lane, outside_m, Detector::Kind::zone, 0, true});
+        } else if (is_entry(model.graph, lane)) {
+            model.detectors.push_back({lane, road.stop_line_m - outside_m, Detector::Kind::zone, 0, false});
+        }
+    }
+}
+
+// Of all lanes in the area; an intersection counts once for each lane that leads to it, straight across.
+double area_lane_m(const Scenario& scenario, const Model& model) {
+    double sum_m = 0.0;
+    for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {
+        const Lane& road = model.graph.lanes[at(lane)];
+        if (road.origin >= 0) continue;
+        if (road.signal_group < 0) {
+            sum_m += scenario.measure.outside_m;
+        } else {
+            sum_m += is_entry(model.graph, lane) ? scenario.measure.outside_m : road.stop_line_m;
+            sum_m += 2.0 * scenario.network.intersection.radius_m;
+        }
+    }
+    return sum_m;
+}
+
+// Notes at the end of each interval what has come up to then.
+class Sampler {
+public:
+    Sampler(const Scenario& scenario, const Model& model)
+        : every_(to_ticks(scenario.measure.interval_s, model.step_s)), second_(to_ticks(1.0, model.step_s)) {}
+
+    void look(const State& state) {
+        if (state.tick % second_ == 0) present_.push_back(state.present());
+        if (state.tick % every_ != 0 || state.tick == 0) return;
+        NetworkInterval interval;
+        for (std::size_t cause = 0; cause < interval.lost_s.size(); ++cause) {
+            interval.lost_s[cause] = state.hindrance.lost_s[cause] - lost_s_[cause];
+        }
+        interval.taken_out = state.hindrance.taken_out - taken_out_;
+        lost_s_ = state.hindrance.lost_s;
+        taken_out_ = state.hindrance.taken_out;
+        series_.push_back(interval);
+    }
+
+    std::vector<NetworkInterval> series() const { return series_; }
+    int most_present() const { return present_.empty() ? 0 : *std::max_element(present_.begin(), present_.end()); }
+    double mean_present(const TimeWindow& window) const {
+        double sum = 0.0;
+        int samples = 0;
+        for (std::size_t s = 0; s < present_.size(); ++s) {
+            if (!window.contains(static_cast<double>(s))) continue;
+            sum += present_[s];
+            ++samples;
+        }
+        return sum / std::max(samples, 1);
+    }
+
+private:
+    std::int64_t every_;
+    std::int64_t second_;
+    std::array<double, kCauseNames.size()> lost_s_{};
+    std::int64_t taken_out_ = 0;
+    std::vector<NetworkInterval> series_;
+    std::vector<int> present_;  // [second]
+};
+
+// Mean over whole intervals from `from_s` on.
+AreaFigures mean_of(const std::vector<NetworkInterval>& series, double from_s) {
+    AreaFigures mean;
+    double travel_s = 0.0;
+    int intervals = 0;
+    for (const NetworkInterval& each : series) {
+        if (each.area.window.from_s < from_s) continue;
+        if (intervals == 0) mean.window.from_s = each.area.window.from_s;
+        mean.window.to_s = each.area.window.to_s;
+        ++intervals;
+        mean.left += each.area.left;
+        if (each.area.left > 0) travel_s += each.area.left * each.area.travel_time_s;
+        mean.vehicles += each.area.vehicles;
+        mean.occupied += each.area.occupied;
+    }
+    mean.vehicles /= std::max(intervals, 1);
+    mean.occupied /= std::max(intervals, 1);
+    mean.travel_time_s = mean.left > 0 ? travel_s / mean.left : std::numeric_limits<double>::quiet_NaN();
+    return mean;
+}
+
+// Throughput after the warm-up in means of five intervals: the greens of single cycles must not look like a change.
+std::optional<double> collapse_of(const NetworkFigures& figures) {
+    constexpr std::size_t kTogether = 5;
+    std::vector<double> flow;
+    std::vector<double> from_s;
+    for (std::size_t k = 0; k + kTogether <= figures.series.size(); k += kTogether) {
+        if (figures.series[k].area.window.from_s < figures.warm_up_s) continue;
+        double sum = 0.0;
+        for (std::size_t i = 0; i < kTogether; ++i) sum += figures.series[k + i].area.throughput_veh_h();
+        flow.push_back(sum / static_cast<double>(kTogether));
+        from_s.push_back(figures.series[k].area.window.from_s);
+    }
+    const std::optional<Collapse> collapse = find_collapse(flow, kCollapseShare);
+    if (!collapse) return std::nullopt;
+    return from_s[collapse->at];
+}
+
+Stability stability_of(const NetworkFigures& figures) {
+    const auto moved_on = static_cast<double>(figures.hindrance.taken_out);
+    const bool gridlocks = !figures.hindrance.gridlocks.empty();
+    if (moved_on >= kSemiStableShare * static_cast<double>(figures.left_network) && moved_on > 0.0) {
+        return Stability::unstable;
+    }
+    if (figures.collapse_s && gridlocks) return Stability::unstable;
+    return gridlocks || moved_on > 0.0 ? Stability::semi_stable : Stability::stable;
+}
+
+void measure(const Scenario& scenario, const Model& model, const State& state, const Sampler& sampler,
+             NetworkFigures& figures) {
+    const double end_s = model.time_s(state.tick);
+    figures.series = sampler.series();
+    const std::vector<AreaFigures> areas =
+        area_series(model.detectors, state.crossings, scenario.measure.interval_s, end_s, area_lane_m(scenario, model));
+    figures.series.resize(std::min(figures.series.size(), areas.size()));
+    std::vector<double> vehicles;
+    for (std::size_t k = 0; k < figures.series.size(); ++k) {
+        figures.series[k].area = areas[k];
+        vehicles.push_back(areas[k].vehicles);
+    }
+    figures.warm_up_s = static_cast<double>(warm_up(vehicles)) * scenario.measure.interval_s;
+    const double steady_s = end_s - scenario.measure.steady_s;
+    figures.steady = mean_of(figures.series, steady_s > 0.0 ? steady_s : figures.warm_up_s);
+    figures.ways = way_figures(model, state.crossings, figures.steady.window);
+    figures.collapse_s = collapse_of(figures);
+}
+
+}  // namespace
+
+Model network_model(const Scenario& scenario, std::size_t population) {
+    Model model = build_model(scenario, population);
+    watch_area(scenario, model);
+    model.records_all = false;
+    model.rules.watch_ticks = std::max<std::int64_t>(to_ticks(1.0, model.step_s), 1);
+    return model;
+}
+
+NetworkFigures run_network(const Scenario& scenario, std::size_t population,
+                           const std::function<bool(const Simulation&)>& on_step) {
+    const Model model = network_model(scenario, population);
+    Simulation simulation(model);
+    NetworkFigures figures;
+    figures.population = scenario.populations.at(population).name;
+    figures.complete = true;
+    Sampler sampler(scenario, model);
+    const std::int64_t last = to_ticks(scenario.duration_s, model.step_s);
+    while (simulation.state().tick < last) {
+        if (on_step && !on_step(simulation)) {
+            figures.complete = false;
+            break;
+        }
+        sampler.look(simulation.state());
+        simulation.step();
+    }
+    const State& state = simulation.state();
+    sampler.look(state);
+    measure(scenario, model, state, sampler, figures);
+    figures.hindrance = state.hindrance;
+    figures.violations = state.violations;
+    figures.longest_inside_s = model.time_s(state.longest_inside);
+    figures.vehicles_present = sampler.mean_present(figures.steady.window);
+    figures.most_present = sampler.most_present();
+    figures.entered = state.entered;
+    figures.left_network = state.left;
+    figures.updates = state.updates;
+    figures.state_hash = simulation.state_hash();
+    figures.stability = stability_of(figures);
+    return figures;
+}
+
+}  // namespace stopline

@@ -1,0 +1,58 @@
+// One run of several intersections that influence each other (Section VI): from a scenario to its figures.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "measure/area.h"
+#include "scenario/scenario.h"
+#include "sim/simulation.h"
+
+namespace stopline {
+
+// Section VI.D. Stable: no gridlock, nobody was moved on. Semi-stable: gridlocks that dissolve, vehicles moved on are below 1 % of those
+// that left. Unstable: that or more, or throughput falls to a lower level (see NetworkFigures::collapse_s) after gridlocks.
+enum class Stability : std::uint8_t { stable, semi_stable, unstable };
+inline constexpr std::array<const char*, 3> kStabilityNames{"stable", "semi-stable", "unstable"};
+inline constexpr double kSemiStableShare = 0.01;  // of throughput (Section VI.D)
+inline constexpr double kCollapseShare =
+    0.1;  // throughput that is lost at least (our choice: the paper says "significant")
+
+// One step of the time series.
+struct NetworkInterval {
+    AreaFigures area;
+    std::array<double, kCauseNames.size()> lost_s{};  // vehicle seconds, by cause
+    std::int64_t taken_out = 0;
+};
+
+struct NetworkFigures {
+    std::string population;
+    AreaFigures steady;            // over the last measure.steady of the run, or all of a shorter one but the warm-up
+    double warm_up_s = 0.0;        // found from the number of vehicles in the area (measure/steady_state.h)
+    std::vector<WayFigures> ways;  // over the same window
+    std::vector<NetworkInterval> series;
+    Stability stability = Stability::stable;
+    std::optional<double> collapse_s;  // from when on throughput stays on a lower level
+    HindranceLog hindrance;
+    Violations violations;
+    double longest_inside_s = 0.0;
+    double vehicles_present = 0.0;  // mean over the steady window, queues outside included
+    int most_present = 0;
+    std::int64_t entered = 0;
+    std::int64_t left_network = 0;
+    std::int64_t updates = 0;
+    std::uint64_t state_hash = 0;
+    bool complete = false;
+};
+
+// The model of a network run: fronts that come into the measured area and leave it, and hindrance, are all that it records.
+Model network_model(const Scenario& scenario, std::size_t population);
+
+// `on_step` is called before every step; return false to stop early.
+NetworkFigures run_network(const Scenario& scenario, std::size_t population,
+                           const std::function<bool(const Simulation&)>& on_step = {});
+
+}  // namespace stopline
