@@ -74,8 +74,9 @@ private:
             return set(slot, standing ? hold->blocker : -1, blocked ? Cause::junction_blocking : Cause::priority);
         }
         if (slot == state_.stop_slot[at(lane)]) {
-            const int standing = state_.exit_full[at(lane)];
-            return set(slot, standing, standing >= 0 ? full_exit(slot) : Cause::signal);
+            const KeptOut& kept_out = state_.kept_out[at(lane)];
+            if (kept_out.blocker < 0) return set(slot, -1, Cause::signal);
+            return set(slot, kept_out.blocker, kept_out.in_exit ? full_exit(slot) : Cause::junction_blocking);
         }
         follow(slot, lane);
     }

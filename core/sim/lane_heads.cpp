@@ -49,11 +49,14 @@ bool line_is_open(const Model& model, const State& state, const Lane& lane, cons
            state.tick >= model.signals[at(lane.signal_group)].since(state.tick) + model.hesitation_ticks;
 }
 
-// Room that one exit of an intersection still has.
+constexpr double kStands_mps = 0.1;
+
+// Room that one exit of an intersection still has, and who stands across the way to it.
 struct ExitRoom {
     int inside = -1;      // lane that leads to it
     double room_m = 1e9;  // before the last vehicle that stands within sight, less what those on their way there need
     int standing = -1;    // its slot
+    int across = -1;
 };
 
 double needs_m(const VehicleArrays& v, int slot) {
@@ -61,7 +64,6 @@ double needs_m(const VehicleArrays& v, int slot) {
 }
 
 ExitRoom look_into_exit(const Model& model, const State& state, int inside) {
-    constexpr double kStands_mps = 0.1;
     const VehicleArrays& v = state.vehicles;
     const int exit = model.graph.lanes[at(inside)].next[0];
     const LaneBlock& block = state.blocks[at(exit)];
@@ -86,7 +88,23 @@ ExitRoom look_into_exit(const Model& model, const State& state, int inside) {
     return room;
 }
 
-// The first vehicle that finds no room in its exit and can stop comfortably; -1: none.
+// The slot of a vehicle from the streets that cross which stands across this way, where it may not be passed; -1: none.
+int stands_across(const Model& model, const State& state, int inside) {
+    const VehicleArrays& v = state.vehicles;
+    const std::int64_t patience = model.rules.pass_blocker_ticks;
+    for (const Conflict& c : model.graph.conflicts[at(inside)]) {
+        if (c.yields || c.other_yields) continue;
+        for (const Insider& w : state.insiders[at(c.other)]) {
+            if (w.front_m <= c.other_from_m || w.rear_m >= c.other_to_m || v.speed_mps[at(w.slot)] >= kStands_mps)
+                continue;
+            if (patience > 0 && state.tick - v.stands_since[at(w.slot)] >= patience) continue;
+            return w.slot;
+        }
+    }
+    return -1;
+}
+
+// The first vehicle that finds no room in its exit, or somebody across its way, and can stop comfortably; -1: none.
 int keep_clear(const Model& model, State& state, int index) {
     constexpr std::size_t kMostWays = 8;
     constexpr double kDecides_m = 80.0;  // before the stop line, at most
@@ -102,13 +120,14 @@ int keep_clear(const Model& model, State& state, int index) {
         while (way < known && ways[way].inside != inside) ++way;
         if (way == known) {
             if (known == kMostWays) break;
-            ways[known++] = look_into_exit(model, state, inside);
+            ways[known] = look_into_exit(model, state, inside);
+            ways[known++].across = stands_across(model, state, inside);
         }
         ExitRoom& room = ways[way];
         room.room_m -= needs_m(v, slot);
-        if (room.room_m >= 0.0 || v.position_m[at(slot)] > lane.stop_line_m) continue;
+        if ((room.room_m >= 0.0 && room.across < 0) || v.position_m[at(slot)] > lane.stop_line_m) continue;
         if (!can_stop(model, v, slot, lane.stop_line_m, model.driver.cacc.deceleration_comfort_mps2)) continue;
-        state.exit_full[at(index)] = room.standing;
+        state.kept_out[at(index)] = room.across >= 0 ? KeptOut{room.across, false} : KeptOut{room.standing, true};
         return slot;
     }
     return -1;
@@ -132,7 +151,7 @@ void find_occupied_lanes(const Model& model, State& state) {
 void decide_stops(const Model& model, State& state) {
     for (const int index : state.occupied) {
         const Lane& lane = model.graph.lanes[at(index)];
-        state.exit_full[at(index)] = -1;
+        state.kept_out[at(index)] = {};
         if (lane.signal_group < 0) continue;
         StopLineState& line = state.stop_lines[at(index)];
         const LaneBlock& block = state.blocks[at(index)];

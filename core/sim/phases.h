@@ -11,8 +11,9 @@ namespace stopline {
 
 void read_signals(const Model& model, State& state);
 void find_occupied_lanes(const Model& model, State& state);
+void find_insiders(const Model& model, State& state);
 void decide_stops(const Model& model, State& state);
-void give_way(const Model& model, State& state);
+void give_way(const Model& model, State& state);  // after find_insiders
 void look_beyond_lanes(const Model& model, State& state);
 void watch_hindrance(const Model& model, State& state);  // hindrance.h
 void move_blocked_on(const Model& model, State& state);

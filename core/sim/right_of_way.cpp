@@ -78,13 +78,24 @@ bool blocked(const State& state, int slot) {
            gap_m < kCloseBehind_m;
 }
 
-// The same of one past the stop line on the way to `lane`, whose predecessor waits for others.
+// The same of one past the stop line on the way to `lane`, where the first of those that stand in front waits for others.
 bool behind_held(const Model& model, const State& state, int lane, const Insider& w) {
-    if (!blocked(state, w.slot)) return false;
-    const int on = w.front_m > 0.0 ? lane : model.graph.lanes[at(lane)].origin;
-    const bool first = w.slot == state.blocks[at(on)].first;
-    const int ahead = first ? vehicle_ahead(model, state, on, w.slot, kSeen_m).slot : w.slot - 1;
-    return ahead >= 0 && held(state, ahead);
+    constexpr int kMost = 8;  // vehicles inside, one behind the other
+    int slot = w.slot;
+    int on = w.front_m > 0.0 ? lane : model.graph.lanes[at(lane)].origin;
+    for (int k = 0; k < kMost && blocked(state, slot); ++k) {
+        const LaneBlock& block = state.blocks[at(on)];
+        if (slot == block.first) {
+            slot = vehicle_ahead(model, state, on, slot, kSeen_m).slot;
+            const LaneBlock& inside = state.blocks[at(lane)];
+            if (slot < inside.first || slot >= inside.stop()) return slot >= 0 && held(state, slot);
+            on = lane;
+        } else {
+            --slot;
+        }
+        if (held(state, slot)) return true;
+    }
+    return false;
 }
 
 // When the next vehicle of the other lane, inside or before its stop line, can be at the conflict area; those that will stop
@@ -310,14 +321,8 @@ std::int64_t pairs_in(const Model& model, State& state, int lane, const Conflict
 
 }  // namespace
 
-void give_way(const Model& model, State& state) {
-    // Between two areas of the same pair there may be some steps.
-    constexpr std::int64_t kAgreed_steps = 5;
-    std::erase_if(state.agreed, [&](const Agreed& a) { return state.tick - a.seen > kAgreed_steps; });
-    std::erase_if(state.passing, [&](const Passing& p) { return state.tick - p.seen > model.rules.memory_ticks; });
-    const auto lanes = static_cast<int>(model.graph.conflicts.size());
-    for (int lane = 0; lane < lanes; ++lane) {
-        state.holds[at(lane)].count = 0;
+void find_insiders(const Model& model, State& state) {
+    for (int lane = 0; lane < static_cast<int>(model.graph.conflicts.size()); ++lane) {
         if (model.graph.lanes[at(lane)].origin < 0) continue;
         std::vector<Insider>& insiders = state.insiders[at(lane)];
         list_insiders(model, state, lane, insiders);
@@ -325,6 +330,15 @@ void give_way(const Model& model, State& state) {
             state.longest_inside = std::max(state.longest_inside, state.tick - insiders.front().since);
         }
     }
+}
+
+void give_way(const Model& model, State& state) {
+    // Between two areas of the same pair there may be some steps.
+    constexpr std::int64_t kAgreed_steps = 5;
+    std::erase_if(state.agreed, [&](const Agreed& a) { return state.tick - a.seen > kAgreed_steps; });
+    std::erase_if(state.passing, [&](const Passing& p) { return state.tick - p.seen > model.rules.memory_ticks; });
+    const auto lanes = static_cast<int>(model.graph.conflicts.size());
+    for (int lane = 0; lane < lanes; ++lane) state.holds[at(lane)].count = 0;
     for (int lane = 0; lane < lanes; ++lane) {
         const std::vector<Conflict>& conflicts = model.graph.conflicts[at(lane)];
         const auto matters = [&](const Conflict& c) { return c.yields || !state.insiders[at(c.other)].empty(); };

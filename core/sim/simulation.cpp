@@ -16,6 +16,7 @@ void Simulation::step() {
     state_.v2v = rows_at(model_.v2v, state_.tick, state_.vehicles.slots);
     read_signals(model_, state_);
     find_occupied_lanes(model_, state_);
+    find_insiders(model_, state_);
     decide_stops(model_, state_);
     give_way(model_, state_);
     look_beyond_lanes(model_, state_);

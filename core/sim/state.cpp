@@ -62,7 +62,7 @@ State make_state(const Model& model) {
     state.stop_lines.resize(model.graph.lanes.size());
     state.stop_slot.assign(model.graph.lanes.size(), -1);
     state.holds.resize(model.graph.lanes.size());
-    state.exit_full.assign(model.graph.lanes.size(), -1);
+    state.kept_out.resize(model.graph.lanes.size());
     state.insiders.resize(model.graph.lanes.size());
     for (std::vector<Insider>& insiders : state.insiders) insiders.reserve(32);
     state.detectors_of.resize(model.graph.lanes.size());

@@ -53,6 +53,12 @@ struct Hold {
     bool priority = false;  // which comes first; else it is in the conflict area
 };
 
+// The vehicle that a driver at the stop line sees stand beyond it: in the exit, or across its way.
+struct KeptOut {
+    int blocker = -1;  // slot
+    bool in_exit = false;
+};
+
 // Those of one lane: the first ones, from the front.
 struct Holds {
     static constexpr int kMost = 3;
@@ -101,7 +107,7 @@ struct State {
     std::vector<StopLineState> stop_lines;  // [lane]
     std::vector<int> stop_slot;             // [lane] slot of the vehicle that stops at the line; -1: none
     std::vector<Holds> holds;               // [lane] vehicles that wait to give way
-    std::vector<int> exit_full;  // [lane] slot of the vehicle that stands in the exit, whom who stops waits for
+    std::vector<KeptOut> kept_out;          // [lane] why who stops at the line does so although it is green
     std::vector<Passing> passing;
     std::vector<Agreed> agreed;
     LaneBlock limbo;                             // vehicles that were taken out ...

@@ -59,6 +59,7 @@ protected:
     // How many more after one step.
     std::int64_t counted() {
         const std::int64_t before = track_.state().violations.conflicts;
+        find_insiders(track_.model(), track_.editable());
         give_way(track_.model(), track_.editable());
         return track_.state().violations.conflicts - before;
     }
@@ -117,15 +118,19 @@ TEST_F(ConflictCount, IsNothingWherePathsDoNotMeet) {
 TEST_F(ConflictCount, LongestInsideIsOfTheFirstOfALaneAndStays) {
     place("west_0_straight", 20.0, 120);
     place("west_0_straight", -0.5, 40);  // past its stop line, on the stretch that movements share
+    find_insiders(track_.model(), track_.editable());
     give_way(track_.model(), track_.editable());
     EXPECT_EQ(track_.state().longest_inside, 120);
     track_.editable().tick += 30;
+    find_insiders(track_.model(), track_.editable());
     give_way(track_.model(), track_.editable());
     EXPECT_EQ(track_.state().longest_inside, 150);
     track_.editable().blocks[at(lane("west_0_straight"))].count = 0;  // gone; the other has been there for 70
+    find_insiders(track_.model(), track_.editable());
     give_way(track_.model(), track_.editable());
     EXPECT_EQ(track_.state().longest_inside, 150);
     track_.editable().tick += 100;
+    find_insiders(track_.model(), track_.editable());
     give_way(track_.model(), track_.editable());
     EXPECT_EQ(track_.state().longest_inside, 170);
 }
