@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "base/arithmetic.h"
 #include "base/random.h"
 #include "sim/meso_kernels.h"
 
@@ -13,48 +14,70 @@ namespace {
 
 // The speed of the next step on the way to a limit: at once where that is lower, else a share of what is missing.
 inline double approached(double speed_mps, double limit_mps, double share) {
-    const double missing_mps = limit_mps - speed_mps;
-    return missing_mps > 0.0 ? speed_mps + share * missing_mps : limit_mps;
+    const double gaining_mps = speed_mps + share * (limit_mps - speed_mps);
+    return lesser(gaining_mps, limit_mps);  // faster than allowed: share <= 1, so that gaining is no less
 }
 
 // The same on the way to a turn, whose allowed speed falls with the distance: slow_down_acceleration of full dynamics.
 inline double slowed(double speed_mps, double allowed_mps, double share, double braked_mps) {
-    const double next_mps =
-        speed_mps + share * (allowed_mps - speed_mps) - braked_mps * speed_mps / std::max(allowed_mps, 1.0);
-    return share < 1.0 ? next_mps : allowed_mps;
+    return speed_mps + share * (allowed_mps - speed_mps) - braked_mps * speed_mps / greater(allowed_mps, 1.0);
+}
+
+// Where a lane's vehicles stand in the group, and what they all have in common.
+struct LaneShare {
+    int n;
+    double turn_m;
+    double limit_mps;
+    double share;
+    double turn_share;
+    double slow_down_mps2;
+    double braked_mps;
+};
+
+// `v`, `x`, ...: of the lane's first vehicle; the sentinel is before it.
+template <bool at_once>
+inline void gather_lane(const LaneShare& of, const double* __restrict v, const double* __restrict x,
+                        const float* __restrict length, const float* __restrict a, const float* __restrict end_speed,
+                        const MesoGroup& group, int first) {
+    const LaneShare lane = of;
+    double* __restrict const to_speed = group.speed + first;
+    double* __restrict const to_ahead = group.ahead + first;
+    double* __restrict const to_ahead_acceleration = group.ahead_acceleration + first;
+    double* __restrict const to_gap = group.gap + first;
+    double* __restrict const to_cap = group.cap + first;
+    double* __restrict const to_more = group.more + first;
+    // Single to double precision first: g++ 12 does not vectorise both in one loop.
+    for (int i = 0; i < lane.n; ++i) {
+        to_ahead_acceleration[i] = greater(static_cast<double>(a[i - 1]), 0.0);
+        to_gap[i] = static_cast<double>(length[i - 1]);
+        to_cap[i] = static_cast<double>(end_speed[i]);
+    }
+    for (int i = 0; i < lane.n; ++i) {
+        to_speed[i] = v[i];
+        to_ahead[i] = v[i - 1];
+        to_gap[i] = x[i - 1] - to_gap[i] - x[i];
+        to_more[i] = 0.0;
+        // Towards a lower limit at the end of the lane: v^2 = v_end^2 + 2 b distance.
+        const double end_mps = to_cap[i];
+        const double to_turn_m = greater(lane.turn_m - x[i], 0.0);
+        const double slow_mps = std::sqrt(end_mps * end_mps + 2.0 * lane.slow_down_mps2 * to_turn_m);
+        const double turn_mps = at_once ? slow_mps : slowed(v[i], slow_mps, lane.turn_share, lane.braked_mps);
+        to_cap[i] = lesser(approached(v[i], lane.limit_mps, lane.share), turn_mps);
+    }
 }
 
 inline void gather(const MesoStreams& streams, MesoKernels::Lanes lanes, const MesoStep& step, const MesoGroup& group) {
     const MesoStreams s = streams;  // own copies: nothing that is written here can change them
     const MesoGroup g = group;
-    const double slow_down_mps2 = step.slow_down_mps2;
     const double share = step.approach_share;
-    const double turn_share = step.turn_share;
-    const double braked_mps = slow_down_mps2 * step.dt;
+    const auto gather_one = step.turn_share >= 1.0 ? gather_lane<true> : gather_lane<false>;
     int first = 0;  // place of the lane's first vehicle
     for (const LaneStep& lane : lanes) {
         const int n = lane.stop - lane.begin;
-        const double* const position = s.position + lane.begin;
-        const double* const speed = s.speed + lane.begin;
-        const float* const length = s.length + lane.begin;
-        const float* const acceleration = s.acceleration + lane.begin;
-        const float* const end_speed = s.end_speed + lane.begin;
-        const double turn_m = lane.turn_m;
-        const double limit_mps = lane.limit_mps;
-        for (int i = 0; i < n; ++i) {
-            const int k = first + i;
-            g.speed[k] = speed[i];
-            g.ahead[k] = speed[i - 1];
-            g.ahead_acceleration[k] = std::max(static_cast<double>(acceleration[i - 1]), 0.0);
-            g.gap[k] = position[i - 1] - static_cast<double>(length[i - 1]) - position[i];
-            // Towards a lower limit at the end of the lane: v^2 = v_end^2 + 2 b distance.
-            const auto end_mps = static_cast<double>(end_speed[i]);
-            const double to_turn_m = std::max(turn_m - position[i], 0.0);
-            const double slow_mps = std::sqrt(end_mps * end_mps + 2.0 * slow_down_mps2 * to_turn_m);
-            g.cap[k] =
-                std::min(approached(speed[i], limit_mps, share), slowed(speed[i], slow_mps, turn_share, braked_mps));
-            g.more[k] = 0.0;
-        }
+        const LaneShare of{
+            n, lane.turn_m, lane.limit_mps, share, step.turn_share, step.slow_down_mps2, step.slow_down_mps2 * step.dt};
+        gather_one(of, s.speed + lane.begin, s.position + lane.begin, s.length + lane.begin,
+                   s.acceleration + lane.begin, s.end_speed + lane.begin, g, first);
         std::copy_n(s.id + lane.begin, n, g.id + first);
         std::copy_n(s.policy + lane.begin, n, g.policy + first);
         if (lane.leader_mps > 0.0) {

@@ -19,7 +19,8 @@ Model two_lanes() {
     ApproachSettings approach;
     approach.lanes = 2;
     model.graph = make_approach(approach);
-    model.signals = {make_single_light({.first_green_s = kGreen_s, .green_s = 15.0, .cycle_s = kCycle_s}, model.step_s)};
+    model.signals = {
+        make_single_light({.first_green_s = kGreen_s, .green_s = 15.0, .cycle_s = kCycle_s}, model.step_s)};
     for (const int lane : {0, 2}) {
         model.detectors.push_back({lane, model.graph.lanes[0].stop_line_m, Detector::Kind::stop_line});
         model.detectors.push_back({lane, 1.0, Detector::Kind::zone, 0, false});

@@ -1,0 +1,64 @@
+// Warm-up and collapse of made-up series.
+#include "measure/steady_state.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "base/random.h"
+
+namespace stopline {
+namespace {
+
+double noise(std::size_t k) { return random_uniform(7, k, 0, Purpose::dawdle) - 0.5; }
+
+std::vector<double> settling(std::size_t ramp, std::size_t count) {
+    std::vector<double> values;
+    for (std::size_t k = 0; k < count; ++k) {
+        const double share = k < ramp ? static_cast<double>(k) / static_cast<double>(ramp) : 1.0;
+        values.push_back(100.0 * share + noise(k));
+    }
+    return values;
+}
+
+TEST(WarmUp, IsWhereARampEnds) {
+    for (const std::size_t ramp : {10u, 40u, 90u}) {
+        const std::size_t found = warm_up(settling(ramp, 300));
+        EXPECT_GE(found + 5, ramp);
+        EXPECT_LE(found, ramp + 10);
+    }
+}
+
+TEST(WarmUp, IsShortForASteadySeriesAndNoneForAShortOne) {
+    EXPECT_LE(warm_up(settling(0, 300)), 150u);
+    EXPECT_EQ(warm_up(std::vector<double>(300, 5.0)), 0u);
+    EXPECT_EQ(warm_up(std::vector<double>{1.0, 2.0, 3.0}), 0u);
+    EXPECT_EQ(warm_up({}), 0u);
+}
+
+TEST(Collapse, IsWhereTheLevelFalls) {
+    std::vector<double> values;
+    for (std::size_t k = 0; k < 60; ++k) values.push_back((k < 37 ? 100.0 : 80.0) + 5.0 * noise(k));
+    const std::optional<Collapse> found = find_collapse(values, 0.1);
+    ASSERT_TRUE(found.has_value());
+    EXPECT_EQ(found->at, 37u);
+    EXPECT_NEAR(found->before, 100.0, 1.5);
+    EXPECT_NEAR(found->after, 80.0, 1.5);
+    EXPECT_FALSE(find_collapse(values, 0.3).has_value()) << "a fifth is less than asked for";
+}
+
+TEST(Collapse, IsNeitherNoiseNorARise) {
+    std::vector<double> steady;
+    std::vector<double> rising;
+    for (std::size_t k = 0; k < 60; ++k) {
+        steady.push_back(100.0 + 30.0 * noise(k));
+        rising.push_back((k < 30 ? 80.0 : 100.0) + noise(k));
+    }
+    EXPECT_FALSE(find_collapse(steady, 0.1).has_value());
+    EXPECT_FALSE(find_collapse(rising, 0.1).has_value());
+    EXPECT_FALSE(find_collapse(std::vector<double>{5.0, 1.0}, 0.1).has_value());
+}
+
+}  // namespace
+}  // namespace stopline

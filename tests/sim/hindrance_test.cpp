@@ -1,0 +1,256 @@
+// Who waits for whom, and why: vehicles placed by hand on two intersections, the watch called once; and the rules, in runs.
+#include "sim/hindrance.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "experiment/network_run.h"
+#include "support/track.h"
+
+namespace stopline {
+namespace {
+
+using testing_support::at;
+using testing_support::Track;
+
+Scenario arterial(const std::vector<std::string>& overrides = {}) {
+    return load_scenario(STOPLINE_SOURCE_DIR "/scenarios/arterial.yaml", overrides);
+}
+
+// Two intersections without vehicles. Every place is given as a lane's name.
+class Hindrance : public testing::Test {
+protected:
+    Hindrance() : track_(empty()) {
+        state().tick = 1000;
+        // Streets from west to east have green.
+        for (std::size_t group = 0; group < state().lights.size(); ++group) {
+            state().lights[group] = group % 2 == 0 ? Light::green : Light::red;
+        }
+    }
+
+    static Model empty() {
+        Model model = network_model(arterial({"network.grid.columns=2"}), 2);
+        for (DemandPlan::Inlet& inlet : model.demand.inlets) inlet.vehicles = 0;
+        return model;
+    }
+
+    State& state() { return track_.editable(); }
+
+    int lane(const std::string& name) {
+        const std::vector<Lane>& lanes = track_.model().graph.lanes;
+        return static_cast<int>(
+            std::find_if(lanes.begin(), lanes.end(), [&](const Lane& l) { return l.name == name; }) - lanes.begin());
+    }
+
+    // A vehicle that stands there; returns its number.
+    int stand(const std::string& name, double front_m, const std::string& next = {}) {
+        const int on = lane(name);
+        track_.place(on, front_m, 0.0);
+        const std::size_t slot = at(state().blocks[at(on)].last());
+        state().vehicles.stands_since[slot] = static_cast<int>(state().tick);
+        const Lane& road = track_.model().graph.lanes[at(on)];
+        const std::string leads_to =
+            next.empty() && road.origin >= 0 ? track_.model().graph.lanes[at(road.next[0])].name : next;
+        state().vehicles.next_lane[slot] = leads_to.empty() ? -1 : lane(leads_to);
+        const auto& routes = track_.model().graph.routes;
+        for (std::size_t k = 0; k < routes.size(); ++k) {
+            const auto place = std::find(routes[k].lanes.begin(), routes[k].lanes.end(), on);
+            if (place == routes[k].lanes.end()) continue;
+            const auto after =
+                std::find(routes[k].lanes.begin(), routes[k].lanes.end(), state().vehicles.next_lane[slot]);
+            if (!leads_to.empty() && after == routes[k].lanes.end()) continue;
+            state().vehicles.route[slot] = static_cast<int>(k);
+            state().vehicles.route_index[slot] = static_cast<int>(place - routes[k].lanes.begin());
+        }
+        return state().vehicles.id[slot];
+    }
+
+    // Where one lane's conflict area with another begins.
+    double area_m(const std::string& one, const std::string& two) {
+        for (const Conflict& c : track_.model().graph.conflicts_of(lane(one))) {
+            if (c.other == lane(two)) return c.from_m;
+        }
+        ADD_FAILURE() << one << " and " << two << " do not meet";
+        return 0.0;
+    }
+
+    void look() {
+        const Model& model = track_.model();
+        find_occupied_lanes(model, state());
+        find_insiders(model, state());
+        decide_stops(model, state());
+        give_way(model, state());
+        watch_hindrance(model, state());
+    }
+
+    double lost_s(Cause cause) { return state().hindrance.lost_s[static_cast<std::size_t>(cause)]; }
+
+    Track track_;
+};
+
+TEST_F(Hindrance, AQueueAtARedLightWaitsForTheSignal) {
+    stand("c0r0_south_in_0", 154.0, "c0r0_south_0_straight");
+    stand("c0r0_south_in_0", 146.0, "c0r0_south_0_straight");
+    stand("c0r0_south_in_0", 138.0, "c0r0_south_0_straight");
+    look();
+    EXPECT_EQ(lost_s(Cause::signal), 3.0);
+    EXPECT_TRUE(state().hindrance.episodes.empty());
+    EXPECT_TRUE(state().hindrance.gridlocks.empty());
+}
+
+TEST_F(Hindrance, WhoStandsAcrossTheWayBlocksTheJunction) {
+    const double m = area_m("c0r0_south_0_straight", "c0r0_west_0_straight");
+    const int blocker = stand("c0r0_south_0_straight", m + 1.0);
+    const int first = stand("c0r0_west_in_0", 154.0, "c0r0_west_0_straight");
+    stand("c0r0_west_in_0", 146.0, "c0r0_west_0_straight");
+    look();
+    ASSERT_EQ(state().hindrance.episodes.size(), 1u);
+    const HindranceEpisode& e = state().hindrance.episodes[0];
+    EXPECT_EQ(e.cause, Cause::junction_blocking);
+    EXPECT_EQ(e.vehicle, first);
+    EXPECT_EQ(e.blocker, blocker);
+    EXPECT_EQ(e.blocker_lane, lane("c0r0_south_0_straight"));
+    EXPECT_EQ(e.most, 2);
+    EXPECT_EQ(lost_s(Cause::junction_blocking), 2.0);
+}
+
+TEST_F(Hindrance, AFullExitIsSpillbackOrTurnBlocking) {
+    stand("c1r0_west_in_0", 4.0, "c1r0_west_0_straight");  // its rear is still inside
+    const int straight = stand("c0r0_west_in_0", 154.0, "c0r0_west_0_straight");
+    stand("c1r0_west_in_1", 4.0, "c1r0_west_1_straight");
+    for (std::size_t group = 0; group < state().lights.size(); ++group) state().lights[group] = Light::green;
+    const int turning = stand("c0r0_south_in_1", 154.0, "c0r0_south_1_right");
+    look();
+    ASSERT_EQ(state().hindrance.episodes.size(), 2u);
+    for (const HindranceEpisode& e : state().hindrance.episodes) {
+        EXPECT_EQ(e.cause, e.vehicle == straight ? Cause::spillback : Cause::turn_blocking);
+        EXPECT_TRUE(e.vehicle == straight || e.vehicle == turning);
+    }
+}
+
+// Four vehicles from four sides, each across the way of the next.
+TEST_F(Hindrance, ACircleIsAGridlockWithItsMembers) {
+    const std::vector<std::string> ring{"c0r0_west_0_straight", "c0r0_south_0_straight", "c0r0_east_0_straight",
+                                        "c0r0_north_0_straight"};
+    std::set<int> members;
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+        // Just before the area with the one that it waits for; its body is in the area with the one behind.
+        double far_m = 0.0;
+        for (const std::string& other : ring) {
+            if (other == ring[k] || other == ring[(k + 2) % 4]) continue;
+            far_m = std::max(far_m, area_m(ring[k], other));
+        }
+        members.insert(stand(ring[k], far_m - 0.5));
+    }
+    look();
+    ASSERT_EQ(state().hindrance.gridlocks.size(), 1u);
+    const Gridlock& g = state().hindrance.gridlocks[0];
+    EXPECT_EQ(std::set<int>(g.vehicles.begin(), g.vehicles.end()), members);
+    EXPECT_EQ(lost_s(Cause::gridlock), 4.0);
+    state().tick += track_.model().rules.watch_ticks;
+    look();
+    ASSERT_EQ(state().hindrance.gridlocks.size(), 1u) << "the same one, a second later";
+    EXPECT_EQ(state().hindrance.gridlocks[0].to_s - state().hindrance.gridlocks[0].from_s, 1.0);
+}
+
+struct Run {
+    const char* fidelity;
+    double until_s;
+};
+class SlowRules : public testing::TestWithParam<Run> {};
+INSTANTIATE_TEST_SUITE_P(Modes, SlowRules, testing::Values(Run{"meso", 1200.0}, Run{"full", 400.0}),
+                         [](const auto& run) { return std::string(run.param.fidelity); });
+
+// What holds of every use of a rule, and of the vehicles, on a grid that gridlocks.
+TEST_P(SlowRules, AreUsedAsTheySay) {
+    const Scenario scenario =
+        load_scenario(STOPLINE_SOURCE_DIR "/scenarios/grid.yaml",
+                      {std::string("fidelity=") + GetParam().fidelity, "signal.green=20 s", "demand.left=10 %",
+                       "demand.right=30 %", "network.grid.columns=3", "network.grid.rows=3"});
+    const Model model = network_model(scenario, 2);
+    Simulation simulation(model);
+    simulation.run_until(GetParam().until_s);
+    const State& state = simulation.state();
+    EXPECT_TRUE(state.violations.none());
+    EXPECT_EQ(state.violations.conflicts, 0);
+    EXPECT_EQ(state.entered, state.left + state.present());
+    const double cycle_s = scenario.signal.both_stages_s();
+    std::set<int> out;
+    std::int64_t passed = 0;
+    for (const RuleUse& use : state.hindrance.rules) {
+        if (use.kind == RuleUse::Kind::passed_blocker) {
+            ++passed;
+            EXPECT_GE(use.stood_s, 2.0 * scenario.signal.green_s - 1e-6);
+        } else if (use.kind == RuleUse::Kind::taken_out) {
+            EXPECT_GE(use.stood_s, 3.0 * cycle_s - 1e-6);
+            EXPECT_TRUE(out.insert(use.vehicle).second) << "is out already";
+        } else {
+            EXPECT_EQ(out.erase(use.vehicle), 1u) << "was not out";
+        }
+    }
+    EXPECT_EQ(passed, state.hindrance.passed_blockers);
+    EXPECT_EQ(static_cast<int>(out.size()), state.limbo.count) << "all who were moved on are back, or wait to be";
+    EXPECT_GT(state.hindrance.episodes.size(), 20u);
+    if (GetParam().until_s > 1000.0) {
+        EXPECT_GT(state.hindrance.taken_out, 0);
+        EXPECT_GT(passed, 0);
+        EXPECT_FALSE(state.hindrance.gridlocks.empty());
+    }
+    // Nobody waits for ever: who heads a lane for three cycles is moved on, and those behind move up.
+    EXPECT_LT(state.hindrance.longest_stand_s, 10.0 * cycle_s);
+}
+
+// Every second that a vehicle stands is in the account, under one cause.
+TEST(SlowHindranceAccount, HasEverySecondThatAVehicleStands) {
+    const Scenario scenario = arterial({"network.grid.columns=3"});
+    const Model model = network_model(scenario, 2);
+    Simulation simulation(model);
+    double stood_s = 0.0;
+    while (simulation.time_s() < 400.0) {
+        const State& state = simulation.state();
+        if (state.tick % model.rules.watch_ticks == 0) {
+            for (const LaneBlock& block : state.blocks) {
+                for (int slot = block.first; slot < block.stop(); ++slot) {
+                    stood_s += state.vehicles.speed_mps[at(slot)] < 0.1 ? 1.0 : 0.0;
+                }
+            }
+        }
+        simulation.step();
+    }
+    const auto& lost = simulation.state().hindrance.lost_s;
+    EXPECT_NEAR(std::accumulate(lost.begin(), lost.end(), 0.0), stood_s, 1e-6);
+    EXPECT_GT(lost[static_cast<std::size_t>(Cause::signal)], 0.5 * stood_s);
+    double episodes_s = 0.0;
+    for (const HindranceEpisode& e : simulation.state().hindrance.episodes) {
+        episodes_s += e.lost_s;
+        EXPECT_GE(e.to_s, e.from_s);
+        EXPECT_GE(e.lost_s, e.most);
+    }
+    double hindered_s = 0.0;
+    for (std::size_t cause = static_cast<std::size_t>(Cause::junction_blocking); cause < lost.size(); ++cause) {
+        hindered_s += lost[cause];
+    }
+    EXPECT_NEAR(episodes_s, hindered_s, 1e-6);
+}
+
+TEST(SlowKeepClear, LeavesTheJunctionFreeMoreOften) {
+    std::vector<double> blocked_s;
+    for (const char* rule : {"rules.keep_clear=off", "rules.keep_clear=on"}) {
+        const Model model = network_model(arterial({rule, "network.grid.columns=3"}), 2);
+        Simulation simulation(model);
+        simulation.run_until(900.0);
+        EXPECT_TRUE(simulation.state().violations.none());
+        const auto& lost = simulation.state().hindrance.lost_s;
+        blocked_s.push_back(lost[static_cast<std::size_t>(Cause::gridlock)] +
+                            static_cast<double>(simulation.state().hindrance.passed_blockers));
+    }
+    EXPECT_LT(blocked_s[1], 0.5 * blocked_s[0]);
+}
+
+}  // namespace
+}  // namespace stopline
