@@ -43,6 +43,7 @@ TEST(Quantity, ConvertsToSi) {
     EXPECT_EQ(si("0.7 1/s", "1/s"), 0.7);
     EXPECT_EQ(si("0.2 1/s2", "1/s2"), 0.2);
     EXPECT_EQ(si("5e-5 s/m", "s/m"), 5e-5);
+    EXPECT_EQ(si("600 veh/h", "veh/h"), 600.0 / 3600.0);
     EXPECT_EQ(si("30 %", "%"), 0.3);
     EXPECT_EQ(si("0.3", "%"), 0.3);
     EXPECT_EQ(si("0.3", ""), 0.3);

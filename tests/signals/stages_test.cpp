@@ -28,5 +28,19 @@ TEST(Stages, NeverTwoGroupsAtOnceAndAllRedBetween) {
     }
 }
 
+TEST(Stages, StreetsThatCrossCanHaveAGreenOfTheirOwn) {
+    SignalSettings settings;
+    settings.first_green_s = 1.0;
+    settings.green_s = 25.0;
+    settings.cross_green_s = 10.0;
+    EXPECT_EQ(settings.both_stages_s(), 51.0);
+    const std::vector<GroupProgramme> programmes = make_stages(settings, 2, 1.0);
+    for (std::int64_t tick = 1; tick < 200; ++tick) {
+        const std::int64_t place = (tick - 1) % 51;
+        ASSERT_EQ(programmes[0].light(tick) == Light::green, place < 25) << tick;
+        ASSERT_EQ(programmes[1].light(tick) == Light::green, place >= 33 && place < 43 && tick > 33) << tick;
+    }
+}
+
 }  // namespace
 }  // namespace stopline

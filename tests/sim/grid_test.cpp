@@ -19,6 +19,48 @@ Scenario calibration(const std::vector<std::string>& overrides) {
     return load_scenario(STOPLINE_SOURCE_DIR "/scenarios/calibration.yaml", overrides);
 }
 
+// 600 vehicles an hour and arm, two lanes: one every 12 s a lane, as long as the road takes them.
+TEST(Inflow, ComesEvenlyAtItsRate) {
+    const Scenario scenario = load_scenario(STOPLINE_SOURCE_DIR "/scenarios/grid.yaml",
+                                            {"demand={kind: rate, inflow: 600 veh/h, left: 5 %, right: 10 %}",
+                                             "network.grid.columns=2", "network.grid.rows=2", "signal.green=20 s"});
+    const Model model = build_model(scenario, 0);
+    Simulation simulation(model);
+    std::vector<double> entry_s(model.graph.lanes.size(), -1.0);
+    simulation.run_until(1200.0);
+    int vehicles = 0;
+    for (const Passage& passage : simulation.state().passages) {
+        if (passage.from_lane >= 0) continue;
+        ++vehicles;
+        double& before_s = entry_s[at(passage.to_lane)];
+        if (before_s >= 0.0) {
+            EXPECT_NEAR(passage.time_s - before_s, 12.0, 0.11);
+        }
+        before_s = passage.time_s;
+    }
+    EXPECT_NEAR(vehicles, 8 * 2 * 100, 16);
+    EXPECT_TRUE(simulation.state().violations.none());
+}
+
+// Where streets that cross have turns of their own, each keeps its share.
+TEST(CrossTurns, AreThoseOfTheStreetsThatCross) {
+    const Scenario scenario = load_scenario(STOPLINE_SOURCE_DIR "/scenarios/arterial.yaml", {"demand.left=10 %"});
+    const Model model = build_model(scenario, 0);
+    for (std::size_t k = 0; k < model.demand.inlets.size(); ++k) {
+        const DemandPlan::Inlet& inlet = model.demand.inlets[k];
+        const bool crosses = model.graph.lanes[at(inlet.lane)].signal_group % 2 == 1;
+        for (std::size_t r = 0; r < inlet.routes.size(); ++r) {
+            const Turn turn = model.graph.lanes[at(model.graph.routes[at(inlet.routes[r])].lanes[1])].turn;
+            if (turn == Turn::left) {
+                EXPECT_EQ(inlet.shares[r], crosses ? 0.2 : 0.1);
+            }
+            if (turn == Turn::right) {
+                EXPECT_EQ(inlet.shares[r], crosses ? 0.4 : 0.0);
+            }
+        }
+    }
+}
+
 class OnGrid : public testing::TestWithParam<const char*> {};
 
 TEST_P(OnGrid, SlowEveryVehicleOfAQueueComesThroughWithoutHarm) {

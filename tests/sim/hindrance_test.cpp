@@ -162,6 +162,7 @@ struct Run {
     const char* fidelity;
     double until_s;
 };
+void PrintTo(const Run& run, std::ostream* out) { *out << run.fidelity; }
 class SlowRules : public testing::TestWithParam<Run> {};
 INSTANTIATE_TEST_SUITE_P(Modes, SlowRules, testing::Values(Run{"meso", 1200.0}, Run{"full", 400.0}),
                          [](const auto& run) { return std::string(run.param.fidelity); });
