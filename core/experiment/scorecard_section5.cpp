@@ -1,23 +1,19 @@
 // Section V of the paper: the mesoscale mode's parameters beside Table 2 (C01..C10), and its two criteria (C11, C12) with the
 // parameters in data/meso/fitted.yaml. What stopline-calibrate shows in full.
 #include <array>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "base/input_error.h"
 #include "experiment/band_check.h"
 #include "experiment/calibration.h"
-#include "experiment/interrupted.h"
-#include "experiment/program_identity.h"
 #include "experiment/scorecard_sections.h"
+#include "experiment/scorecard_sweeps.h"
 #include "experiment/sweep_results.h"
 #include "experiment/sweep_run.h"
 #include "scenario/load_scenario.h"
-#include "scenario/load_sweep.h"
 
 namespace stopline {
 
@@ -42,58 +38,6 @@ Measurements measure_parameters(const Scenario& /*scenario*/, const ScorecardOpt
     set_model(measured, "CTG", meso.constant_time);
     set_model(measured, "CDG", meso.constant_distance);
     return measured;
-}
-
-struct Part {
-    double from;  // share of the experiment done before it, and behind it
-    double to;
-};
-
-struct SweepRuns {
-    Sweep sweep;
-    RunStore store;
-    SweepTotals totals;
-};
-
-RunStore store_of(const std::filesystem::path& file, const Sweep& sweep, const std::string& program) {
-    StoreIdentity identity;
-    identity.name = file.stem().string();
-    identity.sweep = sweep.key();
-    identity.program = program;
-    identity.points = sweep.points();
-    // Runs of another program or scenario are measured anew. One that is locked or damaged is left alone: opening it throws.
-    if (std::filesystem::exists(file)) {
-        const StoreIdentity has = RunStore::open(file).identity();
-        if (has.sweep != identity.sweep || has.program != identity.program) std::filesystem::remove(file);
-    }
-    return RunStore::open_or_make(file, identity);
-}
-
-// Throws Interrupted; what is done by then is kept.
-SweepRuns run_sweep(const ScorecardOptions& options, const char* file, const std::vector<std::string>& overrides,
-                    const char* name, RunFunction function, Part part) {
-    SweepOptions sweep_options;
-    sweep_options.overrides = options.settings;
-    sweep_options.overrides.insert(sweep_options.overrides.end(), overrides.begin(), overrides.end());
-    sweep_options.threads = options.threads;
-    Sweep sweep(load_sweep(data_directory() / "../scenarios/sweeps" / file), sweep_options);
-    const std::filesystem::path folder = options.folder / "measured";
-    std::filesystem::create_directories(folder);
-    const std::optional<std::string> program = program_identity();
-    if (!program) throw InputError("cannot read this program's own file, so that stored runs could not be told apart");
-    RunStore store = store_of(folder / (std::string(name) + ".sqlite"), sweep, *program);
-    SweepRunOptions run_options;
-    run_options.threads = options.threads;
-    run_options.run = function;
-    run_options.on_progress = [&](double share) {
-        return !options.on_progress || options.on_progress(part.from + share * (part.to - part.from));
-    };
-    const SweepSession session = run_points(sweep, points_to_do(sweep, Shard{}, store), store, run_options);
-    for (const SweepFailure& failure : session.failures) {
-        throw InputError(fmt::format("{}: {}", sweep.describe(failure.point), failure.message));
-    }
-    SweepTotals totals = sweep_results(store).totals;
-    return {std::move(sweep), std::move(store), totals};
 }
 
 Measurements measure_times(const Scenario& /*scenario*/, const ScorecardOptions& options) {

@@ -16,4 +16,7 @@ std::span<const RowJudge> section4_rows();
 std::span<const Experiment> section5_experiments();
 std::span<const RowJudge> section5_rows();
 
+std::span<const Experiment> section6_experiments();
+std::span<const RowJudge> section6_rows();
+
 }  // namespace stopline
