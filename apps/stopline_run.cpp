@@ -153,8 +153,8 @@ ExitCode run_as_network(const RunOptionsOfUser& options, const Scenario& scenari
     if (options.trajectories) throw InputError("--trajectories: not for grids; see series.csv and hindrance.csv");
     const NetworkReport report = [&] {
         ProgressBar bar(fmt::format("{} runs", scenario.populations.size()));
-        return run_networks(scenario, {threads_or_all(options.common.threads),
-                                       [&bar](double share) { return bar.update(share); }});
+        return run_networks(
+            scenario, {threads_or_all(options.common.threads), [&bar](double share) { return bar.update(share); }});
     }();
     fmt::print("{}\nscenario {} ({:016x}), seed {}\n\n{}", scenario.title.empty() ? scenario.name : scenario.title,
                scenario.name, scenario.hash, scenario.seed, network_text(report));

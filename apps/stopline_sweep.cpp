@@ -18,6 +18,7 @@
 #include "common/results.h"
 #include "common/text_table.h"
 #include "experiment/csv.h"
+#include "experiment/network_sweep_figures.h"
 #include "experiment/output.h"
 #include "experiment/sweep_merge.h"
 #include "experiment/sweep_results.h"
@@ -211,9 +212,11 @@ void print_orders(const Orders& orders) {
                orders.points - orders.above, orders.points);
 }
 
-// Figures and the paper's Table 1, where the sweep went over an intersection's greens and turns.
-void draw_turns(const std::string& csv, const std::filesystem::path& file) {
+// Figures where the sweep went over an intersection's greens and turns, with the paper's Table 1, or over several intersections'
+// greens and offsets.
+void draw_results(const std::string& csv, const std::filesystem::path& file) {
     const CsvTable results = parse_csv(csv, file.string());
+    if (is_network_sweep(results)) draw_all(network_sweep_figures(results), file.parent_path());
     if (!has_turns(results)) return;
     write_file(file.parent_path() / "table1.csv", table1_csv(results, load_targets()));
     fmt::print("  table1.csv\n");
@@ -233,7 +236,7 @@ ExitCode finish(Work& work, const SweepSession& session, const std::string& by) 
     for (const auto& file : {work.files.table, work.files.provenance, work.files.store}) {
         fmt::print("  {}\n", file.filename().string());
     }
-    draw_turns(table.csv, work.files.table);
+    draw_results(table.csv, work.files.table);
     if (work.shard.count > 1) {
         fmt::print("\nNext: when all {} shards are done, stopline-sweep merge --output DIR {}/*.sqlite\n",
                    work.shard.count, work.files.table.parent_path().string());

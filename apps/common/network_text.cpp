@@ -47,9 +47,10 @@ std::string network_text(const NetworkReport& report) {
         "queue; moved on, passed: uses of the rules. Measured from {:.0f} to {:.0f} s.\n",
         report.scenario.measure.outside_m, first ? first->window.from_s : 0.0, first ? first->window.to_s : 0.0);
     const std::string verdict =
-        violations == 0 ? "No overlaps on lanes or in conflict areas but by the rule for blockers, no entries on red, no vehicle "
-                          "lost.\n"
-                        : fmt::format("VIOLATIONS in {} runs: see summary.csv.\n", violations);
+        violations == 0
+            ? "No overlaps on lanes or in conflict areas but by the rule for blockers, no entries on red, no vehicle "
+              "lost.\n"
+            : fmt::format("VIOLATIONS in {} runs: see summary.csv.\n", violations);
     return table.text() + "\n" + notes + "\n" + verdict;
 }
 

@@ -7,7 +7,6 @@
 
 #include "experiment/csv.h"
 #include "experiment/side_by_side.h"
-#include "network/lane_graph.h"
 
 namespace stopline {
 

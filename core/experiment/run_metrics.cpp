@@ -113,7 +113,8 @@ std::vector<RunMetric> network_metrics(const Scenario& scenario, std::size_t pop
     metrics.push_back(count_metric("moved_on", "", log.taken_out));
     metrics.push_back(count_metric("passed_blockers", "", log.passed_blockers));
     for (std::size_t cause = 1; cause < kCauseNames.size(); ++cause) {
-        metrics.push_back(number_metric(fmt::format("lost_{}", kCauseNames[cause]), "h", log.lost_s[cause] / 3600.0, 6));
+        metrics.push_back(
+            number_metric(fmt::format("lost_{}", kCauseNames[cause]), "h", log.lost_s[cause] / 3600.0, 6));
     }
     metrics.push_back(number_metric("longest_stand", "s", log.longest_stand_s, 1));
     metrics.push_back(number_metric("longest_inside", "s", f.longest_inside_s, 2));

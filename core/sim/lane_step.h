@@ -13,10 +13,10 @@ struct LaneStep {
     double sine = 0.0;  // of the slope
     // Vehicles that stop at the stop line or wait to give way, and what that asks of them.
     struct Imposed {
-        int slot;
-        double asks;  // an acceleration, in the mesoscale mode a speed
+        int slot = -1;
+        double asks = 0.0;  // an acceleration, in the mesoscale mode a speed
     };
-    std::array<Imposed, 4> imposed;
+    std::array<Imposed, 4> imposed = {};
     int imposed_count = 0;
     double leader_mps = 0.0;  // mesoscale mode: highest speed of a first vehicle without predecessor; 0: it has one
 

@@ -62,7 +62,7 @@ struct KeptOut {
 // Those of one lane: the first ones, from the front.
 struct Holds {
     static constexpr int kMost = 3;
-    std::array<Hold, kMost> each;
+    std::array<Hold, kMost> each = {};
     int count = 0;
 
     void add(const Hold& hold);
