@@ -31,8 +31,9 @@ Side goes_to(const Lane& lane) { return kBehind[at((heading(lane) + 2) % 4)]; }
 std::vector<AreaFigures> area_series(std::span<const Detector> detectors, std::span<const Crossing> crossings,
                                      double interval_s, double end_s, double lane_m) {
     std::vector<AreaFigures> series;
-    for (double from_s = 0.0; from_s + interval_s <= end_s + 1e-9; from_s += interval_s) {
-        series.push_back({{from_s, from_s + interval_s}, 0, 0.0, 0.0, 0.0});
+    const auto windows = static_cast<int>(std::floor(end_s / interval_s + 1e-9));
+    for (int window = 0; window < windows; ++window) {
+        series.push_back({{window * interval_s, (window + 1) * interval_s}, 0, 0.0, 0.0, 0.0});
     }
     std::unordered_map<int, double> since_s;  // by vehicle
     int inside = 0;

@@ -44,7 +44,7 @@ std::size_t warm_up(std::span<const double> values) {
     double best = std::numeric_limits<double>::infinity();
     std::size_t cut = 0;
     for (std::size_t k = 0; 2 * k < means.size(); ++k) {
-        const double rest = static_cast<double>(means.size() - k);
+        const auto rest = static_cast<double>(means.size() - k);
         const double score = sums.spread(k, means.size()) / square(rest);
         if (score < best) {
             best = score;

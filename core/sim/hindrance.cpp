@@ -125,7 +125,8 @@ private:
                 slot = w_.waits_for[at(slot)];
             }
             if (slot >= 0 && w_.mark[at(slot)] == walk) note_circle(slot);
-            for (auto back = w_.walk.rbegin(); back != w_.walk.rend(); ++back) settle(*back);
+            std::reverse(w_.walk.begin(), w_.walk.end());
+            for (const int back : w_.walk) settle(back);
         }
     }
 
