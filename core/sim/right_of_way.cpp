@@ -1,12 +1,14 @@
 // Giving way inside intersections: who is there, who must wait before which conflict area. The state at the beginning of the
-// step decides. A lane inside an intersection has at most one vehicle that waits by itself; those behind follow it.
+// step decides. Behind the first vehicle of a lane that waits no gap is looked for; those behind it still keep out of areas where others
+// are or come first.
 //
 // A vehicle may go into a conflict area
 //   - when no vehicle of the other lane is in it, nor on its way to it after it has accepted a gap;
 //   - where it has to give way: when the next vehicle with priority is further away than the critical gap and the time it
 //     takes to get to the area; this is decided once, for all areas where it has to give way;
 //   - where neither has priority (movements of different signal groups): when no vehicle that passed its stop line
-//     before is still to come.
+//     before is still to come; of two that stand and wait for each other, when they have agreed so.
+// A vehicle that has stood inside for long may be passed where the rules say so (driver/hindrance_rules.h).
 #include <algorithm>
 #include <cmath>
 #include <utility>

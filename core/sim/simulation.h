@@ -1,13 +1,16 @@
 // One run: a Model (constant) and a State (all that changes), advanced a step at a time. The step is a list of named phases:
 //
-//     signals    who stops at which line               lane_heads.cpp
+//     inside     who is on the way through an intersection               right_of_way.cpp
+//     signals    who stops at which line, at red or since there is no room beyond it       lane_heads.cpp
 //     give way   who waits before which conflict area               right_of_way.cpp
 //     heads      what the first vehicle of each lane reacts to beyond its lane; whether it overlaps that
+//     hindrance  who stands, what for, in whose way; now and then                          hindrance.cpp
 //     plan       every vehicle's request, from the state at the beginning of the step      full_dynamics.cpp
 //     move       powertrain, speed, position; overlaps on a lane are counted after it
 //     detectors  fronts that passed one                             detectors.cpp
 //     transfer   vehicles that passed the end of their lane                                transfer.cpp
 //     insert     vehicles that enter
+//     move on    vehicles that have stood at the head of a lane for too long               moving_on.cpp
 //     verify     nobody is lost                                     verify.cpp
 #pragma once
 
