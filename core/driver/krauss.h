@@ -12,7 +12,7 @@
 //
 // Where the predecessor accelerates with a_l, v_l + T a_l stands for v_l (T: anticipation; 0 in the paper's models).
 //
-// a(v) = a min(1, v_p / v): constant power beyond the speed v_p. The paper's models have none (v_p beyond all limits). xi is
+// Below 1 cm/s v' is 0. a(v) = a min(1, v_p / v): constant power beyond the speed v_p. The paper's models have none (v_p beyond all limits). xi is
 // uniform in [0, 1); slow vehicles dawdle less, so that nobody is kept from starting (as in SUMO). Policies with a gap
 // that grows above a switching speed (SWITCH) are the variant with s_0 raised by what the policy adds at the own speed.
 #pragma once
@@ -45,20 +45,26 @@ struct Krauss {
     double equilibrium_gap_m(double speed_mps) const { return standstill_gap_m + band_m + reaction_s * speed_mps; }
 };
 
-// The highest speed from which braking with b after the time tau stops `gap_m` behind where a predecessor, braking alike from
+// The highest speed from which braking with b [m/s2] after the time tau [s] stops `gap_m` behind where a predecessor, braking alike from
 // `ahead_mps`, would.
-STOPLINE_INLINE double braking_speed_mps(const Krauss& k, double gap_m, double ahead_mps) {
-    const double bt = k.deceleration_mps2 * k.reaction_s;
-    const double square = bt * bt + ahead_mps * ahead_mps + 2.0 * k.deceleration_mps2 * gap_m;
+STOPLINE_INLINE double braking_speed_mps(double b, double tau, double gap_m, double ahead_mps) {
+    const double bt = b * tau;
+    const double square = bt * bt + ahead_mps * ahead_mps + 2.0 * b * gap_m;
     return std::sqrt(std::max(square, 0.0)) - bt;
 }
 
 // v_safe for a net gap; `more_m`: by how much the policy raises the gap at the own speed.
 STOPLINE_INLINE double safe_speed_mps(const Krauss& k, double gap_m, double ahead_mps, double more_m) {
     const double beyond_m = gap_m - k.standstill_gap_m - more_m;
-    const double braking = braking_speed_mps(k, beyond_m - k.band_m, ahead_mps);
+    const double braking = braking_speed_mps(k.deceleration_mps2, k.reaction_s, beyond_m - k.band_m, ahead_mps);
     const double close = beyond_m > -k.band_m ? ahead_mps : k.below_band * ahead_mps;
     return k.constant_distance && beyond_m <= 0.0 ? close : braking;
+}
+
+// Slower than a centimetre a second is standing: following would close the last of a gap ever more slowly and never end.
+STOPLINE_INLINE double at_rest(double speed_mps) {
+    constexpr double kRest_mps = 0.01;
+    return speed_mps < kRest_mps ? 0.0 : speed_mps;
 }
 
 // What a vehicle's speed depends on.
@@ -89,7 +95,7 @@ STOPLINE_INLINE double next_speed_mps(const Krauss& k, const KraussInput& in, do
     // Models with anticipation or short gaps can ask for too little braking when a predecessor stops more suddenly than it would by
     // itself (at a conflict area): nobody drives further than to where the rear ahead was.
     const double touch = std::max(in.gap_m, 0.0) / dt;
-    const double wanted = std::max(std::min(std::min(std::min(safe, touch), faster), in.cap_mps), 0.0);
+    const double wanted = at_rest(std::min(std::min(std::min(safe, touch), faster), in.cap_mps));
     constexpr double kSlow_s = 1.0;  // vehicles slower than a x 1 s dawdle in proportion to their speed
     return wanted - k.dawdling * dt * random * std::min(wanted, k.acceleration_mps2 * kSlow_s);
 }

@@ -77,7 +77,7 @@ std::vector<DrawnVehicle> picture_of(const Model& model, const State& state) {
             double front_m = road->shape_start_m + v.position_m[at(slot)];
             if (road->signal_group >= 0 && v.position_m[at(slot)] > road->stop_line_m) {
                 front_m = v.position_m[at(slot)] - road->stop_line_m;
-                road = &model.graph.lanes[at(model.graph.routes[at(v.route[at(slot)])].lanes[1])];
+                road = &model.graph.lanes[at(model.graph.routes[at(v.record[at(slot)].route)].lanes[1])];
             }
             const Point front = place_at(road->shape, front_m).point;
             const Point rear = place_at(road->shape, front_m - v.length_m[at(slot)]).point;

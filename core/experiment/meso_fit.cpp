@@ -17,16 +17,16 @@ namespace stopline {
 
 namespace {
 
-enum class Part { constant_time, constant_distance, all };
+enum class Subset { constant_time, constant_distance, all };
 
 bool has_law(const FitCase& c, bool constant_distance) {
     return std::all_of(c.model.krauss.begin(), c.model.krauss.end(),
                        [&](const Krauss& k) { return k.constant_distance == constant_distance; });
 }
 
-bool belongs(const FitCase& c, Part part) {
+bool belongs(const FitCase& c, Subset part) {
     if (c.held_out) return false;
-    return part == Part::all || has_law(c, part == Part::constant_distance);
+    return part == Subset::all || has_law(c, part == Subset::constant_distance);
 }
 
 // All that one search needs.
@@ -204,17 +204,17 @@ MesoFit fit_meso(const std::vector<FitCase>& cases, const MesoSettings& start, c
     std::vector<double> values;
     for (const FitParameter& p : fit_parameters()) values.push_back(p.in(fit.settings));
 
-    const auto part = [&](Part which) {
+    const auto part = [&](Subset which) {
         std::vector<const FitCase*> chosen;
         for (const FitCase& c : cases) {
             if (belongs(c, which)) chosen.push_back(&c);
         }
         return chosen;
     };
-    const auto parameters = [&](Part which) {
+    const auto parameters = [&](Subset which) {
         std::vector<std::size_t> free;
         for (std::size_t k = 0; k < fit_parameters().size(); ++k) {
-            if (which == Part::all || fit_parameters()[k].constant_distance == (which == Part::constant_distance)) {
+            if (which == Subset::all || fit_parameters()[k].constant_distance == (which == Subset::constant_distance)) {
                 free.push_back(k);
             }
         }
@@ -223,8 +223,8 @@ MesoFit fit_meso(const std::vector<FitCase>& cases, const MesoSettings& start, c
     const auto planned =
         static_cast<std::size_t>(2 * options.starts * options.evaluations_apart + options.evaluations_together);
 
-    for (const auto& [which, name] :
-         {std::pair{Part::constant_time, "constant_time"}, std::pair{Part::constant_distance, "constant_distance"}}) {
+    for (const auto& [which, name] : {std::pair{Subset::constant_time, "constant_time"},
+                                      std::pair{Subset::constant_distance, "constant_distance"}}) {
         if (part(which).empty()) continue;
         double best_loss = 2.0;
         std::vector<double> best = values;
@@ -244,7 +244,7 @@ MesoFit fit_meso(const std::vector<FitCase>& cases, const MesoSettings& start, c
         }
         values = best;
     }
-    Search search{part(Part::all), parameters(Part::all), values, "all", options, start, fit.history, planned};
+    Search search{part(Subset::all), parameters(Subset::all), values, "all", options, start, fit.history, planned};
     improve(search, 0.05, options.evaluations_together);
     fit.settings = with_values(start, search.best);
     return fit;

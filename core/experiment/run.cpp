@@ -68,10 +68,13 @@ void sample_vehicles(const Simulation& simulation, std::vector<TrajectoryPoint>&
         const LaneBlock& block = state.blocks[at(lane)];
         for (int slot = block.first; slot < block.stop(); ++slot) {
             const std::size_t i = at(slot);
-            points.push_back({simulation.time_s(), v.id[i], v.policy[i], lane,
-                              travelled_before(simulation.model(), v.route[i], v.route_index[i]) + v.position_m[i],
-                              v.position_m[i], v.speed_mps[i], v.acceleration_mps2[i], v.request_mps2[i],
-                              net_gap_m(simulation.model(), state, lane, slot), static_cast<int>(v.gear[i]) + 1});
+            const VehicleRecord& record = v.record[i];
+            const double before_m = travelled_before(simulation.model(), record.route, record.route_index);
+            const bool full = v.has_powertrain();
+            points.push_back(
+                {simulation.time_s(), v.id[i], v.policy[i], lane, before_m + v.position_m[i], v.position_m[i],
+                 v.speed_mps[i], v.acceleration_mps2[i], full ? v.request_mps2[i] : v.acceleration_mps2[i],
+                 net_gap_m(simulation.model(), state, lane, slot), full ? static_cast<int>(v.gear[i]) + 1 : 0});
         }
     }
 }

@@ -43,6 +43,14 @@ struct Violations {
     std::int64_t lost_vehicles = 0;       // entered minus left minus present
     std::int64_t deadlocks = 0;           // runs in which a vehicle was inside an intersection for two cycles
 
+    void add(const Violations& more) {
+        overlaps += more.overlaps;
+        conflicts += more.conflicts;
+        red_entries += more.red_entries;
+        forced_red_entries += more.forced_red_entries;
+        lost_vehicles += more.lost_vehicles;
+        deadlocks += more.deadlocks;
+    }
     bool none() const {
         return overlaps == 0 && conflicts == 0 && red_entries == 0 && lost_vehicles == 0 && deadlocks == 0;
     }

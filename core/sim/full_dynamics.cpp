@@ -79,23 +79,21 @@ FullTables full_tables(const Model& model) {
     return tables;
 }
 
-void step_full(const Model& model, const FullTables& tables, std::span<const LaneStep> lanes,
-               std::span<const LaneStep> next, State& state) {
+void step_full(const Model& model, const FullTables& tables, const LaneGroup& lanes, std::span<const LaneStep> next,
+               State& state, NetworkPart& part) {
     const FullKernels& kernels = full_kernels(model.scalar_kernels);
     const FullStreams streams = streams_of(state);
-    const FullGroup group = state.group.streams();
-    int vehicles = 0;
-    for (const LaneStep& lane : lanes) vehicles += lane.count();
+    const FullGroup group = part.full_group.streams();
     kernels.gather(streams, state.radar, state.v2v, lanes, group);
     kernels.prefetch(streams, next);
-    evaluate_gap_laws(model, vehicles, group);
-    kernels.plan(tables.driver, group, vehicles, model.step_s);
+    evaluate_gap_laws(model, lanes.vehicles, group);
+    kernels.plan(tables.driver, group, lanes.vehicles, model.step_s);
     for (std::size_t k = 0; k < tables.vehicles.size(); ++k) {
         const int only = tables.vehicles.size() == 1 ? -1 : static_cast<int>(k);
-        kernels.drive(tables.vehicles[k], group, vehicles, model.step_s, only);
+        kernels.drive(tables.vehicles[k], group, lanes.vehicles, model.step_s, only);
     }
-    kernels.scatter(streams, lanes, group, model.step_s);
-    state.violations.overlaps += overlaps(state.vehicles, lanes);
+    kernels.scatter(streams, lanes.lanes, group, model.step_s);
+    part.violations.overlaps += overlaps(state.vehicles, lanes.lanes);
 }
 
 }  // namespace stopline

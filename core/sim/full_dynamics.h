@@ -17,9 +17,9 @@ struct FullTables {
 };
 FullTables full_tables(const Model& model);
 
-// One step of the vehicles on some lanes, which state.group must have room for; lanes in any order.
+// One step of the vehicles on some lanes, which the part's scratch must have room for; lanes in any order.
 // `next`: lanes whose vehicles are fetched from memory meanwhile.
-void step_full(const Model& model, const FullTables& tables, std::span<const LaneStep> lanes,
-               std::span<const LaneStep> next, State& state);
+void step_full(const Model& model, const FullTables& tables, const LaneGroup& lanes, std::span<const LaneStep> next,
+               State& state, NetworkPart& part);
 
 }  // namespace stopline

@@ -29,7 +29,7 @@ struct FullKernels {
 
     const char* name;
     // Brings the group together: measures, looks up what is known of predecessors, and what lanes ask of their vehicles.
-    void (*gather)(const FullStreams&, const Rows& radar, const Rows& v2v, Lanes, const FullGroup&);
+    void (*gather)(const FullStreams&, const Rows& radar, const Rows& v2v, const LaneGroup&, const FullGroup&);
     // Fetches what another group will need: a lane's share of an array is too short for the processor to see a stream in it.
     void (*prefetch)(const FullStreams&, Lanes);
     // Driver: what acceleration is asked for, for the first `vehicles` of the group.

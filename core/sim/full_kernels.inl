@@ -112,24 +112,22 @@ inline void prefetch(const FullStreams& s, FullKernels::Lanes lanes) {
 }
 
 template <class R>
-void gather(const FullStreams& streams, const Rows& radar_rows, const Rows& v2v_rows, FullKernels::Lanes lanes,
+void gather(const FullStreams& streams, const Rows& radar_rows, const Rows& v2v_rows, const LaneGroup& lanes,
             const FullGroup& group) {
     const FullStreams s = streams;  // own copies: nothing that is written here can change them
     const FullGroup g = group;
     const Rows radar = radar_rows;
     const Rows v2v = v2v_rows;
     int first = 0;  // place of the lane's first vehicle
-    for (const LaneStep& lane : lanes) {
+    for (const LaneStep& lane : lanes.lanes) {
         const int to_place = first - lane.begin;
         for_each_batch<R>(lane, [&](auto number, int i) STOPLINE_INLINE_LAMBDA {
             gather_at<decltype(number)>(s, radar, v2v, lane, i, i + to_place, g);
         });
-        for (int n_imposed = 0; n_imposed < lane.imposed_count; ++n_imposed) {
-            const auto [slot, asks] = lane.imposed[static_cast<std::size_t>(n_imposed)];
-            float& imposed = g.imposed[slot + to_place];
-            imposed = std::min(imposed, static_cast<float>(asks));
-        }
         first += lane.stop - lane.begin;
+    }
+    for (const Imposed& imposed : lanes.imposed) {
+        g.imposed[imposed.place] = std::min(g.imposed[imposed.place], static_cast<float>(imposed.asks));
     }
 }
 

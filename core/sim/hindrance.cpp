@@ -9,7 +9,6 @@ namespace stopline {
 
 namespace {
 
-constexpr double kStanding_mps = 0.1;
 constexpr double kCloseBehind_m = 15.0;  // who stands further behind has not come up yet, or is about to set out
 constexpr double kSeen_m = 30.0;
 constexpr int kCauses = static_cast<int>(kCauseNames.size());
@@ -23,7 +22,9 @@ public:
 
     void look() {
         prepare();
-        for (const int lane : state_.occupied) note_standing(lane);
+        for (const NetworkPart& part : state_.parts) {
+            for (const int lane : part.occupied) note_standing(lane);
+        }
         for (const int slot : w_.standing) wait(slot);
         resolve();
         count();
@@ -47,7 +48,7 @@ private:
         for (int slot = block.first; slot < block.stop(); ++slot) {
             w_.mark[at(slot)] = 0;
             w_.cause[at(slot)] = Cause::none;
-            if (v_.speed_mps[at(slot)] >= kStanding_mps) {
+            if (v_.speed_mps[at(slot)] >= kStands_mps) {
                 v_.stands_since[at(slot)] = static_cast<int>(state_.tick);
                 continue;
             }
@@ -58,7 +59,7 @@ private:
         }
     }
 
-    bool stands(int slot) const { return v_.speed_mps[at(slot)] < kStanding_mps; }
+    bool stands(int slot) const { return v_.speed_mps[at(slot)] < kStands_mps; }
 
     void set(int slot, int waits_for, Cause edge) {
         w_.waits_for[at(slot)] = waits_for;
@@ -108,7 +109,7 @@ private:
     Cause full_exit(int slot) const {
         const int lane = w_.lane[at(slot)];
         const bool within = model_.graph.lanes[at(lane)].origin >= 0;
-        const Turn turn = model_.graph.lanes[at(within ? lane : v_.next_lane[at(slot)])].turn;
+        const Turn turn = model_.graph.lanes[at(within ? lane : v_.record[at(slot)].next_lane)].turn;
         return turn == Turn::straight ? Cause::spillback : Cause::turn_blocking;
     }
 

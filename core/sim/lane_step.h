@@ -1,7 +1,7 @@
-// What the kernels need of one lane in one step.
+// What the kernels need of lanes in one step.
 #pragma once
 
-#include <array>
+#include <vector>
 
 namespace stopline {
 
@@ -11,16 +11,36 @@ struct LaneStep {
     double turn_m = 0.0;  // where the limit of the next lane begins to hold, from the lane's start
     double limit_mps = 0.0;
     double sine = 0.0;  // of the slope
-    // Vehicles that stop at the stop line or wait to give way, and what that asks of them.
-    struct Imposed {
-        int slot = -1;
-        double asks = 0.0;  // an acceleration, in the mesoscale mode a speed
-    };
-    std::array<Imposed, 4> imposed = {};
-    int imposed_count = 0;
-    double leader_mps = 0.0;  // mesoscale mode: highest speed of a first vehicle without predecessor; 0: it has one
+    // Mesoscale mode: what a kernel writes beyond the last vehicle must end before this slot.
+    int free_until = 0;
 
     int count() const { return stop - begin; }
+};
+
+// What a stop line, giving way, or leading asks of one vehicle.
+struct Imposed {
+    int place = 0;      // in the group
+    double asks = 0.0;  // an acceleration, in the mesoscale mode a speed
+};
+
+// Lanes that go through the kernels together, in the order of their slots.
+struct LaneGroup {
+    std::vector<LaneStep> lanes;
+    std::vector<Imposed> imposed;
+    int vehicles = 0;
+    int lanes_of_network = 0;  // several may be of one lane of the network
+
+    // Vehicles from this slot on must not be written over.
+    void protect(int slot) {
+        for (auto lane = lanes.rbegin(); lane != lanes.rend() && lane->free_until > slot; ++lane)
+            lane->free_until = slot;
+    }
+    void clear() {
+        lanes.clear();
+        imposed.clear();
+        vehicles = 0;
+        lanes_of_network = 0;
+    }
 };
 
 }  // namespace stopline

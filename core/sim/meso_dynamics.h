@@ -2,8 +2,6 @@
 // of the step.
 #pragma once
 
-#include <span>
-
 #include "sim/model.h"
 #include "sim/state.h"
 
@@ -12,7 +10,10 @@ namespace stopline {
 // Highest speed from which a vehicle stops in the room it has; it brakes no harder than its brakes can.
 double stopping_speed_mps(const Model& model, const VehicleArrays& v, int slot, double room_m);
 
-// One step of the vehicles on some lanes, which state.meso_group must have room for; lanes in any order.
-void step_meso(const Model& model, std::span<const LaneStep> lanes, State& state);
+// The speed in the next step of a first vehicle without predecessor, on the way to what it drives at most.
+double leading_speed_mps(const Model& model, double speed_mps, double limit_mps);
+
+// One step of the vehicles on some lanes, which the part's scratch must have room for; lanes in the order of their slots.
+void step_meso(const Model& model, const LaneGroup& lanes, State& state, NetworkPart& part);
 
 }  // namespace stopline

@@ -14,7 +14,9 @@ namespace stopline {
 
 // Vehicles of several lanes side by side, one value a vehicle.
 struct MesoGroup {
+    double* position;                                               // on its lane
     double *speed, *gap, *ahead, *ahead_acceleration, *more, *cap;  // see KraussInput
+    double *to_turn, *limit;                                        // distance to the next lane's limit; this lane's
     double* next;                                                   // speed after the step
     int *id, *policy;
 };
@@ -53,9 +55,11 @@ struct MesoKernels {
     using Lanes = std::span<const LaneStep>;
 
     const char* name;
-    void (*gather)(const MesoStreams&, Lanes, const MesoStep&, const MesoGroup&);
+    // Brings the group together; returns how many overlap the vehicle ahead on their lane or, first of it, on the next.
+    int (*gather)(const MesoStreams&, const LaneGroup&, const MesoStep&, const MesoGroup&);
     // `only`: treats vehicles of this policy; < 0: all are of the policy given.
     void (*follow)(const Krauss&, const MesoStep&, const MesoGroup&, int vehicles, int only);
+    // Takes it apart again, and moves its vehicles. Lanes must be in the order of their slots, without others' vehicles between.
     void (*scatter)(const MesoStreams&, Lanes, const MesoStep&, const MesoGroup&);
 };
 

@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <utility>
 
 #include "base/arithmetic.h"
 #include "base/random.h"
+#include "base/simd.h"
 #include "sim/meso_kernels.h"
 
 namespace stopline {
@@ -23,73 +25,85 @@ inline double slowed(double speed_mps, double allowed_mps, double share, double 
     return speed_mps + share * (allowed_mps - speed_mps) - braked_mps * speed_mps / greater(allowed_mps, 1.0);
 }
 
-// Where a lane's vehicles stand in the group, and what they all have in common.
-struct LaneShare {
-    int n;
-    double turn_m;
-    double limit_mps;
-    double share;
-    double turn_share;
-    double slow_down_mps2;
-    double braked_mps;
-};
+constexpr int kTogether = 8;  // vehicles in the widest register
+using Doubles = Vector<double, kTogether>;
+using Floats = Vector<float, kTogether>;
+using Ints = Vector<int, kTogether>;
 
-// `v`, `x`, ...: of the lane's first vehicle; the sentinel is before it.
-template <bool at_once>
-inline void gather_lane(const LaneShare& of, const double* __restrict v, const double* __restrict x,
-                        const float* __restrict length, const float* __restrict a, const float* __restrict end_speed,
-                        const MesoGroup& group, int first) {
-    const LaneShare lane = of;
-    double* __restrict const to_speed = group.speed + first;
-    double* __restrict const to_ahead = group.ahead + first;
-    double* __restrict const to_ahead_acceleration = group.ahead_acceleration + first;
-    double* __restrict const to_gap = group.gap + first;
-    double* __restrict const to_cap = group.cap + first;
-    double* __restrict const to_more = group.more + first;
-    // Single to double precision first: g++ 12 does not vectorise both in one loop.
-    for (int i = 0; i < lane.n; ++i) {
-        to_ahead_acceleration[i] = greater(static_cast<double>(a[i - 1]), 0.0);
-        to_gap[i] = static_cast<double>(length[i - 1]);
-        to_cap[i] = static_cast<double>(end_speed[i]);
-    }
-    for (int i = 0; i < lane.n; ++i) {
-        to_speed[i] = v[i];
-        to_ahead[i] = v[i - 1];
-        to_gap[i] = x[i - 1] - to_gap[i] - x[i];
-        to_more[i] = 0.0;
-        // Towards a lower limit at the end of the lane: v^2 = v_end^2 + 2 b distance.
-        const double end_mps = to_cap[i];
-        const double to_turn_m = greater(lane.turn_m - x[i], 0.0);
-        const double slow_mps = std::sqrt(end_mps * end_mps + 2.0 * lane.slow_down_mps2 * to_turn_m);
-        const double turn_mps = at_once ? slow_mps : slowed(v[i], slow_mps, lane.turn_share, lane.braked_mps);
-        to_cap[i] = lesser(approached(v[i], lane.limit_mps, lane.share), turn_mps);
+template <class Wide, class Number>
+STOPLINE_INLINE Wide read_at(const Number* from, int i) {
+    Wide values;
+    std::memcpy(&values, from + i, sizeof values);
+    return values;
+}
+template <class Wide, class Number>
+STOPLINE_INLINE void write_at(Number* to, int i, const Wide& values) {
+    std::memcpy(to + i, &values, sizeof values);
+}
+
+// What a lane's vehicles know, brought together. Whole registers, so that no lane ends in a loop for single vehicles: what is written
+// beyond the lane's last vehicle is written over by the next lane's.
+STOPLINE_INLINE void gather_lane(const MesoStreams& s, const LaneStep& lane, const MesoGroup& g, int first) {
+    const auto wide = [](const float* from, int i)
+                          STOPLINE_INLINE_LAMBDA { return __builtin_convertvector(read_at<Floats>(from, i), Doubles); };
+    for (int i = lane.begin; i < lane.stop; i += kTogether) {
+        const int k = first + i - lane.begin;
+        const auto position = read_at<Doubles>(s.position, i);
+        write_at(g.position, k, position);
+        write_at(g.speed, k, read_at<Doubles>(s.speed, i));
+        write_at(g.ahead, k, read_at<Doubles>(s.speed, i - 1));
+        write_at(g.gap, k, read_at<Doubles>(s.position, i - 1) - wide(s.length, i - 1) - position);
+        write_at(g.ahead_acceleration, k, wide(s.acceleration, i - 1));
+        write_at(g.cap, k, wide(s.end_speed, i));
+        write_at(g.to_turn, k, lane.turn_m - position);
+        write_at(g.limit, k, lane.limit_mps - Doubles{});
+        write_at(g.more, k, Doubles{});
+        write_at(g.id, k, read_at<Ints>(s.id, i));
+        write_at(g.policy, k, read_at<Ints>(s.policy, i));
     }
 }
 
-inline void gather(const MesoStreams& streams, MesoKernels::Lanes lanes, const MesoStep& step, const MesoGroup& group) {
+// Fronts that are beyond the rear of their predecessor.
+inline int overlaps(const double* gap, int vehicles) {
+    constexpr double kRounding_m = 1e-6;
+    int count = 0;
+    for (int i = 0; i < vehicles; ++i) count += gap[i] < -kRounding_m ? 1 : 0;
+    return count;
+}
+
+// The highest speeds that limits allow.
+template <bool at_once>
+inline void limit_speeds(const MesoStep& step, const MesoGroup& group, int vehicles) {
+    const MesoStep t = step;
+    const double braked_mps = t.slow_down_mps2 * t.dt;
+    const double* __restrict const speed = group.speed;
+    const double* __restrict const limit = group.limit;
+    const double* __restrict const to_turn = group.to_turn;
+    double* __restrict const ahead_acceleration = group.ahead_acceleration;
+    double* __restrict const cap = group.cap;
+    for (int i = 0; i < vehicles; ++i) {
+        // Towards a lower limit at the end of the lane: v^2 = v_end^2 + 2 b distance.
+        const double end_mps = cap[i];
+        const double slow_mps = std::sqrt(end_mps * end_mps + 2.0 * t.slow_down_mps2 * greater(to_turn[i], 0.0));
+        const double turn_mps = at_once ? slow_mps : slowed(speed[i], slow_mps, t.turn_share, braked_mps);
+        cap[i] = lesser(approached(speed[i], limit[i], t.approach_share), turn_mps);
+        ahead_acceleration[i] = greater(ahead_acceleration[i], 0.0);
+    }
+}
+
+inline int gather(const MesoStreams& streams, const LaneGroup& lanes, const MesoStep& step, const MesoGroup& group) {
     const MesoStreams s = streams;  // own copies: nothing that is written here can change them
     const MesoGroup g = group;
-    const double share = step.approach_share;
-    const auto gather_one = step.turn_share >= 1.0 ? gather_lane<true> : gather_lane<false>;
-    int first = 0;  // place of the lane's first vehicle
-    for (const LaneStep& lane : lanes) {
-        const int n = lane.stop - lane.begin;
-        const LaneShare of{
-            n, lane.turn_m, lane.limit_mps, share, step.turn_share, step.slow_down_mps2, step.slow_down_mps2 * step.dt};
-        gather_one(of, s.speed + lane.begin, s.position + lane.begin, s.length + lane.begin,
-                   s.acceleration + lane.begin, s.end_speed + lane.begin, g, first);
-        std::copy_n(s.id + lane.begin, n, g.id + first);
-        std::copy_n(s.policy + lane.begin, n, g.policy + first);
-        if (lane.leader_mps > 0.0) {
-            g.cap[first] = std::min(g.cap[first], approached(g.speed[first], lane.leader_mps, share));
-        }
-        for (int n_imposed = 0; n_imposed < lane.imposed_count; ++n_imposed) {
-            const auto [slot, asks] = lane.imposed[static_cast<std::size_t>(n_imposed)];
-            double& cap_mps = g.cap[first + slot - lane.begin];
-            cap_mps = std::min(cap_mps, asks);
-        }
-        first += n;
+    int vehicles = 0;
+    for (const LaneStep& lane : lanes.lanes) {
+        gather_lane(s, lane, g, vehicles);
+        vehicles += lane.stop - lane.begin;
     }
+    const int in_registers = (vehicles + kTogether - 1) / kTogether * kTogether;
+    const auto limit = step.turn_share >= 1.0 ? limit_speeds<true> : limit_speeds<false>;
+    limit(step, g, in_registers);
+    for (const Imposed& imposed : lanes.imposed) g.cap[imposed.place] = std::min(g.cap[imposed.place], imposed.asks);
+    return overlaps(g.gap, vehicles);
 }
 
 template <bool power_limit>
@@ -124,6 +138,8 @@ inline void follow(const Krauss& model, const MesoStep& step, const MesoGroup& g
     loop(model, step, group, vehicles, only);
 }
 
+// Takes the group apart, in whole registers too: lanes are in the order of memory, so that what is written beyond one of them is free
+// or written over by the next. The last lane of the group ends exactly.
 inline void scatter(const MesoStreams& streams, MesoKernels::Lanes lanes, const MesoStep& step,
                     const MesoGroup& group) {
     const MesoStreams s = streams;
@@ -132,17 +148,21 @@ inline void scatter(const MesoStreams& streams, MesoKernels::Lanes lanes, const 
     const double rate_1ps = 1.0 / dt;
     int first = 0;
     for (const LaneStep& lane : lanes) {
-        const int n = lane.stop - lane.begin;
-        double* __restrict const position = s.position + lane.begin;
-        double* __restrict const speed = s.speed + lane.begin;
-        float* __restrict const acceleration = s.acceleration + lane.begin;
-        const double* __restrict const next = g.next + first;
-        for (int i = 0; i < n; ++i) {
-            acceleration[i] = static_cast<float>((next[i] - speed[i]) * rate_1ps);
-            speed[i] = next[i];
-            position[i] += next[i] * dt;
+        int i = lane.begin;
+        int k = first;
+        for (; i < lane.stop && i + kTogether <= lane.free_until; i += kTogether, k += kTogether) {
+            const auto next = read_at<Doubles>(g.next, k);
+            const auto acceleration = (next - read_at<Doubles>(g.speed, k)) * rate_1ps;
+            write_at(s.acceleration, i, __builtin_convertvector(acceleration, Floats));
+            write_at(s.speed, i, next);
+            write_at(s.position, i, read_at<Doubles>(g.position, k) + next * dt);
         }
-        first += n;
+        for (; i < lane.stop; ++i, ++k) {
+            s.acceleration[i] = static_cast<float>((g.next[k] - g.speed[k]) * rate_1ps);
+            s.speed[i] = g.next[k];
+            s.position[i] = g.position[k] + g.next[k] * dt;
+        }
+        first += lane.stop - lane.begin;
     }
 }
 

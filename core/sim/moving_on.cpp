@@ -17,7 +17,7 @@ std::size_t at(int index) { return static_cast<std::size_t>(index); }
 // Where a vehicle on that lane is put back: behind the intersection that its route leads over; -1: it is behind it already.
 int lane_beyond(const Model& model, const State& state, int lane, int slot) {
     const VehicleArrays& v = state.vehicles;
-    const Route& route = model.graph.routes[at(v.route[at(slot)])];
+    const Route& route = model.graph.routes[at(v.record[at(slot)].route)];
     const bool before = model.graph.lanes[at(lane)].signal_group >= 0 || model.graph.lanes[at(lane)].origin >= 0;
     return before ? route.lanes.back() : -1;
 }
@@ -29,6 +29,7 @@ void note(const Model& model, State& state, RuleUse::Kind kind, int slot, int la
 }
 
 void take_out(const Model& model, State& state, int lane) {
+    make_room(state, state.limbo);
     LaneBlock& block = state.blocks[at(lane)];
     const int slot = block.first;
     const int beyond = lane_beyond(model, state, lane, slot);
@@ -65,15 +66,18 @@ bool somebody_comes(const Model& model, const State& state, int lane) {
         for (int slot = before.first; slot < before.stop(); ++slot) {
             const double distance_m = from_m - v.position_m[at(slot)];
             if (distance_m > way.length_m + kApproach_m) break;
-            if (v.next_lane[at(slot)] == inside && too_near(slot, distance_m)) return true;
+            if (v.record[at(slot)].next_lane == inside && too_near(slot, distance_m)) return true;
         }
     }
     return false;
 }
 
-// Puts a vehicle at the start of its lane, its rear just behind the intersection. False: there is no room.
-bool put_back(const Model& model, State& state, int waiting, const Removed& removed) {
+// Puts the k-th vehicle that was taken out at the start of its lane, its rear just behind the intersection. False: there is no room.
+bool put_back(const Model& model, State& state, int k) {
     VehicleArrays& v = state.vehicles;
+    const Removed removed = state.removed[at(k)];
+    make_room(state, state.blocks[at(removed.lane)]);
+    const int waiting = state.limbo.first + k;
     const LaneBlock& block = state.blocks[at(removed.lane)];
     const double front_m = v.length_m[at(waiting)];
     const double gap_m = v.standstill_gap_m[at(waiting)];
@@ -91,19 +95,20 @@ bool put_back(const Model& model, State& state, int waiting, const Removed& remo
     const bool first = state.blocks[at(removed.lane)].count == 1;
     v.position_m[i] = front_m;
     v.speed_mps[i] = speed_mps;
-    v.acceleration_mps2[i] = v.request_mps2[i] = v.torque_Nm[i] = v.brake_N[i] = 0.0F;
-    v.gear[i] = static_cast<float>(gear_for(model.vehicles[at(v.type[i])], speed_mps));
+    v.acceleration_mps2[i] = 0.0F;
+    v.reset_powertrain(slot, model.vehicles[at(v.type[i])], speed_mps);
     v.leads[i] = 1.0F;
-    v.came_from[i] = v.cleared_for[i] = -1;
-    v.predecessor[i] = first ? -1 : v.id[i - 1];
+    v.record[i].came_from = v.record[i].cleared_for = -1;
+    v.record[i].predecessor = first ? -1 : v.id[i - 1];
     const double ahead_m = first ? 1e6 : v.position_m[i - 1] - static_cast<double>(v.length_m[i - 1]) - front_m;
     v.reset_radar(slot, ahead_m, first ? 0.0 : speed_mps - v.speed_mps[i - 1]);
     v.reset_v2v(slot);
-    const int index = static_cast<int>(model.graph.routes[at(v.route[i])].lanes.size()) - 1;
+    const int index = static_cast<int>(model.graph.routes[at(v.record[i].route)].lanes.size()) - 1;
     put_on_route(model, v, slot, index);
     choose_way_on(model, state, removed.lane, slot);
     note(model, state, RuleUse::Kind::put_back, slot, removed.lane);
     v.stands_since[i] = static_cast<int>(state.tick);
+    state.resting[at(removed.lane)].imposed = state.tick;
     return true;
 }
 
@@ -112,7 +117,7 @@ void look_further(const Model& model, State& state, int waiting, Removed& remove
     const Lane& lane = model.graph.lanes[at(removed.lane)];
     if (lane.signal_group < 0 || model.time_s(state.tick - removed.since) < lane.length_m / lane.limit_mps) return;
     choose_way_on(model, state, removed.lane, waiting);
-    removed = {model.graph.routes[at(state.vehicles.route[at(waiting)])].lanes.back(), state.tick};
+    removed = {model.graph.routes[at(state.vehicles.record[at(waiting)].route)].lanes.back(), state.tick};
 }
 
 }  // namespace
@@ -121,22 +126,24 @@ void move_blocked_on(const Model& model, State& state) {
     const RulesPlan& rules = model.rules;
     if (rules.teleport_ticks == 0 || state.tick % rules.watch_ticks != 0) return;
     LaneBlock& limbo = state.limbo;
-    for (int waiting = limbo.first; waiting < limbo.stop();) {
-        const auto k = at(waiting - limbo.first);
-        if (!put_back(model, state, waiting, state.removed[k])) {
-            look_further(model, state, waiting, state.removed[k]);
-            ++waiting;
+    for (int k = 0; k < limbo.count;) {
+        if (!put_back(model, state, k)) {
+            look_further(model, state, limbo.first + k, state.removed[at(k)]);
+            ++k;
             continue;
         }
-        state.vehicles.move(waiting + 1, limbo.stop() - waiting - 1, waiting);
-        state.removed.erase(state.removed.begin() + static_cast<std::ptrdiff_t>(k));
+        const int gone = limbo.first + k;
+        state.vehicles.move(gone + 1, limbo.stop() - gone - 1, gone);
+        state.removed.erase(state.removed.begin() + k);
         --limbo.count;
     }
-    for (const int lane : state.occupied) {
-        const LaneBlock& block = state.blocks[at(lane)];
-        if (block.count == 0) continue;
-        if (state.tick - state.vehicles.stands_since[at(block.first)] >= rules.teleport_ticks)
-            take_out(model, state, lane);
+    for (const NetworkPart& part : state.parts) {
+        for (const int lane : part.occupied) {
+            const LaneBlock& block = state.blocks[at(lane)];
+            if (block.count == 0) continue;
+            const std::int64_t stood = state.tick - state.vehicles.stands_since[at(block.first)];
+            if (stood >= rules.teleport_ticks) take_out(model, state, lane);
+        }
     }
 }
 

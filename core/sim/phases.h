@@ -4,36 +4,57 @@
 #include <cstdint>
 #include <span>
 
+#include "sim/full_dynamics.h"
 #include "sim/model.h"
 #include "sim/state.h"
 
 namespace stopline {
 
+// For each part by itself, in this order: what is decided and seen from the state at the beginning of the step.
+void find_occupied_lanes(const State& state, NetworkPart& part);
+void look_beyond_lanes(const Model& model, State& state, NetworkPart& part);
+void find_insiders(State& state, NetworkPart& part);
+void decide_stops(const Model& model, State& state, NetworkPart& part);
+void give_way(const Model& model, State& state, NetworkPart& part);
+// Then, when all parts are done: everybody moves.
+void move_vehicles(const Model& model, const FullTables& tables, State& state, NetworkPart& part);
+void watch_detectors(const Model& model, State& state, NetworkPart& part);
+
+// For all parts together, before and after.
 void read_signals(const Model& model, State& state);
-void find_occupied_lanes(const Model& model, State& state);
-void find_insiders(const Model& model, State& state);
-void decide_stops(const Model& model, State& state);
-void give_way(const Model& model, State& state);  // after find_insiders
-void look_beyond_lanes(const Model& model, State& state);
-void watch_hindrance(const Model& model, State& state);  // hindrance.h
-void move_blocked_on(const Model& model, State& state);
-void watch_detectors(const Model& model, State& state);
+void watch_hindrance(const Model& model, State& state);  // hindrance.h; before anybody moves
+void gather_reports(State& state);                       // what the parts have to tell
 void transfer_vehicles(const Model& model, State& state);
 void form_queues(const Model& model, State& state);  // before the first step
 void insert_vehicles(const Model& model, State& state);
+void move_blocked_on(const Model& model, State& state);
 void verify(State& state);
 
 // Fronts that are beyond the rear of their predecessor on the same lane.
 std::int64_t overlaps(const VehicleArrays& vehicles, std::span<const LaneStep> lanes);
 
-// What the kernels need of a lane in this step.
-LaneStep lane_step(const Model& model, const State& state, int lane);
+// Adds a lane to those that go through the kernels together.
+void add_lane(const Model& model, State& state, int lane, LaneGroup& group);
+
+// A vehicle this near to a conflict area must know whether it can go on.
+double decides_within_m(const Model& model, double speed_mps);
 
 // When the front passed `line_m` within the last step.
 double passing_time_s(const Model& model, const State& state, int slot, double line_m);
 
-// Appends a free slot at the back of a lane, moving its vehicles up where the block's end is reached. Returns the slot.
+// Before the first step: where the vehicles of each lane are in memory.
+void lay_out_blocks(const Model& model, State& state);
+
+// Appends a slot at the back of a lane and returns it. Slots of all vehicles may change, but for those of lanes with room.
 int append_slot(State& state, int lane);
+
+// Slower than this a vehicle stands.
+inline constexpr double kStands_mps = 0.1;
+
+double shortest_vehicle_m(const Model& model);
+
+// Makes sure that the next vehicle can be appended; slots of all vehicles may change.
+void make_room(State& state, LaneBlock& block);
 
 // Takes the first vehicle off a lane.
 void remove_first(State& state, int lane);

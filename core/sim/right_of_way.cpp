@@ -27,38 +27,10 @@ constexpr double kSeen_m = 20.0;
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
-Insider insider(const VehicleArrays& v, int slot, double offset_m) {
-    const double front_m = v.position_m[at(slot)] + offset_m;
-    return {slot, front_m, front_m - v.length_m[at(slot)], v.inside_since[at(slot)]};
-}
-
 // Stands and waits for others itself: it will not come before they have gone, and they may be waiting for who asks.
 bool held(const State& state, int slot) {
     const VehicleArrays& v = state.vehicles;
-    return v.held_at[at(slot)] >= state.tick - 1 && v.speed_mps[at(slot)] < kStanding_mps;
-}
-
-// From the front: rears that reach back from the exit lane, the lane itself, fronts past the stop line on the origin.
-void list_insiders(const Model& model, const State& state, int lane, std::vector<Insider>& insiders) {
-    const VehicleArrays& v = state.vehicles;
-    const Lane& road = model.graph.lanes[at(lane)];
-    insiders.clear();
-    const LaneBlock& exit = state.blocks[at(road.next[0])];
-    const auto reaches_back = [&](int slot) { return v.position_m[at(slot)] < v.length_m[at(slot)]; };
-    if (exit.count > 0 && reaches_back(exit.last())) {
-        for (int slot = std::max(exit.first, exit.stop() - 2); slot < exit.stop(); ++slot) {
-            if (v.came_from[at(slot)] != lane || !reaches_back(slot)) continue;
-            insiders.push_back(insider(v, slot, road.length_m));
-        }
-    }
-    const LaneBlock& block = state.blocks[at(lane)];
-    for (int slot = block.first; slot < block.stop(); ++slot) insiders.push_back(insider(v, slot, 0.0));
-    const LaneBlock& before = state.blocks[at(road.origin)];
-    const Lane& origin = model.graph.lanes[at(road.origin)];
-    for (int slot = before.first; slot < before.stop(); ++slot) {
-        if (v.position_m[at(slot)] <= origin.stop_line_m) break;
-        if (v.next_lane[at(slot)] == lane) insiders.push_back(insider(v, slot, -origin.length_m));
-    }
+    return v.record[at(slot)].held_at >= state.tick - 1 && v.speed_mps[at(slot)] < kStanding_mps;
 }
 
 // Time to cover a distance, accelerating up to the limit.
@@ -76,7 +48,7 @@ bool blocked(const State& state, int slot) {
     const VehicleArrays& v = state.vehicles;
     const std::size_t i = at(slot);
     const double gap_m = v.position_m[i - 1] - v.length_m[i - 1] - v.position_m[i];
-    return v.predecessor[i] >= 0 && v.speed_mps[i] < kStanding_mps && v.speed_mps[i - 1] < kStanding_mps &&
+    return v.record[i].predecessor >= 0 && v.speed_mps[i] < kStanding_mps && v.speed_mps[i - 1] < kStanding_mps &&
            gap_m < kCloseBehind_m;
 }
 
@@ -84,13 +56,13 @@ bool blocked(const State& state, int slot) {
 bool behind_held(const Model& model, const State& state, int lane, const Insider& w) {
     constexpr int kMost = 8;  // vehicles inside, one behind the other
     int slot = w.slot;
-    int on = w.front_m > 0.0 ? lane : model.graph.lanes[at(lane)].origin;
+    int on = w.front_m > 0.0 ? lane : state.plan.lane(lane).origin;
     for (int k = 0; k < kMost && blocked(state, slot); ++k) {
         const LaneBlock& block = state.blocks[at(on)];
         if (slot == block.first) {
             slot = vehicle_ahead(model, state, on, slot, kSeen_m).slot;
             const LaneBlock& inside = state.blocks[at(lane)];
-            if (slot < inside.first || slot >= inside.stop()) return slot >= 0 && held(state, slot);
+            if (slot < inside.first || slot >= inside.stop()) return false;
             on = lane;
         } else {
             --slot;
@@ -113,8 +85,8 @@ struct Arrival {
 
 Arrival next_arrival(const Model& model, const State& state, const Conflict& conflict, double horizon_s) {
     const VehicleArrays& v = state.vehicles;
-    const Lane& other = model.graph.lanes[at(conflict.other)];
-    const Lane& origin = model.graph.lanes[at(other.origin)];
+    const LanePlan& other = state.plan.lane(conflict.other);
+    const LanePlan& origin = state.plan.lane(other.origin);
     const double a = model.give_way.approach_mps2;
     const bool green = state.lights[at(origin.signal_group)] == Light::green;
     const int stopping = green ? -1 : state.stop_slot[at(other.origin)];
@@ -133,7 +105,7 @@ Arrival next_arrival(const Model& model, const State& state, const Conflict& con
         const double distance_m = origin.length_m + conflict.other_from_m - v.position_m[at(slot)];
         if (distance_m > horizon_s * origin.limit_mps) break;
         if (slot == stopping) break;
-        if (v.position_m[at(slot)] > origin.stop_line_m || v.next_lane[at(slot)] != conflict.other) continue;
+        if (v.position_m[at(slot)] > origin.stop_line_m || v.record[at(slot)].next_lane != conflict.other) continue;
         soonest.earlier(earliest_s(distance_m, v.speed_mps[at(slot)], a, other.limit_mps), slot);
         break;
     }
@@ -149,51 +121,52 @@ struct Candidate {
 
 // Whether `vehicle` may pass one that has stood inside for long, although it is in its way. Where ways merge it cannot. Once it may, it
 // may until it is through: it could be too late to stop when the other sets out at last.
-bool may_pass(const Model& model, State& state, int vehicle, int lane, int blocker, int other) {
+bool may_pass(const Model& model, State& state, NetworkPart& part, int vehicle, int lane, int blocker, int other) {
     const VehicleArrays& v = state.vehicles;
     if (model.rules.pass_blocker_ticks == 0) return false;
-    for (Passing& known : state.passing) {
+    for (Passing& known : part.passing) {
         if (known.vehicle != v.id[at(vehicle)] || known.blocker != v.id[at(blocker)]) continue;
         known.seen = state.tick;
         return true;
     }
     const std::int64_t stood = state.tick - v.stands_since[at(blocker)];
     if (stood < model.rules.pass_blocker_ticks) return false;
-    if (model.graph.lanes[at(lane)].next[0] == model.graph.lanes[at(other)].next[0]) return false;
-    state.passing.push_back({v.id[at(vehicle)], v.id[at(blocker)], state.tick, stood, false});
+    if (state.plan.lane(lane).exit == state.plan.lane(other).exit) return false;
+    part.passing.push_back({v.id[at(vehicle)], v.id[at(blocker)], state.tick, stood, false});
     return true;
 }
 
 // The agreement between two without priority that the first goes, if there is one.
-Agreed* agreement(State& state, int goes, int waits) {
+Agreed* agreement(const State& state, NetworkPart& part, int goes, int waits) {
     const VehicleArrays& v = state.vehicles;
-    const auto found = std::find_if(state.agreed.begin(), state.agreed.end(), [&](const Agreed& a) {
+    const auto found = std::find_if(part.agreed.begin(), part.agreed.end(), [&](const Agreed& a) {
         return a.goes == v.id[at(goes)] && a.waits == v.id[at(waits)];
     });
-    return found == state.agreed.end() ? nullptr : &*found;
+    return found == part.agreed.end() ? nullptr : &*found;
 }
 
 // The slot of a vehicle of the other lane that keeps this one out of the area, without regard to gaps; -1: none.
-int keeps_out(const Model& model, State& state, int lane, const Conflict& conflict, const Candidate& v) {
-    const std::int64_t since = state.vehicles.inside_since[at(v.slot)];
-    const int stopping = state.stop_slot[at(model.graph.lanes[at(conflict.other)].origin)];
+int keeps_out(const Model& model, State& state, NetworkPart& part, int lane, const Conflict& conflict,
+              const Candidate& v) {
+    const std::int64_t since = state.vehicles.record[at(v.slot)].inside_since;
+    const int stopping = state.stop_slot[at(state.plan.lane(conflict.other).origin)];
     for (const Insider& w : state.insiders[at(conflict.other)]) {
         if (w.rear_m >= conflict.other_to_m) continue;
-        if (may_pass(model, state, v.slot, lane, w.slot, conflict.other)) continue;
+        if (may_pass(model, state, part, v.slot, lane, w.slot, conflict.other)) continue;
         if (w.front_m > conflict.other_from_m) return w.slot;
         if (conflict.yields || w.slot == stopping) continue;
         if (conflict.other_yields) {
-            if (state.vehicles.cleared_for[at(w.slot)] == conflict.other && !held(state, w.slot)) return w.slot;
+            if (state.vehicles.record[at(w.slot)].cleared_for == conflict.other && !held(state, w.slot)) return w.slot;
             continue;
         }
         // Two that stand and wait for each other: who can go does, and the other waits for it as long as nothing else holds it up.
-        if (agreement(state, w.slot, v.slot) != nullptr) return w.slot;
-        if (Agreed* const agreed = agreement(state, v.slot, w.slot)) {
+        if (agreement(state, part, w.slot, v.slot) != nullptr) return w.slot;
+        if (Agreed* const agreed = agreement(state, part, v.slot, w.slot)) {
             agreed->seen = state.tick;
             continue;
         }
         if (v.stands && (held(state, w.slot) || behind_held(model, state, conflict.other, w))) {
-            state.agreed.push_back({state.vehicles.id[at(v.slot)], state.vehicles.id[at(w.slot)], state.tick});
+            part.agreed.push_back({state.vehicles.id[at(v.slot)], state.vehicles.id[at(w.slot)], state.tick});
             continue;
         }
         const bool before = w.since < since || (w.since == since && w.slot < v.slot);
@@ -203,7 +176,7 @@ int keeps_out(const Model& model, State& state, int lane, const Conflict& confli
 }
 
 // The slot of a vehicle with priority that is too near for this one to go. -1: none; the decision is noted.
-int comes_first(const Model& model, State& state, int lane, const Candidate& v, double to_hold_m) {
+int comes_first(const Model& model, State& state, NetworkPart& part, int lane, const Candidate& v, double to_hold_m) {
     VehicleArrays& arrays = state.vehicles;
     const double reach_s = to_hold_m / std::max(arrays.speed_mps[at(v.slot)], 2.0);
     const double needed_s = model.give_way.critical_gap_s + std::max(reach_s, 0.0);
@@ -214,10 +187,10 @@ int comes_first(const Model& model, State& state, int lane, const Candidate& v, 
         next.earlier(arrival.in_s, arrival.slot);
         if (next.in_s < needed_s) return next.slot;
     }
-    arrays.cleared_for[at(v.slot)] = lane;
+    arrays.record[at(v.slot)].cleared_for = lane;
     if (!model.records_all) return -1;
-    state.gaps_accepted.push_back({model.time_s(state.tick), arrays.id[at(v.slot)], lane, static_cast<float>(next.in_s),
-                                   static_cast<float>(needed_s)});
+    part.gaps_accepted.push_back({model.time_s(state.tick), arrays.id[at(v.slot)], lane, static_cast<float>(next.in_s),
+                                  static_cast<float>(needed_s)});
     return -1;
 }
 
@@ -230,23 +203,25 @@ struct Wait {
 };
 
 // `ahead`: slot of one that waits ahead on the same way, -1: none. Behind it no gap is looked for.
-Wait waiting_place(const Model& model, State& state, int lane, const Candidate& v, int ahead) {
+Wait waiting_place(const Model& model, State& state, NetworkPart& part, int lane, const Candidate& v, int ahead) {
     VehicleArrays& arrays = state.vehicles;
     const double speed = arrays.speed_mps[at(v.slot)];
     const double margin_m = model.give_way.margin_m;
-    // Nearer than this it must know whether it can go on.
-    const double ahead_m = 0.5 * square(speed) / model.driver.stop.deceleration_mps2 + 1.5 * speed + 3.0;
+    const double ahead_m = decides_within_m(model, speed);
     // A gap that it could not use, because somebody stands in front, is lost; others must not wait for it.
-    if (v.stands && blocked(state, v.slot)) arrays.cleared_for[at(v.slot)] = -1;
-    bool decided = arrays.cleared_for[at(v.slot)] == lane;
+    if (v.stands && blocked(state, v.slot)) arrays.record[at(v.slot)].cleared_for = -1;
+    bool decided = arrays.record[at(v.slot)].cleared_for == lane;
+    const bool others = state.others_inside[at(lane)].lanes > 0;
+    if (!others && (decided || !state.plan.lane(lane).yields)) return {};
     for (const Conflict& conflict : model.graph.conflicts[at(lane)]) {
         const double hold_m = conflict.from_m - margin_m;
         if (v.front_m > conflict.from_m) continue;
         if (hold_m - v.front_m > ahead_m) break;
-        const int blocker = keeps_out(model, state, lane, conflict, v);
+        const bool empty = !others || state.insiders[at(conflict.other)].empty();
+        const int blocker = empty ? -1 : keeps_out(model, state, part, lane, conflict, v);
         if (blocker >= 0) return {hold_m, blocker, false};
         if (conflict.yields && !decided) {
-            const int first = ahead >= 0 ? ahead : comes_first(model, state, lane, v, hold_m - v.front_m);
+            const int first = ahead >= 0 ? ahead : comes_first(model, state, part, lane, v, hold_m - v.front_m);
             if (first >= 0) return {hold_m, first, true};
             decided = true;
         }
@@ -255,102 +230,98 @@ Wait waiting_place(const Model& model, State& state, int lane, const Candidate& 
 }
 
 // Remembers who waits; of those on one lane the first ones.
-void wait(State& state, int lane, int slot, double place_m, const Wait& wait) {
-    state.vehicles.held_at[at(slot)] = static_cast<int>(state.tick);
-    state.holds[at(lane)].add({slot, place_m, wait.blocker, wait.priority});
+void wait(State& state, NetworkPart& part, int lane, int slot, double place_m, const Wait& wait) {
+    state.vehicles.record[at(slot)].held_at = static_cast<int>(state.tick);
+    Holds& holds = state.holds[at(lane)];
+    if (holds.count == 0) part.holding.push_back(lane);
+    holds.add({slot, place_m, wait.blocker, wait.priority});
 }
 
-void decide(const Model& model, State& state, int lane) {
-    const Lane& road = model.graph.lanes[at(lane)];
-    const Lane& origin = model.graph.lanes[at(road.origin)];
+void decide(const Model& model, State& state, NetworkPart& part, int lane) {
+    const LanePlan& plan = state.plan.lane(lane);
+    const LanePlan& origin = state.plan.lane(plan.origin);
     const VehicleArrays& v = state.vehicles;
     const LaneBlock& block = state.blocks[at(lane)];
     int ahead = -1;
     const auto place_of = [&](const Candidate& candidate) {
-        const Wait found = waiting_place(model, state, lane, candidate, ahead);
+        const Wait found = waiting_place(model, state, part, lane, candidate, ahead);
         if (found.place_m < kNowhere_m) {
             ahead = candidate.slot;
             // A gap accepted before is lost: when it sets out again, others have come.
-            if (candidate.stands) state.vehicles.cleared_for[at(candidate.slot)] = -1;
+            if (candidate.stands) state.vehicles.record[at(candidate.slot)].cleared_for = -1;
         }
         return found;
     };
     for (int slot = block.first; slot < block.stop(); ++slot) {
         const Wait found = place_of({slot, v.position_m[at(slot)], true, v.speed_mps[at(slot)] < kStanding_mps});
-        if (found.place_m < kNowhere_m) wait(state, lane, slot, found.place_m, found);
+        if (found.place_m < kNowhere_m) wait(state, part, lane, slot, found.place_m, found);
     }
-    constexpr double kLookBack_m = 60.0;
-    const LaneBlock& before = state.blocks[at(road.origin)];
-    for (int slot = before.first; slot < before.stop(); ++slot) {
+    std::vector<int>& coming = state.coming[at(lane)];
+    for (const int slot : coming) {
         const double position_m = v.position_m[at(slot)];
-        if (origin.length_m - position_m > kLookBack_m || slot == state.stop_slot[at(road.origin)]) break;
-        if (v.next_lane[at(slot)] != lane) continue;
         const Candidate candidate{slot, position_m - origin.length_m, position_m > origin.stop_line_m,
                                   v.speed_mps[at(slot)] < kStanding_mps};
         const Wait found = place_of(candidate);
-        if (found.place_m < kNowhere_m) wait(state, road.origin, slot, found.place_m + origin.length_m, found);
+        if (found.place_m < kNowhere_m) wait(state, part, plan.origin, slot, found.place_m + origin.length_m, found);
     }
+    coming.clear();
 }
 
 // Whether one of two vehicles in the same area passes the other by the rule for blockers; notes when it begins to.
-bool passes(const Model& model, State& state, int one, int two, int lane) {
+bool passes(const Model& model, State& state, NetworkPart& part, int one, int two, int lane) {
     const std::pair<int, int> pair = std::minmax(state.vehicles.id[at(one)], state.vehicles.id[at(two)]);
-    for (Passing& known : state.passing) {
+    for (Passing& known : part.passing) {
         if (std::pair<int, int>(std::minmax(known.vehicle, known.blocker)) != pair) continue;
         known.seen = state.tick;
         if (known.begun) return true;
         known.begun = true;
-        ++state.hindrance.passed_blockers;
-        state.hindrance.rules.push_back({RuleUse::Kind::passed_blocker, model.time_s(state.tick), known.vehicle, lane,
-                                         known.blocker, model.time_s(known.stood)});
+        ++part.passed_blockers;
+        part.rules.push_back({RuleUse::Kind::passed_blocker, model.time_s(state.tick), known.vehicle, lane,
+                              known.blocker, model.time_s(known.stood)});
         return true;
     }
     return false;
 }
 
 // Pairs of vehicles that are in the area at the same time, but for those that pass each other by a rule.
-std::int64_t pairs_in(const Model& model, State& state, int lane, const Conflict& c) {
+std::int64_t pairs_in(const Model& model, State& state, NetworkPart& part, int lane, const Conflict& c) {
     std::int64_t pairs = 0;
     for (const Insider& w : state.insiders[at(lane)]) {
         if (w.front_m <= c.from_m || w.rear_m >= c.to_m) continue;
         for (const Insider& x : state.insiders[at(c.other)]) {
             if (x.front_m <= c.other_from_m || x.rear_m >= c.other_to_m) continue;
-            pairs += passes(model, state, w.slot, x.slot, lane) ? 0 : 1;
+            pairs += passes(model, state, part, w.slot, x.slot, lane) ? 0 : 1;
         }
+    }
+    return pairs;
+}
+
+// The same, of a lane with all others.
+std::int64_t conflicts_of(const Model& model, State& state, NetworkPart& part, int lane) {
+    std::int64_t pairs = 0;
+    for (const Conflict& c : model.graph.conflicts[at(lane)]) {
+        if (c.other > lane && !state.insiders[at(c.other)].empty()) pairs += pairs_in(model, state, part, lane, c);
     }
     return pairs;
 }
 
 }  // namespace
 
-void find_insiders(const Model& model, State& state) {
-    for (int lane = 0; lane < static_cast<int>(model.graph.conflicts.size()); ++lane) {
-        if (model.graph.lanes[at(lane)].origin < 0) continue;
-        std::vector<Insider>& insiders = state.insiders[at(lane)];
-        list_insiders(model, state, lane, insiders);
-        if (!insiders.empty()) {
-            state.longest_inside = std::max(state.longest_inside, state.tick - insiders.front().since);
-        }
-    }
-}
-
-void give_way(const Model& model, State& state) {
+void give_way(const Model& model, State& state, NetworkPart& part) {
     // Between two areas of the same pair there may be some steps.
     constexpr std::int64_t kAgreed_steps = 5;
-    std::erase_if(state.agreed, [&](const Agreed& a) { return state.tick - a.seen > kAgreed_steps; });
-    std::erase_if(state.passing, [&](const Passing& p) { return state.tick - p.seen > model.rules.memory_ticks; });
-    const auto lanes = static_cast<int>(model.graph.conflicts.size());
-    for (int lane = 0; lane < lanes; ++lane) state.holds[at(lane)].count = 0;
-    for (int lane = 0; lane < lanes; ++lane) {
-        const std::vector<Conflict>& conflicts = model.graph.conflicts[at(lane)];
-        const auto matters = [&](const Conflict& c) { return c.yields || !state.insiders[at(c.other)].empty(); };
-        if (!std::any_of(conflicts.begin(), conflicts.end(), matters)) continue;
-        decide(model, state, lane);
-        if (state.insiders[at(lane)].empty()) continue;
-        for (const Conflict& c : conflicts) {
-            if (c.other < lane || state.insiders[at(c.other)].empty()) continue;
-            state.violations.conflicts += pairs_in(model, state, lane, c);
-        }
+    std::erase_if(part.agreed, [&](const Agreed& a) { return state.tick - a.seen > kAgreed_steps; });
+    std::erase_if(part.passing, [&](const Passing& p) { return state.tick - p.seen > model.rules.memory_ticks; });
+    for (const int lane : part.holding) state.holds[at(lane)].count = 0;
+    part.holding.clear();
+    for (const int lane : part.inside) {
+        if (state.deciding[at(lane)] == 0) continue;
+        state.deciding[at(lane)] = 0;
+        decide(model, state, part, lane);
+    }
+    for (const int lane : part.with_insiders) {
+        if (state.others_inside[at(lane)].lanes > 0)
+            part.violations.conflicts += conflicts_of(model, state, part, lane);
     }
 }
 

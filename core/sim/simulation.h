@@ -1,17 +1,24 @@
 // One run: a Model (constant) and a State (all that changes), advanced a step at a time. The step is a list of named phases:
 //
-//     inside     who is on the way through an intersection               right_of_way.cpp
-//     signals    who stops at which line, at red or since there is no room beyond it       lane_heads.cpp
-//     give way   who waits before which conflict area               right_of_way.cpp
-//     heads      what the first vehicle of each lane reacts to beyond its lane; whether it overlaps that
+//   each part of the network by itself:
+//     heads      what the first vehicle of each lane sees beyond it; overlaps with that    look_beyond.cpp
+//     inside     who is on the way through an intersection                                 insiders.cpp
+//     stops      who stops at which line, at red or since there is no room beyond it       stops.cpp
+//     give way   who waits before which conflict area                                      right_of_way.cpp
+//   all together:
 //     hindrance  who stands, what for, in whose way; now and then                          hindrance.cpp
+//   each part of the network by itself again (move_vehicles.cpp):
 //     plan       every vehicle's request, from the state at the beginning of the step      full_dynamics.cpp
 //     move       powertrain, speed, position; overlaps on a lane are counted after it
-//     detectors  fronts that passed one                             detectors.cpp
+//     detectors  fronts that passed one                                                    detectors.cpp
+//   all together:
 //     transfer   vehicles that passed the end of their lane                                transfer.cpp
 //     insert     vehicles that enter
 //     move on    vehicles that have stood at the head of a lane for too long               moving_on.cpp
-//     verify     nobody is lost                                     verify.cpp
+//     verify     nobody is lost; overlaps                                                  verify.cpp
+//
+// Parts are whole intersections, one part for each thread. What is done in one depends on the state at the beginning of the step and on
+// itself, so that results do not depend on how many there are.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +32,8 @@ namespace stopline {
 class Simulation {
 public:
     // Keeps a reference to the model, which must outlive the simulation. Throws InputError where it is not sound.
-    explicit Simulation(const Model& model);
+    // `threads`: that share the lanes of this run.
+    explicit Simulation(const Model& model, int threads = 1);
 
     void step();
     void run_until(double time_s);
@@ -38,7 +46,8 @@ public:
     std::uint64_t state_hash() const;
 
 private:
-    void move_vehicles();
+    void decide(NetworkPart& part);
+    void move(NetworkPart& part);
 
     const Model& model_;
     FullTables tables_;

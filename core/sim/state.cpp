@@ -1,23 +1,14 @@
 #include "sim/state.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include "base/arithmetic.h"
+#include "sim/phases.h"
 
 namespace stopline {
 
 namespace {
 
-int rounded_up(int n) { return (n + kSimdWidth - 1) / kSimdWidth * kSimdWidth; }
-
-// Room for all vehicles that fit on the lane bumper to bumper and half as many more, so that moving up is rare.
-int block_size(const Model& model, const Lane& lane) {
-    double shortest_m = 1e9;
-    for (const PowertrainTables& type : model.vehicles) shortest_m = std::min(shortest_m, type.length_m);
-    const int most = static_cast<int>(lane.length_m / shortest_m) + 2;
-    return rounded_up(most + std::max(most / 2, kSimdWidth));
-}
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 }  // namespace
 
@@ -39,54 +30,84 @@ void Holds::add(const Hold& hold) {
     each[static_cast<std::size_t>(place)] = hold;
 }
 
-State make_state(const Model& model) {
-    State state;
-    int slots = 0;
-    for (const Lane& lane : model.graph.lanes) {
-        LaneBlock block;
-        block.begin = slots + kSimdWidth;
-        block.end = block.begin + block_size(model, lane);
-        block.first = block.begin;
-        slots = block.end;
-        state.blocks.push_back(block);
-        state.sine.push_back(lane.gradient / std::sqrt(1.0 + square(lane.gradient)));
+namespace {
+
+std::vector<NetworkPart> make_parts(const Model& model, const State& state, int threads) {
+    const std::vector<int>& order = state.plan.order();
+    const auto metres_of = [&](int lane) { return state.plan.lane(lane).length_m; };
+    double metres = 0.0;
+    double longest_m = 0.0;
+    for (const int lane : order) metres += metres_of(lane), longest_m = std::max(longest_m, metres_of(lane));
+    std::vector<std::vector<int>> detectors(order.size());
+    for (std::size_t k = 0; k < model.detectors.size(); ++k) {
+        detectors[at(model.detectors[k].lane)].push_back(static_cast<int>(k));
     }
-    if (model.rules.teleport_ticks > 0) {
-        const int most = rounded_up(64 + static_cast<int>(model.graph.lanes.size()));
-        state.limbo = {slots + kSimdWidth, slots + kSimdWidth + most, slots + kSimdWidth, 0};
-        slots = state.limbo.end;
+    std::vector<bool> is_exit(order.size(), false);
+    std::vector<NetworkPart> parts(1);
+    double done = 0.0;
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        const int lane = order[k];
+        const bool new_intersection =
+            k > 0 && state.plan.lane(lane).intersection != state.plan.lane(order[k - 1]).intersection;
+        const double share = metres / threads * static_cast<double>(parts.size());
+        if (new_intersection && done >= share && static_cast<int>(parts.size()) < threads) parts.emplace_back();
+        done += metres_of(lane);
+        NetworkPart& part = parts.back();
+        part.lanes.push_back(lane);
+        part.detectors.insert(part.detectors.end(), detectors[at(lane)].begin(), detectors[at(lane)].end());
+        if (state.plan.lane(lane).origin < 0 || model.graph.conflicts_of(lane).empty()) continue;
+        part.inside.push_back(lane);
+        const int exit = state.plan.lane(lane).exit;
+        if (!is_exit[at(exit)]) part.exits.push_back(exit);
+        is_exit[at(exit)] = true;
     }
-    slots = rounded_up(slots) + kSimdWidth;  // the last batch of a lane reaches beyond its block
-    state.vehicles.resize(slots, model.radar.rows, model.v2v.rows);
+    // Lanes longer than that by vehicle: a group is complete with its first lane that makes it so.
+    const int together =
+        NetworkPart::kVehiclesTogether + static_cast<int>(longest_m / shortest_vehicle_m(model)) + 2 * kSimdWidth;
+    for (NetworkPart& part : parts) {
+        part.full_group.resize(model.meso ? 0 : together);
+        part.meso_group.resize(model.meso ? together : 0);
+        part.occupied.reserve(part.lanes.size());
+    }
+    return parts;
+}
+
+}  // namespace
+
+State make_state(const Model& model, int threads) {
+    State state(model);
+    lay_out_blocks(model, state);
+    state.parts = make_parts(model, state, threads);
+    const std::size_t lanes = model.graph.lanes.size();
     state.lights.assign(model.signals.size(), Light::red);
-    state.stop_lines.resize(model.graph.lanes.size());
-    state.stop_slot.assign(model.graph.lanes.size(), -1);
-    state.holds.resize(model.graph.lanes.size());
-    state.kept_out.resize(model.graph.lanes.size());
-    state.insiders.resize(model.graph.lanes.size());
-    for (std::vector<Insider>& insiders : state.insiders) insiders.reserve(32);
-    state.detectors_of.resize(model.graph.lanes.size());
+    state.stop_lines.resize(lanes);
+    state.stop_slot.assign(lanes, -1);
+    state.holds.resize(lanes);
+    state.kept_out.resize(lanes);
+    state.resting.resize(lanes);
+    state.exit_rooms.resize(lanes);
+    state.insiders.resize(lanes);
+    state.coming.resize(lanes);
+    state.deciding.assign(lanes, 0);
+    state.others_inside.resize(lanes);
+    for (const NetworkPart& part : state.parts) {
+        for (const int lane : part.inside) state.insiders[at(lane)].reserve(32), state.coming[at(lane)].reserve(16);
+    }
+    state.detectors_of.resize(lanes);
     state.upstream.assign(model.detectors.size(), 0);
     for (std::size_t k = 0; k < model.detectors.size(); ++k) {
-        state.detectors_of[static_cast<std::size_t>(model.detectors[k].lane)].push_back(static_cast<int>(k));
+        state.detectors_of[at(model.detectors[k].lane)].push_back(static_cast<int>(k));
     }
-    state.occupied.reserve(model.graph.lanes.size());
     state.inlets.resize(model.demand.inlets.size());
-    state.inlet_of.assign(model.graph.lanes.size(), -1);
+    state.inlet_of.assign(lanes, -1);
     for (std::size_t k = 0; k < model.demand.inlets.size(); ++k) {
-        state.inlet_of[static_cast<std::size_t>(model.demand.inlets[k].lane)] = static_cast<int>(k);
+        state.inlet_of[at(model.demand.inlets[k].lane)] = static_cast<int>(k);
     }
-    int longest = 0;
-    for (const LaneBlock& block : state.blocks) longest = std::max(longest, block.end - block.begin);
-    const int together = State::kVehiclesTogether + longest + kSimdWidth;
-    state.group.resize(model.meso ? 0 : together);
-    state.meso_group.resize(model.meso ? together : 0);
-    state.lane_steps.reserve(model.graph.lanes.size());
     std::size_t expected = 0;
     for (const DemandPlan::Inlet& inlet : model.demand.inlets) {
         expected += static_cast<std::size_t>(std::min<std::int64_t>(inlet.vehicles, 2000));
     }
-    state.passages.reserve(4 * expected);
+    if (model.records_all) state.passages.reserve(4 * expected);
     return state;
 }
 

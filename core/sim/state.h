@@ -7,11 +7,10 @@
 #include <vector>
 
 #include "sim/events.h"
-#include "sim/full_group.h"
 #include "sim/hindrance.h"
-#include "sim/lane_step.h"
-#include "sim/meso_kernels.h"
+#include "sim/lane_plan.h"
 #include "sim/model.h"
+#include "sim/network_part.h"
 #include "sim/vehicle_arrays.h"
 
 namespace stopline {
@@ -80,20 +79,27 @@ struct Removed {
     std::int64_t since = 0;  // tick from which it has waited for room there
 };
 
-// A vehicle that may pass one that has stood inside an intersection for long.
-struct Passing {
-    int vehicle = -1;  // by number
-    int blocker = -1;
-    std::int64_t seen = 0;   // last tick at which it mattered
-    std::int64_t stood = 0;  // ticks, the blocker, when that was decided
-    bool begun = false;      // both have been in the same area
+// Room that an exit of an intersection still has for those that want to enter it, in the step it was looked for.
+struct ExitRoom {
+    std::int64_t tick = -1;
+    double room_m = 1e9;  // before the last vehicle that stands within sight, less what those on their way there need
+    int standing = -1;    // its slot
 };
 
-// Two that stood and waited for each other, neither with priority: one goes, the other waits.
-struct Agreed {
-    int goes = -1;  // by number
-    int waits = -1;
-    std::int64_t seen = 0;  // last tick at which it mattered
+// Vehicles of a lane that stand, one behind the other, and stood in the step before, although nothing but their predecessor kept them
+// from driving: all but the first will go on standing in this step, since what they react to has not changed. Counted from
+// the lane's first vehicle.
+struct Resting {
+    int from = 0;
+    int to = 0;
+    std::int64_t imposed =
+        -1;  // last tick at which something else kept one of them, but for the first, or one was put on the lane
+};
+
+// On the lanes that a lane inside an intersection meets.
+struct OthersInside {
+    int lanes = 0;     // of them that have insiders
+    int standing = 0;  // of these
 };
 
 struct State {
@@ -101,19 +107,22 @@ struct State {
     VehicleArrays vehicles;
     Rows radar;  // of this step
     Rows v2v;
-    std::vector<LaneBlock> blocks;          // [lane]
-    std::vector<int> occupied;              // lanes with vehicles, in lane order
-    std::vector<Light> lights;              // [signal group] in this step
-    std::vector<StopLineState> stop_lines;  // [lane]
-    std::vector<int> stop_slot;             // [lane] slot of the vehicle that stops at the line; -1: none
-    std::vector<Holds> holds;               // [lane] vehicles that wait to give way
-    std::vector<KeptOut> kept_out;          // [lane] why who stops at the line does so although it is green
-    std::vector<Passing> passing;
-    std::vector<Agreed> agreed;
+    NetworkPlan plan;
+    std::vector<NetworkPart> parts;              // one for each thread
+    std::vector<LaneBlock> blocks;               // [lane]
+    std::vector<Light> lights;                   // [signal group] in this step
+    std::vector<StopLineState> stop_lines;       // [lane]
+    std::vector<int> stop_slot;                  // [lane] slot of the vehicle that stops at the line; -1: none
+    std::vector<Holds> holds;                    // [lane] vehicles that wait to give way
+    std::vector<KeptOut> kept_out;               // [lane] why who stops at the line does so although it is green
+    std::vector<ExitRoom> exit_rooms;            // [lane] that leads out of an intersection
+    std::vector<std::vector<Insider>> insiders;  // [lane inside an intersection], from the front
+    std::vector<OthersInside> others_inside;     // [lane inside an intersection]
+    std::vector<char> deciding;  // [lane inside an intersection] 1: somebody on it or before it may have to wait
+    std::vector<std::vector<int>> coming;        // [lane inside an intersection] slots before it that are near
+    std::vector<Resting> resting;                // [lane] mesoscale mode
     LaneBlock limbo;                             // vehicles that were taken out ...
     std::vector<Removed> removed;                // ... and where each of them goes
-    std::vector<double> sine;                    // [lane] of the slope
-    std::vector<std::vector<Insider>> insiders;  // [lane inside an intersection], from the front
     std::vector<std::vector<int>> detectors_of;  // [lane]
     std::vector<int> upstream;                   // [detector] vehicles on its lane that have not passed it
     std::vector<Crossing> crossings;             // of the whole run, in order
@@ -130,17 +139,14 @@ struct State {
     // The longest that any vehicle has been inside an intersection, as an Insider, in ticks. Two cycles or more: a deadlock.
     std::int64_t longest_inside = 0;
     int next_id = 0;
-    // Scratch of the kernels: lanes go through them in groups, complete with this many vehicles or more.
-    static constexpr int kVehiclesTogether = 128;
-    std::vector<LaneStep> lane_steps;
-    FullGroupArrays group;
-    MesoGroupArrays meso_group;
 
+    explicit State(const Model& model) : plan(model) {}
     int present() const { return static_cast<int>(entered - left); }
     // About 150 bytes of each vehicle are read and written in a step; a second-level cache holds 1 MiB or more.
     bool outgrows_cache() const { return present() > 4000; }
 };
 
-State make_state(const Model& model);
+// `threads`: how many parts a step is split into.
+State make_state(const Model& model, int threads);
 
 }  // namespace stopline

@@ -29,26 +29,16 @@ void note(State& state, double time_s, int slot, int from, int to) {
         {time_s, v.id[at(slot)], v.policy[at(slot)], from, to, static_cast<float>(v.speed_mps[at(slot)])});
 }
 
-// At the start of its block a lane's share of an array begins with a line of the cache. Where few vehicles would have to move for
-// that, they do whenever one leaves; where there are many, when the block's end is reached.
-constexpr int kMovedUp = 64;
-
-void move_up(State& state, LaneBlock& block) {
-    if (block.first == block.begin) return;
-    state.vehicles.move(block.first, block.count, block.begin);
-    block.first = block.begin;
-}
-
 // Moves the first vehicle of a lane on along its route, or out of the network.
 void pass_on(const Model& model, State& state, int lane) {
     VehicleArrays& v = state.vehicles;
+    const double length_m = state.plan.lane(lane).length_m;
+    const int next = v.record[at(state.blocks[at(lane)].first)].next_lane;
+    const bool leaves = next < 0;
+    if (!leaves) make_room(state, state.blocks[at(next)]);
     const int slot = state.blocks[at(lane)].first;
-    const double length_m = model.graph.lanes[at(lane)].length_m;
+    const int index = v.record[at(slot)].route_index + 1;
     const double time_s = passing_time_s(model, state, slot, length_m);
-    const Route& route = model.graph.routes[at(v.route[at(slot)])];
-    const int index = v.route_index[at(slot)] + 1;
-    const bool leaves = at(index) >= route.lanes.size();
-    const int next = leaves ? -1 : route.lanes[at(index)];
     if (model.records_all) note(state, time_s, slot, lane, next);
     if (leaves) {
         ++state.left;
@@ -56,7 +46,7 @@ void pass_on(const Model& model, State& state, int lane) {
         const int target = append_slot(state, next);
         v.copy(slot, target);
         v.position_m[at(target)] -= length_m;
-        v.came_from[at(target)] = lane;
+        v.record[at(target)].came_from = lane;
         put_on_route(model, v, target, index);
         choose_way_on(model, state, next, target);
     }
@@ -109,13 +99,14 @@ Entry entry_of(const Model& model, const State& state, int lane, int policy) {
 // Takes over what the vehicle ahead does, as one of an endless platoon.
 void drive_as(VehicleArrays& v, std::size_t i, std::size_t ahead) {
     v.acceleration_mps2[i] = v.acceleration_mps2[ahead];
+    v.leads[i] = 0.0F;
+    if (!v.has_powertrain()) return;
     v.request_mps2[i] = v.request_mps2[ahead];
     v.torque_Nm[i] = v.torque_Nm[ahead];
     v.brake_N[i] = v.brake_N[ahead];
     v.gear_time_s[i] = v.gear_time_s[ahead];
     v.lag_s[i] = v.lag_s[ahead];
     v.gear[i] = v.gear[ahead];
-    v.leads[i] = 0.0F;
 }
 
 void enter(const Model& model, State& state, int inlet_index, const Entry& entry) {
@@ -131,28 +122,27 @@ void enter(const Model& model, State& state, int inlet_index, const Entry& entry
     const bool first = state.blocks[at(inlet.lane)].count == 1;
     v.position_m[i] = entry.position_m;
     v.speed_mps[i] = entry.speed_mps;
-    v.acceleration_mps2[i] = v.request_mps2[i] = v.torque_Nm[i] = v.brake_N[i] = 0.0F;
-    v.gear_time_s[i] = static_cast<float>(type.minimum_gear_time_s);
-    v.lag_s[i] = static_cast<float>(type.lag_unloaded_s[0]);
+    v.acceleration_mps2[i] = 0.0F;
     v.length_m[i] = static_cast<float>(type.length_m);
-    v.gear[i] = static_cast<float>(gear_for(type, entry.speed_mps));
+    v.reset_powertrain(slot, type, entry.speed_mps);
     v.leads[i] = 1.0F;
     if (model.demand.saturated && !first && v.speed_mps[i - 1] <= entry.speed_mps) drive_as(v, i, i - 1);
     v.standstill_gap_m[i] = static_cast<float>(model.policies[at(policy)].settings.standstill_gap_m);
     v.policy[i] = policy;
     v.type[i] = 0;
     v.id[i] = state.next_id++;
-    v.route[i] = route;
-    v.came_from[i] = -1;
+    v.record[i].route = route;
+    v.record[i].came_from = -1;
     put_on_route(model, v, slot, 0);
-    v.cleared_for[i] = -1;
-    v.inside_since[i] = 0;
+    v.record[i].cleared_for = -1;
+    v.record[i].inside_since = 0;
     v.stands_since[i] = static_cast<int>(state.tick);
-    v.held_at[i] = -2;
-    v.predecessor[i] = first ? -1 : v.id[i - 1];
+    v.record[i].held_at = -2;
+    v.record[i].predecessor = first ? -1 : v.id[i - 1];
     const double gap_m = first ? 1e6 : v.position_m[i - 1] - v.length_m[i - 1] - v.position_m[i];
     v.reset_radar(slot, gap_m, first ? 0.0 : entry.speed_mps - v.speed_mps[i - 1]);
     v.reset_v2v(slot);
+    state.resting[at(inlet.lane)].imposed = state.tick;
     ++entered.entered;
     entered.last_entry_s = model.time_s(state.tick + 1);
     ++state.entered;
@@ -161,24 +151,17 @@ void enter(const Model& model, State& state, int inlet_index, const Entry& entry
 
 }  // namespace
 
-void remove_first(State& state, int lane) {
-    LaneBlock& block = state.blocks[at(lane)];
-    ++block.first;
-    --block.count;
-    if (block.count <= kMovedUp) move_up(state, block);
-}
-
 void put_on_route(const Model& model, VehicleArrays& v, int slot, int index) {
-    const Route& route = model.graph.routes[at(v.route[at(slot)])];
-    v.route_index[at(slot)] = index;
-    v.next_lane[at(slot)] = at(index) + 1 < route.lanes.size() ? route.lanes[at(index) + 1] : -1;
+    const Route& route = model.graph.routes[at(v.record[at(slot)].route)];
+    v.record[at(slot)].route_index = index;
+    v.record[at(slot)].next_lane = at(index) + 1 < route.lanes.size() ? route.lanes[at(index) + 1] : -1;
     v.end_speed_mps[at(slot)] = end_speed(model, route, index);
 }
 
 void choose_way_on(const Model& model, State& state, int lane, int slot) {
     const int inlet = state.inlet_of[at(lane)];
     if (inlet < 0) return;
-    state.vehicles.route[at(slot)] = model.demand.route_of(inlet, state.inlets[at(inlet)].entered++);
+    state.vehicles.record[at(slot)].route = model.demand.route_of(inlet, state.inlets[at(inlet)].entered++);
     put_on_route(model, state.vehicles, slot, 0);
 }
 
@@ -192,18 +175,14 @@ double passing_time_s(const Model& model, const State& state, int slot, double l
     return model.time_s(state.tick + 1) - std::clamp(since_s, 0.0, model.step_s);
 }
 
-int append_slot(State& state, int lane) {
-    for (const int detector : state.detectors_of[at(lane)]) ++state.upstream[at(detector)];
-    LaneBlock& block = state.blocks[at(lane)];
-    if (block.stop() == block.end || block.count == 0) move_up(state, block);
-    return block.first + block.count++;
-}
-
 void transfer_vehicles(const Model& model, State& state) {
-    for (const int lane : state.occupied) {
-        const double length_m = model.graph.lanes[at(lane)].length_m;
-        const LaneBlock& block = state.blocks[at(lane)];
-        while (block.count > 0 && state.vehicles.position_m[at(block.first)] >= length_m) pass_on(model, state, lane);
+    for (NetworkPart& part : state.parts) {
+        for (const int lane : part.ended) {
+            const double length_m = state.plan.lane(lane).length_m;
+            const LaneBlock& block = state.blocks[at(lane)];
+            while (block.count > 0 && state.vehicles.position_m[at(block.first)] >= length_m)
+                pass_on(model, state, lane);
+        }
     }
 }
 

@@ -5,12 +5,14 @@
 namespace stopline {
 
 template <class Visit>
-void VehicleArrays::for_each_array(Visit visit) {
-    visit(position_m), visit(speed_mps), visit(acceleration_mps2), visit(request_mps2), visit(torque_Nm);
-    visit(brake_N), visit(gear_time_s), visit(lag_s), visit(length_m), visit(gear), visit(leads);
-    visit(standstill_gap_m), visit(end_speed_mps), visit(policy), visit(type), visit(id), visit(predecessor);
-    visit(route), visit(route_index), visit(cleared_for), visit(inside_since), visit(held_at);
-    visit(next_lane), visit(came_from), visit(stands_since);
+void VehicleArrays::for_each_common(Visit visit) {
+    visit(position_m), visit(speed_mps), visit(acceleration_mps2), visit(length_m), visit(end_speed_mps), visit(leads);
+    visit(policy), visit(id), visit(record), visit(stands_since), visit(standstill_gap_m), visit(type);
+}
+
+template <class Visit>
+void VehicleArrays::for_each_powertrain(Visit visit) {
+    visit(request_mps2), visit(torque_Nm), visit(brake_N), visit(gear_time_s), visit(lag_s), visit(gear);
 }
 
 void VehicleArrays::resize(int slot_count, int radar_row_count, int v2v_row_count) {
@@ -18,7 +20,8 @@ void VehicleArrays::resize(int slot_count, int radar_row_count, int v2v_row_coun
     radar_rows = radar_row_count;
     v2v_rows = v2v_row_count;
     const auto n = static_cast<std::size_t>(slot_count);
-    for_each_array([n](auto& array) { array.assign(n, {}); });
+    for_each_common([n](auto& array) { array.assign(n, {}); });
+    for_each_powertrain([n](auto& array) { array.assign(n, {}); });
     // Free slots are computed too: their divisors must not be zero.
     lag_s.assign(n, 1.0F);
     for (auto* rows : {&radar_gap_m, &radar_closing_mps}) rows->assign(n * static_cast<std::size_t>(radar_rows), 0.0F);
@@ -27,10 +30,22 @@ void VehicleArrays::resize(int slot_count, int radar_row_count, int v2v_row_coun
     }
 }
 
+void VehicleArrays::reserve(int slot_count) {
+    for_each_common([slot_count](auto& array) { array.reserve(static_cast<std::size_t>(slot_count)); });
+}
+
+void VehicleArrays::grow(int slot_count) {
+    slots = slot_count;
+    for_each_common([slot_count](auto& array) { array.resize(static_cast<std::size_t>(slot_count)); });
+}
+
 void VehicleArrays::copy(int from, int to) {
     const auto source = static_cast<std::size_t>(from);
     const auto target = static_cast<std::size_t>(to);
-    for_each_array([source, target](auto& array) { array[target] = array[source]; });
+    const auto copied = [source, target](auto& array) { array[target] = array[source]; };
+    for_each_common(copied);
+    if (!has_powertrain()) return;
+    for_each_powertrain(copied);
     for (int r = 0; r < radar_rows; ++r) {
         radar_gap_m[row(r, to)] = radar_gap_m[row(r, from)];
         radar_closing_mps[row(r, to)] = radar_closing_mps[row(r, from)];
@@ -43,11 +58,19 @@ void VehicleArrays::copy(int from, int to) {
 }
 
 void VehicleArrays::move(int from, int count, int to) {
+    if (count == 0 || from == to) return;
     const auto moved = [&](auto& array, int row_index) {
         const auto first = array.begin() + static_cast<std::ptrdiff_t>(row(row_index, from));
-        std::copy(first, first + count, array.begin() + static_cast<std::ptrdiff_t>(row(row_index, to)));
+        const auto target = array.begin() + static_cast<std::ptrdiff_t>(row(row_index, to));
+        if (to < from) {
+            std::copy(first, first + count, target);
+        } else {
+            std::copy_backward(first, first + count, target + count);
+        }
     };
-    for_each_array([&](auto& array) { moved(array, 0); });
+    for_each_common([&](auto& array) { moved(array, 0); });
+    if (!has_powertrain()) return;
+    for_each_powertrain([&](auto& array) { moved(array, 0); });
     for (int r = 0; r < radar_rows; ++r) moved(radar_gap_m, r), moved(radar_closing_mps, r);
     for (int r = 0; r < v2v_rows; ++r) {
         moved(v2v_acceleration_mps2, r), moved(v2v_request_mps2, r), moved(v2v_rate_1ps, r);
@@ -61,7 +84,17 @@ void VehicleArrays::reset_radar(int slot, double gap_m, double closing_mps) {
     }
 }
 
+void VehicleArrays::reset_powertrain(int slot, const PowertrainTables& vehicle, double speed) {
+    if (!has_powertrain()) return;
+    const auto i = static_cast<std::size_t>(slot);
+    request_mps2[i] = torque_Nm[i] = brake_N[i] = 0.0F;
+    gear_time_s[i] = static_cast<float>(vehicle.minimum_gear_time_s);
+    lag_s[i] = static_cast<float>(vehicle.lag_unloaded_s[0]);
+    gear[i] = static_cast<float>(gear_for(vehicle, speed));
+}
+
 void VehicleArrays::reset_v2v(int slot) {
+    if (!has_powertrain()) return;
     const auto i = static_cast<std::size_t>(slot);
     for (int r = 0; r < v2v_rows; ++r) {
         v2v_acceleration_mps2[row(r, slot)] = acceleration_mps2[i];

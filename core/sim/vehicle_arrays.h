@@ -2,21 +2,21 @@
 // consecutive slots, the first one downstream, so that the predecessor of slot i is slot i - 1. The slot before the first
 // vehicle is the lane's sentinel: it holds what the first vehicle must react to beyond the lane (see lane_heads.cpp).
 //
-//     block of a lane:  | pad ... | sentinel | first | ... | last | free ... |
+//     block of a lane:  | sentinel | free ... | first | ... | last | free ... |
 //
-// Vehicles leave at the front and enter at the back; those that stay move up to the block's start at once or, where they are many,
-// when the back reaches its end. Slots that hold no vehicle are computed along with the others and never read.
+// Vehicles leave at the front and enter at the back; how blocks make room for them: lane_blocks.cpp.
 #pragma once
 
 #include <cstdint>
 
 #include "base/huge_page_allocator.h"
 #include "base/simd.h"
+#include "vehicle/powertrain_tables.h"
 
 namespace stopline {
 
 struct LaneBlock {
-    int begin = 0;  // first slot that a vehicle may take; a multiple of kSimdWidth, at least kSimdWidth
+    int begin = 0;  // first slot that a vehicle may take, 1 or more; full dynamics: a multiple of kSimdWidth
     int end = 0;    // one past the last
     int first = 0;  // slot of the vehicle furthest downstream
     int count = 0;  // vehicles
@@ -25,50 +25,63 @@ struct LaneBlock {
     int stop() const { return first + count; }
 };
 
+// What one vehicle is about, in one line of the cache.
+struct alignas(64) VehicleRecord {
+    int route = -1;
+    int route_index = 0;   // place in the route of the lane the vehicle is on
+    int next_lane = -1;    // on the route; -1: it leaves
+    int came_from = -1;    // lane before; -1: it entered here
+    int predecessor = -1;  // id of the vehicle that the radar tracks; -1: none
+    int cleared_for = -1;  // lane inside an intersection on which it has accepted a gap; -1: none
+    int inside_since = 0;  // tick at which it passed its last stop line
+    int held_at = -2;      // last tick at which it had to wait before a conflict area
+};
+
 struct VehicleArrays {
-    // Hot: read and written every step. One value a slot, SI units.
+    // Read and written every step. One value a slot, SI units.
     LargeArray<double> position_m;  // front, from the lane's start
     LargeArray<double> speed_mps;
     LargeArray<float> acceleration_mps2;  // realised in the last step
-    LargeArray<float> request_mps2;       // u: the acceleration asked for in the last step
+    LargeArray<float> length_m;
+    LargeArray<float> end_speed_mps;  // limit at the end of the lane, for the route
+    LargeArray<float> leads;          // 1: free start-up profile (leader of a platoon), 0: follower
+    LargeArray<int> policy;
+    LargeArray<int> id;
+    // Full dynamics only, empty in the mesoscale mode.
+    LargeArray<float> request_mps2;  // u: the acceleration asked for in the last step
     LargeArray<float> torque_Nm;
     LargeArray<float> brake_N;
     LargeArray<float> gear_time_s;
     LargeArray<float> lag_s;  // tau, as told to the follower
-    LargeArray<float> length_m;
     LargeArray<float> gear;   // 0 is first gear
-    LargeArray<float> leads;  // 1: free start-up profile (leader of a platoon), 0: follower
     // Slots of the past, [row][slot]: radar (gap, closing speed) and V2V (acceleration, request, 1 / lag).
     LargeArray<float> radar_gap_m;
     LargeArray<float> radar_closing_mps;
     LargeArray<float> v2v_acceleration_mps2;
     LargeArray<float> v2v_request_mps2;
     LargeArray<float> v2v_rate_1ps;
-    // Cold: read at events only, or by one kernel.
-    LargeArray<float> standstill_gap_m;
-    LargeArray<float> end_speed_mps;  // limit at the end of the lane, for the route
-    LargeArray<int> policy;
-    LargeArray<int> type;
-    LargeArray<int> id;
-    LargeArray<int> predecessor;  // id of the vehicle that the radar tracks; -1: none
-    LargeArray<int> route;
-    LargeArray<int> cleared_for;   // lane inside an intersection on which it has accepted a gap; -1: none
-    LargeArray<int> inside_since;  // tick at which it passed its last stop line
-    LargeArray<int> held_at;       // last tick at which it had to wait before a conflict area
-    LargeArray<int> route_index;   // place in the route of the lane the vehicle is on
-    LargeArray<int> next_lane;     // on the route; -1: it leaves
-    LargeArray<int> came_from;     // lane before; -1: it entered here
+    // Read at a lane's head and at events.
+    LargeArray<VehicleRecord> record;
     LargeArray<int> stands_since;  // tick at which it was last seen to move
+    LargeArray<float> standstill_gap_m;
+    LargeArray<int> type;
 
     int slots = 0;
-    int radar_rows = 0;
+    int radar_rows = 0;  // 0, like the other: mesoscale mode
     int v2v_rows = 0;
 
+    // Full dynamics.
     void resize(int slot_count, int radar_row_count, int v2v_row_count);
+    // Mesoscale mode: memory for so many slots, not used yet; slots behind those that there are.
+    void reserve(int slot_count);
+    void grow(int slot_count);
+    bool has_powertrain() const { return v2v_rows > 0; }
     // Copies all of one vehicle to another slot.
     void copy(int from, int to);
-    // Moves vehicles in consecutive slots to slots before theirs.
+    // Moves vehicles in consecutive slots to others.
     void move(int from, int count, int to);
+    // As a vehicle that has driven like this for long.
+    void reset_powertrain(int slot, const PowertrainTables& vehicle, double speed);
     // Fills the past of a vehicle: radar with one measurement, V2V with its present state.
     void reset_radar(int slot, double gap_m, double closing_mps);
     void reset_v2v(int slot);
@@ -79,7 +92,9 @@ struct VehicleArrays {
 
 private:
     template <class Visit>
-    void for_each_array(Visit visit);
+    void for_each_common(Visit visit);
+    template <class Visit>
+    void for_each_powertrain(Visit visit);
 };
 
 }  // namespace stopline

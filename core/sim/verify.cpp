@@ -1,4 +1,6 @@
 // What holds after every step of every run: nobody overlaps its predecessor (on another lane: lane_heads.cpp), nobody is lost.
+#include <algorithm>
+
 #include "sim/phases.h"
 
 namespace stopline {
@@ -20,6 +22,32 @@ std::int64_t overlaps(const VehicleArrays& v, std::span<const LaneStep> lanes) {
 void verify(State& state) {
     std::int64_t present = state.limbo.count;
     for (const LaneBlock& block : state.blocks) present += block.count;
+    state.violations.lost_vehicles = state.entered - state.left - present;
+}
+
+void gather_reports(State& state) {
+    const auto take = [](auto& all, auto& part) {
+        all.insert(all.end(), part.begin(), part.end());
+        part.clear();
+    };
+    std::vector<RuleUse> rules;
+    std::int64_t present = state.limbo.count;
+    for (NetworkPart& part : state.parts) {
+        present += part.present;
+        state.updates += part.updates;
+        state.longest_inside = std::max(state.longest_inside, part.longest_inside);
+        state.hindrance.passed_blockers += part.passed_blockers;
+        state.violations.add(part.violations);
+        part.updates = part.longest_inside = part.passed_blockers = 0;
+        part.violations = {};
+        take(state.crossings, part.crossings);
+        take(state.gaps_accepted, part.gaps_accepted);
+        take(rules, part.rules);
+    }
+    std::stable_sort(rules.begin(), rules.end(),
+                     [](const RuleUse& a, const RuleUse& b) { return a.vehicle < b.vehicle; });
+    take(state.hindrance.rules, rules);
+    // As many as there were at the beginning of the step; nobody has come or gone since.
     state.violations.lost_vehicles = state.entered - state.left - present;
 }
 

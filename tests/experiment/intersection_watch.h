@@ -61,11 +61,11 @@ struct Watch {
 
     void look_at(const State& state, int slot, double time_s, bool counts) {
         const VehicleArrays& v = state.vehicles;
-        const std::vector<int>& lanes = model.graph.routes[at(v.route[at(slot)])].lanes;
+        const std::vector<int>& lanes = model.graph.routes[at(v.record[at(slot)].route)].lanes;
         const Lane& entry = model.graph.lanes[at(lanes[0])];
         const double exit_m = entry.length_m + model.graph.lanes[at(lanes[1])].length_m;
         const double starts_m[] = {0.0, entry.length_m, exit_m};
-        const double front_m = starts_m[at(v.route_index[at(slot)])] + v.position_m[at(slot)];
+        const double front_m = starts_m[at(v.record[at(slot)].route_index)] + v.position_m[at(slot)];
         const bool is_new = !trips.contains(v.id[at(slot)]);
         Trip& trip = trips[v.id[at(slot)]];
         if (is_new) {

@@ -51,17 +51,20 @@ protected:
         track_.place(on, front_m - from_m, 0.0);
         State& state = track_.editable();
         const std::size_t slot = at(state.blocks[at(on)].last());
-        state.vehicles.next_lane[slot] = on == road.origin ? number : -1;
-        state.vehicles.came_from[slot] = number;
-        state.vehicles.inside_since[slot] = static_cast<int>(state.tick) - inside;
+        state.vehicles.record[slot].next_lane = on == road.origin ? number : -1;
+        state.vehicles.record[slot].came_from = number;
+        state.vehicles.record[slot].inside_since = static_cast<int>(state.tick) - inside;
     }
 
     // How many more after one step.
     std::int64_t counted() {
         const std::int64_t before = track_.state().violations.conflicts;
-        find_insiders(track_.model(), track_.editable());
-        give_way(track_.model(), track_.editable());
-        return track_.state().violations.conflicts - before;
+        State& state = track_.editable();
+        find_occupied_lanes(state, state.parts[0]);
+        find_insiders(state, state.parts[0]);
+        give_way(track_.model(), state, state.parts[0]);
+        gather_reports(state);
+        return state.violations.conflicts - before;
     }
 
     double length_m() const { return track_.model().vehicles[0].length_m; }
@@ -118,20 +121,16 @@ TEST_F(ConflictCount, IsNothingWherePathsDoNotMeet) {
 TEST_F(ConflictCount, LongestInsideIsOfTheFirstOfALaneAndStays) {
     place("west_0_straight", 20.0, 120);
     place("west_0_straight", -0.5, 40);  // past its stop line, on the stretch that movements share
-    find_insiders(track_.model(), track_.editable());
-    give_way(track_.model(), track_.editable());
+    counted();
     EXPECT_EQ(track_.state().longest_inside, 120);
     track_.editable().tick += 30;
-    find_insiders(track_.model(), track_.editable());
-    give_way(track_.model(), track_.editable());
+    counted();
     EXPECT_EQ(track_.state().longest_inside, 150);
     track_.editable().blocks[at(lane("west_0_straight"))].count = 0;  // gone; the other has been there for 70
-    find_insiders(track_.model(), track_.editable());
-    give_way(track_.model(), track_.editable());
+    counted();
     EXPECT_EQ(track_.state().longest_inside, 150);
     track_.editable().tick += 100;
-    find_insiders(track_.model(), track_.editable());
-    give_way(track_.model(), track_.editable());
+    counted();
     EXPECT_EQ(track_.state().longest_inside, 170);
 }
 

@@ -56,16 +56,16 @@ protected:
         const Lane& road = track_.model().graph.lanes[at(on)];
         const std::string leads_to =
             next.empty() && road.origin >= 0 ? track_.model().graph.lanes[at(road.next[0])].name : next;
-        state().vehicles.next_lane[slot] = leads_to.empty() ? -1 : lane(leads_to);
+        state().vehicles.record[slot].next_lane = leads_to.empty() ? -1 : lane(leads_to);
         const auto& routes = track_.model().graph.routes;
         for (std::size_t k = 0; k < routes.size(); ++k) {
             const auto place = std::find(routes[k].lanes.begin(), routes[k].lanes.end(), on);
             if (place == routes[k].lanes.end()) continue;
             const auto after =
-                std::find(routes[k].lanes.begin(), routes[k].lanes.end(), state().vehicles.next_lane[slot]);
+                std::find(routes[k].lanes.begin(), routes[k].lanes.end(), state().vehicles.record[slot].next_lane);
             if (!leads_to.empty() && after == routes[k].lanes.end()) continue;
-            state().vehicles.route[slot] = static_cast<int>(k);
-            state().vehicles.route_index[slot] = static_cast<int>(place - routes[k].lanes.begin());
+            state().vehicles.record[slot].route = static_cast<int>(k);
+            state().vehicles.record[slot].route_index = static_cast<int>(place - routes[k].lanes.begin());
         }
         return state().vehicles.id[slot];
     }
@@ -81,10 +81,11 @@ protected:
 
     void look() {
         const Model& model = track_.model();
-        find_occupied_lanes(model, state());
-        find_insiders(model, state());
-        decide_stops(model, state());
-        give_way(model, state());
+        NetworkPart& all = state().parts[0];
+        find_occupied_lanes(state(), all);
+        find_insiders(state(), all);
+        decide_stops(model, state(), all);
+        give_way(model, state(), all);
         watch_hindrance(model, state());
     }
 

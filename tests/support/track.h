@@ -98,26 +98,25 @@ public:
         const PowertrainTables& car = model_->vehicles[at(type)];
         v.position_m[i] = position_m;
         v.speed_mps[i] = speed_mps;
-        v.acceleration_mps2[i] = v.request_mps2[i] = v.torque_Nm[i] = v.brake_N[i] = 0.0F;
-        v.gear_time_s[i] = 100.0F;
-        v.lag_s[i] = 0.2F;
+        v.acceleration_mps2[i] = 0.0F;
         v.length_m[i] = static_cast<float>(car.length_m);
-        v.gear[i] = static_cast<float>(gear_for(car, speed_mps));
+        v.reset_powertrain(slot, car, speed_mps);
+        if (v.has_powertrain()) v.gear_time_s[i] = 100.0F, v.lag_s[i] = 0.2F;
         v.leads[i] = 1.0F;
         v.standstill_gap_m[i] = static_cast<float>(model_->policies[at(policy)].settings.standstill_gap_m);
         v.end_speed_mps[i] = 1e3F;
         v.policy[i] = policy;
         v.type[i] = type;
         v.id[i] = state.next_id++;
-        v.route[i] = lane / 2;
-        v.route_index[i] = lane % 2;
-        v.next_lane[i] = lane % 2 == 0 ? lane + 1 : -1;
-        v.came_from[i] = -1;
-        v.cleared_for[i] = -1;
-        v.inside_since[i] = 0;
-        v.held_at[i] = -2;
+        v.record[i].route = lane / 2;
+        v.record[i].route_index = lane % 2;
+        v.record[i].next_lane = lane % 2 == 0 ? lane + 1 : -1;
+        v.record[i].came_from = -1;
+        v.record[i].cleared_for = -1;
+        v.record[i].inside_since = 0;
+        v.record[i].held_at = -2;
         const bool first = state.blocks[at(lane)].count == 1;
-        v.predecessor[i] = first ? -1 : v.id[i - 1];
+        v.record[i].predecessor = first ? -1 : v.id[i - 1];
         v.reset_radar(slot, first ? 1e6 : v.position_m[i - 1] - v.length_m[i - 1] - position_m,
                       first ? 0.0 : speed_mps - v.speed_mps[i - 1]);
         v.reset_v2v(slot);
@@ -148,6 +147,7 @@ public:
         v.position_m[i] = position_m;
         v.speed_mps[i] = speed_mps;
         v.acceleration_mps2[i] = static_cast<float>(acceleration_mps2);
+        if (!v.has_powertrain()) return;
         v.request_mps2[i] = static_cast<float>(request_mps2);
         v.lag_s[i] = static_cast<float>(lag_s);
         driven_.push_back({lane, k, request_mps2});
@@ -159,8 +159,13 @@ public:
         const VehicleArrays& v = state().vehicles;
         const std::size_t i = slot(lane, k);
         const double gap_m = k == 0 ? 1e9 : v.position_m[i - 1] - v.length_m[i - 1] - v.position_m[i];
-        return {v.id[i],           v.position_m[i], v.speed_mps[i],    v.acceleration_mps2[i],
-                v.request_mps2[i], gap_m,           v.leads[i] != 0.0F};
+        return {v.id[i],
+                v.position_m[i],
+                v.speed_mps[i],
+                v.acceleration_mps2[i],
+                (v.has_powertrain() ? v.request_mps2[i] : v.acceleration_mps2[i]),
+                gap_m,
+                v.leads[i] != 0.0F};
     }
 
     void step() {

@@ -1,0 +1,108 @@
+// Where vehicles are: on which lanes, and who is inside intersections, past the stop line and not yet wholly on the exit lane.
+#include <algorithm>
+
+#include "sim/phases.h"
+
+namespace stopline {
+
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+class Search {
+public:
+    Search(State& state, NetworkPart& part) : state_(state), v_(state.vehicles), part_(part) {}
+
+    void forget() {
+        for (const int lane : part_.with_insiders) {
+            state_.insiders[at(lane)].clear();
+            for (const int other : state_.plan.meets(lane)) state_.others_inside[at(other)] = {};
+        }
+        part_.with_insiders.clear();
+    }
+
+    // Rears that reach back from an exit.
+    void look_at_exit(int exit) {
+        const LaneBlock& block = state_.blocks[at(exit)];
+        const auto reaches_back = [&](int slot) { return v_.position_m[at(slot)] < v_.length_m[at(slot)]; };
+        if (block.count == 0 || !reaches_back(block.last())) return;
+        for (int slot = std::max(block.first, block.stop() - 2); slot < block.stop(); ++slot) {
+            const int from = v_.record[at(slot)].came_from;
+            if (from >= 0 && state_.plan.lane(from).exit == exit && reaches_back(slot)) {
+                add(from, slot, state_.plan.lane(from).length_m);
+            }
+        }
+    }
+
+    void look_inside(int lane) {
+        const LaneBlock& block = state_.blocks[at(lane)];
+        for (int slot = block.first; slot < block.stop(); ++slot) add(lane, slot, 0.0);
+        state_.deciding[at(lane)] = 1;
+    }
+
+    // Fronts past the stop line.
+    void look_before(int lane) {
+        const LaneBlock& block = state_.blocks[at(lane)];
+        const LanePlan& plan = state_.plan.lane(lane);
+        for (int slot = block.first; slot < block.stop(); ++slot) {
+            if (v_.position_m[at(slot)] <= plan.stop_line_m) break;
+            const int next = v_.record[at(slot)].next_lane;
+            if (next >= 0 && state_.plan.lane(next).origin == lane) add(next, slot, -plan.length_m);
+        }
+    }
+
+    void count() {
+        for (const int lane : part_.with_insiders) {
+            const std::int64_t since = state_.insiders[at(lane)].front().since;
+            part_.longest_inside = std::max(part_.longest_inside, state_.tick - since);
+            int standing = 0;
+            for (const Insider& w : state_.insiders[at(lane)])
+                standing += v_.speed_mps[at(w.slot)] < kStands_mps ? 1 : 0;
+            for (const int other : state_.plan.meets(lane)) {
+                ++state_.others_inside[at(other)].lanes;
+                state_.others_inside[at(other)].standing += standing;
+            }
+        }
+    }
+
+private:
+    void add(int lane, int slot, double offset_m) {
+        std::vector<Insider>& insiders = state_.insiders[at(lane)];
+        if (insiders.empty()) part_.with_insiders.push_back(lane);
+        const double front_m = v_.position_m[at(slot)] + offset_m;
+        insiders.push_back({slot, front_m, front_m - v_.length_m[at(slot)], v_.record[at(slot)].inside_since});
+    }
+
+    State& state_;
+    const VehicleArrays& v_;
+    NetworkPart& part_;
+};
+
+}  // namespace
+
+void find_occupied_lanes(const State& state, NetworkPart& part) {
+    part.occupied.clear();
+    part.present = 0;
+    for (const int lane : part.lanes) {
+        const int count = state.blocks[at(lane)].count;
+        if (count > 0) part.occupied.push_back(lane);
+        part.present += count;
+    }
+}
+
+void find_insiders(State& state, NetworkPart& part) {
+    if (part.inside.empty()) return;
+    Search search(state, part);
+    search.forget();
+    // The order makes that each lane's insiders are listed from the front.
+    for (const int exit : part.exits) search.look_at_exit(exit);
+    for (const int lane : part.occupied) {
+        if (state.plan.lane(lane).origin >= 0) search.look_inside(lane);
+    }
+    for (const int lane : part.occupied) {
+        if (state.plan.lane(lane).signal_group >= 0) search.look_before(lane);
+    }
+    search.count();
+}
+
+}  // namespace stopline

@@ -1,0 +1,124 @@
+// Where the vehicles of each lane are in memory.
+//
+// Full dynamics: blocks that hold a full lane, since kernels write whole batches, beyond a lane's last vehicle. Mesoscale mode: blocks
+// that hold what is there now and a little more, side by side in the order in which lanes are worked on, so that memory is read from
+// end to end. When one of them is full, all are laid out anew; that is rare.
+#include <algorithm>
+
+#include "sim/phases.h"
+
+namespace stopline {
+
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+int rounded_up(int n) { return (n + kSimdWidth - 1) / kSimdWidth * kSimdWidth; }
+
+// Room for all vehicles that fit on the lane bumper to bumper.
+int most_vehicles(const Model& model, const Lane& lane) {
+    return static_cast<int>(lane.length_m / shortest_vehicle_m(model)) + 2;
+}
+
+// At the start of its block a lane's share of an array begins with a line of the cache. Where few vehicles would have to move for
+// that, they do whenever one leaves; where there are many, when the block's end is reached.
+constexpr int kMovedUp = 64;
+
+void move_up(State& state, LaneBlock& block) {
+    if (block.first == block.begin) return;
+    state.vehicles.move(block.first, block.count, block.begin);
+    block.first = block.begin;
+}
+
+int some_more(int vehicles) { return vehicles + 4 + vehicles / 4; }
+
+// All blocks in the order of memory.
+template <class Visit>
+void for_each_block(State& state, Visit visit) {
+    for (const int lane : state.plan.order()) visit(state.blocks[at(lane)]);
+    visit(state.limbo);
+}
+
+void lay_out_anew(State& state) {
+    int slots = kSimdWidth;
+    for_each_block(state, [&](LaneBlock& block) { slots += 1 + some_more(block.count); });
+    slots += kSimdWidth;
+    if (slots > state.vehicles.slots) state.vehicles.grow(slots + slots / 4);
+    // All to the front, then, the last ones first, to their places.
+    int next = kSimdWidth;
+    for_each_block(state, [&](LaneBlock& block) {
+        block.begin = next;
+        move_up(state, block);
+        next += block.count;
+    });
+    int end = slots - kSimdWidth;
+    const auto spread = [&](LaneBlock& block) {
+        block.end = end;
+        block.begin = end - some_more(block.count);
+        state.vehicles.move(block.first, block.count, block.begin);
+        block.first = block.begin;
+        end = block.begin - 1;
+    };
+    spread(state.limbo);
+    const std::vector<int>& order = state.plan.order();
+    std::for_each(order.rbegin(), order.rend(), [&](int lane) { spread(state.blocks[at(lane)]); });
+}
+
+}  // namespace
+
+double shortest_vehicle_m(const Model& model) {
+    double shortest_m = 1e9;
+    for (const PowertrainTables& type : model.vehicles) shortest_m = std::min(shortest_m, type.length_m);
+    return shortest_m;
+}
+
+void lay_out_blocks(const Model& model, State& state) {
+    const auto lanes = static_cast<int>(model.graph.lanes.size());
+    state.blocks.resize(at(lanes));
+    if (model.meso) {
+        int most = 2 * kSimdWidth + lanes;
+        for (const Lane& lane : model.graph.lanes) most += some_more(most_vehicles(model, lane));
+        state.vehicles.reserve(most);
+        lay_out_anew(state);
+        return;
+    }
+    int slots = 0;
+    const auto place = [&slots](LaneBlock& block, int vehicles) {
+        block.begin = block.first = slots + kSimdWidth;
+        block.end = slots = block.begin + vehicles;
+    };
+    for (const int lane : state.plan.order()) {
+        // Half as many more, so that moving up is rare.
+        const int most = most_vehicles(model, model.graph.lanes[at(lane)]);
+        place(state.blocks[at(lane)], rounded_up(most + std::max(most / 2, kSimdWidth)));
+    }
+    if (model.rules.teleport_ticks > 0) place(state.limbo, rounded_up(64 + lanes));
+    slots = rounded_up(slots) + kSimdWidth;  // the last batch of a lane reaches beyond its block
+    state.vehicles.resize(slots, model.radar.rows, model.v2v.rows);
+}
+
+void make_room(State& state, LaneBlock& block) {
+    if (block.stop() < block.end) return;
+    move_up(state, block);
+    if (block.stop() == block.end && !state.vehicles.has_powertrain()) lay_out_anew(state);
+}
+
+int append_slot(State& state, int lane) {
+    for (const int detector : state.detectors_of[at(lane)]) ++state.upstream[at(detector)];
+    LaneBlock& block = state.blocks[at(lane)];
+    if (block.count == 0) move_up(state, block);
+    make_room(state, block);
+    return block.first + block.count++;
+}
+
+void remove_first(State& state, int lane) {
+    LaneBlock& block = state.blocks[at(lane)];
+    ++block.first;
+    --block.count;
+    Resting& resting = state.resting[at(lane)];
+    resting.from = std::max(resting.from - 1, 0);
+    resting.to = std::max(resting.to - 1, 0);
+    if (state.vehicles.has_powertrain() && block.count <= kMovedUp) move_up(state, block);
+}
+
+}  // namespace stopline

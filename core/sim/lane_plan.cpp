@@ -1,0 +1,91 @@
+#include "sim/lane_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/arithmetic.h"
+
+namespace stopline {
+
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+// Lanes that depend on each other, as sets that are joined.
+class Sets {
+public:
+    explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
+
+    // The set's lowest member.
+    int of(int member) {
+        while (parent_[at(member)] != member) {
+            parent_[at(member)] = parent_[at(parent_[at(member)])];
+            member = parent_[at(member)];
+        }
+        return member;
+    }
+    void join(int a, int b) {
+        const int one = of(a);
+        const int other = of(b);
+        parent_[at(std::max(one, other))] = std::min(one, other);
+    }
+
+private:
+    std::vector<int> parent_;
+};
+
+LanePlan plan_of(const Model& model, int index) {
+    const Lane& lane = model.graph.lanes[at(index)];
+    LanePlan plan;
+    plan.length_m = lane.length_m;
+    plan.stop_line_m = lane.stop_line_m;
+    plan.turn_m = lane.signal_group >= 0 ? lane.stop_line_m : lane.length_m;
+    plan.limit_mps = lane.limit_mps;
+    plan.sine = static_cast<float>(lane.gradient / std::sqrt(1.0 + square(lane.gradient)));
+    plan.signal_group = lane.signal_group;
+    plan.origin = lane.origin;
+    plan.branches = lane.next.size() > 1;
+    if (lane.origin >= 0) plan.exit = lane.next[0];
+    for (const Conflict& conflict : model.graph.conflicts_of(index)) {
+        plan.first_area_m = std::min(plan.first_area_m, conflict.from_m);
+        plan.yields = plan.yields || conflict.yields;
+    }
+    return plan;
+}
+
+// Lanes inside depend on those that lead there and on those that they meet. An exit that leads nowhere goes with them, to be near.
+void join_intersections(const Model& model, Sets& sets) {
+    for (int index = 0; index < static_cast<int>(model.graph.lanes.size()); ++index) {
+        const Lane& lane = model.graph.lanes[at(index)];
+        if (lane.origin < 0) continue;
+        sets.join(index, lane.origin);
+        for (const Conflict& conflict : model.graph.conflicts_of(index)) sets.join(index, conflict.other);
+        if (model.graph.lanes[at(lane.next[0])].signal_group < 0) sets.join(index, lane.next[0]);
+    }
+}
+
+}  // namespace
+
+NetworkPlan::NetworkPlan(const Model& model) {
+    const auto count = static_cast<int>(model.graph.lanes.size());
+    Sets sets(at(count));
+    join_intersections(model, sets);
+    for (int lane = 0; lane < count; ++lane) {
+        lanes_.push_back(plan_of(model, lane));
+        lanes_.back().intersection = sets.of(lane);
+        order_.push_back(lane);
+        meets_from_.push_back(meets_.size());
+        for (const Conflict& conflict : model.graph.conflicts_of(lane)) meets_.push_back(conflict.other);
+    }
+    meets_from_.push_back(meets_.size());
+    std::stable_sort(order_.begin(), order_.end(),
+                     [this](int a, int b) { return lanes_[at(a)].intersection < lanes_[at(b)].intersection; });
+    for (const Route& route : model.graph.routes) {
+        routes_from_.push_back(routes_.size());
+        routes_.insert(routes_.end(), route.lanes.begin(), route.lanes.end());
+    }
+    routes_from_.push_back(routes_.size());
+}
+
+}  // namespace stopline

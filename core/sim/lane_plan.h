@@ -1,0 +1,55 @@
+// The network as the phases of a step need it: what they read of a lane in one line of the cache, routes side by side, and lanes
+// in the order of their intersections, so that threads can share them out.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "sim/model.h"
+
+namespace stopline {
+
+struct alignas(64) LanePlan {
+    double length_m = 0.0;
+    double stop_line_m = 0.0;
+    double turn_m = 0.0;  // where the limit of the next lane begins to hold
+    double limit_mps = 0.0;
+    double first_area_m = 1e9;  // of a lane inside an intersection: where its first conflict area begins
+    float sine = 0.0F;          // of the slope
+    int signal_group = -1;      // -1: no stop line
+    int origin = -1;            // of a lane inside an intersection; -1: it is none
+    int exit = -1;              // the same: the lane it leads to
+    int intersection = 0;       // number of the lanes that depend on each other in a step
+    bool yields = false;        // gives way to some other lane
+    bool branches = false;      // several lanes can follow
+};
+
+class NetworkPlan {
+public:
+    explicit NetworkPlan(const Model& model);
+
+    const LanePlan& lane(int lane) const { return lanes_[static_cast<std::size_t>(lane)]; }
+    int lanes() const { return static_cast<int>(lanes_.size()); }
+    std::span<const int> route(int route) const {
+        const std::size_t from = routes_from_[static_cast<std::size_t>(route)];
+        return {routes_.data() + from, routes_from_[static_cast<std::size_t>(route) + 1] - from};
+    }
+    // Lanes inside the same intersection that a lane inside meets.
+    std::span<const int> meets(int lane) const {
+        const std::size_t from = meets_from_[static_cast<std::size_t>(lane)];
+        return {meets_.data() + from, meets_from_[static_cast<std::size_t>(lane) + 1] - from};
+    }
+    // Lanes by intersection: what happens in one of them in a step depends on what is done in it alone.
+    const std::vector<int>& order() const { return order_; }
+
+private:
+    std::vector<LanePlan> lanes_;
+    std::vector<int> routes_;
+    std::vector<std::size_t> routes_from_;
+    std::vector<int> meets_;
+    std::vector<std::size_t> meets_from_;
+    std::vector<int> order_;
+};
+
+}  // namespace stopline

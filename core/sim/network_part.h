@@ -1,0 +1,61 @@
+// What one thread works on in a step: the lanes of some intersections, scratch, and what it has to tell. Whatever the number of parts,
+// all their lanes one after the other are in the same order, so that what they tell is too.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "sim/events.h"
+#include "sim/full_group.h"
+#include "sim/hindrance.h"
+#include "sim/lane_step.h"
+#include "sim/meso_kernels.h"
+
+namespace stopline {
+
+// A vehicle that may pass one that has stood inside an intersection for long.
+struct Passing {
+    int vehicle = -1;  // by number
+    int blocker = -1;
+    std::int64_t seen = 0;   // last tick at which it mattered
+    std::int64_t stood = 0;  // ticks, the blocker, when that was decided
+    bool begun = false;      // both have been in the same area
+};
+
+// Two that stood and waited for each other, neither with priority: one goes, the other waits.
+struct Agreed {
+    int goes = -1;  // by number
+    int waits = -1;
+    std::int64_t seen = 0;  // last tick at which it mattered
+};
+
+struct NetworkPart {
+    std::vector<int> lanes;      // by intersection
+    std::vector<int> inside;     // those of them inside an intersection that meet others
+    std::vector<int> exits;      // where these lead to
+    std::vector<int> detectors;  // on the lanes
+    // In this step.
+    std::vector<int> occupied;       // lanes with vehicles
+    std::vector<int> with_insiders;  // lanes inside with vehicles on them, before or behind
+    std::vector<int> holding;        // lanes where vehicles wait to give way
+    std::vector<int> ended;          // lanes whose first vehicle has reached the end
+    std::vector<Passing> passing;
+    std::vector<Agreed> agreed;
+    // To be told.
+    std::int64_t present = 0;
+    std::int64_t updates = 0;
+    std::int64_t longest_inside = 0;
+    std::int64_t passed_blockers = 0;
+    Violations violations;
+    std::vector<Crossing> crossings;
+    std::vector<GapAccepted> gaps_accepted;
+    std::vector<RuleUse> rules;
+    // Scratch of the kernels: lanes go through them in groups, complete with this many vehicles or more.
+    static constexpr int kVehiclesTogether = 128;
+    std::array<LaneGroup, 2> groups;  // at work and next
+    FullGroupArrays full_group;
+    MesoGroupArrays meso_group;
+};
+
+}  // namespace stopline

@@ -1,0 +1,217 @@
+// Who stops at the stop line: for its light, or to keep the intersection clear.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/arithmetic.h"
+#include "sim/phases.h"
+
+namespace stopline {
+
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+// Whether braking with `deceleration` stops the vehicle before the line. The brake's lag and the time in which the request changes
+// from the present acceleration to it cost a stretch at the present speed, and the acceleration goes on for as long.
+bool can_stop(const Model& model, const VehicleArrays& v, int slot, double line_m, double deceleration_mps2) {
+    const double speed = v.speed_mps[at(slot)];
+    const double lag_s = model.vehicles[at(v.type[at(slot)])].brake_lag_s;
+    const double now_mps2 = std::max(static_cast<double>(v.acceleration_mps2[at(slot)]), 0.0);
+    const double late_s = lag_s + 0.5 * (now_mps2 + deceleration_mps2) / model.driver.cacc.jerk_down_mps3;
+    const double room_m = line_m - v.position_m[at(slot)] - speed * late_s;
+    return square(speed + now_mps2 * late_s) <= 2.0 * deceleration_mps2 * room_m;
+}
+
+int slot_of(const VehicleArrays& v, const LaneBlock& block, int id) {
+    for (int slot = block.first; slot < block.stop(); ++slot) {
+        if (v.id[at(slot)] == id) return slot;
+    }
+    return -1;
+}
+
+// The first vehicle that can stop does. On yellow it is enough to brake as hard as drivers accept; on red all that the
+// brakes give is used.
+int choose_stopper(const Model& model, const State& state, const LaneBlock& block, double line_m, Light light) {
+    const double deceleration = light == Light::yellow ? model.driver.stop.decision_deceleration_mps2
+                                                       : model.driver.cacc.deceleration_emergency_mps2;
+    for (int slot = block.first; slot < block.stop(); ++slot) {
+        if (can_stop(model, state.vehicles, slot, line_m, deceleration)) return slot;
+    }
+    return -1;
+}
+
+bool line_is_open(const Model& model, const State& state, int signal_group, const StopLineState& line) {
+    if (state.lights[at(signal_group)] != Light::green) return false;
+    // The vehicle that waits at the line hesitates at the start of green.
+    return line.stopper < 0 || state.tick >= model.signals[at(signal_group)].since(state.tick) + model.hesitation_ticks;
+}
+
+double needs_m(const VehicleArrays& v, int slot) {
+    return static_cast<double>(v.length_m[at(slot)]) + static_cast<double>(v.standstill_gap_m[at(slot)]);
+}
+
+// Looked for once a step, by whoever asks first.
+const ExitRoom& look_into_exit(const Model& model, State& state, int exit) {
+    const VehicleArrays& v = state.vehicles;
+    ExitRoom& room = state.exit_rooms[at(exit)];
+    if (room.tick == state.tick) return room;
+    room = {state.tick, 1e9, -1};
+    const LaneBlock& block = state.blocks[at(exit)];
+    double moving_m = 0.0;
+    for (int slot = block.last(); slot >= block.first; --slot) {
+        const double rear_m = v.position_m[at(slot)] - static_cast<double>(v.length_m[at(slot)]);
+        if (rear_m > model.rules.sight_m) return room;
+        if (v.speed_mps[at(slot)] < kStands_mps) {
+            room.standing = slot;
+            room.room_m = rear_m - moving_m;
+            break;
+        }
+        moving_m += needs_m(v, slot);
+    }
+    if (room.standing < 0) return room;
+    for (const int other : model.leads_to[at(exit)]) {
+        const LaneBlock& inner = state.blocks[at(other)];
+        for (int slot = inner.first; slot < inner.stop(); ++slot) room.room_m -= needs_m(v, slot);
+    }
+    return room;
+}
+
+// The slot of a vehicle from the streets that cross which stands across this way, where it may not be passed; -1: none.
+int stands_across(const Model& model, const State& state, int inside) {
+    if (state.others_inside[at(inside)].standing == 0) return -1;
+    const VehicleArrays& v = state.vehicles;
+    const std::int64_t patience = model.rules.pass_blocker_ticks;
+    for (const Conflict& c : model.graph.conflicts[at(inside)]) {
+        if (c.yields || c.other_yields) continue;
+        for (const Insider& w : state.insiders[at(c.other)]) {
+            if (w.front_m <= c.other_from_m || w.rear_m >= c.other_to_m || v.speed_mps[at(w.slot)] >= kStands_mps)
+                continue;
+            if (patience > 0 && state.tick - v.stands_since[at(w.slot)] >= patience) continue;
+            return w.slot;
+        }
+    }
+    return -1;
+}
+
+// One way on from a stop line.
+struct Way {
+    int inside = -1;
+    ExitRoom room;
+    int across = -1;  // slot of who stands across it
+};
+
+bool all_clear(const Model& model, State& state, const std::vector<int>& ways) {
+    return std::all_of(ways.begin(), ways.end(), [&](int inside) {
+        const int exit = state.plan.lane(inside).exit;
+        return exit < 0 || (look_into_exit(model, state, exit).standing < 0 && stands_across(model, state, inside) < 0);
+    });
+}
+
+// The ways on from a lane.
+class Ways {
+public:
+    Ways(const Model& model, State& state, const std::vector<int>& lanes) {
+        for (const int inside : lanes) {
+            const int exit = state.plan.lane(inside).exit;
+            if (exit < 0 || count_ == each_.size()) continue;
+            each_[count_++] = {inside, look_into_exit(model, state, exit), stands_across(model, state, inside)};
+        }
+    }
+    Way* to(int inside) {
+        for (std::size_t k = 0; k < count_; ++k) {
+            if (each_[k].inside == inside) return &each_[k];
+        }
+        return nullptr;
+    }
+
+private:
+    std::array<Way, 8> each_;
+    std::size_t count_ = 0;
+};
+
+// The first vehicle that finds no room in its exit, or somebody across its way, and can stop comfortably; -1: none.
+int keep_clear(const Model& model, State& state, int index) {
+    constexpr double kDecides_m = 80.0;  // before the stop line, at most
+    const std::vector<int>& ways_on = model.graph.lanes[at(index)].next;
+    if (all_clear(model, state, ways_on)) return -1;
+    Ways ways(model, state, ways_on);
+    const VehicleArrays& v = state.vehicles;
+    const double line_m = state.plan.lane(index).stop_line_m;
+    const LaneBlock& block = state.blocks[at(index)];
+    for (int slot = block.first; slot < block.stop(); ++slot) {
+        if (v.position_m[at(slot)] < line_m - kDecides_m) break;
+        Way* const way = ways.to(v.record[at(slot)].next_lane);
+        if (way == nullptr) continue;
+        way->room.room_m -= needs_m(v, slot);
+        if ((way->room.room_m >= 0.0 && way->across < 0) || v.position_m[at(slot)] > line_m) continue;
+        if (!can_stop(model, v, slot, line_m, model.driver.cacc.deceleration_comfort_mps2)) continue;
+        state.kept_out[at(index)] = way->across >= 0 ? KeptOut{way->across, false} : KeptOut{way->room.standing, true};
+        return slot;
+    }
+    return -1;
+}
+
+// Those that will not stop here and are near to where ways meet, in front of them.
+void list_coming(const Model& model, State& state, int index) {
+    constexpr double kLookBack_m = 60.0;
+    const VehicleArrays& v = state.vehicles;
+    const double length_m = state.plan.lane(index).length_m;
+    const LaneBlock& block = state.blocks[at(index)];
+    for (int slot = block.first; slot < block.stop(); ++slot) {
+        const double to_end_m = length_m - v.position_m[at(slot)];
+        if (to_end_m > kLookBack_m || slot == state.stop_slot[at(index)]) break;
+        const VehicleRecord& record = v.record[at(slot)];
+        if (record.next_lane < 0) continue;
+        const LanePlan& way = state.plan.lane(record.next_lane);
+        if (way.origin != index || (!way.yields && state.others_inside[at(record.next_lane)].lanes == 0)) continue;
+        const double to_area_m = to_end_m + way.first_area_m - model.give_way.margin_m;
+        if (to_area_m > decides_within_m(model, v.speed_mps[at(slot)]) && record.cleared_for != record.next_lane)
+            continue;
+        state.coming[at(record.next_lane)].push_back(slot);
+        state.deciding[at(record.next_lane)] = 1;
+    }
+}
+
+}  // namespace
+
+void read_signals(const Model& model, State& state) {
+    for (std::size_t group = 0; group < model.signals.size(); ++group) {
+        state.lights[group] = model.signals[group].light(state.tick);
+    }
+}
+
+double decides_within_m(const Model& model, double speed_mps) {
+    return 0.5 * square(speed_mps) / model.driver.stop.deceleration_mps2 + 1.5 * speed_mps + 3.0;
+}
+
+void decide_stops(const Model& model, State& state, NetworkPart& part) {
+    for (const int index : part.occupied) {
+        const LanePlan& lane = state.plan.lane(index);
+        if (lane.signal_group < 0) continue;
+        state.kept_out[at(index)] = {};
+        StopLineState& line = state.stop_lines[at(index)];
+        const LaneBlock& block = state.blocks[at(index)];
+        int stop_slot = -1;
+        if (line_is_open(model, state, lane.signal_group, line)) {
+            line.stopper = -1;
+            if (model.rules.keep_clear) stop_slot = keep_clear(model, state, index);
+        } else {
+            if (line.stopper >= 0) stop_slot = slot_of(state.vehicles, block, line.stopper);
+            if (stop_slot < 0) {
+                stop_slot = choose_stopper(model, state, block, lane.stop_line_m, state.lights[at(lane.signal_group)]);
+            }
+            line.stopper = stop_slot < 0 ? -1 : state.vehicles.id[at(stop_slot)];
+            // It leads what follows it through the next green.
+            if (stop_slot >= 0) {
+                state.vehicles.leads[at(stop_slot)] = 1.0F;
+                // One that came to stand a little beyond the line sets out when the next green lets it.
+                state.vehicles.record[at(stop_slot)].inside_since = static_cast<int>(state.tick);
+            }
+        }
+        state.stop_slot[at(index)] = stop_slot;
+        list_coming(model, state, index);
+    }
+}
+
+}  // namespace stopline
