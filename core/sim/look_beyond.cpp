@@ -153,7 +153,7 @@ public:
 
     void add() {
         ++group_.lanes_of_network;
-        if (!model_.meso) return add(block_.first, block_.stop());
+        if (!model_.meso || model_.scalar_kernels) return add(block_.first, block_.stop());
         Resting& resting = state_.resting[at(lane_)];
         if (last_imposed() > block_.first + resting.from) resting.imposed = state_.tick;
         find_resting(v_, block_, state_.tick, resting);

@@ -81,7 +81,7 @@ struct Model {
     double leader_mps2 = 0.0;     // acceleration of platoon leaders, up to a speed; 0: that of their policy's model
     double leader_until_mps = 0.0;
     bool records_all = true;      // passages, accepted gaps, all detectors; else crossings of zones only
-    bool scalar_kernels = false;  // the oracle: one vehicle at a time, same bits
+    bool scalar_kernels = false;  // the oracle: one vehicle at a time, none left out, same bits
 
     double time_s(std::int64_t tick) const { return static_cast<double>(tick) * step_s; }
 };

@@ -1,0 +1,116 @@
+// One run shared by several threads: a network in which queues block intersections, circles form, vehicles are moved on and pass
+// blockers, gives the same bits and the same events whatever the number of threads, and as with one vehicle at a time, where
+// nobody who rests is left out.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "experiment/build_model.h"
+#include "scenario/load_scenario.h"
+#include "sim/simulation.h"
+
+namespace stopline {
+namespace {
+
+// Streets so short and turns so many that it locks up within minutes.
+Model crowded(const std::string& fidelity, int population) {
+    const Scenario scenario = load_scenario(
+        STOPLINE_SOURCE_DIR "/scenarios/grid.yaml",
+        {"fidelity=" + fidelity, "network.grid.columns=3", "network.grid.rows=3", "network.grid.column_spacing=150 m",
+         "network.grid.row_spacing=150 m", "demand.left=15 %", "rules.teleport_cycles=1",
+         "rules.pass_blocker_greens=0.5", "signal.green=20 s", "network.intersection.approach_length=150 m"});
+    return build_model(scenario, static_cast<std::size_t>(population));
+}
+
+// All that a run tells, as text.
+std::vector<std::string> told(const State& state) {
+    std::vector<std::string> lines;
+    for (const RuleUse& use : state.hindrance.rules) {
+        lines.push_back("rule " + std::to_string(static_cast<int>(use.kind)) + " " + std::to_string(use.time_s) + " " +
+                        std::to_string(use.vehicle) + " " + std::to_string(use.lane) + " " +
+                        std::to_string(use.blocker));
+    }
+    for (const Crossing& crossing : state.crossings) {
+        lines.push_back("crossing " + std::to_string(crossing.time_s) + " " + std::to_string(crossing.vehicle) + " " +
+                        std::to_string(crossing.detector));
+    }
+    for (const GapAccepted& gap : state.gaps_accepted) {
+        lines.push_back("gap " + std::to_string(gap.time_s) + " " + std::to_string(gap.vehicle));
+    }
+    for (const double lost_s : state.hindrance.lost_s) lines.push_back("lost " + std::to_string(lost_s));
+    lines.push_back("longest " + std::to_string(state.longest_inside) + ", updates " + std::to_string(state.updates));
+    return lines;
+}
+
+void expect_same(Simulation& one, Simulation& other, double until_s, double every_s, const std::string& what) {
+    for (int k = 1; k * every_s <= until_s; ++k) {
+        one.run_until(k * every_s);
+        other.run_until(k * every_s);
+        ASSERT_EQ(one.state_hash(), other.state_hash()) << what << ": first difference before " << k * every_s << " s";
+    }
+    ASSERT_EQ(told(one.state()), told(other.state())) << what;
+    EXPECT_TRUE(one.state().violations.none());
+    EXPECT_TRUE(other.state().violations.none());
+}
+
+TEST(Parts, AnyNumberOfThreadsGivesTheSameRun) {
+    for (const int population : {0, 1, 2}) {
+        const Model model = crowded("meso", population);
+        for (const int threads : {2, 5}) {
+            Simulation alone(model);
+            Simulation shared(model, threads);
+            expect_same(alone, shared, 700.0, 20.0, std::to_string(threads) + " threads");
+            if (population < 2) continue;
+            EXPECT_GT(alone.state().hindrance.taken_out, 0);
+        }
+    }
+}
+
+TEST(Parts, InFullDynamicsToo) {
+    const Model model = crowded("full", 2);
+    Simulation alone(model);
+    Simulation shared(model, 2);
+    expect_same(alone, shared, 120.0, 10.0, "full dynamics");
+}
+
+TEST(Resting, ChangesNothing) {
+    for (const int population : {0, 1, 2}) {
+        const Model model = crowded("meso", population);
+        Model oracle = model;
+        oracle.scalar_kernels = true;
+        Simulation fast(model);
+        Simulation each_by_itself(oracle);
+        expect_same(fast, each_by_itself, 700.0, 10.0, "oracle");
+    }
+}
+
+// Nobody is left out who could be in two parts, or in none.
+TEST(Parts, ShareOutAllLanesByWholeIntersections) {
+    const Model model = crowded("meso", 0);
+    for (const int threads : {1, 2, 4, 9, 30}) {
+        const Simulation simulation(model, threads);
+        const State& state = simulation.state();
+        EXPECT_LE(state.parts.size(), static_cast<std::size_t>(std::min(threads, 9)));
+        std::vector<int> part_of(model.graph.lanes.size(), -1);
+        for (std::size_t p = 0; p < state.parts.size(); ++p) {
+            for (const int lane : state.parts[p].lanes) {
+                EXPECT_EQ(part_of[static_cast<std::size_t>(lane)], -1);
+                part_of[static_cast<std::size_t>(lane)] = static_cast<int>(p);
+            }
+        }
+        for (std::size_t lane = 0; lane < part_of.size(); ++lane) {
+            ASSERT_GE(part_of[lane], 0);
+            for (const Conflict& c : model.graph.conflicts_of(static_cast<int>(lane))) {
+                EXPECT_EQ(part_of[lane], part_of[static_cast<std::size_t>(c.other)]);
+            }
+            const int origin = model.graph.lanes[lane].origin;
+            if (origin >= 0) {
+                EXPECT_EQ(part_of[lane], part_of[static_cast<std::size_t>(origin)]);
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace stopline
