@@ -12,6 +12,7 @@
 #include "base/input_error.h"
 #include "benchmark/full_step_benchmark.h"
 #include "benchmark/meso_benchmark.h"
+#include "benchmark/network_benchmark.h"
 #include "common/command_line.h"
 #include "common/program.h"
 
@@ -24,7 +25,8 @@ constexpr const char* kFooter =
     "  stopline-benchmark\n"
     "  stopline-benchmark --benchmark_filter=batch/160/\n"
     "  stopline-benchmark --benchmark_out=benchmark.json\n\n"
-    "All flags of Google Benchmark (--benchmark_...) are taken too. One thread is used.\n\n";
+    "All flags of Google Benchmark (--benchmark_...) are taken too. One thread is used, where the\n"
+    "name does not say otherwise.\n\n";
 
 // The table of Google Benchmark; keeps the least cost of each benchmark, which the rest of the machine disturbs least.
 class TableReporter : public benchmark::ConsoleReporter {
@@ -94,6 +96,36 @@ std::string meso_limits_text(const TableReporter& table) {
     return text;
 }
 
+std::string network_limits_text(const TableReporter& table) {
+    const auto cost = [&](const std::string& name) { return table.least_ns_named(name + "/"); };
+    std::string text;
+    for (const char* const population : kGridPopulations) {
+        const std::optional<double> ns = cost(grid_name(population));
+        if (!ns) continue;
+        if (text.empty()) text = "\nSeveral intersections, one thread (least of the repetitions):\n";
+        text +=
+            fmt::format("  {:16} {:6.1f} ns an update, {:.1f} million updates a second on the grid of Section VI.C\n",
+                        population, *ns, 1e3 / *ns);
+    }
+    double least = 0.0;
+    double most = 0.0;
+    for (const int side : kGridSides) {
+        const std::optional<double> ns = cost(large_grid_name(side, 1));
+        if (!ns) return text;
+        least = least == 0.0 ? *ns : std::min(least, *ns);
+        most = std::max(most, *ns);
+    }
+    text += fmt::format("  by size          {:6.1f} to {:.1f} ns from {} x {} to {} x {} intersections: {:.2f} times\n",
+                        least, most, kGridSides.front(), kGridSides.front(), kGridSides.back(), kGridSides.back(),
+                        most / least);
+    const std::optional<double> one = cost(large_grid_name(kSharedSide, 1));
+    const std::optional<double> two = cost(large_grid_name(kSharedSide, 2));
+    if (one && two)
+        text += fmt::format("  two threads      {:6.2f} times one, on one run of {} x {}\n", *one / *two, kSharedSide,
+                            kSharedSide);
+    return text;
+}
+
 // Only what Google Benchmark understands, since it stops the program at anything else.
 void check(const std::vector<std::string>& flags) {
     for (const std::string& flag : flags) {
@@ -114,12 +146,13 @@ ExitCode run(std::vector<std::string> flags) {
     if (count > 1) throw InputError(fmt::format("unknown option '{}'; see --help", arguments[1]));
     add_full_step_benchmarks();
     add_meso_benchmarks();
+    add_network_benchmarks();
     TableReporter table;
     if (benchmark::RunSpecifiedBenchmarks(console ? &table : nullptr) == 0) {
         throw InputError("no benchmark matches the filter");
     }
     if (interrupted()) throw Interrupted();
-    if (console) fmt::print("{}{}", limits_text(table), meso_limits_text(table));
+    if (console) fmt::print("{}{}{}", limits_text(table), meso_limits_text(table), network_limits_text(table));
     return ExitCode::done;
 }
 

@@ -64,18 +64,15 @@ double shared_stretch_m(const Polyline& a, const Polyline& b, double clearance_m
     return s;
 }
 
-void find_conflicts(LaneGraph& graph, double clearance_m) {
-    graph.conflicts.assign(graph.lanes.size(), {});
-    const auto count = static_cast<int>(graph.lanes.size());
+void find_conflicts(LaneGraph& graph, double clearance_m, int first, int stop) {
     std::vector<Box> boxes;
-    for (const Lane& lane : graph.lanes) boxes.push_back(lane.shape.empty() ? Box{} : box_of(lane.shape));
+    for (int i = first; i < stop; ++i) boxes.push_back(box_of(graph.lanes[at(i)].shape));
     const auto group = [&](const Lane& lane) { return graph.lanes[at(lane.origin)].signal_group; };
-    for (int i = 0; i < count; ++i) {
+    for (int i = first; i < stop; ++i) {
         const Lane& one = graph.lanes[at(i)];
-        if (one.origin < 0) continue;
-        for (int k = i + 1; k < count; ++k) {
+        for (int k = i + 1; k < stop; ++k) {
             const Lane& two = graph.lanes[at(k)];
-            if (two.origin < 0 || two.origin == one.origin || apart(boxes[at(i)], boxes[at(k)], clearance_m)) continue;
+            if (two.origin == one.origin || apart(boxes[at(i - first)], boxes[at(k - first)], clearance_m)) continue;
             const auto on_one = near_part(one.shape, two.shape, clearance_m);
             const auto on_two = near_part(two.shape, one.shape, clearance_m);
             if (!on_one || !on_two) continue;
@@ -88,7 +85,8 @@ void find_conflicts(LaneGraph& graph, double clearance_m) {
             graph.conflicts[at(k)].push_back({i, b.from_m, b.to_m, a.from_m, a.to_m, two_yields, one_yields});
         }
     }
-    for (std::vector<Conflict>& of_lane : graph.conflicts) {
+    for (int i = first; i < stop; ++i) {
+        std::vector<Conflict>& of_lane = graph.conflicts[at(i)];
         std::stable_sort(of_lane.begin(), of_lane.end(),
                          [](const Conflict& a, const Conflict& b) { return a.from_m < b.from_m; });
     }

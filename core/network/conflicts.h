@@ -8,9 +8,9 @@ namespace stopline {
 // The distance along two paths that leave the same point from which on their vehicles are clear of each other.
 double shared_stretch_m(const Polyline& a, const Polyline& b, double clearance_m);
 
-// Fills graph.conflicts: the pairs of lanes with an origin whose centre lines come nearer to each other than `clearance_m`,
-// except pairs with the same origin, which follow each other. Of two movements with the same signal group the one that turns
+// Adds to graph.conflicts, which must have a place for each lane: the pairs of lanes from `first` on and before `stop`, all with an
+// origin, whose centre lines come nearer to each other than `clearance_m`, except pairs with the same origin, which follow each other. Of two movements with the same signal group the one that turns
 // gives way: left to right and straight, right to straight.
-void find_conflicts(LaneGraph& graph, double clearance_m);
+void find_conflicts(LaneGraph& graph, double clearance_m, int first, int stop);
 
 }  // namespace stopline

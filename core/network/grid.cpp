@@ -36,8 +36,11 @@ struct Builder {
     const IntersectionSettings& s;
     std::vector<GridPlace> places = grid_places(grid);
     LaneGraph graph = {};
-    std::vector<int> in = {};   // [(intersection, arm, lane)] lane that leads to it
-    std::vector<int> out = {};  // [(intersection, direction, lane)] lane that leads away
+    std::vector<int> in = {};         // [(intersection, arm, lane)] lane that leads to it
+    std::vector<int> out = {};        // [(intersection, direction, lane)] lane that leads away
+    std::vector<int> node_at = {};    // [row * columns + column] intersection; -1: none
+    std::vector<double> shared = {};  // [lane] see shared_stretch
+    int first_inside = 0;             // number of the first lane inside an intersection
 
     int lanes() const { return static_cast<int>(s.lanes.size()); }
     // Lanes are counted from the left: lane 0 is next to the middle of the road. Right-hand traffic.
@@ -57,10 +60,8 @@ struct Builder {
         constexpr std::array<GridPlace, 4> kStep{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
         const int column = places[at(node)].column + kStep[at(direction)].column;
         const int row = places[at(node)].row + kStep[at(direction)].row;
-        for (std::size_t k = 0; k < places.size(); ++k) {
-            if (places[k].column == column && places[k].row == row) return static_cast<int>(k);
-        }
-        return -1;
+        const bool within = column >= 0 && column < grid.columns && row >= 0 && row < grid.rows;
+        return within ? node_at[at(row * grid.columns + column)] : -1;
     }
 
     // Turning lanes lead to the exit lane next to them, counted from the side they turn to.
@@ -125,7 +126,8 @@ struct Builder {
         }
     }
 
-    double shared_m(int lane) const {
+    double shared_m(int lane) const { return shared[at(lane)]; }
+    double shared_stretch(int lane) const {
         double most_m = 0.0;
         for (const Turn one : {Turn::straight, Turn::right, Turn::left}) {
             for (const Turn two : {Turn::straight, Turn::right, Turn::left}) {
@@ -164,14 +166,33 @@ struct Builder {
         }
     }
 
+    // Intersections are alike, and their lanes inside are numbered alike: what holds for the first one holds for all.
+    void find_conflicts_of_all(int nodes) {
+        graph.conflicts.assign(graph.lanes.size(), {});
+        const auto count = static_cast<int>(graph.lanes.size());
+        const int each = (count - first_inside) / nodes;
+        find_conflicts(graph, s.clearance_m, first_inside, first_inside + each);
+        for (int lane = first_inside + each; lane < count; ++lane) {
+            const int like = first_inside + (lane - first_inside) % each;
+            graph.conflicts[at(lane)] = graph.conflicts[at(like)];
+            for (Conflict& conflict : graph.conflicts[at(lane)]) conflict.other += lane - like;
+        }
+    }
+
     LaneGraph build() {
         const auto nodes = static_cast<int>(places.size());
         graph.signal_groups = 2 * nodes;
+        node_at.assign(at(grid.columns * grid.rows), -1);
+        for (int node = 0; node < nodes; ++node) {
+            node_at[at(places[at(node)].row * grid.columns + places[at(node)].column)] = node;
+        }
+        for (int k = 0; k < lanes(); ++k) shared.push_back(shared_stretch(k));
         in.assign(index(nodes, 0, 0), -1);
         out.assign(index(nodes, 0, 0), -1);
         for (int node = 0; node < nodes; ++node) add_arms(node);
+        first_inside = static_cast<int>(graph.lanes.size());
         for (int node = 0; node < nodes; ++node) add_inside(node);
-        find_conflicts(graph, s.clearance_m);
+        find_conflicts_of_all(nodes);
         return std::move(graph);
     }
 };

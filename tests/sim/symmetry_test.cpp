@@ -62,7 +62,11 @@ TEST_P(SeenFromElsewhere, TheSameVehiclesPassAtTheSameTimes) {
     for (Lane& lane : there.graph.lanes) {
         std::transform(lane.shape.begin(), lane.shape.end(), lane.shape.begin(), GetParam().transform);
     }
-    find_conflicts(there.graph, busy().network.intersection.clearance_m);
+    const std::vector<Lane>& lanes = there.graph.lanes;
+    const auto inside = std::find_if(lanes.begin(), lanes.end(), [](const Lane& lane) { return lane.origin >= 0; });
+    there.graph.conflicts.assign(lanes.size(), {});
+    find_conflicts(there.graph, busy().network.intersection.clearance_m, static_cast<int>(inside - lanes.begin()),
+                   static_cast<int>(lanes.size()));
     Simulation one(here);
     Simulation two(there);
     one.run_until(kUntil_s);

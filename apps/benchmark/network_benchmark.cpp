@@ -1,0 +1,128 @@
+#include "benchmark/network_benchmark.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <fstream>
+#include <map>
+#include <memory>
+
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include "benchmark/full_step_benchmark.h"
+#include "common/program.h"
+#include "experiment/network_run.h"
+#include "scenario/load_scenario.h"
+
+namespace stopline {
+
+namespace {
+
+constexpr double kFilled_s = 600.0;    // by then as many leave the grid as enter it
+constexpr double kMeasured_s = 120.0;  // two signal cycles and more
+constexpr int kQueued = 12;            // vehicles on each lane between two intersections
+
+Scenario grid_scenario(int side) {
+    return load_scenario(data_directory() / "../scenarios/grid.yaml",
+                         {fmt::format("network.grid.columns={}", side), fmt::format("network.grid.rows={}", side)});
+}
+
+double resident_bytes() {
+    std::ifstream file("/proc/self/statm");
+    double all_pages = 0.0;
+    double resident_pages = 0.0;
+    file >> all_pages >> resident_pages;
+    return resident_pages * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+void run_for(benchmark::State& state, Simulation& simulation, double duration_s) {
+    std::int64_t updates = 0;
+    for (auto iteration : state) {
+        if (interrupted()) return state.SkipWithError("interrupted");
+        const std::int64_t before = simulation.state().updates;
+        const auto start = std::chrono::steady_clock::now();
+        simulation.run_until(simulation.time_s() + duration_s);
+        state.SetIterationTime(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+        updates += simulation.state().updates - before;
+    }
+    set_cost(state, updates);
+    state.counters[kVehiclesCounter] = simulation.state().present();
+    if (!simulation.state().violations.none()) state.SkipWithError("vehicles overlap, enter on red or are lost");
+}
+
+// Repetitions go on where the one before ended: filling costs more than measuring.
+struct Kept {
+    std::unique_ptr<Model> model;
+    std::unique_ptr<Simulation> simulation;
+    double bytes = 0.0;
+};
+Kept& kept(const std::string& name) {
+    static std::map<std::string, Kept> all;
+    if (!all.contains(name)) all.clear();  // the next benchmark: memory of the last one is needed
+    return all[name];
+}
+
+void grid(benchmark::State& state, int population) {
+    Kept& run = kept(grid_name(kGridPopulations[static_cast<std::size_t>(population)]));
+    if (!run.model) {
+        run.model = std::make_unique<Model>(network_model(grid_scenario(5), static_cast<std::size_t>(population)));
+        run.simulation = std::make_unique<Simulation>(*run.model);
+        run.simulation->run_until(kFilled_s);
+    }
+    run_for(state, *run.simulation, kMeasured_s);
+}
+
+// Queues on all roads, as after a while in a saturated network.
+Model queued_model(int side) {
+    Model model = network_model(grid_scenario(side), 0);
+    model.demand.queued = true;
+    for (DemandPlan::Inlet& inlet : model.demand.inlets) {
+        const std::vector<int>& entries = model.graph.entries;
+        if (!std::binary_search(entries.begin(), entries.end(), inlet.lane)) inlet.vehicles = kQueued;
+    }
+    return model;
+}
+
+void large_grid(benchmark::State& state, int side, int threads) {
+    Kept& run = kept(large_grid_name(side, threads));
+    if (!run.model) {
+        run.model = std::make_unique<Model>(queued_model(side));
+        const double before = resident_bytes();
+        run.simulation = std::make_unique<Simulation>(*run.model, threads);
+        run.simulation->run_until(40.0);
+        run.bytes = resident_bytes() - before;
+    }
+    // The more vehicles the fewer steps, but never fewer than ten.
+    const double duration_s = std::clamp(3e5 / run.simulation->state().present(), 1.0, 40.0);
+    run_for(state, *run.simulation, duration_s);
+    state.counters[kBytesCounter] = run.bytes / run.simulation->state().present();
+}
+
+void configure(benchmark::internal::Benchmark* added) {
+    added->Unit(benchmark::kMillisecond)->UseManualTime()->Iterations(1)->Repetitions(7);
+}
+
+}  // namespace
+
+std::string grid_name(const char* population) { return fmt::format("{}/{}", kGrid, population); }
+std::string large_grid_name(int side, int threads) {
+    return fmt::format("{}/{}x{}/threads_{}", kLargeGrid, side, side, threads);
+}
+
+void add_network_benchmarks() {
+    for (int k = 0; k < static_cast<int>(kGridPopulations.size()); ++k) {
+        configure(
+            benchmark::RegisterBenchmark(grid_name(kGridPopulations[static_cast<std::size_t>(k)]).c_str(), grid, k));
+    }
+    for (const int side : kGridSides) {
+        configure(benchmark::RegisterBenchmark(large_grid_name(side, 1).c_str(), large_grid, side, 1));
+        if (side != kSharedSide) continue;
+        configure(benchmark::RegisterBenchmark(large_grid_name(side, 2).c_str(), large_grid, side, 2));
+    }
+}
+
+}  // namespace stopline
