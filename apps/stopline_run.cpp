@@ -162,15 +162,16 @@ ExitCode run_as_network(const RunOptionsOfUser& options, const Scenario& scenari
     for (const NetworkFigures& f : report.populations) {
         hashes.emplace_back(f.population, fmt::format("{:016x}", f.state_hash));
     }
-    write_tables(options, scenario,
-                 {{"summary.csv", network_csv(report)},
-                  {"series.csv", network_series_csv(report)},
-                  {"ways.csv", network_ways_csv(report)},
-                  {"hindrance.csv", hindrance_csv(report)},
-                  {"gridlocks.csv", gridlocks_csv(report)},
-                  {"rules.csv", rules_csv(report)}},
-                 std::move(hashes), folder);
-    if (!options.no_figures) draw_all({network_series_figure(report), hindrance_figure(report)}, folder);
+    std::vector<NamedText> tables{{"summary.csv", network_csv(report)},     {"series.csv", network_series_csv(report)},
+                                  {"ways.csv", network_ways_csv(report)},   {"hindrance.csv", hindrance_csv(report)},
+                                  {"gridlocks.csv", gridlocks_csv(report)}, {"rules.csv", rules_csv(report)}};
+    std::vector<Figure> figures{network_series_figure(report), hindrance_figure(report)};
+    if (scenario.measure.time_space_s > 0.0) {
+        tables.emplace_back("time_space.csv", street_csv(report));
+        figures.push_back(street_figure(report));
+    }
+    write_tables(options, scenario, std::move(tables), std::move(hashes), folder);
+    if (!options.no_figures) draw_all(figures, folder);
     fmt::print(
         "\nNext: hindrance.csv says who was held up by whom, where and since when; other greens, offsets and turns with --set\n"
         "'signal.green=10 s' --set 'signal.offset=15 s' --set 'demand.left=5 %', all of them with stopline-sweep.\n");

@@ -53,12 +53,15 @@ NetworkReport run_networks(const Scenario& scenario, const NetworkOptions& optio
     for (const Lane& lane : make_grid(scenario.network.grid, scenario.network.intersection).lanes) {
         report.lanes.push_back(lane.name);
     }
+    // Threads that are left over share runs.
+    const int threads_each = std::max(options.threads / static_cast<int>(report.populations.size()), 1);
     run_side_by_side(report.populations.size(), options.threads, options.on_progress,
                      [&](std::size_t k, const std::function<bool(double)>& tell) {
-                         report.populations[k] = run_network(scenario, k, [&](const Simulation& simulation) {
+                         const auto on_step = [&](const Simulation& simulation) {
                              return simulation.state().tick % kTell != 0 ||
                                     tell(simulation.time_s() / scenario.duration_s);
-                         });
+                         };
+                         report.populations[k] = run_network(scenario, k, on_step, threads_each);
                      });
     return report;
 }

@@ -38,6 +38,9 @@ std::string rules_csv(const NetworkReport& report);           // a row a use
 
 // Throughput, travel time, density and vehicles moved on over time (Fig. 22).
 Figure network_series_figure(const NetworkReport& report);
+// Where vehicles of one street are over time (Fig. 16), where measure.time_space asks for it.
+Figure street_figure(const NetworkReport& report);
+std::string street_csv(const NetworkReport& report);
 // What vehicles' time is lost to.
 Figure hindrance_figure(const NetworkReport& report);
 

@@ -55,6 +55,30 @@ Figure network_series_figure(const NetworkReport& report) {
     return figure;
 }
 
+namespace {
+
+std::pair<std::vector<std::string>, std::vector<StreetTrace>> streets_of(const NetworkReport& report) {
+    std::vector<std::string> names;
+    std::vector<StreetTrace> traces;
+    for (const NetworkFigures& f : report.populations) {
+        names.push_back(f.population);
+        traces.push_back(f.street);
+    }
+    return {names, traces};
+}
+
+}  // namespace
+
+Figure street_figure(const NetworkReport& report) {
+    const auto [names, traces] = streets_of(report);
+    return time_space_figure(names, traces);
+}
+
+std::string street_csv(const NetworkReport& report) {
+    const auto [names, traces] = streets_of(report);
+    return time_space_csv(names, traces);
+}
+
 Figure hindrance_figure(const NetworkReport& report) {
     Figure figure;
     figure.name = "hindrance";

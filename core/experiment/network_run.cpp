@@ -168,13 +168,14 @@ Model network_model(const Scenario& scenario, std::size_t population) {
 }
 
 NetworkFigures run_network(const Scenario& scenario, std::size_t population,
-                           const std::function<bool(const Simulation&)>& on_step) {
+                           const std::function<bool(const Simulation&)>& on_step, int threads) {
     const Model model = network_model(scenario, population);
-    Simulation simulation(model);
+    Simulation simulation(model, threads);
     NetworkFigures figures;
     figures.population = scenario.populations.at(population).name;
     figures.complete = true;
     Sampler sampler(scenario, model);
+    StreetWatch street(scenario, model);
     const std::int64_t last = to_ticks(scenario.duration_s, model.step_s);
     while (simulation.state().tick < last) {
         if (on_step && !on_step(simulation)) {
@@ -182,6 +183,7 @@ NetworkFigures run_network(const Scenario& scenario, std::size_t population,
             break;
         }
         sampler.look(simulation.state());
+        street.look(simulation.state());
         simulation.step();
     }
     const State& state = simulation.state();
@@ -197,6 +199,7 @@ NetworkFigures run_network(const Scenario& scenario, std::size_t population,
     figures.updates = state.updates;
     figures.state_hash = simulation.state_hash();
     figures.stability = stability_of(figures);
+    figures.street = street.trace();
     return figures;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "experiment/time_space.h"
 #include "measure/area.h"
 #include "scenario/scenario.h"
 #include "sim/simulation.h"
@@ -45,14 +46,15 @@ struct NetworkFigures {
     std::int64_t left_network = 0;
     std::int64_t updates = 0;
     std::uint64_t state_hash = 0;
+    StreetTrace street;  // empty unless measure.time_space asks for it
     bool complete = false;
 };
 
 // The model of a network run: fronts that come into the measured area and leave it, and hindrance, are all that it records.
 Model network_model(const Scenario& scenario, std::size_t population);
 
-// `on_step` is called before every step; return false to stop early.
+// `on_step` is called before every step; return false to stop early. `threads`: that share the run.
 NetworkFigures run_network(const Scenario& scenario, std::size_t population,
-                           const std::function<bool(const Simulation&)>& on_step = {});
+                           const std::function<bool(const Simulation&)>& on_step = {}, int threads = 1);
 
 }  // namespace stopline

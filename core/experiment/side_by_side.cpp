@@ -24,7 +24,8 @@ void run_side_by_side(std::size_t runs, int threads, const std::function<bool(do
         if (!stopped && on_progress && !on_progress(sum / static_cast<double>(runs))) stopped = true;
         return !stopped;
     };
-#pragma omp parallel for schedule(dynamic) num_threads(std::max(1, threads))
+    const int used = std::clamp(threads, 1, std::max(static_cast<int>(runs), 1));
+#pragma omp parallel for schedule(dynamic) num_threads(used)
     for (std::size_t k = 0; k < runs; ++k) {
         if (stopped) continue;
         try {

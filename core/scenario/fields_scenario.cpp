@@ -154,26 +154,30 @@ void check_scenario(const Scenario& scenario, Checker& check) {
 
 const Table& measure_table() {
     using S = MeasureSettings;
-    static const Table table = make_table<S>(
-        "what is reported", {
-                                numbers<&S::green_s>("green", "s", {0.1, 7200}, {0, 1000},
-                                                     "green times at which the passed vehicles are counted", true),
-                                text<&S::baseline>("baseline", TextField::Rule::name,
-                                                   "population that improvements refer to; absent: none"),
-                                whole<&S::warmup_cycles>("warmup_cycles", {0, 1000},
-                                                         "intersections: signal cycles before the measured time"),
-                                whole<&S::cycles>("cycles", {1, 100'000}, "intersections: measured signal cycles"),
-                                numbers<&S::zone_radius_m>("zones", "m", {1, 20'000}, {0, 10},
-                                                           "intersections: radii within which travel time and density "
-                                                           "are measured; the first is the one that is reported",
-                                                           false),
-                                number<&S::outside_m>("outside", "m", {0, 10'000},
-                                                      "grids: measured is what lies within this distance of the outer "
-                                                      "intersections' stop lines"),
-                                number<&S::interval_s>("interval", "s", {1, 86'400}, "grids: step of the time series"),
-                                number<&S::steady_s>("steady", "s", {1, 1'000'000},
-                                                     "grids: figures are means over this long, to the end of the run"),
-                            });
+    static const Table table =
+        make_table<S>("what is reported",
+                      {
+                          numbers<&S::green_s>("green", "s", {0.1, 7200}, {0, 1000},
+                                               "green times at which the passed vehicles are counted", true),
+                          text<&S::baseline>("baseline", TextField::Rule::name,
+                                             "population that improvements refer to; absent: none"),
+                          whole<&S::warmup_cycles>("warmup_cycles", {0, 1000},
+                                                   "intersections: signal cycles before the measured time"),
+                          whole<&S::cycles>("cycles", {1, 100'000}, "intersections: measured signal cycles"),
+                          numbers<&S::zone_radius_m>("zones", "m", {1, 20'000}, {0, 10},
+                                                     "intersections: radii within which travel time and density "
+                                                     "are measured; the first is the one that is reported",
+                                                     false),
+                          number<&S::outside_m>("outside", "m", {0, 10'000},
+                                                "grids: measured is what lies within this distance of the outer "
+                                                "intersections' stop lines"),
+                          number<&S::interval_s>("interval", "s", {1, 86'400}, "grids: step of the time series"),
+                          number<&S::steady_s>("steady", "s", {1, 1'000'000},
+                                               "grids: figures are means over this long, to the end of the run"),
+                          number<&S::time_space_s>("time_space", "s", {0, 7200},
+                                                   "grids: time-space diagram of the street from west to east in the "
+                                                   "middle row, over this long to the end of the run; 0: none"),
+                      });
     return table;
 }
 
