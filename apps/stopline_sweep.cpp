@@ -20,6 +20,7 @@
 #include "experiment/csv.h"
 #include "experiment/network_sweep_figures.h"
 #include "experiment/output.h"
+#include "experiment/seed_means.h"
 #include "experiment/sweep_merge.h"
 #include "experiment/sweep_results.h"
 #include "experiment/sweep_run.h"
@@ -216,6 +217,11 @@ void print_orders(const Orders& orders) {
 // greens and offsets.
 void draw_results(const std::string& csv, const std::filesystem::path& file) {
     const CsvTable results = parse_csv(csv, file.string());
+    if (has_seeds(results)) {
+        const std::string name = file.stem().string() + "_means.csv";
+        write_file(file.parent_path() / name, seed_means_csv(results));
+        fmt::print("  {}\n", name);
+    }
     if (is_network_sweep(results)) draw_all(network_sweep_figures(results), file.parent_path());
     if (!has_turns(results)) return;
     write_file(file.parent_path() / "table1.csv", table1_csv(results, load_targets()));
