@@ -38,8 +38,9 @@ private:
         if (w_.mark.size() != slots) {
             w_.waits_for.resize(slots), w_.edge.resize(slots), w_.cause.resize(slots), w_.owner.resize(slots);
             w_.lane.resize(slots), w_.mark.resize(slots);
-            w_.open.assign(model_.graph.lanes.size() * kCauseNames.size(), -1);
         }
+        // Episodes go on when vehicles get other slots.
+        w_.open.resize(model_.graph.lanes.size() * kCauseNames.size(), -1);
         w_.standing.clear();
     }
 

