@@ -95,7 +95,9 @@ void step_meso(const Model& model, const LaneGroup& lanes, State& state, Network
                         model.turn_share};
     part.violations.overlaps += kernels.gather(streams, lanes, step, group);
     evaluate_more(model, lanes.vehicles, group);
-    for (int k = 0; k < static_cast<int>(model.krauss.size()); ++k) {
+    const bool two = model.krauss.size() == 2;
+    if (two) kernels.follow_two(model.krauss[0], model.krauss[1], step, group, lanes.vehicles);
+    for (int k = 0; !two && k < static_cast<int>(model.krauss.size()); ++k) {
         const int only = model.krauss.size() == 1 ? -1 : k;
         kernels.follow(model.krauss[at(k)], step, group, lanes.vehicles, only);
     }

@@ -59,6 +59,8 @@ struct MesoKernels {
     int (*gather)(const MesoStreams&, const LaneGroup&, const MesoStep&, const MesoGroup&);
     // `only`: treats vehicles of this policy; < 0: all are of the policy given.
     void (*follow)(const Krauss&, const MesoStep&, const MesoGroup&, int vehicles, int only);
+    // The same for policies 0 and 1 in one pass.
+    void (*follow_two)(const Krauss&, const Krauss&, const MesoStep&, const MesoGroup&, int vehicles);
     // Takes it apart again, and moves its vehicles. Lanes must be in the order of their slots, without others' vehicles between.
     void (*scatter)(const MesoStreams&, Lanes, const MesoStep&, const MesoGroup&);
 };

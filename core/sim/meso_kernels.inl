@@ -138,6 +138,42 @@ inline void follow(const Krauss& model, const MesoStep& step, const MesoGroup& g
     loop(model, step, group, vehicles, only);
 }
 
+// Each vehicle with the parameters of its policy.
+inline void follow_two(const Krauss& zero, const Krauss& one, const MesoStep& step, const MesoGroup& group,
+                       int vehicles) {
+    const Krauss a = zero;
+    const Krauss b = one;
+    const MesoStep t = step;
+    const double* __restrict const speed = group.speed;
+    const double* __restrict const gap = group.gap;
+    const double* __restrict const ahead = group.ahead;
+    const double* __restrict const ahead_mps2 = group.ahead_acceleration;
+    const double* __restrict const more = group.more;
+    const double* __restrict const cap = group.cap;
+    const int* __restrict const id = group.id;
+    const int* __restrict const policy = group.policy;
+    double* __restrict const next = group.next;
+    for (int i = 0; i < vehicles; ++i) {
+        const bool second = policy[i] != 0;
+        const auto of = [&](double first, double other) STOPLINE_INLINE_LAMBDA { return second ? other : first; };
+        Krauss k;
+        k.acceleration_mps2 = of(a.acceleration_mps2, b.acceleration_mps2);
+        k.until_mps = of(a.until_mps, b.until_mps);
+        k.transient_gap_s2 = of(a.transient_gap_s2, b.transient_gap_s2);
+        k.catch_up = of(a.catch_up, b.catch_up);
+        k.anticipation_s = of(a.anticipation_s, b.anticipation_s);
+        k.deceleration_mps2 = of(a.deceleration_mps2, b.deceleration_mps2);
+        k.reaction_s = of(a.reaction_s, b.reaction_s);
+        k.standstill_gap_m = of(a.standstill_gap_m, b.standstill_gap_m);
+        k.dawdling = of(a.dawdling, b.dawdling);
+        k.constant_distance = second ? b.constant_distance : a.constant_distance;
+        k.band_m = of(a.band_m, b.band_m);
+        k.below_band = of(a.below_band, b.below_band);
+        const KraussInput in{speed[i], gap[i], ahead[i], ahead_mps2[i], more[i], cap[i]};
+        next[i] = next_speed_mps<true>(k, in, dawdle_uniform(t.key, id[i], t.tick), t.dt);
+    }
+}
+
 // Takes the group apart, in whole registers too: lanes are in the order of memory, so that what is written beyond one of them is free
 // or written over by the next. The last lane of the group ends exactly.
 inline void scatter(const MesoStreams& streams, MesoKernels::Lanes lanes, const MesoStep& step,

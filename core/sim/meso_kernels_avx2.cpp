@@ -4,6 +4,6 @@
 namespace stopline {
 
 extern const MesoKernels kAvx2MesoKernels;
-const MesoKernels kAvx2MesoKernels{"avx2", gather, follow, scatter};
+const MesoKernels kAvx2MesoKernels{"avx2", gather, follow, follow_two, scatter};
 
 }  // namespace stopline

@@ -4,6 +4,6 @@
 namespace stopline {
 
 extern const MesoKernels kScalarMesoKernels;
-const MesoKernels kScalarMesoKernels{"scalar", gather, follow, scatter};
+const MesoKernels kScalarMesoKernels{"scalar", gather, follow, follow_two, scatter};
 
 }  // namespace stopline
