@@ -135,7 +135,7 @@ struct State {
     HindranceWatch watch;
     std::int64_t entered = 0;
     std::int64_t left = 0;
-    std::int64_t updates = 0;  // vehicle updates computed
+    std::int64_t updates = 0;  // vehicles times steps, those that rest included
     // The longest that any vehicle has been inside an intersection, as an Insider, in ticks. Two cycles or more: a deadlock.
     std::int64_t longest_inside = 0;
     int next_id = 0;
