@@ -32,36 +32,42 @@ void move_up(State& state, LaneBlock& block) {
 
 int some_more(int vehicles) { return vehicles + 4 + vehicles / 4; }
 
-// All blocks in the order of memory.
-template <class Visit>
-void for_each_block(State& state, Visit visit) {
-    for (const int lane : state.plan.order()) visit(state.blocks[at(lane)]);
-    visit(state.limbo);
-}
+// Slots left free before a lane's block: kernels read beyond the last vehicle of the lane before, which may be another thread's.
+int free_before(const NetworkPart& part, int lane) { return lane == part.lanes.front() ? kSimdWidth : 1; }
 
-void lay_out_anew(State& state) {
-    int slots = kSimdWidth;
-    for_each_block(state, [&](LaneBlock& block) { slots += 1 + some_more(block.count); });
+// `expected`: vehicles that each lane is about to get; empty: none in particular.
+void lay_out_anew(State& state, const std::vector<int>& expected) {
+    const auto holds = [&](int lane) {
+        return some_more(std::max(state.blocks[at(lane)].count, expected.empty() ? 0 : expected[at(lane)]));
+    };
+    int slots = kSimdWidth + some_more(state.limbo.count);
+    for (const NetworkPart& part : state.parts) {
+        for (const int lane : part.lanes) slots += free_before(part, lane) + holds(lane);
+    }
     slots += kSimdWidth;
     if (slots > state.vehicles.slots) state.vehicles.grow(slots + slots / 4);
     // All to the front, then, the last ones first, to their places.
     int next = kSimdWidth;
-    for_each_block(state, [&](LaneBlock& block) {
+    const auto pack = [&](LaneBlock& block) {
         block.begin = next;
         move_up(state, block);
         next += block.count;
-    });
+    };
+    for (const int lane : state.plan.order()) pack(state.blocks[at(lane)]);
+    pack(state.limbo);
     int end = slots - kSimdWidth;
-    const auto spread = [&](LaneBlock& block) {
+    const auto spread = [&](LaneBlock& block, int size, int before) {
         block.end = end;
-        block.begin = end - some_more(block.count);
+        block.begin = end - size;
         state.vehicles.move(block.first, block.count, block.begin);
         block.first = block.begin;
-        end = block.begin - 1;
+        end = block.begin - before;
     };
-    spread(state.limbo);
-    const std::vector<int>& order = state.plan.order();
-    std::for_each(order.rbegin(), order.rend(), [&](int lane) { spread(state.blocks[at(lane)]); });
+    spread(state.limbo, some_more(state.limbo.count), kSimdWidth);
+    std::for_each(state.parts.rbegin(), state.parts.rend(), [&](const NetworkPart& part) {
+        std::for_each(part.lanes.rbegin(), part.lanes.rend(),
+                      [&](int lane) { spread(state.blocks[at(lane)], holds(lane), free_before(part, lane)); });
+    });
 }
 
 }  // namespace
@@ -76,10 +82,10 @@ void lay_out_blocks(const Model& model, State& state) {
     const auto lanes = static_cast<int>(model.graph.lanes.size());
     state.blocks.resize(at(lanes));
     if (model.meso) {
-        int most = 2 * kSimdWidth + lanes;
+        int most = (2 + static_cast<int>(state.parts.size())) * kSimdWidth + lanes;
         for (const Lane& lane : model.graph.lanes) most += some_more(most_vehicles(model, lane));
         state.vehicles.reserve(most);
-        lay_out_anew(state);
+        lay_out_anew(state, {});
         return;
     }
     int slots = 0;
@@ -97,10 +103,14 @@ void lay_out_blocks(const Model& model, State& state) {
     state.vehicles.resize(slots, model.radar.rows, model.v2v.rows);
 }
 
+void expect_vehicles(State& state, const std::vector<int>& expected) {
+    if (!state.vehicles.has_powertrain()) lay_out_anew(state, expected);
+}
+
 void make_room(State& state, LaneBlock& block) {
     if (block.stop() < block.end) return;
     move_up(state, block);
-    if (block.stop() == block.end && !state.vehicles.has_powertrain()) lay_out_anew(state);
+    if (block.stop() == block.end && !state.vehicles.has_powertrain()) lay_out_anew(state, {});
 }
 
 int append_slot(State& state, int lane) {

@@ -53,6 +53,9 @@ inline constexpr double kStands_mps = 0.1;
 
 double shortest_vehicle_m(const Model& model);
 
+// Before vehicles are put there: how many each lane is about to get, [lane].
+void expect_vehicles(State& state, const std::vector<int>& expected);
+
 // Makes sure that the next vehicle can be appended; slots of all vehicles may change.
 void make_room(State& state, LaneBlock& block);
 

@@ -5,7 +5,8 @@
 // A vehicle may go into a conflict area
 //   - when no vehicle of the other lane is in it, nor on its way to it after it has accepted a gap;
 //   - where it has to give way: when the next vehicle with priority is further away than the critical gap and the time it
-//     takes to get to the area; this is decided once, for all areas where it has to give way;
+//     takes to get to the area; this is decided for all areas where it has to give way, and again as long as it could
+//     still stop comfortably: who waited when it was decided may have set out, and others with it;
 //   - where neither has priority (movements of different signal groups): when no vehicle that passed its stop line
 //     before is still to come; of two that stand and wait for each other, when they have agreed so.
 // A vehicle that has stood inside for long may be passed where the rules say so (driver/hindrance_rules.h).
@@ -41,6 +42,21 @@ double earliest_s(double distance_m, double speed_mps, double acceleration_mps2,
         return (std::sqrt(square(speed_mps) + 2.0 * acceleration_mps2 * distance_m) - speed_mps) / acceleration_mps2;
     }
     return to_limit_mps / acceleration_mps2 + (distance_m - to_limit_m) / std::max(limit_mps, speed_mps);
+}
+
+// Time to a waiting place, slowing down to the limit of the way beyond it.
+double reach_s(const Model& model, double distance_m, double speed_mps, double limit_mps) {
+    constexpr double kSlowest_mps = 2.0;
+    const double b = model.driver.deceleration_mps2;
+    const double slowing_m = 0.5 * (square(speed_mps) - square(limit_mps)) / b;
+    if (slowing_m <= 0.0) return std::max(distance_m, 0.0) / std::max(speed_mps, kSlowest_mps);
+    if (distance_m >= slowing_m) return (distance_m - slowing_m) / speed_mps + (speed_mps - limit_mps) / b;
+    return (speed_mps - std::sqrt(square(speed_mps) - 2.0 * b * std::max(distance_m, 0.0))) / b;
+}
+
+// To a comfortable stop.
+double stopping_m(const Model& model, double speed_mps) {
+    return 0.5 * square(speed_mps) / model.driver.stop.deceleration_mps2;
 }
 
 // Stands right behind a vehicle that stands: it will not come, nor will those behind it.
@@ -175,11 +191,15 @@ int keeps_out(const Model& model, State& state, NetworkPart& part, int lane, con
     return -1;
 }
 
-// The slot of a vehicle with priority that is too near for this one to go. -1: none; the decision is noted.
+// The slot of a vehicle with priority that is too near for this one to go; -1: none. The decision is noted.
 int comes_first(const Model& model, State& state, NetworkPart& part, int lane, const Candidate& v, double to_hold_m) {
     VehicleArrays& arrays = state.vehicles;
-    const double reach_s = to_hold_m / std::max(arrays.speed_mps[at(v.slot)], 2.0);
-    const double needed_s = model.give_way.critical_gap_s + std::max(reach_s, 0.0);
+    VehicleRecord& record = arrays.record[at(v.slot)];
+    const double limit_mps = state.plan.lane(lane).limit_mps;
+    const double needed_s =
+        model.give_way.critical_gap_s + reach_s(model, to_hold_m, arrays.speed_mps[at(v.slot)], limit_mps);
+    const bool again = record.cleared_for == lane;
+    record.cleared_for = -1;
     Arrival next;
     for (const Conflict& conflict : model.graph.conflicts[at(lane)]) {
         if (!conflict.yields || v.front_m > conflict.from_m) continue;
@@ -187,8 +207,8 @@ int comes_first(const Model& model, State& state, NetworkPart& part, int lane, c
         next.earlier(arrival.in_s, arrival.slot);
         if (next.in_s < needed_s) return next.slot;
     }
-    arrays.record[at(v.slot)].cleared_for = lane;
-    if (!model.records_all) return -1;
+    record.cleared_for = lane;
+    if (!model.records_all || again) return -1;
     part.gaps_accepted.push_back({model.time_s(state.tick), arrays.id[at(v.slot)], lane, static_cast<float>(next.in_s),
                                   static_cast<float>(needed_s)});
     return -1;
@@ -211,6 +231,8 @@ Wait waiting_place(const Model& model, State& state, NetworkPart& part, int lane
     // A gap that it could not use, because somebody stands in front, is lost; others must not wait for it.
     if (v.stands && blocked(state, v.slot)) arrays.record[at(v.slot)].cleared_for = -1;
     bool decided = arrays.record[at(v.slot)].cleared_for == lane;
+    const double to_first_m = state.plan.lane(lane).first_area_m - margin_m - v.front_m;
+    if (!v.stands && to_first_m > stopping_m(model, speed)) decided = false;
     const bool others = state.others_inside[at(lane)].lanes > 0;
     if (!others && (decided || !state.plan.lane(lane).yields)) return {};
     for (const Conflict& conflict : model.graph.conflicts[at(lane)]) {
@@ -247,8 +269,10 @@ void decide(const Model& model, State& state, NetworkPart& part, int lane) {
         const Wait found = waiting_place(model, state, part, lane, candidate, ahead);
         if (found.place_m < kNowhere_m) {
             ahead = candidate.slot;
-            // A gap accepted before is lost: when it sets out again, others have come.
-            if (candidate.stands) state.vehicles.record[at(candidate.slot)].cleared_for = -1;
+            // A gap accepted before is lost to one that stops: when it sets out again, others have come.
+            const double to_place_m = found.place_m - candidate.front_m;
+            const bool stops = stopping_m(model, v.speed_mps[at(candidate.slot)]) <= to_place_m;
+            if (candidate.stands || stops) state.vehicles.record[at(candidate.slot)].cleared_for = -1;
         }
         return found;
     };

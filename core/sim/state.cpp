@@ -76,8 +76,8 @@ std::vector<NetworkPart> make_parts(const Model& model, const State& state, int 
 
 State make_state(const Model& model, int threads) {
     State state(model);
-    lay_out_blocks(model, state);
     state.parts = make_parts(model, state, threads);
+    lay_out_blocks(model, state);
     const std::size_t lanes = model.graph.lanes.size();
     state.lights.assign(model.signals.size(), Light::red);
     state.stop_lines.resize(lanes);
@@ -90,8 +90,14 @@ State make_state(const Model& model, int threads) {
     state.coming.resize(lanes);
     state.deciding.assign(lanes, 0);
     state.others_inside.resize(lanes);
+    const double shortest_m = shortest_vehicle_m(model);
     for (const NetworkPart& part : state.parts) {
-        for (const int lane : part.inside) state.insiders[at(lane)].reserve(32), state.coming[at(lane)].reserve(16);
+        for (const int lane : part.inside) {
+            constexpr std::size_t kBeforeAndBehind = 3;
+            const double inside = state.plan.lane(lane).length_m / shortest_m;
+            state.insiders[at(lane)].reserve(static_cast<std::size_t>(inside) + kBeforeAndBehind);
+            state.coming[at(lane)].reserve(16);
+        }
     }
     state.detectors_of.resize(lanes);
     state.upstream.assign(model.detectors.size(), 0);

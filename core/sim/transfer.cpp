@@ -202,8 +202,23 @@ void stand_beyond_counters(const Model& model, State& state) {
 
 }  // namespace
 
+namespace {
+
+// Room for the queues at once: lane by lane, all others would be moved again and again.
+void make_room_for_queues(const Model& model, State& state) {
+    std::vector<int> expected(model.graph.lanes.size(), 0);
+    for (const DemandPlan::Inlet& inlet : model.demand.inlets) {
+        const double fit = model.graph.lanes[at(inlet.lane)].stop_line_m / shortest_vehicle_m(model) + 1.0;
+        expected[at(inlet.lane)] = static_cast<int>(std::min(fit, static_cast<double>(inlet.vehicles)));
+    }
+    expect_vehicles(state, expected);
+}
+
+}  // namespace
+
 void form_queues(const Model& model, State& state) {
     if (!model.demand.queued) return;
+    make_room_for_queues(model, state);
     for (int k = 0; k < static_cast<int>(model.demand.inlets.size()); ++k) {
         const int lane = model.demand.inlets[at(k)].lane;
         double front_m = model.graph.lanes[at(lane)].stop_line_m - model.driver.stop.margin_m;

@@ -1,6 +1,6 @@
 // The state of all vehicles as structures of arrays in lane order. A lane owns a block of slots; its vehicles stand in
 // consecutive slots, the first one downstream, so that the predecessor of slot i is slot i - 1. The slot before the first
-// vehicle is the lane's sentinel: it holds what the first vehicle must react to beyond the lane (see lane_heads.cpp).
+// vehicle is the lane's sentinel: it holds what the first vehicle must react to beyond the lane (see look_beyond.cpp).
 //
 //     block of a lane:  | sentinel | free ... | first | ... | last | free ... |
 //

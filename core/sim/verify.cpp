@@ -1,4 +1,4 @@
-// What holds after every step of every run: nobody overlaps its predecessor (on another lane: lane_heads.cpp), nobody is lost.
+// What holds after every step of every run: nobody overlaps its predecessor (on another lane: look_beyond.cpp), nobody is lost.
 #include <algorithm>
 
 #include "sim/phases.h"

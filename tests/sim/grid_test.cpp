@@ -42,6 +42,20 @@ TEST(Inflow, ComesEvenlyAtItsRate) {
     EXPECT_TRUE(simulation.state().violations.none());
 }
 
+// A left turner that accepted a gap from afar, behind one that waited, must not count on it when that one sets out: here, at 1,917 s,
+// two once were in the same conflict area.
+TEST(Inflow, ThatIsLightIsNeverInTheSameConflictArea) {
+    const Scenario scenario =
+        load_scenario(STOPLINE_SOURCE_DIR "/scenarios/grid.yaml",
+                      {"demand={kind: rate, inflow: 600 veh/h, left: 10 %, right: 30 %}", "network.grid.columns=2",
+                       "network.grid.rows=2", "signal.green=30 s", "signal.offset=0 s", "seed=7"});
+    const Model model = build_model(scenario, 2);
+    Simulation simulation(model);
+    simulation.run_until(2000.0);
+    EXPECT_GT(simulation.state().gaps_accepted.size(), 100U);
+    EXPECT_TRUE(simulation.state().violations.none());
+}
+
 // Where streets that cross have turns of their own, each keeps its share.
 TEST(CrossTurns, AreThoseOfTheStreetsThatCross) {
     const Scenario scenario = load_scenario(STOPLINE_SOURCE_DIR "/scenarios/arterial.yaml", {"demand.left=10 %"});
