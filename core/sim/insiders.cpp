@@ -80,13 +80,21 @@ private:
 
 }  // namespace
 
-void find_occupied_lanes(const State& state, NetworkPart& part) {
-    part.occupied.clear();
+void find_occupied_lanes(State& state, NetworkPart& part) {
+    for (std::vector<int>* list : {&part.occupied, &part.awake, &part.awake_before, &part.awake_inside}) list->clear();
     part.present = 0;
     for (const int lane : part.lanes) {
         const int count = state.blocks[at(lane)].count;
-        if (count > 0) part.occupied.push_back(lane);
+        if (count == 0) continue;
         part.present += count;
+        part.occupied.push_back(lane);
+        int& sleeps = state.sleeps_until_green_of[at(lane)];
+        if (sleeps >= 0 && state.lights[at(sleeps)] == Light::green) sleeps = -1;
+        if (sleeps >= 0) continue;
+        part.awake.push_back(lane);
+        const LanePlan& plan = state.plan.lane(lane);
+        if (plan.signal_group >= 0) part.awake_before.push_back(lane);
+        if (plan.origin >= 0) part.awake_inside.push_back(lane);
     }
 }
 
@@ -96,12 +104,8 @@ void find_insiders(State& state, NetworkPart& part) {
     search.forget();
     // The order makes that each lane's insiders are listed from the front.
     for (const int exit : part.exits) search.look_at_exit(exit);
-    for (const int lane : part.occupied) {
-        if (state.plan.lane(lane).origin >= 0) search.look_inside(lane);
-    }
-    for (const int lane : part.occupied) {
-        if (state.plan.lane(lane).signal_group >= 0) search.look_before(lane);
-    }
+    for (const int lane : part.awake_inside) search.look_inside(lane);
+    for (const int lane : part.awake_before) search.look_before(lane);
     search.count();
 }
 

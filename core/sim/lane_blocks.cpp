@@ -35,11 +35,12 @@ int some_more(int vehicles) { return vehicles + 4 + vehicles / 4; }
 // Slots left free before a lane's block: kernels read beyond the last vehicle of the lane before, which may be another thread's.
 int free_before(const NetworkPart& part, int lane) { return lane == part.lanes.front() ? kSimdWidth : 1; }
 
-// `expected`: vehicles that each lane is about to get; empty: none in particular.
+// `expected`: vehicles that each lane is about to get; empty: none in particular. Sleeping lanes know slots: they wake up.
 void lay_out_anew(State& state, const std::vector<int>& expected) {
     const auto holds = [&](int lane) {
         return some_more(std::max(state.blocks[at(lane)].count, expected.empty() ? 0 : expected[at(lane)]));
     };
+    std::fill(state.sleeps_until_green_of.begin(), state.sleeps_until_green_of.end(), -1);
     int slots = kSimdWidth + some_more(state.limbo.count);
     for (const NetworkPart& part : state.parts) {
         for (const int lane : part.lanes) slots += free_before(part, lane) + holds(lane);
@@ -115,6 +116,7 @@ void make_room(State& state, LaneBlock& block) {
 
 int append_slot(State& state, int lane) {
     for (const int detector : state.detectors_of[at(lane)]) ++state.upstream[at(detector)];
+    state.sleeps_until_green_of[at(lane)] = -1;
     LaneBlock& block = state.blocks[at(lane)];
     if (block.count == 0) move_up(state, block);
     make_room(state, block);
@@ -125,6 +127,7 @@ void remove_first(State& state, int lane) {
     LaneBlock& block = state.blocks[at(lane)];
     ++block.first;
     --block.count;
+    state.sleeps_until_green_of[at(lane)] = -1;
     Resting& resting = state.resting[at(lane)];
     resting.from = std::max(resting.from - 1, 0);
     resting.to = std::max(resting.to - 1, 0);

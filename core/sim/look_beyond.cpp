@@ -94,10 +94,10 @@ void look_beyond_lanes(const Model& model, State& state, NetworkPart& part) {
     constexpr std::size_t kLanesAhead = 4;
     const bool prefetch = state.outgrows_cache();
     VehicleArrays& v = state.vehicles;
-    for (std::size_t k = 0; k < part.occupied.size(); ++k) {
-        const int lane = part.occupied[k];
-        if (prefetch && k + kLanesAhead < part.occupied.size()) {
-            fetch_ends(state, part.occupied[k + kLanesAhead]);
+    for (std::size_t k = 0; k < part.awake.size(); ++k) {
+        const int lane = part.awake[k];
+        if (prefetch && k + kLanesAhead < part.awake.size()) {
+            fetch_ends(state, part.awake[k + kLanesAhead]);
         }
         const int head = state.blocks[at(lane)].first;
         const std::size_t sentinel = at(head - 1);
@@ -153,10 +153,15 @@ public:
 
     void add() {
         ++group_.lanes_of_network;
+        if (state_.sleeps_until_green_of[at(lane_)] >= 0) return group_.protect(block_.first - 1);
         if (!model_.meso || model_.scalar_kernels) return add(block_.first, block_.stop());
         Resting& resting = state_.resting[at(lane_)];
         if (last_imposed() > block_.first + resting.from) resting.imposed = state_.tick;
         find_resting(v_, block_, state_.tick, resting);
+        if (resting.from == 0 && resting.to == block_.count && rests_before_line()) {
+            state_.sleeps_until_green_of[at(lane_)] = plan_.signal_group;
+            return group_.protect(block_.first - 1);
+        }
         if (resting.to - resting.from <= 1) return add(block_.first, block_.stop());
         const int rest_from = block_.first + resting.from + 1;
         const int rest_to = block_.first + resting.to;
@@ -166,6 +171,16 @@ public:
     }
 
 private:
+    // The first vehicle is kept where it is by its light alone.
+    bool rests_before_line() const {
+        const int first = block_.first;
+        if (plan_.signal_group < 0 || state_.stop_slot[at(lane_)] != first) return false;
+        if (state_.stop_lines[at(lane_)].stopper != v_.id[at(first)] || state_.holds[at(lane_)].count > 0) return false;
+        const double position_m = v_.position_m[at(first)];
+        const double room_m = plan_.stop_line_m - model_.driver.stop.margin_m - position_m;
+        return position_m <= plan_.stop_line_m && at_rest(stopping_speed_mps(model_, v_, first, room_m)) == 0.0;
+    }
+
     // The last slot that has to stop for something.
     int last_imposed() const {
         const Holds& holds = state_.holds[at(lane_)];

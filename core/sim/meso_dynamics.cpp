@@ -59,7 +59,8 @@ void lead(const Model& model, std::span<const LaneStep> lanes, const MesoGroup& 
                 alone ? touch_mps : safe_speed_mps(model.krauss[at(g.policy[k])], g.gap[k], g.ahead[k], g.more[k]);
             const double safe_mps = std::min(follows_mps, touch_mps);
             g.next[k] = at_rest(std::min(safe_mps, drive_mps));
-            if (safe_mps < faster_mps) v.leads[at(slot)] = 0.0F;
+            // One that stands goes on leading until it moves.
+            if (safe_mps < faster_mps && g.next[k] > 0.0) v.leads[at(slot)] = 0.0F;
         }
         first += lane.count();
     }

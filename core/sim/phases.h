@@ -11,7 +11,7 @@
 namespace stopline {
 
 // For each part by itself, in this order: what is decided and seen from the state at the beginning of the step.
-void find_occupied_lanes(const State& state, NetworkPart& part);
+void find_occupied_lanes(State& state, NetworkPart& part);
 void look_beyond_lanes(const Model& model, State& state, NetworkPart& part);
 void find_insiders(State& state, NetworkPart& part);
 void decide_stops(const Model& model, State& state, NetworkPart& part);

@@ -67,7 +67,9 @@ std::vector<NetworkPart> make_parts(const Model& model, const State& state, int 
     for (NetworkPart& part : parts) {
         part.full_group.resize(model.meso ? 0 : together);
         part.meso_group.resize(model.meso ? together : 0);
-        part.occupied.reserve(part.lanes.size());
+        for (std::vector<int>* list : {&part.occupied, &part.awake, &part.awake_before, &part.awake_inside}) {
+            list->reserve(part.lanes.size());
+        }
     }
     return parts;
 }
@@ -85,6 +87,7 @@ State make_state(const Model& model, int threads) {
     state.holds.resize(lanes);
     state.kept_out.resize(lanes);
     state.resting.resize(lanes);
+    state.sleeps_until_green_of.assign(lanes, -1);
     state.exit_rooms.resize(lanes);
     state.insiders.resize(lanes);
     state.coming.resize(lanes);

@@ -186,9 +186,8 @@ double decides_within_m(const Model& model, double speed_mps) {
 }
 
 void decide_stops(const Model& model, State& state, NetworkPart& part) {
-    for (const int index : part.occupied) {
+    for (const int index : part.awake_before) {
         const LanePlan& lane = state.plan.lane(index);
-        if (lane.signal_group < 0) continue;
         state.kept_out[at(index)] = {};
         StopLineState& line = state.stop_lines[at(index)];
         const LaneBlock& block = state.blocks[at(index)];
