@@ -3,15 +3,19 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include <benchmark/benchmark.h>
 
+#include "base/simd.h"
 #include "benchmark/full_step_benchmark.h"
 #include "common/program.h"
 #include "experiment/build_model.h"
 #include "scenario/load_scenario.h"
-#include "sim/meso_kernels.h"
+#include "sim/meso_dynamics.h"
 #include "sim/simulation.h"
+#include "sim/vehicle_arrays.h"
 
 namespace stopline {
 
@@ -25,29 +29,33 @@ Model intersection_model() {
     return build_model(load_scenario(data_directory() / "../scenarios/intersection.yaml", {"fidelity=meso"}), 0);
 }
 
-// The car-following equation alone, over arrays: speeds of the next step from gaps and speeds of this one.
+// The kernel alone, over arrays: a step of vehicles that follow one another.
 void following(benchmark::State& state, bool scalar) {
     const Model model = intersection_model();
-    MesoGroupArrays arrays;
-    arrays.resize(kFollowers);
-    const MesoGroup g = arrays.streams();
-    for (int k = 0; k < kFollowers; ++k) {
-        g.speed[k] = 13.0 + 0.01 * (k % 50);
-        g.ahead[k] = 13.0 + 0.01 * ((k + 7) % 50);
-        g.gap[k] = 14.0 + 0.02 * (k % 90);
-        g.cap[k] = 14.6;
-        g.id[k] = k;
-    }
     const MesoKernels& kernels = meso_kernels(scalar);
-    MesoStep step{model.step_s, dawdle_key(model.seed), 0, model.driver.deceleration_mps2, 1.0, 1.0};
+    VehicleArrays v;
+    v.grow(kSimdWidth + kFollowers);
+    std::vector<int> blocks;
+    for (int k = 0; k < kFollowers; ++k) {
+        const int slot = kSimdWidth + k;
+        const auto i = static_cast<std::size_t>(slot);
+        if (k % kernels.size == 0) blocks.push_back(slot / kernels.size);
+        v.speed_mps[i] = 13.0 + 0.01 * (k % 50);
+        v.position_m[i] = -18.5 * k - 0.02 * (k % 90);
+        v.length_m[i] = 4.5F;
+        v.limit_mps[i] = 14.6;
+        v.end_speed_mps[i] = 1e3F;
+        v.id[i] = k;
+    }
+    const MesoStreams streams = meso_streams(v);
+    MesoStep step = meso_step(model, 0);
     std::int64_t updates = 0;
     for (auto iteration : state) {
         if (interrupted()) return state.SkipWithError("interrupted");
         const auto start = std::chrono::steady_clock::now();
         for (int pass = 0; pass < kPasses; ++pass) {
             ++step.tick;
-            kernels.follow(model.krauss[0], step, g, kFollowers, -1);
-            benchmark::DoNotOptimize(g.next[0]);
+            benchmark::DoNotOptimize(kernels.step(streams, blocks, model.krauss, nullptr, step));
             benchmark::ClobberMemory();
         }
         state.SetIterationTime(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());

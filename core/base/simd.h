@@ -59,36 +59,44 @@ template <class Number, int kWidth>
 using Vector = typename VectorOf<Number, kWidth>::Type;
 
 // What comparing two Packed gives.
-template <int kWidth>
-struct Mask {
-    std::conditional_t<kWidth == 1, bool, Vector<std::int32_t, kWidth>> m;
+template <class Number, int kWidth>
+struct MaskOf {
+    using Integer = std::conditional_t<sizeof(Number) == 8, std::int64_t, std::int32_t>;
+    std::conditional_t<kWidth == 1, bool, Vector<Integer, kWidth>> m;
 };
-
-// kWidth numbers in single precision. Arithmetic with any plain number first rounds that to single precision.
 template <int kWidth>
-struct Packed {
-    using Floats = Vector<float, kWidth>;
-    Floats v;
+using Mask = MaskOf<float, kWidth>;
 
-    Packed() = default;
+// kWidth numbers. Arithmetic with any plain number first rounds that to their precision.
+template <class Number, int kWidth>
+struct PackedOf {
+    using Numbers = Vector<Number, kWidth>;
+    using Mask = MaskOf<Number, kWidth>;
+    Numbers v;
+
+    PackedOf() = default;
     // NOLINTNEXTLINE(google-explicit-constructor): a plain number stands for as many equal ones
-    STOPLINE_INLINE Packed(double number) : v(static_cast<float>(number) - Floats{}) {}
-    struct FromFloats {};
-    STOPLINE_INLINE Packed(const Floats& floats, FromFloats /*unused*/) : v(floats) {}
+    STOPLINE_INLINE PackedOf(double number) : v(static_cast<Number>(number) - Numbers{}) {}
+    struct FromNumbers {};
+    STOPLINE_INLINE PackedOf(const Numbers& numbers, FromNumbers /*unused*/) : v(numbers) {}
 
-    friend STOPLINE_INLINE Packed operator+(const Packed& a, const Packed& b) { return {a.v + b.v, FromFloats{}}; }
-    friend STOPLINE_INLINE Packed operator-(const Packed& a, const Packed& b) { return {a.v - b.v, FromFloats{}}; }
-    friend STOPLINE_INLINE Packed operator*(const Packed& a, const Packed& b) { return {a.v * b.v, FromFloats{}}; }
-    friend STOPLINE_INLINE Packed operator/(const Packed& a, const Packed& b) { return {a.v / b.v, FromFloats{}}; }
-    friend STOPLINE_INLINE Packed operator-(const Packed& a) { return {-a.v, FromFloats{}}; }
-    STOPLINE_INLINE Packed& operator+=(const Packed& b) { return v = v + b.v, *this; }
-    STOPLINE_INLINE Packed& operator*=(const Packed& b) { return v = v * b.v, *this; }
-    friend STOPLINE_INLINE Mask<kWidth> operator<(const Packed& a, const Packed& b) { return {a.v < b.v}; }
-    friend STOPLINE_INLINE Mask<kWidth> operator>(const Packed& a, const Packed& b) { return {a.v > b.v}; }
-    friend STOPLINE_INLINE Mask<kWidth> operator<=(const Packed& a, const Packed& b) { return {a.v <= b.v}; }
-    friend STOPLINE_INLINE Mask<kWidth> operator>=(const Packed& a, const Packed& b) { return {a.v >= b.v}; }
-    friend STOPLINE_INLINE Mask<kWidth> operator==(const Packed& a, const Packed& b) { return {a.v == b.v}; }
+    using P = PackedOf;
+    friend STOPLINE_INLINE P operator+(const P& a, const P& b) { return {a.v + b.v, FromNumbers{}}; }
+    friend STOPLINE_INLINE P operator-(const P& a, const P& b) { return {a.v - b.v, FromNumbers{}}; }
+    friend STOPLINE_INLINE P operator*(const P& a, const P& b) { return {a.v * b.v, FromNumbers{}}; }
+    friend STOPLINE_INLINE P operator/(const P& a, const P& b) { return {a.v / b.v, FromNumbers{}}; }
+    friend STOPLINE_INLINE P operator-(const P& a) { return {-a.v, FromNumbers{}}; }
+    STOPLINE_INLINE P& operator+=(const P& b) { return v = v + b.v, *this; }
+    STOPLINE_INLINE P& operator*=(const P& b) { return v = v * b.v, *this; }
+    friend STOPLINE_INLINE Mask operator<(const P& a, const P& b) { return {a.v < b.v}; }
+    friend STOPLINE_INLINE Mask operator>(const P& a, const P& b) { return {a.v > b.v}; }
+    friend STOPLINE_INLINE Mask operator<=(const P& a, const P& b) { return {a.v <= b.v}; }
+    friend STOPLINE_INLINE Mask operator>=(const P& a, const P& b) { return {a.v >= b.v}; }
+    friend STOPLINE_INLINE Mask operator==(const P& a, const P& b) { return {a.v == b.v}; }
 };
+// In single precision.
+template <int kWidth>
+using Packed = PackedOf<float, kWidth>;
 
 using Single = Packed<1>;
 using Batch = Packed<kBatchWidth>;
@@ -100,7 +108,11 @@ inline constexpr bool kIsPacked = !std::is_same_v<R, double>;
 
 template <int kWidth>
 STOPLINE_INLINE Packed<kWidth> packed(const Vector<float, kWidth>& floats) {
-    return {floats, typename Packed<kWidth>::FromFloats{}};
+    return {floats, typename Packed<kWidth>::FromNumbers{}};
+}
+template <int kWidth>
+STOPLINE_INLINE PackedOf<double, kWidth> packed(const Vector<double, kWidth>& doubles) {
+    return {doubles, typename PackedOf<double, kWidth>::FromNumbers{}};
 }
 
 // The same number in every lane.
@@ -110,10 +122,16 @@ STOPLINE_INLINE R splat(double value) {
 }
 
 STOPLINE_INLINE double select(bool condition, double yes, double no) { return condition ? yes : no; }
-template <int kWidth>
-STOPLINE_INLINE Packed<kWidth> select(const Mask<kWidth>& condition, const Packed<kWidth>& yes,
-                                      const Packed<kWidth>& no) {
+template <class Number, int kWidth>
+STOPLINE_INLINE PackedOf<Number, kWidth> select(const MaskOf<Number, kWidth>& condition,
+                                                const PackedOf<Number, kWidth>& yes,
+                                                const PackedOf<Number, kWidth>& no) {
     return packed<kWidth>(condition.m ? yes.v : no.v);
+}
+template <class Number, int kWidth>
+STOPLINE_INLINE PackedOf<Number, kWidth> select(bool condition, const PackedOf<Number, kWidth>& yes,
+                                                const PackedOf<Number, kWidth>& no) {
+    return condition ? yes : no;
 }
 
 // Conditions that are joined or used more than once are numbers, 1 for true and 0 for false: and is a product, or the
@@ -145,12 +163,12 @@ STOPLINE_INLINE bool any(const Packed<kWidth>& flag) {
 }
 
 STOPLINE_INLINE double square_root(double value) { return std::sqrt(value); }
-template <int kWidth>
-STOPLINE_INLINE Packed<kWidth> square_root(const Packed<kWidth>& value) {
+template <class Number, int kWidth>
+STOPLINE_INLINE PackedOf<Number, kWidth> square_root(const PackedOf<Number, kWidth>& value) {
     if constexpr (kWidth == 1) {
         return packed<1>(std::sqrt(value.v));
     } else {
-        Packed<kWidth> root{};
+        PackedOf<Number, kWidth> root{};
         for (int k = 0; k < kWidth; ++k) root.v[k] = std::sqrt(value.v[k]);
         return root;
     }

@@ -17,11 +17,10 @@
 // that grows above a switching speed (SWITCH) are the variant with s_0 raised by what the policy adds at the own speed.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <utility>
 
-#include "base/random.h"
+#include "base/arithmetic.h"
 #include "base/simd.h"
 #include "driver/driver_settings.h"
 
@@ -45,59 +44,81 @@ struct Krauss {
     double equilibrium_gap_m(double speed_mps) const { return standstill_gap_m + band_m + reaction_s * speed_mps; }
 };
 
+// The same for several vehicles side by side, each with the parameters of its policy; names as above.
+template <class R>
+struct KraussSideBySide {
+    R acceleration_mps2, until_mps, transient_gap_s2, catch_up, anticipation_s, deceleration_mps2, reaction_s;
+    R standstill_gap_m, dawdling;
+    decltype(std::declval<R>() < std::declval<R>()) constant_distance;
+    R band_m, below_band;
+};
+
+// The equations, for plain numbers or several vehicles at a time (base/simd.h). Model: Krauss or KraussSideBySide.
+
 // The highest speed from which braking with b [m/s2] after the time tau [s] stops `gap_m` behind where a predecessor, braking alike from
 // `ahead_mps`, would.
-STOPLINE_INLINE double braking_speed_mps(double b, double tau, double gap_m, double ahead_mps) {
-    const double bt = b * tau;
-    const double square = bt * bt + ahead_mps * ahead_mps + 2.0 * b * gap_m;
-    return std::sqrt(std::max(square, 0.0)) - bt;
+template <class R, class Parameter>
+STOPLINE_INLINE R braking_speed_mps(const Parameter& b, const Parameter& tau, const R& gap_m, const R& ahead_mps) {
+    const auto bt = b * tau;
+    const R square = bt * bt + ahead_mps * ahead_mps + 2.0 * b * gap_m;
+    return square_root(greater(square, R(0.0))) - bt;
 }
 
 // v_safe for a net gap; `more_m`: by how much the policy raises the gap at the own speed.
-STOPLINE_INLINE double safe_speed_mps(const Krauss& k, double gap_m, double ahead_mps, double more_m) {
-    const double beyond_m = gap_m - k.standstill_gap_m - more_m;
-    const double braking = braking_speed_mps(k.deceleration_mps2, k.reaction_s, beyond_m - k.band_m, ahead_mps);
-    const double close = beyond_m > -k.band_m ? ahead_mps : k.below_band * ahead_mps;
-    return k.constant_distance && beyond_m <= 0.0 ? close : braking;
+template <class R, class Model>
+STOPLINE_INLINE R safe_speed_mps(const Model& k, const R& gap_m, const R& ahead_mps, const R& more_m) {
+    const R beyond_m = gap_m - k.standstill_gap_m - more_m;
+    const R braking = braking_speed_mps(k.deceleration_mps2, k.reaction_s, R(beyond_m - k.band_m), ahead_mps);
+    const R close = select(beyond_m > -k.band_m, ahead_mps, R(k.below_band * ahead_mps));
+    return select(k.constant_distance, select(beyond_m <= 0.0, close, braking), braking);
 }
 
 // Slower than a centimetre a second is standing: following would close the last of a gap ever more slowly and never end.
-STOPLINE_INLINE double at_rest(double speed_mps) {
+template <class R>
+STOPLINE_INLINE R at_rest(const R& speed_mps) {
     constexpr double kRest_mps = 0.01;
-    return speed_mps < kRest_mps ? 0.0 : speed_mps;
+    return select(speed_mps < kRest_mps, R(0.0), speed_mps);
 }
 
 // What a vehicle's speed depends on.
-struct KraussInput {
-    double speed_mps;
-    double gap_m;
-    double ahead_mps;   // speed of the predecessor
-    double ahead_mps2;  // its acceleration in the last step; 0 where it brakes
-    double more_m;      // see safe_speed_mps
-    double cap_mps;     // the limit, or what a stop line allows
+template <class R>
+struct KraussInputOf {
+    R speed_mps;
+    R gap_m;
+    R ahead_mps;   // speed of the predecessor
+    R ahead_mps2;  // its acceleration in the last step; 0 where it brakes
+    R more_m;      // see safe_speed_mps
+    R cap_mps;     // the limit, or what a stop line allows
 };
+using KraussInput = KraussInputOf<double>;
 
 // Whether the model's power is ever the limit: the same for all vehicles of a loop, and a division each that is spared.
 inline bool has_power_limit(const Krauss& k) { return k.until_mps < 100.0; }
 
 // `random`: in [0, 1). `power_limit`: see has_power_limit.
-template <bool power_limit = true>
-STOPLINE_INLINE double next_speed_mps(const Krauss& k, const KraussInput& in, double random, double dt) {
-    const double more_m = in.more_m + k.transient_gap_s2 * in.ahead_mps2;
-    const double ahead_mps = in.ahead_mps + k.anticipation_s * in.ahead_mps2;
-    const double safe = safe_speed_mps(k, in.gap_m, ahead_mps, more_m);
-    double share = 1.0;
-    if constexpr (power_limit) share = std::min(1.0, k.until_mps / std::max(in.speed_mps, 1e-3));
+template <bool power_limit, class R, class Model>
+STOPLINE_INLINE R speed_after_mps(const Model& k, const KraussInputOf<R>& in, const R& random, double dt) {
+    const R more_m = in.more_m + k.transient_gap_s2 * in.ahead_mps2;
+    const R ahead_mps = in.ahead_mps + k.anticipation_s * in.ahead_mps2;
+    const R safe = safe_speed_mps(k, in.gap_m, ahead_mps, more_m);
+    R acceleration = k.acceleration_mps2;
+    if constexpr (power_limit)
+        acceleration = acceleration * lesser(R(1.0), R(k.until_mps / greater(in.speed_mps, R(1e-3))));
     constexpr double kClose_m = 2.0;
-    const bool close = in.gap_m - in.more_m < k.equilibrium_gap_m(in.speed_mps) + kClose_m;
-    const double more = close ? k.catch_up : 1.0;
-    const double faster = in.speed_mps + k.acceleration_mps2 * share * more * dt;
+    const R equilibrium_m = k.standstill_gap_m + k.band_m + k.reaction_s * in.speed_mps;
+    const R more = select(in.gap_m - in.more_m < equilibrium_m + kClose_m, R(k.catch_up), R(1.0));
+    const R faster = in.speed_mps + acceleration * more * dt;
     // Models with anticipation or short gaps can ask for too little braking when a predecessor stops more suddenly than it would by
     // itself (at a conflict area): nobody drives further than to where the rear ahead was.
-    const double touch = std::max(in.gap_m, 0.0) / dt;
-    const double wanted = at_rest(std::min(std::min(std::min(safe, touch), faster), in.cap_mps));
+    const R touch = greater(in.gap_m, R(0.0)) * (1.0 / dt);
+    const R wanted = at_rest(lesser(lesser(lesser(safe, touch), faster), in.cap_mps));
     constexpr double kSlow_s = 1.0;  // vehicles slower than a x 1 s dawdle in proportion to their speed
-    return wanted - k.dawdling * dt * random * std::min(wanted, k.acceleration_mps2 * kSlow_s);
+    return wanted - k.dawdling * dt * random * lesser(wanted, R(k.acceleration_mps2 * kSlow_s));
+}
+
+// For one vehicle.
+inline double next_speed_mps(const Krauss& k, const KraussInput& in, double random, double dt) {
+    return speed_after_mps<true>(k, in, random, dt);
 }
 
 // The model of a spacing policy: one with a time gap is a Krauss model, any other the variant with constant distance; what the

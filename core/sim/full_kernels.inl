@@ -127,7 +127,7 @@ void gather(const FullStreams& streams, const Rows& radar_rows, const Rows& v2v_
         first += lane.stop - lane.begin;
     }
     for (const Imposed& imposed : lanes.imposed) {
-        g.imposed[imposed.place] = std::min(g.imposed[imposed.place], static_cast<float>(imposed.asks));
+        g.imposed[imposed.place] = std::min(g.imposed[imposed.place], static_cast<float>(imposed.asks_mps2));
     }
 }
 

@@ -120,11 +120,18 @@ int append_slot(State& state, int lane) {
     LaneBlock& block = state.blocks[at(lane)];
     if (block.count == 0) move_up(state, block);
     make_room(state, block);
-    return block.first + block.count++;
+    const int slot = block.first + block.count++;
+    VehicleArrays& v = state.vehicles;
+    if (v.has_powertrain()) return slot;
+    v.limit_mps[at(slot)] = state.plan.driven_mps(lane);
+    v.turn_m[at(slot)] = state.plan.lane(lane).turn_m;
+    v.imposed_mps[at(slot)] = kAnySpeed_mps;
+    return slot;
 }
 
 void remove_first(State& state, int lane) {
     LaneBlock& block = state.blocks[at(lane)];
+    if (!state.vehicles.has_powertrain()) state.vehicles.forget(block.first);
     ++block.first;
     --block.count;
     state.sleeps_until_green_of[at(lane)] = -1;

@@ -67,7 +67,7 @@ void join_intersections(const Model& model, Sets& sets) {
 
 }  // namespace
 
-NetworkPlan::NetworkPlan(const Model& model) {
+NetworkPlan::NetworkPlan(const Model& model) : speed_factor_(model.speed_factor) {
     const auto count = static_cast<int>(model.graph.lanes.size());
     Sets sets(at(count));
     join_intersections(model, sets);

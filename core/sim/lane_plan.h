@@ -31,6 +31,8 @@ public:
 
     const LanePlan& lane(int lane) const { return lanes_[static_cast<std::size_t>(lane)]; }
     int lanes() const { return static_cast<int>(lanes_.size()); }
+    // What vehicles of the mesoscale mode drive there at most.
+    double driven_mps(int lane) const { return speed_factor_ * this->lane(lane).limit_mps; }
     std::span<const int> route(int route) const {
         const std::size_t from = routes_from_[static_cast<std::size_t>(route)];
         return {routes_.data() + from, routes_from_[static_cast<std::size_t>(route) + 1] - from};
@@ -44,6 +46,7 @@ public:
     const std::vector<int>& order() const { return order_; }
 
 private:
+    double speed_factor_;
     std::vector<LanePlan> lanes_;
     std::vector<int> routes_;
     std::vector<std::size_t> routes_from_;

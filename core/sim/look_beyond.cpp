@@ -1,9 +1,7 @@
-// What the first vehicle of a lane sees beyond it, and what a lane asks of its vehicles.
+// What the first vehicle of a lane sees beyond it.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "sim/meso_dynamics.h"
 #include "sim/phases.h"
 
 namespace stopline {
@@ -120,112 +118,6 @@ void look_beyond_lanes(const Model& model, State& state, NetworkPart& part) {
         const double gap_m = rear_m - v.position_m[at(head)];
         v.reset_radar(head, gap_m, v.speed_mps[at(head)] - v.speed_mps[sentinel]);
     }
-}
-
-namespace {
-
-// Brings up to date who rests on a lane: those at its head that set out, and those that came to stand behind.
-void find_resting(const VehicleArrays& v, const LaneBlock& block, std::int64_t tick, Resting& resting) {
-    const auto rests = [&](int place) {
-        const std::size_t i = at(block.first + place);
-        return v.speed_mps[i] == 0.0 && v.acceleration_mps2[i] == 0.0F;
-    };
-    while (resting.from < resting.to && !rests(resting.from)) ++resting.from;
-    if (resting.from == resting.to) resting.from = resting.to = 0;
-    if (resting.imposed >= tick - 1) {
-        resting.to = resting.from;
-        return;
-    }
-    while (resting.to < block.count && rests(resting.to)) ++resting.to;
-}
-
-class LaneAdder {
-public:
-    LaneAdder(const Model& model, State& state, int lane, LaneGroup& group)
-        : model_(model),
-          state_(state),
-          v_(state.vehicles),
-          lane_(lane),
-          block_(state.blocks[at(lane)]),
-          plan_(state.plan.lane(lane)),
-          limit_mps_(model.meso ? plan_.limit_mps * model.speed_factor : plan_.limit_mps),
-          group_(group) {}
-
-    void add() {
-        ++group_.lanes_of_network;
-        if (state_.sleeps_until_green_of[at(lane_)] >= 0) return group_.protect(block_.first - 1);
-        if (!model_.meso || model_.scalar_kernels) return add(block_.first, block_.stop());
-        Resting& resting = state_.resting[at(lane_)];
-        if (last_imposed() > block_.first + resting.from) resting.imposed = state_.tick;
-        find_resting(v_, block_, state_.tick, resting);
-        if (resting.from == 0 && resting.to == block_.count && rests_before_line()) {
-            state_.sleeps_until_green_of[at(lane_)] = plan_.signal_group;
-            return group_.protect(block_.first - 1);
-        }
-        if (resting.to - resting.from <= 1) return add(block_.first, block_.stop());
-        const int rest_from = block_.first + resting.from + 1;
-        const int rest_to = block_.first + resting.to;
-        add(block_.first, rest_from);
-        group_.protect(rest_from);
-        if (rest_to < block_.stop()) add(rest_to, block_.stop());
-    }
-
-private:
-    // The first vehicle is kept where it is by its light alone.
-    bool rests_before_line() const {
-        const int first = block_.first;
-        if (plan_.signal_group < 0 || state_.stop_slot[at(lane_)] != first) return false;
-        if (state_.stop_lines[at(lane_)].stopper != v_.id[at(first)] || state_.holds[at(lane_)].count > 0) return false;
-        const double position_m = v_.position_m[at(first)];
-        const double room_m = plan_.stop_line_m - model_.driver.stop.margin_m - position_m;
-        return position_m <= plan_.stop_line_m && at_rest(stopping_speed_mps(model_, v_, first, room_m)) == 0.0;
-    }
-
-    // The last slot that has to stop for something.
-    int last_imposed() const {
-        const Holds& holds = state_.holds[at(lane_)];
-        const int held = holds.count == 0 ? -1 : holds.each[at(holds.count - 1)].slot;
-        return plan_.signal_group < 0 ? held : std::max(held, state_.stop_slot[at(lane_)]);
-    }
-
-    void add(int from, int to) {
-        if (plan_.signal_group >= 0)
-            stop_at(state_.stop_slot[at(lane_)], plan_.stop_line_m - model_.driver.stop.margin_m, from, to);
-        const Holds& holds = state_.holds[at(lane_)];
-        for (int k = 0; k < holds.count; ++k) stop_at(holds.each[at(k)].slot, holds.each[at(k)].place_m, from, to);
-        if (model_.meso && from == block_.first && v_.record[at(from)].predecessor < 0) {
-            impose(from, from, leading_speed_mps(model_, v_.speed_mps[at(from)], limit_mps_));
-        }
-        group_.lanes.push_back({from, to, plan_.turn_m, limit_mps_, static_cast<double>(plan_.sine), kAnySlot});
-        group_.vehicles += to - from;
-    }
-
-    void stop_at(int slot, double place_m, int from, int to) {
-        if (slot < from || slot >= to) return;
-        const double room_m = place_m - v_.position_m[at(slot)];
-        impose(slot, from,
-               model_.meso ? stopping_speed_mps(model_, v_, slot, room_m)
-                           : stop_at_line_mps2(model_.driver, v_.speed_mps[at(slot)], room_m));
-    }
-
-    void impose(int slot, int from, double asks) { group_.imposed.push_back({group_.vehicles + slot - from, asks}); }
-
-    static constexpr int kAnySlot = std::numeric_limits<int>::max();
-
-    const Model& model_;
-    State& state_;
-    const VehicleArrays& v_;
-    int lane_;
-    const LaneBlock& block_;
-    const LanePlan& plan_;
-    double limit_mps_;
-    LaneGroup& group_;
-};
-
-}  // namespace
-
-void add_lane(const Model& model, State& state, int lane, LaneGroup& group) {
-    LaneAdder(model, state, lane, group).add();
 }
 
 }  // namespace stopline

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstring>
 
-#include "sim/meso_kernels.h"
+#include "base/random.h"
+#include "base/simd.h"
 #include "sim/phases.h"
 
 namespace stopline {
@@ -15,55 +15,29 @@ namespace {
 std::size_t at(int slot) { return static_cast<std::size_t>(slot); }
 
 // What policies with a gap that grows above a switching speed add to their standstill gap.
-void evaluate_more(const Model& model, int vehicles, const MesoGroup& g) {
+MesoMore evaluate_more(const Model& model, std::size_t size, const VehicleArrays& v, NetworkPart& part) {
+    const auto grows = [&](int k) {
+        return model.krauss[at(k)].constant_distance && model.policies[at(k)].settings.law != "constant_distance";
+    };
+    constexpr std::size_t kLargest = kSimdWidth;
+    part.more.clear();
     for (int k = 0; k < static_cast<int>(model.policies.size()); ++k) {
+        if (!grows(k)) continue;
         const CompiledPolicy& policy = model.policies[at(k)];
-        if (!model.krauss[at(k)].constant_distance || policy.settings.law == "constant_distance") continue;
-        for (int i = 0; i < vehicles; ++i) {
-            if (g.policy[i] != k) continue;
-            double gap_m = 0.0;
-            double slope_s = 0.0;
-            policy.law->evaluate(policy.settings, {g.speed + i, 1}, {&gap_m, 1}, {&slope_s, 1});
-            g.more[i] = gap_m - policy.settings.standstill_gap_m;
+        part.more.resize(part.blocks.size() * size, 0.0);
+        double* more = part.more.data();
+        for (const int block : part.blocks) {
+            std::array<double, kLargest> gap_m{};
+            std::array<double, kLargest> slope_s{};
+            const std::size_t from = at(block) * size;
+            policy.law->evaluate(policy.settings, {v.speed_mps.data() + from, size}, {gap_m.data(), size},
+                                 {slope_s.data(), size});
+            for (std::size_t j = 0; j < size; ++j, ++more) {
+                if (v.policy[from + j] == k) *more = gap_m[j] - policy.settings.standstill_gap_m;
+            }
         }
     }
-}
-
-// The first slot from `slot` on whose vehicle leads; several at a time.
-int next_leader(const VehicleArrays& v, int slot, int stop) {
-    for (; slot < stop; slot += 4) {
-        std::array<std::uint64_t, 2> four{};
-        std::memcpy(four.data(), &v.leads[at(slot)], sizeof four);
-        if ((four[0] | four[1]) == 0) continue;
-        while (v.leads[at(slot)] == 0.0F) ++slot;
-        return slot;
-    }
-    return stop;
-}
-
-constexpr double kAlone_m = 1e5;  // a gap without predecessor is longer
-
-// Leaders of platoons accelerate alike, whatever their policy, until following asks for less.
-void lead(const Model& model, std::span<const LaneStep> lanes, const MesoGroup& g, VehicleArrays& v) {
-    int first = 0;
-    for (const LaneStep& lane : lanes) {
-        for (int slot = next_leader(v, lane.begin, lane.stop); slot < lane.stop;
-             slot = next_leader(v, slot + 1, lane.stop)) {
-            const int k = first + slot - lane.begin;
-            const double share = g.speed[k] > model.leader_until_mps ? model.leader_until_mps / g.speed[k] : 1.0;
-            const double faster_mps = g.speed[k] + model.leader_mps2 * share * model.step_s;
-            const double drive_mps = std::min(faster_mps, g.cap[k]);
-            const double touch_mps = std::max(g.gap[k], 0.0) / model.step_s;
-            const bool alone = g.gap[k] > kAlone_m;
-            const double follows_mps =
-                alone ? touch_mps : safe_speed_mps(model.krauss[at(g.policy[k])], g.gap[k], g.ahead[k], g.more[k]);
-            const double safe_mps = std::min(follows_mps, touch_mps);
-            g.next[k] = at_rest(std::min(safe_mps, drive_mps));
-            // One that stands goes on leading until it moves.
-            if (safe_mps < faster_mps && g.next[k] > 0.0) v.leads[at(slot)] = 0.0F;
-        }
-        first += lane.count();
-    }
+    return part.more.empty() ? nullptr : part.more.data();
 }
 
 }  // namespace
@@ -81,29 +55,32 @@ double leading_speed_mps(const Model& model, double speed_mps, double limit_mps)
     return std::min(speed_mps + model.approach_share * (most_mps - speed_mps), most_mps);
 }
 
-void step_meso(const Model& model, const LaneGroup& lanes, State& state, NetworkPart& part) {
-    const MesoKernels& kernels = meso_kernels(model.scalar_kernels);
+MesoStreams meso_streams(VehicleArrays& v) {
+    return {v.position_m.data(),  v.speed_mps.data(), v.limit_mps.data(),     v.turn_m.data(),
+            v.imposed_mps.data(), v.length_m.data(),  v.end_speed_mps.data(), v.acceleration_mps2.data(),
+            v.leads.data(),       v.id.data(),        v.policy.data()};
+}
+
+MesoStep meso_step(const Model& model, std::int64_t tick) {
+    return {model.step_s,
+            dawdle_key(model.seed),
+            static_cast<std::uint64_t>(tick),
+            model.driver.deceleration_mps2,
+            model.approach_share,
+            model.turn_share,
+            model.leader_mps2,
+            model.leader_until_mps};
+}
+
+void step_meso(const Model& model, State& state, NetworkPart& part) {
     VehicleArrays& v = state.vehicles;
-    const MesoStreams streams{v.position_m.data(),       v.speed_mps.data(), v.length_m.data(),
-                              v.end_speed_mps.data(),    v.id.data(),        v.policy.data(),
-                              v.acceleration_mps2.data()};
-    const MesoGroup group = part.meso_group.streams();
-    const MesoStep step{model.step_s,
-                        dawdle_key(model.seed),
-                        static_cast<std::uint64_t>(state.tick),
-                        model.driver.deceleration_mps2,
-                        model.approach_share,
-                        model.turn_share};
-    part.violations.overlaps += kernels.gather(streams, lanes, step, group);
-    evaluate_more(model, lanes.vehicles, group);
-    const bool two = model.krauss.size() == 2;
-    if (two) kernels.follow_two(model.krauss[0], model.krauss[1], step, group, lanes.vehicles);
-    for (int k = 0; !two && k < static_cast<int>(model.krauss.size()); ++k) {
-        const int only = model.krauss.size() == 1 ? -1 : k;
-        kernels.follow(model.krauss[at(k)], step, group, lanes.vehicles, only);
-    }
-    if (model.leader_mps2 > 0.0) lead(model, lanes.lanes, group, v);
-    kernels.scatter(streams, lanes.lanes, step, group);
+    const MesoKernels& kernels = meso_kernels(model.scalar_kernels);
+    collect_blocks(model, kernels.size, state, part);
+    const MesoMore more = evaluate_more(model, static_cast<std::size_t>(kernels.size), v, part);
+    part.violations.overlaps +=
+        kernels.step(meso_streams(v), part.blocks, model.krauss, more, meso_step(model, state.tick));
+    for (const int slot : part.imposed) v.imposed_mps[at(slot)] = kAnySpeed_mps;
+    part.imposed.clear();
 }
 
 }  // namespace stopline

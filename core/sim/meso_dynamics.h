@@ -2,6 +2,9 @@
 // of the step.
 #pragma once
 
+#include <cstdint>
+
+#include "sim/meso_kernels.h"
 #include "sim/model.h"
 #include "sim/state.h"
 
@@ -13,7 +16,14 @@ double stopping_speed_mps(const Model& model, const VehicleArrays& v, int slot, 
 // The speed in the next step of a first vehicle without predecessor, on the way to what it drives at most.
 double leading_speed_mps(const Model& model, double speed_mps, double limit_mps);
 
-// One step of the vehicles on some lanes, which the part's scratch must have room for; lanes in the order of their slots.
-void step_meso(const Model& model, const LaneGroup& lanes, State& state, NetworkPart& part);
+// What the kernels take.
+MesoStreams meso_streams(VehicleArrays& vehicles);
+MesoStep meso_step(const Model& model, std::int64_t tick);
+
+// Finds out who of the part has to be moved, in blocks of `size` slots, and what is imposed on whom in this step (meso_blocks.cpp).
+void collect_blocks(const Model& model, int size, State& state, NetworkPart& part);
+
+// One step of the vehicles of the part.
+void step_meso(const Model& model, State& state, NetworkPart& part);
 
 }  // namespace stopline

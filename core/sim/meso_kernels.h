@@ -2,43 +2,20 @@
 // that the compiler vectorises; the scalar build of the same text, with that switched off, is their oracle.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 
-#include "base/huge_page_allocator.h"
 #include "driver/krauss.h"
-#include "sim/lane_step.h"
 
 namespace stopline {
-
-// Vehicles of several lanes side by side, one value a vehicle.
-struct MesoGroup {
-    double* position;                                               // on its lane
-    double *speed, *gap, *ahead, *ahead_acceleration, *more, *cap;  // see KraussInput
-    double *to_turn, *limit;                                        // distance to the next lane's limit; this lane's
-    double* next;                                                   // speed after the step
-    int *id, *policy;
-};
-
-// The memory of a group.
-class MesoGroupArrays {
-public:
-    void resize(int vehicles);
-    MesoGroup streams();
-
-private:
-    LargeArray<double> doubles_;
-    LargeArray<int> ints_;
-    std::size_t vehicles_ = 0;
-};
 
 // Plain pointers to the arrays of all vehicles, [slot].
 struct MesoStreams {
     double *position, *speed;
+    const double *limit, *turn, *imposed;
     const float *length, *end_speed;
+    float *acceleration, *leads;
     const int *id, *policy;
-    float* acceleration;
 };
 
 // What draws of this step have in common: the state of the generator before the vehicle and the tick are mixed in.
@@ -49,20 +26,23 @@ struct MesoStep {
     double slow_down_mps2;  // towards a lower limit
     double approach_share;  // of what is missing to the limit, gained in this step
     double turn_share;      // of what is missing to what the way to a turn allows
+    double leader_mps2;     // acceleration of platoon leaders; 0: that of their policy
+    double leader_until_mps;
 };
 
-struct MesoKernels {
-    using Lanes = std::span<const LaneStep>;
+// What policies with a gap that grows above a switching speed (SWITCH) add to their standstill gap, for the slots of each block in
+// turn; nullptr: nothing.
+using MesoMore = const double*;
 
+struct MesoKernels {
     const char* name;
-    // Brings the group together; returns how many overlap the vehicle ahead on their lane or, first of it, on the next.
-    int (*gather)(const MesoStreams&, const LaneGroup&, const MesoStep&, const MesoGroup&);
-    // `only`: treats vehicles of this policy; < 0: all are of the policy given.
-    void (*follow)(const Krauss&, const MesoStep&, const MesoGroup&, int vehicles, int only);
-    // The same for policies 0 and 1 in one pass.
-    void (*follow_two)(const Krauss&, const Krauss&, const MesoStep&, const MesoGroup&, int vehicles);
-    // Takes it apart again, and moves its vehicles. Lanes must be in the order of their slots, without others' vehicles between.
-    void (*scatter)(const MesoStreams&, Lanes, const MesoStep&, const MesoGroup&);
+    // Vehicles are treated in whole blocks of this many slots, in place: slots [block * size, (block + 1) * size). What is in a slot without
+    // a vehicle stays as it is.
+    int size;
+    // One step of the vehicles in these blocks, which ascend. The slot before a lane's first vehicle holds what that sees ahead. Returns how
+    // many overlap the vehicle ahead.
+    int (*step)(const MesoStreams&, std::span<const int> blocks, std::span<const Krauss> policies, MesoMore,
+                const MesoStep&);
 };
 
 const MesoKernels& meso_kernels(bool scalar);

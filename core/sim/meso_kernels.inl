@@ -1,9 +1,11 @@
-// The kernels' text. Included by one file for each build, each in a namespace of its own.
+// The kernels' text. Included by one file for each build, each in a namespace of its own, where Number is what the equations are
+// evaluated with: as many doubles as a block has slots, or one.
 #include <algorithm>
-#include <cmath>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <utility>
+#include <type_traits>
 
 #include "base/arithmetic.h"
 #include "base/random.h"
@@ -14,192 +16,212 @@ namespace stopline {
 
 namespace {
 
+// As many doubles as a register holds: a block.
+constexpr int kWide = kBatchWidth / 2;
+using Wide = PackedOf<double, kWide>;
+using Words = Vector<std::uint64_t, kWide>;
+
+template <class To, class From>
+STOPLINE_INLINE To same_bits(const From& from) {
+    To to;
+    static_assert(sizeof to == sizeof from);
+    std::memcpy(&to, &from, sizeof to);
+    return to;
+}
+
+// Slots from `from` on, as R.
+template <class R, class Stored>
+STOPLINE_INLINE R get(const Stored* from) {
+    if constexpr (std::is_same_v<R, double>) {
+        return *from;
+    } else {
+        Vector<Stored, kWide> values;
+        std::memcpy(&values, from, sizeof values);
+        return packed<kWide>(__builtin_convertvector(values, Vector<double, kWide>));
+    }
+}
+template <class Stored>
+STOPLINE_INLINE void put(Stored* to, double value) {
+    *to = static_cast<Stored>(value);
+}
+template <class Stored>
+STOPLINE_INLINE void put(Stored* to, const Wide& value) {
+    const auto values = __builtin_convertvector(value.v, Vector<Stored, kWide>);
+    std::memcpy(to, &values, sizeof values);
+}
+
+// In [0, 1), one for each vehicle.
+template <class R>
+STOPLINE_INLINE R dawdle(const MesoStep& t, const int* id) {
+    if constexpr (std::is_same_v<R, double>) {
+        return dawdle_uniform(t.key, *id, t.tick);
+    } else {
+        Vector<int, kWide> ids;
+        std::memcpy(&ids, id, sizeof ids);
+        const Words bits = dawdle_bits(t.key, __builtin_convertvector(ids, Words), t.tick);
+        return packed<kWide>(same_bits<Vector<double, kWide>>(bits)) - 1.0;
+    }
+}
+
+// The first of two policies, or each vehicle's.
+template <class R>
+STOPLINE_INLINE KraussSideBySide<R> of_two(const R& policy, const Krauss& a, const Krauss& b) {
+    const auto second = policy > 0.0;
+    const auto of = [&](double first, double other)
+                        STOPLINE_INLINE_LAMBDA { return select(second, R(other), R(first)); };
+    return {of(a.acceleration_mps2, b.acceleration_mps2),
+            of(a.until_mps, b.until_mps),
+            of(a.transient_gap_s2, b.transient_gap_s2),
+            of(a.catch_up, b.catch_up),
+            of(a.anticipation_s, b.anticipation_s),
+            of(a.deceleration_mps2, b.deceleration_mps2),
+            of(a.reaction_s, b.reaction_s),
+            of(a.standstill_gap_m, b.standstill_gap_m),
+            of(a.dawdling, b.dawdling),
+            of(a.constant_distance ? 1.0 : 0.0, b.constant_distance ? 1.0 : 0.0) > 0.5,
+            of(a.band_m, b.band_m),
+            of(a.below_band, b.below_band)};
+}
+
 // The speed of the next step on the way to a limit: at once where that is lower, else a share of what is missing.
-inline double approached(double speed_mps, double limit_mps, double share) {
-    const double gaining_mps = speed_mps + share * (limit_mps - speed_mps);
+template <class R>
+STOPLINE_INLINE R approached(const R& speed_mps, const R& limit_mps, double share) {
+    const R gaining_mps = speed_mps + share * (limit_mps - speed_mps);
     return lesser(gaining_mps, limit_mps);  // faster than allowed: share <= 1, so that gaining is no less
 }
 
 // The same on the way to a turn, whose allowed speed falls with the distance: slow_down_acceleration of full dynamics.
-inline double slowed(double speed_mps, double allowed_mps, double share, double braked_mps) {
-    return speed_mps + share * (allowed_mps - speed_mps) - braked_mps * speed_mps / greater(allowed_mps, 1.0);
+template <class R>
+STOPLINE_INLINE R slowed(const R& speed_mps, const R& allowed_mps, double share, double braked_mps) {
+    return speed_mps + share * (allowed_mps - speed_mps) - braked_mps * speed_mps / greater(allowed_mps, R(1.0));
 }
 
-constexpr int kTogether = 8;  // vehicles in the widest register
-using Doubles = Vector<double, kTogether>;
-using Floats = Vector<float, kTogether>;
-using Ints = Vector<int, kTogether>;
-
-template <class Wide, class Number>
-STOPLINE_INLINE Wide read_at(const Number* from, int i) {
-    Wide values;
-    std::memcpy(&values, from + i, sizeof values);
-    return values;
-}
-template <class Wide, class Number>
-STOPLINE_INLINE void write_at(Number* to, int i, const Wide& values) {
-    std::memcpy(to + i, &values, sizeof values);
+// The highest speed that limits allow.
+template <class R, bool at_once>
+STOPLINE_INLINE R allowed_mps(const MesoStreams& s, const MesoStep& t, int i, const R& position, const R& speed) {
+    // Towards a lower limit at the end of the lane: v^2 = v_end^2 + 2 b distance.
+    const R end_mps = get<R>(s.end_speed + i);
+    const R to_turn_m = greater(R(get<R>(s.turn + i) - position), R(0.0));
+    const R slow_mps = square_root(end_mps * end_mps + 2.0 * t.slow_down_mps2 * to_turn_m);
+    R turn_mps = slow_mps;
+    if constexpr (!at_once) turn_mps = slowed(speed, slow_mps, t.turn_share, t.slow_down_mps2 * t.dt);
+    return lesser(lesser(approached(speed, get<R>(s.limit + i), t.approach_share), turn_mps), get<R>(s.imposed + i));
 }
 
-// What a lane's vehicles know, brought together. Whole registers, so that no lane ends in a loop for single vehicles: what is written
-// beyond the lane's last vehicle is written over by the next lane's.
-STOPLINE_INLINE void gather_lane(const MesoStreams& s, const LaneStep& lane, const MesoGroup& g, int first) {
-    const auto wide = [](const float* from, int i)
-                          STOPLINE_INLINE_LAMBDA { return __builtin_convertvector(read_at<Floats>(from, i), Doubles); };
-    for (int i = lane.begin; i < lane.stop; i += kTogether) {
-        const int k = first + i - lane.begin;
-        const auto position = read_at<Doubles>(s.position, i);
-        write_at(g.position, k, position);
-        write_at(g.speed, k, read_at<Doubles>(s.speed, i));
-        write_at(g.ahead, k, read_at<Doubles>(s.speed, i - 1));
-        write_at(g.gap, k, read_at<Doubles>(s.position, i - 1) - wide(s.length, i - 1) - position);
-        write_at(g.ahead_acceleration, k, wide(s.acceleration, i - 1));
-        write_at(g.cap, k, wide(s.end_speed, i));
-        write_at(g.to_turn, k, lane.turn_m - position);
-        write_at(g.limit, k, lane.limit_mps - Doubles{});
-        write_at(g.more, k, Doubles{});
-        write_at(g.id, k, read_at<Ints>(s.id, i));
-        write_at(g.policy, k, read_at<Ints>(s.policy, i));
+// Whether the float is not zero for any of the vehicles.
+template <class R>
+STOPLINE_INLINE bool any_leads(const float* leads) {
+    if constexpr (std::is_same_v<R, double>) {
+        return *leads != 0.0F;
+    } else {
+        std::uint64_t pairs[kWide / 2];
+        std::memcpy(pairs, leads, sizeof pairs);
+        std::uint64_t all = 0;
+        for (const std::uint64_t pair : pairs) all |= pair;
+        return all != 0;
     }
 }
 
-// Fronts that are beyond the rear of their predecessor.
-inline int overlaps(const double* gap, int vehicles) {
-    constexpr double kRounding_m = 1e-6;
-    int count = 0;
-    for (int i = 0; i < vehicles; ++i) count += gap[i] < -kRounding_m ? 1 : 0;
-    return count;
+constexpr double kAlone_m = 1e5;  // a gap without predecessor is longer
+
+// Leaders of platoons accelerate alike, whatever their policy, until following asks for less. One that stands goes on leading
+// until it moves. `next`: what the others do; `mine`: 1 for those that are treated.
+template <class R, class Model>
+STOPLINE_INLINE R lead(const Model& k, const MesoStep& t, const KraussInputOf<R>& in, const R& next, const R& mine,
+                       float* leads) {
+    const R share = t.leader_until_mps / greater(in.speed_mps, R(t.leader_until_mps));
+    const R faster_mps = in.speed_mps + t.leader_mps2 * share * t.dt;
+    const R touch_mps = greater(in.gap_m, R(0.0)) * (1.0 / t.dt);
+    const R safe_mps = lesser(safe_speed_mps(k, in.gap_m, in.ahead_mps, in.more_m), touch_mps);
+    const R follows_mps = select(in.gap_m > kAlone_m, touch_mps, safe_mps);
+    const R leading = at_rest(lesser(follows_mps, lesser(faster_mps, in.cap_mps)));
+    const R led = get<R>(leads);
+    const R ends = STOPLINE_FLAG(R, follows_mps < faster_mps) * STOPLINE_FLAG(R, leading > 0.0) * mine;
+    put(leads, led * (1.0 - ends));
+    return choose(R(led * mine), leading, next);
 }
 
-// The highest speeds that limits allow.
-template <bool at_once>
-inline void limit_speeds(const MesoStep& step, const MesoGroup& group, int vehicles) {
-    const MesoStep t = step;
-    const double braked_mps = t.slow_down_mps2 * t.dt;
-    const double* __restrict const speed = group.speed;
-    const double* __restrict const limit = group.limit;
-    const double* __restrict const to_turn = group.to_turn;
-    double* __restrict const ahead_acceleration = group.ahead_acceleration;
-    double* __restrict const cap = group.cap;
-    for (int i = 0; i < vehicles; ++i) {
-        // Towards a lower limit at the end of the lane: v^2 = v_end^2 + 2 b distance.
-        const double end_mps = cap[i];
-        const double slow_mps = std::sqrt(end_mps * end_mps + 2.0 * t.slow_down_mps2 * greater(to_turn[i], 0.0));
-        const double turn_mps = at_once ? slow_mps : slowed(speed[i], slow_mps, t.turn_share, braked_mps);
-        cap[i] = lesser(approached(speed[i], limit[i], t.approach_share), turn_mps);
-        ahead_acceleration[i] = greater(ahead_acceleration[i], 0.0);
-    }
-}
+constexpr double kNoMore[kWide] = {};
 
-inline int gather(const MesoStreams& streams, const LaneGroup& lanes, const MesoStep& step, const MesoGroup& group) {
-    const MesoStreams s = streams;  // own copies: nothing that is written here can change them
-    const MesoGroup g = group;
-    int vehicles = 0;
-    for (const LaneStep& lane : lanes.lanes) {
-        gather_lane(s, lane, g, vehicles);
-        vehicles += lane.stop - lane.begin;
-    }
-    const int in_registers = (vehicles + kTogether - 1) / kTogether * kTogether;
-    const auto limit = step.turn_share >= 1.0 ? limit_speeds<true> : limit_speeds<false>;
-    limit(step, g, in_registers);
-    for (const Imposed& imposed : lanes.imposed) g.cap[imposed.place] = std::min(g.cap[imposed.place], imposed.asks);
-    return overlaps(g.gap, vehicles);
-}
-
-template <bool power_limit>
-inline void follow_with(const Krauss& model, const MesoStep& step, const MesoGroup& group, int vehicles, int only) {
-    const Krauss k = model;
-    const MesoStep t = step;
-    const double* __restrict const speed = group.speed;
-    const double* __restrict const gap = group.gap;
-    const double* __restrict const ahead = group.ahead;
-    const double* __restrict const ahead_mps2 = group.ahead_acceleration;
-    const double* __restrict const more = group.more;
-    const double* __restrict const cap = group.cap;
-    const int* __restrict const id = group.id;
-    const int* __restrict const policy = group.policy;
-    double* __restrict const next = group.next;
-    const auto next_of = [&](int i) STOPLINE_INLINE_LAMBDA {
-        const KraussInput in{speed[i], gap[i], ahead[i], ahead_mps2[i], more[i], cap[i]};
-        return next_speed_mps<power_limit>(k, in, dawdle_uniform(t.key, id[i], t.tick), t.dt);
+// Returns how many overlap who is ahead, for each place in R.
+template <class R, int policies, bool power_limit, bool at_once>
+STOPLINE_INLINE R step_slots(const MesoStreams& s, int i, std::span<const Krauss> models, const double* more,
+                             const MesoStep& t) {
+    const R position = get<R>(s.position + i);
+    const R speed = get<R>(s.speed + i);
+    const KraussInputOf<R> in{speed,
+                              get<R>(s.position + i - 1) - get<R>(s.length + i - 1) - position,
+                              get<R>(s.speed + i - 1),
+                              greater(get<R>(s.acceleration + i - 1), R(0.0)),
+                              get<R>(more),
+                              allowed_mps<R, at_once>(s, t, i, position, speed)};
+    const R random = dawdle<R>(t, s.id + i);
+    const bool leaders = t.leader_mps2 > 0.0 && any_leads<R>(s.leads + i);
+    const R policy = get<R>(s.policy + i);
+    R next = speed;
+    const auto drive = [&](const auto& model, const R& mine) STOPLINE_INLINE_LAMBDA {
+        R following = speed_after_mps<power_limit>(model, in, random, t.dt);
+        if (leaders) following = lead(model, t, in, following, mine, s.leads + i);
+        return following;
     };
-    if (only < 0) {
-        for (int i = 0; i < vehicles; ++i) next[i] = next_of(i);
-        return;
+    if constexpr (policies == 1) {
+        next = drive(models[0], R(1.0));
+    } else if constexpr (policies == 2) {
+        next = drive(of_two(policy, models[0], models[1]), R(1.0));
+    } else {
+        for (std::size_t k = 0; k < models.size(); ++k) {
+            const R mine = STOPLINE_FLAG(R, policy == static_cast<double>(k));
+            next = choose(mine, drive(models[k], mine), next);
+        }
     }
-    for (int i = 0; i < vehicles; ++i) {
-        const double mine = next_of(i);
-        next[i] = policy[i] == only ? mine : next[i];
-    }
+    constexpr double kRounding_m = 1e-6;
+    const R there = STOPLINE_FLAG(R, get<R>(s.id + i) >= 0.0);
+    const R after = choose(there, next, speed);
+    put(s.acceleration + i, choose(there, R((after - speed) * (1.0 / t.dt)), get<R>(s.acceleration + i)));
+    put(s.speed + i, after);
+    put(s.position + i, R(position + choose(there, R(next * t.dt), R(0.0))));
+    return there * STOPLINE_FLAG(R, in.gap_m < -kRounding_m);
 }
 
-inline void follow(const Krauss& model, const MesoStep& step, const MesoGroup& group, int vehicles, int only) {
-    const auto loop = has_power_limit(model) ? follow_with<true> : follow_with<false>;
-    loop(model, step, group, vehicles, only);
+STOPLINE_INLINE double sum(double value) { return value; }
+STOPLINE_INLINE double sum(const Wide& values) {
+    double all = 0.0;
+    for (int j = 0; j < kWide; ++j) all += values.v[j];
+    return all;
 }
 
-// Each vehicle with the parameters of its policy.
-inline void follow_two(const Krauss& zero, const Krauss& one, const MesoStep& step, const MesoGroup& group,
-                       int vehicles) {
-    const Krauss a = zero;
-    const Krauss b = one;
+// From the last block to the first: a block's vehicles react to the last one of the block before, as it was.
+template <class R, int policies, bool power_limit, bool at_once>
+inline int step_blocks(const MesoStreams& streams, std::span<const int> blocks, std::span<const Krauss> models,
+                       MesoMore all_more, const MesoStep& step) {
+    constexpr int kSize = std::is_same_v<R, double> ? 1 : kWide;
+    const MesoStreams s = streams;  // own copies: nothing that is written here can change them
     const MesoStep t = step;
-    const double* __restrict const speed = group.speed;
-    const double* __restrict const gap = group.gap;
-    const double* __restrict const ahead = group.ahead;
-    const double* __restrict const ahead_mps2 = group.ahead_acceleration;
-    const double* __restrict const more = group.more;
-    const double* __restrict const cap = group.cap;
-    const int* __restrict const id = group.id;
-    const int* __restrict const policy = group.policy;
-    double* __restrict const next = group.next;
-    for (int i = 0; i < vehicles; ++i) {
-        const bool second = policy[i] != 0;
-        const auto of = [&](double first, double other) STOPLINE_INLINE_LAMBDA { return second ? other : first; };
-        Krauss k;
-        k.acceleration_mps2 = of(a.acceleration_mps2, b.acceleration_mps2);
-        k.until_mps = of(a.until_mps, b.until_mps);
-        k.transient_gap_s2 = of(a.transient_gap_s2, b.transient_gap_s2);
-        k.catch_up = of(a.catch_up, b.catch_up);
-        k.anticipation_s = of(a.anticipation_s, b.anticipation_s);
-        k.deceleration_mps2 = of(a.deceleration_mps2, b.deceleration_mps2);
-        k.reaction_s = of(a.reaction_s, b.reaction_s);
-        k.standstill_gap_m = of(a.standstill_gap_m, b.standstill_gap_m);
-        k.dawdling = of(a.dawdling, b.dawdling);
-        k.constant_distance = second ? b.constant_distance : a.constant_distance;
-        k.band_m = of(a.band_m, b.band_m);
-        k.below_band = of(a.below_band, b.below_band);
-        const KraussInput in{speed[i], gap[i], ahead[i], ahead_mps2[i], more[i], cap[i]};
-        next[i] = next_speed_mps<true>(k, in, dawdle_uniform(t.key, id[i], t.tick), t.dt);
+    R overlaps = 0.0;
+    for (std::size_t n = blocks.size(); n-- > 0;) {
+        const double* const more = all_more == nullptr ? kNoMore : all_more + n * kSize;
+        overlaps += step_slots<R, policies, power_limit, at_once>(s, blocks[n] * kSize, models, more, t);
     }
+    return static_cast<int>(sum(overlaps));
 }
 
-// Takes the group apart, in whole registers too: lanes are in the order of memory, so that what is written beyond one of them is free
-// or written over by the next. The last lane of the group ends exactly.
-inline void scatter(const MesoStreams& streams, MesoKernels::Lanes lanes, const MesoStep& step,
-                    const MesoGroup& group) {
-    const MesoStreams s = streams;
-    const MesoGroup g = group;
-    const double dt = step.dt;
-    const double rate_1ps = 1.0 / dt;
-    int first = 0;
-    for (const LaneStep& lane : lanes) {
-        int i = lane.begin;
-        int k = first;
-        for (; i < lane.stop && i + kTogether <= lane.free_until; i += kTogether, k += kTogether) {
-            const auto next = read_at<Doubles>(g.next, k);
-            const auto acceleration = (next - read_at<Doubles>(g.speed, k)) * rate_1ps;
-            write_at(s.acceleration, i, __builtin_convertvector(acceleration, Floats));
-            write_at(s.speed, i, next);
-            write_at(s.position, i, read_at<Doubles>(g.position, k) + next * dt);
+template <class R>
+inline int step(const MesoStreams& streams, std::span<const int> blocks, std::span<const Krauss> models, MesoMore more,
+                const MesoStep& t) {
+    const bool power_limit = std::any_of(models.begin(), models.end(), has_power_limit);
+    const bool at_once = t.turn_share >= 1.0;
+    const auto with = [&](auto policies) {
+        constexpr int n = policies;
+        if (power_limit) {
+            return at_once ? step_blocks<R, n, true, true>(streams, blocks, models, more, t)
+                           : step_blocks<R, n, true, false>(streams, blocks, models, more, t);
         }
-        for (; i < lane.stop; ++i, ++k) {
-            s.acceleration[i] = static_cast<float>((g.next[k] - g.speed[k]) * rate_1ps);
-            s.speed[i] = g.next[k];
-            s.position[i] = g.position[k] + g.next[k] * dt;
-        }
-        first += lane.stop - lane.begin;
-    }
+        return at_once ? step_blocks<R, n, false, true>(streams, blocks, models, more, t)
+                       : step_blocks<R, n, false, false>(streams, blocks, models, more, t);
+    };
+    if (models.size() == 1) return with(std::integral_constant<int, 1>());
+    if (models.size() == 2) return with(std::integral_constant<int, 2>());
+    return with(std::integral_constant<int, 0>());
 }
 
 }  // namespace

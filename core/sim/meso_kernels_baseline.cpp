@@ -4,6 +4,6 @@
 namespace stopline {
 
 extern const MesoKernels kBaselineMesoKernels;
-const MesoKernels kBaselineMesoKernels{"baseline", gather, follow, follow_two, scatter};
+const MesoKernels kBaselineMesoKernels{"baseline", kWide, step<Wide>};
 
 }  // namespace stopline

@@ -4,6 +4,6 @@
 namespace stopline {
 
 extern const MesoKernels kScalarMesoKernels;
-const MesoKernels kScalarMesoKernels{"scalar", gather, follow, follow_two, scatter};
+const MesoKernels kScalarMesoKernels{"scalar", 1, step<double>};
 
 }  // namespace stopline

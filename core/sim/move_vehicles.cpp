@@ -1,4 +1,4 @@
-// Lanes go through the kernels in groups that fit into the first-level cache.
+// Everybody moves. Full dynamics: lanes go through the kernels in groups that fit into the first-level cache.
 #include <utility>
 
 #include "sim/full_dynamics.h"
@@ -9,38 +9,60 @@ namespace stopline {
 
 namespace {
 
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+void add_lane(const Model& model, const State& state, int lane, LaneGroup& group) {
+    const VehicleArrays& v = state.vehicles;
+    const LaneBlock& block = state.blocks[at(lane)];
+    const LanePlan& plan = state.plan.lane(lane);
+    const auto stop_at = [&](int slot, double place_m) {
+        const double room_m = place_m - v.position_m[at(slot)];
+        group.imposed.push_back(
+            {group.vehicles + slot - block.first, stop_at_line_mps2(model.driver, v.speed_mps[at(slot)], room_m)});
+    };
+    if (plan.signal_group >= 0 && state.stop_slot[at(lane)] >= 0) {
+        stop_at(state.stop_slot[at(lane)], plan.stop_line_m - model.driver.stop.margin_m);
+    }
+    const Holds& holds = state.holds[at(lane)];
+    for (int k = 0; k < holds.count; ++k) stop_at(holds.each[at(k)].slot, holds.each[at(k)].place_m);
+    group.lanes.push_back({block.first, block.stop(), plan.turn_m, plan.limit_mps, static_cast<double>(plan.sine)});
+    group.vehicles += block.count;
+}
+
 // The lanes from the k-th occupied one on that make up a group.
-void collect_group(const Model& model, State& state, const NetworkPart& part, std::size_t& k, LaneGroup& group) {
+void collect_group(const Model& model, const State& state, const NetworkPart& part, std::size_t& k, LaneGroup& group) {
     group.clear();
     for (; k < part.occupied.size() && group.vehicles < NetworkPart::kVehiclesTogether; ++k) {
         add_lane(model, state, part.occupied[k], group);
     }
-    if (!group.lanes.empty()) group.protect(group.lanes.back().stop);
 }
 
-}  // namespace
-
-void move_vehicles(const Model& model, const FullTables& tables, State& state, NetworkPart& part) {
+void step_full_groups(const Model& model, const FullTables& tables, State& state, NetworkPart& part) {
     LaneGroup& group = part.groups[0];
     LaneGroup& next = part.groups[1];
     const bool prefetch = state.outgrows_cache();
     std::size_t seen = 0;
     collect_group(model, state, part, seen, group);
-    part.ended.clear();
-    for (std::size_t done = 0; !group.lanes.empty();) {
+    while (!group.lanes.empty()) {
         collect_group(model, state, part, seen, next);
-        if (model.meso) {
-            step_meso(model, group, state, part);
-        } else {
-            step_full(model, tables, group,
-                      prefetch ? std::span<const LaneStep>(next.lanes) : std::span<const LaneStep>(), state, part);
-        }
-        for (const std::size_t stop = done + static_cast<std::size_t>(group.lanes_of_network); done < stop; ++done) {
-            const int lane = part.occupied[done];
-            const auto first = static_cast<std::size_t>(state.blocks[static_cast<std::size_t>(lane)].first);
-            if (state.vehicles.position_m[first] >= state.plan.lane(lane).length_m) part.ended.push_back(lane);
-        }
+        step_full(model, tables, group, prefetch ? std::span<const LaneStep>(next.lanes) : std::span<const LaneStep>(),
+                  state, part);
         std::swap(group, next);
+    }
+}
+
+}  // namespace
+
+void move_vehicles(const Model& model, const FullTables& tables, State& state, NetworkPart& part) {
+    if (model.meso) {
+        step_meso(model, state, part);
+    } else {
+        step_full_groups(model, tables, state, part);
+    }
+    part.ended.clear();
+    for (const int lane : part.awake) {
+        const int first = state.blocks[at(lane)].first;
+        if (state.vehicles.position_m[at(first)] >= state.plan.lane(lane).length_m) part.ended.push_back(lane);
     }
 }
 

@@ -136,6 +136,7 @@ void move_blocked_on(const Model& model, State& state) {
         state.vehicles.move(gone + 1, limbo.stop() - gone - 1, gone);
         state.removed.erase(state.removed.begin() + k);
         --limbo.count;
+        state.vehicles.forget(limbo.stop());
     }
     for (const NetworkPart& part : state.parts) {
         for (const int lane : part.occupied) {

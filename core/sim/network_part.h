@@ -10,7 +10,6 @@
 #include "sim/full_group.h"
 #include "sim/hindrance.h"
 #include "sim/lane_step.h"
-#include "sim/meso_kernels.h"
 
 namespace stopline {
 
@@ -58,7 +57,10 @@ struct NetworkPart {
     static constexpr int kVehiclesTogether = 128;
     std::array<LaneGroup, 2> groups;  // at work and next
     FullGroupArrays full_group;
-    MesoGroupArrays meso_group;
+    // Mesoscale mode (meso_kernels.h): blocks of slots with vehicles to move, slots on which something is imposed, and MesoMore.
+    std::vector<int> blocks;
+    std::vector<int> imposed;
+    std::vector<double> more;
 };
 
 }  // namespace stopline

@@ -33,9 +33,6 @@ void verify(State& state);
 // Fronts that are beyond the rear of their predecessor on the same lane.
 std::int64_t overlaps(const VehicleArrays& vehicles, std::span<const LaneStep> lanes);
 
-// Adds a lane to those that go through the kernels together.
-void add_lane(const Model& model, State& state, int lane, LaneGroup& group);
-
 // A vehicle this near to a conflict area must know whether it can go on.
 double decides_within_m(const Model& model, double speed_mps);
 

@@ -119,8 +119,8 @@ struct State {
     std::vector<std::vector<Insider>> insiders;  // [lane inside an intersection], from the front
     std::vector<OthersInside> others_inside;     // [lane inside an intersection]
     std::vector<char> deciding;  // [lane inside an intersection] 1: somebody on it or before it may have to wait
-    std::vector<std::vector<int>> coming;        // [lane inside an intersection] slots before it that are near
-    std::vector<Resting> resting;                // [lane] mesoscale mode
+    std::vector<std::vector<int>> coming;  // [lane inside an intersection] slots before it that are near
+    std::vector<Resting> resting;          // [lane] mesoscale mode
     // [lane] mesoscale mode: the signal group before which all its vehicles rest, so that nothing happens there before it is green or
     // somebody comes; -1: awake.
     std::vector<int> sleeps_until_green_of;

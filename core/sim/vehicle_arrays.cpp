@@ -15,6 +15,11 @@ void VehicleArrays::for_each_powertrain(Visit visit) {
     visit(request_mps2), visit(torque_Nm), visit(brake_N), visit(gear_time_s), visit(lag_s), visit(gear);
 }
 
+template <class Visit>
+void VehicleArrays::for_each_of_lane(Visit visit) {
+    visit(limit_mps), visit(turn_m), visit(imposed_mps);
+}
+
 void VehicleArrays::resize(int slot_count, int radar_row_count, int v2v_row_count) {
     slots = slot_count;
     radar_rows = radar_row_count;
@@ -31,12 +36,18 @@ void VehicleArrays::resize(int slot_count, int radar_row_count, int v2v_row_coun
 }
 
 void VehicleArrays::reserve(int slot_count) {
-    for_each_common([slot_count](auto& array) { array.reserve(static_cast<std::size_t>(slot_count)); });
+    const auto reserved = [slot_count](auto& array) { array.reserve(static_cast<std::size_t>(slot_count)); };
+    for_each_common(reserved);
+    for_each_of_lane(reserved);
 }
 
 void VehicleArrays::grow(int slot_count) {
     slots = slot_count;
-    for_each_common([slot_count](auto& array) { array.resize(static_cast<std::size_t>(slot_count)); });
+    id.resize(static_cast<std::size_t>(slot_count), -1);
+    imposed_mps.resize(static_cast<std::size_t>(slot_count), kAnySpeed_mps);
+    const auto resized = [slot_count](auto& array) { array.resize(static_cast<std::size_t>(slot_count)); };
+    for_each_common(resized);
+    for_each_of_lane(resized);
 }
 
 void VehicleArrays::copy(int from, int to) {
@@ -69,7 +80,14 @@ void VehicleArrays::move(int from, int count, int to) {
         }
     };
     for_each_common([&](auto& array) { moved(array, 0); });
-    if (!has_powertrain()) return;
+    if (!has_powertrain()) {
+        for_each_of_lane([&](auto& array) { moved(array, 0); });
+        const auto vacated = [&](int slot) { return slot < to || slot >= to + count; };
+        for (int slot = from; slot < from + count; ++slot) {
+            if (vacated(slot)) forget(slot);
+        }
+        return;
+    }
     for_each_powertrain([&](auto& array) { moved(array, 0); });
     for (int r = 0; r < radar_rows; ++r) moved(radar_gap_m, r), moved(radar_closing_mps, r);
     for (int r = 0; r < v2v_rows; ++r) {

@@ -46,7 +46,12 @@ struct VehicleArrays {
     LargeArray<float> end_speed_mps;  // limit at the end of the lane, for the route
     LargeArray<float> leads;          // 1: free start-up profile (leader of a platoon), 0: follower
     LargeArray<int> policy;
-    LargeArray<int> id;
+    LargeArray<int> id;  // mesoscale mode: -1 where there is no vehicle
+    // Mesoscale mode only, empty in full dynamics: what the lane asks of the vehicle. It stays when the vehicle goes to another lane.
+    LargeArray<double> limit_mps;  // highest speed on it
+    LargeArray<double> turn_m;     // where end_speed_mps begins to hold, from its start
+    LargeArray<double>
+        imposed_mps;  // highest speed of this step, for a stop line, giving way, or leading; else kAnySpeed_mps
     // Full dynamics only, empty in the mesoscale mode.
     LargeArray<float> request_mps2;  // u: the acceleration asked for in the last step
     LargeArray<float> torque_Nm;
@@ -76,10 +81,12 @@ struct VehicleArrays {
     void reserve(int slot_count);
     void grow(int slot_count);
     bool has_powertrain() const { return v2v_rows > 0; }
-    // Copies all of one vehicle to another slot.
+    // Copies all of one vehicle to a slot of another lane.
     void copy(int from, int to);
-    // Moves vehicles in consecutive slots to others.
+    // Moves vehicles in consecutive slots to others of the same lane.
     void move(int from, int count, int to);
+    // Where there is no vehicle any more.
+    void forget(int slot) { id[static_cast<std::size_t>(slot)] = -1; }
     // As a vehicle that has driven like this for long.
     void reset_powertrain(int slot, const PowertrainTables& vehicle, double speed);
     // Fills the past of a vehicle: radar with one measurement, V2V with its present state.
@@ -95,6 +102,10 @@ private:
     void for_each_common(Visit visit);
     template <class Visit>
     void for_each_powertrain(Visit visit);
+    template <class Visit>
+    void for_each_of_lane(Visit visit);
 };
+
+inline constexpr double kAnySpeed_mps = 1e9;
 
 }  // namespace stopline

@@ -1,0 +1,131 @@
+// Which vehicles of the mesoscale mode have to be moved in a step, and what is imposed on whom.
+//
+// Vehicles that stand, one behind the other, and all vehicles of a lane that rest before a red light are left out: nothing that they
+// react to changes.
+#include <algorithm>
+
+#include "sim/meso_dynamics.h"
+#include "sim/phases.h"
+
+namespace stopline {
+
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+// Brings up to date who rests on a lane: those at its head that set out, and those that came to stand behind.
+void find_resting(const VehicleArrays& v, const LaneBlock& block, std::int64_t tick, Resting& resting) {
+    const auto rests = [&](int place) {
+        const std::size_t i = at(block.first + place);
+        return v.speed_mps[i] == 0.0 && v.acceleration_mps2[i] == 0.0F;
+    };
+    while (resting.from < resting.to && !rests(resting.from)) ++resting.from;
+    if (resting.from == resting.to) resting.from = resting.to = 0;
+    if (resting.imposed >= tick - 1) {
+        resting.to = resting.from;
+        return;
+    }
+    while (resting.to < block.count && rests(resting.to)) ++resting.to;
+}
+
+class Collector {
+public:
+    Collector(const Model& model, int size, State& state, NetworkPart& part, int lane)
+        : model_(model),
+          size_(size),
+          state_(state),
+          v_(state.vehicles),
+          part_(part),
+          lane_(lane),
+          block_(state.blocks[at(lane)]),
+          plan_(state.plan.lane(lane)),
+          stop_slot_(plan_.signal_group < 0 ? -1 : state.stop_slot[at(lane)]),
+          holds_(state.holds[at(lane)]) {}
+
+    void collect() {
+        const int first = block_.first;
+        v_.imposed_mps[at(first)] = kAnySpeed_mps;  // if the lane has slept
+        if (model_.scalar_kernels) {
+            impose_all();
+            return add(first, block_.stop());
+        }
+        Resting& resting = state_.resting[at(lane_)];
+        if (last_imposed() > first + resting.from) resting.imposed = state_.tick;
+        find_resting(v_, block_, state_.tick, resting);
+        if (resting.from == 0 && resting.to == block_.count && rests_before_line()) {
+            state_.sleeps_until_green_of[at(lane_)] = plan_.signal_group;
+            // Others in the same block are moved.
+            v_.imposed_mps[at(first)] = 0.0;
+            return;
+        }
+        impose_all();
+        if (resting.to - resting.from <= 1) return add(first, block_.stop());
+        add(first, first + resting.from + 1);
+        add(first + resting.to, block_.stop());
+    }
+
+private:
+    // The last slot that has to stop for something.
+    int last_imposed() const {
+        return std::max(stop_slot_, holds_.count == 0 ? -1 : holds_.each[at(holds_.count - 1)].slot);
+    }
+
+    double room_to_line_m(int slot) const {
+        return plan_.stop_line_m - model_.driver.stop.margin_m - v_.position_m[at(slot)];
+    }
+
+    // The first vehicle is kept where it is by its light alone.
+    bool rests_before_line() const {
+        const int first = block_.first;
+        if (stop_slot_ != first || state_.stop_lines[at(lane_)].stopper != v_.id[at(first)]) return false;
+        if (holds_.count > 0 || v_.position_m[at(first)] > plan_.stop_line_m) return false;
+        return at_rest(stopping_speed_mps(model_, v_, first, room_to_line_m(first))) == 0.0;
+    }
+
+    void impose_all() {
+        if (stop_slot_ >= 0) impose(stop_slot_, stopping_speed_mps(model_, v_, stop_slot_, room_to_line_m(stop_slot_)));
+        for (int k = 0; k < holds_.count; ++k) {
+            const Hold& hold = holds_.each[at(k)];
+            const double room_m = hold.place_m - v_.position_m[at(hold.slot)];
+            impose(hold.slot, stopping_speed_mps(model_, v_, hold.slot, room_m));
+        }
+        const int first = block_.first;
+        if (v_.record[at(first)].predecessor < 0) {
+            impose(first, leading_speed_mps(model_, v_.speed_mps[at(first)], v_.limit_mps[at(first)]));
+        }
+    }
+
+    void impose(int slot, double asks_mps) {
+        v_.imposed_mps[at(slot)] = std::min(v_.imposed_mps[at(slot)], asks_mps);
+        part_.imposed.push_back(slot);
+    }
+
+    // Lanes are in the order of their slots.
+    void add(int from, int to) {
+        if (from == to) return;
+        const int last = part_.blocks.empty() ? -1 : part_.blocks.back();
+        for (int block = std::max(from / size_, last + 1); block <= (to - 1) / size_; ++block) {
+            part_.blocks.push_back(block);
+        }
+    }
+
+    const Model& model_;
+    int size_;  // slots of a block
+    State& state_;
+    VehicleArrays& v_;
+    NetworkPart& part_;
+    int lane_;
+    const LaneBlock& block_;
+    const LanePlan& plan_;
+    int stop_slot_;
+    const Holds& holds_;
+};
+
+}  // namespace
+
+void collect_blocks(const Model& model, int size, State& state, NetworkPart& part) {
+    part.blocks.clear();
+    for (const int lane : part.awake) Collector(model, size, state, part, lane).collect();
+}
+
+}  // namespace stopline
