@@ -85,6 +85,34 @@ TEST(Resting, ChangesNothing) {
     }
 }
 
+// Slots without a vehicle say so, and on a sleeping lane somebody waits for the light.
+TEST(Slots, WithoutAVehicleHaveNoId) {
+    const Model model = crowded("meso", 2);
+    Simulation simulation(model, 2);
+    bool slept = false;
+    while (simulation.time_s() < 300.0) {
+        for (int k = 0; k < 37; ++k) simulation.step();
+        const State& state = simulation.state();
+        std::vector<bool> taken(static_cast<std::size_t>(state.vehicles.slots), false);
+        const auto take = [&](const LaneBlock& block) {
+            for (int slot = block.first; slot < block.stop(); ++slot) taken[static_cast<std::size_t>(slot)] = true;
+        };
+        for (const LaneBlock& block : state.blocks) take(block);
+        take(state.limbo);
+        for (std::size_t slot = 0; slot < taken.size(); ++slot) ASSERT_EQ(state.vehicles.id[slot] >= 0, taken[slot]);
+        for (std::size_t lane = 0; lane < state.blocks.size(); ++lane) {
+            if (state.sleeps_until_green_of[lane] < 0) continue;
+            slept = true;
+            const LaneBlock& block = state.blocks[lane];
+            EXPECT_EQ(state.stop_lines[lane].stopper, state.vehicles.id[static_cast<std::size_t>(block.first)]);
+            for (int slot = block.first; slot < block.stop(); ++slot) {
+                EXPECT_EQ(state.vehicles.speed_mps[static_cast<std::size_t>(slot)], 0.0);
+            }
+        }
+    }
+    EXPECT_TRUE(slept);
+}
+
 // Nobody is left out who could be in two parts, or in none.
 TEST(Parts, ShareOutAllLanesByWholeIntersections) {
     const Model model = crowded("meso", 0);
