@@ -1,7 +1,7 @@
 // Which vehicles of the mesoscale mode have to be moved in a step, and what is imposed on whom.
 //
-// Vehicles that stand, one behind the other, and all vehicles of a lane that rest before a red light are left out: nothing that they
-// react to changes.
+// Vehicles that stand, one behind the other, are left out: nothing that they react to changes. A lane whose first vehicle rests before a
+// red light sleeps: there is nothing to decide on it.
 #include <algorithm>
 
 #include "sim/meso_dynamics.h"
@@ -44,19 +44,24 @@ public:
 
     void collect() {
         const int first = block_.first;
+        Resting& resting = state_.resting[at(lane_)];
+        int& sleeps = state_.sleeps_until_green_of[at(lane_)];
+        if (sleeps >= 0) {
+            if (resting.to == block_.count) return;
+            find_resting(v_, block_, state_.tick, resting);
+            return add(first + resting.to, block_.stop());
+        }
         v_.imposed_mps[at(first)] = kAnySpeed_mps;  // if the lane has slept
         if (model_.scalar_kernels) {
             impose_all();
             return add(first, block_.stop());
         }
-        Resting& resting = state_.resting[at(lane_)];
         if (last_imposed() > first + resting.from) resting.imposed = state_.tick;
         find_resting(v_, block_, state_.tick, resting);
-        if (resting.from == 0 && resting.to == block_.count && rests_before_line()) {
-            state_.sleeps_until_green_of[at(lane_)] = plan_.signal_group;
-            // Others in the same block are moved.
-            v_.imposed_mps[at(first)] = 0.0;
-            return;
+        if (resting.from == 0 && resting.to > 0 && rests_before_line()) {
+            sleeps = plan_.signal_group;
+            v_.imposed_mps[at(first)] = 0.0;  // others in its block are moved
+            return add(first + resting.to, block_.stop());
         }
         impose_all();
         if (resting.to - resting.from <= 1) return add(first, block_.stop());
@@ -125,7 +130,7 @@ private:
 
 void collect_blocks(const Model& model, int size, State& state, NetworkPart& part) {
     part.blocks.clear();
-    for (const int lane : part.awake) Collector(model, size, state, part, lane).collect();
+    for (const int lane : part.occupied) Collector(model, size, state, part, lane).collect();
 }
 
 }  // namespace stopline

@@ -36,7 +36,7 @@ struct NetworkPart {
     std::vector<int> detectors;  // on the lanes
     // In this step.
     std::vector<int> occupied;       // lanes with vehicles
-    std::vector<int> awake;          // those of them where something can happen (State::sleeps_until_green_of)
+    std::vector<int> awake;          // those of them where there is something to decide (State::sleeps_until_green_of)
     std::vector<int> awake_before;   // the same with a stop line
     std::vector<int> awake_inside;   // the same inside an intersection
     std::vector<int> with_insiders;  // lanes inside with vehicles on them, before or behind

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 
+#include "base/arithmetic.h"
 #include "sim/full_dynamics.h"
 #include "sim/model.h"
 #include "sim/state.h"
@@ -34,7 +35,9 @@ void verify(State& state);
 std::int64_t overlaps(const VehicleArrays& vehicles, std::span<const LaneStep> lanes);
 
 // A vehicle this near to a conflict area must know whether it can go on.
-double decides_within_m(const Model& model, double speed_mps);
+inline double decides_within_m(const Model& model, double speed_mps) {
+    return 0.5 * square(speed_mps) / model.driver.stop.deceleration_mps2 + 1.5 * speed_mps + 3.0;
+}
 
 // When the front passed `line_m` within the last step.
 double passing_time_s(const Model& model, const State& state, int slot, double line_m);

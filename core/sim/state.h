@@ -121,8 +121,8 @@ struct State {
     std::vector<char> deciding;  // [lane inside an intersection] 1: somebody on it or before it may have to wait
     std::vector<std::vector<int>> coming;  // [lane inside an intersection] slots before it that are near
     std::vector<Resting> resting;          // [lane] mesoscale mode
-    // [lane] mesoscale mode: the signal group before which all its vehicles rest, so that nothing happens there before it is green or
-    // somebody comes; -1: awake.
+    // [lane] mesoscale mode: the signal group before which its first vehicle rests, so that there is nothing to decide before that is green
+    // or somebody comes; -1: awake.
     std::vector<int> sleeps_until_green_of;
     LaneBlock limbo;                             // vehicles that were taken out ...
     std::vector<Removed> removed;                // ... and where each of them goes

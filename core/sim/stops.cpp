@@ -181,10 +181,6 @@ void read_signals(const Model& model, State& state) {
     }
 }
 
-double decides_within_m(const Model& model, double speed_mps) {
-    return 0.5 * square(speed_mps) / model.driver.stop.deceleration_mps2 + 1.5 * speed_mps + 3.0;
-}
-
 void decide_stops(const Model& model, State& state, NetworkPart& part) {
     for (const int index : part.awake_before) {
         const LanePlan& lane = state.plan.lane(index);
