@@ -11,6 +11,7 @@
 #include "base/random.h"
 #include "base/simd.h"
 #include "sim/meso_kernels.h"
+#include "sim/vehicle_arrays.h"
 
 namespace stopline {
 
@@ -96,30 +97,34 @@ STOPLINE_INLINE R slowed(const R& speed_mps, const R& allowed_mps, double share,
     return speed_mps + share * (allowed_mps - speed_mps) - braked_mps * speed_mps / greater(allowed_mps, R(1.0));
 }
 
+// Whether a float is other than `value` for any of the vehicles.
+template <class R>
+STOPLINE_INLINE bool any_other(const float* floats, float value) {
+    if constexpr (std::is_same_v<R, double>) {
+        return *floats != value;
+    } else {
+        const std::uint64_t bits = std::bit_cast<std::uint32_t>(value);
+        const std::uint64_t pair = bits << 32U | bits;
+        std::uint64_t pairs[kWide / 2];
+        std::memcpy(pairs, floats, sizeof pairs);
+        std::uint64_t others = 0;
+        for (const std::uint64_t each : pairs) others |= each ^ pair;
+        return others != 0;
+    }
+}
+
 // The highest speed that limits allow.
 template <class R, bool at_once>
 STOPLINE_INLINE R allowed_mps(const MesoStreams& s, const MesoStep& t, int i, const R& position, const R& speed) {
+    const R here_mps = lesser(approached(speed, get<R>(s.limit + i), t.approach_share), get<R>(s.imposed + i));
+    if (!any_other<R>(s.end_speed + i, kNoLowerLimit_mps)) return here_mps;
     // Towards a lower limit at the end of the lane: v^2 = v_end^2 + 2 b distance.
     const R end_mps = get<R>(s.end_speed + i);
     const R to_turn_m = greater(R(get<R>(s.turn + i) - position), R(0.0));
     const R slow_mps = square_root(end_mps * end_mps + 2.0 * t.slow_down_mps2 * to_turn_m);
     R turn_mps = slow_mps;
     if constexpr (!at_once) turn_mps = slowed(speed, slow_mps, t.turn_share, t.slow_down_mps2 * t.dt);
-    return lesser(lesser(approached(speed, get<R>(s.limit + i), t.approach_share), turn_mps), get<R>(s.imposed + i));
-}
-
-// Whether the float is not zero for any of the vehicles.
-template <class R>
-STOPLINE_INLINE bool any_leads(const float* leads) {
-    if constexpr (std::is_same_v<R, double>) {
-        return *leads != 0.0F;
-    } else {
-        std::uint64_t pairs[kWide / 2];
-        std::memcpy(pairs, leads, sizeof pairs);
-        std::uint64_t all = 0;
-        for (const std::uint64_t pair : pairs) all |= pair;
-        return all != 0;
-    }
+    return lesser(here_mps, turn_mps);
 }
 
 constexpr double kAlone_m = 1e5;  // a gap without predecessor is longer
@@ -156,7 +161,7 @@ STOPLINE_INLINE R step_slots(const MesoStreams& s, int i, std::span<const Krauss
                               get<R>(more),
                               allowed_mps<R, at_once>(s, t, i, position, speed)};
     const R random = dawdle<R>(t, s.id + i);
-    const bool leaders = t.leader_mps2 > 0.0 && any_leads<R>(s.leads + i);
+    const bool leaders = t.leader_mps2 > 0.0 && any_other<R>(s.leads + i, 0.0F);
     const R policy = get<R>(s.policy + i);
     R next = speed;
     const auto drive = [&](const auto& model, const R& mine) STOPLINE_INLINE_LAMBDA {

@@ -9,7 +9,6 @@ namespace stopline {
 
 namespace {
 
-constexpr float kNoLowerLimit_mps = 1e3F;
 constexpr double kFar_s = 1e9;
 constexpr double kEntryHeadway_s = 2.0;  // of vehicles that waited outside
 

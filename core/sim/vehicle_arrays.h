@@ -107,5 +107,6 @@ private:
 };
 
 inline constexpr double kAnySpeed_mps = 1e9;
+inline constexpr float kNoLowerLimit_mps = 1e3F;  // end_speed_mps where the next lane's limit is no lower
 
 }  // namespace stopline
