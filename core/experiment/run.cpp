@@ -28,7 +28,7 @@ double net_gap_m(const Model& model, const State& state, int lane, int slot) {
     const VehicleArrays& v = state.vehicles;
     const bool first = slot == state.blocks[at(lane)].first;
     const Ahead ahead =
-        first ? vehicle_ahead(model, state, lane, slot, model.driver.cacc.radar_range_m) : Ahead{slot - 1, 0.0};
+        first ? vehicle_ahead(state, lane, slot, model.driver.cacc.radar_range_m) : Ahead{slot - 1, 0.0};
     if (ahead.slot < 0) return std::numeric_limits<double>::quiet_NaN();
     return ahead.start_m + v.position_m[at(ahead.slot)] - v.length_m[at(ahead.slot)] - v.position_m[at(slot)];
 }

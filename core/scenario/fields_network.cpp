@@ -62,8 +62,8 @@ const Table& grid_table() {
     static const Table table = make_table<S>(
         "intersections, all alike, where streets cross",
         {
-            whole<&S::columns>("columns", {1, 100}, "streets from south to north"),
-            whole<&S::rows>("rows", {1, 100}, "streets from west to east"),
+            whole<&S::columns>("columns", {1, 200}, "streets from south to north"),
+            whole<&S::rows>("rows", {1, 200}, "streets from west to east"),
             number<&S::column_spacing_m>("column_spacing", "m", {50, 10'000}, "between centres, from west to east"),
             number<&S::row_spacing_m>("row_spacing", "m", {50, 10'000}, "between centres, from south to north"),
             choice<&S::shape>("shape", {"rectangle", "without_corners"},

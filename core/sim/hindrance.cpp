@@ -88,7 +88,7 @@ private:
         int ahead = slot - 1;
         double gap_m = v_.position_m[at(ahead)] - static_cast<double>(v_.length_m[at(ahead)]) - v_.position_m[at(slot)];
         if (slot == block.first) {
-            const Ahead seen = vehicle_ahead(model_, state_, lane, slot, kSeen_m);
+            const Ahead seen = vehicle_ahead(state_, lane, slot, kSeen_m);
             ahead = seen.slot;
             if (ahead >= 0) {
                 gap_m = seen.start_m + v_.position_m[at(ahead)] - static_cast<double>(v_.length_m[at(ahead)]) -

@@ -80,10 +80,39 @@ private:
 
 }  // namespace
 
+namespace {
+
+// Fetches what will be read and written at a lane's head, and at its end by the lane before.
+void fetch_ends(const State& state, int lane) {
+    const VehicleArrays& v = state.vehicles;
+    const LaneBlock& block = state.blocks[at(lane)];
+    if (block.count == 0) return;
+    __builtin_prefetch(&state.plan.lane(lane));
+    for (const int slot : {block.first - 1, block.last()}) {
+        __builtin_prefetch(&v.position_m[at(slot)]);
+        __builtin_prefetch(&v.speed_mps[at(slot)]);
+        __builtin_prefetch(&v.length_m[at(slot)]);
+        if (!v.has_powertrain()) continue;
+        for (const std::size_t row : {state.v2v.late, state.v2v.later}) {
+            __builtin_prefetch(&v.v2v_acceleration_mps2[row + at(slot)]);
+            __builtin_prefetch(&v.v2v_request_mps2[row + at(slot)]);
+            __builtin_prefetch(&v.v2v_rate_1ps[row + at(slot)]);
+        }
+    }
+    __builtin_prefetch(&v.record[at(block.first)]);
+    __builtin_prefetch(&v.id[at(block.last())]);
+}
+
+}  // namespace
+
 void find_occupied_lanes(State& state, NetworkPart& part) {
     for (std::vector<int>* list : {&part.occupied, &part.awake, &part.awake_before, &part.awake_inside}) list->clear();
     part.present = 0;
-    for (const int lane : part.lanes) {
+    constexpr std::size_t kLanesAhead = 8;
+    const bool prefetch = state.outgrows_cache();
+    for (std::size_t k = 0; k < part.lanes.size(); ++k) {
+        if (prefetch && k + kLanesAhead < part.lanes.size()) fetch_ends(state, part.lanes[k + kLanesAhead]);
+        const int lane = part.lanes[k];
         const int count = state.blocks[at(lane)].count;
         if (count == 0) continue;
         part.present += count;

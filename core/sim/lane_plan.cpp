@@ -74,18 +74,17 @@ NetworkPlan::NetworkPlan(const Model& model) : speed_factor_(model.speed_factor)
     for (int lane = 0; lane < count; ++lane) {
         lanes_.push_back(plan_of(model, lane));
         lanes_.back().intersection = sets.of(lane);
+        intersections_ += sets.of(lane) == lane ? 1 : 0;
         order_.push_back(lane);
-        meets_from_.push_back(meets_.size());
-        for (const Conflict& conflict : model.graph.conflicts_of(lane)) meets_.push_back(conflict.other);
+        next_.add(model.graph.lanes[at(lane)].next);
+        conflicts_.add(model.graph.conflicts_of(lane));
+        std::vector<int> meets;
+        for (const Conflict& conflict : model.graph.conflicts_of(lane)) meets.push_back(conflict.other);
+        meets_.add(meets);
     }
-    meets_from_.push_back(meets_.size());
     std::stable_sort(order_.begin(), order_.end(),
                      [this](int a, int b) { return lanes_[at(a)].intersection < lanes_[at(b)].intersection; });
-    for (const Route& route : model.graph.routes) {
-        routes_from_.push_back(routes_.size());
-        routes_.insert(routes_.end(), route.lanes.begin(), route.lanes.end());
-    }
-    routes_from_.push_back(routes_.size());
+    for (const Route& route : model.graph.routes) routes_.add(route.lanes);
 }
 
 }  // namespace stopline

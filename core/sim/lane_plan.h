@@ -25,6 +25,25 @@ struct alignas(64) LanePlan {
     bool branches = false;      // several lanes can follow
 };
 
+// Lists one after the other in memory.
+template <class T>
+class Lists {
+public:
+    template <class List>
+    void add(const List& list) {
+        all_.insert(all_.end(), list.begin(), list.end());
+        from_.push_back(all_.size());
+    }
+    std::span<const T> of(int list) const {
+        const std::size_t from = from_[static_cast<std::size_t>(list)];
+        return {all_.data() + from, from_[static_cast<std::size_t>(list) + 1] - from};
+    }
+
+private:
+    std::vector<T> all_;
+    std::vector<std::size_t> from_{0};
+};
+
 class NetworkPlan {
 public:
     explicit NetworkPlan(const Model& model);
@@ -33,25 +52,23 @@ public:
     int lanes() const { return static_cast<int>(lanes_.size()); }
     // What vehicles of the mesoscale mode drive there at most.
     double driven_mps(int lane) const { return speed_factor_ * this->lane(lane).limit_mps; }
-    std::span<const int> route(int route) const {
-        const std::size_t from = routes_from_[static_cast<std::size_t>(route)];
-        return {routes_.data() + from, routes_from_[static_cast<std::size_t>(route) + 1] - from};
-    }
-    // Lanes inside the same intersection that a lane inside meets.
-    std::span<const int> meets(int lane) const {
-        const std::size_t from = meets_from_[static_cast<std::size_t>(lane)];
-        return {meets_.data() + from, meets_from_[static_cast<std::size_t>(lane) + 1] - from};
-    }
+    std::span<const int> route(int route) const { return routes_.of(route); }
+    std::span<const int> next(int lane) const { return next_.of(lane); }
+    // Of a lane inside an intersection: conflict areas from its start, and the lanes that it meets there.
+    std::span<const Conflict> conflicts(int lane) const { return conflicts_.of(lane); }
+    std::span<const int> meets(int lane) const { return meets_.of(lane); }
     // Lanes by intersection: what happens in one of them in a step depends on what is done in it alone.
     const std::vector<int>& order() const { return order_; }
+    int intersections() const { return intersections_; }
 
 private:
     double speed_factor_;
+    int intersections_ = 0;
     std::vector<LanePlan> lanes_;
-    std::vector<int> routes_;
-    std::vector<std::size_t> routes_from_;
-    std::vector<int> meets_;
-    std::vector<std::size_t> meets_from_;
+    Lists<int> routes_;
+    Lists<int> next_;
+    Lists<Conflict> conflicts_;
+    Lists<int> meets_;
     std::vector<int> order_;
 };
 

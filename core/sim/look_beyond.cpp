@@ -13,11 +13,11 @@ std::size_t at(int index) { return static_cast<std::size_t>(index); }
 constexpr double kFar_m = 1e9;
 
 // Where movements part: the vehicle on any of them whose rear is still on the shared stretch, if any.
-Ahead still_shared(const Model& model, const State& state, int lane, double& rear_m) {
+Ahead still_shared(const State& state, int lane, double& rear_m) {
     const VehicleArrays& v = state.vehicles;
     const double end_m = state.plan.lane(lane).length_m;
     Ahead found;
-    for (const int next : model.graph.lanes[at(lane)].next) {
+    for (const int next : state.plan.next(lane)) {
         const LaneBlock& block = state.blocks[at(next)];
         if (block.count == 0) continue;
         const double beyond_m = v.position_m[at(block.last())] - v.length_m[at(block.last())];
@@ -30,7 +30,7 @@ Ahead still_shared(const Model& model, const State& state, int lane, double& rea
 
 }  // namespace
 
-Ahead vehicle_ahead(const Model& model, const State& state, int lane, int slot, double range_m) {
+Ahead vehicle_ahead(const State& state, int lane, int slot, double range_m) {
     const VehicleArrays& v = state.vehicles;
     const VehicleRecord& record = v.record[at(slot)];
     const LanePlan& here = state.plan.lane(lane);
@@ -38,7 +38,7 @@ Ahead vehicle_ahead(const Model& model, const State& state, int lane, int slot, 
     if (record.next_lane < 0 || (!here.branches && start_m - v.position_m[at(slot)] > range_m)) return {};
     Ahead beside;
     double beside_rear_m = kFar_m;
-    if (here.branches) beside = still_shared(model, state, lane, beside_rear_m);
+    if (here.branches) beside = still_shared(state, lane, beside_rear_m);
     const std::span<const int> route = state.plan.route(record.route);
     for (std::size_t k = at(record.route_index) + 1; k < route.size(); ++k) {
         if (start_m - v.position_m[at(slot)] > range_m) break;
@@ -53,25 +53,6 @@ Ahead vehicle_ahead(const Model& model, const State& state, int lane, int slot, 
 }
 
 namespace {
-
-// Fetches what will be read and written at a lane's head, and at its end by the lane before.
-void fetch_ends(const State& state, int lane) {
-    const VehicleArrays& v = state.vehicles;
-    const LaneBlock& block = state.blocks[at(lane)];
-    for (const int slot : {block.first - 1, block.last()}) {
-        __builtin_prefetch(&v.position_m[at(slot)]);
-        __builtin_prefetch(&v.speed_mps[at(slot)]);
-        __builtin_prefetch(&v.length_m[at(slot)]);
-        if (!v.has_powertrain()) continue;
-        for (const std::size_t row : {state.v2v.late, state.v2v.later}) {
-            __builtin_prefetch(&v.v2v_acceleration_mps2[row + at(slot)]);
-            __builtin_prefetch(&v.v2v_request_mps2[row + at(slot)]);
-            __builtin_prefetch(&v.v2v_rate_1ps[row + at(slot)]);
-        }
-    }
-    __builtin_prefetch(&v.record[at(block.first)]);
-    __builtin_prefetch(&v.id[at(block.last())]);
-}
 
 // What the sentinel says by V2V: what the vehicle ahead does, or nothing.
 void hear(State& state, std::size_t sentinel, std::size_t ahead, bool seen) {
@@ -89,17 +70,11 @@ void hear(State& state, std::size_t sentinel, std::size_t ahead, bool seen) {
 
 void look_beyond_lanes(const Model& model, State& state, NetworkPart& part) {
     constexpr double kNothing_m = 1e6;
-    constexpr std::size_t kLanesAhead = 4;
-    const bool prefetch = state.outgrows_cache();
     VehicleArrays& v = state.vehicles;
-    for (std::size_t k = 0; k < part.awake.size(); ++k) {
-        const int lane = part.awake[k];
-        if (prefetch && k + kLanesAhead < part.awake.size()) {
-            fetch_ends(state, part.awake[k + kLanesAhead]);
-        }
+    for (const int lane : part.awake) {
         const int head = state.blocks[at(lane)].first;
         const std::size_t sentinel = at(head - 1);
-        const Ahead ahead = vehicle_ahead(model, state, lane, head, model.driver.cacc.radar_range_m);
+        const Ahead ahead = vehicle_ahead(state, lane, head, model.driver.cacc.radar_range_m);
         const bool seen = ahead.slot >= 0;
         const std::size_t other = at(seen ? ahead.slot : head);
         v.position_m[sentinel] = seen ? ahead.start_m + v.position_m[other] : kNothing_m;

@@ -195,6 +195,18 @@ STOPLINE_INLINE double sum(const Wide& values) {
     return all;
 }
 
+STOPLINE_INLINE void fetch(const MesoStreams& s, int i) {
+    for (const double* const stream :
+         {static_cast<const double*>(s.position), static_cast<const double*>(s.speed), s.limit, s.turn, s.imposed}) {
+        __builtin_prefetch(stream + i);
+    }
+    for (const float* const stream :
+         {s.length, s.end_speed, static_cast<const float*>(s.acceleration), static_cast<const float*>(s.leads)}) {
+        __builtin_prefetch(stream + i);
+    }
+    for (const int* const stream : {s.id, s.policy}) __builtin_prefetch(stream + i);
+}
+
 // From the last block to the first: a block's vehicles react to the last one of the block before, as it was.
 template <class R, int policies, bool power_limit, bool at_once>
 inline int step_blocks(const MesoStreams& streams, std::span<const int> blocks, std::span<const Krauss> models,
@@ -203,7 +215,9 @@ inline int step_blocks(const MesoStreams& streams, std::span<const int> blocks, 
     const MesoStreams s = streams;  // own copies: nothing that is written here can change them
     const MesoStep t = step;
     R overlaps = 0.0;
+    constexpr std::size_t kAhead = 8;
     for (std::size_t n = blocks.size(); n-- > 0;) {
+        if (n >= kAhead) fetch(s, blocks[n - kAhead] * kSize);
         const double* const more = all_more == nullptr ? kNoMore : all_more + n * kSize;
         overlaps += step_slots<R, policies, power_limit, at_once>(s, blocks[n] * kSize, models, more, t);
     }

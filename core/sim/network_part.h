@@ -1,4 +1,4 @@
-// What one thread works on in a step: the lanes of some intersections, scratch, and what it has to tell. Whatever the number of parts,
+// What one thread works on at a time in a step: the lanes of some intersections, scratch, and what it has to tell. Whatever the number of parts,
 // all their lanes one after the other are in the same order, so that what they tell is too.
 #pragma once
 

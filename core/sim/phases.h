@@ -73,6 +73,6 @@ struct Ahead {
     int slot = -1;         // -1: none within the range
     double start_m = 0.0;  // start of its lane, measured from the start of the asking vehicle's lane
 };
-Ahead vehicle_ahead(const Model& model, const State& state, int lane, int slot, double range_m);
+Ahead vehicle_ahead(const State& state, int lane, int slot, double range_m);
 
 }  // namespace stopline

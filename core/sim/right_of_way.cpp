@@ -69,14 +69,14 @@ bool blocked(const State& state, int slot) {
 }
 
 // The same of one past the stop line on the way to `lane`, where the first of those that stand in front waits for others.
-bool behind_held(const Model& model, const State& state, int lane, const Insider& w) {
+bool behind_held(const State& state, int lane, const Insider& w) {
     constexpr int kMost = 8;  // vehicles inside, one behind the other
     int slot = w.slot;
     int on = w.front_m > 0.0 ? lane : state.plan.lane(lane).origin;
     for (int k = 0; k < kMost && blocked(state, slot); ++k) {
         const LaneBlock& block = state.blocks[at(on)];
         if (slot == block.first) {
-            slot = vehicle_ahead(model, state, on, slot, kSeen_m).slot;
+            slot = vehicle_ahead(state, on, slot, kSeen_m).slot;
             const LaneBlock& inside = state.blocks[at(lane)];
             if (slot < inside.first || slot >= inside.stop()) return false;
             on = lane;
@@ -109,7 +109,7 @@ Arrival next_arrival(const Model& model, const State& state, const Conflict& con
     Arrival soonest;
     for (const Insider& w : state.insiders[at(conflict.other)]) {
         if (w.front_m >= conflict.other_from_m) continue;
-        if (held(state, w.slot) || w.slot == stopping || behind_held(model, state, conflict.other, w)) {
+        if (held(state, w.slot) || w.slot == stopping || behind_held(state, conflict.other, w)) {
             return soonest;
         }
         const double distance_m = conflict.other_from_m - w.front_m;
@@ -181,7 +181,7 @@ int keeps_out(const Model& model, State& state, NetworkPart& part, int lane, con
             agreed->seen = state.tick;
             continue;
         }
-        if (v.stands && (held(state, w.slot) || behind_held(model, state, conflict.other, w))) {
+        if (v.stands && (held(state, w.slot) || behind_held(state, conflict.other, w))) {
             part.agreed.push_back({state.vehicles.id[at(v.slot)], state.vehicles.id[at(w.slot)], state.tick});
             continue;
         }
@@ -201,7 +201,7 @@ int comes_first(const Model& model, State& state, NetworkPart& part, int lane, c
     const bool again = record.cleared_for == lane;
     record.cleared_for = -1;
     Arrival next;
-    for (const Conflict& conflict : model.graph.conflicts[at(lane)]) {
+    for (const Conflict& conflict : state.plan.conflicts(lane)) {
         if (!conflict.yields || v.front_m > conflict.from_m) continue;
         const Arrival arrival = next_arrival(model, state, conflict, needed_s);
         next.earlier(arrival.in_s, arrival.slot);
@@ -235,7 +235,7 @@ Wait waiting_place(const Model& model, State& state, NetworkPart& part, int lane
     if (!v.stands && to_first_m > stopping_m(model, speed)) decided = false;
     const bool others = state.others_inside[at(lane)].lanes > 0;
     if (!others && (decided || !state.plan.lane(lane).yields)) return {};
-    for (const Conflict& conflict : model.graph.conflicts[at(lane)]) {
+    for (const Conflict& conflict : state.plan.conflicts(lane)) {
         const double hold_m = conflict.from_m - margin_m;
         if (v.front_m > conflict.from_m) continue;
         if (hold_m - v.front_m > ahead_m) break;
@@ -323,7 +323,7 @@ std::int64_t pairs_in(const Model& model, State& state, NetworkPart& part, int l
 // The same, of a lane with all others.
 std::int64_t conflicts_of(const Model& model, State& state, NetworkPart& part, int lane) {
     std::int64_t pairs = 0;
-    for (const Conflict& c : model.graph.conflicts[at(lane)]) {
+    for (const Conflict& c : state.plan.conflicts(lane)) {
         if (c.other > lane && !state.insiders[at(c.other)].empty()) pairs += pairs_in(model, state, part, lane, c);
     }
     return pairs;

@@ -1,5 +1,7 @@
 #include "sim/simulation.h"
 
+#include <algorithm>
+
 #include "base/state_hash.h"
 #include "sim/phases.h"
 
@@ -15,7 +17,10 @@ State checked_state(const Model& model, int threads) {
 }  // namespace
 
 Simulation::Simulation(const Model& model, int threads)
-    : model_(model), tables_(full_tables(model)), state_(checked_state(model, threads)) {
+    : model_(model),
+      tables_(full_tables(model)),
+      state_(checked_state(model, threads)),
+      threads_(std::min(threads, static_cast<int>(state_.parts.size()))) {
     form_queues(model_, state_);
 }
 
@@ -37,20 +42,20 @@ void Simulation::step() {
     state_.radar = rows_at(model_.radar, state_.tick, state_.vehicles.slots);
     state_.v2v = rows_at(model_.v2v, state_.tick, state_.vehicles.slots);
     read_signals(model_, state_);
-    const auto parts = static_cast<int>(state_.parts.size());
-    if (parts == 1) {
-        decide(state_.parts[0]);
+    if (threads_ == 1) {
+        for (NetworkPart& part : state_.parts) decide(part);
         watch_hindrance(model_, state_);
-        move(state_.parts[0]);
+        for (NetworkPart& part : state_.parts) move(part);
     } else {
-#pragma omp parallel num_threads(parts)
+        const std::size_t parts = state_.parts.size();
+#pragma omp parallel num_threads(threads_)
         {
-#pragma omp for schedule(static, 1)
-            for (int k = 0; k < parts; ++k) decide(state_.parts[static_cast<std::size_t>(k)]);
+#pragma omp for schedule(static)
+            for (std::size_t k = 0; k < parts; ++k) decide(state_.parts[k]);
 #pragma omp single
             watch_hindrance(model_, state_);
-#pragma omp for schedule(static, 1)
-            for (int k = 0; k < parts; ++k) move(state_.parts[static_cast<std::size_t>(k)]);
+#pragma omp for schedule(static)
+            for (std::size_t k = 0; k < parts; ++k) move(state_.parts[k]);
         }
     }
     gather_reports(state_);

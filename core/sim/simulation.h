@@ -17,7 +17,7 @@
 //     move on    vehicles that have stood at the head of a lane for too long               moving_on.cpp
 //     verify     nobody is lost; overlaps                                                  verify.cpp
 //
-// Parts are whole intersections, one part for each thread. What is done in one depends on the state at the beginning of the step and on
+// Parts are some whole intersections: as many as the second-level cache holds, or fewer, for each thread to have one. What is done in one depends on the state at the beginning of the step and on
 // itself, so that results do not depend on how many there are.
 #pragma once
 
@@ -52,6 +52,7 @@ private:
     const Model& model_;
     FullTables tables_;
     State state_;
+    int threads_;
 };
 
 }  // namespace stopline

@@ -38,6 +38,9 @@ std::vector<NetworkPart> make_parts(const Model& model, const State& state, int 
     double metres = 0.0;
     double longest_m = 0.0;
     for (const int lane : order) metres += metres_of(lane), longest_m = std::max(longest_m, metres_of(lane));
+    // What is decided for an intersection reads what was decided before: some 40 kB of lanes and vehicles each.
+    constexpr int kIntersectionsTogether = 16;
+    const int count = std::max(threads, state.plan.intersections() / kIntersectionsTogether);
     std::vector<std::vector<int>> detectors(order.size());
     for (std::size_t k = 0; k < model.detectors.size(); ++k) {
         detectors[at(model.detectors[k].lane)].push_back(static_cast<int>(k));
@@ -49,8 +52,8 @@ std::vector<NetworkPart> make_parts(const Model& model, const State& state, int 
         const int lane = order[k];
         const bool new_intersection =
             k > 0 && state.plan.lane(lane).intersection != state.plan.lane(order[k - 1]).intersection;
-        const double share = metres / threads * static_cast<double>(parts.size());
-        if (new_intersection && done >= share && static_cast<int>(parts.size()) < threads) parts.emplace_back();
+        const double share = metres / count * static_cast<double>(parts.size());
+        if (new_intersection && done >= share && static_cast<int>(parts.size()) < count) parts.emplace_back();
         done += metres_of(lane);
         NetworkPart& part = parts.back();
         part.lanes.push_back(lane);

@@ -108,7 +108,7 @@ struct State {
     Rows radar;  // of this step
     Rows v2v;
     NetworkPlan plan;
-    std::vector<NetworkPart> parts;              // one for each thread
+    std::vector<NetworkPart> parts;              // one or more for each thread
     std::vector<LaneBlock> blocks;               // [lane]
     std::vector<Light> lights;                   // [signal group] in this step
     std::vector<StopLineState> stop_lines;       // [lane]
@@ -149,7 +149,7 @@ struct State {
     bool outgrows_cache() const { return present() > 4000; }
 };
 
-// `threads`: how many parts a step is split into.
+// `threads`: into how many parts a step is split at least, where there are as many intersections.
 State make_state(const Model& model, int threads);
 
 }  // namespace stopline

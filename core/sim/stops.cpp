@@ -82,7 +82,7 @@ int stands_across(const Model& model, const State& state, int inside) {
     if (state.others_inside[at(inside)].standing == 0) return -1;
     const VehicleArrays& v = state.vehicles;
     const std::int64_t patience = model.rules.pass_blocker_ticks;
-    for (const Conflict& c : model.graph.conflicts[at(inside)]) {
+    for (const Conflict& c : state.plan.conflicts(inside)) {
         if (c.yields || c.other_yields) continue;
         for (const Insider& w : state.insiders[at(c.other)]) {
             if (w.front_m <= c.other_from_m || w.rear_m >= c.other_to_m || v.speed_mps[at(w.slot)] >= kStands_mps)
@@ -101,7 +101,7 @@ struct Way {
     int across = -1;  // slot of who stands across it
 };
 
-bool all_clear(const Model& model, State& state, const std::vector<int>& ways) {
+bool all_clear(const Model& model, State& state, std::span<const int> ways) {
     return std::all_of(ways.begin(), ways.end(), [&](int inside) {
         const int exit = state.plan.lane(inside).exit;
         return exit < 0 || (look_into_exit(model, state, exit).standing < 0 && stands_across(model, state, inside) < 0);
@@ -111,7 +111,7 @@ bool all_clear(const Model& model, State& state, const std::vector<int>& ways) {
 // The ways on from a lane.
 class Ways {
 public:
-    Ways(const Model& model, State& state, const std::vector<int>& lanes) {
+    Ways(const Model& model, State& state, std::span<const int> lanes) {
         for (const int inside : lanes) {
             const int exit = state.plan.lane(inside).exit;
             if (exit < 0 || count_ == each_.size()) continue;
@@ -133,7 +133,7 @@ private:
 // The first vehicle that finds no room in its exit, or somebody across its way, and can stop comfortably; -1: none.
 int keep_clear(const Model& model, State& state, int index) {
     constexpr double kDecides_m = 80.0;  // before the stop line, at most
-    const std::vector<int>& ways_on = model.graph.lanes[at(index)].next;
+    const std::span<const int> ways_on = state.plan.next(index);
     if (all_clear(model, state, ways_on)) return -1;
     Ways ways(model, state, ways_on);
     const VehicleArrays& v = state.vehicles;
