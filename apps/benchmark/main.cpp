@@ -83,16 +83,18 @@ std::string meso_limits_text(const TableReporter& table) {
     const std::optional<double> loop = table.least_ns_named(fmt::format("{}/{}", following_name(kBatch), kFollowers));
     const std::optional<double> scalar =
         table.least_ns_named(fmt::format("{}/{}", following_name(kScalar), kFollowers));
+    const std::optional<double> kernel = table.least_ns_named(fmt::format("{}/{}", moving_name(kBatch), kFollowers));
     const std::optional<double> step = table.least_ns_named(fmt::format("{}/0", kMesoStep));
-    if (!loop || !scalar || !step) return "";
+    if (!loop || !scalar || !kernel || !step) return "";
     const double gain = *scalar / *loop;
     std::string text = "\nWhat bounds the mesoscale mode (least of the repetitions, ns an update):\n";
     text += fmt::format("  car following    {:6.1f} in batches, {:.1f} one at a time: {:.1f} times. {}\n", *loop,
                         *scalar, gain, gain > 2.0 ? "It is arithmetic." : "Batches hardly pay.");
+    text += fmt::format("  the kernel       {:6.1f} with looking ahead, limits and moving on.\n", *kernel);
     text += fmt::format(
-        "  a whole step     {:6.1f} at the reference intersection: {:.0f} % of it is work at lane heads, "
-        "conflict\n                   areas, detectors and in moving vehicles about.\n",
-        *step, 100.0 * (1.0 - *loop / *step));
+        "  a whole step     {:6.1f} at the reference intersection, where vehicles that rest are left out: what is\n"
+        "                   not the kernel's is work at lane heads, conflict areas, detectors.\n",
+        *step);
     return text;
 }
 

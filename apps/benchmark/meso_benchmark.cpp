@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,39 +30,71 @@ Model intersection_model() {
     return build_model(load_scenario(data_directory() / "../scenarios/intersection.yaml", {"fidelity=meso"}), 0);
 }
 
-// The kernel alone, over arrays: a step of vehicles that follow one another.
-void following(benchmark::State& state, bool scalar) {
-    const Model model = intersection_model();
-    const MesoKernels& kernels = meso_kernels(scalar);
-    VehicleArrays v;
-    v.grow(kSimdWidth + kFollowers);
-    std::vector<int> blocks;
-    for (int k = 0; k < kFollowers; ++k) {
-        const int slot = kSimdWidth + k;
-        const auto i = static_cast<std::size_t>(slot);
-        if (k % kernels.size == 0) blocks.push_back(slot / kernels.size);
-        v.speed_mps[i] = 13.0 + 0.01 * (k % 50);
-        v.position_m[i] = -18.5 * k - 0.02 * (k % 90);
-        v.length_m[i] = 4.5F;
-        v.limit_mps[i] = 14.6;
-        v.end_speed_mps[i] = 1e3F;
-        v.id[i] = k;
+// Vehicles that follow one another, and the kernel's step of them, over and over.
+struct Platoon {
+    explicit Platoon(const Model& model, const MesoKernels& kernels) : step(meso_step(model, 0)) {
+        v.grow(kSimdWidth + kFollowers);
+        for (int k = 0; k < kFollowers; ++k) {
+            const int slot = kSimdWidth + k;
+            const auto i = static_cast<std::size_t>(slot);
+            if (k % kernels.size == 0) blocks.push_back(slot / kernels.size);
+            v.speed_mps[i] = 13.0 + 0.01 * (k % 50);
+            v.position_m[i] = -18.5 * k - 0.02 * (k % 90);
+            v.length_m[i] = 4.5F;
+            v.limit_mps[i] = 14.6;
+            v.end_speed_mps[i] = kNoLowerLimit_mps;
+            v.id[i] = k;
+        }
     }
-    const MesoStreams streams = meso_streams(v);
-    MesoStep step = meso_step(model, 0);
+
+    VehicleArrays v;
+    std::vector<int> blocks;
+    MesoStep step;
+};
+
+template <class Pass>
+void repeat(benchmark::State& state, Platoon& platoon, Pass pass) {
     std::int64_t updates = 0;
     for (auto iteration : state) {
         if (interrupted()) return state.SkipWithError("interrupted");
         const auto start = std::chrono::steady_clock::now();
-        for (int pass = 0; pass < kPasses; ++pass) {
-            ++step.tick;
-            benchmark::DoNotOptimize(kernels.step(streams, blocks, model.krauss, nullptr, step));
+        for (int k = 0; k < kPasses; ++k) {
+            ++platoon.step.tick;
+            pass();
             benchmark::ClobberMemory();
         }
         state.SetIterationTime(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
         updates += static_cast<std::int64_t>(kPasses) * kFollowers;
     }
     set_cost(state, updates);
+}
+
+void moving(benchmark::State& state, bool scalar) {
+    const Model model = intersection_model();
+    const MesoKernels& kernels = meso_kernels(scalar);
+    Platoon platoon(model, kernels);
+    const MesoStreams streams = meso_streams(platoon.v);
+    repeat(state, platoon, [&] {
+        benchmark::DoNotOptimize(kernels.step(streams, platoon.blocks, model.krauss, nullptr, platoon.step));
+    });
+}
+
+// The car-following equation alone: speeds of the next step from gaps and speeds of this one.
+void following(benchmark::State& state, bool scalar) {
+    const Model model = intersection_model();
+    const MesoKernels& kernels = meso_kernels(scalar);
+    Platoon platoon(model, kernels);
+    const LargeArray<double> gap_m(kFollowers, 14.5);
+    const LargeArray<double> none(kFollowers, 0.0);
+    const LargeArray<double> cap_mps(kFollowers, 14.6);
+    LargeArray<double> next_mps(kFollowers, 0.0);
+    const double* const speed = platoon.v.speed_mps.data() + kSimdWidth;
+    const std::span<const int> ids(platoon.v.id.data() + kSimdWidth, kFollowers);
+    repeat(state, platoon, [&] {
+        kernels.follow(model.krauss[0], platoon.step,
+                       {speed, gap_m.data(), speed, none.data(), none.data(), cap_mps.data()}, ids, next_mps.data());
+        benchmark::DoNotOptimize(next_mps.data());
+    });
 }
 
 void intersection(benchmark::State& state) {
@@ -81,9 +114,8 @@ void intersection(benchmark::State& state) {
     set_cost(state, updates);
 }
 
-void add_following(const char* kernels) {
-    const bool scalar = std::string(kernels) == kScalar;
-    benchmark::RegisterBenchmark(following_name(kernels).c_str(), following, scalar)
+void add(const std::string& name, void (*measure)(benchmark::State&, bool), bool scalar) {
+    benchmark::RegisterBenchmark(name.c_str(), measure, scalar)
         ->Unit(benchmark::kMicrosecond)
         ->UseManualTime()
         ->Repetitions(7)
@@ -95,9 +127,13 @@ void add_following(const char* kernels) {
 
 std::string following_name(const std::string& kernels) { return "meso_following_1600_passes/" + kernels; }
 
+std::string moving_name(const std::string& kernels) { return "meso_moving_1600_passes/" + kernels; }
+
 void add_meso_benchmarks() {
-    add_following(kBatch);
-    add_following(kScalar);
+    for (const char* const kernels : {kBatch, kScalar}) {
+        add(following_name(kernels), following, std::string(kernels) == kScalar);
+        add(moving_name(kernels), moving, std::string(kernels) == kScalar);
+    }
     benchmark::RegisterBenchmark(kMesoStep, intersection)
         ->Unit(benchmark::kMicrosecond)
         ->UseManualTime()

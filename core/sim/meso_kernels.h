@@ -43,6 +43,9 @@ struct MesoKernels {
     // many overlap the vehicle ahead.
     int (*step)(const MesoStreams&, std::span<const int> blocks, std::span<const Krauss> policies, MesoMore,
                 const MesoStep&);
+    // The equation alone, to measure what it costs: next speeds of vehicles in as many complete blocks. Arrays [vehicle].
+    void (*follow)(const Krauss&, const MesoStep&, const KraussInputOf<const double*>&, std::span<const int> ids,
+                   double* next_mps);
 };
 
 const MesoKernels& meso_kernels(bool scalar);

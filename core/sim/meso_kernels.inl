@@ -180,12 +180,11 @@ STOPLINE_INLINE R step_slots(const MesoStreams& s, int i, std::span<const Krauss
         }
     }
     constexpr double kRounding_m = 1e-6;
-    const R there = STOPLINE_FLAG(R, get<R>(s.id + i) >= 0.0);
-    const R after = choose(there, next, speed);
-    put(s.acceleration + i, choose(there, R((after - speed) * (1.0 / t.dt)), get<R>(s.acceleration + i)));
-    put(s.speed + i, after);
-    put(s.position + i, R(position + choose(there, R(next * t.dt), R(0.0))));
-    return there * STOPLINE_FLAG(R, in.gap_m < -kRounding_m);
+    const auto there = get<R>(s.id + i) >= 0.0;
+    put(s.acceleration + i, select(there, R((next - speed) * (1.0 / t.dt)), get<R>(s.acceleration + i)));
+    put(s.speed + i, select(there, next, speed));
+    put(s.position + i, select(there, R(position + next * t.dt), position));
+    return select(there, STOPLINE_FLAG(R, in.gap_m < -kRounding_m), R(0.0));
 }
 
 STOPLINE_INLINE double sum(double value) { return value; }
@@ -222,6 +221,19 @@ inline int step_blocks(const MesoStreams& streams, std::span<const int> blocks, 
         overlaps += step_slots<R, policies, power_limit, at_once>(s, blocks[n] * kSize, models, more, t);
     }
     return static_cast<int>(sum(overlaps));
+}
+
+template <class R>
+inline void follow(const Krauss& krauss, const MesoStep& step, const KraussInputOf<const double*>& in,
+                   std::span<const int> ids, double* next_mps) {
+    constexpr std::size_t kSize = std::is_same_v<R, double> ? 1 : kWide;
+    const Krauss k = krauss;
+    const MesoStep t = step;
+    for (std::size_t i = 0; i < ids.size(); i += kSize) {
+        const KraussInputOf<R> one{get<R>(in.speed_mps + i),  get<R>(in.gap_m + i),  get<R>(in.ahead_mps + i),
+                                   get<R>(in.ahead_mps2 + i), get<R>(in.more_m + i), get<R>(in.cap_mps + i)};
+        put(next_mps + i, speed_after_mps<true>(k, one, dawdle<R>(t, ids.data() + i), t.dt));
+    }
 }
 
 template <class R>

@@ -4,6 +4,6 @@
 namespace stopline {
 
 extern const MesoKernels kAvx2MesoKernels;
-const MesoKernels kAvx2MesoKernels{"avx2", kWide, step<Wide>};
+const MesoKernels kAvx2MesoKernels{"avx2", kWide, step<Wide>, follow<Wide>};
 
 }  // namespace stopline

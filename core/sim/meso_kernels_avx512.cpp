@@ -4,6 +4,6 @@
 namespace stopline {
 
 extern const MesoKernels kAvx512MesoKernels;
-const MesoKernels kAvx512MesoKernels{"avx512", kWide, step<Wide>};
+const MesoKernels kAvx512MesoKernels{"avx512", kWide, step<Wide>, follow<Wide>};
 
 }  // namespace stopline

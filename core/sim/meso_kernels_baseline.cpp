@@ -4,6 +4,6 @@
 namespace stopline {
 
 extern const MesoKernels kBaselineMesoKernels;
-const MesoKernels kBaselineMesoKernels{"baseline", kWide, step<Wide>};
+const MesoKernels kBaselineMesoKernels{"baseline", kWide, step<Wide>, follow<Wide>};
 
 }  // namespace stopline

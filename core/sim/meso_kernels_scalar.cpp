@@ -4,6 +4,6 @@
 namespace stopline {
 
 extern const MesoKernels kScalarMesoKernels;
-const MesoKernels kScalarMesoKernels{"scalar", 1, step<double>};
+const MesoKernels kScalarMesoKernels{"scalar", 1, step<double>, follow<double>};
 
 }  // namespace stopline
