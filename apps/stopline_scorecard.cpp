@@ -7,6 +7,7 @@
 #include "common/command_line.h"
 #include "common/program.h"
 #include "common/progress_bar.h"
+#include "common/results.h"
 #include "common/text_table.h"
 #include "experiment/output.h"
 #include "experiment/provenance.h"
@@ -96,6 +97,7 @@ ExitCode run(const ScorecardOptionsOfUser& options) {
     const std::string provenance =
         table_provenance_json(command_of(options), "scorecard.csv", scorecard.scenario_hashes);
     write_file(folder / "scorecard.provenance.json", provenance);
+    if (!options.csv) draw_all(scorecard.figures, folder);
     const int misses = scorecard.count(Verdict::miss);
     if (options.csv) {
         fmt::print("{}", csv);

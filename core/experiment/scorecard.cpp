@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "base/input_error.h"
+#include "experiment/comparison_figure.h"
 #include "experiment/csv.h"
 #include "experiment/output.h"
 #include "experiment/scorecard_sections.h"
@@ -123,6 +124,7 @@ Scorecard make_scorecard(const ScorecardOptions& options) {
         explain(explanations, row);
         scorecard.rows.push_back(std::move(row));
     }
+    scorecard.figures = comparison_figure(measured);
     for (const auto& [name, measurements] : measured) {
         scorecard.violations += measurements.find("violations").value_or(0.0);
     }

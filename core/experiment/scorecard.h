@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "experiment/gnuplot.h"
 #include "experiment/measurements.h"
 #include "experiment/verdict.h"
 
@@ -54,6 +55,7 @@ struct ScoredRow {
 struct Scorecard {
     std::vector<ScoredRow> rows;
     std::map<std::string, std::uint64_t> scenario_hashes;  // of the scenarios behind the rows
+    std::vector<Figure> figures;
     double violations = 0.0;  // overlaps, entries on red and lost vehicles in all runs behind the rows
     int count(Verdict verdict) const;
 };

@@ -124,7 +124,7 @@ STOPLINE_INLINE R allowed_mps(const MesoStreams& s, const MesoStep& t, int i, co
     const R slow_mps = square_root(end_mps * end_mps + 2.0 * t.slow_down_mps2 * to_turn_m);
     R turn_mps = slow_mps;
     if constexpr (!at_once) turn_mps = slowed(speed, slow_mps, t.turn_share, t.slow_down_mps2 * t.dt);
-    return lesser(here_mps, turn_mps);
+    return select(end_mps < static_cast<double>(kNoLowerLimit_mps), lesser(here_mps, turn_mps), here_mps);
 }
 
 constexpr double kAlone_m = 1e5;  // a gap without predecessor is longer

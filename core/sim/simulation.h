@@ -8,7 +8,7 @@
 //   all together:
 //     hindrance  who stands, what for, in whose way; now and then                          hindrance.cpp
 //   each part of the network by itself again (move_vehicles.cpp):
-//     plan       every vehicle's request, from the state at the beginning of the step      full_dynamics.cpp
+//     plan       every vehicle's request, from the state at the beginning of the step      full_dynamics.cpp, meso_dynamics.cpp
 //     move       powertrain, speed, position; overlaps on a lane are counted after it
 //     detectors  fronts that passed one                                                    detectors.cpp
 //   all together:
