@@ -269,9 +269,13 @@ void decide(const Model& model, State& state, NetworkPart& part, int lane) {
         const Wait found = waiting_place(model, state, part, lane, candidate, ahead);
         if (found.place_m < kNowhere_m) {
             ahead = candidate.slot;
-            // A gap accepted before is lost to one that stops: when it sets out again, others have come.
-            const double to_place_m = found.place_m - candidate.front_m;
-            const bool stops = stopping_m(model, v.speed_mps[at(candidate.slot)]) <= to_place_m;
+            // A gap accepted before is lost to one that stops before using it: when it sets out again, others have come.
+            double room_m = found.place_m - candidate.front_m;
+            for (const Conflict& c : state.plan.conflicts(lane)) {
+                const double to_area_m = c.from_m - model.give_way.margin_m - candidate.front_m;
+                if (c.yields && c.from_m >= candidate.front_m) room_m = std::min(room_m, to_area_m);
+            }
+            const bool stops = stopping_m(model, v.speed_mps[at(candidate.slot)]) <= room_m;
             if (candidate.stands || stops) state.vehicles.record[at(candidate.slot)].cleared_for = -1;
         }
         return found;

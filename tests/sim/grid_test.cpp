@@ -7,6 +7,7 @@
 
 #include "base/input_error.h"
 #include "experiment/build_model.h"
+#include "experiment/network_run.h"
 #include "scenario/load_scenario.h"
 #include "sim/simulation.h"
 
@@ -53,6 +54,17 @@ TEST(Inflow, ThatIsLightIsNeverInTheSameConflictArea) {
     Simulation simulation(model);
     simulation.run_until(2000.0);
     EXPECT_GT(simulation.state().gaps_accepted.size(), 100U);
+    EXPECT_TRUE(simulation.state().violations.none());
+}
+
+// One that has accepted a gap and is held up beyond the area must not lose it before it has used it: here, at 3,908 s, another came.
+TEST(Saturated, SlowTrafficIsNeverInTheSameConflictArea) {
+    const Scenario scenario =
+        load_scenario(STOPLINE_SOURCE_DIR "/scenarios/grid.yaml",
+                      {"demand.left=5 %", "demand.right=10 %", "signal.green=20 s", "signal.offset=10 s", "seed=2"});
+    const Model model = network_model(scenario, 2);
+    Simulation simulation(model);
+    simulation.run_until(3910.0);
     EXPECT_TRUE(simulation.state().violations.none());
 }
 
