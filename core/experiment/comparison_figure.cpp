@@ -102,13 +102,13 @@ std::vector<Figure> comparison_figure(const std::map<std::string, Measurements>&
     figure.height_px = 560;
     std::string body =
         "set multiplot layout 1,2 title 'Throughput over CTG-Ref; bands: from the worst to the best offset' margins "
-        "0.06,0.80,0.12,0.86 spacing 0.06\nset xlabel 'green [s]'\nset xrange [3:37]\nset xtics 5\nset yrange "
+        "0.06,0.79,0.12,0.86 spacing 0.06\nset xlabel 'green [s]'\nset xrange [3:37]\nset xtics 5\nset yrange "
         "[-40:160]\nset ylabel 'improvement [%]'\n";
     for (const auto& [traffic, title] : {std::pair("free", "without turns (arterial: on the major street)"),
                                          std::pair("turns", "with turns (grid 5 % left, 10 % right; arterial all)")}) {
         const bool first = traffic == std::string("free");
         body += fmt::format("set title '{}'\n{}plot ", title,
-                            first ? "set key at screen 0.995,0.86 right top width -4\n" : "unset key\n");
+                            first ? "set key at screen 0.995,0.86 right top width -1\n" : "unset key\n");
         for (const Series& series : series_of(measured, traffic)) {
             std::string data = "# green_s worst_percent best_percent\n";
             for (const Range& r : series.values) {
@@ -119,7 +119,7 @@ std::vector<Figure> comparison_figure(const std::map<std::string, Measurements>&
             if (series.band) {
                 body += fmt::format(
                     "'{0}' using 1:2:3 with filledcurves lc rgb '{1}' fs transparent solid 0.25 title {2}, '{0}' using "
-                    "1:2 with linespoints lc rgb '{1}' pt {3} notitle, '{0}' using 1:3 with linespoints lc rgb '{1}' pt "
+                    "1:2 with linespoints dt 1 lc rgb '{1}' pt {3} notitle, '{0}' using 1:3 with linespoints dt 1 lc rgb '{1}' pt "
                     "{3} notitle, ",
                     series.name, style.colour, gnuplot_text(series.title), style.hollow_point);
             } else {

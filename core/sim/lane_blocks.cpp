@@ -108,18 +108,28 @@ void expect_vehicles(State& state, const std::vector<int>& expected) {
     if (!state.vehicles.has_powertrain()) lay_out_anew(state, expected);
 }
 
-void make_room(State& state, LaneBlock& block) {
+namespace {
+
+void make_room_in(State& state, LaneBlock& block) {
     if (block.stop() < block.end) return;
     move_up(state, block);
     if (block.stop() == block.end && !state.vehicles.has_powertrain()) lay_out_anew(state, {});
 }
 
+}  // namespace
+
+void make_room(State& state, int lane) {
+    state.sleeps_until_green_of[at(lane)] = -1;
+    make_room_in(state, state.blocks[at(lane)]);
+}
+
+void make_room_in_limbo(State& state) { make_room_in(state, state.limbo); }
+
 int append_slot(State& state, int lane) {
     for (const int detector : state.detectors_of[at(lane)]) ++state.upstream[at(detector)];
-    state.sleeps_until_green_of[at(lane)] = -1;
     LaneBlock& block = state.blocks[at(lane)];
     if (block.count == 0) move_up(state, block);
-    make_room(state, block);
+    make_room(state, lane);
     const int slot = block.first + block.count++;
     VehicleArrays& v = state.vehicles;
     if (v.has_powertrain()) return slot;

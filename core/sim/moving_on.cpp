@@ -29,7 +29,7 @@ void note(const Model& model, State& state, RuleUse::Kind kind, int slot, int la
 }
 
 void take_out(const Model& model, State& state, int lane) {
-    make_room(state, state.limbo);
+    make_room_in_limbo(state);
     LaneBlock& block = state.blocks[at(lane)];
     const int slot = block.first;
     const int beyond = lane_beyond(model, state, lane, slot);
@@ -76,7 +76,7 @@ bool somebody_comes(const Model& model, const State& state, int lane) {
 bool put_back(const Model& model, State& state, int k) {
     VehicleArrays& v = state.vehicles;
     const Removed removed = state.removed[at(k)];
-    make_room(state, state.blocks[at(removed.lane)]);
+    make_room(state, removed.lane);
     const int waiting = state.limbo.first + k;
     const LaneBlock& block = state.blocks[at(removed.lane)];
     const double front_m = v.length_m[at(waiting)];

@@ -56,8 +56,9 @@ double shortest_vehicle_m(const Model& model);
 // Before vehicles are put there: how many each lane is about to get, [lane].
 void expect_vehicles(State& state, const std::vector<int>& expected);
 
-// Makes sure that the next vehicle can be appended; slots of all vehicles may change.
-void make_room(State& state, LaneBlock& block);
+// Makes sure that the next vehicle can be appended; slots of all vehicles may change. A lane that sleeps knows slots: it wakes up.
+void make_room(State& state, int lane);
+void make_room_in_limbo(State& state);
 
 // Takes the first vehicle off a lane.
 void remove_first(State& state, int lane);

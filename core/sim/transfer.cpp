@@ -34,7 +34,7 @@ void pass_on(const Model& model, State& state, int lane) {
     const double length_m = state.plan.lane(lane).length_m;
     const int next = v.record[at(state.blocks[at(lane)].first)].next_lane;
     const bool leaves = next < 0;
-    if (!leaves) make_room(state, state.blocks[at(next)]);
+    if (!leaves) make_room(state, next);
     const int slot = state.blocks[at(lane)].first;
     const int index = v.record[at(slot)].route_index + 1;
     const double time_s = passing_time_s(model, state, slot, length_m);

@@ -106,6 +106,7 @@ TEST(Slots, WithoutAVehicleHaveNoId) {
             const LaneBlock& block = state.blocks[lane];
             EXPECT_EQ(state.stop_lines[lane].stopper, state.vehicles.id[static_cast<std::size_t>(block.first)]);
             EXPECT_EQ(state.vehicles.speed_mps[static_cast<std::size_t>(block.first)], 0.0);
+            EXPECT_EQ(state.stop_slot[lane], block.first);
         }
     }
     EXPECT_TRUE(slept);
