@@ -187,15 +187,17 @@ TEST(MesoFreeDriving, DawdlesAsMuchAsSigmaSays) {
     EXPECT_NEAR(lost_mps, 0.5 * 0.4 * 1.7 * 10.0, 0.03);
 }
 
+constexpr const char* kPopulations =
+    "[CDG, CTG-Ref, SWITCH-2, {name: two, components: [{policy: CDG, share: 50 %}, {policy: CTG-Ref, share: 50 %}]}, "
+    "{name: three, components: [{policy: SWITCH-1, share: 40 %}, {policy: CTG-Ref, share: 30 %}, {policy: CDG, share: 30 %}]}]";
+
 // The compiler's vectors and one vehicle at a time, with mixed policies.
 TEST(MesoKernels, GiveTheSameBitsAsOneVehicleAtATime) {
     for (const char* const population : {"CDG", "two", "CTG-Ref", "SWITCH-2", "three"}) {
-        const Scenario scenario = load_scenario(
-            STOPLINE_SOURCE_DIR "/scenarios/intersection.yaml",
-            {"fidelity=meso", "demand.left=15 %", "demand.right=10 %", "meso.constant_distance.dawdling=0.2",
-             "populations=[CDG, CTG-Ref, SWITCH-2, {name: two, components: [{policy: CDG, share: 50 %}, "
-             "{policy: CTG-Ref, share: 50 %}]}, {name: three, components: [{policy: SWITCH-1, share: 40 %}, "
-             "{policy: CTG-Ref, share: 30 %}, {policy: CDG, share: 30 %}]}]"});
+        const Scenario scenario =
+            load_scenario(STOPLINE_SOURCE_DIR "/scenarios/intersection.yaml",
+                          {"fidelity=meso", "demand.left=15 %", "demand.right=10 %",
+                           "meso.constant_distance.dawdling=0.2", std::string("populations=") + kPopulations});
         const auto named = [&](const PopulationSettings& p) { return p.name == population; };
         const auto found = std::find_if(scenario.populations.begin(), scenario.populations.end(), named);
         const Model fast = build_model(scenario, static_cast<std::size_t>(found - scenario.populations.begin()));
