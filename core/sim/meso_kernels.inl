@@ -1,5 +1,5 @@
-// The kernels' text. Included by one file for each build, each in a namespace of its own, where Number is what the equations are
-// evaluated with: as many doubles as a block has slots, or one.
+// The kernels' text. Included by one file for each build, each in a namespace of its own. R is what the equations are evaluated with: as
+// many doubles as a block has slots, or one.
 #include <algorithm>
 #include <bit>
 #include <cstddef>
@@ -64,7 +64,7 @@ STOPLINE_INLINE R dawdle(const MesoStep& t, const int* id) {
     }
 }
 
-// The first of two policies, or each vehicle's.
+// Each vehicle's of two policies.
 template <class R>
 STOPLINE_INLINE KraussSideBySide<R> of_two(const R& policy, const Krauss& a, const Krauss& b) {
     const auto second = policy > 0.0;
