@@ -242,13 +242,13 @@ inline int step(const MesoStreams& streams, std::span<const int> blocks, std::sp
     const bool power_limit = std::any_of(models.begin(), models.end(), has_power_limit);
     const bool at_once = t.turn_share >= 1.0;
     const auto with = [&](auto policies) {
-        constexpr int n = policies;
+        constexpr int kPolicies = policies;
         if (power_limit) {
-            return at_once ? step_blocks<R, n, true, true>(streams, blocks, models, more, t)
-                           : step_blocks<R, n, true, false>(streams, blocks, models, more, t);
+            return at_once ? step_blocks<R, kPolicies, true, true>(streams, blocks, models, more, t)
+                           : step_blocks<R, kPolicies, true, false>(streams, blocks, models, more, t);
         }
-        return at_once ? step_blocks<R, n, false, true>(streams, blocks, models, more, t)
-                       : step_blocks<R, n, false, false>(streams, blocks, models, more, t);
+        return at_once ? step_blocks<R, kPolicies, false, true>(streams, blocks, models, more, t)
+                       : step_blocks<R, kPolicies, false, false>(streams, blocks, models, more, t);
     };
     if (models.size() == 1) return with(std::integral_constant<int, 1>());
     if (models.size() == 2) return with(std::integral_constant<int, 2>());
