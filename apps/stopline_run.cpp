@@ -190,7 +190,7 @@ ExitCode run(const RunOptionsOfUser& options) {
     const std::filesystem::path folder = options.common.output.empty() ? "out/" + scenario.name : options.common.output;
     prepare_folder(folder);
     if (scenario.network.kind == "intersection") return run_as_intersection(options, scenario, interval_s, folder);
-    if (scenario.network.kind == "grid") return run_as_network(options, scenario, folder);
+    if (scenario.network.has_several()) return run_as_network(options, scenario, folder);
     SingleLightOptions run_options;
     run_options.threads = threads_or_all(options.common.threads);
     run_options.trajectory_interval_s = interval_s;

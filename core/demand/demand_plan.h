@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "demand/demand_settings.h"
+#include "network/lane_graph.h"
 
 namespace stopline {
 
@@ -38,5 +39,10 @@ struct DemandPlan {
     int policy_of(int inlet, std::int64_t k) const;
     int route_of(int inlet, std::int64_t k) const;
 };
+
+// Of all entries of streets, then of all links, with routes and shares, and no vehicle. Vehicles that enter the network turn from a lane
+// as turns_by_lane() says; what a pocket allows counts for the lane beside it. On links they turn as those of the approach as a whole.
+// A route begins on the inlet's own lane where that allows the turn, else on the nearest one of the approach that does.
+std::vector<DemandPlan::Inlet> street_inlets(const LaneGraph& graph);
 
 }  // namespace stopline

@@ -94,6 +94,18 @@ struct GridPlace {
 };
 std::vector<GridPlace> grid_places(const GridSettings& grid);
 
+// Intersections as the user describes them, each with three signal groups: 3 n is the major street of intersection n, 3 n + 1 its
+// lanes that only turn left and have a green of their own, 3 n + 2 the minor street; the first two are one stage. Names of lanes
+// begin with that of the intersection: suarezstr_west_in_0, counted from the left, pockets included; suarezstr_east_out_0. Exits
+// that lead to another intersection are its lanes and have their names. Throws InputError where the streets have a problem
+// (street_checks.h).
+LaneGraph make_streets(const StreetSettings& streets);
+
+// That of the kind that is chosen.
+LaneGraph make_network(const NetworkSettings& network);
+// Of the intersection that a lane with a stop line leads to.
+double radius_beyond_m(const NetworkSettings& network, const Lane& lane);
+
 // Throws InputError where lanes, routes or signal groups do not fit together.
 void check(const LaneGraph& graph);
 
