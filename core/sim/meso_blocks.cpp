@@ -78,11 +78,11 @@ private:
     }
 
     void adapt() {
-        const double comfortable_mps = model_.driver.stop.deceleration_mps2 * model_.step_s;
+        const double gently_mps = Adapting::kBraking_mps2 * model_.step_s;
         for (const Adapting& adapting : state_.adapting[at(lane_)]) {
             const double speed_mps = v_.speed_mps[at(adapting.slot)];
             // What keeps the first vehicle of a lane that sleeps at rest stays.
-            if (speed_mps > 0.0) impose(adapting.slot, std::max(adapting.most_mps, speed_mps - comfortable_mps));
+            if (speed_mps > 0.0) impose(adapting.slot, std::max(adapting.most_mps, speed_mps - gently_mps));
         }
     }
 

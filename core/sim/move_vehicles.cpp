@@ -30,7 +30,7 @@ void add_lane(const Model& model, const State& state, int lane, LaneGroup& group
         constexpr double kWithin_s = 1.0;
         const double asks_mps2 = (adapting.most_mps - v.speed_mps[at(adapting.slot)]) / kWithin_s;
         group.imposed.push_back(
-            {group.vehicles + adapting.slot - block.first, std::max(asks_mps2, -model.driver.stop.deceleration_mps2)});
+            {group.vehicles + adapting.slot - block.first, std::max(asks_mps2, -Adapting::kBraking_mps2)});
     }
     group.lanes.push_back({block.first, block.stop(), plan.turn_m, plan.limit_mps, static_cast<double>(plan.sine)});
     group.vehicles += block.count;

@@ -55,7 +55,9 @@ struct Hold {
 // A vehicle that adapts its speed to a gap in the lane beside, or makes room for one from there.
 struct Adapting {
     int slot = -1;
-    double most_mps = 0.0;  // to be reached by braking comfortably
+    double most_mps = 0.0;  // to be reached by braking gently
+
+    static constexpr double kBraking_mps2 = 1.0;
 };
 
 // The vehicle that a driver at the stop line sees stand beyond it: in the exit, or across its way.
