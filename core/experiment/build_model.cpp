@@ -214,6 +214,7 @@ Model build_model(const Scenario& scenario, std::size_t population) {
         model.v2v = make_delay(model.step_s, model.step_s);
     }
     model.give_way = scenario.driver.give_way;
+    model.lane_change = scenario.driver.lane_change;
     add_ways_in(model);
     if (scenario.network.has_intersections()) add_rules(scenario, model);
     add_detectors(scenario, model);

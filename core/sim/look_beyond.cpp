@@ -31,17 +31,22 @@ Ahead still_shared(const State& state, int lane, double& rear_m) {
 }  // namespace
 
 Ahead vehicle_ahead(const State& state, int lane, int slot, double range_m) {
+    const VehicleRecord& record = state.vehicles.record[at(slot)];
+    if (record.next_lane < 0) return {};
+    return vehicle_ahead(state, lane, state.vehicles.position_m[at(slot)], record.route, record.route_index, range_m);
+}
+
+Ahead vehicle_ahead(const State& state, int lane, double position_m, int route_number, int index, double range_m) {
     const VehicleArrays& v = state.vehicles;
-    const VehicleRecord& record = v.record[at(slot)];
     const LanePlan& here = state.plan.lane(lane);
     double start_m = here.length_m;
-    if (record.next_lane < 0 || (!here.branches && start_m - v.position_m[at(slot)] > range_m)) return {};
+    if (!here.branches && start_m - position_m > range_m) return {};
     Ahead beside;
     double beside_rear_m = kFar_m;
     if (here.branches) beside = still_shared(state, lane, beside_rear_m);
-    const std::span<const int> route = state.plan.route(record.route);
-    for (std::size_t k = at(record.route_index) + 1; k < route.size(); ++k) {
-        if (start_m - v.position_m[at(slot)] > range_m) break;
+    const std::span<const int> route = state.plan.route(route_number);
+    for (std::size_t k = at(index) + 1; k < route.size(); ++k) {
+        if (start_m - position_m > range_m) break;
         const LaneBlock& block = state.blocks[at(route[k])];
         if (block.count > 0) {
             const double rear_m = start_m + v.position_m[at(block.last())] - v.length_m[at(block.last())];

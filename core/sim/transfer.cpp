@@ -67,17 +67,6 @@ struct Entry {
     double speed_mps = 0.0;
 };
 
-double desired_gap_m(const Model& model, int policy_index, double speed_mps) {
-    const CompiledPolicy& policy = model.policies[at(policy_index)];
-    double gap_m = 0.0;
-    double slope_s = 0.0;
-    policy.law->evaluate(policy.settings, {&speed_mps, 1}, {&gap_m, 1}, {&slope_s, 1});
-    if (!model.meso) return gap_m;
-    const Krauss& krauss = model.krauss[at(policy_index)];
-    const double more_m = krauss.constant_distance ? gap_m - policy.settings.standstill_gap_m : 0.0;
-    return krauss.equilibrium_gap_m(speed_mps) + more_m;
-}
-
 Entry entry_of(const Model& model, const State& state, int lane, int policy) {
     const double fastest_mps = std::min(model.demand.entry_speed_mps, model.graph.lanes[at(lane)].limit_mps);
     const LaneBlock& block = state.blocks[at(lane)];
@@ -130,13 +119,10 @@ void enter(const Model& model, State& state, int inlet_index, const Entry& entry
     v.policy[i] = policy;
     v.type[i] = 0;
     v.id[i] = state.next_id++;
+    v.record[i] = {};
     v.record[i].route = route;
-    v.record[i].came_from = -1;
     put_on_route(model, v, slot, 0);
-    v.record[i].cleared_for = -1;
-    v.record[i].inside_since = 0;
     v.stands_since[i] = static_cast<int>(state.tick);
-    v.record[i].held_at = -2;
     v.record[i].predecessor = first ? -1 : v.id[i - 1];
     const double gap_m = first ? 1e6 : v.position_m[i - 1] - v.length_m[i - 1] - v.position_m[i];
     v.reset_radar(slot, gap_m, first ? 0.0 : entry.speed_mps - v.speed_mps[i - 1]);
@@ -150,6 +136,17 @@ void enter(const Model& model, State& state, int inlet_index, const Entry& entry
 
 }  // namespace
 
+double desired_gap_m(const Model& model, int policy_number, double speed_mps) {
+    const CompiledPolicy& policy = model.policies[at(policy_number)];
+    double gap_m = 0.0;
+    double slope_s = 0.0;
+    policy.law->evaluate(policy.settings, {&speed_mps, 1}, {&gap_m, 1}, {&slope_s, 1});
+    if (!model.meso) return gap_m;
+    const Krauss& krauss = model.krauss[at(policy_number)];
+    const double more_m = krauss.constant_distance ? gap_m - policy.settings.standstill_gap_m : 0.0;
+    return krauss.equilibrium_gap_m(speed_mps) + more_m;
+}
+
 void put_on_route(const Model& model, VehicleArrays& v, int slot, int index) {
     const Route& route = model.graph.routes[at(v.record[at(slot)].route)];
     v.record[at(slot)].route_index = index;
@@ -161,7 +158,19 @@ void choose_way_on(const Model& model, State& state, int lane, int slot) {
     const int inlet = state.inlet_of[at(lane)];
     if (inlet < 0) return;
     state.vehicles.record[at(slot)].route = model.demand.route_of(inlet, state.inlets[at(inlet)].entered++);
-    put_on_route(model, state.vehicles, slot, 0);
+    take_way_of_lane(model, state, lane, slot);
+}
+
+void take_way_of_lane(const Model& model, State& state, int lane, int slot) {
+    VehicleRecord& record = state.vehicles.record[at(slot)];
+    const int own = state.plan.beside(lane).way(state.plan.turn_of(record.route)).route;
+    if (own >= 0) {
+        record.route = own;
+        return put_on_route(model, state.vehicles, slot, 0);
+    }
+    record.route_index = 0;
+    record.next_lane = -1;
+    state.vehicles.end_speed_mps[at(slot)] = kNoLowerLimit_mps;
 }
 
 // When the front passed `line_m` within the last step, from the mean speed of the step (mesoscale mode: all at the new speed).
