@@ -175,8 +175,12 @@ ExitCode run_as_network(const RunOptionsOfUser& options, const Scenario& scenari
     write_tables(options, scenario, std::move(tables), std::move(hashes), folder);
     if (!options.no_figures) draw_all(figures, folder);
     fmt::print(
-        "\nNext: hindrance.csv says who was held up by whom, where and since when; other greens, offsets and turns with --set\n"
-        "'signal.green=10 s' --set 'signal.offset=15 s' --set 'demand.left=5 %', all of them with stopline-sweep.\n");
+        "\nNext: hindrance.csv says who was held up by whom, where and since when; {}, all of them with stopline-sweep.\n",
+        scenario.network.is_streets()
+            ? "other lanes with --set network.streets=four_lanes,\nother offsets with --set "
+              "'network.streets.intersections[NAME].offset=10 s'"
+            : "other greens, offsets and turns with --set\n'signal.green=10 s' --set 'signal.offset=15 s' --set "
+              "'demand.left=5 %'");
     return report.no_violations() ? ExitCode::done : ExitCode::check_failed;
 }
 

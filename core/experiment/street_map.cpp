@@ -199,9 +199,9 @@ std::string labels_of(const StreetSettings& streets, const Row& row) {
         std::string steps;
         for (const double step_s : node.programme.steps_s())
             steps += fmt::format("{}{:g}", steps.empty() ? "" : "/", step_s);
-        text += fmt::format("set label {} at {:.1f},{:.1f} center\n", gnuplot_text(name), node.x_m,
+        text += fmt::format("set label {} at {:.1f},{:.1f} center front boxed\n", gnuplot_text(name), node.x_m,
                             node.y_m + kAbove_m - 9.0);
-        text += fmt::format("set label {} at {:.1f},{:.1f} center font ',10' tc rgb '#555555'\n",
+        text += fmt::format("set label {} at {:.1f},{:.1f} center front boxed font ',10' tc rgb '#555555'\n",
                             gnuplot_text(fmt::format("{} s, offset {:g} s", steps, node.offset_s)), node.x_m,
                             node.y_m + kAbove_m - 19.0);
     }
@@ -223,7 +223,7 @@ std::string plots() {
                             groups[k][1]);
     }
     const std::array<std::array<const char*, 2>, 3> lights{
-        {{"#d55e00", ""}, {"#009e73", "green"}, {"#e69f00", "yellow"}}};
+        {{"#d55e00", ""}, {"#009e73", "green in the cycle from 0 s"}, {"#e69f00", "yellow"}}};
     for (std::size_t k = 0; k < lights.size(); ++k) {
         const std::string title = k == 0 ? "notitle" : fmt::format("title '{}'", lights[k][1]);
         text += fmt::format(", 'network_light_{}.dat' with filledcurves closed fc rgb '{}' {}", k, lights[k][0], title);

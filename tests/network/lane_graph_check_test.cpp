@@ -76,6 +76,7 @@ const Damage kBesideDamages[] = {
     {"stop line beyond the others'", [](LaneGraph& g) { g.lanes[0].begin_m += 1.0; }, "does not end at"},
     {"lane that begins too early", [](LaneGraph& g) { g.lanes[0].begin_m = -1.0; }, "first_west_in_0"},
     {"approach that does not have the lane", [](LaneGraph& g) { g.lanes[0].approach = 1; }, "first_west_in_0"},
+    {"lane of two approaches", [](LaneGraph& g) { g.approaches.push_back(g.approaches[1]); }, "first_south_in_0"},
     {"unknown approach", [](LaneGraph& g) { g.lanes.back().approach = 99; }, "second"},
     {"lane without approach beside another", [](LaneGraph& g) { g.lanes.back().left = 3; }, "second"},
     {"approach with an unknown lane", [](LaneGraph& g) { g.approaches[2].lanes[0] = 9999; }, "names a lane"},

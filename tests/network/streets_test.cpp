@@ -58,6 +58,25 @@ TEST(Streets, LanesAreAsLongAsTheRoad) {
     }
 }
 
+// Movements of one lane share it until their vehicles are clear of each other.
+TEST(Streets, LanesGoOnUntilTheirMovementsPart) {
+    const StreetSettings streets = two_streets();
+    const LaneGraph graph = make_streets(streets);
+    for (const Lane& each : graph.lanes) {
+        if (each.origin < 0) continue;
+        const Lane& origin = graph.lanes[at(each.origin)];
+        EXPECT_NEAR(each.shape_start_m, origin.length_m - origin.stop_line_m, 1e-9) << each.name;
+        for (const int other : origin.next) {
+            const Lane& beside = graph.lanes[at(other)];
+            if (beside.name == each.name) continue;
+            EXPECT_GE(distance_m(beside.shape, place_at(each.shape, each.shape_start_m).point),
+                      streets.clearance_m - 0.01)
+                << each.name;
+        }
+        EXPECT_EQ(origin.next.size() > 1, each.shape_start_m > 0.0) << each.name;
+    }
+}
+
 // Ways of quarter circles and ellipses: from half the median and the lanes between.
 TEST(Streets, TurnsLeadFromTheirLaneToTheExitNextToIt) {
     const LaneGraph graph = make_streets(two_streets());
