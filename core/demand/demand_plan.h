@@ -17,6 +17,8 @@ struct DemandPlan {
         std::int64_t vehicles = 0;   // that enter the network here in all; mostly 0 on links
         std::vector<int> routes;     // candidate routes, and ...
         std::vector<double> shares;  // ... their shares, summing to 1
+        // The same of vehicles that chose the lane for where they go: such that all lanes of the approach are as full; empty: as `shares`.
+        std::vector<double> lane_shares = {};
     };
     std::vector<Inlet> inlets;  // entries, then links
     double entry_speed_mps = 0.0;
@@ -38,6 +40,8 @@ struct DemandPlan {
     // The k-th vehicle (from 0) of inlet `i`.
     int policy_of(int inlet, std::int64_t k) const;
     int route_of(int inlet, std::int64_t k) const;
+    // The same for one that chose its lane.
+    int route_on_lane(int inlet, std::int64_t k) const;
 };
 
 // Of all entries of streets, then of all links, with routes and shares, and no vehicle. Vehicles that enter the network turn from a lane

@@ -12,6 +12,8 @@ namespace {
 
 constexpr std::array<Turn, 3> kTurns{Turn::straight, Turn::right, Turn::left};  // in the order of TurnShares
 
+constexpr double kNobody = 1e-12;  // a share
+
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 TurnShares shares_of(const Approach& approach) {
@@ -49,7 +51,6 @@ private:
 };
 
 DemandPlan::Inlet inlet_of(const Routes& routes, int lane, const TurnShares& shares) {
-    constexpr double kNobody = 1e-12;
     DemandPlan::Inlet inlet{lane, 0, {}, {}};
     for (std::size_t turn = 0; turn < shares.size(); ++turn) {
         if (shares[turn] <= kNobody) continue;
@@ -59,11 +60,9 @@ DemandPlan::Inlet inlet_of(const Routes& routes, int lane, const TurnShares& sha
     return inlet;
 }
 
-// Shares of the entry lanes of an approach, which lie side by side; pockets beside them count with the nearest.
-std::vector<TurnShares> entry_shares(const LaneGraph& graph, const Routes& routes, const Approach& approach) {
-    const auto enters = [&](int lane) {
-        return std::find(graph.entries.begin(), graph.entries.end(), lane) != graph.entries.end();
-    };
+// Shares of the lanes of an approach by which vehicles come to it, which lie side by side; pockets beside them count with the nearest.
+std::vector<TurnShares> lane_shares(const std::vector<int>& fed, const Routes& routes, const Approach& approach) {
+    const auto enters = [&](int lane) { return std::find(fed.begin(), fed.end(), lane) != fed.end(); };
     std::vector<TurnsAllowed> allowed;
     TurnsAllowed of_pockets{};
     for (const int lane : approach.lanes) {
@@ -84,20 +83,29 @@ std::vector<TurnShares> entry_shares(const LaneGraph& graph, const Routes& route
 std::vector<DemandPlan::Inlet> street_inlets(const LaneGraph& graph) {
     const Routes routes(graph);
     std::vector<DemandPlan::Inlet> inlets;
-    std::vector<TurnShares> shares;
-    int approach = -1;  // whose entries these are
-    std::size_t next = 0;
-    for (const int lane : graph.entries) {
-        if (graph.lanes[at(lane)].approach != approach) {
-            approach = graph.lanes[at(lane)].approach;
-            shares = entry_shares(graph, routes, graph.approaches[at(approach)]);
-            next = 0;
+    // Calls add(lane, its shares, the approach's) for lanes that are in the order of their approaches.
+    const auto for_each = [&](const std::vector<int>& lanes, auto add) {
+        std::vector<TurnShares> shares;
+        int approach = -1;  // whose lanes these are
+        std::size_t next = 0;
+        for (const int lane : lanes) {
+            if (graph.lanes[at(lane)].approach != approach) {
+                approach = graph.lanes[at(lane)].approach;
+                shares = lane_shares(lanes, routes, graph.approaches[at(approach)]);
+                next = 0;
+            }
+            add(lane, shares[next++], shares_of(graph.approaches[at(approach)]));
         }
-        inlets.push_back(inlet_of(routes, lane, shares[next++]));
-    }
-    for (const int lane : graph.links) {
-        inlets.push_back(inlet_of(routes, lane, shares_of(graph.approaches[at(graph.lanes[at(lane)].approach)])));
-    }
+    };
+    for_each(graph.entries, [&](int lane, const TurnShares& own, const TurnShares&) {
+        inlets.push_back(inlet_of(routes, lane, own));
+    });
+    for_each(graph.links, [&](int lane, const TurnShares& own, const TurnShares& all) {
+        inlets.push_back(inlet_of(routes, lane, all));
+        for (std::size_t turn = 0; turn < all.size(); ++turn) {
+            if (all[turn] > kNobody) inlets.back().lane_shares.push_back(own[turn]);
+        }
+    });
     return inlets;
 }
 

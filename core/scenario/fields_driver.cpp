@@ -113,6 +113,8 @@ const Table& lane_change_table() {
                                   "of the gap that the policy keeps at the own speed, enough ahead and behind"),
             number<&S::urgent_gap_share>("urgent_gap_share", "%", {0, 200},
                                          "the same at the stop line, for who must change"),
+            choice<&S::look_ahead>("look_ahead", {"off", "on"},
+                                   "whether vehicles know how they will turn at the next intersection but one"),
             choice<&S::help>("help", {"off", "on"}, "whether others make room for those that must change"),
             number<&S::threshold_mps2>("threshold", "m/s2", {0, 10}, "acceleration that a change for speed must gain"),
             number<&S::politeness>("politeness", "", {0, 1}, "weight of what others gain and lose by it"),

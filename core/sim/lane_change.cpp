@@ -74,7 +74,11 @@ bool can_be_there(const Model& model, const Changer& me, double front_there_m) {
 class Change {
 public:
     Change(const Model& model, State& state, int lane, int slot)
-        : model_(model), state_(state), me_(changer_at(model, state, lane, slot)), since_(since_change(slot)) {}
+        : model_(model),
+          state_(state),
+          me_(changer_at(model, state, lane, slot)),
+          since_(since_change(slot)),
+          after_(state.vehicles.record[at(slot)].turn_after) {}
 
     // Whether the vehicle has left the lane.
     bool done() {
@@ -82,7 +86,10 @@ public:
         if (me_.changes != 0 && me_.to_line_m < model_.lane_change.strategic_m * std::abs(me_.changes)) {
             return since_ >= kBetween_s && for_route(me_.changes < 0 ? beside.left : beside.right);
         }
-        if (since_ < model_.lane_change.pause_s || me_.speed_mps < kStands_mps) return false;
+        if (const int side = wished_side(); side != 0 && me_.to_line_m < 2.0 * model_.lane_change.strategic_m) {
+            return since_ >= kBetween_s && for_route(side < 0 ? beside.left : beside.right);
+        }
+        if (since_ < model_.lane_change.pause_s) return false;
         return for_speed(beside.right, beside.left);
     }
 
@@ -106,9 +113,35 @@ private:
         return true;
     }
 
+    // Changes that it will take on the way to the next intersection but one, if the vehicle leaves this one from a lane; many: it can't.
+    int changes_after(int lane) const {
+        constexpr int kMany = 100;
+        const int route = route_on(lane);
+        if (route < 0) return kMany;
+        return std::abs(state_.plan.beside(state_.plan.route(route).back()).way(after_).changes);
+    }
+
+    // Below 0: to the left there is a lane from which fewer will be needed, and all up to there lead on; above: to the right.
+    int wished_side() const {
+        if (me_.changes != 0 || after_ == Turn::none) return 0;
+        const auto fewest = [&](int BesidePlan::*side) {
+            int best = changes_after(me_.lane);
+            for (int lane = state_.plan.beside(me_.lane).*side; lane >= 0 && route_on(lane) >= 0;
+                 lane = state_.plan.beside(lane).*side) {
+                best = std::min(best, changes_after(lane));
+            }
+            return best;
+        };
+        const int left = fewest(&BesidePlan::left);
+        const int right = fewest(&BesidePlan::right);
+        if (right < changes_after(me_.lane) && right <= left) return 1;
+        return left < changes_after(me_.lane) ? -1 : 0;
+    }
+
     // Where the route goes on as well as from here.
     bool serves(int other) const {
         if (other < 0 || !can_be_there(model_, me_, beside_m(state_, me_.lane, me_.front_m, other))) return false;
+        if (after_ != Turn::none && changes_after(other) > changes_after(me_.lane)) return false;
         const int changes = std::abs(state_.plan.beside(other).way(me_.turn).changes);
         return route_on(other) >= 0 || me_.to_line_m > model_.lane_change.strategic_m * changes;
     }
@@ -191,6 +224,7 @@ private:
     State& state_;
     Changer me_;
     double since_;
+    Turn after_;
 };
 
 }  // namespace

@@ -84,7 +84,8 @@ Around around(const Model& model, const State& state, int lane, double front_m, 
 double needed_gap_m(const Model& model, int policy, double speed_mps, double ahead_mps, double share) {
     const double b_mps2 = model.meso ? model.krauss[at(policy)].deceleration_mps2 : model.driver.stop.deceleration_mps2;
     const double braking_m = 0.5 * std::max(square(speed_mps) - square(ahead_mps), 0.0) / b_mps2;
-    return share * desired_gap_m(model, policy, speed_mps) + braking_m;
+    const double least_m = model.policies[at(policy)].settings.standstill_gap_m;
+    return std::max(share * desired_gap_m(model, policy, speed_mps), least_m) + braking_m;
 }
 
 }  // namespace stopline

@@ -29,8 +29,8 @@ inline double beside_m(const State& state, int lane, double front_m, int other) 
     return front_m + state.plan.beside(lane).begin_m - state.plan.beside(other).begin_m;
 }
 
-// The gap that a vehicle needs to follow another one: a share of what its policy keeps at its speed, and what braking to the speed
-// of the other takes if that brakes as hard (the secure gap of SUMO's lane changer, with the gap of the policy).
+// The gap that a vehicle needs to follow another one: a share of what its policy keeps at its speed, but not less than at standstill, and
+// what braking to the speed of the other takes if that brakes as hard (the secure gap of SUMO's lane changer, with the gap of the policy).
 double needed_gap_m(const Model& model, int policy, double speed_mps, double ahead_mps, double share);
 
 }  // namespace stopline

@@ -124,6 +124,15 @@ NetworkPlan::NetworkPlan(const Model& model) : speed_factor_(model.speed_factor)
         turns_.push_back(route.lanes.size() > 1 ? model.graph.lanes[at(route.lanes[1])].turn : Turn::none);
     }
     beside_ = plan_beside(model.graph, turns_);
+    for (const Approach& approach : model.graph.approaches) {
+        std::array<int, 4> routes{-1, -1, -1, -1};
+        for (const int lane : approach.lanes) {
+            for (std::size_t turn = 0; turn < routes.size(); ++turn) {
+                routes[turn] = std::max(routes[turn], beside_[at(lane)].ways[turn].route);
+            }
+        }
+        routes_with_.push_back(routes);
+    }
     for (const int lane : order_) {
         if (beside_[at(lane)].changes()) changing_.push_back(lane);
     }

@@ -75,6 +75,10 @@ public:
     const BesidePlan& beside(int lane) const { return beside_[static_cast<std::size_t>(lane)]; }
     // Lanes with others beside, in order.
     const std::vector<int>& changing() const { return changing_; }
+    // A route from some lane of an approach with that turn; -1: none.
+    int route_with(int approach, Turn turn) const {
+        return routes_with_[static_cast<std::size_t>(approach)][static_cast<std::size_t>(turn)];
+    }
     Turn turn_of(int route) const { return turns_[static_cast<std::size_t>(route)]; }
     // Of a lane inside an intersection: conflict areas from its start, and the lanes that it meets there.
     std::span<const Conflict> conflicts(int lane) const { return conflicts_.of(lane); }
@@ -94,7 +98,8 @@ private:
     std::vector<int> order_;
     std::vector<BesidePlan> beside_;
     std::vector<int> changing_;
-    std::vector<Turn> turns_;  // [route]
+    std::vector<Turn> turns_;                      // [route]
+    std::vector<std::array<int, 4>> routes_with_;  // [approach][turn]
 };
 
 }  // namespace stopline

@@ -84,6 +84,19 @@ Entry entry_of(const Model& model, const State& state, int lane, int policy) {
     return {rear_m >= room_m, 0.0, speed_mps};
 }
 
+// Where it will turn at the next intersection but one, drawn as if it were there. `chose_lane`: it is on a lane from which it gets there.
+void look_ahead(const Model& model, State& state, int slot, bool chose_lane) {
+    VehicleRecord& record = state.vehicles.record[at(slot)];
+    record.turn_after = Turn::none;
+    const int exit = state.plan.route(record.route).back();
+    if (model.graph.lanes[at(exit)].approach < 0 || model.lane_change.look_ahead == "off") return;
+    const int inlet = state.inlet_of[at(exit)];
+    if (inlet < 0) return;
+    const std::int64_t k = state.inlets[at(inlet)].entered++;
+    const int route = chose_lane ? model.demand.route_on_lane(inlet, k) : model.demand.route_of(inlet, k);
+    record.turn_after = state.plan.turn_of(route);
+}
+
 // Takes over what the vehicle ahead does, as one of an endless platoon.
 void drive_as(VehicleArrays& v, std::size_t i, std::size_t ahead) {
     v.acceleration_mps2[i] = v.acceleration_mps2[ahead];
@@ -121,7 +134,8 @@ void enter(const Model& model, State& state, int inlet_index, const Entry& entry
     v.id[i] = state.next_id++;
     v.record[i] = {};
     v.record[i].route = route;
-    put_on_route(model, v, slot, 0);
+    take_way_of_lane(model, state, inlet.lane, slot);
+    look_ahead(model, state, slot, true);
     v.stands_since[i] = static_cast<int>(state.tick);
     v.record[i].predecessor = first ? -1 : v.id[i - 1];
     const double gap_m = first ? 1e6 : v.position_m[i - 1] - v.length_m[i - 1] - v.position_m[i];
@@ -157,8 +171,12 @@ void put_on_route(const Model& model, VehicleArrays& v, int slot, int index) {
 void choose_way_on(const Model& model, State& state, int lane, int slot) {
     const int inlet = state.inlet_of[at(lane)];
     if (inlet < 0) return;
-    state.vehicles.record[at(slot)].route = model.demand.route_of(inlet, state.inlets[at(inlet)].entered++);
+    VehicleRecord& record = state.vehicles.record[at(slot)];
+    const int approach = model.graph.lanes[at(lane)].approach;
+    const int known = record.turn_after == Turn::none ? -1 : state.plan.route_with(approach, record.turn_after);
+    record.route = known >= 0 ? known : model.demand.route_of(inlet, state.inlets[at(inlet)].entered++);
     take_way_of_lane(model, state, lane, slot);
+    look_ahead(model, state, slot, false);
 }
 
 void take_way_of_lane(const Model& model, State& state, int lane, int slot) {

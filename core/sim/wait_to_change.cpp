@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/arithmetic.h"
 #include "driver/krauss.h"
 #include "sim/lane_change.h"
 #include "sim/phases.h"
@@ -66,9 +67,13 @@ private:
         return behind.gap_m < needed_m && !wants_here(other, behind.slot, me);
     }
 
-    bool may_help(int other, const Neighbour& behind) const {
+    // It is on the lane itself, and braking comfortably to my speed is enough not to reach me.
+    bool may_help(int other, const Neighbour& behind, const Changer& me) const {
         const LaneBlock& block = state_.blocks[at(other)];
-        return model_.lane_change.help == "on" && behind.slot >= block.first && behind.slot < block.stop();
+        const double braking_m =
+            0.5 * std::max(square(behind.speed_mps) - square(me.speed_mps), 0.0) / model_.driver.stop.deceleration_mps2;
+        return model_.lane_change.help == "on" && behind.slot >= block.first && behind.slot < block.stop() &&
+               std::max(behind.gap_m, 0.0) >= braking_m;
     }
 
     void adapt(const Changer& me) {
@@ -85,7 +90,7 @@ private:
         }
         const Neighbour& behind = there.behind;
         if (must_let_pass(other, behind, me)) {
-            if (may_help(other, behind)) {
+            if (may_help(other, behind, me)) {
                 const Neighbour mine{me.slot, behind.gap_m, me.speed_mps, me.policy};
                 note(other, {behind.slot, std::max(following_mps(mine, behind.policy, behind.speed_mps), kCrawl_mps)});
             } else {
