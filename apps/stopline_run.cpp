@@ -22,6 +22,7 @@
 #include "experiment/single_light.h"
 #include "experiment/single_light_csv.h"
 #include "experiment/single_light_figures.h"
+#include "experiment/street_map.h"
 #include "scenario/load_scenario.h"
 #include "scenario/quantity.h"
 
@@ -166,6 +167,7 @@ ExitCode run_as_network(const RunOptionsOfUser& options, const Scenario& scenari
                                   {"ways.csv", network_ways_csv(report)},   {"hindrance.csv", hindrance_csv(report)},
                                   {"gridlocks.csv", gridlocks_csv(report)}, {"rules.csv", rules_csv(report)}};
     std::vector<Figure> figures{network_series_figure(report), hindrance_figure(report)};
+    if (scenario.network.is_streets()) figures.push_back(street_map(scenario));
     if (scenario.measure.time_space_s > 0.0) {
         tables.emplace_back("time_space.csv", street_csv(report));
         figures.push_back(street_figure(report));
@@ -173,8 +175,12 @@ ExitCode run_as_network(const RunOptionsOfUser& options, const Scenario& scenari
     write_tables(options, scenario, std::move(tables), std::move(hashes), folder);
     if (!options.no_figures) draw_all(figures, folder);
     fmt::print(
-        "\nNext: hindrance.csv says who was held up by whom, where and since when; other greens, offsets and turns with --set\n"
-        "'signal.green=10 s' --set 'signal.offset=15 s' --set 'demand.left=5 %', all of them with stopline-sweep.\n");
+        "\nNext: hindrance.csv says who was held up by whom, where and since when; {}, all of them with stopline-sweep.\n",
+        scenario.network.is_streets()
+            ? "other lanes with --set network.streets=four_lanes,\nother offsets with --set "
+              "'network.streets.intersections[NAME].offset=10 s'"
+            : "other greens, offsets and turns with --set\n'signal.green=10 s' --set 'signal.offset=15 s' --set "
+              "'demand.left=5 %'");
     return report.no_violations() ? ExitCode::done : ExitCode::check_failed;
 }
 

@@ -117,6 +117,7 @@ std::string list_text(const std::string& file, const CommonOptions& options) {
     }
     append_names(text, "Vehicles (data/vehicles)", "vehicles");
     append_names(text, "Drivers (data/drivers)", "drivers");
+    append_names(text, "Streets (data/berlin)", "berlin");
     return text;
 }
 

@@ -43,7 +43,7 @@ std::string shell_word(const std::string& text);
 // The command that makes the results again: --threads and --output do not belong to it, since they change nothing in them.
 std::string command_text(const std::string& program, const std::string& file, const CommonOptions& options);
 
-// What can be named in a scenario: policies, laws, vehicles, drivers, and the populations of `file` unless it is empty.
+// What can be named in a scenario: policies, laws, vehicles, drivers, streets, and the populations of `file` unless it is empty.
 std::string list_text(const std::string& file, const CommonOptions& options);
 
 }  // namespace stopline

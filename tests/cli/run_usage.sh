@@ -47,7 +47,7 @@ for program in "$run" "$scorecard" "$STOPLINE_BIN/stopline-calibrate"; do
 done
 
 says "signal.green" "km/h" -- "$run" --describe
-says "CDG-6m" "constant_time" "petrol_eu4_72kw" "startup_kit" -- "$run" --list
+says "CDG-6m" "constant_time" "petrol_eu4_72kw" "startup_kit" "three_lanes" -- "$run" --list
 says "Populations of $scenario" "100 % CTG-Ref" -- "$run" --list "$scenario"
 says "draft-07" -- "$run" --schema
 python3 -c 'import json, sys; json.load(open(sys.argv[1]))' "$work/stdout" || fail "--schema is no JSON"

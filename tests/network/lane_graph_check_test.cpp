@@ -4,9 +4,11 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "base/input_error.h"
 #include "network/lane_graph.h"
+#include "support/streets.h"
 
 namespace stopline {
 namespace {
@@ -56,6 +58,38 @@ TEST_P(BrokenGraph, IsRefusedByName) {
     ApproachSettings settings;
     settings.lanes = 2;
     LaneGraph graph = make_approach(settings);
+    GetParam().apply(graph);
+    try {
+        check(graph);
+        ADD_FAILURE() << GetParam().what << " was accepted";
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find(GetParam().named), std::string::npos) << error.what();
+    }
+}
+
+// The same for lanes side by side. Lane 0 is a pocket of first_west, lanes 1 to 3 lie to its right.
+const Damage kBesideDamages[] = {
+    {"neighbour that does not know of it", [](LaneGraph& g) { g.lanes[1].left = -1; }, "first_west_in_1"},
+    {"neighbour of another approach", [](LaneGraph& g) { g.lanes[3].right = 7; }, "first_west_in_3"},
+    {"neighbours in the wrong order",
+     [](LaneGraph& g) { std::swap(g.approaches[0].lanes[1], g.approaches[0].lanes[2]); }, "first_west"},
+    {"stop line beyond the others'", [](LaneGraph& g) { g.lanes[0].begin_m += 1.0; }, "does not end at"},
+    {"lane that begins too early", [](LaneGraph& g) { g.lanes[0].begin_m = -1.0; }, "first_west_in_0"},
+    {"approach that does not have the lane", [](LaneGraph& g) { g.lanes[0].approach = 1; }, "first_west_in_0"},
+    {"lane of two approaches", [](LaneGraph& g) { g.approaches.push_back(g.approaches[1]); }, "first_south_in_0"},
+    {"unknown approach", [](LaneGraph& g) { g.lanes.back().approach = 99; }, "second"},
+    {"lane without approach beside another", [](LaneGraph& g) { g.lanes.back().left = 3; }, "second"},
+    {"approach with an unknown lane", [](LaneGraph& g) { g.approaches[2].lanes[0] = 9999; }, "names a lane"},
+    {"turns that exceed all", [](LaneGraph& g) { g.approaches[0].right = 0.95; }, "first_west"},
+    {"stages for some groups only", [](LaneGraph& g) { g.stage_of.pop_back(); }, "needs a stage"},
+};
+
+class BrokenApproach : public testing::TestWithParam<Damage> {};
+INSTANTIATE_TEST_SUITE_P(Check, BrokenApproach, testing::ValuesIn(kBesideDamages));
+
+TEST_P(BrokenApproach, IsRefusedByName) {
+    LaneGraph graph = make_streets(streets_with_pockets());
+    check(graph);
     GetParam().apply(graph);
     try {
         check(graph);

@@ -1,0 +1,94 @@
+// Turns by lane: calculations by hand, and what always holds.
+#include "demand/turn_shares.h"
+
+#include <gtest/gtest.h>
+
+#include "demand/demand_plan.h"
+#include "network/lane_graph.h"
+#include "support/streets.h"
+
+namespace stopline {
+namespace {
+
+constexpr TurnsAllowed kStraightLeft{true, false, true};
+constexpr TurnsAllowed kStraight{true, false, false};
+constexpr TurnsAllowed kStraightRight{true, true, false};
+constexpr TurnsAllowed kLeft{false, false, true};
+
+void expect_row(const TurnShares& row, const TurnShares& expected) {
+    for (std::size_t turn = 0; turn < row.size(); ++turn) EXPECT_NEAR(row[turn], expected[turn], 1e-9) << turn;
+}
+
+// A third of the vehicles on each lane: 8 of 33.3 % turn left, 12 of 33.3 % right.
+TEST(TurnsByLane, FillLanesEvenly) {
+    const auto lanes = turns_by_lane({kStraightLeft, kStraight, kStraightRight}, {0.8, 0.12, 0.08});
+    expect_row(lanes[0], {0.76, 0.0, 0.24});
+    expect_row(lanes[1], {1.0, 0.0, 0.0});
+    expect_row(lanes[2], {0.64, 0.36, 0.0});
+}
+
+// Two lanes that allow all: fitting keeps the odds between them, which are equal.
+TEST(TurnsByLane, ThatAreAlikeHaveTheSameTurns) {
+    const auto lanes = turns_by_lane({{true, true, true}, {true, true, true}}, {0.5, 0.3, 0.2});
+    expect_row(lanes[0], {0.5, 0.3, 0.2});
+    expect_row(lanes[1], {0.5, 0.3, 0.2});
+}
+
+// Only 30 % may be on the lane for left turns, so that 35 % are on each of the others: 35 straight on the second, 5 straight and 30 right
+// on the third. Each is 1.667 % too full; that comes to the first, 1.905 straight and 1.429 right.
+TEST(TurnsByLane, GiveTheColumnsTheirSharesWhereRowsCannotHold) {
+    const auto lanes = turns_by_lane({kLeft, kStraight, kStraightRight}, {0.4, 0.3, 0.3});
+    expect_row(lanes[0], {3 * (0.05 / 3 + 0.05 / 3 * 5 / 35), 3 * 0.05 / 3 * 30 / 35, 0.9});
+    expect_row(lanes[1], {1.0, 0.0, 0.0});
+    TurnShares sum{};
+    for (const TurnShares& lane : lanes) {
+        double row = 0.0;
+        for (std::size_t turn = 0; turn < 3; ++turn) {
+            row += lane[turn];
+            sum[turn] += lane[turn] / 3.0;
+        }
+        EXPECT_NEAR(row, 1.0, 1e-12);
+    }
+    expect_row(sum, {0.4, 0.3, 0.3});
+}
+
+TEST(TurnsByLane, OfOneLaneAreThoseOfTheApproach) {
+    expect_row(turns_by_lane({{true, true, true}}, {0.75, 0.16, 0.09})[0], {0.75, 0.16, 0.09});
+}
+
+double share_of(const LaneGraph& graph, const DemandPlan::Inlet& inlet, Turn turn) {
+    for (std::size_t k = 0; k < inlet.routes.size(); ++k) {
+        const auto& route = graph.routes[static_cast<std::size_t>(inlet.routes[k])].lanes;
+        if (graph.lanes[static_cast<std::size_t>(route[1])].turn == turn) return inlet.shares[k];
+    }
+    return 0.0;
+}
+
+// All left turners come in on the lane beside the pocket, with a route that begins in the pocket.
+TEST(StreetInlets, SendThoseOfAPocketToTheLaneBesideIt) {
+    const LaneGraph graph = make_streets(streets_with_pockets());
+    const std::vector<DemandPlan::Inlet> inlets = street_inlets(graph);
+    ASSERT_EQ(inlets.size(), graph.entries.size() + graph.links.size());
+    EXPECT_EQ(graph.lanes[static_cast<std::size_t>(inlets[0].lane)].name, "first_west_in_1");
+    EXPECT_NEAR(share_of(graph, inlets[0], Turn::left), 0.24, 1e-9);
+    EXPECT_NEAR(share_of(graph, inlets[0], Turn::straight), 0.76, 1e-9);
+    EXPECT_EQ(share_of(graph, inlets[1], Turn::left), 0.0);
+    EXPECT_NEAR(share_of(graph, inlets[2], Turn::right), 0.36, 1e-9);
+    const auto& way = graph.routes[static_cast<std::size_t>(inlets[0].routes.back())].lanes;
+    EXPECT_EQ(graph.lanes[static_cast<std::size_t>(way[0])].name, "first_west_in_0");
+}
+
+// On a link each lane has the shares of the approach, and its own routes where it has them.
+TEST(StreetInlets, OnLinksHaveTheSharesOfTheApproach) {
+    const LaneGraph graph = make_streets(two_streets());
+    const std::vector<DemandPlan::Inlet> inlets = street_inlets(graph);
+    for (std::size_t k = graph.entries.size(); k < inlets.size(); ++k) {
+        EXPECT_NEAR(share_of(graph, inlets[k], Turn::straight), 0.8, 1e-12);
+        EXPECT_NEAR(share_of(graph, inlets[k], Turn::right), 0.12, 1e-12);
+        EXPECT_NEAR(share_of(graph, inlets[k], Turn::left), 0.08, 1e-12);
+        EXPECT_EQ(graph.routes[static_cast<std::size_t>(inlets[k].routes[0])].lanes[0], inlets[k].lane);
+    }
+}
+
+}  // namespace
+}  // namespace stopline

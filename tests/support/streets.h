@@ -1,0 +1,56 @@
+// Streets that several tests use: two intersections 200 m apart on a major street with three lanes, and minor streets of one.
+#pragma once
+
+#include <string>
+
+#include "network/street_settings.h"
+
+namespace stopline {
+
+// A pedestrian light has arms in the west and east only.
+inline StreetIntersection street_node(const std::string& name, double x_m, bool minor = true) {
+    StreetIntersection node;
+    node.name = name;
+    node.x_m = x_m;
+    for (const char* const from : {"west", "east"}) {
+        StreetArm arm;
+        arm.from = from;
+        arm.lanes = {{minor ? "straight+left" : "straight"}, {"straight"}, {minor ? "straight+right" : "straight"}};
+        arm.exits = 3;
+        if (minor) {
+            arm.right = 0.12;
+            arm.left = 0.08;
+        }
+        node.arms.push_back(arm);
+    }
+    for (const char* const from : {"south", "north"}) {
+        if (!minor) break;
+        StreetArm arm;
+        arm.from = from;
+        arm.lanes = {{"straight+left+right"}};
+        arm.exits = 1;
+        arm.right = 0.16;
+        arm.left = 0.09;
+        node.arms.push_back(arm);
+    }
+    return node;
+}
+
+inline StreetSettings two_streets() {
+    StreetSettings streets;
+    streets.median_m = 4.0;
+    streets.intersections = {street_node("first", 0.0), street_node("second", 200.0)};
+    return streets;
+}
+
+// Pockets of 60 m for left turns on both sides of the first intersection, with a green of their own.
+inline StreetSettings streets_with_pockets() {
+    StreetSettings streets = two_streets();
+    StreetIntersection& node = streets.intersections[0];
+    for (std::size_t a = 0; a < 2; ++a)
+        node.arms[a].lanes = {{"left", 60.0}, {"straight"}, {"straight"}, {"straight+right"}};
+    node.programme = {22, 3, 8, 3, 11, 3, 10};
+    return streets;
+}
+
+}  // namespace stopline
