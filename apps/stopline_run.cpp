@@ -23,6 +23,7 @@
 #include "experiment/single_light_csv.h"
 #include "experiment/single_light_figures.h"
 #include "experiment/street_map.h"
+#include "experiment/street_results.h"
 #include "scenario/load_scenario.h"
 #include "scenario/quantity.h"
 
@@ -167,7 +168,14 @@ ExitCode run_as_network(const RunOptionsOfUser& options, const Scenario& scenari
                                   {"ways.csv", network_ways_csv(report)},   {"hindrance.csv", hindrance_csv(report)},
                                   {"gridlocks.csv", gridlocks_csv(report)}, {"rules.csv", rules_csv(report)}};
     std::vector<Figure> figures{network_series_figure(report), hindrance_figure(report)};
-    if (scenario.network.is_streets()) figures.push_back(street_map(scenario));
+    if (scenario.network.is_streets()) {
+        tables.emplace_back("inflow.csv", inflow_csv(report));
+        tables.emplace_back("approaches.csv", approaches_csv(report));
+        tables.emplace_back("turns.csv", turns_csv(report));
+        for (const Figure& figure : {street_map(scenario), inflow_figure(report), backlog_figure(report)}) {
+            figures.push_back(figure);
+        }
+    }
     if (scenario.measure.time_space_s > 0.0) {
         tables.emplace_back("time_space.csv", street_csv(report));
         figures.push_back(street_figure(report));

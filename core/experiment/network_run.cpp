@@ -183,6 +183,7 @@ NetworkFigures run_network(const Scenario& scenario, std::size_t population,
     figures.complete = true;
     Sampler sampler(scenario, model);
     StreetWatch street(scenario, model);
+    BacklogWatch backlog(model, scenario.measure.interval_s);
     const std::int64_t last = to_ticks(scenario.duration_s, model.step_s);
     while (simulation.state().tick < last) {
         if (on_step && !on_step(simulation)) {
@@ -191,6 +192,7 @@ NetworkFigures run_network(const Scenario& scenario, std::size_t population,
         }
         sampler.look(simulation.state());
         street.look(simulation.state());
+        backlog.look(simulation.state());
         simulation.step();
     }
     const State& state = simulation.state();
@@ -207,6 +209,13 @@ NetworkFigures run_network(const Scenario& scenario, std::size_t population,
     figures.state_hash = simulation.state_hash();
     figures.stability = stability_of(figures);
     figures.street = street.trace();
+    backlog.look(state);
+    figures.backlog = backlog.backlog();
+    figures.inflow = inflow_series(model, state.crossings, scenario.measure.interval_s, model.time_s(state.tick));
+    figures.turned = state.turned;
+    figures.changes_for_route = std::count_if(state.lane_changes.begin(), state.lane_changes.end(),
+                                              [](const LaneChange& change) { return change.for_route; });
+    figures.changes_for_speed = static_cast<std::int64_t>(state.lane_changes.size()) - figures.changes_for_route;
     return figures;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "experiment/backlog.h"
 #include "experiment/time_space.h"
 #include "measure/area.h"
 #include "scenario/scenario.h"
@@ -46,6 +47,12 @@ struct NetworkFigures {
     std::int64_t left_network = 0;
     std::int64_t updates = 0;
     std::uint64_t state_hash = 0;
+    // Streets (street_results.h).
+    std::vector<std::array<int, 4>> inflow;  // [interval][Side] vehicles
+    Backlog backlog;
+    std::vector<std::array<std::int64_t, 4>> turned;  // [approach][Turn]
+    std::int64_t changes_for_route = 0;
+    std::int64_t changes_for_speed = 0;
     StreetTrace street;  // empty unless measure.time_space asks for it
     bool complete = false;
 };

@@ -10,6 +10,7 @@
 #include "experiment/intersection_run.h"
 #include "experiment/network_run.h"
 #include "experiment/single_light.h"
+#include "experiment/street_results.h"
 #include "sim/model.h"
 
 namespace stopline {
@@ -115,6 +116,9 @@ std::vector<RunMetric> network_metrics(const Scenario& scenario, std::size_t pop
     for (std::size_t cause = 1; cause < kCauseNames.size(); ++cause) {
         metrics.push_back(
             number_metric(fmt::format("lost_{}", kCauseNames[cause]), "h", log.lost_s[cause] / 3600.0, 6));
+    }
+    if (scenario.network.is_streets()) {
+        for (RunMetric& metric : street_metrics(scenario, f)) metrics.push_back(std::move(metric));
     }
     metrics.push_back(number_metric("longest_stand", "s", log.longest_stand_s, 1));
     metrics.push_back(number_metric("longest_inside", "s", f.longest_inside_s, 2));

@@ -106,4 +106,17 @@ std::vector<WayFigures> way_figures(const Model& model, std::span<const Crossing
     return ways;
 }
 
+std::vector<std::array<int, 4>> inflow_series(const Model& model, std::span<const Crossing> crossings,
+                                              double interval_s, double end_s) {
+    std::vector<std::array<int, 4>> series(static_cast<std::size_t>(std::floor(end_s / interval_s + 1e-9)));
+    for (const Crossing& crossing : crossings) {
+        const Detector& detector = model.detectors[at(crossing.detector)];
+        if (detector.kind != Detector::Kind::zone || detector.leaves) continue;
+        const auto window = static_cast<std::size_t>(crossing.time_s / interval_s);
+        const Side from = comes_from(model.graph.lanes[at(detector.lane)]);
+        if (window < series.size()) ++series[window][static_cast<std::size_t>(from)];
+    }
+    return series;
+}
+
 }  // namespace stopline

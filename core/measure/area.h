@@ -40,6 +40,10 @@ struct WayFigures {
 std::vector<AreaFigures> area_series(std::span<const Detector> detectors, std::span<const Crossing> crossings,
                                      double interval_s, double end_s, double lane_m);
 
+// [window][Side] vehicles that came into the area.
+std::vector<std::array<int, 4>> inflow_series(const Model& model, std::span<const Crossing> crossings,
+                                              double interval_s, double end_s);
+
 // Sixteen, by side of entry and exit.
 std::vector<WayFigures> way_figures(const Model& model, std::span<const Crossing> crossings, const TimeWindow& window);
 

@@ -65,6 +65,39 @@ bool gaps_are_enough(const Model& model, const Changer& me, const Around& there,
            enough(there.behind, needed_gap_m(model, there.behind.policy, there.behind.speed_mps, me.speed_mps, share));
 }
 
+// Changes that are left to be made for the turn after, if a vehicle leaves the approach with `turn` from a lane; many: it can't.
+int changes_after(const State& state, int lane, Turn turn, Turn after) {
+    constexpr int kMany = 100;
+    const int route = state.plan.beside(lane).way(turn).route;
+    if (route < 0) return kMany;
+    return after == Turn::none ? 0 : std::abs(state.plan.beside(state.plan.route(route).back()).way(after).changes);
+}
+
+// Signed as WayOn::changes; all lanes up to there lead on.
+int wished_changes(const State& state, int lane, Turn turn, Turn after) {
+    int fewest = changes_after(state, lane, turn, after);
+    int wished = 0;
+    int distance = 0;
+    for (int other = state.plan.beside(lane).right; other >= 0; other = state.plan.beside(other).right) {
+        const int changes = changes_after(state, other, turn, after);
+        if (state.plan.beside(other).way(turn).route < 0) break;
+        ++distance;
+        if (changes >= fewest) continue;
+        fewest = changes;
+        wished = distance;
+    }
+    distance = 0;
+    for (int other = state.plan.beside(lane).left; other >= 0; other = state.plan.beside(other).left) {
+        const int changes = changes_after(state, other, turn, after);
+        if (state.plan.beside(other).way(turn).route < 0) break;
+        --distance;
+        if (changes > fewest || (changes == fewest && -distance >= wished)) continue;
+        fewest = changes;
+        wished = distance;
+    }
+    return wished;
+}
+
 // Its body is on the lane, and there is such a place on the other; the stop line can still be minded.
 bool can_be_there(const Model& model, const Changer& me, double front_there_m) {
     return me.front_m >= me.length_m && front_there_m >= me.length_m &&
@@ -74,20 +107,16 @@ bool can_be_there(const Model& model, const Changer& me, double front_there_m) {
 class Change {
 public:
     Change(const Model& model, State& state, int lane, int slot)
-        : model_(model),
-          state_(state),
-          me_(changer_at(model, state, lane, slot)),
-          since_(since_change(slot)),
-          after_(state.vehicles.record[at(slot)].turn_after) {}
+        : model_(model), state_(state), me_(changer_at(model, state, lane, slot)), since_(since_change(slot)) {}
 
     // Whether the vehicle has left the lane.
     bool done() {
         const BesidePlan& beside = state_.plan.beside(me_.lane);
         if (me_.changes != 0 && me_.to_line_m < model_.lane_change.strategic_m * std::abs(me_.changes)) {
-            return since_ >= kBetween_s && for_route(me_.changes < 0 ? beside.left : beside.right);
+            return since_ >= kBetween_s && for_route(me_.changes < 0 ? beside.left : beside.right, me_.to_line_m);
         }
-        if (const int side = wished_side(); side != 0 && me_.to_line_m < 2.0 * model_.lane_change.strategic_m) {
-            return since_ >= kBetween_s && for_route(side < 0 ? beside.left : beside.right);
+        if (me_.wished != 0 && me_.to_next_line_m < model_.lane_change.strategic_m * std::abs(me_.wished)) {
+            return since_ >= kBetween_s && for_route(me_.wished < 0 ? beside.left : beside.right, me_.to_next_line_m);
         }
         if (since_ < model_.lane_change.pause_s) return false;
         return for_speed(beside.right, beside.left);
@@ -105,43 +134,20 @@ private:
                       route_on(other));
     }
 
-    bool for_route(int other) {
+    bool for_route(int other, double to_line_m) {
         if (other < 0 || !can_be_there(model_, me_, beside_m(state_, me_.lane, me_.front_m, other))) return false;
         const Around there = look(other);
-        if (!gaps_are_enough(model_, me_, there, urgent_share(model_, me_.to_line_m))) return false;
+        if (!gaps_are_enough(model_, me_, there, urgent_share(model_, to_line_m))) return false;
         go(other, there, true);
         return true;
-    }
-
-    // Changes that it will take on the way to the next intersection but one, if the vehicle leaves this one from a lane; many: it can't.
-    int changes_after(int lane) const {
-        constexpr int kMany = 100;
-        const int route = route_on(lane);
-        if (route < 0) return kMany;
-        return std::abs(state_.plan.beside(state_.plan.route(route).back()).way(after_).changes);
-    }
-
-    // Below 0: to the left there is a lane from which fewer will be needed, and all up to there lead on; above: to the right.
-    int wished_side() const {
-        if (me_.changes != 0 || after_ == Turn::none) return 0;
-        const auto fewest = [&](int BesidePlan::*side) {
-            int best = changes_after(me_.lane);
-            for (int lane = state_.plan.beside(me_.lane).*side; lane >= 0 && route_on(lane) >= 0;
-                 lane = state_.plan.beside(lane).*side) {
-                best = std::min(best, changes_after(lane));
-            }
-            return best;
-        };
-        const int left = fewest(&BesidePlan::left);
-        const int right = fewest(&BesidePlan::right);
-        if (right < changes_after(me_.lane) && right <= left) return 1;
-        return left < changes_after(me_.lane) ? -1 : 0;
     }
 
     // Where the route goes on as well as from here.
     bool serves(int other) const {
         if (other < 0 || !can_be_there(model_, me_, beside_m(state_, me_.lane, me_.front_m, other))) return false;
-        if (after_ != Turn::none && changes_after(other) > changes_after(me_.lane)) return false;
+        const Turn after = state_.vehicles.record[at(me_.slot)].turn_after;
+        if (changes_after(state_, other, me_.turn, after) > changes_after(state_, me_.lane, me_.turn, after))
+            return false;
         const int changes = std::abs(state_.plan.beside(other).way(me_.turn).changes);
         return route_on(other) >= 0 || me_.to_line_m > model_.lane_change.strategic_m * changes;
     }
@@ -224,7 +230,6 @@ private:
     State& state_;
     Changer me_;
     double since_;
-    Turn after_;
 };
 
 }  // namespace
@@ -241,6 +246,11 @@ Changer changer_at(const Model& model, const State& state, int lane, int slot) {
     me.turn = state.plan.turn_of(v.record[at(slot)].route);
     me.changes = state.plan.beside(lane).way(me.turn).changes;
     me.to_line_m = state.plan.lane(lane).stop_line_m - model.driver.stop.margin_m - me.front_m;
+    const Turn after = v.record[at(slot)].turn_after;
+    if (me.changes != 0 || after == Turn::none) return me;
+    me.wished = wished_changes(state, lane, me.turn, after);
+    const int exit = state.plan.route(v.record[at(slot)].route).back();
+    me.to_next_line_m = me.to_line_m + state.plan.beside(exit).begin_m + state.plan.lane(exit).stop_line_m;
     return me;
 }
 

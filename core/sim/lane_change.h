@@ -21,6 +21,10 @@ struct Changer {
     Turn turn = Turn::none;
     int changes = 0;         // that its route takes (WayOn::changes)
     double to_line_m = 0.0;  // front to stop line
+    // The same for the turn after, if it is known and nothing is in the way before: changes to the nearest lane from which fewest are left to
+    // be made behind the intersection, and how far it is to the stop line there.
+    int wished = 0;
+    double to_next_line_m = 0.0;
 };
 Changer changer_at(const Model& model, const State& state, int lane, int slot);
 

@@ -88,6 +88,7 @@ State make_state(const Model& model, int threads) {
     state.stop_slot.assign(lanes, -1);
     state.holds.resize(lanes);
     state.adapting.resize(lanes);
+    state.turned.resize(model.graph.approaches.size());
     state.kept_out.resize(lanes);
     state.resting.resize(lanes);
     state.sleeps_until_green_of.assign(lanes, -1);

@@ -139,7 +139,8 @@ struct State {
     std::vector<int> upstream;                   // [detector] vehicles on its lane that have not passed it
     std::vector<Crossing> crossings;             // of the whole run, in order
     std::vector<GapAccepted> gaps_accepted;
-    std::vector<LaneChange> lane_changes;  // of the whole run, in order
+    std::vector<LaneChange> lane_changes;             // of the whole run, in order
+    std::vector<std::array<std::int64_t, 4>> turned;  // [approach][Turn] vehicles that went on from there
     std::vector<InletState> inlets;
     std::vector<int> inlet_of;      // [lane] -1: no routes begin there
     std::vector<Passage> passages;  // of the whole run, in order

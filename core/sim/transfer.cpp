@@ -39,6 +39,9 @@ void pass_on(const Model& model, State& state, int lane) {
     const int index = v.record[at(slot)].route_index + 1;
     const double time_s = passing_time_s(model, state, slot, length_m);
     if (model.records_all) note(state, time_s, slot, lane, next);
+    if (const int approach = model.graph.lanes[at(lane)].approach; approach >= 0 && !leaves) {
+        ++state.turned[at(approach)][static_cast<std::size_t>(model.graph.lanes[at(next)].turn)];
+    }
     if (leaves) {
         ++state.left;
     } else {

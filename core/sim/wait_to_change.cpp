@@ -27,12 +27,17 @@ public:
     void look() {
         const LaneBlock& block = state_.blocks[at(lane_)];
         for (int slot = block.first; slot < block.stop(); ++slot) {
-            if (v_.record[at(slot)].next_lane >= 0) continue;
+            const VehicleRecord& record = v_.record[at(slot)];
+            if (record.next_lane >= 0 && record.turn_after == Turn::none) continue;
             const Changer me = changer_at(model_, state_, lane_, slot);
-            if (me.changes == 0 || me.to_line_m < -model_.driver.stop.margin_m) continue;
-            if (me.to_line_m > model_.lane_change.urgent_m * std::abs(me.changes)) continue;
-            hold(me);
-            adapt(me);
+            if (me.to_line_m < -model_.driver.stop.margin_m) continue;
+            const double urgent_m = model_.lane_change.urgent_m;
+            if (me.changes != 0 && me.to_line_m < urgent_m * std::abs(me.changes)) {
+                hold(me);
+                adapt(me, me.changes, me.to_line_m);
+            } else if (me.wished != 0 && me.to_next_line_m < urgent_m * std::abs(me.wished)) {
+                adapt(me, me.wished, me.to_next_line_m);
+            }
         }
     }
 
@@ -60,9 +65,9 @@ private:
         return me.changes * changer_at(model_, state_, other, slot).changes < 0;
     }
 
-    bool must_let_pass(int other, const Neighbour& behind, const Changer& me) const {
+    bool must_let_pass(int other, const Neighbour& behind, const Changer& me, double to_line_m) const {
         if (behind.slot < 0 || behind.speed_mps + kFallsBack_mps < me.speed_mps) return false;
-        const double share = urgent_share(model_, me.to_line_m);
+        const double share = urgent_share(model_, to_line_m);
         const double needed_m = needed_gap_m(model_, behind.policy, behind.speed_mps, me.speed_mps, share);
         return behind.gap_m < needed_m && !wants_here(other, behind.slot, me);
     }
@@ -76,9 +81,10 @@ private:
                std::max(behind.gap_m, 0.0) >= braking_m;
     }
 
-    void adapt(const Changer& me) {
+    // Signed as WayOn::changes; how far it is to the stop line for which they are made.
+    void adapt(const Changer& me, int changes, double to_line_m) {
         const BesidePlan& beside = state_.plan.beside(lane_);
-        const int other = me.changes < 0 ? beside.left : beside.right;
+        const int other = changes < 0 ? beside.left : beside.right;
         if (other < 0) return;
         const double there_m = beside_m(state_, lane_, me.front_m, other);
         if (there_m < me.length_m) return;
@@ -89,7 +95,7 @@ private:
             most_mps = following_mps(there.ahead, me.policy, me.speed_mps);
         }
         const Neighbour& behind = there.behind;
-        if (must_let_pass(other, behind, me)) {
+        if (must_let_pass(other, behind, me, to_line_m)) {
             if (may_help(other, behind, me)) {
                 const Neighbour mine{me.slot, behind.gap_m, me.speed_mps, me.policy};
                 note(other, {behind.slot, std::max(following_mps(mine, behind.policy, behind.speed_mps), kCrawl_mps)});
