@@ -93,13 +93,14 @@ std::map<std::string, Measurements> measure_for(const std::vector<Target>& targe
 
 // One line a section.
 std::span<const Experiment> experiments() {
-    static const std::vector<Experiment> kAll = joined<Experiment>(
-        {section3_experiments(), section4_experiments(), section5_experiments(), section6_experiments()});
+    static const std::vector<Experiment> kAll =
+        joined<Experiment>({section3_experiments(), section4_experiments(), section5_experiments(),
+                            section6_experiments(), section7_experiments()});
     return kAll;
 }
 std::span<const RowJudge> row_judges() {
     static const std::vector<RowJudge> kAll =
-        joined<RowJudge>({section3_rows(), section4_rows(), section5_rows(), section6_rows()});
+        joined<RowJudge>({section3_rows(), section4_rows(), section5_rows(), section6_rows(), section7_rows()});
     return kAll;
 }
 

@@ -19,4 +19,7 @@ std::span<const RowJudge> section5_rows();
 std::span<const Experiment> section6_experiments();
 std::span<const RowJudge> section6_rows();
 
+std::span<const Experiment> section7_experiments();
+std::span<const RowJudge> section7_rows();
+
 }  // namespace stopline
