@@ -48,6 +48,7 @@ public:
         int& sleeps = state_.sleeps_until_green_of[at(lane_)];
         if (sleeps >= 0) {
             adapt();
+            wait_behind_first();
             if (resting.to == block_.count) return;
             find_resting(v_, block_, state_.tick, resting);
             return add(first + resting.to, block_.stop());
@@ -96,6 +97,16 @@ private:
         if (stop_slot_ != first || state_.stop_lines[at(lane_)].stopper != v_.id[at(first)]) return false;
         if (holds_.count > 0 || v_.position_m[at(first)] > plan_.stop_line_m) return false;
         return at_rest(stopping_speed_mps(model_, v_, first, room_to_line_m(first))) == 0.0;
+    }
+
+    // Those that wait to change lanes, behind a first vehicle that keeps what it has.
+    void wait_behind_first() {
+        for (int k = 0; k < holds_.count; ++k) {
+            const Hold& hold = holds_.each[at(k)];
+            if (hold.slot == block_.first) continue;
+            impose(hold.slot, stopping_speed_mps(model_, v_, hold.slot, hold.place_m - v_.position_m[at(hold.slot)]));
+            state_.resting[at(lane_)].imposed = state_.tick;
+        }
     }
 
     void impose_all() {

@@ -1,0 +1,101 @@
+// The streets of Berlin as shipped, for some minutes: invariants, turns as asked for, and the same bits however they are computed.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "experiment/network_run.h"
+#include "scenario/load_scenario.h"
+
+namespace stopline {
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+Scenario berlin(std::vector<std::string> overrides = {}) {
+    overrides.emplace_back("duration=400 s");
+    return load_scenario(STOPLINE_SOURCE_DIR "/scenarios/berlin.yaml", overrides);
+}
+
+std::uint64_t hash_of(const Scenario& scenario, std::size_t population, int threads, bool scalar) {
+    Model model = network_model(scenario, population);
+    model.scalar_kernels = scalar;
+    Simulation simulation(model, threads);
+    simulation.run_until(scenario.duration_s);
+    EXPECT_TRUE(simulation.state().violations.none());
+    EXPECT_GT(simulation.state().lane_changes.size(), 100U);
+    return simulation.state_hash();
+}
+
+TEST(BerlinThreads, AreTheSameBitsOnOneAndTwoThreadsAndOneVehicleAtATime) {
+    const Scenario scenario = berlin({"driver.lane_change.help=on"});
+    for (const std::size_t population : {0U, 2U, 3U}) {
+        const std::uint64_t one = hash_of(scenario, population, 1, false);
+        EXPECT_EQ(hash_of(scenario, population, 2, false), one);
+        EXPECT_EQ(hash_of(scenario, population, 1, true), one);
+        EXPECT_EQ(hash_of(scenario, population, 1, false), one);
+    }
+}
+
+TEST(Berlin, HasNoViolationsInEitherModeWithThreeAndFourLanes) {
+    for (const char* const lanes : {"network.streets=three_lanes", "network.streets=four_lanes"}) {
+        for (const char* const fidelity : {"fidelity=meso", "fidelity=full"}) {
+            const Scenario scenario = berlin({lanes, fidelity});
+            for (const std::size_t population : {0U, 1U, 2U}) {  // CTG-Ref, CDG, MIX
+                const NetworkFigures figures = run_network(scenario, population);
+                EXPECT_TRUE(figures.violations.none()) << lanes << ", " << fidelity << ", " << figures.population;
+            }
+        }
+    }
+}
+
+// Vehicles that could not get to the lane of their turn are the difference; those on the first link have chosen their lane.
+TEST(Berlin, TurnsAreThoseOfTableThree) {
+    const Scenario scenario = berlin({"driver.lane_change.help=on"});
+    const LaneGraph graph = make_network(scenario.network);
+    const NetworkFigures figures = run_network(scenario, 0);
+    ASSERT_EQ(figures.turned.size(), graph.approaches.size());
+    std::array<double, 4> all{};
+    double vehicles = 0.0;
+    double right = 0.0;
+    double left = 0.0;
+    for (std::size_t k = 0; k < figures.turned.size(); ++k) {
+        double here = 0.0;
+        for (std::size_t turn = 0; turn < all.size(); ++turn) {
+            all[turn] += static_cast<double>(figures.turned[k][turn]);
+            here += static_cast<double>(figures.turned[k][turn]);
+        }
+        vehicles += here;
+        right += here * graph.approaches[k].right;
+        left += here * graph.approaches[k].left;
+    }
+    ASSERT_GT(vehicles, 1000.0);
+    constexpr double kShare = 0.015;
+    EXPECT_NEAR(all[static_cast<std::size_t>(Turn::right)] / vehicles, right / vehicles, kShare);
+    EXPECT_NEAR(all[static_cast<std::size_t>(Turn::left)] / vehicles, left / vehicles, kShare);
+}
+
+TEST(Backlog, FillsAnApproachWhenItIsSlowUpstreamForFiveIntervals) {
+    Backlog backlog;
+    backlog.approaches.push_back({"one", {}});
+    const std::array<double, 9> upstream_mps{10.0, 2.0, 2.0, 8.0, 3.0, 3.0, 3.0, 3.0, 3.0};
+    for (const double speed_mps : upstream_mps) backlog.approaches[0].intervals.push_back({5.0, 8.0, speed_mps});
+    EXPECT_EQ(backlog.filled_s(0), 240.0);
+    backlog.approaches[0].intervals[at(6)].upstream_speed_mps = 5.0;
+    EXPECT_FALSE(backlog.filled_s(0).has_value());
+}
+
+TEST(Backlog, SumsUpTheVehiclesOfAnApproach) {
+    const Scenario scenario = berlin();
+    const NetworkFigures figures = run_network(scenario, 0);
+    const NetworkInterval& last = figures.series.back();
+    double vehicles = 0.0;
+    for (const ApproachSeries& approach : figures.backlog.approaches) vehicles += approach.intervals.back().vehicles;
+    // Those on approaches outside the area count too, those inside intersections do not.
+    EXPECT_GT(vehicles, last.area.vehicles * 0.8);
+    EXPECT_EQ(figures.backlog.approaches.front().intervals.size(), figures.series.size());
+}
+
+}  // namespace
+}  // namespace stopline
