@@ -159,6 +159,7 @@ class Recording {
         this.sections = new Map();  // number -> promise of frames, the one used last at the end
         this.ready = new Map();     // number -> frames
         this.onReady = () => {};
+        this.onError = () => {};
     }
 
     async open() {
@@ -214,12 +215,13 @@ class Recording {
         let promise = this.sections.get(section);
         this.sections.delete(section);
         if (!promise) {
-            promise = this.unpack('section' + section).then((bytes) => {
+            promise = this.unpack('data-' + section).then((bytes) => {
                 const frames = new SectionDecoder(this.head, bytes).frames(this.lengthOf(section));
                 this.ready.set(section, frames);
                 this.onReady(section);
                 return frames;
             });
+            promise.catch((error) => this.onError(error));
         }
         this.sections.set(section, promise);
         for (const old of this.sections.keys()) {
