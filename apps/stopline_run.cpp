@@ -48,7 +48,7 @@ void declare(CLI::App& app, RunOptionsOfUser& options) {
     add_set_option(app, options.common);
     app.add_flag("--trajectories", options.trajectories,
                  "Write trajectories.csv too: from 5 s before the green to 25 s after it; intersections: of the first "
-                 "measured cycle");
+                 "measured cycle; grids: of all of the run, or --record-from and --record-until");
     app.add_option("--interval", options.interval, "Time between its samples (default: 0.1 s)")->type_name("TIME");
     add_run_files_options(app, options.files);
     app.add_flag("--no-figures", options.no_figures, "Draw no figures");
@@ -56,14 +56,16 @@ void declare(CLI::App& app, RunOptionsOfUser& options) {
     app.add_flag("--schema", options.schema, "Print the JSON schema of scenario files, for editors, and exit");
     app.add_flag("--list", options.list, "List populations, policies, laws, vehicles and drivers, and exit");
     app.footer(
-        std::string("\nExamples:\n"
-                    "  stopline-run scenarios/single_light.yaml\n"
-                    "  stopline-run scenarios/intersection.yaml --set 'demand.left=15 %'\n"
-                    "  stopline-run scenarios/grid.yaml --set 'duration=2000 s'\n"
-                    "  stopline-run scenarios/single_light.yaml --set 'populations=[CDG, CTG-Ref]' --trajectories\n"
-                    "  stopline-run scenarios/grid.yaml --set 'duration=600 s' --record out/grid.rec\n"
-                    "  stopline-run scenarios/first_steps.yaml --set vehicle=electric_100kw --output out/electric\n"
-                    "  stopline-run --list scenarios/single_light.yaml\n\n") +
+        std::string(
+            "\nExamples:\n"
+            "  stopline-run scenarios/single_light.yaml\n"
+            "  stopline-run scenarios/intersection.yaml --set 'demand.left=15 %'\n"
+            "  stopline-run scenarios/grid.yaml --set 'duration=2000 s'\n"
+            "  stopline-run scenarios/single_light.yaml --set 'populations=[CDG, CTG-Ref]' --trajectories\n"
+            "  stopline-run scenarios/grid.yaml --set 'duration=600 s' --record out/grid.rec\n"
+            "  stopline-run scenarios/intersection.yaml --fcd out/fcd.xml --tripinfo out/trips.xml --e1 out/loops.xml\n"
+            "  stopline-run scenarios/first_steps.yaml --set vehicle=electric_100kw --output out/electric\n"
+            "  stopline-run --list scenarios/single_light.yaml\n\n") +
         kExitCodesText);
 }
 
@@ -156,7 +158,6 @@ ExitCode run_as_intersection(const RunOptionsOfUser& options, const Scenario& sc
 // Several intersections: the same, with what they do to each other.
 ExitCode run_as_network(const RunOptionsOfUser& options, const Scenario& scenario, const std::filesystem::path& folder,
                         RunFiles& run_files) {
-    if (options.trajectories) throw InputError("--trajectories: not for grids; see series.csv and hindrance.csv");
     const NetworkReport report = [&] {
         ProgressBar bar(fmt::format("{} runs", scenario.populations.size()));
         return run_networks(scenario, {threads_or_all(options.common.threads),
@@ -195,7 +196,12 @@ ExitCode run(const RunOptionsOfUser& options) {
     const Scenario scenario = load_with_options(options.file, options.common);
     const double interval_s = trajectory_interval_s(options, scenario);
     const std::filesystem::path folder = options.common.output.empty() ? "out/" + scenario.name : options.common.output;
-    RunFiles run_files(options.files, scenario, command_text("stopline-run", options.file, options.common));
+    RunFilesOptions files = options.files;
+    if (options.trajectories && scenario.network.kind == "grid") {
+        files.trajectories = (folder / "trajectories.csv").string();
+        files.trajectory_interval_s = interval_s;
+    }
+    RunFiles run_files(files, scenario, command_text("stopline-run", options.file, options.common));
     prepare_folder(folder);
     if (scenario.network.kind == "intersection") {
         return run_as_intersection(options, scenario, interval_s, folder, run_files);

@@ -7,6 +7,9 @@
 #include "base/input_error.h"
 #include "common/command_line.h"
 #include "experiment/output.h"
+#include "record/recorder.h"
+#include "record/sumo_files.h"
+#include "record/trajectory_writer.h"
 #include "scenario/quantity.h"
 
 namespace stopline {
@@ -44,61 +47,109 @@ RecordingWindow window_of(const RunFilesOptions& options, const Scenario& scenar
 
 // NAME.ext, or NAME.POPULATION.ext where there are several.
 std::filesystem::path file_of(const std::filesystem::path& file, const Scenario& scenario, std::size_t population) {
-    if (file.empty() || scenario.populations.size() == 1) return file;
+    if (scenario.populations.size() == 1) return file;
     const std::string name =
         fmt::format("{}.{}{}", file.stem().string(), scenario.populations[population].name, file.extension().string());
     return file.parent_path() / name;
 }
 
-void check_folder_of(const char* option, const std::string& file) {
+void check_folder_of(const std::string& file) {
     const std::filesystem::path path(file);
-    if (path.filename().empty()) throw InputError(fmt::format("{}: '{}' is not the name of a file", option, file));
+    if (path.filename().empty()) throw InputError(fmt::format("'{}' is not the name of a file", file));
     prepare_folder(path.has_parent_path() ? path.parent_path() : ".");
 }
 
-std::string recorded_text(const std::filesystem::path& file, const RecordingSize& size) {
-    return fmt::format("  {}: {} frames, {} vehicle states, {:.2f} MB, {:.2f} bytes a vehicle and frame\n",
-                       file.string(), size.frames, size.vehicle_states, static_cast<double>(size.bytes) * 1e-6,
-                       size.bytes_per_state());
-}
+class RecordingWriter : public RunWriter {
+public:
+    RecordingWriter(const std::filesystem::path& file, const RecordingWindow& window, const RunOrigin& origin,
+                    const Model& model)
+        : recorder_(file, window, origin, model) {}
+
+    void look(const State& state) override { recorder_.look(state); }
+    std::string finish() override {
+        const RecordingSize size = recorder_.finish();
+        return fmt::format("{} frames, {} vehicle states, {:.2f} MB, {:.2f} bytes a vehicle and frame", size.frames,
+                           size.vehicle_states, static_cast<double>(size.bytes) * 1e-6, size.bytes_per_state());
+    }
+
+private:
+    Recorder recorder_;
+};
 
 }  // namespace
 
 void add_run_files_options(CLI::App& app, RunFilesOptions& options) {
-    app.add_option(
-           "--record", options.record,
-           "Record every vehicle and light into this file, for stopline-replay; several populations: FILE.POPULATION")
-        ->type_name("FILE");
-    app.add_option("--record-interval", options.interval, "Time between its frames (default: 0.5 s)")
-        ->type_name("TIME");
-    app.add_option("--record-from", options.from, "Record from this time on (default: 0 s)")->type_name("TIME");
-    app.add_option("--record-until", options.until, "Record up to this time (default: the end)")->type_name("TIME");
+    const auto file = [&](const char* name, std::string& value, const char* help) {
+        app.add_option(name, value, help)->type_name("FILE");
+    };
+    const auto time = [&](const char* name, std::string& value, const char* help) {
+        app.add_option(name, value, help)->type_name("TIME");
+    };
+    file(
+        "--record", options.record,
+        "Record every vehicle and light, for stopline-replay; with several populations, here and below, one file each: "
+        "NAME.POPULATION.EXT");
+    file("--fcd", options.fcd, "Write every vehicle's path as SUMO's floating car data (XML)");
+    time("--record-interval", options.interval, "Time between frames of both (default: 0.5 s)");
+    time("--record-from", options.from, "Write both from this time on (default: 0 s)");
+    time("--record-until", options.until, "Write both up to this time (default: the end)");
+    file("--tripinfo", options.tripinfo, "Write finished trips as SUMO does (XML)");
+    file("--e1", options.loops, "Write the detectors as SUMO's induction loops (XML)");
+    time("--e1-interval", options.loop_interval, "Time that a row of them is about (default: 60 s)");
 }
 
 RunFiles::RunFiles(const RunFilesOptions& options, const Scenario& scenario, const std::string& command)
-    : window_(window_of(options, scenario)), wanted_(!options.record.empty()) {
-    if (!wanted_) return;
-    check_folder_of("--record", options.record);
+    : scenario_(scenario), window_(window_of(options, scenario)), runs_(scenario.populations.size()) {
+    const auto add = [&](const std::string& file, auto make) {
+        if (!file.empty()) kinds_.push_back({file, make});
+    };
+    if (!options.record.empty()) add_recording(options, scenario, command);
+    add(options.fcd, [this](const std::filesystem::path& file, std::size_t, const Model& model) {
+        return make_fcd_writer(file, window_, model);
+    });
+    add(options.tripinfo, [](const std::filesystem::path& file, std::size_t, const Model& model) {
+        return make_tripinfo_writer(file, model);
+    });
+    const double loop_s = whole_steps("--e1-interval", options.loop_interval, scenario);
+    add(options.loops, [loop_s](const std::filesystem::path& file, std::size_t, const Model& model) {
+        return make_loop_writer(file, loop_s, model);
+    });
+    needs_detectors_ = !options.loops.empty();
+    RecordingWindow trajectories = window_;
+    trajectories.interval_s = options.trajectory_interval_s;
+    add(options.trajectories,
+        [this, trajectories](const std::filesystem::path& file, std::size_t k, const Model& model) {
+            return make_trajectory_writer(file, trajectories, scenario_.populations[k].name, model);
+        });
+    for (const Kind& kind : kinds_) check_folder_of(kind.file);
+}
+
+void RunFiles::add_recording(const RunFilesOptions& options, const Scenario& scenario, const std::string& command) {
     std::string again = command + " --record FILE --record-interval " + shell_word(options.interval);
     if (window_.from_s > 0.0) again += " --record-from " + shell_word(options.from);
     if (!options.until.empty()) again += " --record-until " + shell_word(options.until);
-    for (std::size_t k = 0; k < scenario.populations.size(); ++k) {
-        Run run;
-        run.origin = {again,
-                      scenario.name,
-                      scenario.title,
-                      fmt::format("{:016x}", scenario.hash),
-                      scenario.seed,
-                      scenario.populations[k].name,
-                      scenario.network.has_intersections() ? scenario.network.intersection.lane_width_m : 3.5};
-        run.record = file_of(options.record, scenario, k);
-        runs_.push_back(std::move(run));
-    }
+    constexpr double kApproachLaneWidth_m = 3.5;
+    RunOrigin origin{
+        again,
+        scenario.name,
+        scenario.title,
+        fmt::format("{:016x}", scenario.hash),
+        scenario.seed,
+        "",
+        scenario.network.has_intersections() ? scenario.network.intersection.lane_width_m : kApproachLaneWidth_m};
+    const auto make = [this, origin](const std::filesystem::path& file, std::size_t k, const Model& model) {
+        RunOrigin own = origin;
+        own.population = scenario_.populations[k].name;
+        return std::make_unique<RecordingWriter>(file, window_, own, model);
+    };
+    kinds_.push_back({options.record, make});
+    records_ = true;
 }
 
 Observation RunFiles::observation() {
     Observation observation;
-    if (wanted_) {
+    observation.all_detectors = needs_detectors_;
+    if (!kinds_.empty()) {
         observation.look = [this](std::size_t population, const Simulation& simulation) {
             look(population, simulation);
         };
@@ -107,18 +158,26 @@ Observation RunFiles::observation() {
 }
 
 void RunFiles::look(std::size_t population, const Simulation& simulation) {
-    Run& run = runs_[population];
-    if (!run.recorder) {
-        run.recorder = std::make_unique<Recorder>(run.record, window_, run.origin, simulation.model());
+    std::vector<Writing>& run = runs_[population];
+    if (run.empty()) {
+        for (const Kind& kind : kinds_) {
+            const std::filesystem::path file = file_of(kind.file, scenario_, population);
+            run.push_back({file, kind.make(file, population, simulation.model())});
+        }
     }
-    run.recorder->look(simulation.state());
+    for (const Writing& writing : run) writing.writer->look(simulation.state());
 }
 
 std::string RunFiles::finish() {
-    if (!wanted_) return "";
-    std::string text = "\nRecorded\n";
-    for (Run& run : runs_) text += recorded_text(run.record, run.recorder->finish());
-    return text + fmt::format("See it: stopline-replay {}\n", shell_word(runs_.front().record.string()));
+    if (kinds_.empty()) return "";
+    std::string text = "\nWritten while they ran\n";
+    for (const std::vector<Writing>& run : runs_) {
+        for (const Writing& writing : run) {
+            text += fmt::format("  {}: {}\n", writing.file.string(), writing.writer->finish());
+        }
+    }
+    if (!records_) return text;
+    return text + fmt::format("See it: stopline-replay {}\n", shell_word(runs_.front().front().file.string()));
 }
 
 }  // namespace stopline

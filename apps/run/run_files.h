@@ -1,8 +1,10 @@
-// What stopline-run writes while the simulation runs, one file a population: recordings for stopline-replay.
+// What stopline-run writes while the simulation runs, one file a population each: recordings for stopline-replay, tables for SUMO's
+// tools, and trajectories of grids.
 #pragma once
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,16 +12,24 @@
 #include <CLI/CLI.hpp>
 
 #include "experiment/observation.h"
-#include "record/recorder.h"
+#include "record/frame_clock.h"
+#include "record/run_writer.h"
 #include "scenario/scenario.h"
 
 namespace stopline {
 
 struct RunFilesOptions {
-    std::string record;  // file; empty: none
+    // Files; empty: none.
+    std::string record;
+    std::string fcd;
+    std::string tripinfo;
+    std::string loops;
+    std::string trajectories;  // of a grid
     std::string interval = "0.5 s";
     std::string from = "0 s";
     std::string until;  // empty: to the end
+    std::string loop_interval = "60 s";
+    double trajectory_interval_s = 0.1;
 };
 
 void add_run_files_options(CLI::App& app, RunFilesOptions& options);
@@ -35,16 +45,24 @@ public:
     std::string finish();
 
 private:
-    struct Run {
-        RunOrigin origin;
-        std::filesystem::path record;
-        std::unique_ptr<Recorder> recorder;
+    struct Writing {
+        std::filesystem::path file;
+        std::unique_ptr<RunWriter> writer;
     };
+    // Of one kind of file: its name, and what writes it for a population.
+    struct Kind {
+        std::string file;
+        std::function<std::unique_ptr<RunWriter>(const std::filesystem::path&, std::size_t, const Model&)> make;
+    };
+    void add_recording(const RunFilesOptions& options, const Scenario& scenario, const std::string& command);
     void look(std::size_t population, const Simulation& simulation);
 
+    const Scenario& scenario_;
     RecordingWindow window_;
-    std::vector<Run> runs_;  // [population]
-    bool wanted_ = false;
+    std::vector<Kind> kinds_;
+    std::vector<std::vector<Writing>> runs_;  // [population]
+    bool needs_detectors_ = false;
+    bool records_ = false;
 };
 
 }  // namespace stopline

@@ -1,28 +1,13 @@
 #include "record/recorder.h"
 
-#include <cmath>
-
 #include "record/bytes.h"
 #include "record/recording_format.h"
 
 namespace stopline {
 
-namespace {
-
-std::int64_t last_tick_of(const RecordingWindow& window, double step_s) {
-    if (!std::isfinite(window.until_s)) return std::numeric_limits<std::int64_t>::max();
-    return to_ticks(window.until_s, step_s);
-}
-
-}  // namespace
-
 Recorder::Recorder(const std::filesystem::path& file, const RecordingWindow& window, const RunOrigin& origin,
                    const Model& model)
-    : file_(file),
-      grid_(make_frame_grid(model, window.from_s, window.interval_s)),
-      encoder_(model, grid_),
-      next_tick_(grid_.first_tick),
-      last_tick_(last_tick_of(window, model.step_s)) {
+    : file_(file), clock_(window, model.step_s), grid_(make_frame_grid(model, clock_)), encoder_(model, grid_) {
     std::string begin(kRecordingMagic);
     put_number(begin, kRecordingVersion);
     put_number(begin, kByteOrderMark);
@@ -31,12 +16,10 @@ Recorder::Recorder(const std::filesystem::path& file, const RecordingWindow& win
 }
 
 void Recorder::record(const State& state) {
-    if (state.tick > last_tick_) return;
     if (in_section_ == 0) encoder_.start_section();
     encoder_.append(state, section_);
     ++in_section_;
     ++frames_;
-    next_tick_ += grid_.every_ticks;
     if (in_section_ == kFramesInSection) write_frames();
 }
 

@@ -3,21 +3,15 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <limits>
 #include <string>
 
 #include "base/replaced_file.h"
 #include "record/compression.h"
+#include "record/frame_clock.h"
 #include "record/frame_encoder.h"
 #include "record/recording_header.h"
 
 namespace stopline {
-
-struct RecordingWindow {
-    double interval_s = 0.5;
-    double from_s = 0.0;
-    double until_s = std::numeric_limits<double>::infinity();
-};
 
 struct RecordingSize {
     std::int64_t frames = 0;
@@ -37,7 +31,7 @@ public:
 
     // Before each step, and once after the last.
     void look(const State& state) {
-        if (state.tick == next_tick_) record(state);
+        if (clock_.is_due(state.tick)) record(state);
     }
     RecordingSize finish();
 
@@ -48,10 +42,9 @@ private:
 
     ReplacedFile file_;
     Compressor compressor_;
+    FrameClock clock_;
     FrameGrid grid_;
     FrameEncoder encoder_;
-    std::int64_t next_tick_;
-    std::int64_t last_tick_;
     std::int64_t frames_ = 0;
     int in_section_ = 0;
     std::string section_;

@@ -62,17 +62,16 @@ RecordedRun run_of(const nlohmann::json& json) {
 
 }  // namespace
 
-FrameGrid make_frame_grid(const Model& model, double from_s, double interval_s) {
+FrameGrid make_frame_grid(const Model& model, const FrameClock& clock) {
     constexpr double kCodes = 65535.0;
     double longest_m = 0.0;
     for (const Lane& lane : model.graph.lanes) longest_m = std::max(longest_m, lane.length_m);
     FrameGrid grid;
     grid.step_s = model.step_s;
-    grid.every_ticks = std::max<std::int64_t>(to_ticks(interval_s, model.step_s), 1);
-    const auto every = static_cast<double>(grid.every_ticks);
-    grid.first_tick = std::llround(std::ceil(from_s / model.step_s / every - 1e-9)) * grid.every_ticks;
+    grid.every_ticks = clock.every_ticks();
+    grid.first_tick = clock.first_tick();
     grid.position_unit_m = kFinestPosition_m * std::max(std::ceil(longest_m / (kCodes * kFinestPosition_m)), 1.0);
-    const double frame_s = every * model.step_s;
+    const double frame_s = static_cast<double>(grid.every_ticks) * model.step_s;
     const double advance_q12 = std::round(0.5 * frame_s * kSpeedUnit_mps / grid.position_unit_m * 4096.0);
     grid.advance_q12 = static_cast<std::uint32_t>(std::min(advance_q12, static_cast<double>(kMostAdvance)));
     return grid;

@@ -14,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "record/frame_clock.h"
 #include "sim/model.h"
 
 namespace stopline {
@@ -41,7 +42,7 @@ struct FrameGrid {
 };
 
 // Positions take the finest unit with which the longest lane fits into 16 bits.
-FrameGrid make_frame_grid(const Model& model, double from_s, double interval_s);
+FrameGrid make_frame_grid(const Model& model, const FrameClock& clock);
 
 std::string recording_header(const Model& model, const RunOrigin& origin, const FrameGrid& grid);
 
