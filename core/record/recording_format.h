@@ -54,11 +54,13 @@ inline std::uint32_t expected_advance(std::uint32_t speed_sum, std::uint32_t adv
 }
 
 inline std::uint16_t zigzag(std::uint16_t difference) {
-    return static_cast<std::uint16_t>((difference << 1U) ^ ((difference & 0x8000U) != 0 ? 0xFFFFU : 0U));
+    const std::uint32_t wide = difference;
+    return static_cast<std::uint16_t>((wide << 1U) ^ ((wide & 0x8000U) != 0 ? 0xFFFFU : 0U));
 }
 
 inline std::uint16_t unzigzag(std::uint16_t code) {
-    return static_cast<std::uint16_t>((code >> 1U) ^ ((code & 1U) != 0 ? 0xFFFFU : 0U));
+    const std::uint32_t wide = code;
+    return static_cast<std::uint16_t>((wide >> 1U) ^ ((wide & 1U) != 0 ? 0xFFFFU : 0U));
 }
 
 }  // namespace stopline
