@@ -197,7 +197,7 @@ ExitCode run(const RunOptionsOfUser& options) {
     const double interval_s = trajectory_interval_s(options, scenario);
     const std::filesystem::path folder = options.common.output.empty() ? "out/" + scenario.name : options.common.output;
     RunFilesOptions files = options.files;
-    if (options.trajectories && scenario.network.kind == "grid") {
+    if (options.trajectories && scenario.network.has_several()) {
         files.trajectories = (folder / "trajectories.csv").string();
         files.trajectory_interval_s = interval_s;
     }
@@ -206,7 +206,7 @@ ExitCode run(const RunOptionsOfUser& options) {
     if (scenario.network.kind == "intersection") {
         return run_as_intersection(options, scenario, interval_s, folder, run_files);
     }
-    if (scenario.network.kind == "grid") return run_as_network(options, scenario, folder, run_files);
+    if (scenario.network.has_several()) return run_as_network(options, scenario, folder, run_files);
     SingleLightOptions run_options;
     run_options.threads = threads_or_all(options.common.threads);
     run_options.trajectory_interval_s = interval_s;

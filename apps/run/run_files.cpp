@@ -128,15 +128,17 @@ void RunFiles::add_recording(const RunFilesOptions& options, const Scenario& sce
     std::string again = command + " --record FILE --record-interval " + shell_word(options.interval);
     if (window_.from_s > 0.0) again += " --record-from " + shell_word(options.from);
     if (!options.until.empty()) again += " --record-until " + shell_word(options.until);
+    const NetworkSettings& network = scenario.network;
     constexpr double kApproachLaneWidth_m = 3.5;
-    RunOrigin origin{
-        again,
-        scenario.name,
-        scenario.title,
-        fmt::format("{:016x}", scenario.hash),
-        scenario.seed,
-        "",
-        scenario.network.has_intersections() ? scenario.network.intersection.lane_width_m : kApproachLaneWidth_m};
+    RunOrigin origin{again,
+                     scenario.name,
+                     scenario.title,
+                     fmt::format("{:016x}", scenario.hash),
+                     scenario.seed,
+                     "",
+                     network.is_streets()          ? network.streets.lane_width_m
+                     : network.has_intersections() ? network.intersection.lane_width_m
+                                                   : kApproachLaneWidth_m};
     const auto make = [this, origin](const std::filesystem::path& file, std::size_t k, const Model& model) {
         RunOrigin own = origin;
         own.population = scenario_.populations[k].name;

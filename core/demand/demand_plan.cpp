@@ -74,4 +74,10 @@ int DemandPlan::route_of(int inlet, std::int64_t k) const {
     return in.routes[draw(route_pattern, in.shares, seed, inlet, k, Purpose::turn)];
 }
 
+int DemandPlan::route_on_lane(int inlet, std::int64_t k) const {
+    const Inlet& in = inlets[static_cast<std::size_t>(inlet)];
+    if (in.lane_shares.empty()) return route_of(inlet, k);
+    return in.routes[draw(route_pattern, in.lane_shares, seed, inlet, k, Purpose::turn)];
+}
+
 }  // namespace stopline

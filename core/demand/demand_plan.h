@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "demand/demand_settings.h"
+#include "network/lane_graph.h"
 
 namespace stopline {
 
@@ -16,6 +17,8 @@ struct DemandPlan {
         std::int64_t vehicles = 0;   // that enter the network here in all; mostly 0 on links
         std::vector<int> routes;     // candidate routes, and ...
         std::vector<double> shares;  // ... their shares, summing to 1
+        // The same of vehicles that chose the lane for where they go: such that all lanes of the approach are as full; empty: as `shares`.
+        std::vector<double> lane_shares = {};
     };
     std::vector<Inlet> inlets;  // entries, then links
     double entry_speed_mps = 0.0;
@@ -37,6 +40,13 @@ struct DemandPlan {
     // The k-th vehicle (from 0) of inlet `i`.
     int policy_of(int inlet, std::int64_t k) const;
     int route_of(int inlet, std::int64_t k) const;
+    // The same for one that chose its lane.
+    int route_on_lane(int inlet, std::int64_t k) const;
 };
+
+// Of all entries of streets, then of all links, with routes and shares, and no vehicle. Vehicles that enter the network turn from a lane
+// as turns_by_lane() says; what a pocket allows counts for the lane beside it. On links they turn as those of the approach as a whole.
+// A route begins on the inlet's own lane where that allows the turn, else on the nearest one of the approach that does.
+std::vector<DemandPlan::Inlet> street_inlets(const LaneGraph& graph);
 
 }  // namespace stopline

@@ -54,11 +54,34 @@ struct GiveWaySettings {
     double approach_mps2 = 2.0;   // vehicles with priority are expected to accelerate like this, up to the limit
 };
 
+// Changing lanes (sim/lane_change.cpp).
+struct LaneChangeSettings {
+    // For the route: a lane is looked for from this far before the stop line on, for each change that it takes, ...
+    double strategic_m = 300.0;
+    double urgent_m = 200.0;  // ... and from here on the speed is adapted to the gaps in the lane beside.
+    // Of the gap that the policy keeps at the own speed: what is enough ahead and behind; and at the stop line (linear from urgent_m on).
+    double gap_share = 1.0;
+    // Default: median critical gaps of drivers that must change are 4 m at equal speeds (Toledo, Koutsopoulos, Ben-Akiva 2003, "Modeling
+    // integrated lane-changing behavior", Transportation Research Record 1857), 0.3 of what 0.87 s are at 50 km/h.
+    double urgent_gap_share = 0.3;
+    // off | on: whether vehicles know how they will turn at the next intersection but one, and go to a lane from which they get there.
+    std::string look_ahead = "on";
+    std::string help = "off";  // off | on: whether others make room for those that must change
+    // For speed: MOBIL (Kesting, Treiber, Helbing 2007), accelerations by the intelligent driver model with the policy's gap.
+    double threshold_mps2 = 0.1;
+    double politeness = 0.0;
+    double keep_right_mps2 = 0.0;  // advantage of the lane to the right
+    double acceleration_mps2 = 1.5;
+    double deceleration_mps2 = 2.0;
+    double pause_s = 5.0;  // after a change, before another one for speed
+};
+
 struct DriverSettings {
     CaccSettings cacc;
     FreeDriveSettings free_drive;
     StopSettings stop;
     GiveWaySettings give_way;
+    LaneChangeSettings lane_change;
     std::string name = {};  // of the file in data/drivers
 };
 

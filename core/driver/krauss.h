@@ -96,8 +96,10 @@ using KraussInput = KraussInputOf<double>;
 inline bool has_power_limit(const Krauss& k) { return k.until_mps < 100.0; }
 
 // `random`: in [0, 1). `power_limit`: see has_power_limit.
+// `lowest_mps`: nobody brakes to less but to avoid touching; Krauss's models ask for no such braking unless somebody changed lanes.
 template <bool power_limit, class R, class Model>
-STOPLINE_INLINE R speed_after_mps(const Model& k, const KraussInputOf<R>& in, const R& random, double dt) {
+STOPLINE_INLINE R speed_after_mps(const Model& k, const KraussInputOf<R>& in, const R& random, double dt,
+                                  const R& lowest_mps = R(0.0)) {
     const R more_m = in.more_m + k.transient_gap_s2 * in.ahead_mps2;
     const R ahead_mps = in.ahead_mps + k.anticipation_s * in.ahead_mps2;
     const R safe = safe_speed_mps(k, in.gap_m, ahead_mps, more_m);
@@ -111,7 +113,7 @@ STOPLINE_INLINE R speed_after_mps(const Model& k, const KraussInputOf<R>& in, co
     // Models with anticipation or short gaps can ask for too little braking when a predecessor stops more suddenly than it would by
     // itself (at a conflict area): nobody drives further than to where the rear ahead was.
     const R touch = greater(in.gap_m, R(0.0)) * (1.0 / dt);
-    const R wanted = at_rest(lesser(lesser(lesser(safe, touch), faster), in.cap_mps));
+    const R wanted = at_rest(lesser(lesser(greater(lesser(safe, faster), lowest_mps), touch), in.cap_mps));
     constexpr double kSlow_s = 1.0;  // vehicles slower than a x 1 s dawdle in proportion to their speed
     return wanted - k.dawdling * dt * random * lesser(wanted, R(k.acceleration_mps2 * kSlow_s));
 }

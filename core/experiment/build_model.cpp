@@ -50,8 +50,8 @@ double share_of(const Scenario& scenario, const Model& model, const Route& route
     return 1.0 - left - (possible(Turn::right) ? right : 0.0);
 }
 
-DemandPlan::Inlet inlet_of(const Scenario& scenario, const Model& model, int lane, std::int64_t vehicles) {
-    DemandPlan::Inlet inlet{lane, vehicles, {}, {}};
+DemandPlan::Inlet inlet_of(const Scenario& scenario, const Model& model, int lane) {
+    DemandPlan::Inlet inlet{lane, 0, {}, {}};
     for (std::size_t k = 0; k < model.graph.routes.size(); ++k) {
         const Route& route = model.graph.routes[k];
         if (route.lanes[0] != lane) continue;
@@ -90,6 +90,8 @@ void add_demand(const Scenario& scenario, Model& model) {
     const std::int64_t vehicles =
         scenario.demand.kind == "queue" ? scenario.demand.vehicles : std::numeric_limits<std::int64_t>::max();
     const LaneGraph& graph = model.graph;
+    check_arms(scenario.demand, graph);
+    if (scenario.network.is_streets()) model.demand.inlets = street_inlets(graph);
     if (scenario.demand.kind == "rate") {
         const IntersectionSettings& layout = scenario.network.intersection;
         const int lanes = scenario.network.has_intersections() ? static_cast<int>(layout.lanes.size())
@@ -97,15 +99,14 @@ void add_demand(const Scenario& scenario, Model& model) {
         model.demand.entry_headway_s = lanes / scenario.demand.inflow_1ps;
         model.demand.evenly = true;
     }
-    for (const int entry : graph.entries) {
-        const bool used = enters(scenario.demand, graph.lanes[at(entry)].name);
-        model.demand.inlets.push_back(inlet_of(scenario, model, entry, used ? vehicles : 0));
+    for (std::size_t k = 0; k < graph.entries.size() + graph.links.size(); ++k) {
+        const bool entry = k < graph.entries.size();
+        const int lane = entry ? graph.entries[k] : graph.links[k - graph.entries.size()];
+        const bool used =
+            (entry || !scenario.demand.arms.empty()) && enters(scenario.demand, graph.lanes[at(lane)].name);
+        if (!scenario.network.is_streets()) model.demand.inlets.push_back(inlet_of(scenario, model, lane));
+        model.demand.inlets[k].vehicles = used ? vehicles : 0;
     }
-    for (const int link : graph.links) {
-        const bool used = !scenario.demand.arms.empty() && enters(scenario.demand, graph.lanes[at(link)].name);
-        model.demand.inlets.push_back(inlet_of(scenario, model, link, used ? vehicles : 0));
-    }
-    check_arms(scenario.demand, graph);
 }
 
 void add_zones(const Scenario& scenario, int lane, Model& model) {
@@ -124,7 +125,8 @@ void add_counters(const Scenario& scenario, int lane, Model& model) {
     const Lane& road = model.graph.lanes[at(lane)];
     const std::vector<int>& entries = model.graph.entries;
     const bool entry = std::find(entries.begin(), entries.end(), lane) != entries.end();
-    if (entry) return;
+    const bool pocket = road.begin_m > 0.0;
+    if (entry || pocket) return;
     model.detectors.push_back({lane, scenario.vehicle.length_m, Detector::Kind::exit});
     if (road.signal_group >= 0) model.detectors.push_back({lane, 0.5 * road.stop_line_m, Detector::Kind::middle});
 }
@@ -140,10 +142,11 @@ void add_ways_in(Model& model) {
 void add_rules(const Scenario& scenario, Model& model) {
     const SignalSettings& signal = scenario.signal;
     const HindranceRules& rules = scenario.rules;
-    const double green_s = std::max(signal.green_of_s(0), signal.green_of_s(1));
+    const double green_s = scenario.network.is_streets() ? scenario.network.streets.longest_green_s()
+                                                         : std::max(signal.green_of_s(0), signal.green_of_s(1));
     model.rules.keep_clear = rules.keep_clear == "on";
     model.rules.sight_m = rules.sight_m;
-    model.rules.teleport_ticks = to_ticks(rules.teleport_cycles * signal.both_stages_s(), model.step_s);
+    model.rules.teleport_ticks = to_ticks(rules.teleport_cycles * scenario.intersection_cycle_s(), model.step_s);
     model.rules.pass_blocker_ticks = to_ticks(rules.pass_blocker_greens * green_s, model.step_s);
     model.rules.memory_ticks = to_ticks(2.0, model.step_s);
     const bool needs_watch = model.rules.teleport_ticks > 0 || model.rules.pass_blocker_ticks > 0;
@@ -156,14 +159,16 @@ void add_detectors(const Scenario& scenario, Model& model) {
         if (road.signal_group >= 0) model.detectors.push_back({lane, road.stop_line_m, Detector::Kind::stop_line});
         if (road.origin >= 0) continue;
         if (scenario.network.kind == "intersection") add_zones(scenario, lane, model);
-        if (scenario.network.kind == "grid") add_counters(scenario, lane, model);
+        if (scenario.network.has_several()) add_counters(scenario, lane, model);
     }
 }
 
 void add_network(const Scenario& scenario, Model& model) {
     const NetworkSettings& network = scenario.network;
-    if (network.kind == "grid") {
-        model.graph = make_grid(network.grid, network.intersection);
+    model.graph = make_network(network);
+    if (network.is_streets()) {
+        model.signals = make_street_signals(network.streets, scenario.tick_s());
+    } else if (network.kind == "grid") {
         for (const GridPlace& place : grid_places(network.grid)) {
             SignalSettings signal = scenario.signal;
             signal.first_green_s += (place.column + place.row) * signal.offset_s;
@@ -172,10 +177,8 @@ void add_network(const Scenario& scenario, Model& model) {
             }
         }
     } else if (network.kind == "intersection") {
-        model.graph = make_intersection(network.intersection);
         model.signals = make_stages(scenario.signal, model.graph.signal_groups, scenario.tick_s());
     } else {
-        model.graph = make_approach(scenario.network.approach);
         model.signals.push_back(make_single_light(scenario.signal, scenario.tick_s()));
     }
 }
@@ -211,6 +214,7 @@ Model build_model(const Scenario& scenario, std::size_t population) {
         model.v2v = make_delay(model.step_s, model.step_s);
     }
     model.give_way = scenario.driver.give_way;
+    model.lane_change = scenario.driver.lane_change;
     add_ways_in(model);
     if (scenario.network.has_intersections()) add_rules(scenario, model);
     add_detectors(scenario, model);

@@ -33,7 +33,7 @@ std::string permutation_text(const Sweep& sweep, std::size_t point) {
 }
 
 double cycle_of(const Scenario& scenario) {
-    return scenario.network.has_intersections() ? scenario.signal.both_stages_s() : scenario.signal.cycle_s;
+    return scenario.network.has_intersections() ? scenario.intersection_cycle_s() : scenario.signal.cycle_s;
 }
 
 // What sets two runs apart at a detector. Of a pair that differs by half a cycle or more one vehicle came through a green that

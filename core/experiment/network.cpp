@@ -50,7 +50,7 @@ bool NetworkReport::no_violations() const {
 NetworkReport run_networks(const Scenario& scenario, const NetworkOptions& options) {
     constexpr std::int64_t kTell = 200;  // steps
     NetworkReport report{scenario, std::vector<NetworkFigures>(scenario.populations.size()), {}};
-    for (const Lane& lane : make_grid(scenario.network.grid, scenario.network.intersection).lanes) {
+    for (const Lane& lane : make_network(scenario.network).lanes) {
         report.lanes.push_back(lane.name);
     }
     // Threads that are left over share runs.

@@ -14,20 +14,26 @@ namespace {
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
-bool is_entry(const LaneGraph& graph, int lane) {
-    return std::find(graph.entries.begin(), graph.entries.end(), lane) != graph.entries.end();
+// Whether vehicles get to the lane from outside of the network: they enter it there, or on a lane beside it.
+bool from_outside(const LaneGraph& graph, int lane) {
+    const int approach = graph.lanes[at(lane)].approach;
+    return std::any_of(graph.entries.begin(), graph.entries.end(), [&](int entry) {
+        return entry == lane || (approach >= 0 && graph.lanes[at(entry)].approach == approach);
+    });
 }
 
-// Where vehicles come into the area that is measured, or leave it: on the lanes by which they enter and leave the network.
+// Where vehicles come into the area that is measured, or leave it: on the lanes by which they enter and leave the network. Pockets that
+// lie in it wholly are entered from lanes beside them.
 void watch_area(const Scenario& scenario, Model& model) {
     std::erase_if(model.detectors, [](const Detector& d) { return d.kind != Detector::Kind::stop_line; });
     const double outside_m = scenario.measure.outside_m;
     for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {
         const Lane& road = model.graph.lanes[at(lane)];
         if (road.origin >= 0) continue;
+        const bool within = road.begin_m > 0.0 && road.stop_line_m <= outside_m;
         if (road.signal_group < 0) {
             model.detectors.push_back({lane, outside_m, Detector::Kind::zone, 0, true});
-        } else if (is_entry(model.graph, lane)) {
+        } else if (from_outside(model.graph, lane) && !within) {
             model.detectors.push_back({lane, road.stop_line_m - outside_m, Detector::Kind::zone, 0, false});
         }
     }
@@ -42,8 +48,9 @@ double area_lane_m(const Scenario& scenario, const Model& model) {
         if (road.signal_group < 0) {
             sum_m += scenario.measure.outside_m;
         } else {
-            sum_m += is_entry(model.graph, lane) ? scenario.measure.outside_m : road.stop_line_m;
-            sum_m += 2.0 * scenario.network.intersection.radius_m;
+            const bool within = road.begin_m > 0.0 && road.stop_line_m <= scenario.measure.outside_m;
+            sum_m += from_outside(model.graph, lane) && !within ? scenario.measure.outside_m : road.stop_line_m;
+            sum_m += 2.0 * radius_beyond_m(scenario.network, road);
         }
     }
     return sum_m;

@@ -134,7 +134,7 @@ RunMetric count_metric(std::string name, std::string unit, std::int64_t value) {
 
 std::vector<RunMetric> run_metrics(const Scenario& scenario, std::size_t population,
                                    const std::function<bool()>& keep_going) {
-    if (scenario.network.kind == "grid") return network_metrics(scenario, population, keep_going);
+    if (scenario.network.has_several()) return network_metrics(scenario, population, keep_going);
     if (scenario.network.kind == "intersection") return intersection_metrics(scenario, population, keep_going);
     RunOptions options;
     options.trajectory_interval_s = sample_interval_s(scenario);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "experiment/csv.h"
+#include "measure/area.h"
 
 namespace stopline {
 
@@ -16,24 +17,29 @@ constexpr double kSample_s = 1.0;
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
-// The lane from the west in the middle row that goes straight on next to the kerb; -1: there is none.
-int first_lane(const Scenario& scenario, const LaneGraph& graph) {
-    const auto row = scenario.network.grid.rows / 2;
-    const auto right = scenario.network.intersection.lanes.size() - 1;
-    const std::string name = fmt::format("west_in_{}", right);
-    const std::string in_grid = fmt::format("c0r{}_{}", row, name);
-    for (const int entry : graph.entries) {
-        if (graph.lanes[at(entry)].name == in_grid || graph.lanes[at(entry)].name == name) return entry;
-    }
-    return -1;
-}
-
 int straight_on(const LaneGraph& graph, int lane) {
     for (const int next : graph.lanes[at(lane)].next) {
         const Turn turn = graph.lanes[at(next)].turn;
         if (turn == Turn::straight || turn == Turn::none) return next;
     }
     return -1;
+}
+
+// Of streets: the lane next to the kerb on which vehicles enter the network furthest in the west, heading east. Of a grid: the lane from
+// the west in the middle row that goes straight on next to the kerb. -1: there is none.
+int first_lane(const Scenario& scenario, const LaneGraph& graph) {
+    const auto row = scenario.network.grid.rows / 2;
+    const auto right = static_cast<int>(scenario.network.intersection.lanes.size()) - 1;
+    const std::string name = fmt::format("west_in_{}", right);
+    const std::string in_grid = fmt::format("c0r{}_{}", row, name);
+    int first = -1;
+    for (const int entry : graph.entries) {
+        const Lane& lane = graph.lanes[at(entry)];
+        if (lane.name == in_grid || lane.name == name) return entry;
+        if (!scenario.network.is_streets() || comes_from(lane) != Side::west || straight_on(graph, entry) < 0) continue;
+        if (first < 0 || lane.shape[0].x_m <= graph.lanes[at(first)].shape[0].x_m) first = entry;
+    }
+    return first;
 }
 
 }  // namespace

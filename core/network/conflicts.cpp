@@ -67,7 +67,10 @@ double shared_stretch_m(const Polyline& a, const Polyline& b, double clearance_m
 void find_conflicts(LaneGraph& graph, double clearance_m, int first, int stop) {
     std::vector<Box> boxes;
     for (int i = first; i < stop; ++i) boxes.push_back(box_of(graph.lanes[at(i)].shape));
-    const auto group = [&](const Lane& lane) { return graph.lanes[at(lane.origin)].signal_group; };
+    const auto stage = [&](const Lane& lane) {
+        const int group = graph.lanes[at(lane.origin)].signal_group;
+        return graph.stage_of.empty() ? group : graph.stage_of[at(group)];
+    };
     for (int i = first; i < stop; ++i) {
         const Lane& one = graph.lanes[at(i)];
         for (int k = i + 1; k < stop; ++k) {
@@ -78,7 +81,7 @@ void find_conflicts(LaneGraph& graph, double clearance_m, int first, int stop) {
             if (!on_one || !on_two) continue;
             const Stretch a{on_one->from_m - one.shape_start_m, on_one->to_m - one.shape_start_m};
             const Stretch b{on_two->from_m - two.shape_start_m, on_two->to_m - two.shape_start_m};
-            const bool together = group(one) == group(two);
+            const bool together = stage(one) == stage(two);
             const bool one_yields = together && rank(one.turn) > rank(two.turn);
             const bool two_yields = together && rank(two.turn) > rank(one.turn);
             graph.conflicts[at(i)].push_back({k, a.from_m, a.to_m, b.from_m, b.to_m, one_yields, two_yields});

@@ -9,8 +9,8 @@ namespace stopline {
 double shared_stretch_m(const Polyline& a, const Polyline& b, double clearance_m);
 
 // Adds to graph.conflicts, which must have a place for each lane: the pairs of lanes from `first` on and before `stop`, all with an
-// origin, whose centre lines come nearer to each other than `clearance_m`, except pairs with the same origin, which follow each other. Of two movements with the same signal group the one that turns
-// gives way: left to right and straight, right to straight.
+// origin, whose centre lines come nearer to each other than `clearance_m`, except pairs with the same origin, which follow each other. Of two movements in the
+// same stage of the signals the one that turns gives way: left to right and straight, right to straight.
 void find_conflicts(LaneGraph& graph, double clearance_m, int first, int stop);
 
 }  // namespace stopline

@@ -1,6 +1,7 @@
 #include "network/lane_graph.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -42,6 +43,58 @@ const std::vector<Conflict>& LaneGraph::conflicts_of(int lane) const {
     return conflicts.empty() ? kNone : conflicts[static_cast<std::size_t>(lane)];
 }
 
+namespace {
+
+// Lanes of an approach lie beside each other in its order, and end together at their stop lines.
+void check_approach(const LaneGraph& graph, int index) {
+    const Approach& approach = graph.approaches[static_cast<std::size_t>(index)];
+    const auto count = static_cast<int>(graph.lanes.size());
+    int left = -1;
+    double end_m = 0.0;
+    for (std::size_t k = 0; k < approach.lanes.size(); ++k) {
+        const int number = approach.lanes[k];
+        if (number < 0 || number >= count) {
+            throw InputError(fmt::format("approach '{}' names a lane that does not exist", approach.name));
+        }
+        const Lane& lane = graph.lanes[static_cast<std::size_t>(number)];
+        if (k == 0) end_m = lane.begin_m + lane.stop_line_m;
+        const bool last = k + 1 == approach.lanes.size();
+        if (lane.approach != index || lane.left != left || lane.right != (last ? -1 : approach.lanes[k + 1])) {
+            throw InputError(
+                fmt::format("approach '{}': lane '{}' does not know its neighbours", approach.name, lane.name));
+        }
+        if (!(lane.begin_m >= 0.0) || std::abs(lane.begin_m + lane.stop_line_m - end_m) > 1e-6) {
+            throw InputError(fmt::format("approach '{}': lane '{}' does not end at the stop line of the others",
+                                         approach.name, lane.name));
+        }
+        left = number;
+    }
+    const bool shares = approach.right >= 0.0 && approach.left >= 0.0 && approach.right + approach.left <= 1.0 + 1e-9;
+    if (!shares) throw InputError(fmt::format("approach '{}': shares of turns are not usable", approach.name));
+}
+
+void check_approaches(const LaneGraph& graph) {
+    const auto approaches = static_cast<int>(graph.approaches.size());
+    for (int index = 0; index < approaches; ++index) check_approach(graph, index);
+    for (int number = 0; number < static_cast<int>(graph.lanes.size()); ++number) {
+        const Lane& lane = graph.lanes[static_cast<std::size_t>(number)];
+        const bool beside = lane.left >= 0 || lane.right >= 0;
+        if (lane.approach < 0 && !beside) continue;
+        const bool known = lane.approach >= 0 && lane.approach < approaches;
+        const std::vector<int> none;
+        const std::vector<int>& lanes = known ? graph.approaches[static_cast<std::size_t>(lane.approach)].lanes : none;
+        if (std::find(lanes.begin(), lanes.end(), number) == lanes.end()) {
+            throw InputError(fmt::format("lane '{}' is not one of its approach", lane.name));
+        }
+    }
+    const auto groups = static_cast<std::size_t>(graph.signal_groups);
+    if (!graph.stage_of.empty() && graph.stage_of.size() != groups) {
+        throw InputError("every signal group needs a stage, or none");
+    }
+}
+
+}  // namespace
+
 void check(const LaneGraph& graph) {
     const auto lanes = static_cast<int>(graph.lanes.size());
     const auto known = [lanes](int lane) { return lane >= 0 && lane < lanes; };
@@ -69,6 +122,7 @@ void check(const LaneGraph& graph) {
             }
         }
     }
+    check_approaches(graph);
 }
 
 }  // namespace stopline

@@ -26,6 +26,10 @@ struct Lane {
     double shape_start_m = 0.0;  // length of `shape` that belongs to the lane before: the shared stretch
     Turn turn = Turn::none;      // of a lane inside an intersection
     int origin = -1;             // of such a lane: the entry lane that leads to it
+    int left = -1;               // lane beside it to which one may change, up to the stop line; -1: none
+    int right = -1;
+    double begin_m = 0.0;  // where it begins, from where the longest lanes of its approach do: pockets
+    int approach = -1;     // the one that it belongs to
 };
 
 // Where the bodies of vehicles on two lanes inside an intersection can touch. All distances along the lanes, of points of
@@ -46,12 +50,24 @@ struct Route {
     std::vector<int> lanes;
 };
 
+// Lanes side by side that lead to an intersection from one side. Vehicles may change between them, and draw which way to turn from
+// the shares of the approach.
+struct Approach {
+    std::string name;
+    std::vector<int> lanes;  // from the left
+    double right = 0.0;      // shares of the turns, the rest goes straight on
+    double left = 0.0;
+};
+
 struct LaneGraph {
     std::vector<Lane> lanes;
     std::vector<Route> routes;
-    std::vector<int> entries;  // lanes where vehicles enter
-    std::vector<int> links;    // lanes from one intersection to the next; routes start at entries and links
+    std::vector<Approach> approaches;  // none where nobody changes lanes
+    std::vector<int> entries;          // lanes where vehicles enter
+    std::vector<int> links;            // lanes from one intersection to the next; routes start at entries and links
     int signal_groups = 0;
+    std::vector<int>
+        stage_of;  // [signal group] groups of one stage have green together: turns give way; empty: each its own
     std::vector<std::vector<Conflict>> conflicts;  // [lane], in the order of from_m; empty where no lane has any
 
     const std::vector<Conflict>& conflicts_of(int lane) const;
@@ -77,6 +93,18 @@ struct GridPlace {
     int row;
 };
 std::vector<GridPlace> grid_places(const GridSettings& grid);
+
+// Intersections as the user describes them, each with three signal groups: 3 n is the major street of intersection n, 3 n + 1 its
+// lanes that only turn left and have a green of their own, 3 n + 2 the minor street; the first two are one stage. Names of lanes
+// begin with that of the intersection: suarezstr_west_in_0, counted from the left, pockets included; suarezstr_east_out_0. Exits
+// that lead to another intersection are its lanes and have their names. Throws InputError where the streets have a problem
+// (street_checks.h).
+LaneGraph make_streets(const StreetSettings& streets);
+
+// That of the kind that is chosen.
+LaneGraph make_network(const NetworkSettings& network);
+// Of the intersection that a lane with a stop line leads to.
+double radius_beyond_m(const NetworkSettings& network, const Lane& lane);
 
 // Throws InputError where lanes, routes or signal groups do not fit together.
 void check(const LaneGraph& graph);

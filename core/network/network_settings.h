@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "network/street_settings.h"
+
 namespace stopline {
 
 // One straight approach with a stop line, and the road behind it.
@@ -46,7 +48,10 @@ struct NetworkSettings {
     ApproachSettings approach;
     IntersectionSettings intersection;
     GridSettings grid;
+    StreetSettings streets;
 
+    bool is_streets() const { return kind == "streets"; }
+    bool has_several() const { return kind == "grid" || is_streets(); }
     bool has_intersections() const { return kind != "approach"; }
 };
 

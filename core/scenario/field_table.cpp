@@ -58,6 +58,15 @@ struct UnitText {
     }
 };
 
+// The value of a choice, given by its path: names of sections, then its own, joined by dots.
+std::string choice_at(const Table& table, const std::string& path, const void* settings) {
+    const auto dot = path.find('.');
+    const FieldKind& kind = table.find(path.substr(0, dot))->kind;
+    if (dot == std::string::npos) return std::get<ChoiceField>(kind).get(settings);
+    const auto& section = std::get<SectionField>(kind);
+    return choice_at(section.table(), path.substr(dot + 1), section.read(settings));
+}
+
 }  // namespace
 
 const Field* Table::find(std::string_view name) const {
@@ -73,7 +82,7 @@ std::vector<std::string> Table::names() const {
 
 bool applies(const Table& table, const Field& field, const void* settings) {
     if (field.only_field.empty()) return true;
-    const std::string value = std::get<ChoiceField>(table.find(field.only_field)->kind).get(settings);
+    const std::string value = choice_at(table, field.only_field, settings);
     return std::find(field.only_values.begin(), field.only_values.end(), value) != field.only_values.end();
 }
 

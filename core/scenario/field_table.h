@@ -114,7 +114,8 @@ struct Field {
     FieldKind kind;
     bool required = false;
     std::string fallback = {};  // YAML text that stands for an absent field
-    // The field exists only where the sibling `only_field`, a choice, has one of these values.
+    // The field exists only where the sibling `only_field`, a choice, or one in a section before it (network.kind), has one of these
+    // values.
     std::string only_field = {};
     std::vector<std::string> only_values = {};
 };

@@ -1,6 +1,7 @@
 // The tables of fields, one a settings struct. Adding a field is one row in fields_*.cpp, bound to a struct member.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "scenario/field_table.h"
@@ -10,6 +11,7 @@ namespace stopline {
 
 const Table& scenario_table();    // Scenario: the root of a scenario file
 const Table& network_table();     // NetworkSettings
+const Table& streets_table();     // StreetSettings: the root of data/berlin/*.yaml
 const Table& signal_table();      // SignalSettings
 const Table& demand_table();      // DemandSettings
 const Table& vehicle_table();     // PowertrainSettings: the root of data/vehicles/*.yaml
@@ -19,6 +21,9 @@ const Table& meso_table();        // MesoSettings: the root of data/meso/*.yaml
 const Table& gap_policy_table();  // GapPolicySettings
 const Table& population_table();  // PopulationSettings
 const Table& measure_table();     // MeasureSettings
+
+// What a lane to an intersection may allow.
+const std::vector<std::string>& lane_movements();
 
 const Table& sweep_table();  // SweepSettings (sweep_settings.h): the root of a sweep file
 

@@ -99,6 +99,33 @@ void check_population(const PopulationSettings& population, Checker& check) {
     }
 }
 
+const Table& lane_change_table() {
+    using S = LaneChangeSettings;
+    static const Table table = make_table<S>(
+        "changing lanes, on approaches of networks of the kind 'streets'",
+        {
+            number<&S::strategic_m>("strategic_distance", "m", {10, 10'000},
+                                    "from this far before the stop line on, for each change that it takes, a lane "
+                                    "from which the route goes on is looked for"),
+            number<&S::urgent_m>("urgent_distance", "m", {10, 1000},
+                                 "from here on the speed is adapted to the gaps in the lane beside"),
+            number<&S::gap_share>("gap_share", "%", {0, 200},
+                                  "of the gap that the policy keeps at the own speed, enough ahead and behind"),
+            number<&S::urgent_gap_share>("urgent_gap_share", "%", {0, 200},
+                                         "the same at the stop line, for who must change"),
+            choice<&S::look_ahead>("look_ahead", {"off", "on"},
+                                   "whether vehicles know how they will turn at the next intersection but one"),
+            choice<&S::help>("help", {"off", "on"}, "whether others make room for those that must change"),
+            number<&S::threshold_mps2>("threshold", "m/s2", {0, 10}, "acceleration that a change for speed must gain"),
+            number<&S::politeness>("politeness", "", {0, 1}, "weight of what others gain and lose by it"),
+            number<&S::keep_right_mps2>("keep_right", "m/s2", {0, 5}, "advantage of the lane to the right"),
+            number<&S::acceleration_mps2>("acceleration", "m/s2", {0.1, 10}, "of the intelligent driver model"),
+            number<&S::deceleration_mps2>("deceleration", "m/s2", {0.1, 10}, "the same, comfortable braking"),
+            number<&S::pause_s>("pause", "s", {0, 1000}, "after a change, before another one for speed"),
+        });
+    return table;
+}
+
 const Table& give_way_table() {
     using S = GiveWaySettings;
     static const Table table = make_table<S>(
@@ -150,6 +177,7 @@ const Table& driver_table() {
             section<&S::free_drive>("free_drive", free_drive_table, "free driving").required(),
             section<&S::stop>("stop", stop_table, "stopping at a line"),
             section<&S::give_way>("give_way", give_way_table, "giving way inside intersections"),
+            section<&S::lane_change>("lane_change", lane_change_table, "changing lanes"),
         });
     return table;
 }

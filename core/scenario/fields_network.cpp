@@ -23,12 +23,9 @@ const Table& approach_table() {
 
 const Table& lane_movements_table() {
     using L = IntersectionSettings::LaneMovements;
-    static const Table table = make_table<L>(
-        "a lane of an approach", {choice<&L::movements>("movements",
-                                                        {"straight", "left", "right", "straight+left", "straight+right",
-                                                         "left+right", "straight+left+right"},
-                                                        "where its vehicles may go")
-                                      .required()});
+    static const Table table =
+        make_table<L>("a lane of an approach",
+                      {choice<&L::movements>("movements", lane_movements(), "where its vehicles may go").required()});
     return table;
 }
 
@@ -93,7 +90,7 @@ const Table& network_table() {
     static const Table table = make_table<NetworkSettings>(
         "the roads",
         {
-            choice<&NetworkSettings::kind>("kind", {"approach", "intersection", "grid"},
+            choice<&NetworkSettings::kind>("kind", {"approach", "intersection", "grid", "streets"},
                                            "which generator builds the network"),
             section<&NetworkSettings::approach>("approach", approach_table, "parameters of the kind 'approach'")
                 .only("kind", {"approach"}),
@@ -101,6 +98,9 @@ const Table& network_table() {
                                                     "parameters of intersections, single or in a grid")
                 .only("kind", {"intersection", "grid"}),
             section<&NetworkSettings::grid>("grid", grid_table, "parameters of the kind 'grid'").only("kind", {"grid"}),
+            section<&NetworkSettings::streets>("streets", streets_table, "the network of the kind 'streets'", "berlin")
+                .required()
+                .only("kind", {"streets"}),
         });
     return table;
 }

@@ -1,6 +1,7 @@
 // Fields of the scenario itself and of what it measures, and the checks across its parts.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 #include <string>
 #include <vector>
@@ -14,6 +15,14 @@ namespace {
 
 constexpr double kFullStepMax_s = 0.1;  // the powertrain's fastest lags would be lost beyond it
 
+void check_street_steps(const Scenario& scenario, const std::function<void(const std::string&, double)>& whole_steps) {
+    for (const StreetIntersection& node : scenario.network.streets.intersections) {
+        const std::string field = "network.streets.intersections[" + node.name + "]";
+        for (const double step_s : node.programme.steps_s()) whole_steps(field + ".programme", step_s);
+        whole_steps(field + ".offset", node.offset_s);
+    }
+}
+
 // Time is a count of steps: what the signal does happens between two of them.
 void check_steps(const Scenario& scenario, Checker& check) {
     const auto whole_steps = [&](const std::string& field, double time_s) {
@@ -23,6 +32,7 @@ void check_steps(const Scenario& scenario, Checker& check) {
                                short_text(scenario.tick_s(), unit("ms")));
     };
     whole_steps("duration", scenario.duration_s);
+    if (scenario.network.is_streets()) return check_street_steps(scenario, whole_steps);
     whole_steps("signal.first_green", scenario.signal.first_green_s);
     whole_steps("signal.green", scenario.signal.green_s);
     whole_steps("signal.yellow", scenario.signal.yellow_s);
@@ -117,6 +127,19 @@ void check_intersection(const Scenario& scenario, Checker& check) {
     }
 }
 
+// The street's own file says who turns where.
+void check_streets(const Scenario& scenario, Checker& check) {
+    const DemandSettings& demand = scenario.demand;
+    const auto refuse_turns = [&](const std::string& field, bool used) {
+        if (used) check.error("demand." + field, "has no effect on streets: their arms say which share turns");
+    };
+    refuse_turns("right", demand.right != 0.0);
+    refuse_turns("left", demand.left != 0.0);
+    refuse_turns("cross_turns", demand.cross_turns != "alike");
+    if (demand.kind == "rate") check.error("demand.kind", "streets have arms of different width: queue or saturated");
+    if (!scenario.measure.green_s.empty()) check.error("measure.green", "is for a single light");
+}
+
 void check_times(const Scenario& scenario, Checker& check) {
     const SignalSettings& signal = scenario.signal;
     if (!scenario.is_meso() && scenario.step_s > kFullStepMax_s) {
@@ -128,6 +151,7 @@ void check_times(const Scenario& scenario, Checker& check) {
     }
     if (scenario.network.kind == "intersection") return check_intersection(scenario, check);
     if (scenario.duration_s < 1.0) check.error("duration", "must be at least 1 s");
+    if (scenario.network.is_streets()) return check_streets(scenario, check);
     for (std::size_t i = 0; i < scenario.measure.green_s.size(); ++i) {
         const double green_s = scenario.measure.green_s[i];
         const std::string field = "measure.green[" + std::to_string(i) + "]";
@@ -196,7 +220,8 @@ const Table& scenario_table() {
                                    "length of a run; 0: intersections, as long as the measured cycles"),
             whole<&S::seed>("seed", {}, "seed of all random numbers"),
             section<&S::network>("network", network_table, "the roads"),
-            section<&S::signal>("signal", signal_table, "the signal"),
+            section<&S::signal>("signal", signal_table, "the signal; streets have theirs with them")
+                .only("network.kind", {"approach", "intersection", "grid"}),
             section<&S::demand>("demand", demand_table, "the traffic that enters"),
             section<&S::vehicle>("vehicle", vehicle_table, "the vehicles", "vehicles").fallback("petrol_eu4_72kw"),
             section<&S::driver>("driver", driver_table, "the drivers", "drivers").fallback("startup_kit"),

@@ -34,6 +34,16 @@ struct GapAccepted {
     float needed_s;
 };
 
+// A vehicle changed to the lane beside.
+struct LaneChange {
+    double time_s;
+    int vehicle;
+    int from_lane;
+    int to_lane;
+    float position_m;  // of its front, on the lane that it came from
+    bool for_route;    // else for speed
+};
+
 // Counts of what must never happen; checked in every step of every run.
 struct Violations {
     std::int64_t overlaps = 0;            // vehicle-steps with a negative net gap

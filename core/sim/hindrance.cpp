@@ -72,6 +72,7 @@ private:
     void wait(int slot) {
         const int lane = w_.lane[at(slot)];
         if (const Hold* hold = state_.holds[at(lane)].of(slot)) {
+            if (hold->blocker < 0) return set(slot, -1, Cause::wrong_lane);
             const bool standing = stands(hold->blocker);
             const bool blocked = !hold->priority && standing;
             return set(slot, standing ? hold->blocker : -1, blocked ? Cause::junction_blocking : Cause::priority);

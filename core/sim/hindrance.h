@@ -11,6 +11,7 @@
 //     turn_blocking      the first that stands would turn, and its exit is full (situation 2)
 //     spillback          the same of one that would go straight on
 //     gridlock           any of these, where it leads into a circle (situation 3)
+//     wrong_lane         the first that stands waits for a gap in the lane beside, from which its route goes on
 #pragma once
 
 #include <array>
@@ -19,9 +20,18 @@
 
 namespace stopline {
 
-enum class Cause : std::uint8_t { none, signal, priority, junction_blocking, turn_blocking, spillback, gridlock };
-inline constexpr std::array<const char*, 7> kCauseNames{"none",          "signal",    "priority", "junction_blocking",
-                                                        "turn_blocking", "spillback", "gridlock"};
+enum class Cause : std::uint8_t {
+    none,
+    signal,
+    priority,
+    junction_blocking,
+    turn_blocking,
+    spillback,
+    gridlock,
+    wrong_lane
+};
+inline constexpr std::array<const char*, 8> kCauseNames{"none",          "signal",    "priority", "junction_blocking",
+                                                        "turn_blocking", "spillback", "gridlock", "wrong_lane"};
 
 // One lane's traffic is held up for one cause, by one vehicle after another, without a break.
 struct HindranceEpisode {

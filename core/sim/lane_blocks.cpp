@@ -125,17 +125,58 @@ void make_room(State& state, int lane) {
 
 void make_room_in_limbo(State& state) { make_room_in(state, state.limbo); }
 
+namespace {
+
+// What a lane asks of the vehicle in a slot.
+void set_lane_of(State& state, int lane, int slot) {
+    VehicleArrays& v = state.vehicles;
+    if (v.has_powertrain()) return;
+    v.limit_mps[at(slot)] = state.plan.driven_mps(lane);
+    v.turn_m[at(slot)] = state.plan.lane(lane).turn_m;
+    v.imposed_mps[at(slot)] = kAnySpeed_mps;
+}
+
+// Vehicles of a lane have come or gone within it.
+void wake(State& state, int lane) {
+    state.sleeps_until_green_of[at(lane)] = -1;
+    state.resting[at(lane)] = {0, 0, state.tick};
+}
+
+}  // namespace
+
 int append_slot(State& state, int lane) {
     for (const int detector : state.detectors_of[at(lane)]) ++state.upstream[at(detector)];
     LaneBlock& block = state.blocks[at(lane)];
     if (block.count == 0) move_up(state, block);
     make_room(state, lane);
     const int slot = block.first + block.count++;
+    set_lane_of(state, lane, slot);
+    return slot;
+}
+
+int put_beside(const Model& model, State& state, int lane, int from, int other, int place, double front_m) {
+    make_room(state, other);
     VehicleArrays& v = state.vehicles;
-    if (v.has_powertrain()) return slot;
-    v.limit_mps[at(slot)] = state.plan.driven_mps(lane);
-    v.turn_m[at(slot)] = state.plan.lane(lane).turn_m;
-    v.imposed_mps[at(slot)] = kAnySpeed_mps;
+    LaneBlock& source = state.blocks[at(lane)];
+    LaneBlock& target = state.blocks[at(other)];
+    const int old = source.first + from;
+    const int slot = target.first + place;
+    v.move(slot, target.count - place, slot + 1);
+    ++target.count;
+    v.copy(old, slot);
+    set_lane_of(state, other, slot);
+    v.move(old + 1, source.count - from - 1, old);
+    --source.count;
+    if (!v.has_powertrain()) v.forget(source.stop());
+    for (const int detector : state.detectors_of[at(lane)]) {
+        if (v.position_m[at(slot)] < model.detectors[at(detector)].position_m) --state.upstream[at(detector)];
+    }
+    v.position_m[at(slot)] = front_m;
+    for (const int detector : state.detectors_of[at(other)]) {
+        if (front_m < model.detectors[at(detector)].position_m) ++state.upstream[at(detector)];
+    }
+    wake(state, lane);
+    wake(state, other);
     return slot;
 }
 

@@ -63,6 +63,41 @@ void join_intersections(const Model& model, Sets& sets) {
         for (const Conflict& conflict : model.graph.conflicts_of(index)) sets.join(index, conflict.other);
         if (model.graph.lanes[at(lane.next[0])].signal_group < 0) sets.join(index, lane.next[0]);
     }
+    for (const Approach& approach : model.graph.approaches) {
+        for (const int lane : approach.lanes) sets.join(approach.lanes[0], lane);
+    }
+}
+
+// How far it is from each lane of an approach to one from which there is a way on with a turn.
+void count_changes(const Approach& approach, std::size_t turn, std::vector<BesidePlan>& beside) {
+    const auto lanes = static_cast<int>(approach.lanes.size());
+    const auto way = [&](int k) -> WayOn& { return beside[at(approach.lanes[at(k)])].ways[turn]; };
+    for (int k = 0; k < lanes; ++k) {
+        for (int distance = 0; distance < lanes && way(k).route < 0 && way(k).changes == 0; ++distance) {
+            if (k + distance < lanes && way(k + distance).route >= 0) {
+                way(k).changes = distance;
+            } else if (k >= distance && way(k - distance).route >= 0) {
+                way(k).changes = -distance;
+            }
+        }
+    }
+}
+
+std::vector<BesidePlan> plan_beside(const LaneGraph& graph, const std::vector<Turn>& turns) {
+    std::vector<BesidePlan> beside(graph.lanes.size());
+    for (std::size_t lane = 0; lane < graph.lanes.size(); ++lane) {
+        beside[lane].left = graph.lanes[lane].left;
+        beside[lane].right = graph.lanes[lane].right;
+        beside[lane].begin_m = graph.lanes[lane].begin_m;
+    }
+    for (std::size_t route = 0; route < graph.routes.size(); ++route) {
+        beside[at(graph.routes[route].lanes[0])].ways[static_cast<std::size_t>(turns[route])].route =
+            static_cast<int>(route);
+    }
+    for (const Approach& approach : graph.approaches) {
+        for (std::size_t turn = 0; turn < beside[0].ways.size(); ++turn) count_changes(approach, turn, beside);
+    }
+    return beside;
 }
 
 }  // namespace
@@ -84,7 +119,23 @@ NetworkPlan::NetworkPlan(const Model& model) : speed_factor_(model.speed_factor)
     }
     std::stable_sort(order_.begin(), order_.end(),
                      [this](int a, int b) { return lanes_[at(a)].intersection < lanes_[at(b)].intersection; });
-    for (const Route& route : model.graph.routes) routes_.add(route.lanes);
+    for (const Route& route : model.graph.routes) {
+        routes_.add(route.lanes);
+        turns_.push_back(route.lanes.size() > 1 ? model.graph.lanes[at(route.lanes[1])].turn : Turn::none);
+    }
+    beside_ = plan_beside(model.graph, turns_);
+    for (const Approach& approach : model.graph.approaches) {
+        std::array<int, 4> routes{-1, -1, -1, -1};
+        for (const int lane : approach.lanes) {
+            for (std::size_t turn = 0; turn < routes.size(); ++turn) {
+                routes[turn] = std::max(routes[turn], beside_[at(lane)].ways[turn].route);
+            }
+        }
+        routes_with_.push_back(routes);
+    }
+    for (const int lane : order_) {
+        if (beside_[at(lane)].changes()) changing_.push_back(lane);
+    }
 }
 
 }  // namespace stopline

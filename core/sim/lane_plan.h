@@ -2,6 +2,7 @@
 // in the order of their intersections, so that threads can share them out.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -23,6 +24,23 @@ struct alignas(64) LanePlan {
     int intersection = 0;       // number of the lanes that depend on each other in a step
     bool yields = false;        // gives way to some other lane
     bool branches = false;      // several lanes can follow
+};
+
+// How to go on from a lane with each turn.
+struct WayOn {
+    int route = -1;   // from this lane; -1: there is none
+    int changes = 0;  // to the next lane from which there is one: so many lanes to the right; below 0: to the left
+};
+
+// The lanes beside one of an approach.
+struct BesidePlan {
+    int left = -1;
+    int right = -1;
+    double begin_m = 0.0;
+    std::array<WayOn, 4> ways = {};  // [Turn]
+
+    const WayOn& way(Turn turn) const { return ways[static_cast<std::size_t>(turn)]; }
+    bool changes() const { return left >= 0 || right >= 0; }
 };
 
 // Lists one after the other in memory.
@@ -54,6 +72,14 @@ public:
     double driven_mps(int lane) const { return speed_factor_ * this->lane(lane).limit_mps; }
     std::span<const int> route(int route) const { return routes_.of(route); }
     std::span<const int> next(int lane) const { return next_.of(lane); }
+    const BesidePlan& beside(int lane) const { return beside_[static_cast<std::size_t>(lane)]; }
+    // Lanes with others beside, in order.
+    const std::vector<int>& changing() const { return changing_; }
+    // A route from some lane of an approach with that turn; -1: none.
+    int route_with(int approach, Turn turn) const {
+        return routes_with_[static_cast<std::size_t>(approach)][static_cast<std::size_t>(turn)];
+    }
+    Turn turn_of(int route) const { return turns_[static_cast<std::size_t>(route)]; }
     // Of a lane inside an intersection: conflict areas from its start, and the lanes that it meets there.
     std::span<const Conflict> conflicts(int lane) const { return conflicts_.of(lane); }
     std::span<const int> meets(int lane) const { return meets_.of(lane); }
@@ -70,6 +96,10 @@ private:
     Lists<Conflict> conflicts_;
     Lists<int> meets_;
     std::vector<int> order_;
+    std::vector<BesidePlan> beside_;
+    std::vector<int> changing_;
+    std::vector<Turn> turns_;                      // [route]
+    std::vector<std::array<int, 4>> routes_with_;  // [approach][turn]
 };
 
 }  // namespace stopline

@@ -31,17 +31,25 @@ Ahead still_shared(const State& state, int lane, double& rear_m) {
 }  // namespace
 
 Ahead vehicle_ahead(const State& state, int lane, int slot, double range_m) {
+    const VehicleRecord& record = state.vehicles.record[at(slot)];
+    if (record.next_lane < 0) {  // it leaves, or waits for a gap: it sees who still reaches back
+        double rear_m = kFar_m;
+        return still_shared(state, lane, rear_m);
+    }
+    return vehicle_ahead(state, lane, state.vehicles.position_m[at(slot)], record.route, record.route_index, range_m);
+}
+
+Ahead vehicle_ahead(const State& state, int lane, double position_m, int route_number, int index, double range_m) {
     const VehicleArrays& v = state.vehicles;
-    const VehicleRecord& record = v.record[at(slot)];
     const LanePlan& here = state.plan.lane(lane);
     double start_m = here.length_m;
-    if (record.next_lane < 0 || (!here.branches && start_m - v.position_m[at(slot)] > range_m)) return {};
+    if (!here.branches && start_m - position_m > range_m) return {};
     Ahead beside;
     double beside_rear_m = kFar_m;
     if (here.branches) beside = still_shared(state, lane, beside_rear_m);
-    const std::span<const int> route = state.plan.route(record.route);
-    for (std::size_t k = at(record.route_index) + 1; k < route.size(); ++k) {
-        if (start_m - v.position_m[at(slot)] > range_m) break;
+    const std::span<const int> route = state.plan.route(route_number);
+    for (std::size_t k = at(index) + 1; k < route.size(); ++k) {
+        if (start_m - position_m > range_m) break;
         const LaneBlock& block = state.blocks[at(route[k])];
         if (block.count > 0) {
             const double rear_m = start_m + v.position_m[at(block.last())] - v.length_m[at(block.last())];
@@ -68,8 +76,23 @@ void hear(State& state, std::size_t sentinel, std::size_t ahead, bool seen) {
 
 }  // namespace
 
+namespace {
+
+// Whether the rear of the vehicle ahead is still on a way that joins that of this one further on. Whether they touch before is a matter of
+// conflict areas (right_of_way.cpp).
+bool comes_by_another_way(const State& state, int slot, int ahead) {
+    const VehicleArrays& v = state.vehicles;
+    if (v.position_m[at(ahead)] >= v.length_m[at(ahead)]) return false;
+    const int from = v.record[at(ahead)].came_from;
+    const std::span<const int> route = state.plan.route(v.record[at(slot)].route);
+    return from >= 0 && std::find(route.begin(), route.end(), from) == route.end();
+}
+
+}  // namespace
+
 void look_beyond_lanes(const Model& model, State& state, NetworkPart& part) {
     constexpr double kNothing_m = 1e6;
+    constexpr double kTouch_m = 1e-4;  // against rounding
     VehicleArrays& v = state.vehicles;
     for (const int lane : part.awake) {
         const int head = state.blocks[at(lane)].first;
@@ -81,6 +104,10 @@ void look_beyond_lanes(const Model& model, State& state, NetworkPart& part) {
         v.speed_mps[sentinel] = v.speed_mps[other];
         v.length_m[sentinel] = v.length_m[other];
         v.acceleration_mps2[sentinel] = seen ? v.acceleration_mps2[other] : 0.0F;
+        if (const double reach_m = v.position_m[sentinel] - v.position_m[at(head)];
+            seen && reach_m < v.length_m[sentinel] && comes_by_another_way(state, head, ahead.slot)) {
+            v.length_m[sentinel] = static_cast<float>(std::max(reach_m - kTouch_m, 0.0));
+        }
         const double rear_m = v.position_m[sentinel] - v.length_m[sentinel];
         // The mesoscale mode counts with all others (meso_kernels.h).
         if (!model.meso) part.violations.overlaps += static_cast<std::int64_t>(seen && rear_m < v.position_m[at(head)]);

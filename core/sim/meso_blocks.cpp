@@ -47,11 +47,13 @@ public:
         Resting& resting = state_.resting[at(lane_)];
         int& sleeps = state_.sleeps_until_green_of[at(lane_)];
         if (sleeps >= 0) {
+            adapt();
             if (resting.to == block_.count) return;
             find_resting(v_, block_, state_.tick, resting);
             return add(first + resting.to, block_.stop());
         }
         v_.imposed_mps[at(first)] = kAnySpeed_mps;  // if the lane has slept
+        adapt();
         if (model_.scalar_kernels) {
             impose_all();
             return add(first, block_.stop());
@@ -73,6 +75,15 @@ private:
     // The last slot that has to stop for something.
     int last_imposed() const {
         return std::max(stop_slot_, holds_.count == 0 ? -1 : holds_.each[at(holds_.count - 1)].slot);
+    }
+
+    void adapt() {
+        const double comfortable_mps = model_.driver.stop.deceleration_mps2 * model_.step_s;
+        for (const Adapting& adapting : state_.adapting[at(lane_)]) {
+            const double speed_mps = v_.speed_mps[at(adapting.slot)];
+            // What keeps the first vehicle of a lane that sleeps at rest stays.
+            if (speed_mps > 0.0) impose(adapting.slot, std::max(adapting.most_mps, speed_mps - comfortable_mps));
+        }
     }
 
     double room_to_line_m(int slot) const {

@@ -62,6 +62,7 @@ MesoStreams meso_streams(VehicleArrays& v) {
 }
 
 MesoStep meso_step(const Model& model, std::int64_t tick) {
+    constexpr double kAny_mps2 = 1e9;
     return {model.step_s,
             dawdle_key(model.seed),
             static_cast<std::uint64_t>(tick),
@@ -69,7 +70,8 @@ MesoStep meso_step(const Model& model, std::int64_t tick) {
             model.approach_share,
             model.turn_share,
             model.leader_mps2,
-            model.leader_until_mps};
+            model.leader_until_mps,
+            model.graph.approaches.empty() ? kAny_mps2 : model.driver.cacc.deceleration_emergency_mps2};
 }
 
 void step_meso(const Model& model, State& state, NetworkPart& part) {

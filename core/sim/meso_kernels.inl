@@ -165,7 +165,7 @@ STOPLINE_INLINE R step_slots(const MesoStreams& s, int i, std::span<const Krauss
     const R policy = get<R>(s.policy + i);
     R next = speed;
     const auto drive = [&](const auto& model, const R& mine) STOPLINE_INLINE_LAMBDA {
-        R following = speed_after_mps<power_limit>(model, in, random, t.dt);
+        R following = speed_after_mps<power_limit>(model, in, random, t.dt, R(in.speed_mps - t.hardest_mps2 * t.dt));
         if (leaders) following = lead(model, t, in, following, mine, s.leads + i);
         return following;
     };

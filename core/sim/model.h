@@ -69,6 +69,7 @@ struct Model {
     DemandPlan demand;
     std::vector<Detector> detectors;
     GiveWaySettings give_way;
+    LaneChangeSettings lane_change;
     RulesPlan rules;
     DelayLine radar;
     DelayLine v2v;

@@ -1,4 +1,5 @@
 // Everybody moves. Full dynamics: lanes go through the kernels in groups that fit into the first-level cache.
+#include <algorithm>
 #include <utility>
 
 #include "sim/full_dynamics.h"
@@ -25,6 +26,12 @@ void add_lane(const Model& model, const State& state, int lane, LaneGroup& group
     }
     const Holds& holds = state.holds[at(lane)];
     for (int k = 0; k < holds.count; ++k) stop_at(holds.each[at(k)].slot, holds.each[at(k)].place_m);
+    for (const Adapting& adapting : state.adapting[at(lane)]) {
+        constexpr double kWithin_s = 1.0;
+        const double asks_mps2 = (adapting.most_mps - v.speed_mps[at(adapting.slot)]) / kWithin_s;
+        group.imposed.push_back(
+            {group.vehicles + adapting.slot - block.first, std::max(asks_mps2, -model.driver.stop.deceleration_mps2)});
+    }
     group.lanes.push_back({block.first, block.stop(), plan.turn_m, plan.limit_mps, static_cast<double>(plan.sine)});
     group.vehicles += block.count;
 }

@@ -40,7 +40,8 @@ struct NetworkPart {
     std::vector<int> awake_before;   // the same with a stop line
     std::vector<int> awake_inside;   // the same inside an intersection
     std::vector<int> with_insiders;  // lanes inside with vehicles on them, before or behind
-    std::vector<int> holding;        // lanes where vehicles wait to give way
+    std::vector<int> holding;        // lanes where vehicles wait to give way or to change lanes
+    std::vector<int> adapting;       // lanes where vehicles adapt their speed to those beside
     std::vector<int> ended;          // lanes whose first vehicle has reached the end
     std::vector<Passing> passing;
     std::vector<Agreed> agreed;

@@ -17,6 +17,7 @@ void look_beyond_lanes(const Model& model, State& state, NetworkPart& part);
 void find_insiders(State& state, NetworkPart& part);
 void decide_stops(const Model& model, State& state, NetworkPart& part);
 void give_way(const Model& model, State& state, NetworkPart& part);
+void wait_to_change(const Model& model, State& state, NetworkPart& part);
 // Then, when all parts are done: everybody moves.
 void move_vehicles(const Model& model, const FullTables& tables, State& state, NetworkPart& part);
 void watch_detectors(const Model& model, State& state, NetworkPart& part);
@@ -29,6 +30,7 @@ void transfer_vehicles(const Model& model, State& state);
 void form_queues(const Model& model, State& state);  // before the first step
 void insert_vehicles(const Model& model, State& state);
 void move_blocked_on(const Model& model, State& state);
+void change_lanes(const Model& model, State& state);
 void verify(State& state);
 
 // Fronts that are beyond the rear of their predecessor on the same lane.
@@ -63,11 +65,19 @@ void make_room_in_limbo(State& state);
 // Takes the first vehicle off a lane.
 void remove_first(State& state, int lane);
 
+// Moves the vehicle at place `from` of a lane, counted from its first, to place `place` of another one, its front at `front_m`. Slots of
+// all vehicles may change. Returns its new slot.
+int put_beside(const Model& model, State& state, int lane, int from, int other, int place, double front_m);
+
 // Gives a vehicle its place in its route.
 void put_on_route(const Model& model, VehicleArrays& vehicles, int slot, int route_index);
 
 // On a link the vehicle gets its next route.
 void choose_way_on(const Model& model, State& state, int lane, int slot);
+
+// On a lane of an approach the vehicle takes the lane's own route with the turn of the one that it has; where there is none it
+// keeps that, to know where it wants to go, and has no next lane.
+void take_way_of_lane(const Model& model, State& state, int lane, int slot);
 
 // The vehicle ahead of the first one on a lane, along its route: distance in front of the lane's start, and its slot.
 struct Ahead {
@@ -75,5 +85,10 @@ struct Ahead {
     double start_m = 0.0;  // start of its lane, measured from the start of the asking vehicle's lane
 };
 Ahead vehicle_ahead(const State& state, int lane, int slot, double range_m);
+// The same as it would be from a place on a lane, the index-th of a route.
+Ahead vehicle_ahead(const State& state, int lane, double position_m, int route, int index, double range_m);
+
+// The net gap that a vehicle with this policy keeps at a speed.
+double desired_gap_m(const Model& model, int policy, double speed_mps);
 
 }  // namespace stopline

@@ -30,6 +30,7 @@ void Simulation::decide(NetworkPart& part) {
     find_insiders(state_, part);
     decide_stops(model_, state_, part);
     give_way(model_, state_, part);
+    wait_to_change(model_, state_, part);
 }
 
 void Simulation::move(NetworkPart& part) {
@@ -62,6 +63,7 @@ void Simulation::step() {
     transfer_vehicles(model_, state_);
     insert_vehicles(model_, state_);
     move_blocked_on(model_, state_);
+    change_lanes(model_, state_);
     ++state_.tick;
 }
 

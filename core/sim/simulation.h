@@ -5,6 +5,7 @@
 //     inside     who is on the way through an intersection                                 insiders.cpp
 //     stops      who stops at which line, at red or since there is no room beyond it       stops.cpp
 //     give way   who waits before which conflict area                                      right_of_way.cpp
+//     gaps       who waits for a gap in the lane beside, or adapts its speed to one        wait_to_change.cpp
 //   all together:
 //     hindrance  who stands, what for, in whose way; now and then                          hindrance.cpp
 //   each part of the network by itself again (move_vehicles.cpp):
@@ -15,6 +16,7 @@
 //     transfer   vehicles that passed the end of their lane                                transfer.cpp
 //     insert     vehicles that enter
 //     move on    vehicles that have stood at the head of a lane for too long               moving_on.cpp
+//     change     vehicles that change to the lane beside                                   lane_change.cpp
 //     verify     nobody is lost; overlaps                                                  verify.cpp
 //
 // Parts are some whole intersections: as many as the second-level cache holds, or fewer, for each thread to have one. What is done in one depends on the state at the beginning of the step and on

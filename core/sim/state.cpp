@@ -87,6 +87,7 @@ State make_state(const Model& model, int threads) {
     state.stop_lines.resize(lanes);
     state.stop_slot.assign(lanes, -1);
     state.holds.resize(lanes);
+    state.adapting.resize(lanes);
     state.kept_out.resize(lanes);
     state.resting.resize(lanes);
     state.sleeps_until_green_of.assign(lanes, -1);

@@ -44,12 +44,18 @@ struct Insider {
     std::int64_t since;  // tick at which it passed the stop line
 };
 
-// A vehicle that waits to give way.
+// A vehicle that waits: to give way, or to change lanes.
 struct Hold {
     int slot = -1;
     double place_m = 0.0;   // from the lane's start
-    int blocker = -1;       // slot of the vehicle that it waits for
+    int blocker = -1;       // slot of the vehicle that it waits for; -1: for a gap in the lane beside
     bool priority = false;  // which comes first; else it is in the conflict area
+};
+
+// A vehicle that adapts its speed to a gap in the lane beside, or makes room for one from there.
+struct Adapting {
+    int slot = -1;
+    double most_mps = 0.0;  // to be reached by braking comfortably
 };
 
 // The vehicle that a driver at the stop line sees stand beyond it: in the exit, or across its way.
@@ -108,16 +114,17 @@ struct State {
     Rows radar;  // of this step
     Rows v2v;
     NetworkPlan plan;
-    std::vector<NetworkPart> parts;              // one or more for each thread
-    std::vector<LaneBlock> blocks;               // [lane]
-    std::vector<Light> lights;                   // [signal group] in this step
-    std::vector<StopLineState> stop_lines;       // [lane]
-    std::vector<int> stop_slot;                  // [lane] slot of the vehicle that stops at the line; -1: none
-    std::vector<Holds> holds;                    // [lane] vehicles that wait to give way
-    std::vector<KeptOut> kept_out;               // [lane] why who stops at the line does so although it is green
-    std::vector<ExitRoom> exit_rooms;            // [lane] that leads out of an intersection
-    std::vector<std::vector<Insider>> insiders;  // [lane inside an intersection], from the front
-    std::vector<OthersInside> others_inside;     // [lane inside an intersection]
+    std::vector<NetworkPart> parts;               // one or more for each thread
+    std::vector<LaneBlock> blocks;                // [lane]
+    std::vector<Light> lights;                    // [signal group] in this step
+    std::vector<StopLineState> stop_lines;        // [lane]
+    std::vector<int> stop_slot;                   // [lane] slot of the vehicle that stops at the line; -1: none
+    std::vector<Holds> holds;                     // [lane] vehicles that wait to give way or to change lanes
+    std::vector<std::vector<Adapting>> adapting;  // [lane]
+    std::vector<KeptOut> kept_out;                // [lane] why who stops at the line does so although it is green
+    std::vector<ExitRoom> exit_rooms;             // [lane] that leads out of an intersection
+    std::vector<std::vector<Insider>> insiders;   // [lane inside an intersection], from the front
+    std::vector<OthersInside> others_inside;      // [lane inside an intersection]
     std::vector<char> deciding;  // [lane inside an intersection] 1: somebody on it or before it may have to wait
     std::vector<std::vector<int>> coming;  // [lane inside an intersection] slots before it that are near
     std::vector<Resting> resting;          // [lane] mesoscale mode
@@ -130,6 +137,7 @@ struct State {
     std::vector<int> upstream;                   // [detector] vehicles on its lane that have not passed it
     std::vector<Crossing> crossings;             // of the whole run, in order
     std::vector<GapAccepted> gaps_accepted;
+    std::vector<LaneChange> lane_changes;  // of the whole run, in order
     std::vector<InletState> inlets;
     std::vector<int> inlet_of;      // [lane] -1: no routes begin there
     std::vector<Passage> passages;  // of the whole run, in order

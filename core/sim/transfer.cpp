@@ -67,17 +67,6 @@ struct Entry {
     double speed_mps = 0.0;
 };
 
-double desired_gap_m(const Model& model, int policy_index, double speed_mps) {
-    const CompiledPolicy& policy = model.policies[at(policy_index)];
-    double gap_m = 0.0;
-    double slope_s = 0.0;
-    policy.law->evaluate(policy.settings, {&speed_mps, 1}, {&gap_m, 1}, {&slope_s, 1});
-    if (!model.meso) return gap_m;
-    const Krauss& krauss = model.krauss[at(policy_index)];
-    const double more_m = krauss.constant_distance ? gap_m - policy.settings.standstill_gap_m : 0.0;
-    return krauss.equilibrium_gap_m(speed_mps) + more_m;
-}
-
 Entry entry_of(const Model& model, const State& state, int lane, int policy) {
     const double fastest_mps = std::min(model.demand.entry_speed_mps, model.graph.lanes[at(lane)].limit_mps);
     const LaneBlock& block = state.blocks[at(lane)];
@@ -93,6 +82,19 @@ Entry entry_of(const Model& model, const State& state, int lane, int policy) {
     const double headway_s = model.demand.evenly ? kEntryHeadway_s : model.demand.entry_headway_s;
     const double room_m = desired_gap_m(model, policy, speed_mps) + speed_mps * headway_s * 0.5;
     return {rear_m >= room_m, 0.0, speed_mps};
+}
+
+// Where it will turn at the next intersection but one, drawn as if it were there. `chose_lane`: it is on a lane from which it gets there.
+void look_ahead(const Model& model, State& state, int slot, bool chose_lane) {
+    VehicleRecord& record = state.vehicles.record[at(slot)];
+    record.turn_after = Turn::none;
+    const int exit = state.plan.route(record.route).back();
+    if (model.graph.lanes[at(exit)].approach < 0 || model.lane_change.look_ahead == "off") return;
+    const int inlet = state.inlet_of[at(exit)];
+    if (inlet < 0) return;
+    const std::int64_t k = state.inlets[at(inlet)].entered++;
+    const int route = chose_lane ? model.demand.route_on_lane(inlet, k) : model.demand.route_of(inlet, k);
+    record.turn_after = state.plan.turn_of(route);
 }
 
 // Takes over what the vehicle ahead does, as one of an endless platoon.
@@ -130,13 +132,11 @@ void enter(const Model& model, State& state, int inlet_index, const Entry& entry
     v.policy[i] = policy;
     v.type[i] = 0;
     v.id[i] = state.next_id++;
+    v.record[i] = {};
     v.record[i].route = route;
-    v.record[i].came_from = -1;
-    put_on_route(model, v, slot, 0);
-    v.record[i].cleared_for = -1;
-    v.record[i].inside_since = 0;
+    take_way_of_lane(model, state, inlet.lane, slot);
+    look_ahead(model, state, slot, true);
     v.stands_since[i] = static_cast<int>(state.tick);
-    v.record[i].held_at = -2;
     v.record[i].predecessor = first ? -1 : v.id[i - 1];
     const double gap_m = first ? 1e6 : v.position_m[i - 1] - v.length_m[i - 1] - v.position_m[i];
     v.reset_radar(slot, gap_m, first ? 0.0 : entry.speed_mps - v.speed_mps[i - 1]);
@@ -150,6 +150,17 @@ void enter(const Model& model, State& state, int inlet_index, const Entry& entry
 
 }  // namespace
 
+double desired_gap_m(const Model& model, int policy_number, double speed_mps) {
+    const CompiledPolicy& policy = model.policies[at(policy_number)];
+    double gap_m = 0.0;
+    double slope_s = 0.0;
+    policy.law->evaluate(policy.settings, {&speed_mps, 1}, {&gap_m, 1}, {&slope_s, 1});
+    if (!model.meso) return gap_m;
+    const Krauss& krauss = model.krauss[at(policy_number)];
+    const double more_m = krauss.constant_distance ? gap_m - policy.settings.standstill_gap_m : 0.0;
+    return krauss.equilibrium_gap_m(speed_mps) + more_m;
+}
+
 void put_on_route(const Model& model, VehicleArrays& v, int slot, int index) {
     const Route& route = model.graph.routes[at(v.record[at(slot)].route)];
     v.record[at(slot)].route_index = index;
@@ -160,8 +171,24 @@ void put_on_route(const Model& model, VehicleArrays& v, int slot, int index) {
 void choose_way_on(const Model& model, State& state, int lane, int slot) {
     const int inlet = state.inlet_of[at(lane)];
     if (inlet < 0) return;
-    state.vehicles.record[at(slot)].route = model.demand.route_of(inlet, state.inlets[at(inlet)].entered++);
-    put_on_route(model, state.vehicles, slot, 0);
+    VehicleRecord& record = state.vehicles.record[at(slot)];
+    const int approach = model.graph.lanes[at(lane)].approach;
+    const int known = record.turn_after == Turn::none ? -1 : state.plan.route_with(approach, record.turn_after);
+    record.route = known >= 0 ? known : model.demand.route_of(inlet, state.inlets[at(inlet)].entered++);
+    take_way_of_lane(model, state, lane, slot);
+    look_ahead(model, state, slot, false);
+}
+
+void take_way_of_lane(const Model& model, State& state, int lane, int slot) {
+    VehicleRecord& record = state.vehicles.record[at(slot)];
+    const int own = state.plan.beside(lane).way(state.plan.turn_of(record.route)).route;
+    if (own >= 0) {
+        record.route = own;
+        return put_on_route(model, state.vehicles, slot, 0);
+    }
+    record.route_index = 0;
+    record.next_lane = -1;
+    state.vehicles.end_speed_mps[at(slot)] = kNoLowerLimit_mps;
 }
 
 // When the front passed `line_m` within the last step, from the mean speed of the step (mesoscale mode: all at the new speed).

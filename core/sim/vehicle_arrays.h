@@ -11,6 +11,7 @@
 
 #include "base/huge_page_allocator.h"
 #include "base/simd.h"
+#include "network/lane_graph.h"
 #include "vehicle/powertrain_tables.h"
 
 namespace stopline {
@@ -28,13 +29,15 @@ struct LaneBlock {
 // What one vehicle is about, in one line of the cache.
 struct alignas(64) VehicleRecord {
     int route = -1;
-    int route_index = 0;   // place in the route of the lane the vehicle is on
-    int next_lane = -1;    // on the route; -1: it leaves
-    int came_from = -1;    // lane before; -1: it entered here
-    int predecessor = -1;  // id of the vehicle that the radar tracks; -1: none
-    int cleared_for = -1;  // lane inside an intersection on which it has accepted a gap; -1: none
-    int inside_since = 0;  // tick at which it passed its last stop line
-    int held_at = -2;      // last tick at which it had to wait before a conflict area
+    int route_index = 0;           // place in the route of the lane the vehicle is on
+    int next_lane = -1;            // on the route; -1: it leaves, or must change to a lane that leads there
+    int came_from = -1;            // lane before; -1: it entered here
+    int predecessor = -1;          // id of the vehicle that the radar tracks; -1: none
+    int cleared_for = -1;          // lane inside an intersection on which it has accepted a gap; -1: none
+    int inside_since = 0;          // tick at which it passed its last stop line
+    int held_at = -2;              // last tick at which it had to wait before a conflict area
+    Turn turn_after = Turn::none;  // at the next intersection but one, if known
+    int changed_at = -1'000'000;   // tick of its last change of lanes
 };
 
 struct VehicleArrays {

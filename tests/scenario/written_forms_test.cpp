@@ -67,9 +67,14 @@ TEST(Tables, AreWellFormed) {
         EXPECT_FALSE(field.required && !field.fallback.empty()) << path;
         if (field.only_field.empty()) return;
         // The choice that a field depends on is read before it.
-        const Field* const choice = table.find(field.only_field);
+        const auto dot = field.only_field.find('.');  // then the choice is one of a section
+        const Field* choice = table.find(field.only_field.substr(0, dot));
         ASSERT_NE(choice, nullptr) << path;
         EXPECT_LT(choice, &field) << path;
+        if (dot != std::string::npos) {
+            choice = std::get<SectionField>(choice->kind).table().find(field.only_field.substr(dot + 1));
+            ASSERT_NE(choice, nullptr) << path;
+        }
         const auto* const names = std::get_if<ChoiceField>(&choice->kind);
         ASSERT_NE(names, nullptr) << path;
         for (const std::string& value : field.only_values) {

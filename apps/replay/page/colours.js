@@ -13,6 +13,7 @@ const CAUSES = {
     turn_blocking: ['#e69f00', 'room in the exit, to turn'],
     spillback: ['#0072b2', 'room in the exit, straight on'],
     gridlock: ['#cc0078', 'a circle: gridlock'],
+    wrong_lane: ['#009e73', 'a gap in the lane beside'],
 };
 
 // Each mode: colours, a label for each, and the one that a vehicle has.

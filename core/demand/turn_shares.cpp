@@ -1,0 +1,75 @@
+#include "demand/turn_shares.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+
+namespace stopline {
+
+namespace {
+
+double sum_of(const TurnShares& row) { return std::accumulate(row.begin(), row.end(), 0.0); }
+
+// The largest change of a row or column.
+double fit_once(std::vector<TurnShares>& matrix, const TurnShares& shares) {
+    const double row = 1.0 / static_cast<double>(matrix.size());
+    double change = 0.0;
+    for (TurnShares& lane : matrix) {
+        const double sum = sum_of(lane);
+        if (sum <= 0.0) continue;
+        change = std::max(change, std::abs(sum - row));
+        for (double& entry : lane) entry *= row / sum;
+    }
+    for (std::size_t turn = 0; turn < shares.size(); ++turn) {
+        double sum = 0.0;
+        for (const TurnShares& lane : matrix) sum += lane[turn];
+        if (sum <= 0.0) continue;
+        change = std::max(change, std::abs(sum - shares[turn]));
+        for (TurnShares& lane : matrix) lane[turn] *= shares[turn] / sum;
+    }
+    return change;
+}
+
+// Makes all rows equally full: what is too much on some goes to the others in proportion to the room there.
+void level(std::vector<TurnShares>& matrix) {
+    const double row = 1.0 / static_cast<double>(matrix.size());
+    TurnShares over{};
+    double room = 0.0;
+    for (TurnShares& lane : matrix) {
+        const double sum = sum_of(lane);
+        room += std::max(row - sum, 0.0);
+        if (sum <= row) continue;
+        for (std::size_t turn = 0; turn < over.size(); ++turn) {
+            over[turn] += lane[turn] * (1.0 - row / sum);
+            lane[turn] *= row / sum;
+        }
+    }
+    if (room <= 0.0) return;
+    for (TurnShares& lane : matrix) {
+        const double part = std::max(row - sum_of(lane), 0.0) / room;
+        for (std::size_t turn = 0; turn < over.size(); ++turn) lane[turn] += part * over[turn];
+    }
+}
+
+}  // namespace
+
+std::vector<TurnShares> turns_by_lane(const std::vector<TurnsAllowed>& allowed, const TurnShares& shares) {
+    constexpr int kRounds = 10'000;
+    constexpr double kExact = 1e-13;
+    std::vector<TurnShares> matrix(allowed.size());
+    for (std::size_t lane = 0; lane < allowed.size(); ++lane) {
+        for (std::size_t turn = 0; turn < shares.size(); ++turn) {
+            matrix[lane][turn] = allowed[lane][turn] && shares[turn] > 0.0 ? 1.0 : 0.0;
+        }
+    }
+    for (int round = 0; round < kRounds && fit_once(matrix, shares) > kExact; ++round) continue;
+    level(matrix);
+    for (TurnShares& lane : matrix) {
+        const double sum = sum_of(lane);
+        for (double& entry : lane) entry /= sum;
+    }
+    return matrix;
+}
+
+}  // namespace stopline

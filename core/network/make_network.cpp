@@ -1,0 +1,20 @@
+#include <cstddef>
+
+#include "network/lane_graph.h"
+
+namespace stopline {
+
+LaneGraph make_network(const NetworkSettings& network) {
+    if (network.is_streets()) return make_streets(network.streets);
+    if (network.kind == "grid") return make_grid(network.grid, network.intersection);
+    if (network.kind == "intersection") return make_intersection(network.intersection);
+    return make_approach(network.approach);
+}
+
+double radius_beyond_m(const NetworkSettings& network, const Lane& lane) {
+    constexpr int kGroupsEach = 3;  // of make_streets()
+    if (!network.is_streets()) return network.intersection.radius_m;
+    return network.streets.intersections[static_cast<std::size_t>(lane.signal_group / kGroupsEach)].radius_m;
+}
+
+}  // namespace stopline

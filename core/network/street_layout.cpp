@@ -1,0 +1,161 @@
+#include "network/street_layout.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace stopline {
+
+namespace {
+
+constexpr double kSameLine_m = 1.0;  // centres further than this beside a line do not lie on it
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+}  // namespace
+
+const char* name_of(Turn turn) { return turn == Turn::left ? "left" : turn == Turn::right ? "right" : "straight"; }
+
+bool allows(const StreetLane& lane, Turn turn) { return lane.movements.find(name_of(turn)) != std::string::npos; }
+
+int side_after(int side, Turn turn) { return (side + (turn == Turn::straight ? 2 : turn == Turn::right ? 1 : 3)) % 4; }
+
+std::vector<int> lanes_with(const StreetArm& arm, Turn turn) {
+    std::vector<int> lanes;
+    for (int k = 0; k < static_cast<int>(arm.lanes.size()); ++k) {
+        if (allows(arm.lanes[at(k)], turn)) lanes.push_back(k);
+    }
+    if (turn == Turn::right) std::reverse(lanes.begin(), lanes.end());
+    return lanes;
+}
+
+StreetLayout::StreetLayout(const StreetSettings& streets) : streets_(&streets) {
+    for (const StreetIntersection& node : streets.intersections) {
+        std::array<int, 4> arms{-1, -1, -1, -1};
+        for (int a = 0; a < static_cast<int>(node.arms.size()); ++a) {
+            const auto* const side = std::find(kSides.begin(), kSides.end(), node.arms[at(a)].from);
+            if (side != kSides.end()) arms[at(static_cast<int>(side - kSides.begin()))] = a;
+        }
+        arms_.push_back(arms);
+    }
+}
+
+const StreetArm* StreetLayout::arm(int n, int side) const {
+    const int index = arms_[at(n)][at(side)];
+    return index < 0 ? nullptr : &node(n).arms[at(index)];
+}
+
+int StreetLayout::nearest(int n, int side) const {
+    int found = -1;
+    double found_m = std::numeric_limits<double>::infinity();
+    const Point here{node(n).x_m, node(n).y_m};
+    for (int other = 0; other < nodes(); ++other) {
+        const Polyline way = rotated({{node(other).x_m - here.x_m, node(other).y_m - here.y_m}}, (6 - side) % 4);
+        const double ahead_m = way[0].x_m;
+        if (other == n || ahead_m <= 0.0 || ahead_m >= found_m || std::abs(way[0].y_m) > kSameLine_m) continue;
+        found = other;
+        found_m = ahead_m;
+    }
+    return found;
+}
+
+int StreetLayout::neighbour(int n, int side) const {
+    const int other = nearest(n, side);
+    return other >= 0 && arm(n, side) != nullptr && arm(other, opposite(side)) != nullptr ? other : -1;
+}
+
+int StreetLayout::left_pockets(const StreetArm& arm) {
+    int count = 0;
+    for (const StreetLane& lane : arm.lanes) {
+        if (lane.pocket_m <= 0.0) return count;
+        ++count;
+    }
+    return count;
+}
+
+int StreetLayout::through_lanes(const StreetArm& arm) {
+    return static_cast<int>(
+        std::count_if(arm.lanes.begin(), arm.lanes.end(), [](const StreetLane& lane) { return lane.pocket_m <= 0.0; }));
+}
+
+double StreetLayout::offset_m(int n, int side, int lane) const {
+    return exit_offset_m(side, lane - left_pockets(*arm(n, side)));
+}
+
+double StreetLayout::exit_offset_m(int side, int lane) const {
+    return 0.5 * median_m(side) + (lane + 0.5) * streets_->lane_width_m;
+}
+
+// A point of the intersection as traffic from `side` sees it.
+Point StreetLayout::placed(int n, int side, double ahead_m, double right_m) const {
+    const Point p = rotated({{ahead_m, -right_m}}, side)[0];
+    return {node(n).x_m + p.x_m, node(n).y_m + p.y_m};
+}
+
+double StreetLayout::length_m(int n, int side) const {
+    const int from = neighbour(n, side);
+    if (from < 0) return arm(n, side)->length_m;
+    const Point begin = placed(from, side, node(from).radius_m, 0.0);
+    const Point end = placed(n, side, -node(n).radius_m, 0.0);
+    return std::hypot(end.x_m - begin.x_m, end.y_m - begin.y_m);
+}
+
+int StreetLayout::straight_shift(int n, int side) const {
+    const std::vector<int> lanes = lanes_with(*arm(n, side), Turn::straight);
+    const int spare = arm(n, opposite(side))->exits - static_cast<int>(lanes.size());
+    int best = 0;
+    double best_m = std::numeric_limits<double>::infinity();
+    for (int shift = 0; shift <= spare; ++shift) {
+        double sum_m = 0.0;
+        for (int k = 0; k < static_cast<int>(lanes.size()); ++k) {
+            sum_m += std::abs(offset_m(n, side, lanes[at(k)]) - exit_offset_m(opposite(side), k + shift));
+        }
+        if (sum_m < best_m - 1e-9) {
+            best = shift;
+            best_m = sum_m;
+        }
+    }
+    return best;
+}
+
+int StreetLayout::target(int n, int side, int lane, Turn turn) const {
+    const std::vector<int> lanes = lanes_with(*arm(n, side), turn);
+    const auto before = static_cast<int>(std::find(lanes.begin(), lanes.end(), lane) - lanes.begin());
+    if (turn == Turn::left) return before;
+    if (turn == Turn::right) return arm(n, side_after(side, turn))->exits - 1 - before;
+    return before + straight_shift(n, side);
+}
+
+Polyline StreetLayout::path(int n, int side, int lane, Turn turn) const {
+    const double r = node(n).radius_m;
+    const Point from{-r, -offset_m(n, side, lane)};
+    const double out_m = exit_offset_m(side_after(side, turn), target(n, side, lane, turn));
+    const Polyline seen = turn == Turn::straight ? Polyline{from, {r, -out_m}}
+                          : turn == Turn::left   ? quarter_turn(from, {out_m, r})
+                                                 : quarter_turn(from, {-out_m, -r});
+    Polyline line;
+    for (const Point& p : seen) line.push_back(placed(n, side, p.x_m, -p.y_m));
+    return line;
+}
+
+Polyline StreetLayout::approach(int n, int side, int lane) const {
+    const double right_m = offset_m(n, side, lane);
+    const double whole_m = length_m(n, side);
+    const double pocket_m = arm(n, side)->lanes[at(lane)].pocket_m;
+    const int from = neighbour(n, side);
+    const Point end = placed(n, side, -node(n).radius_m, right_m);
+    const Point begin = from < 0 ? placed(n, side, -node(n).radius_m - whole_m, right_m)
+                                 : placed(from, side, node(from).radius_m, right_m);
+    const double share = pocket_m > 0.0 ? pocket_m / whole_m : 1.0;
+    return {{end.x_m + share * (begin.x_m - end.x_m), end.y_m + share * (begin.y_m - end.y_m)}, end};
+}
+
+Polyline StreetLayout::exit(int n, int side, int lane) const {
+    const double r = node(n).radius_m;
+    const int from = opposite(side);
+    const double right_m = exit_offset_m(side, lane);
+    return {placed(n, from, r, right_m), placed(n, from, r + arm(n, side)->exit_length_m, right_m)};
+}
+
+}  // namespace stopline

@@ -1,0 +1,185 @@
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/input_error.h"
+#include "network/conflicts.h"
+#include "network/street_checks.h"
+#include "network/street_layout.h"
+
+namespace stopline {
+
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+using BySide = std::array<std::vector<int>, 4>;
+
+struct Builder {
+    const StreetSettings& s;
+    StreetLayout layout{s};
+    LaneGraph graph = {};
+    std::vector<BySide> in = {};   // [intersection][side][lane]
+    std::vector<BySide> out = {};  // [intersection][side][exit]
+
+    int add(const Lane& lane) {
+        graph.lanes.push_back(lane);
+        return static_cast<int>(graph.lanes.size()) - 1;
+    }
+
+    double shared_m(int node, int side, int lane) const {
+        double most_m = 0.0;
+        const StreetLane& settings = layout.arm(node, side)->lanes[at(lane)];
+        for (const Turn one : kTurns) {
+            for (const Turn two : kTurns) {
+                if (one >= two || !allows(settings, one) || !allows(settings, two)) continue;
+                const Polyline a = layout.path(node, side, lane, one);
+                const Polyline b = layout.path(node, side, lane, two);
+                most_m =
+                    std::max({most_m, shared_stretch_m(a, b, s.clearance_m), shared_stretch_m(b, a, s.clearance_m)});
+            }
+        }
+        return most_m;
+    }
+
+    int group_of(int node, int side, int lane) const {
+        if (side % 2 == 1) return 3 * node + 2;
+        const bool only_left = layout.arm(node, side)->lanes[at(lane)].movements == name_of(Turn::left);
+        return 3 * node + (only_left && layout.node(node).programme.protected_left_s > 0.0 ? 1 : 0);
+    }
+
+    Lane approach_lane(int node, int side, int k) const {
+        const StreetArm& arm = *layout.arm(node, side);
+        const double pocket_m = arm.lanes[at(k)].pocket_m;
+        const double whole_m = layout.length_m(node, side);
+        Lane lane;
+        lane.name = fmt::format("{}_{}_in_{}", layout.node(node).name, kSides[at(side)], k);
+        lane.limit_mps = arm.speed_limit_mps;
+        lane.signal_group = group_of(node, side, k);
+        lane.stop_line_m = pocket_m > 0.0 ? pocket_m : whole_m;
+        lane.begin_m = whole_m - lane.stop_line_m;
+        lane.length_m = lane.stop_line_m + shared_m(node, side, k);
+        lane.shape = layout.approach(node, side, k);
+        return lane;
+    }
+
+    // Lanes to the intersection from one side, beside each other.
+    void add_approach(int node, int side) {
+        const StreetArm& arm = *layout.arm(node, side);
+        const int from = layout.neighbour(node, side);
+        const int first = StreetLayout::left_pockets(arm);
+        const int fed = from >= 0 ? layout.arm(from, opposite(side))->exits : StreetLayout::through_lanes(arm);
+        Approach approach{fmt::format("{}_{}", layout.node(node).name, kSides[at(side)]), {}, arm.right, arm.left};
+        for (int k = 0; k < static_cast<int>(arm.lanes.size()); ++k) {
+            Lane lane = approach_lane(node, side, k);
+            lane.approach = static_cast<int>(graph.approaches.size());
+            lane.left = k > 0 ? approach.lanes.back() : -1;
+            const int number = add(lane);
+            if (k > 0) graph.lanes[at(approach.lanes.back())].right = number;
+            approach.lanes.push_back(number);
+            if (k >= first && k < first + fed) (from < 0 ? graph.entries : graph.links).push_back(number);
+        }
+        in[at(node)][at(side)] = approach.lanes;
+        if (!approach.lanes.empty()) graph.approaches.push_back(std::move(approach));
+    }
+
+    void add_exits(int node, int side) {
+        const StreetArm& arm = *layout.arm(node, side);
+        if (layout.neighbour(node, side) >= 0) return;
+        for (int k = 0; k < arm.exits; ++k) {
+            Lane lane;
+            lane.name = fmt::format("{}_{}_out_{}", layout.node(node).name, kSides[at(side)], k);
+            lane.limit_mps = arm.speed_limit_mps;
+            lane.length_m = arm.exit_length_m;
+            lane.shape = layout.exit(node, side, k);
+            out[at(node)][at(side)].push_back(add(lane));
+        }
+    }
+
+    // Exits to another intersection are its lanes.
+    void join(int node, int side) {
+        const int to = layout.neighbour(node, side);
+        if (to < 0) return;
+        const int first = StreetLayout::left_pockets(*layout.arm(to, opposite(side)));
+        for (int k = 0; k < layout.arm(node, side)->exits; ++k) {
+            out[at(node)][at(side)].push_back(in[at(to)][at(opposite(side))][at(first + k)]);
+        }
+    }
+
+    Lane inside(int node, int side, int k, Turn turn) const {
+        const StreetArm& arm = *layout.arm(node, side);
+        Lane lane;
+        lane.name = fmt::format("{}_{}_{}_{}", layout.node(node).name, kSides[at(side)], k, name_of(turn));
+        lane.shape = layout.path(node, side, k, turn);
+        lane.origin = in[at(node)][at(side)][at(k)];
+        const Lane& origin = graph.lanes[at(lane.origin)];
+        lane.shape_start_m = origin.length_m - origin.stop_line_m;
+        lane.length_m = length_m(lane.shape) - lane.shape_start_m;
+        lane.limit_mps = turn == Turn::straight ? arm.speed_limit_mps : std::min(arm.speed_limit_mps, s.turn_speed_mps);
+        lane.turn = turn;
+        lane.next = {out[at(node)][at(side_after(side, turn))][at(layout.target(node, side, k, turn))]};
+        return lane;
+    }
+
+    void add_inside(int node, int side) {
+        const StreetArm& arm = *layout.arm(node, side);
+        for (int k = 0; k < static_cast<int>(arm.lanes.size()); ++k) {
+            for (const Turn turn : kTurns) {
+                if (!allows(arm.lanes[at(k)], turn)) continue;
+                const Lane lane = inside(node, side, k, turn);
+                const int number = add(lane);
+                graph.lanes[at(lane.origin)].next.push_back(number);
+                graph.routes.push_back({lane.name, {lane.origin, number, lane.next[0]}});
+            }
+        }
+    }
+
+    template <class Act>
+    void for_all_arms(const Act& act) {
+        for (int node = 0; node < layout.nodes(); ++node) {
+            for (int side = 0; side < 4; ++side) {
+                if (layout.arm(node, side) != nullptr) act(node, side);
+            }
+        }
+    }
+
+    LaneGraph build() {
+        in.resize(at(layout.nodes()));
+        out.resize(at(layout.nodes()));
+        graph.signal_groups = 3 * layout.nodes();
+        for (int node = 0; node < layout.nodes(); ++node) {
+            for (const int stage : {2 * node, 2 * node, 2 * node + 1}) graph.stage_of.push_back(stage);
+        }
+        for_all_arms([&](int node, int side) {
+            add_approach(node, side);
+            add_exits(node, side);
+        });
+        for_all_arms([&](int node, int side) { join(node, side); });
+        std::vector<int> first_of;
+        for_all_arms([&](int node, int side) {
+            if (static_cast<int>(first_of.size()) == node) first_of.push_back(static_cast<int>(graph.lanes.size()));
+            add_inside(node, side);
+        });
+        first_of.push_back(static_cast<int>(graph.lanes.size()));
+        graph.conflicts.assign(graph.lanes.size(), {});
+        for (std::size_t n = 0; n + 1 < first_of.size(); ++n) {
+            find_conflicts(graph, s.clearance_m, first_of[n], first_of[n + 1]);
+        }
+        return std::move(graph);
+    }
+};
+
+}  // namespace
+
+LaneGraph make_streets(const StreetSettings& streets) {
+    const std::vector<StreetProblem> problems = street_problems(streets);
+    if (!problems.empty()) {
+        throw InputError(fmt::format("streets: {}: {}", problems[0].field, problems[0].message));
+    }
+    return Builder{streets}.build();
+}
+
+}  // namespace stopline

@@ -1,0 +1,208 @@
+// Lanes side by side before one light: who changes, when, and that nobody is ever hit. Lane k of the approach is lane 2 k, the road
+// behind it lane 2 k + 1; a vehicle's turn is that of the road it wants to.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "base/random.h"
+#include "support/track.h"
+
+namespace stopline {
+namespace {
+
+using testing_support::at;
+using testing_support::Track;
+using testing_support::TrackPlan;
+
+struct Case {
+    const char* fidelity;
+    const char* policy;
+};
+
+std::string name_of(const testing::TestParamInfo<Case>& info) {
+    std::string name = std::string(info.param.fidelity) + "_" + info.param.policy;
+    std::erase_if(name, [](char c) { return c == '-'; });
+    return name;
+}
+
+// `mirrored`: the same seen in a mirror.
+Model lanes_side_by_side(const TrackPlan& plan, bool mirrored = false) {
+    Model model = build_model(testing_support::scenario_of(plan), 0);
+    LaneGraph& graph = model.graph;
+    Approach approach{"approach", {}, 0.0, 0.0};
+    const std::array<Turn, 3> turns{Turn::left, Turn::straight, Turn::right};
+    for (int k = 0; k < plan.lanes; ++k) {
+        const int before = k > 0 ? 2 * (k - 1) : -1;
+        const int after = k + 1 < plan.lanes ? 2 * (k + 1) : -1;
+        Lane& lane = graph.lanes[at(2 * k)];
+        lane.left = mirrored ? after : before;
+        lane.right = mirrored ? before : after;
+        lane.approach = 0;
+        graph.lanes[at(2 * k + 1)].turn = turns[at(k % 3)];
+        approach.lanes.push_back(2 * k);
+    }
+    if (mirrored) std::reverse(approach.lanes.begin(), approach.lanes.end());
+    graph.approaches = {approach};
+    model.demand.inlets.clear();
+    return model;
+}
+
+TrackPlan plan_of(const Case& c, int lanes) {
+    TrackPlan plan;
+    plan.policy = c.policy;
+    plan.lanes = lanes;
+    plan.length_m = 1000.0;
+    plan.overrides = {std::string("fidelity=") + c.fidelity};
+    if (std::string(c.fidelity) == "meso") plan.overrides.push_back("meso=fitted");
+    return plan;
+}
+
+// A vehicle on lane k that wants to go where lane `to` leads.
+int place(Track& track, int k, double position_m, double speed_mps, int to) {
+    const int id = track.place(2 * k, position_m, speed_mps);
+    State& state = track.editable();
+    const int slot = state.blocks[at(2 * k)].last();
+    state.vehicles.record[at(slot)].route = to;
+    take_way_of_lane(track.model(), state, 2 * k, slot);
+    return id;
+}
+
+double uniform(std::uint64_t seed, int k, int what) {
+    return random_uniform(seed, static_cast<std::uint64_t>(k), static_cast<std::uint64_t>(what), Purpose::turn);
+}
+
+// Vehicles on each lane in gaps of `least_m` to twice as much, and what drives them there.
+void fill(Track& track, std::uint64_t seed, int lanes, double least_m, double speed_mps, double from_m) {
+    int n = 0;
+    for (int k = 0; k < lanes; ++k) {
+        double front_m = from_m - 5.0 * uniform(seed, ++n, 0);
+        while (front_m > 50.0) {
+            const int to = static_cast<int>(uniform(seed, n, 1) * lanes);
+            place(track, k, front_m, speed_mps, to);
+            front_m -= track.model().vehicles[0].length_m + least_m * (1.0 + uniform(seed, ++n, 2));
+        }
+    }
+}
+
+class LaneChanging : public testing::TestWithParam<Case> {};
+
+TEST_P(LaneChanging, NobodyIsHitWhateverTheDensity) {
+    for (const double gap_m : {3.2, 8.0, 16.0, 40.0}) {
+        TrackPlan plan = plan_of(GetParam(), 3);
+        plan.green_from_s = 20.0;
+        plan.green_s = 15.0;
+        Model model = lanes_side_by_side(plan);
+        model.signals = {GroupProgramme({{to_ticks(15.0, model.step_s), Light::green},
+                                         {to_ticks(3.0, model.step_s), Light::yellow},
+                                         {to_ticks(22.0, model.step_s), Light::red}},
+                                        to_ticks(20.0, model.step_s), true)};
+        Track track(std::move(model));
+        const double speed_mps = std::min(13.0, 0.5 * std::sqrt(gap_m * gap_m));
+        fill(track, 7, 3, gap_m, speed_mps, 900.0);
+        const auto all = track.state().entered;
+        track.run(400.0);
+        EXPECT_TRUE(track.state().violations.none()) << track.state().violations.overlaps << " overlaps, "
+                                                     << track.state().violations.red_entries << " red entries";
+        EXPECT_GT(track.state().lane_changes.size(), at(static_cast<int>(all / 20)));
+    }
+}
+
+TEST_P(LaneChanging, InFreeTrafficEverybodyGetsToItsLaneWithoutStanding) {
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+        Track track(lanes_side_by_side(plan_of(GetParam(), 3)));
+        fill(track, seed, 3, 60.0, 12.0, 500.0);
+        const std::int64_t end = to_ticks(180.0, track.step_s());
+        while (track.state().tick < end) {
+            track.step();
+            const VehicleArrays& v = track.state().vehicles;
+            for (const LaneBlock& block : track.state().blocks) {
+                for (int slot = block.first; slot < block.stop(); ++slot) {
+                    ASSERT_GT(v.speed_mps[at(slot)], 0.5) << "vehicle " << v.id[at(slot)] << " stands, seed " << seed;
+                }
+            }
+        }
+        EXPECT_EQ(track.state().present(), 0);
+        EXPECT_TRUE(track.state().violations.none());
+    }
+}
+
+TEST_P(LaneChanging, LeftAndRightAreAlike) {
+    const TrackPlan plan = plan_of(GetParam(), 3);
+    Track one(lanes_side_by_side(plan));
+    Track other(lanes_side_by_side(plan, true));
+    for (Track* track : {&one, &other}) {
+        place(*track, 0, 400.0, 12.0, 2);
+        place(*track, 1, 390.0, 10.0, 0);
+        place(*track, 1, 350.0, 13.0, 1);
+        place(*track, 2, 380.0, 11.0, 1);
+        place(*track, 2, 340.0, 13.0, 0);
+        track->run(60.0);
+    }
+    ASSERT_GE(one.state().lane_changes.size(), 5U);
+    ASSERT_EQ(one.state().lane_changes.size(), other.state().lane_changes.size());
+    EXPECT_EQ(one.simulation().state_hash(), other.simulation().state_hash());
+}
+
+TEST_P(LaneChanging, TwoThatWantEachOthersLaneBothGetThere) {
+    Track track(lanes_side_by_side(plan_of(GetParam(), 2)));
+    place(track, 0, 960.0, 8.0, 1);
+    place(track, 1, 960.0, 8.0, 0);
+    track.run(60.0);
+    EXPECT_EQ(track.state().present(), 0);
+    EXPECT_EQ(track.state().lane_changes.size(), 2U);
+}
+
+TEST_P(LaneChanging, WithoutAGapItWaitsBeforeTheLine) {
+    Track track(lanes_side_by_side(plan_of(GetParam(), 2)));
+    const int waits = place(track, 0, 900.0, 10.0, 1);
+    // A platoon beside it, without a gap for anybody, that stands for good.
+    for (int k = 0; k < 40; ++k) {
+        track.place(2, 980.0 - k * (track.model().vehicles[0].length_m + 2.0), 0.0);
+    }
+    track.editable().vehicles.record[track.slot(2, 0)].next_lane = -1;
+    Model& model = const_cast<Model&>(track.model());
+    model.signals = {GroupProgramme({{1, Light::red}}, 0, true)};
+    track.run(40.0);
+    const auto seen = track.seen(0, 0);
+    EXPECT_EQ(seen.id, waits);
+    EXPECT_LT(seen.speed_mps, 0.1);
+    EXPECT_LE(seen.position_m, 1000.0 - track.model().driver.stop.margin_m + 0.1);
+    EXPECT_GE(seen.position_m, 975.0);
+    EXPECT_TRUE(track.state().lane_changes.empty());
+}
+
+TEST_P(LaneChanging, ASlowerVehicleIsPassedAndNobodyGoesToAndFro) {
+    Track track([&] {
+        Model model = lanes_side_by_side(plan_of(GetParam(), 2));
+        for (const int lane : {1, 3}) model.graph.lanes[at(lane)].turn = Turn::straight;
+        return model;
+    }());
+    track.place(0, 300.0, 6.0);
+    track.place(0, 200.0, 13.0);
+    const double slow_mps = 6.0;
+    const std::int64_t end = to_ticks(50.0, track.step_s());
+    while (track.state().tick < end) {
+        // The first vehicle keeps its speed.
+        const int id = 0;
+        State& state = track.editable();
+        for (const LaneBlock& block : state.blocks) {
+            for (int slot = block.first; slot < block.stop(); ++slot) {
+                if (state.vehicles.id[at(slot)] == id) state.vehicles.speed_mps[at(slot)] = slow_mps;
+            }
+        }
+        track.step();
+    }
+    ASSERT_EQ(track.state().lane_changes.size(), 1U);
+    EXPECT_EQ(track.state().lane_changes[0].vehicle, 1);
+    EXPECT_FALSE(track.state().lane_changes[0].for_route);
+}
+
+INSTANTIATE_TEST_SUITE_P(Modes, LaneChanging,
+                         testing::Values(Case{"full", "CDG"}, Case{"full", "CTG-Ref"}, Case{"full", "SWITCH-1"},
+                                         Case{"meso", "CDG"}, Case{"meso", "CTG-Ref"}, Case{"meso", "SWITCH-1"},
+                                         Case{"meso", "MIX"}),
+                         name_of);
+
+}  // namespace
+}  // namespace stopline
