@@ -22,7 +22,7 @@ class TimeSpace {
         this.ratio = window.devicePixelRatio || 1;
         this.canvas.width = Math.max(1, Math.round(this.canvas.clientWidth * this.ratio));
         this.canvas.height = Math.max(1, Math.round(this.canvas.clientHeight * this.ratio));
-        const [left, top, bottom] = [44, 8, 34].map((px) => px * this.ratio);
+        const [left, top, bottom] = [52, 8, 34].map((px) => px * this.ratio);
         this.plot = {x: left, y: top, width: this.canvas.width - left - 4, height: this.canvas.height - top - bottom};
         this.perSecond = this.plot.width / (PAST_S + FUTURE_S);
         this.forget();
