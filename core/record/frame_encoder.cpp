@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "record/bytes.h"
 #include "record/recording_format.h"
@@ -11,7 +12,7 @@ namespace stopline {
 
 namespace {
 
-constexpr double kStands_mps = 0.1;  // as hindrance.h has it
+constexpr double kNowhere_m = std::numeric_limits<double>::quiet_NaN();
 constexpr double kMostCode = 65535.0;
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
@@ -58,7 +59,10 @@ void FrameEncoder::start_section() {
     differing_.clear();
     known_.clear();
     now_.clear();
-    std::fill(guests_.begin(), guests_.end(), Guest{});
+    std::fill(guest_.begin(), guest_.end(), -1);
+    std::fill(guest_seat_.begin(), guest_seat_.end(), -1);
+    std::fill(rest_m_.begin(), rest_m_.end(), kNowhere_m);
+    std::fill(lane_of_.begin(), lane_of_.end(), -1);
     std::fill(blocks_.begin(), blocks_.end(), SlotRange{});
     std::fill(lights_.begin(), lights_.end(), Light::red);
     look_tick_ = -1;
@@ -67,10 +71,14 @@ void FrameEncoder::start_section() {
 void FrameEncoder::append(const State& state, std::string& bytes) {
     for (Events& events : events_) events.clear();
     vacated_.clear();
-    if (guests_.size() < at(state.vehicles.slots)) guests_.resize(at(state.vehicles.slots));
+    const std::size_t slots = at(state.vehicles.slots);
+    if (guest_.size() < slots) {
+        for (std::vector<int>* const each : {&guest_, &guest_seat_, &lane_of_}) each->resize(slots, -1);
+        rest_m_.resize(slots, kNowhere_m);
+    }
     note_lights(state.tick);
     vacate_slots(state);
-    for (int lane = 0; lane < static_cast<int>(state.blocks.size()); ++lane) note_lane(state, lane);
+    note_vehicles(state);
     note_left();
     note_causes(state);
     for (const Events& events : events_) events.append_to(bytes);
@@ -95,40 +103,54 @@ void FrameEncoder::note_lights(std::int64_t tick) {
 
 // Slots that a lane had and has no more; another may have them now, so that this comes before anybody is seen there.
 void FrameEncoder::vacate_slots(const State& state) {
+    changed_.clear();
     for (std::size_t lane = 0; lane < blocks_.size(); ++lane) {
         const LaneBlock& block = state.blocks[lane];
-        SlotRange& before = blocks_[lane];
+        const SlotRange& before = blocks_[lane];
+        vehicle_states_ += block.count;
         if (before.first == block.first && before.count == block.count) continue;
+        changed_.push_back(static_cast<int>(lane));
         for (int slot = before.first; slot < before.first + before.count; ++slot) {
             if (slot < block.first || slot >= block.stop()) vacate(slot);
+            lane_of_[at(slot)] = -1;
         }
-        before = {block.first, block.count};
+    }
+    for (const int lane : changed_) {
+        const LaneBlock& block = state.blocks[at(lane)];
+        blocks_[at(lane)] = {block.first, block.count};
+        std::fill_n(lane_of_.begin() + block.first, block.count, lane);
     }
 }
 
-void FrameEncoder::note_lane(const State& state, int lane) {
+// Half of all vehicles rest in queues: they are left out many at a time.
+void FrameEncoder::note_vehicles(const State& state) {
     const VehicleArrays& v = state.vehicles;
-    const SlotRange slots = blocks_[at(lane)];
-    vehicle_states_ += slots.count;
-    for (int slot = slots.first; slot < slots.first + slots.count; ++slot) {
-        const Guest& guest = guests_[at(slot)];
-        const bool rests = guest.vehicle == v.id[at(slot)] && guest.stood &&
-                           guest.position_m == v.position_m[at(slot)] && v.speed_mps[at(slot)] == 0.0;
-        if (!rests) note_vehicle(state, slot, lane);
+    const auto slots = at(v.slots);
+    moves_.resize((slots + 7) / 8 * 8, 0);
+    const int* const vehicle = v.id.data();
+    const double* const position_m = v.position_m.data();
+    const double* const speed_mps = v.speed_mps.data();
+    const int* const guest = guest_.data();
+    const double* const rest_m = rest_m_.data();
+    char* const moves = moves_.data();
+    for (std::size_t i = 0; i < slots; ++i) {
+        const bool rests = (vehicle[i] == guest[i]) & (position_m[i] == rest_m[i]) & (speed_mps[i] == 0.0);
+        moves[i] = static_cast<char>(!rests);
+    }
+    for (std::size_t i = 0; i < slots; ++i) {
+        if (moves[i] != 0 && lane_of_[i] >= 0) note_vehicle(state, static_cast<int>(i), lane_of_[i]);
     }
 }
 
 void FrameEncoder::note_vehicle(const State& state, int slot, int lane) {
     constexpr double kSpeedsPer_mps = 1.0 / kSpeedUnit_mps;
     const VehicleArrays& v = state.vehicles;
-    Guest& guest = guests_[at(slot)];
-    const int seat = guest.vehicle == v.id[at(slot)] ? guest.seat : seat_at(state, slot, lane);
+    const int seat = guest_[at(slot)] == v.id[at(slot)] ? guest_seat_[at(slot)] : seat_at(state, slot, lane);
     const Motion motion{code_of(v.position_m[at(slot)], positions_per_m_),
                         code_of(v.speed_mps[at(slot)], kSpeedsPer_mps)};
     now_[at(seat)] = motion;
     differing_[at(seat) / 64] |= std::uint64_t{1} << (at(seat) % 64);
-    guest.position_m = v.position_m[at(slot)];
-    guest.stood = v.speed_mps[at(slot)] == 0.0;
+    rest_m_[at(slot)] = v.speed_mps[at(slot)] == 0.0 ? v.position_m[at(slot)] : kNowhere_m;
     if (motion.position <= stop_line_[at(lane)]) return;
     const int next = v.record[at(slot)].next_lane;
     if (seats_[at(seat)].next != next) move(seat, lane, next);
@@ -136,9 +158,9 @@ void FrameEncoder::note_vehicle(const State& state, int slot, int lane) {
 
 // Whoever was seen in that slot is elsewhere now, or nowhere.
 void FrameEncoder::vacate(int slot) {
-    Guest& guest = guests_[at(slot)];
-    if (guest.seat >= 0) vacated_.push_back(guest.seat);
-    guest = {};
+    if (guest_seat_[at(slot)] >= 0) vacated_.push_back(guest_seat_[at(slot)]);
+    guest_[at(slot)] = guest_seat_[at(slot)] = -1;
+    rest_m_[at(slot)] = kNowhere_m;
 }
 
 // The seat of a vehicle that was not in this slot.
@@ -153,7 +175,8 @@ int FrameEncoder::seat_at(const State& state, int slot, int lane) {
         move(seat, lane, state.vehicles.record[at(slot)].next_lane);
     }
     seats_[at(seat)].slot = slot;
-    guests_[at(slot)] = {0.0, vehicle, seat, false};
+    guest_[at(slot)] = vehicle;
+    guest_seat_[at(slot)] = seat;
     return seat;
 }
 
@@ -200,7 +223,7 @@ void FrameEncoder::note_left() {
     Events& events = events_[left];
     for (const int seat : vacated_) {
         Seat& known = seats_[at(seat)];
-        const bool elsewhere = known.vehicle < 0 || guests_[at(known.slot)].seat == seat;
+        const bool elsewhere = known.vehicle < 0 || guest_seat_[at(known.slot)] == seat;
         if (elsewhere) continue;
         put_varint(events.bytes, static_cast<std::uint64_t>(seat));
         ++events.count;
@@ -213,18 +236,17 @@ void FrameEncoder::note_left() {
     }
 }
 
-bool FrameEncoder::stands(int seat) const { return now_[at(seat)].speed < kStands_mps / kSpeedUnit_mps; }
-
-// The simulation looks now and then at who stands and why; what it saw holds until it looks again or the vehicle moves.
+// The simulation looks now and then at who stands and why.
 void FrameEncoder::note_causes(const State& state) {
     const std::int64_t every = model_.rules.watch_ticks;
     if (every <= 0 || state.tick == 0) return;
     const std::int64_t look_tick = (state.tick - 1) / every * every;
-    if (look_tick != look_tick_) look_at_standing(state.watch);
+    if (look_tick == look_tick_) return;
     look_tick_ = look_tick;
+    look_at_standing(state.watch);
     std::erase_if(waiting_, [&](int seat) {
         Wait& wait = waits_[at(seat)];
-        if (seats_[at(seat)].vehicle >= 0) tell_reason(seat, wait.seen && stands(seat) ? wait.reason : Reason{});
+        if (seats_[at(seat)].vehicle >= 0) tell_reason(seat, wait.seen ? wait.reason : Reason{});
         wait.listed = wait.seen;
         return !wait.seen;
     });
@@ -234,9 +256,8 @@ void FrameEncoder::look_at_standing(const HindranceWatch& watch) {
     for (const int seat : waiting_) waits_[at(seat)].seen = false;
     for (const int slot : watch.standing) {
         // Mostly it has not moved since; where it has, it is found by its number.
-        const Guest& guest = guests_[at(slot)];
         const int vehicle = watch.vehicle[at(slot)];
-        const int seat = guest.vehicle == vehicle ? guest.seat : seat_of_[at(vehicle)];
+        const int seat = guest_[at(slot)] == vehicle ? guest_seat_[at(slot)] : seat_of_[at(vehicle)];
         if (seat < 0) continue;
         const int ahead = watch.waits_for[at(slot)];
         Wait& wait = waits_[at(seat)];

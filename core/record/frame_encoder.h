@@ -45,13 +45,6 @@ private:
         bool seen = false;    // at the last look
         bool listed = false;  // in waiting_
     };
-    // Who was in a slot. Whoever stands and stood there needs no second look.
-    struct Guest {
-        double position_m = 0.0;
-        int vehicle = -1;
-        int seat = -1;
-        bool stood = false;
-    };
     // Both in units of the header.
     struct Motion {
         std::uint16_t position = 0;
@@ -70,7 +63,7 @@ private:
     enum Kind : std::size_t { lights, left, came, moved, waits, kinds };
 
     void note_lights(std::int64_t tick);
-    void note_lane(const State& state, int lane);
+    void note_vehicles(const State& state);
     void vacate_slots(const State& state);
     void note_vehicle(const State& state, int slot, int lane);
     void vacate(int slot);
@@ -80,7 +73,6 @@ private:
     void note_left();
     void note_causes(const State& state);
     void look_at_standing(const HindranceWatch& watch);
-    bool stands(int seat) const;
     void tell_reason(int seat, const Reason& reason);
     void append_columns(std::string& bytes);
     void append_codes(std::string& bytes);
@@ -90,9 +82,16 @@ private:
     double positions_per_m_;
     std::vector<std::uint16_t> stop_line_;  // [lane] position; behind it vehicles are drawn on the lane that follows
     std::vector<Seat> seats_;
-    std::vector<int> free_;                 // seats, the one to take next at the back
-    std::vector<int> seat_of_;              // [vehicle] -1: none
-    std::vector<Guest> guests_;             // [slot] in the frame before
+    std::vector<int> free_;     // seats, the one to take next at the back
+    std::vector<int> seat_of_;  // [vehicle] -1: none
+    // [slot] in the frame before: who was there, on which lane (-1: on none), and where it stood; NaN where it did not, so that
+    // whoever stands where it stood is known by comparing, many at a time.
+    std::vector<int> guest_;
+    std::vector<int> guest_seat_;
+    std::vector<int> lane_of_;
+    std::vector<double> rest_m_;
+    std::vector<char> moves_;               // [slot] to be looked at
+    std::vector<int> changed_;              // lanes with other slots than in the frame before
     std::vector<SlotRange> blocks_;         // [lane] in the frame before
     std::vector<int> vacated_;              // seats whose slot is another's now: they moved, or left
     std::vector<Wait> waits_;               // [seat]

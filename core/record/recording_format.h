@@ -14,7 +14,8 @@
 //                 vehicles that left: n, then n times seat; the seat is free from the next frame on
 //                 vehicles that came: n, then n times seat, number, policy, length (mm), lane, next lane + 1
 //                 vehicles on another lane: n, then n times seat, lane, next lane + 1
-//                 what standing vehicles wait for: n, then n times seat, cause, number of the vehicle waited for + 1
+//                 what vehicles wait for: n, then n times seat, cause, number of the vehicle waited for + 1; it holds as long
+//                 as they stand (below 0.1 m/s), until told otherwise
 //                 vehicles that entered the network since the frame before; that left it          (all of these as varint)
 //                 seats (varint), a bit for each: something of it differs from what the reader expects; then for each such seat
 //                 a byte of its speed, then for each a byte of its position, then 16 bits for each byte that is 255: speeds, positions

@@ -96,12 +96,9 @@ void expect_same(const RecordedRun& run, const FrameDecoder& decoder, const Reco
         EXPECT_NEAR(read.speed * 0.01, seen.speed_mps, 0.00501);
         EXPECT_EQ(read.next, seen.next);
         const auto& causes = recorded.causes[frame];
-        const bool stands = read.speed * 0.01 < 0.0999;
         const auto cause = causes.find(read.vehicle);
-        const Cause expected = stands && cause != causes.end() ? cause->second : Cause::none;
-        if (std::abs(seen.speed_mps - 0.1) > 0.01) {
-            EXPECT_EQ(read.cause, static_cast<int>(expected));
-        }
+        const Cause expected = cause != causes.end() ? cause->second : Cause::none;
+        EXPECT_EQ(read.cause, static_cast<int>(expected));
     }
     EXPECT_EQ(present, picture.size()) << "frame " << frame;
     for (std::size_t group = 0; group < decoder.lights().size(); ++group) {

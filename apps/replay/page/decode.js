@@ -2,6 +2,7 @@
 'use strict';
 
 const WIDE = 255;
+const STANDS_MPS = 0.1;
 
 class Bytes {
     constructor(bytes) {
@@ -146,6 +147,9 @@ class SectionDecoder {
             }
             frame.position_m[k] = vehicle.position * this.head.position_unit_m;
             frame.speed_mps[k] = vehicle.speed * this.head.speed_unit_mps;
+            if (frame.speed_mps[k] < STANDS_MPS) return;
+            frame.cause[k] = 0;
+            frame.waitedFor[k] = -1;
         });
         frame.lights = this.lights.slice();
         return frame;
