@@ -21,7 +21,9 @@ def check(condition, what):
 
 
 def ready(browser):
-    browser.wait("window.replay && replay.shown && replay.drawn > 2")
+    """All that was asked for is unpacked and drawn."""
+    browser.wait("window.replay && replay.shown && !replay.asked && "
+                 "[...replay.recording.sections.keys()].every((section) => replay.recording.ready.has(section))")
 
 
 def settle(browser):
