@@ -24,6 +24,7 @@
 #include "experiment/single_light_figures.h"
 #include "experiment/street_map.h"
 #include "experiment/street_results.h"
+#include "run/run_files.h"
 #include "scenario/load_scenario.h"
 #include "scenario/quantity.h"
 
@@ -33,6 +34,7 @@ using namespace stopline;
 
 struct RunOptionsOfUser {
     CommonOptions common;
+    RunFilesOptions files;
     std::string file;
     std::string interval = "0.1 s";
     bool trajectories = false;
@@ -48,20 +50,24 @@ void declare(CLI::App& app, RunOptionsOfUser& options) {
     add_set_option(app, options.common);
     app.add_flag("--trajectories", options.trajectories,
                  "Write trajectories.csv too: from 5 s before the green to 25 s after it; intersections: of the first "
-                 "measured cycle");
+                 "measured cycle; grids: of all of the run, or --record-from and --record-until");
     app.add_option("--interval", options.interval, "Time between its samples (default: 0.1 s)")->type_name("TIME");
+    add_run_files_options(app, options.files);
     app.add_flag("--no-figures", options.no_figures, "Draw no figures");
     app.add_flag("--describe", options.describe, "List all fields of scenario files and exit");
     app.add_flag("--schema", options.schema, "Print the JSON schema of scenario files, for editors, and exit");
     app.add_flag("--list", options.list, "List populations, policies, laws, vehicles and drivers, and exit");
     app.footer(
-        std::string("\nExamples:\n"
-                    "  stopline-run scenarios/single_light.yaml\n"
-                    "  stopline-run scenarios/intersection.yaml --set 'demand.left=15 %'\n"
-                    "  stopline-run scenarios/grid.yaml --set 'duration=2000 s'\n"
-                    "  stopline-run scenarios/single_light.yaml --set 'populations=[CDG, CTG-Ref]' --trajectories\n"
-                    "  stopline-run scenarios/first_steps.yaml --set vehicle=electric_100kw --output out/electric\n"
-                    "  stopline-run --list scenarios/single_light.yaml\n\n") +
+        std::string(
+            "\nExamples:\n"
+            "  stopline-run scenarios/single_light.yaml\n"
+            "  stopline-run scenarios/intersection.yaml --set 'demand.left=15 %'\n"
+            "  stopline-run scenarios/grid.yaml --set 'duration=2000 s'\n"
+            "  stopline-run scenarios/single_light.yaml --set 'populations=[CDG, CTG-Ref]' --trajectories\n"
+            "  stopline-run scenarios/grid.yaml --set 'duration=600 s' --record out/grid.rec\n"
+            "  stopline-run scenarios/intersection.yaml --fcd out/fcd.xml --tripinfo out/trips.xml --e1 out/loops.xml\n"
+            "  stopline-run scenarios/first_steps.yaml --set vehicle=electric_100kw --output out/electric\n"
+            "  stopline-run --list scenarios/single_light.yaml\n\n") +
         kExitCodesText);
 }
 
@@ -133,15 +139,17 @@ void print_report(const SingleLight& result) {
 
 // A signalised intersection: a table, files, figures.
 ExitCode run_as_intersection(const RunOptionsOfUser& options, const Scenario& scenario, double interval_s,
-                             const std::filesystem::path& folder) {
+                             const std::filesystem::path& folder, RunFiles& run_files) {
     const IntersectionReport report = [&] {
         ProgressBar bar(fmt::format("{} runs", scenario.populations.size()));
-        return run_intersections(scenario, {threads_or_all(options.common.threads), interval_s,
-                                            [&bar](double share) { return bar.update(share); }});
+        return run_intersections(scenario,
+                                 {threads_or_all(options.common.threads), interval_s,
+                                  [&bar](double share) { return bar.update(share); }, run_files.observation()});
     }();
     fmt::print("{}\nscenario {} ({:016x}), seed {}\n\n{}", scenario.title.empty() ? scenario.name : scenario.title,
                scenario.name, scenario.hash, scenario.seed, intersection_text(report));
     write_results(options, report, folder);
+    fmt::print("{}", run_files.finish());
     if (!options.no_figures) draw_all(intersection_figures(report), folder);
     fmt::print(
         "\nNext: other greens and turns with --set 'signal.green=10 s' --set 'demand.left=30 %', all permutations with\n"
@@ -150,13 +158,12 @@ ExitCode run_as_intersection(const RunOptionsOfUser& options, const Scenario& sc
 }
 
 // Several intersections: the same, with what they do to each other.
-ExitCode run_as_network(const RunOptionsOfUser& options, const Scenario& scenario,
-                        const std::filesystem::path& folder) {
-    if (options.trajectories) throw InputError("--trajectories: not for grids; see series.csv and hindrance.csv");
+ExitCode run_as_network(const RunOptionsOfUser& options, const Scenario& scenario, const std::filesystem::path& folder,
+                        RunFiles& run_files) {
     const NetworkReport report = [&] {
         ProgressBar bar(fmt::format("{} runs", scenario.populations.size()));
-        return run_networks(
-            scenario, {threads_or_all(options.common.threads), [&bar](double share) { return bar.update(share); }});
+        return run_networks(scenario, {threads_or_all(options.common.threads),
+                                       [&bar](double share) { return bar.update(share); }, run_files.observation()});
     }();
     fmt::print("{}\nscenario {} ({:016x}), seed {}\n\n{}", scenario.title.empty() ? scenario.name : scenario.title,
                scenario.name, scenario.hash, scenario.seed, network_text(report));
@@ -181,6 +188,7 @@ ExitCode run_as_network(const RunOptionsOfUser& options, const Scenario& scenari
         figures.push_back(street_figure(report));
     }
     write_tables(options, scenario, std::move(tables), std::move(hashes), folder);
+    fmt::print("{}", run_files.finish());
     if (!options.no_figures) draw_all(figures, folder);
     fmt::print(
         "\nNext: hindrance.csv says who was held up by whom, where and since when; {}, all of them with stopline-sweep.\n",
@@ -202,12 +210,21 @@ ExitCode run(const RunOptionsOfUser& options) {
     const Scenario scenario = load_with_options(options.file, options.common);
     const double interval_s = trajectory_interval_s(options, scenario);
     const std::filesystem::path folder = options.common.output.empty() ? "out/" + scenario.name : options.common.output;
+    RunFilesOptions files = options.files;
+    if (options.trajectories && scenario.network.has_several()) {
+        files.trajectories = (folder / "trajectories.csv").string();
+        files.trajectory_interval_s = interval_s;
+    }
+    RunFiles run_files(files, scenario, command_text("stopline-run", options.file, options.common));
     prepare_folder(folder);
-    if (scenario.network.kind == "intersection") return run_as_intersection(options, scenario, interval_s, folder);
-    if (scenario.network.has_several()) return run_as_network(options, scenario, folder);
+    if (scenario.network.kind == "intersection") {
+        return run_as_intersection(options, scenario, interval_s, folder, run_files);
+    }
+    if (scenario.network.has_several()) return run_as_network(options, scenario, folder, run_files);
     SingleLightOptions run_options;
     run_options.threads = threads_or_all(options.common.threads);
     run_options.trajectory_interval_s = interval_s;
+    run_options.observation = run_files.observation();
     const SingleLight result = [&] {
         ProgressBar bar(fmt::format("{} runs", scenario.populations.size()));
         run_options.on_progress = [&bar](double share) { return bar.update(share); };
@@ -215,6 +232,7 @@ ExitCode run(const RunOptionsOfUser& options) {
     }();
     print_report(result);
     write_results(options, result, interval_s, folder);
+    fmt::print("{}", run_files.finish());
     if (!options.no_figures) draw_all(single_light_figures(result, load_targets()), folder);
     fmt::print(
         "\nNext: another policy or vehicle with --set (stopline-run --list, --describe), every vehicle's path with\n"

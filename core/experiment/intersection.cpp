@@ -39,10 +39,11 @@ IntersectionReport run_intersections(const Scenario& scenario, const Intersectio
     const double end_s = measured_window(scenario).to_s;
     run_side_by_side(runs, options.threads, options.on_progress,
                      [&](std::size_t k, const std::function<bool(double)>& tell) {
-                         report.populations[k] = run_intersection(scenario, k, [&](const Simulation& simulation) {
+                         const auto on_step = [&](const Simulation& simulation) {
                              trace(simulation, report.trajectories[k]);
                              return simulation.state().tick % kTell != 0 || tell(simulation.time_s() / end_s);
-                         });
+                         };
+                         report.populations[k] = run_intersection(scenario, k, on_step, options.observation);
                      });
     return report;
 }

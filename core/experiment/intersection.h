@@ -25,6 +25,7 @@ struct IntersectionOptions {
     int threads = 1;
     double trajectory_interval_s = 0.0;       // a whole number of steps; 0: no trajectories
     std::function<bool(double)> on_progress;  // gets the share done; returns false to stop: throws Interrupted
+    Observation observation = {};
 };
 
 // The same bits for any number of threads.

@@ -149,8 +149,10 @@ TimeWindow measured_window(const Scenario& scenario) {
 }
 
 IntersectionFigures run_intersection(const Scenario& scenario, std::size_t population,
-                                     const std::function<bool(const Simulation&)>& on_step) {
-    const Model model = build_model(scenario, population);
+                                     const std::function<bool(const Simulation&)>& on_step,
+                                     const Observation& observation) {
+    Model model = build_model(scenario, population);
+    observation.prepare(model);
     Simulation simulation(model);
     IntersectionFigures figures;
     figures.population = scenario.populations.at(population).name;
@@ -167,9 +169,11 @@ IntersectionFigures run_intersection(const Scenario& scenario, std::size_t popul
         }
         if (simulation.state().tick == picture) take_picture(simulation, figures);
         sampler.look(simulation.state());
+        observation.call(population, simulation);
         simulation.step();
     }
     const State& state = simulation.state();
+    if (figures.complete) observation.call(population, simulation);
     sampler.finish(figures);
     figures.occupied = figures.vehicles_present * scenario.vehicle.length_m / road_m(scenario, model);
     count_turns(model, state, figures);

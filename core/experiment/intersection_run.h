@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "experiment/observation.h"
 #include "measure/discharge.h"
 #include "measure/zones.h"
 #include "scenario/scenario.h"
@@ -52,6 +53,7 @@ TimeWindow first_cycle(const Scenario& scenario);  // of it
 
 // `on_step` is called before every step, with the state at its beginning; return false to stop early.
 IntersectionFigures run_intersection(const Scenario& scenario, std::size_t population,
-                                     const std::function<bool(const Simulation&)>& on_step = {});
+                                     const std::function<bool(const Simulation&)>& on_step = {},
+                                     const Observation& observation = {});
 
 }  // namespace stopline

@@ -61,7 +61,7 @@ NetworkReport run_networks(const Scenario& scenario, const NetworkOptions& optio
                              return simulation.state().tick % kTell != 0 ||
                                     tell(simulation.time_s() / scenario.duration_s);
                          };
-                         report.populations[k] = run_network(scenario, k, on_step, threads_each);
+                         report.populations[k] = run_network(scenario, k, on_step, threads_each, options.observation);
                      });
     return report;
 }

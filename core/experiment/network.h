@@ -24,6 +24,7 @@ struct NetworkReport {
 struct NetworkOptions {
     int threads = 1;
     std::function<bool(double)> on_progress;  // gets the share done; returns false to stop: throws Interrupted
+    Observation observation = {};
 };
 
 // The same bits for any number of threads.

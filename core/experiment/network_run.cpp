@@ -175,8 +175,10 @@ Model network_model(const Scenario& scenario, std::size_t population) {
 }
 
 NetworkFigures run_network(const Scenario& scenario, std::size_t population,
-                           const std::function<bool(const Simulation&)>& on_step, int threads) {
-    const Model model = network_model(scenario, population);
+                           const std::function<bool(const Simulation&)>& on_step, int threads,
+                           const Observation& observation) {
+    Model model = network_model(scenario, population);
+    observation.prepare(model);
     Simulation simulation(model, threads);
     NetworkFigures figures;
     figures.population = scenario.populations.at(population).name;
@@ -193,10 +195,12 @@ NetworkFigures run_network(const Scenario& scenario, std::size_t population,
         sampler.look(simulation.state());
         street.look(simulation.state());
         backlog.look(simulation.state());
+        observation.call(population, simulation);
         simulation.step();
     }
     const State& state = simulation.state();
     sampler.look(state);
+    if (figures.complete) observation.call(population, simulation);
     measure(scenario, model, state, sampler, figures);
     figures.hindrance = state.hindrance;
     figures.violations = state.violations;

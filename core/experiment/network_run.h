@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "experiment/backlog.h"
+#include "experiment/observation.h"
 #include "experiment/time_space.h"
 #include "measure/area.h"
 #include "scenario/scenario.h"
@@ -62,6 +63,7 @@ Model network_model(const Scenario& scenario, std::size_t population);
 
 // `on_step` is called before every step; return false to stop early. `threads`: that share the run.
 NetworkFigures run_network(const Scenario& scenario, std::size_t population,
-                           const std::function<bool(const Simulation&)>& on_step = {}, int threads = 1);
+                           const std::function<bool(const Simulation&)>& on_step = {}, int threads = 1,
+                           const Observation& observation = {});
 
 }  // namespace stopline

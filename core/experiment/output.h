@@ -1,4 +1,4 @@
-// Files that are whole or not there: written beside their place under another name, flushed to the disk, then renamed.
+// Files that are whole or not there (base/replaced_file.h), and folders for them.
 #pragma once
 
 #include <filesystem>

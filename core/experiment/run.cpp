@@ -85,7 +85,8 @@ int RunResult::passed_within(double green_s) const {
 }
 
 RunResult run_population(const Scenario& scenario, std::size_t population, const RunOptions& options) {
-    const Model model = build_model(scenario, population);
+    Model model = build_model(scenario, population);
+    options.observation.prepare(model);
     Simulation simulation(model);
     RunResult result;
     result.population = scenario.populations[population].name;
@@ -107,8 +108,10 @@ RunResult run_population(const Scenario& scenario, std::size_t population, const
             result.complete = options.on_progress(static_cast<double>(tick) / static_cast<double>(last));
             if (!result.complete) break;
         }
+        options.observation.call(population, simulation);
         simulation.step();
     }
+    if (result.complete) options.observation.call(population, simulation);
     result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     finish(simulation, result);
     return result;

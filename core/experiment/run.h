@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "experiment/observation.h"
 #include "scenario/scenario.h"
 #include "sim/events.h"
 #include "sim/simulation.h"
@@ -37,6 +38,7 @@ struct RunOptions {
     double trajectory_until_s = std::numeric_limits<double>::infinity();
     // Called now and then with the share done (0..1); return false to stop early (the result is then incomplete).
     std::function<bool(double)> on_progress;
+    Observation observation = {};
 };
 
 struct RunResult {

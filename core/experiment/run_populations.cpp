@@ -50,6 +50,7 @@ std::vector<RunResult> run_populations(const Scenario& scenario, const RunAllOpt
             run.trajectory_interval_s = options.trajectory_interval_s;
             run.trajectory_from_s = options.trajectory_from_s;
             run.trajectory_until_s = options.trajectory_until_s;
+            run.observation = options.observation;
             run.on_progress = [&progress, k](double share) { return progress.update(k, share); };
             results[k] = run_population(scenario, k, run);
             progress.update(k, 1.0);

@@ -18,6 +18,7 @@ struct RunAllOptions {
     double trajectory_until_s = std::numeric_limits<double>::infinity();
     // Share done of all runs (0..1), called now and then by one thread at a time; return false to stop.
     std::function<bool(double)> on_progress;
+    Observation observation = {};
 };
 
 // Throws Interrupted where on_progress asked to stop, and what a run threw (the first in the order of the scenario).

@@ -155,6 +155,7 @@ SingleLight run_single_light(const Scenario& scenario, const SingleLightOptions&
     runs.trajectory_from_s = scenario.signal.first_green_s - kLeadIn_s;
     runs.trajectory_until_s = scenario.signal.first_green_s + scenario.signal.green_s + kLeadOut_s;
     runs.on_progress = options.on_progress;
+    runs.observation = options.observation;
     result.runs = run_populations(scenario, runs);
     for (std::size_t k = 0; k < result.runs.size(); ++k) {
         const std::vector<TrajectoryPoint> points =

@@ -64,6 +64,7 @@ struct SingleLightOptions {
     int threads = 1;
     double trajectory_interval_s = 0.0;       // finer samples, if wanted; those of the summaries are kept in any case
     std::function<bool(double)> on_progress;  // see RunAllOptions
+    Observation observation = {};
 };
 
 inline constexpr int kLatePositions = 10;

@@ -30,7 +30,7 @@ void watch_detectors(const Model& model, State& state, NetworkPart& part) {
         for (; upstream > 0; --upstream) {
             const int slot = block.stop() - upstream;
             if (v.position_m[at(slot)] < detector.position_m) break;
-            const bool recorded = model.records_all || detector.kind == Detector::Kind::zone;
+            const bool recorded = model.records_all || model.records_detectors || detector.kind == Detector::Kind::zone;
             if (recorded)
                 part.crossings.push_back({passing_time_s(model, state, slot, detector.position_m), v.id[at(slot)],
                                           v.policy[at(slot)], number, static_cast<float>(v.speed_mps[at(slot)]),

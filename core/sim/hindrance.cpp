@@ -37,7 +37,7 @@ private:
         const auto slots = at(v_.slots);
         if (w_.mark.size() != slots) {
             w_.waits_for.resize(slots), w_.edge.resize(slots), w_.cause.resize(slots), w_.owner.resize(slots);
-            w_.lane.resize(slots), w_.mark.resize(slots);
+            w_.lane.resize(slots), w_.vehicle.resize(slots), w_.mark.resize(slots);
         }
         // Episodes go on when vehicles get other slots.
         w_.open.resize(model_.graph.lanes.size() * kCauseNames.size(), -1);
@@ -56,6 +56,7 @@ private:
             const double stood_s = model_.time_s(state_.tick - v_.stands_since[at(slot)]);
             state_.hindrance.longest_stand_s = std::max(state_.hindrance.longest_stand_s, stood_s);
             w_.lane[at(slot)] = lane;
+            w_.vehicle[at(slot)] = v_.id[at(slot)];
             w_.standing.push_back(slot);
         }
     }

@@ -82,6 +82,7 @@ struct HindranceWatch {
     std::vector<Cause> cause;         // [slot] what its time is lost to
     std::vector<int> owner;           // [slot] the first of its queue, which the cause holds up
     std::vector<int> lane;            // [slot]
+    std::vector<int> vehicle;         // [slot] its number, for those who look on: slots change before the next look
     std::vector<int> mark;            // [slot] number of the walk that came by; 0: none
     std::vector<int> walk;            // slots
     std::vector<int> standing;        // slots

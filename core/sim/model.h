@@ -81,8 +81,9 @@ struct Model {
     double turn_share = 1.0;      // of what is missing to what the way to a turn allows
     double leader_mps2 = 0.0;     // acceleration of platoon leaders, up to a speed; 0: that of their policy's model
     double leader_until_mps = 0.0;
-    bool records_all = true;      // passages, accepted gaps, all detectors; else crossings of zones only
-    bool scalar_kernels = false;  // the oracle: one vehicle at a time, none left out, same bits
+    bool records_all = true;         // passages, accepted gaps, all detectors; else crossings of zones only
+    bool records_detectors = false;  // crossings of all detectors even so
+    bool scalar_kernels = false;     // the oracle: one vehicle at a time, none left out, same bits
 
     double time_s(std::int64_t tick) const { return static_cast<double>(tick) * step_s; }
 };

@@ -23,6 +23,7 @@ ALLOWED = {
     "demand": ["base", "network"],
     "sim": ["base", "network", "signals", "demand", "vehicle", "driver"],
     "measure": ["base", "network", "sim"],
+    "record": ["base", "network", "signals", "sim"],
     "scenario": ["base", "network", "signals", "demand", "vehicle", "driver", "sim", "measure"],
     "experiment": ["base", "sim", "measure", "scenario"],
 }

@@ -7,7 +7,7 @@ trap 'rm -rf "$tree"' EXIT
 
 lay_out() {
     rm -rf "${tree:?}"/*
-    mkdir -p "$tree"/core/{base,network,vehicle,driver,sim,measure,scenario,experiment} "$tree/apps"
+    mkdir -p "$tree"/core/{base,network,vehicle,driver,sim,measure,record,scenario,experiment} "$tree/apps"
     touch "$tree/core/base/units.h" "$tree/core/network/lane.h" "$tree/core/vehicle/engine.h" "$tree/core/sim/events.h"
     printf '#include "base/units.h"\n' >"$tree/core/driver/policy.h"
     printf '#include "network/lane.h"\n#include "sim/events.h"\n' >"$tree/core/measure/zone.h"

@@ -1,0 +1,197 @@
+// The canvas with the network: view, drawing, and what the pointer does on it.
+'use strict';
+
+class MapView {
+    constructor(canvas, network, onPick) {
+        Object.assign(this, {canvas, network, onPick});
+        this.ctx = canvas.getContext('2d');
+        this.roads = document.createElement('canvas');  // drawn again only when the view changes
+        this.pointers = new Map();
+        this.fitted = true;
+        canvas.addEventListener('wheel', (event) => this.onWheel(event), {passive: false});
+        canvas.addEventListener('pointerdown', (event) => this.onDown(event));
+        canvas.addEventListener('pointermove', (event) => this.onMove(event));
+        for (const end of ['pointerup', 'pointercancel']) canvas.addEventListener(end, (event) => this.onUp(event));
+        new ResizeObserver(() => this.resize()).observe(canvas);
+        this.resize();
+    }
+
+    resize() {
+        const ratio = window.devicePixelRatio || 1;
+        const {clientWidth, clientHeight} = this.canvas;
+        for (const canvas of [this.canvas, this.roads]) {
+            canvas.width = Math.max(1, Math.round(clientWidth * ratio));
+            canvas.height = Math.max(1, Math.round(clientHeight * ratio));
+        }
+        this.ratio = ratio;
+        if (this.fitted) this.fit();
+        this.changed();
+    }
+
+    fit() {
+        const [x0, y0, x1, y1] = this.network.bounds;
+        const MARGIN = 1.06;
+        const {width, height} = this.canvas;
+        this.scale = Math.min(width / (MARGIN * (x1 - x0) + 10), height / (MARGIN * (y1 - y0) + 10));
+        this.centre = [(x0 + x1) / 2, (y0 + y1) / 2];
+        this.fitted = true;
+        this.changed();
+    }
+
+    changed() {
+        this.stale = true;
+        if (this.onChange) this.onChange();
+    }
+
+    toWorld(x, y) {
+        return [this.centre[0] + (x - this.canvas.width / 2) / this.scale,
+                this.centre[1] - (y - this.canvas.height / 2) / this.scale];
+    }
+
+    zoom(factor, x = this.canvas.width / 2, y = this.canvas.height / 2) {
+        const [wx, wy] = this.toWorld(x, y);
+        this.scale = Math.min(Math.max(this.scale * factor, 0.02), 200);
+        const [nx, ny] = this.toWorld(x, y);
+        this.centre = [this.centre[0] + wx - nx, this.centre[1] + wy - ny];
+        this.fitted = false;
+        this.changed();
+    }
+
+    lookAt(x, y) {
+        this.centre = [x, y];
+        this.fitted = false;
+        this.changed();
+    }
+
+    setTransform(ctx) {
+        const {width, height} = this.canvas;
+        const s = this.scale;
+        ctx.setTransform(s, 0, 0, -s, width / 2 - s * this.centre[0], height / 2 + s * this.centre[1]);
+    }
+
+    // `street`: to be marked. `selected`: number of a vehicle.
+    draw(from, to, share, frame_s, mode, street, selected) {
+        const {ctx} = this;
+        if (this.stale || this.drawnStreet !== street) this.drawRoads(street);
+        ctx.setTransform(1, 0, 0, 1, 0, 0);
+        ctx.drawImage(this.roads, 0, 0);
+        if (!from) return;
+        this.setTransform(ctx);
+        this.drawVehicles(from, to, share, frame_s, mode, selected);
+        this.network.drawLights(ctx, this.scale, from.lights);
+    }
+
+    drawRoads(street) {
+        const ctx = this.roads.getContext('2d');
+        ctx.setTransform(1, 0, 0, 1, 0, 0);
+        ctx.fillStyle = '#f7f8fa';
+        ctx.fillRect(0, 0, this.roads.width, this.roads.height);
+        this.setTransform(ctx);
+        this.network.drawRoads(ctx, this.scale);
+        ctx.strokeStyle = '#8a5a9e';  // the street of the time-space diagram
+        ctx.lineWidth = 1.5 * this.ratio / this.scale;
+        ctx.beginPath();
+        for (const {lane} of street.pieces) {
+            const {numbers} = lane.shape;
+            for (let k = 0; k < numbers.length; k += 2) {
+                if (k === 0) ctx.moveTo(numbers[k], numbers[k + 1]);
+                else ctx.lineTo(numbers[k], numbers[k + 1]);
+            }
+        }
+        ctx.stroke();
+        this.stale = false;
+        this.drawnStreet = street;
+    }
+
+    drawVehicles(from, to, share, frame_s, mode, selected) {
+        const {ctx, scale} = this;
+        const paths = mode.colours.map(() => new Path2D());
+        const boxes = mode.colours.map(() => []);  // those along an axis: much faster to fill than paths
+        const half_m = Math.max(VEHICLE_WIDTH_M, 2.2 * this.ratio / scale) / 2;
+        const [left, top] = this.toWorld(-20, -20);
+        const [right, bottom] = this.toWorld(this.canvas.width + 20, this.canvas.height + 20);
+        let mark = null;
+        this.shown = [];  // x, y, number of each vehicle in view, for picking
+        between(this.network, from, to, share, frame_s, (k, [fx, fy, rx, ry]) => {
+            if (fx < left || fx > right || fy > top || fy < bottom) return;
+            const length = Math.hypot(fx - rx, fy - ry) || 1;
+            const [nx, ny] = [-(fy - ry) / length * half_m, (fx - rx) / length * half_m];
+            const colour = mode.of(from, k);
+            if (Math.abs(nx * ny) < 1e-6) {
+                const [wide, high] = [Math.abs(nx), Math.abs(ny)];
+                boxes[colour].push(Math.min(fx, rx) - wide, Math.min(fy, ry) - high,
+                                   Math.abs(fx - rx) + 2 * wide, Math.abs(fy - ry) + 2 * high);
+            } else {
+                const path = paths[colour];
+                path.moveTo(fx + nx, fy + ny);
+                path.lineTo(fx - nx, fy - ny);
+                path.lineTo(rx - nx, ry - ny);
+                path.lineTo(rx + nx, ry + ny);
+                path.closePath();
+            }
+            this.shown.push((fx + rx) / 2, (fy + ry) / 2, from.number[k]);
+            if (from.number[k] === selected) mark = [(fx + rx) / 2, (fy + ry) / 2, length / 2];
+        });
+        paths.forEach((path, k) => {
+            ctx.fillStyle = mode.colours[k];
+            ctx.fill(path);
+            for (let n = 0, box = boxes[k]; n < box.length; n += 4) ctx.fillRect(box[n], box[n + 1], box[n + 2], box[n + 3]);
+        });
+        if (!mark) return;
+        ctx.beginPath();
+        ctx.arc(mark[0], mark[1], mark[2] + 5 * this.ratio / scale, 0, 2 * Math.PI);
+        ctx.strokeStyle = '#111820';
+        ctx.lineWidth = 2 * this.ratio / scale;
+        ctx.stroke();
+    }
+
+    // The number of the vehicle next to a point of the canvas, in its pixels; -1: none is near.
+    pick(x, y) {
+        const [wx, wy] = this.toWorld(x, y);
+        let near_m = Math.max(4, 9 * this.ratio / this.scale);
+        let found = -1;
+        for (let k = 0; k < (this.shown || []).length; k += 3) {
+            const distance_m = Math.hypot(this.shown[k] - wx, this.shown[k + 1] - wy);
+            if (distance_m < near_m) [near_m, found] = [distance_m, this.shown[k + 2]];
+        }
+        return found;
+    }
+
+    at(event) {
+        const box = this.canvas.getBoundingClientRect();
+        return [(event.clientX - box.left) * this.ratio, (event.clientY - box.top) * this.ratio];
+    }
+
+    onWheel(event) {
+        event.preventDefault();
+        this.zoom(Math.exp(-event.deltaY * 0.0015), ...this.at(event));
+    }
+
+    onDown(event) {
+        this.canvas.setPointerCapture(event.pointerId);
+        this.pointers.set(event.pointerId, this.at(event));
+        this.travelled = this.pointers.size > 1 ? Infinity : 0;
+    }
+
+    onMove(event) {
+        const before = this.pointers.get(event.pointerId);
+        if (!before) return;
+        const now = this.at(event);
+        const others = [...this.pointers].filter(([id]) => id !== event.pointerId).map(([, at]) => at);
+        this.pointers.set(event.pointerId, now);
+        if (others.length > 0) {
+            const span = (at) => Math.hypot(at[0] - others[0][0], at[1] - others[0][1]);
+            this.zoom(span(now) / Math.max(span(before), 1), ...others[0]);
+            return;
+        }
+        const [dx, dy] = [now[0] - before[0], now[1] - before[1]];
+        this.travelled += Math.hypot(dx, dy);
+        this.lookAt(this.centre[0] - dx / this.scale, this.centre[1] + dy / this.scale);
+    }
+
+    onUp(event) {
+        if (!this.pointers.delete(event.pointerId)) return;
+        const MOST_PX = 4;
+        if (event.type === 'pointerup' && this.travelled < MOST_PX * this.ratio) this.onPick(this.pick(...this.at(event)));
+    }
+}

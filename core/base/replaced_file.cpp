@@ -1,0 +1,75 @@
+#include "base/replaced_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "base/input_error.h"
+
+namespace stopline {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const fs::path& path, int error) {
+    throw InputError(fmt::format("{}: cannot write: {}", path.string(), std::generic_category().message(error)));
+}
+
+// Several may be written at once, by several programs and by threads of one.
+fs::path name_beside(const fs::path& target) {
+    return target.parent_path() / fmt::format(".{}.{}.part", target.filename().string(), ::getpid());
+}
+
+}  // namespace
+
+ReplacedFile::ReplacedFile(const fs::path& file) : shown_(file) {
+    std::error_code error;
+    target_ = fs::weakly_canonical(file, error);
+    if (error) fail(shown_, error.value());
+    if (fs::is_directory(target_)) fail(shown_, EISDIR);
+    const bool in_place = fs::exists(target_) && !fs::is_regular_file(target_);
+    if (!in_place) beside_ = name_beside(target_);
+    const int flags = in_place ? O_WRONLY : O_WRONLY | O_CREAT | O_TRUNC;
+    descriptor_ = ::open((in_place ? target_ : beside_).c_str(), flags | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) fail(shown_, errno);
+}
+
+ReplacedFile::~ReplacedFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    std::error_code ignored;
+    if (!beside_.empty()) fs::remove(beside_, ignored);
+}
+
+void ReplacedFile::write(std::string_view bytes) {
+    size_ += bytes.size();
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) fail(shown_, errno);
+        bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
+}
+
+void ReplacedFile::commit() {
+    if (beside_.empty()) return close();
+    if (::fsync(descriptor_) != 0) fail(shown_, errno);
+    close();
+    std::error_code error;
+    fs::rename(beside_, target_, error);
+    if (error) fail(shown_, error.value());
+    beside_.clear();
+}
+
+// Some file systems report a full disk only here.
+void ReplacedFile::close() {
+    const int result = ::close(descriptor_);
+    descriptor_ = -1;
+    if (result != 0) fail(shown_, errno);
+}
+
+}  // namespace stopline

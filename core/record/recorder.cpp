@@ -1,0 +1,55 @@
+#include "record/recorder.h"
+
+#include "record/bytes.h"
+#include "record/recording_format.h"
+
+namespace stopline {
+
+Recorder::Recorder(const std::filesystem::path& file, const RecordingWindow& window, const RunOrigin& origin,
+                   const Model& model)
+    : file_(file), clock_(window, model.step_s), grid_(make_frame_grid(model, clock_)), encoder_(model, grid_) {
+    std::string begin(kRecordingMagic);
+    put_number(begin, kRecordingVersion);
+    put_number(begin, kByteOrderMark);
+    file_.write(begin);
+    write_section(kHeadTag, recording_header(model, origin, grid_));
+}
+
+void Recorder::record(const State& state) {
+    if (in_section_ == 0) encoder_.start_section();
+    encoder_.append(state, section_);
+    ++in_section_;
+    ++frames_;
+    if (in_section_ == kFramesInSection) write_frames();
+}
+
+void Recorder::write_frames() {
+    std::string begin;
+    put_number(begin, static_cast<std::uint32_t>(frames_ - in_section_));
+    put_number(begin, static_cast<std::uint16_t>(in_section_));
+    section_.insert(0, begin);
+    write_section(kFramesTag, section_);
+    section_.clear();
+    in_section_ = 0;
+}
+
+void Recorder::write_section(std::string_view tag, std::string_view bytes) {
+    const std::string_view packed = compressor_.packed(bytes);
+    std::string begin(tag);
+    put_number(begin, static_cast<std::uint32_t>(packed.size()));
+    put_number(begin, static_cast<std::uint32_t>(bytes.size()));
+    file_.write(begin);
+    file_.write(packed);
+}
+
+RecordingSize Recorder::finish() {
+    if (in_section_ > 0) write_frames();
+    std::string end;
+    put_number(end, static_cast<std::uint64_t>(frames_));
+    put_number(end, static_cast<std::uint64_t>(encoder_.vehicle_states()));
+    write_section(kEndTag, end);
+    file_.commit();
+    return {frames_, encoder_.vehicle_states(), file_.size()};
+}
+
+}  // namespace stopline

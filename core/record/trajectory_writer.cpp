@@ -1,0 +1,62 @@
+#include "record/trajectory_writer.h"
+
+#include <fmt/format.h>
+
+#include "base/replaced_file.h"
+#include "record/vehicle_place.h"
+
+namespace stopline {
+
+namespace {
+
+class TrajectoryWriter : public RunWriter {
+public:
+    TrajectoryWriter(const std::filesystem::path& file, const RecordingWindow& window, std::string population,
+                     const Model& model)
+        : model_(model), clock_(window, model.step_s), population_(std::move(population)), file_(file) {
+        file_.write("population,time_s,vehicle,policy,lane,place_m,x_m,y_m,speed_mps,acceleration_mps2\n");
+    }
+
+    void look(const State& state) override {
+        if (!clock_.is_due(state.tick)) return;
+        text_.clear();
+        for (int lane = 0; lane < static_cast<int>(state.blocks.size()); ++lane) {
+            const LaneBlock& block = state.blocks[static_cast<std::size_t>(lane)];
+            for (int slot = block.first; slot < block.stop(); ++slot) add(state, lane, static_cast<std::size_t>(slot));
+        }
+        file_.write(text_);
+    }
+
+    std::string finish() override {
+        file_.commit();
+        return fmt::format("{} rows", rows_);
+    }
+
+private:
+    void add(const State& state, int lane, std::size_t slot) {
+        const VehicleArrays& v = state.vehicles;
+        const Point front = vehicle_place(model_, state, lane, slot).point;
+        fmt::format_to(std::back_inserter(text_), "{},{:.3f},{},{},{},{:.3f},{:.3f},{:.3f},{:.4f},{:.4f}\n",
+                       population_, model_.time_s(state.tick), v.id[slot],
+                       model_.policies[static_cast<std::size_t>(v.policy[slot])].settings.name,
+                       model_.graph.lanes[static_cast<std::size_t>(lane)].name, v.position_m[slot], front.x_m,
+                       front.y_m, v.speed_mps[slot], v.acceleration_mps2[slot]);
+        ++rows_;
+    }
+
+    const Model& model_;
+    FrameClock clock_;
+    std::string population_;
+    ReplacedFile file_;
+    std::string text_;
+    std::int64_t rows_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<RunWriter> make_trajectory_writer(const std::filesystem::path& file, const RecordingWindow& window,
+                                                  const std::string& population, const Model& model) {
+    return std::make_unique<TrajectoryWriter>(file, window, population, model);
+}
+
+}  // namespace stopline
