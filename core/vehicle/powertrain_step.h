@@ -111,8 +111,7 @@ STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTablesOf<Numb
     const auto drive_N =
         transmitted_Nm * gain * select(transmitted_Nm > 0.0, splat<R>(t.efficiency), splat<R>(per_efficiency));
     const auto force_N = drive_N - 0.5 * (s.brake_N + next.brake_N) - resistance_N;
-    // A clutch that opens leaves the brakes less to slow down: more than friction the tyres do not transfer.
-    const R free_mps2 = greater(R(without_tiny<R>(force_N / inertia_kg)), R(-t.friction_mps2 - by_resistance_mps2));
+    const R free_mps2 = without_tiny<R>(force_N / inertia_kg);
     const R stops = STOPLINE_FLAG(R, speed + free_mps2 * dt <= 0.0);
     next.speed_mps = choose(stops, splat<R>(0.0), speed + free_mps2 * dt);
     next.acceleration_mps2 = choose(stops, (0.0 - speed) * (1.0 / dt), free_mps2);

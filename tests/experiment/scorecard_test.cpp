@@ -90,13 +90,14 @@ TEST(Scorecard, OfInputsIsInsideAndMeasuresNothing) {
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
-TEST(Scorecard, HasEveryRowOfASectionOpenWhereNothingJudgesIt) {
+TEST(Scorecard, HasEveryRowOfASectionOpenWhereThePaperStatesNoTolerance) {
     const TemporaryFolder folder;
     ScorecardOptions options;
-    options.section = "VII";
+    options.section = "V.A";
     options.folder = folder.path();
     const Scorecard scorecard = make_scorecard(options);
-    EXPECT_GT(scorecard.rows.size(), 5U);
+    EXPECT_EQ(scorecard.rows.size(), 10U);
+    EXPECT_EQ(scorecard.count(Verdict::open), 10);
     const CsvTable csv = parse_csv(scorecard_csv(scorecard), "scorecard");
     EXPECT_EQ(csv.columns, (std::vector<std::string>{"id", "section", "paper", "ours", "unit", "tolerance", "verdict",
                                                      "explanation"}));
