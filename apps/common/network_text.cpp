@@ -25,7 +25,7 @@ std::string share_text(const HindranceLog& log, Cause cause) {
 std::string network_text(const NetworkReport& report) {
     TextTable table;
     table.row({"", "veh/h", "gain %", "s", "saved %", "density %", "present", "junction %", "turn %", "spillback %",
-               "gridlock %", "gridlocks", "moved on", "passed", "stability"});
+               "gridlock %", "lane %", "gridlocks", "moved on", "passed", "stability"});
     std::int64_t violations = 0;
     for (const NetworkFigures& f : report.populations) {
         const HindranceLog& log = f.hindrance;
@@ -36,15 +36,15 @@ std::string network_text(const NetworkReport& report) {
                    number(100.0 * f.steady.occupied, 1), number(f.vehicles_present, 0),
                    share_text(log, Cause::junction_blocking), share_text(log, Cause::turn_blocking),
                    share_text(log, Cause::spillback), share_text(log, Cause::gridlock),
-                   std::to_string(log.gridlocks.size()), std::to_string(log.taken_out),
-                   std::to_string(log.passed_blockers), stability});
+                   share_text(log, Cause::wrong_lane), std::to_string(log.gridlocks.size()),
+                   std::to_string(log.taken_out), std::to_string(log.passed_blockers), stability});
         violations += f.violations.none() ? 0 : 1;
     }
     const AreaFigures* const first = report.populations.empty() ? nullptr : &report.populations[0].steady;
     const std::string notes = fmt::format(
         "Area: up to {:g} m outside the outer stop lines. veh/h: vehicles that leave it; s: their mean time in it; density: share of\n"
-        "its lanes' metres; junction, turn, spillback, gridlock: share of the time that vehicles stand, by what holds up their\n"
-        "queue; moved on, passed: uses of the rules. Measured from {:.0f} to {:.0f} s.\n",
+        "its lanes' metres; junction, turn, spillback, gridlock, lane: share of the time that vehicles stand, by what holds up\n"
+        "their queue (lane: one that waits to change lanes); moved on, passed: uses of the rules. Measured from {:.0f} to {:.0f} s.\n",
         report.scenario.measure.outside_m, first ? first->window.from_s : 0.0, first ? first->window.to_s : 0.0);
     const std::string verdict =
         violations == 0
