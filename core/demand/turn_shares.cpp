@@ -31,27 +31,6 @@ double fit_once(std::vector<TurnShares>& matrix, const TurnShares& shares) {
     return change;
 }
 
-// Makes all rows equally full: what is too much on some goes to the others in proportion to the room there.
-void level(std::vector<TurnShares>& matrix) {
-    const double row = 1.0 / static_cast<double>(matrix.size());
-    TurnShares over{};
-    double room = 0.0;
-    for (TurnShares& lane : matrix) {
-        const double sum = sum_of(lane);
-        room += std::max(row - sum, 0.0);
-        if (sum <= row) continue;
-        for (std::size_t turn = 0; turn < over.size(); ++turn) {
-            over[turn] += lane[turn] * (1.0 - row / sum);
-            lane[turn] *= row / sum;
-        }
-    }
-    if (room <= 0.0) return;
-    for (TurnShares& lane : matrix) {
-        const double part = std::max(row - sum_of(lane), 0.0) / room;
-        for (std::size_t turn = 0; turn < over.size(); ++turn) lane[turn] += part * over[turn];
-    }
-}
-
 }  // namespace
 
 std::vector<TurnShares> turns_by_lane(const std::vector<TurnsAllowed>& allowed, const TurnShares& shares) {
@@ -64,10 +43,10 @@ std::vector<TurnShares> turns_by_lane(const std::vector<TurnsAllowed>& allowed, 
         }
     }
     for (int round = 0; round < kRounds && fit_once(matrix, shares) > kExact; ++round) continue;
-    level(matrix);
     for (TurnShares& lane : matrix) {
         const double sum = sum_of(lane);
-        for (double& entry : lane) entry /= sum;
+        if (sum <= 0.0) lane = shares;
+        for (double& entry : lane) entry /= sum > 0.0 ? sum : 1.0;
     }
     return matrix;
 }

@@ -12,8 +12,9 @@ using TurnsAllowed = std::array<bool, 3>;
 
 // Shares of each lane's own vehicles, from the left. Found by iterative proportional fitting (Deming and Stephan, 1940) of the matrix
 // lane x turn, whose rows are to sum to 1/n and whose columns to `shares`, from equal entries where a lane allows a turn. Where no such
-// matrix exists the columns hold, and what is too much on a lane is spread over those that are not full: its vehicles have to change
-// lanes. Every turn with a share must be allowed on some lane.
+// matrix exists each lane has the turns that it allows in the proportions of the fit, and the approach as a whole turns a little
+// differently. On a lane that allows no turn that has a share vehicles have the approach's shares, and must change lanes. Every turn with a
+// share must be allowed on some lane.
 std::vector<TurnShares> turns_by_lane(const std::vector<TurnsAllowed>& allowed, const TurnShares& shares);
 
 }  // namespace stopline

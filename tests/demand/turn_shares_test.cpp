@@ -34,22 +34,17 @@ TEST(TurnsByLane, ThatAreAlikeHaveTheSameTurns) {
     expect_row(lanes[1], {0.5, 0.3, 0.2});
 }
 
-// Only 30 % may be on the lane for left turns, so that 35 % are on each of the others: 35 straight on the second, 5 straight and 30 right
-// on the third. Each is 1.667 % too full; that comes to the first, 1.905 straight and 1.429 right.
-TEST(TurnsByLane, GiveTheColumnsTheirSharesWhereRowsCannotHold) {
+// Only 30 % would be on the lane for left turns, 35 % on each of the others: 35 straight on the second, 5 straight and 30 right on the
+// third. Nobody enters on a lane from which its turn does not go on.
+TEST(TurnsByLane, AreAmongThoseThatTheLaneAllows) {
     const auto lanes = turns_by_lane({kLeft, kStraight, kStraightRight}, {0.4, 0.3, 0.3});
-    expect_row(lanes[0], {3 * (0.05 / 3 + 0.05 / 3 * 5 / 35), 3 * 0.05 / 3 * 30 / 35, 0.9});
+    expect_row(lanes[0], {0.0, 0.0, 1.0});
     expect_row(lanes[1], {1.0, 0.0, 0.0});
-    TurnShares sum{};
-    for (const TurnShares& lane : lanes) {
-        double row = 0.0;
-        for (std::size_t turn = 0; turn < 3; ++turn) {
-            row += lane[turn];
-            sum[turn] += lane[turn] / 3.0;
-        }
-        EXPECT_NEAR(row, 1.0, 1e-12);
-    }
-    expect_row(sum, {0.4, 0.3, 0.3});
+    expect_row(lanes[2], {5.0 / 35.0, 30.0 / 35.0, 0.0});
+}
+
+TEST(TurnsByLane, OfALaneForATurnThatNobodyTakesAreThoseOfTheApproach) {
+    expect_row(turns_by_lane({kLeft, kStraight}, {1.0, 0.0, 0.0})[0], {1.0, 0.0, 0.0});
 }
 
 TEST(TurnsByLane, OfOneLaneAreThoseOfTheApproach) {
