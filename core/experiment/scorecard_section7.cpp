@@ -23,11 +23,10 @@ constexpr const char* kBerlin = "berlin";
 constexpr double kMinute_s = 60.0;
 
 // The columns that rows read.
-constexpr std::array<const char*, 10> kColumns{"throughput_early_veh_h",  "throughput_late_veh_h",
-                                               "travel_time_early_s",     "travel_time_late_s",
-                                               "inflow_east_early_veh_h", "inflow_east_late_veh_h",
-                                               "filled_suarezstr_east_s", "filled_am_schillertheater_east_s",
-                                               "filled_suarezstr_west_s", "filled_koenigin_elisabeth_str_west_s"};
+constexpr std::array<const char*, 8> kColumns{"throughput_early_veh_h",  "throughput_late_veh_h",
+                                              "travel_time_early_s",     "travel_time_late_s",
+                                              "filled_suarezstr_east_s", "filled_am_schillertheater_east_s",
+                                              "filled_suarezstr_west_s", "filled_koenigin_elisabeth_str_west_s"};
 
 std::string place_of(const std::string& column, const std::string& population, std::size_t run) {
     return fmt::format("{} {} {}", column, population, run);
