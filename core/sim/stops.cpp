@@ -200,8 +200,11 @@ void decide_stops(const Model& model, State& state, NetworkPart& part) {
             // It leads what follows it through the next green.
             if (stop_slot >= 0) {
                 state.vehicles.leads[at(stop_slot)] = 1.0F;
-                // One that came to stand a little beyond the line sets out when the next green lets it.
-                state.vehicles.record[at(stop_slot)].inside_since = static_cast<int>(state.tick);
+                // One that came to stand a little beyond the line sets out when the next green lets it. Of one before the
+                // line nothing is changed: its rear may still be in the intersection behind, which another thread looks at.
+                if (state.vehicles.position_m[at(stop_slot)] > lane.stop_line_m) {
+                    state.vehicles.record[at(stop_slot)].inside_since = static_cast<int>(state.tick);
+                }
             }
         }
         state.stop_slot[at(index)] = stop_slot;
