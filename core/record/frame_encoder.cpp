@@ -40,7 +40,7 @@ void FrameEncoder::Events::append_to(std::string& frame) const {
 }
 
 FrameEncoder::FrameEncoder(const Model& model, const FrameGrid& grid)
-    : model_(model), grid_(grid), positions_per_m_(1.0 / grid.position_unit_m), blocks_(model.graph.lanes.size()) {
+    : model_(model), grid_(grid), positions_per_m_(1.0 / grid.position_unit_m), lanes_(model.graph.lanes.size()) {
     lights_.assign(model.signals.size(), Light::red);
     for (const Lane& lane : model.graph.lanes) {
         const double line_m = lane.signal_group >= 0 ? lane.stop_line_m : lane.length_m;
@@ -63,29 +63,29 @@ void FrameEncoder::start_section() {
     std::fill(guest_seat_.begin(), guest_seat_.end(), -1);
     std::fill(rest_m_.begin(), rest_m_.end(), kNowhere_m);
     std::fill(lane_of_.begin(), lane_of_.end(), -1);
-    std::fill(blocks_.begin(), blocks_.end(), SlotRange{});
+    std::fill(lanes_.begin(), lanes_.end(), Snapshot::Slots{});
     std::fill(lights_.begin(), lights_.end(), Light::red);
     look_tick_ = -1;
 }
 
-void FrameEncoder::append(const State& state, std::string& bytes) {
+void FrameEncoder::append(const Snapshot& shot, std::string& bytes) {
     for (Events& events : events_) events.clear();
     vacated_.clear();
-    const std::size_t slots = at(state.vehicles.slots);
+    const std::size_t slots = shot.vehicle.size();
     if (guest_.size() < slots) {
         for (std::vector<int>* const each : {&guest_, &guest_seat_, &lane_of_}) each->resize(slots, -1);
         rest_m_.resize(slots, kNowhere_m);
     }
-    note_lights(state.tick);
-    vacate_slots(state);
-    note_vehicles(state);
+    note_lights(shot.tick);
+    vacate_slots(shot);
+    note_vehicles(shot);
     note_left();
-    note_causes(state);
+    note_causes(shot);
     for (const Events& events : events_) events.append_to(bytes);
-    put_varint(bytes, static_cast<std::uint64_t>(state.entered - entered_));
-    put_varint(bytes, static_cast<std::uint64_t>(state.left - left_));
-    entered_ = state.entered;
-    left_ = state.left;
+    put_varint(bytes, static_cast<std::uint64_t>(shot.entered - entered_));
+    put_varint(bytes, static_cast<std::uint64_t>(shot.left - left_));
+    entered_ = shot.entered;
+    left_ = shot.left;
     append_columns(bytes);
 }
 
@@ -102,34 +102,33 @@ void FrameEncoder::note_lights(std::int64_t tick) {
 }
 
 // Slots that a lane had and has no more; another may have them now, so that this comes before anybody is seen there.
-void FrameEncoder::vacate_slots(const State& state) {
+void FrameEncoder::vacate_slots(const Snapshot& shot) {
     changed_.clear();
-    for (std::size_t lane = 0; lane < blocks_.size(); ++lane) {
-        const LaneBlock& block = state.blocks[lane];
-        const SlotRange& before = blocks_[lane];
+    for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
+        const Snapshot::Slots& block = shot.lanes[lane];
+        const Snapshot::Slots& before = lanes_[lane];
         vehicle_states_ += block.count;
-        if (before.first == block.first && before.count == block.count) continue;
+        if (before == block) continue;
         changed_.push_back(static_cast<int>(lane));
-        for (int slot = before.first; slot < before.first + before.count; ++slot) {
+        for (int slot = before.first; slot < before.stop(); ++slot) {
             if (slot < block.first || slot >= block.stop()) vacate(slot);
             lane_of_[at(slot)] = -1;
         }
     }
     for (const int lane : changed_) {
-        const LaneBlock& block = state.blocks[at(lane)];
-        blocks_[at(lane)] = {block.first, block.count};
+        const Snapshot::Slots& block = shot.lanes[at(lane)];
+        lanes_[at(lane)] = block;
         std::fill_n(lane_of_.begin() + block.first, block.count, lane);
     }
 }
 
 // Half of all vehicles rest in queues: they are left out many at a time.
-void FrameEncoder::note_vehicles(const State& state) {
-    const VehicleArrays& v = state.vehicles;
-    const auto slots = at(v.slots);
+void FrameEncoder::note_vehicles(const Snapshot& shot) {
+    const std::size_t slots = shot.vehicle.size();
     moves_.resize((slots + 7) / 8 * 8, 0);
-    const int* const vehicle = v.id.data();
-    const double* const position_m = v.position_m.data();
-    const double* const speed_mps = v.speed_mps.data();
+    const int* const vehicle = shot.vehicle.data();
+    const double* const position_m = shot.position_m.data();
+    const double* const speed_mps = shot.speed_mps.data();
     const int* const guest = guest_.data();
     const double* const rest_m = rest_m_.data();
     char* const moves = moves_.data();
@@ -138,21 +137,20 @@ void FrameEncoder::note_vehicles(const State& state) {
         moves[i] = static_cast<char>(!rests);
     }
     for (std::size_t i = 0; i < slots; ++i) {
-        if (moves[i] != 0 && lane_of_[i] >= 0) note_vehicle(state, static_cast<int>(i), lane_of_[i]);
+        if (moves[i] != 0 && lane_of_[i] >= 0) note_vehicle(shot, static_cast<int>(i), lane_of_[i]);
     }
 }
 
-void FrameEncoder::note_vehicle(const State& state, int slot, int lane) {
+void FrameEncoder::note_vehicle(const Snapshot& shot, int slot, int lane) {
     constexpr double kSpeedsPer_mps = 1.0 / kSpeedUnit_mps;
-    const VehicleArrays& v = state.vehicles;
-    const int seat = guest_[at(slot)] == v.id[at(slot)] ? guest_seat_[at(slot)] : seat_at(state, slot, lane);
-    const Motion motion{code_of(v.position_m[at(slot)], positions_per_m_),
-                        code_of(v.speed_mps[at(slot)], kSpeedsPer_mps)};
+    const int seat = guest_[at(slot)] == shot.vehicle[at(slot)] ? guest_seat_[at(slot)] : seat_at(shot, slot, lane);
+    const Motion motion{code_of(shot.position_m[at(slot)], positions_per_m_),
+                        code_of(shot.speed_mps[at(slot)], kSpeedsPer_mps)};
     now_[at(seat)] = motion;
     differing_[at(seat) / 64] |= std::uint64_t{1} << (at(seat) % 64);
-    rest_m_[at(slot)] = v.speed_mps[at(slot)] == 0.0 ? v.position_m[at(slot)] : kNowhere_m;
+    rest_m_[at(slot)] = shot.speed_mps[at(slot)] == 0.0 ? shot.position_m[at(slot)] : kNowhere_m;
     if (motion.position <= stop_line_[at(lane)]) return;
-    const int next = v.record[at(slot)].next_lane;
+    const int next = shot.next_lane[at(slot)];
     if (seats_[at(seat)].next != next) move(seat, lane, next);
 }
 
@@ -164,15 +162,15 @@ void FrameEncoder::vacate(int slot) {
 }
 
 // The seat of a vehicle that was not in this slot.
-int FrameEncoder::seat_at(const State& state, int slot, int lane) {
+int FrameEncoder::seat_at(const Snapshot& shot, int slot, int lane) {
     vacate(slot);
-    const int vehicle = state.vehicles.id[at(slot)];
+    const int vehicle = shot.vehicle[at(slot)];
     if (at(vehicle) >= seat_of_.size()) seat_of_.resize(2 * at(vehicle) + 1000, -1);
     int seat = seat_of_[at(vehicle)];
     if (seat < 0) {
-        seat = new_seat(state, slot, lane);
-    } else if (seats_[at(seat)].lane != lane || seats_[at(seat)].next != state.vehicles.record[at(slot)].next_lane) {
-        move(seat, lane, state.vehicles.record[at(slot)].next_lane);
+        seat = new_seat(shot, slot, lane);
+    } else if (seats_[at(seat)].lane != lane || seats_[at(seat)].next != shot.next_lane[at(slot)]) {
+        move(seat, lane, shot.next_lane[at(slot)]);
     }
     seats_[at(seat)].slot = slot;
     guest_[at(slot)] = vehicle;
@@ -180,8 +178,10 @@ int FrameEncoder::seat_at(const State& state, int slot, int lane) {
     return seat;
 }
 
-int FrameEncoder::new_seat(const State& state, int slot, int lane) {
-    const VehicleArrays& v = state.vehicles;
+// -1: it has none, and perhaps never had.
+int FrameEncoder::seat_of(int vehicle) const { return at(vehicle) < seat_of_.size() ? seat_of_[at(vehicle)] : -1; }
+
+int FrameEncoder::new_seat(const Snapshot& shot, int slot, int lane) {
     if (free_.empty()) {
         free_.push_back(static_cast<int>(seats_.size()));
         seats_.emplace_back();
@@ -192,16 +192,16 @@ int FrameEncoder::new_seat(const State& state, int slot, int lane) {
     }
     const int seat = free_.back();
     free_.pop_back();
-    const int vehicle = v.id[at(slot)];
-    const int next = v.record[at(slot)].next_lane;
+    const int vehicle = shot.vehicle[at(slot)];
+    const int next = shot.next_lane[at(slot)];
     seat_of_[at(vehicle)] = seat;
     seats_[at(seat)] = Seat{vehicle, slot, lane, next};
     Events& events = events_[came];
-    for (const int number : {seat, vehicle, v.policy[at(slot)]}) {
+    for (const int number : {seat, vehicle, shot.policy[at(slot)]}) {
         put_varint(events.bytes, static_cast<std::uint64_t>(number));
     }
     put_varint(events.bytes,
-               static_cast<std::uint64_t>(std::lround(1000.0 * static_cast<double>(v.length_m[at(slot)]))));
+               static_cast<std::uint64_t>(std::lround(1000.0 * static_cast<double>(shot.length_m[at(slot)]))));
     put_varint(events.bytes, static_cast<std::uint64_t>(lane));
     put_varint(events.bytes, one_more(next));
     ++events.count;
@@ -237,13 +237,11 @@ void FrameEncoder::note_left() {
 }
 
 // The simulation looks now and then at who stands and why.
-void FrameEncoder::note_causes(const State& state) {
-    const std::int64_t every = model_.rules.watch_ticks;
-    if (every <= 0 || state.tick == 0) return;
-    const std::int64_t look_tick = (state.tick - 1) / every * every;
+void FrameEncoder::note_causes(const Snapshot& shot) {
+    const std::int64_t look_tick = look_tick_before(model_, shot.tick);
     if (look_tick == look_tick_) return;
     look_tick_ = look_tick;
-    look_at_standing(state.watch);
+    look_at_standing(shot);
     std::erase_if(waiting_, [&](int seat) {
         Wait& wait = waits_[at(seat)];
         if (seats_[at(seat)].vehicle >= 0) tell_reason(seat, wait.seen ? wait.reason : Reason{});
@@ -252,16 +250,15 @@ void FrameEncoder::note_causes(const State& state) {
     });
 }
 
-void FrameEncoder::look_at_standing(const HindranceWatch& watch) {
+void FrameEncoder::look_at_standing(const Snapshot& shot) {
     for (const int seat : waiting_) waits_[at(seat)].seen = false;
-    for (const int slot : watch.standing) {
+    for (const Snapshot::Standing& one : shot.standing) {
         // Mostly it has not moved since; where it has, it is found by its number.
-        const int vehicle = watch.vehicle[at(slot)];
-        const int seat = guest_[at(slot)] == vehicle ? guest_seat_[at(slot)] : seat_of_[at(vehicle)];
+        const bool there = guest_[at(one.slot)] == one.vehicle;
+        const int seat = there ? guest_seat_[at(one.slot)] : seat_of(one.vehicle);
         if (seat < 0) continue;
-        const int ahead = watch.waits_for[at(slot)];
         Wait& wait = waits_[at(seat)];
-        wait.reason = {watch.cause[at(slot)], ahead < 0 ? -1 : watch.vehicle[at(ahead)]};
+        wait.reason = {one.cause, one.waited_for};
         wait.seen = true;
         if (!wait.listed) waiting_.push_back(seat);
         wait.listed = true;

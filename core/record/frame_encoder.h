@@ -1,7 +1,5 @@
-// Turns the state of a run into frames of a recording (recording_format.h), reading it from outside between two steps.
-//
-// A frame costs a few ns a vehicle, of which the simulation itself takes a few tens: a vehicle that is where it was in the frame
-// before, by slot, is known by comparing one number, and only positions and speeds are looked at.
+// Turns snapshots of a run into frames of a recording (recording_format.h). A vehicle that is where it was in the frame before,
+// by slot, is known by comparing one number, and only positions and speeds are looked at.
 #pragma once
 
 #include <array>
@@ -11,7 +9,7 @@
 #include <vector>
 
 #include "record/recording_header.h"
-#include "sim/state.h"
+#include "record/snapshot.h"
 
 namespace stopline {
 
@@ -22,7 +20,7 @@ public:
 
     // The next frame can be read without those before it.
     void start_section();
-    void append(const State& state, std::string& bytes);
+    void append(const Snapshot& shot, std::string& bytes);
 
     std::int64_t vehicle_states() const { return vehicle_states_; }
 
@@ -50,10 +48,6 @@ private:
         std::uint16_t position = 0;
         std::uint16_t speed = 0;
     };
-    struct SlotRange {
-        int first = 0;
-        int count = 0;
-    };
     struct Events {
         std::string bytes;
         std::uint64_t count = 0;
@@ -63,16 +57,17 @@ private:
     enum Kind : std::size_t { lights, left, came, moved, waits, kinds };
 
     void note_lights(std::int64_t tick);
-    void note_vehicles(const State& state);
-    void vacate_slots(const State& state);
-    void note_vehicle(const State& state, int slot, int lane);
+    void note_vehicles(const Snapshot& shot);
+    void vacate_slots(const Snapshot& shot);
+    void note_vehicle(const Snapshot& shot, int slot, int lane);
     void vacate(int slot);
-    int seat_at(const State& state, int slot, int lane);
-    int new_seat(const State& state, int slot, int lane);
+    int seat_at(const Snapshot& shot, int slot, int lane);
+    int seat_of(int vehicle) const;
+    int new_seat(const Snapshot& shot, int slot, int lane);
     void move(int seat, int lane, int next);
     void note_left();
-    void note_causes(const State& state);
-    void look_at_standing(const HindranceWatch& watch);
+    void note_causes(const Snapshot& shot);
+    void look_at_standing(const Snapshot& shot);
     void tell_reason(int seat, const Reason& reason);
     void append_columns(std::string& bytes);
     void append_codes(std::string& bytes);
@@ -92,7 +87,7 @@ private:
     std::vector<double> rest_m_;
     std::vector<char> moves_;               // [slot] to be looked at
     std::vector<int> changed_;              // lanes with other slots than in the frame before
-    std::vector<SlotRange> blocks_;         // [lane] in the frame before
+    std::vector<Snapshot::Slots> lanes_;    // [lane] in the frame before
     std::vector<int> vacated_;              // seats whose slot is another's now: they moved, or left
     std::vector<Wait> waits_;               // [seat]
     std::vector<int> waiting_;              // seats with a cause

@@ -7,7 +7,12 @@ namespace stopline {
 
 Recorder::Recorder(const std::filesystem::path& file, const RecordingWindow& window, const RunOrigin& origin,
                    const Model& model)
-    : file_(file), clock_(window, model.step_s), grid_(make_frame_grid(model, clock_)), encoder_(model, grid_) {
+    : model_(model),
+      clock_(window, model.step_s),
+      file_(file),
+      grid_(make_frame_grid(model, clock_)),
+      encoder_(model, grid_),
+      worker_([this](const Snapshot& shot) { encode(shot); }) {
     std::string begin(kRecordingMagic);
     put_number(begin, kRecordingVersion);
     put_number(begin, kByteOrderMark);
@@ -16,8 +21,17 @@ Recorder::Recorder(const std::filesystem::path& file, const RecordingWindow& win
 }
 
 void Recorder::record(const State& state) {
+    const std::int64_t look_tick = look_tick_before(model_, state.tick);
+    const bool with_standing = taken_in_section_ == 0 || look_tick != look_tick_;
+    worker_.blank().take(state, with_standing);
+    worker_.submit();
+    look_tick_ = look_tick;
+    taken_in_section_ = (taken_in_section_ + 1) % kFramesInSection;
+}
+
+void Recorder::encode(const Snapshot& shot) {
     if (in_section_ == 0) encoder_.start_section();
-    encoder_.append(state, section_);
+    encoder_.append(shot, section_);
     ++in_section_;
     ++frames_;
     if (in_section_ == kFramesInSection) write_frames();
@@ -43,6 +57,7 @@ void Recorder::write_section(std::string_view tag, std::string_view bytes) {
 }
 
 RecordingSize Recorder::finish() {
+    worker_.finish();
     if (in_section_ > 0) write_frames();
     std::string end;
     put_number(end, static_cast<std::uint64_t>(frames_));

@@ -1,4 +1,5 @@
 // Writes the recording of one run while it runs (recording_format.h). The file appears once the run has been finished.
+// The run only copies what is to be recorded; encoding, compressing and writing are done by a thread of the recorder.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +11,7 @@
 #include "record/frame_clock.h"
 #include "record/frame_encoder.h"
 #include "record/recording_header.h"
+#include "record/snapshot_worker.h"
 
 namespace stopline {
 
@@ -25,7 +27,8 @@ struct RecordingSize {
 
 class Recorder {
 public:
-    // Keeps a reference to the model until the last look. Throws InputError where the file cannot be written, as all below.
+    // Keeps a reference to the model until it is finished. Throws InputError where the file cannot be written, as all below,
+    // perhaps some frames later.
     Recorder(const std::filesystem::path& file, const RecordingWindow& window, const RunOrigin& origin,
              const Model& model);
 
@@ -37,17 +40,23 @@ public:
 
 private:
     void record(const State& state);
+    void encode(const Snapshot& shot);
     void write_section(std::string_view tag, std::string_view bytes);
     void write_frames();
 
+    const Model& model_;
+    FrameClock clock_;
+    int taken_in_section_ = 0;
+    std::int64_t look_tick_ = -1;  // of the causes in the last snapshot that has them
+    // The worker's, until it has finished.
     ReplacedFile file_;
     Compressor compressor_;
-    FrameClock clock_;
     FrameGrid grid_;
     FrameEncoder encoder_;
     std::int64_t frames_ = 0;
     int in_section_ = 0;
     std::string section_;
+    SnapshotWorker worker_;  // last: it ends before what it works with
 };
 
 }  // namespace stopline

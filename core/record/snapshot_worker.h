@@ -1,0 +1,50 @@
+// A thread that works off snapshots in the order in which they were taken, while the run that they are of goes on.
+#pragma once
+
+#include <array>
+#include <condition_variable>
+#include <cstddef>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+#include "record/snapshot.h"
+
+namespace stopline {
+
+class SnapshotWorker {
+public:
+    explicit SnapshotWorker(std::function<void(const Snapshot&)> work);
+    SnapshotWorker(const SnapshotWorker&) = delete;
+    SnapshotWorker& operator=(const SnapshotWorker&) = delete;
+    SnapshotWorker(SnapshotWorker&&) = delete;
+    SnapshotWorker& operator=(SnapshotWorker&&) = delete;
+    // What has been submitted and not worked off is dropped.
+    ~SnapshotWorker();
+
+    // One to be filled in and submitted; waits while all are still to be worked off. What the work has thrown comes out here or
+    // in finish; nothing is worked on after it.
+    Snapshot& blank();
+    void submit();
+    // Waits until all is done; nothing can be submitted after it.
+    void finish();
+
+private:
+    void run();
+    void stop();
+    void rethrow();
+
+    // So many that the run seldom waits while a section is compressed.
+    std::array<Snapshot, 8> shots_;
+    std::function<void(const Snapshot&)> work_;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::size_t submitted_ = 0;
+    std::size_t done_ = 0;
+    bool no_more_ = false;
+    std::exception_ptr error_;
+    std::thread thread_;
+};
+
+}  // namespace stopline
