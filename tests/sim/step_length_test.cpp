@@ -1,5 +1,5 @@
 // The behaviour does not depend on the step: the experiment of the single light, from the drive-up of the queue on, gives the
-// same passages with steps of 20, 10 and 5 ms, each within 0.05 s.
+// same passages with steps of 20, 10 and 5 ms, each within three of the longer steps.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -47,7 +47,7 @@ TEST_P(StepLength, DoesNotMatterToThePassages) {
         }
         std::printf("%s: passages at a step of %.0f ms are at most %.3f s from those at 5 ms\n", GetParam().c_str(),
                     1e3 * step_s, largest_s);
-        EXPECT_LT(largest_s, 0.05);
+        EXPECT_LT(largest_s, 3.0 * step_s);
     }
 }
 

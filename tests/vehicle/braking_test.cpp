@@ -55,7 +55,7 @@ TEST_P(Braking, DoesNotExceedFriction) {
         const Car car(settings);
         CarState s = cruising(car, 30.0);
         double hardest = 0.0;
-        while (s.speed_mps > 10.0) {
+        while (s.speed_mps > 1.0) {  // the clutch opens on the way
             s = advance(car, s, -15.0, 0.0, kStep_s);
             const double tyres_N = -s.acceleration_mps2 * car.mass_kg() - car.resistance_N(s.speed_mps);
             hardest = std::max(hardest, tyres_N / car.friction_N());
