@@ -1,17 +1,12 @@
 #include "experiment/gnuplot.h"
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <system_error>
 
 #include <fmt/format.h>
 
+#include "base/child_process.h"
 #include "base/input_error.h"
 #include "experiment/output.h"
 
@@ -58,46 +53,6 @@ std::string script_of(const Figure& figure) {
     return script + fmt::format(fmt::runtime(kLoop), fmt::arg("name", figure.name), fmt::arg("width", figure.width_px),
                                 fmt::arg("height", figure.height_px), fmt::arg("width2", 2 * figure.width_px),
                                 fmt::arg("height2", 2 * figure.height_px), fmt::arg("body", figure.body));
-}
-
-struct Ended {
-    int error = 0;  // of starting it, as errno
-    int status = 0;
-    std::string words;  // that it wrote to standard error
-};
-
-// Runs gnuplot in `folder` with its standard error read through a pipe.
-Ended run_gnuplot(const std::vector<std::string>& arguments, const fs::path& folder) {
-    std::array<int, 2> pipe{};
-    if (::pipe2(pipe.data(), O_CLOEXEC) != 0) return {errno, 0, ""};
-    std::vector<std::string> words{"gnuplot"};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    std::vector<char*> argv;
-    for (std::string& word : words) argv.push_back(word.data());
-    argv.push_back(nullptr);
-    posix_spawn_file_actions_t actions;
-    ::posix_spawn_file_actions_init(&actions);
-    ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    ::posix_spawn_file_actions_adddup2(&actions, pipe[1], STDERR_FILENO);
-    ::posix_spawn_file_actions_adddup2(&actions, pipe[1], STDOUT_FILENO);
-    ::posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-    pid_t child = 0;
-    Ended ended;
-    ended.error = ::posix_spawnp(&child, "gnuplot", &actions, nullptr, argv.data(), environ);
-    ::posix_spawn_file_actions_destroy(&actions);
-    ::close(pipe[1]);
-    std::array<char, 4096> buffer{};
-    while (ended.error == 0) {
-        const ssize_t count = ::read(pipe[0], buffer.data(), buffer.size());
-        if (count < 0 && errno == EINTR) continue;
-        if (count <= 0) break;
-        ended.words.append(buffer.data(), static_cast<std::size_t>(count));
-    }
-    ::close(pipe[0]);
-    if (ended.error != 0) return ended;
-    while (::waitpid(child, &ended.status, 0) < 0 && errno == EINTR) {
-    }
-    return ended;
 }
 
 [[noreturn]] void fail(const Figure& figure, const fs::path& folder, const std::string& reason) {
@@ -149,8 +104,8 @@ std::string gnuplot_text(const std::string& text) {
 }
 
 bool gnuplot_installed() {
-    const Ended ended = run_gnuplot({"--version"}, ".");
-    return ended.error == 0 && ended.status == 0;
+    const EndedProcess ended = run_process({"gnuplot", "--version"}, ".");
+    return !ended.failed();
 }
 
 std::vector<fs::path> draw(const Figure& figure, const fs::path& folder) {
@@ -162,8 +117,8 @@ std::vector<fs::path> draw(const Figure& figure, const fs::path& folder) {
     files.push_back(folder / (figure.name + ".gp"));
     write_file(files.back(), script_of(figure));
     const std::string suffix = ".part";
-    const Ended ended = run_gnuplot({"-e", "suffix = '" + suffix + "'", figure.name + ".gp"}, folder);
-    const bool failed = ended.error != 0 || ended.status != 0;
+    const EndedProcess ended = run_process({"gnuplot", "-e", "suffix = '" + suffix + "'", figure.name + ".gp"}, folder);
+    const bool failed = ended.failed();
     std::error_code error;
     for (std::size_t k = 0; k < 2; ++k) {
         const fs::path part = files[k].string() + suffix;

@@ -1,0 +1,202 @@
+#include "sumo/inputs.h"
+
+#include <algorithm>
+
+#include "record/xml_file.h"
+
+namespace stopline {
+
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+std::string points_text(const Polyline& line) {
+    std::string text;
+    for (const Point& p : line) text += fmt::format("{}{:.3f},{:.3f}", text.empty() ? "" : " ", p.x_m, p.y_m);
+    return text;
+}
+
+// The part of an edge's lane that is not inside an intersection.
+Polyline lane_shape(const Lane& lane, double end_m) {
+    Polyline part;
+    double along_m = 0.0;
+    part.push_back(place_at(lane.shape, lane.shape_start_m).point);
+    for (std::size_t k = 1; k < lane.shape.size(); ++k) {
+        along_m += length_m({lane.shape[k - 1], lane.shape[k]});
+        if (along_m > lane.shape_start_m + 1e-6 && along_m < lane.shape_start_m + end_m - 1e-6) {
+            part.push_back(lane.shape[k]);
+        }
+    }
+    part.push_back(place_at(lane.shape, lane.shape_start_m + end_m).point);
+    return part;
+}
+
+void write_nodes(const std::filesystem::path& file, const SumoNetwork& network) {
+    XmlFile xml(file, "nodes", "nodes_file.xsd");
+    for (const SumoNode& node : network.nodes) {
+        xml.add("    <node id=\"{}\" x=\"{:.3f}\" y=\"{:.3f}\" type=\"{}\"/>\n", node.id, node.at.x_m, node.at.y_m,
+                node.lights ? "traffic_light" : "priority");
+    }
+    xml.finish();
+}
+
+void write_edges(const std::filesystem::path& file, const LaneGraph& graph, const SumoNetwork& network) {
+    XmlFile xml(file, "edges", "edges_file.xsd");
+    for (const SumoEdge& edge : network.edges) {
+        const Lane& first = graph.lanes[at(edge.lanes[0])];
+        Polyline middle = lane_shape(first, edge.length_m);
+        const Polyline last = lane_shape(graph.lanes[at(edge.lanes.back())], edge.length_m);
+        for (std::size_t k = 0; k < std::min(middle.size(), last.size()); ++k) {
+            middle[k] = {0.5 * (middle[k].x_m + last[k].x_m), 0.5 * (middle[k].y_m + last[k].y_m)};
+        }
+        xml.add(
+            "    <edge id=\"{}\" from=\"{}\" to=\"{}\" numLanes=\"{}\" speed=\"{:.6f}\" length=\"{:.3f}\" "
+            "spreadType=\"center\" shape=\"{}\"/>\n",
+            xml_escaped(edge.id), network.nodes[at(edge.from)].id, network.nodes[at(edge.to)].id, edge.lanes.size(),
+            first.limit_mps, edge.length_m, points_text(middle));
+    }
+    xml.finish();
+}
+
+void write_connections(const std::filesystem::path& file, const LaneGraph& graph, const SumoNetwork& network) {
+    XmlFile xml(file, "connections", "connections_file.xsd");
+    for (const SumoConnection& c : network.connections) {
+        const SumoNetwork::Place& from = network.place_of[at(c.from)];
+        const SumoNetwork::Place& to = network.place_of[at(c.to)];
+        xml.add("    <connection from=\"{}\" to=\"{}\" fromLane=\"{}\" toLane=\"{}\"",
+                xml_escaped(network.edges[at(from.edge)].id), xml_escaped(network.edges[at(to.edge)].id), from.index,
+                to.index);
+        if (c.way >= 0) {
+            const Lane& way = graph.lanes[at(c.way)];
+            xml.add(" speed=\"{:.6f}\" length=\"{:.3f}\" shape=\"{}\"", way.limit_mps, c.length_m,
+                    points_text(way.shape));
+        }
+        xml.add("/>\n");
+    }
+    xml.finish();
+}
+
+// G: green with priority; g: green, but gives way to another that has green too.
+char link_state(const Model& model, const SumoConnection& c, std::int64_t tick) {
+    const auto light_of = [&](int lane) {
+        return model.signals[at(model.graph.lanes[at(lane)].signal_group)].light(tick);
+    };
+    const Light light = light_of(c.from);
+    if (light != Light::green) return light == Light::yellow ? 'y' : 'r';
+    if (c.way < 0) return 'G';
+    const std::vector<Conflict>& conflicts = model.graph.conflicts_of(c.way);
+    const bool yields = std::any_of(conflicts.begin(), conflicts.end(), [&](const Conflict& conflict) {
+        const int origin = model.graph.lanes[at(conflict.other)].origin;
+        return conflict.yields && origin >= 0 && model.graph.lanes[at(origin)].signal_group >= 0 &&
+               light_of(origin) == Light::green;
+    });
+    return yields ? 'g' : 'G';
+}
+
+struct Phase {
+    std::int64_t ticks = 0;
+    std::string links;
+};
+
+// A cycle, where all of the run repeats it; else all of the run.
+std::int64_t programme_ticks(const Model& model, const std::vector<int>& groups, std::int64_t run_ticks) {
+    const std::int64_t cycle = groups.empty() ? 0 : model.signals[at(groups[0])].cycle_ticks();
+    if (cycle <= 0 || cycle > run_ticks) return run_ticks;
+    for (const int group : groups) {
+        const GroupProgramme& programme = model.signals[at(group)];
+        if (programme.cycle_ticks() != cycle) return run_ticks;
+        for (std::int64_t tick = 0; tick + cycle < run_ticks; ++tick) {
+            if (programme.light(tick) != programme.light(tick + cycle)) return run_ticks;
+        }
+    }
+    return cycle;
+}
+
+std::vector<Phase> phases_of(const Model& model, const SumoNetwork& network, int node, std::int64_t run_ticks) {
+    std::vector<const SumoConnection*> links;
+    std::vector<int> groups;
+    for (const SumoConnection& c : network.connections) {
+        if (c.node != node || c.link < 0) continue;
+        links.push_back(&c);
+        groups.push_back(model.graph.lanes[at(c.from)].signal_group);
+    }
+    std::vector<Phase> phases;
+    const std::int64_t ticks = programme_ticks(model, groups, run_ticks);
+    std::vector<Light> before;
+    for (std::int64_t tick = 0; tick < ticks; ++tick) {
+        std::vector<Light> lights;
+        for (const int group : groups) lights.push_back(model.signals[at(group)].light(tick));
+        if (lights != before) {
+            std::string text;
+            for (const SumoConnection* const c : links) text += link_state(model, *c, tick);
+            phases.push_back({0, text});
+            before = lights;
+        }
+        ++phases.back().ticks;
+    }
+    return phases;
+}
+
+void write_lights(const std::filesystem::path& file, const Model& model, const SumoNetwork& network,
+                  double duration_s) {
+    XmlFile xml(file, "tlLogics", "tllogic_file.xsd");
+    const std::int64_t run_ticks = std::max<std::int64_t>(to_ticks(duration_s, model.step_s), 1);
+    for (int node = 0; node < static_cast<int>(network.nodes.size()); ++node) {
+        if (!network.nodes[at(node)].lights) continue;
+        xml.add("    <tlLogic id=\"{}\" type=\"static\" programID=\"0\" offset=\"0\">\n", network.nodes[at(node)].id);
+        for (const Phase& phase : phases_of(model, network, node, run_ticks)) {
+            xml.add("        <phase duration=\"{:.2f}\" state=\"{}\"/>\n", model.time_s(phase.ticks), phase.links);
+        }
+        xml.add("    </tlLogic>\n");
+    }
+    for (const SumoConnection& c : network.connections) {
+        if (c.link < 0) continue;
+        const SumoNetwork::Place& from = network.place_of[at(c.from)];
+        const SumoNetwork::Place& to = network.place_of[at(c.to)];
+        xml.add("    <connection from=\"{}\" to=\"{}\" fromLane=\"{}\" toLane=\"{}\" tl=\"{}\" linkIndex=\"{}\"/>\n",
+                xml_escaped(network.edges[at(from.edge)].id), xml_escaped(network.edges[at(to.edge)].id), from.index,
+                to.index, network.nodes[at(c.node)].id, c.link);
+    }
+    xml.finish();
+}
+
+// Stop lines of all lanes, as SUMO's induction loops.
+void write_detectors(const std::filesystem::path& file, const Model& model, const SumoNetwork& network) {
+    XmlFile xml(file, "additional", "additional_file.xsd");
+    for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {
+        if (model.graph.lanes[at(lane)].signal_group < 0) continue;
+        const std::string id = xml_escaped(network.lane_id(lane));
+        xml.add("    <instantInductionLoop id=\"{} stop_line\" lane=\"{}\" pos=\"-0.1\" file=\"detectors.out.xml\"/>\n",
+                id, id);
+    }
+    xml.finish();
+}
+
+void write_configuration(const std::filesystem::path& file, double duration_s) {
+    constexpr double kStep_s = 0.1;  // that of the mesoscale mode
+    XmlFile xml(file, "sumoConfiguration", "sumoConfiguration.xsd");
+    xml.add(
+        "    <input>\n        <net-file value=\"net.net.xml\"/>\n        <route-files value=\"vehicles.rou.xml\"/>\n"
+        "        <additional-files value=\"detectors.add.xml\"/>\n    </input>\n");
+    xml.add("    <time>\n        <begin value=\"0\"/>\n        <end value=\"{:.1f}\"/>\n", duration_s);
+    xml.add("        <step-length value=\"{:.1f}\"/>\n    </time>\n", kStep_s);
+    // Nobody disappears, as with us unless the rules say so.
+    xml.add(
+        "    <processing>\n        <time-to-teleport value=\"-1\"/>\n        <collision.action value=\"warn\"/>\n"
+        "    </processing>\n");
+    xml.finish();
+}
+
+}  // namespace
+
+void write_sumo_inputs(const std::filesystem::path& folder, const Model& model, const SumoNetwork& network,
+                       double duration_s) {
+    write_nodes(folder / "nodes.nod.xml", network);
+    write_edges(folder / "edges.edg.xml", model.graph, network);
+    write_connections(folder / "connections.con.xml", model.graph, network);
+    write_lights(folder / "lights.tll.xml", model, network, duration_s);
+    write_detectors(folder / "detectors.add.xml", model, network);
+    write_configuration(folder / "run.sumocfg", duration_s);
+}
+
+}  // namespace stopline

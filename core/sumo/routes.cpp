@@ -1,0 +1,129 @@
+// The vehicles of a run as SUMO's routes.
+#include <algorithm>
+#include <map>
+
+#include "record/xml_file.h"
+#include "sumo/inputs.h"
+
+namespace stopline {
+
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+struct Trip {
+    double depart_s = 0.0;
+    double depart_m = 0.0;
+    double depart_mps = 0.0;
+    int depart_lane = -1;
+    int policy = 0;
+    int lane = -1;           // as seen last,
+    int route = -1;          // and the way that it was on
+    std::vector<int> edges;  // as far as it came
+};
+
+class RouteWriter : public RunWriter {
+public:
+    RouteWriter(std::filesystem::path file, const Model& model, const SumoNetwork& network)
+        : file_(std::move(file)), model_(model), network_(network) {}
+
+    void look(const State& state) override {
+        for (int lane = 0; lane < static_cast<int>(state.blocks.size()); ++lane) {
+            const LaneBlock& block = state.blocks[at(lane)];
+            for (int slot = block.first; slot < block.stop(); ++slot) see(state, lane, at(slot));
+        }
+    }
+
+    std::string finish() override {
+        XmlFile xml(file_, "routes", "routes_file.xsd");
+        for (std::size_t k = 0; k < model_.policies.size(); ++k) add_type(xml, k);
+        // In the order of departure, as SUMO wants them.
+        std::vector<std::pair<int, const Trip*>> trips;
+        for (const auto& [vehicle, trip] : trips_) trips.emplace_back(vehicle, &trip);
+        std::stable_sort(trips.begin(), trips.end(),
+                         [](const auto& a, const auto& b) { return a.second->depart_s < b.second->depart_s; });
+        for (const auto& [vehicle, trip] : trips) add_trip(xml, vehicle, *trip);
+        xml.finish();
+        return fmt::format("{} vehicles", trips.size());
+    }
+
+private:
+    void see(const State& state, int lane, std::size_t slot) {
+        const VehicleArrays& v = state.vehicles;
+        Trip& trip = trips_[v.id[slot]];
+        trip.route = v.record[slot].route;
+        if (trip.lane == lane) return;
+        if (trip.lane < 0) {
+            trip.depart_s = model_.time_s(state.tick);
+            trip.depart_m = v.position_m[slot];
+            trip.depart_mps = v.speed_mps[slot];
+            trip.depart_lane = lane;
+            trip.policy = v.policy[slot];
+        }
+        trip.lane = lane;
+        add_edge_of(lane, trip.edges);
+    }
+
+    void add_edge_of(int lane, std::vector<int>& edges) const {
+        if (model_.graph.lanes[at(lane)].origin >= 0) return;
+        const int edge = network_.place_of[at(lane)].edge;
+        if (edges.empty() || edges.back() != edge) edges.push_back(edge);
+    }
+
+    // Who is still under way at the end goes on as it was going to, and then straight on out of the network: nobody leaves in the
+    // middle of a queue.
+    std::vector<int> whole_way(const Trip& trip) const {
+        std::vector<int> edges = trip.edges;
+        int lane = trip.lane;
+        const std::vector<int>& route = model_.graph.routes[at(trip.route)].lanes;
+        for (auto k = std::find(route.begin(), route.end(), lane); k != route.end(); ++k) {
+            lane = *k;
+            add_edge_of(lane, edges);
+        }
+        while (edges.size() <= network_.edges.size() && !model_.graph.lanes[at(lane)].next.empty()) {
+            const std::vector<int>& next = model_.graph.lanes[at(lane)].next;
+            const auto straight = std::find_if(
+                next.begin(), next.end(), [&](int way) { return model_.graph.lanes[at(way)].turn == Turn::straight; });
+            lane = straight == next.end() ? next.front() : *straight;
+            add_edge_of(lane, edges);
+        }
+        return edges;
+    }
+
+    void add_type(XmlFile& xml, std::size_t policy) const {
+        const Krauss& k = model_.krauss[policy];
+        xml.add(
+            "    <vType id=\"{}\" carFollowModel=\"Krauss\" accel=\"{:.4f}\" decel=\"{:.4f}\" tau=\"{:.4f}\" sigma=\"{:.4f}\" "
+            "minGap=\"{:.3f}\" length=\"{:.3f}\" maxSpeed=\"70\" speedFactor=\"{:.4f}\" speedDev=\"0\"/>",
+            xml_escaped(model_.policies[policy].settings.name), k.acceleration_mps2, k.deceleration_mps2, k.reaction_s,
+            k.dawdling, k.standstill_gap_m + k.band_m, model_.vehicles[0].length_m, model_.speed_factor);
+        // SUMO has no model of a constant distance.
+        xml.add("{}\n", k.constant_distance ? " <!-- keeps a constant distance with us: this is the nearest -->" : "");
+    }
+
+    void add_trip(XmlFile& xml, int vehicle, const Trip& trip) const {
+        const SumoNetwork::Place& place = network_.place_of[at(trip.depart_lane)];
+        xml.add(
+            "    <vehicle id=\"{}\" type=\"{}\" depart=\"{:.2f}\" departLane=\"{}\" departPos=\"{:.3f}\" "
+            "departSpeed=\"{:.3f}\">",
+            vehicle, xml_escaped(model_.policies[at(trip.policy)].settings.name), trip.depart_s, place.index,
+            trip.depart_m, trip.depart_mps);
+        std::string edges;
+        for (const int edge : whole_way(trip)) edges += (edges.empty() ? "" : " ") + network_.edges[at(edge)].id;
+        xml.add("<route edges=\"{}\"/></vehicle>\n", xml_escaped(edges));
+    }
+
+    std::filesystem::path file_;
+    const Model& model_;
+    const SumoNetwork& network_;
+    std::map<int, Trip> trips_;  // by number
+};
+
+}  // namespace
+
+std::unique_ptr<RunWriter> make_sumo_route_writer(const std::filesystem::path& file, const Model& model,
+                                                  const SumoNetwork& network) {
+    return std::make_unique<RouteWriter>(file, model, network);
+}
+
+}  // namespace stopline
