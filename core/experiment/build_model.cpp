@@ -8,8 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "base/input_error.h"
-#include "demand/sumo_routes.h"
-#include "network/sumo_graph.h"
+#include "scenario/import_sumo.h"
 
 namespace stopline {
 
@@ -82,17 +81,8 @@ void check_arms(const DemandSettings& demand, const LaneGraph& graph) {
     }
 }
 
-void add_trips(const Scenario& scenario, Model& model) {
-    const SumoTraffic& traffic = *scenario.demand.sumo;
-    model.demand.trips = traffic.trips;
-    model.demand.trip_turns = traffic.turns;
-    model.demand.shortest_trip_m = traffic.shortest_m();
-    model.demand.seed = scenario.seed;
-    model.demand.draw_trip_policies();
-}
-
 void add_demand(const Scenario& scenario, Model& model) {
-    if (scenario.network.is_sumo()) return add_trips(scenario, model);
+    if (scenario.network.is_sumo()) return add_sumo_trips(scenario, model.demand);
     model.demand.entry_speed_mps = scenario.demand.entry_speed_mps;
     model.demand.seed = scenario.seed;
     model.demand.saturated = scenario.demand.kind == "saturated";

@@ -28,6 +28,15 @@ void import_sumo(Scenario& scenario, const std::filesystem::path& directory) {
         read_sumo_routes({additional, routes}, *made, scenario.duration_s, scenario.seed));
 }
 
+void add_sumo_trips(const Scenario& scenario, DemandPlan& plan) {
+    const SumoTraffic& traffic = *scenario.demand.sumo;
+    plan.trips = traffic.trips;
+    plan.trip_turns = traffic.turns;
+    plan.shortest_trip_m = traffic.shortest_m();
+    plan.seed = scenario.seed;
+    plan.draw_trip_policies();
+}
+
 std::vector<std::string> sumo_warnings(const Scenario& scenario) {
     std::vector<std::string> lines;
     if (!scenario.network.sumo || !scenario.demand.sumo) return lines;

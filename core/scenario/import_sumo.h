@@ -10,8 +10,13 @@
 
 namespace stopline {
 
+struct DemandPlan;
+
 // Does nothing where the network is not of the kind `sumo`. `directory`: where relative paths start. Throws InputError with file and line.
 void import_sumo(Scenario& scenario, const std::filesystem::path& directory);
+
+// The trips of those files, with the policies that the plan's population gives them.
+void add_sumo_trips(const Scenario& scenario, DemandPlan& plan);
 
 // What those files have that is not read, a line each: "city.net.xml:12: ...".
 std::vector<std::string> sumo_warnings(const Scenario& scenario);
