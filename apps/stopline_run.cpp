@@ -25,6 +25,7 @@
 #include "experiment/street_map.h"
 #include "experiment/street_results.h"
 #include "run/run_files.h"
+#include "scenario/import_sumo.h"
 #include "scenario/load_scenario.h"
 #include "scenario/quantity.h"
 
@@ -192,7 +193,8 @@ ExitCode run_as_network(const RunOptionsOfUser& options, const Scenario& scenari
     if (!options.no_figures) draw_all(figures, folder);
     fmt::print(
         "\nNext: hindrance.csv says who was held up by whom, where and since when; {}, all of them with stopline-sweep.\n",
-        scenario.network.is_streets()
+        scenario.network.is_sumo() ? "another fidelity with --set fidelity=full"
+        : scenario.network.is_streets()
             ? "other lanes with --set network.streets=four_lanes,\nother offsets with --set "
               "'network.streets.intersections[NAME].offset=10 s'"
             : "other greens, offsets and turns with --set\n'signal.green=10 s' --set 'signal.offset=15 s' --set "
@@ -208,6 +210,7 @@ ExitCode run(const RunOptionsOfUser& options) {
         throw InputError("no scenario file given; try: stopline-run scenarios/single_light.yaml (or --help)");
     }
     const Scenario scenario = load_with_options(options.file, options.common);
+    for (const std::string& line : sumo_warnings(scenario)) fmt::print(stderr, "not read: {}\n", line);
     const double interval_s = trajectory_interval_s(options, scenario);
     const std::filesystem::path folder = options.common.output.empty() ? "out/" + scenario.name : options.common.output;
     RunFilesOptions files = options.files;

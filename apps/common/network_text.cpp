@@ -20,6 +20,16 @@ std::string share_text(const HindranceLog& log, Cause cause) {
     return number(all_s > 0.0 ? 100.0 * lost_s / all_s : 0.0, 1);
 }
 
+std::string trips_text(const NetworkReport& report) {
+    TextTable table;
+    table.row({"trips", "entered", "arrived", "on the way", "no room to enter", "strayed"});
+    for (const NetworkFigures& f : report.populations) {
+        table.row({f.population, std::to_string(f.entered), std::to_string(f.left_network),
+                   std::to_string(f.entered - f.left_network), std::to_string(f.waiting), std::to_string(f.strayed)});
+    }
+    return "\n" + table.text() + "\nstrayed: at the end of a lane that does not serve their way, and moved on.\n";
+}
+
 }  // namespace
 
 std::string network_text(const NetworkReport& report) {
@@ -41,17 +51,21 @@ std::string network_text(const NetworkReport& report) {
         violations += f.violations.none() ? 0 : 1;
     }
     const AreaFigures* const first = report.populations.empty() ? nullptr : &report.populations[0].steady;
+    const bool sumo = report.scenario.network.is_sumo();
+    const std::string area =
+        sumo ? "Area: the whole network."
+             : fmt::format("Area: up to {:g} m outside the outer stop lines.", report.scenario.measure.outside_m);
     const std::string notes = fmt::format(
-        "Area: up to {:g} m outside the outer stop lines. veh/h: vehicles that leave it; s: their mean time in it; density: share of\n"
+        "{} veh/h: vehicles that leave it; s: their mean time in it; density: share of\n"
         "its lanes' metres; junction, turn, spillback, gridlock, lane: share of the time that vehicles stand, by what holds up\n"
         "their queue (lane: one that waits to change lanes); moved on, passed: uses of the rules. Measured from {:.0f} to {:.0f} s.\n",
-        report.scenario.measure.outside_m, first ? first->window.from_s : 0.0, first ? first->window.to_s : 0.0);
+        area, first ? first->window.from_s : 0.0, first ? first->window.to_s : 0.0);
     const std::string verdict =
         violations == 0
             ? "No overlaps on lanes or in conflict areas but by the rule for blockers, no entries on red, no vehicle "
               "lost.\n"
             : fmt::format("VIOLATIONS in {} runs: see summary.csv.\n", violations);
-    return table.text() + "\n" + notes + "\n" + verdict;
+    return table.text() + "\n" + notes + (sumo ? trips_text(report) : "") + "\n" + verdict;
 }
 
 }  // namespace stopline

@@ -1,6 +1,7 @@
 #include "demand/demand_plan.h"
 
 #include <cstddef>
+#include <unordered_map>
 
 #include "base/random.h"
 
@@ -18,18 +19,21 @@ std::size_t pick(const std::vector<double>& shares, double number) {
 
 // The component that is furthest behind its share after k vehicles: shares hold in every stretch of the sequence, and equal
 // shares alternate, the first component first.
+std::size_t next_behind(const std::vector<double>& shares, std::int64_t n, std::vector<double>& given) {
+    std::size_t chosen = 0;
+    for (std::size_t c = 1; c < shares.size(); ++c) {
+        const double behind = shares[c] * static_cast<double>(n + 1) - given[c];
+        const double best = shares[chosen] * static_cast<double>(n + 1) - given[chosen];
+        if (behind > best + 1e-9) chosen = c;
+    }
+    given[chosen] += 1.0;
+    return chosen;
+}
+
 std::size_t most_behind(const std::vector<double>& shares, std::int64_t k) {
     std::vector<double> given(shares.size(), 0.0);
     std::size_t chosen = 0;
-    for (std::int64_t n = 0; n <= k; ++n) {
-        chosen = 0;
-        for (std::size_t c = 1; c < shares.size(); ++c) {
-            const double behind = shares[c] * static_cast<double>(n + 1) - given[c];
-            const double best = shares[chosen] * static_cast<double>(n + 1) - given[chosen];
-            if (behind > best + 1e-9) chosen = c;
-        }
-        given[chosen] += 1.0;
-    }
+    for (std::int64_t n = 0; n <= k; ++n) chosen = next_behind(shares, n, given);
     return chosen;
 }
 
@@ -62,6 +66,22 @@ std::size_t draw(DemandPlan::Pattern pattern, const std::vector<double>& shares,
 }
 
 }  // namespace
+
+void DemandPlan::draw_trip_policies() {
+    trip_policies.clear();
+    std::unordered_map<int, std::int64_t> entered;  // by approach
+    std::unordered_map<int, std::vector<double>> given;
+    for (const Trip& trip : trips) {
+        const std::int64_t k = entered[trip.approach]++;
+        if (pattern != Pattern::alternating || policies.size() == 1) {
+            trip_policies.push_back(policy_of(trip.approach, k));
+            continue;
+        }
+        std::vector<double>& so_far = given.try_emplace(trip.approach, policies.size(), 0.0).first->second;
+        const std::size_t chosen = next_behind(policy_shares, k, so_far);
+        trip_policies.push_back(policies[chosen]);
+    }
+}
 
 int DemandPlan::policy_of(int inlet, std::int64_t k) const {
     if (policies.size() == 1) return policies[0];

@@ -10,6 +10,19 @@
 
 namespace stopline {
 
+// A vehicle that enters at a time of its own and follows a way of its own. Cold data.
+struct Trip {
+    double depart_s = 0.0;
+    int approach = -1;   // where it enters: on the lanes of this approach
+    int first_turn = 0;  // in DemandPlan::trip_turns
+    int turns = 0;       // of the trip, one at the end of each of its edges but for the last
+    float length_m = 0.0F;
+    enum class Where : std::uint8_t { lane, rightmost, free, random, best } where = Where::rightmost;
+    enum class Fast : std::uint8_t { given, limit, as_last, random } fast = Fast::given;
+    int lane = 0;            // where that is given, counted from the left
+    float speed_mps = 0.0F;  // where that is given
+};
+
 struct DemandPlan {
     // A lane where vehicles get a route: an entry, or a link between intersections, where they get their next.
     struct Inlet {
@@ -36,6 +49,18 @@ struct DemandPlan {
     std::vector<double> policy_shares;
     Pattern route_pattern = Pattern::random;
     std::uint64_t seed = 1;
+    std::vector<Trip> trips;         // by time of departure, then in the order of the input
+    std::vector<Turn> trip_turns;    // of all trips, one after the other
+    std::vector<int> trip_policies;  // [trip]
+    double shortest_trip_m = 1e9;    // of their vehicles
+
+    // At the end of the leg-th edge of a trip; none: it ends there.
+    Turn turn_of_trip(int trip, int leg) const {
+        const Trip& own = trips[static_cast<std::size_t>(trip)];
+        return leg < own.turns ? trip_turns[static_cast<std::size_t>(own.first_turn + leg)] : Turn::none;
+    }
+    // Draws the policies of all trips: those that enter at one approach are counted as an inlet's.
+    void draw_trip_policies();
 
     // The k-th vehicle (from 0) of inlet `i`.
     int policy_of(int inlet, std::int64_t k) const;

@@ -1,10 +1,13 @@
 // What a user says of the traffic that enters. SI units.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace stopline {
+
+struct SumoTraffic;  // sumo_routes.h
 
 struct DemandSettings {
     // queue: `vehicles` a lane enter as soon as there is room, then none; saturated: inlets never run dry; rate: `inflow_1ps`
@@ -24,6 +27,7 @@ struct DemandSettings {
     std::string order = "balanced";  // of the turns: balanced | random
     // empty: an empty network; queued: the approaches are full of standing vehicles
     std::string start = "empty";
+    std::shared_ptr<const SumoTraffic> sumo = {};  // of an imported network, in place of all else
 };
 
 }  // namespace stopline

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "base/input_error.h"
+#include "scenario/import_sumo.h"
 
 namespace stopline {
 
@@ -81,6 +82,7 @@ void check_arms(const DemandSettings& demand, const LaneGraph& graph) {
 }
 
 void add_demand(const Scenario& scenario, Model& model) {
+    if (scenario.network.is_sumo()) return add_sumo_trips(scenario, model.demand);
     model.demand.entry_speed_mps = scenario.demand.entry_speed_mps;
     model.demand.seed = scenario.seed;
     model.demand.saturated = scenario.demand.kind == "saturated";
@@ -140,14 +142,11 @@ void add_ways_in(Model& model) {
 }
 
 void add_rules(const Scenario& scenario, Model& model) {
-    const SignalSettings& signal = scenario.signal;
     const HindranceRules& rules = scenario.rules;
-    const double green_s = scenario.network.is_streets() ? scenario.network.streets.longest_green_s()
-                                                         : std::max(signal.green_of_s(0), signal.green_of_s(1));
     model.rules.keep_clear = rules.keep_clear == "on";
     model.rules.sight_m = rules.sight_m;
     model.rules.teleport_ticks = to_ticks(rules.teleport_cycles * scenario.intersection_cycle_s(), model.step_s);
-    model.rules.pass_blocker_ticks = to_ticks(rules.pass_blocker_greens * green_s, model.step_s);
+    model.rules.pass_blocker_ticks = to_ticks(rules.pass_blocker_greens * scenario.longest_green_s(), model.step_s);
     model.rules.memory_ticks = to_ticks(2.0, model.step_s);
     const bool needs_watch = model.rules.teleport_ticks > 0 || model.rules.pass_blocker_ticks > 0;
     model.rules.watch_ticks = needs_watch ? std::max<std::int64_t>(to_ticks(1.0, model.step_s), 1) : 0;
@@ -159,14 +158,16 @@ void add_detectors(const Scenario& scenario, Model& model) {
         if (road.signal_group >= 0) model.detectors.push_back({lane, road.stop_line_m, Detector::Kind::stop_line});
         if (road.origin >= 0) continue;
         if (scenario.network.kind == "intersection") add_zones(scenario, lane, model);
-        if (scenario.network.has_several()) add_counters(scenario, lane, model);
+        if (scenario.network.has_several() && !scenario.network.is_sumo()) add_counters(scenario, lane, model);
     }
 }
 
 void add_network(const Scenario& scenario, Model& model) {
     const NetworkSettings& network = scenario.network;
     model.graph = make_network(network);
-    if (network.is_streets()) {
+    if (network.is_sumo()) {
+        model.signals = make_sumo_signals(*network.sumo, scenario.tick_s());
+    } else if (network.is_streets()) {
         model.signals = make_street_signals(network.streets, scenario.tick_s());
     } else if (network.kind == "grid") {
         for (const GridPlace& place : grid_places(network.grid)) {

@@ -79,6 +79,8 @@ std::string network_csv(const NetworkReport& report) {
                                      "red_entries", "forced_red_entries", "lost_vehicles"}) {
         columns.emplace_back(column);
     }
+    const bool trips = report.scenario.network.is_sumo();
+    if (trips) columns.insert(columns.end(), {"strayed", "waiting"});
     CsvWriter csv(columns);
     for (const NetworkFigures& f : report.populations) {
         const HindranceLog& log = f.hindrance;
@@ -110,6 +112,7 @@ std::string network_csv(const NetworkReport& report) {
               std::to_string(v.red_entries), std::to_string(v.forced_red_entries), std::to_string(v.lost_vehicles)}) {
             row.push_back(cell);
         }
+        if (trips) row.insert(row.end(), {std::to_string(f.strayed), std::to_string(f.waiting)});
         csv.row(row);
     }
     return csv.text();

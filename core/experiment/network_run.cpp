@@ -22,11 +22,20 @@ bool from_outside(const LaneGraph& graph, int lane) {
     });
 }
 
+// The whole network is measured: vehicles come where their trips begin, and leave where they end.
+void watch_trips(Model& model) {
+    model.trips_begin = static_cast<int>(model.detectors.size());
+    model.detectors.push_back({-1, 0.0, Detector::Kind::zone, 0, false});
+    model.trips_end = static_cast<int>(model.detectors.size());
+    model.detectors.push_back({-1, 0.0, Detector::Kind::zone, 0, true});
+}
+
 // Where vehicles come into the area that is measured, or leave it: on the lanes by which they enter and leave the network. Pockets that
 // lie in it wholly are entered from lanes beside them.
 void watch_area(const Scenario& scenario, Model& model) {
     std::erase_if(model.detectors, [](const Detector& d) { return d.kind != Detector::Kind::stop_line; });
     const double outside_m = scenario.measure.outside_m;
+    if (scenario.network.is_sumo()) return watch_trips(model);
     for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {
         const Lane& road = model.graph.lanes[at(lane)];
         if (road.origin >= 0) continue;
@@ -45,7 +54,9 @@ double area_lane_m(const Scenario& scenario, const Model& model) {
     for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {
         const Lane& road = model.graph.lanes[at(lane)];
         if (road.origin >= 0) continue;
-        if (road.signal_group < 0) {
+        if (scenario.network.is_sumo()) {
+            sum_m += road.length_m;
+        } else if (road.signal_group < 0) {
             sum_m += scenario.measure.outside_m;
         } else {
             const bool within = road.begin_m > 0.0 && road.stop_line_m <= scenario.measure.outside_m;
@@ -160,7 +171,7 @@ void measure(const Scenario& scenario, const Model& model, const State& state, c
     figures.warm_up_s = static_cast<double>(warm_up(vehicles)) * scenario.measure.interval_s;
     const double steady_s = end_s - scenario.measure.steady_s;
     figures.steady = mean_of(figures.series, steady_s > 0.0 ? steady_s : figures.warm_up_s);
-    figures.ways = way_figures(model, state.crossings, figures.steady.window);
+    if (model.trips_begin < 0) figures.ways = way_figures(model, state.crossings, figures.steady.window);
     figures.collapse_s = collapse_of(figures);
 }
 
@@ -215,7 +226,12 @@ NetworkFigures run_network(const Scenario& scenario, std::size_t population,
     figures.street = street.trace();
     backlog.look(state);
     figures.backlog = backlog.backlog();
-    figures.inflow = inflow_series(model, state.crossings, scenario.measure.interval_s, model.time_s(state.tick));
+    figures.strayed = state.strayed;
+    for (const WaitingTrips& waiting : state.waiting_trips) {
+        figures.waiting += static_cast<std::int64_t>(waiting.trips.size() - waiting.entered);
+    }
+    if (model.trips_begin < 0)
+        figures.inflow = inflow_series(model, state.crossings, scenario.measure.interval_s, model.time_s(state.tick));
     figures.turned = state.turned;
     figures.changes_for_route = std::count_if(state.lane_changes.begin(), state.lane_changes.end(),
                                               [](const LaneChange& change) { return change.for_route; });

@@ -51,8 +51,10 @@ struct NetworkFigures {
     // Streets (street_results.h).
     std::vector<std::array<int, 4>> inflow;  // [interval][Side] vehicles
     Backlog backlog;
-    std::vector<std::array<std::int64_t, 4>> turned;  // [approach][Turn]
+    std::vector<std::array<std::int64_t, kMostTurns>> turned;  // [approach][Turn]
     std::int64_t changes_for_route = 0;
+    std::int64_t strayed = 0;  // imported networks: see State::strayed
+    std::int64_t waiting = 0;  // the same: due, but without room to enter until the end
     std::int64_t changes_for_speed = 0;
     StreetTrace street;  // empty unless measure.time_space asks for it
     bool complete = false;

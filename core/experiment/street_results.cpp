@@ -18,7 +18,7 @@ constexpr double kKmh = 3.6;  // per m/s
 std::size_t of(Side side) { return static_cast<std::size_t>(side); }
 std::size_t of(Turn turn) { return static_cast<std::size_t>(turn); }
 
-double share_percent(const std::array<std::int64_t, 4>& turned, Turn turn) {
+double share_percent(const std::array<std::int64_t, kMostTurns>& turned, Turn turn) {
     const std::int64_t all = turned[of(Turn::straight)] + turned[of(Turn::right)] + turned[of(Turn::left)];
     return all == 0 ? kNone : 100.0 * static_cast<double>(turned[of(turn)]) / static_cast<double>(all);
 }

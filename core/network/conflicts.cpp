@@ -18,18 +18,25 @@ struct Stretch {
     double to_m;
 };
 
-// The part of line `a` that is nearer to `b` than the clearance.
+// The part of line `a` that is nearer to `b` than the clearance. Along the line the distance changes by no more than what one has gone,
+// so that samples far from `b` can be left out.
 std::optional<Stretch> near_part(const Polyline& a, const Polyline& b, double clearance_m) {
-    std::optional<Stretch> part;
     const double end_m = length_m(a);
     const int samples = static_cast<int>(std::ceil(end_m / kSample_m));
-    for (int k = 0; k <= samples; ++k) {
-        const double s = std::min(k * kSample_m, end_m);
-        if (distance_m(b, place_at(a, s).point) >= clearance_m) continue;
-        if (!part) part = Stretch{s, s};
-        part->to_m = s;
-    }
-    return part;
+    const auto place_m = [&](int k) { return std::min(k * kSample_m, end_m); };
+    const auto too_far_m = [&](int k) { return distance_m(b, place_at(a, place_m(k)).point) - clearance_m; };
+    // The next sample in a direction that is near.
+    const auto search = [&](int k, int direction) {
+        while (k >= 0 && k <= samples) {
+            const double far_m = too_far_m(k);
+            if (!(far_m >= 0.0)) break;
+            k += direction * std::max(static_cast<int>(far_m / kSample_m), 1);
+        }
+        return k;
+    };
+    const int first = search(0, 1);
+    if (first > samples) return std::nullopt;
+    return Stretch{place_m(first), place_m(search(samples, -1))};
 }
 
 struct Box {
@@ -53,6 +60,15 @@ bool apart(const Box& a, const Box& b, double clearance_m) {
     return beyond(a, b) || beyond(b, a);
 }
 
+// Areas on both, from the starts of the lanes.
+std::optional<Conflict> areas_of(const Lane& one, const Lane& two, double clearance_m) {
+    const auto on_one = near_part(one.shape, two.shape, clearance_m);
+    const auto on_two = on_one ? near_part(two.shape, one.shape, clearance_m) : std::nullopt;
+    if (!on_one || !on_two) return std::nullopt;
+    return Conflict{-1, on_one->from_m - one.shape_start_m, on_one->to_m - one.shape_start_m,
+                    on_two->from_m - two.shape_start_m, on_two->to_m - two.shape_start_m};
+}
+
 int rank(Turn turn) { return turn == Turn::left ? 2 : turn == Turn::right ? 1 : 0; }
 
 }  // namespace
@@ -62,6 +78,11 @@ double shared_stretch_m(const Polyline& a, const Polyline& b, double clearance_m
     double s = 0.0;
     while (s < end_m && distance_m(b, place_at(a, s).point) < clearance_m) s += kSample_m;
     return s;
+}
+
+std::optional<Conflict> conflict_of(const Lane& one, const Lane& two, double clearance_m) {
+    if (apart(box_of(one.shape), box_of(two.shape), clearance_m)) return std::nullopt;
+    return areas_of(one, two, clearance_m);
 }
 
 void find_conflicts(LaneGraph& graph, double clearance_m, int first, int stop) {
@@ -76,16 +97,15 @@ void find_conflicts(LaneGraph& graph, double clearance_m, int first, int stop) {
         for (int k = i + 1; k < stop; ++k) {
             const Lane& two = graph.lanes[at(k)];
             if (two.origin == one.origin || apart(boxes[at(i - first)], boxes[at(k - first)], clearance_m)) continue;
-            const auto on_one = near_part(one.shape, two.shape, clearance_m);
-            const auto on_two = near_part(two.shape, one.shape, clearance_m);
-            if (!on_one || !on_two) continue;
-            const Stretch a{on_one->from_m - one.shape_start_m, on_one->to_m - one.shape_start_m};
-            const Stretch b{on_two->from_m - two.shape_start_m, on_two->to_m - two.shape_start_m};
+            const std::optional<Conflict> c = areas_of(one, two, clearance_m);
+            if (!c) continue;
             const bool together = stage(one) == stage(two);
             const bool one_yields = together && rank(one.turn) > rank(two.turn);
             const bool two_yields = together && rank(two.turn) > rank(one.turn);
-            graph.conflicts[at(i)].push_back({k, a.from_m, a.to_m, b.from_m, b.to_m, one_yields, two_yields});
-            graph.conflicts[at(k)].push_back({i, b.from_m, b.to_m, a.from_m, a.to_m, two_yields, one_yields});
+            graph.conflicts[at(i)].push_back(
+                {k, c->from_m, c->to_m, c->other_from_m, c->other_to_m, one_yields, two_yields});
+            graph.conflicts[at(k)].push_back(
+                {i, c->other_from_m, c->other_to_m, c->from_m, c->to_m, two_yields, one_yields});
         }
     }
     for (int i = first; i < stop; ++i) {

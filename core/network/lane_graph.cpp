@@ -98,6 +98,11 @@ void check_approaches(const LaneGraph& graph) {
 void check(const LaneGraph& graph) {
     const auto lanes = static_cast<int>(graph.lanes.size());
     const auto known = [lanes](int lane) { return lane >= 0 && lane < lanes; };
+    std::vector<bool> is_link(graph.lanes.size(), false);
+    for (const int link : graph.links) {
+        if (!known(link)) throw InputError("a link is a lane that does not exist");
+        is_link[static_cast<std::size_t>(link)] = true;
+    }
     for (const Lane& lane : graph.lanes) {
         const bool sound = lane.length_m > 0.0 && lane.limit_mps > 0.0 && lane.signal_group < graph.signal_groups &&
                            lane.stop_line_m <= lane.length_m && std::all_of(lane.next.begin(), lane.next.end(), known);
@@ -110,7 +115,7 @@ void check(const LaneGraph& graph) {
             throw InputError(fmt::format("route '{}' names a lane that does not exist", route.name));
         }
         const int last = route.lanes.back();
-        const bool goes_on = std::find(graph.links.begin(), graph.links.end(), last) != graph.links.end();
+        const bool goes_on = is_link[static_cast<std::size_t>(last)];
         if (!graph.lanes[static_cast<std::size_t>(last)].next.empty() && !goes_on) {
             throw InputError(fmt::format("route '{}' ends on a lane that leads on", route.name));
         }

@@ -11,8 +11,10 @@
 
 namespace stopline {
 
-// What a lane inside an intersection does.
+// What a lane inside an intersection does. From an edge of an imported network there can be more ways than these: the further ones
+// are numbered on.
 enum class Turn : std::uint8_t { none, straight, right, left };
+inline constexpr int kMostTurns = 12;  // `none` included
 
 struct Lane {
     std::string name = {};
@@ -30,6 +32,9 @@ struct Lane {
     int right = -1;
     double begin_m = 0.0;  // where it begins, from where the longest lanes of its approach do: pockets
     int approach = -1;     // the one that it belongs to
+    // Of a lane inside an intersection, if its movement has a light of its own; -1: that of the stop line.
+    int light = -1;
+    bool keeps_clear = true;  // of such a lane: nobody enters it without room in the exit (HindranceRules)
 };
 
 // Where the bodies of vehicles on two lanes inside an intersection can touch. All distances along the lanes, of points of

@@ -1,10 +1,12 @@
 #include <cstddef>
 
 #include "network/lane_graph.h"
+#include "network/sumo_graph.h"
 
 namespace stopline {
 
 LaneGraph make_network(const NetworkSettings& network) {
+    if (network.is_sumo()) return network.sumo->graph;
     if (network.is_streets()) return make_streets(network.streets);
     if (network.kind == "grid") return make_grid(network.grid, network.intersection);
     if (network.kind == "intersection") return make_intersection(network.intersection);
@@ -12,7 +14,8 @@ LaneGraph make_network(const NetworkSettings& network) {
 }
 
 double radius_beyond_m(const NetworkSettings& network, const Lane& lane) {
-    constexpr int kGroupsEach = 3;  // of make_streets()
+    if (network.is_sumo()) return 0.0;  // its lanes inside have lengths of their own
+    constexpr int kGroupsEach = 3;      // of make_streets()
     if (!network.is_streets()) return network.intersection.radius_m;
     return network.streets.intersections[static_cast<std::size_t>(lane.signal_group / kGroupsEach)].radius_m;
 }

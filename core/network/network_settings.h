@@ -1,6 +1,7 @@
 // What a user says of the network: the parameters of a generator. SI units.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -43,15 +44,23 @@ struct GridSettings {
     bool has_corners() const { return shape == "rectangle"; }
 };
 
+struct SumoNetwork;  // sumo_graph.h
+
 struct NetworkSettings {
     std::string kind = "approach";
     ApproachSettings approach;
     IntersectionSettings intersection;
     GridSettings grid;
     StreetSettings streets;
+    // Of the kind `sumo`: files as the user names them, and what they hold.
+    std::string net = {};
+    std::vector<std::string> routes = {};
+    std::vector<std::string> additional = {};
+    std::shared_ptr<const SumoNetwork> sumo = {};
 
     bool is_streets() const { return kind == "streets"; }
-    bool has_several() const { return kind == "grid" || is_streets(); }
+    bool is_sumo() const { return kind == "sumo"; }
+    bool has_several() const { return kind == "grid" || is_streets() || is_sumo(); }
     bool has_intersections() const { return kind != "approach"; }
 };
 

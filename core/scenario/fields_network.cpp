@@ -90,8 +90,8 @@ const Table& network_table() {
     static const Table table = make_table<NetworkSettings>(
         "the roads",
         {
-            choice<&NetworkSettings::kind>("kind", {"approach", "intersection", "grid", "streets"},
-                                           "which generator builds the network"),
+            choice<&NetworkSettings::kind>("kind", {"approach", "intersection", "grid", "streets", "sumo"},
+                                           "which generator builds the network; sumo: it is read from SUMO's files"),
             section<&NetworkSettings::approach>("approach", approach_table, "parameters of the kind 'approach'")
                 .only("kind", {"approach"}),
             section<&NetworkSettings::intersection>("intersection", intersection_table,
@@ -101,6 +101,19 @@ const Table& network_table() {
             section<&NetworkSettings::streets>("streets", streets_table, "the network of the kind 'streets'", "berlin")
                 .required()
                 .only("kind", {"streets"}),
+            text<&NetworkSettings::net>("net", TextField::Rule::title,
+                                        "SUMO's network file, plain or gzipped, relative to the scenario's folder")
+                .required()
+                .only("kind", {"sumo"}),
+            texts<&NetworkSettings::routes>("routes", TextField::Rule::title, {0, 1000},
+                                            "SUMO's route files: vehicles, trips, flows, types")
+                .fallback("[]")
+                .only("kind", {"sumo"}),
+            texts<&NetworkSettings::additional>("additional", TextField::Rule::title, {0, 1000},
+                                                "SUMO's additional files: signal programmes, offsets, induction loops, "
+                                                "types and routes")
+                .fallback("[]")
+                .only("kind", {"sumo"}),
         });
     return table;
 }

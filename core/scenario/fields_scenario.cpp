@@ -32,6 +32,7 @@ void check_steps(const Scenario& scenario, Checker& check) {
                                short_text(scenario.tick_s(), unit("ms")));
     };
     whole_steps("duration", scenario.duration_s);
+    if (scenario.network.is_sumo()) return;  // its programmes are rounded to steps
     if (scenario.network.is_streets()) return check_street_steps(scenario, whole_steps);
     whole_steps("signal.first_green", scenario.signal.first_green_s);
     whole_steps("signal.green", scenario.signal.green_s);
@@ -140,6 +141,11 @@ void check_streets(const Scenario& scenario, Checker& check) {
     if (!scenario.measure.green_s.empty()) check.error("measure.green", "is for a single light");
 }
 
+void check_sumo(const Scenario& scenario, Checker& check) {
+    if (!scenario.measure.green_s.empty()) check.error("measure.green", "is for a single light");
+    if (scenario.measure.time_space_s > 0.0) check.error("measure.time_space", "is for grids and streets");
+}
+
 void check_times(const Scenario& scenario, Checker& check) {
     const SignalSettings& signal = scenario.signal;
     if (!scenario.is_meso() && scenario.step_s > kFullStepMax_s) {
@@ -152,6 +158,7 @@ void check_times(const Scenario& scenario, Checker& check) {
     if (scenario.network.kind == "intersection") return check_intersection(scenario, check);
     if (scenario.duration_s < 1.0) check.error("duration", "must be at least 1 s");
     if (scenario.network.is_streets()) return check_streets(scenario, check);
+    if (scenario.network.is_sumo()) return check_sumo(scenario, check);
     for (std::size_t i = 0; i < scenario.measure.green_s.size(); ++i) {
         const double green_s = scenario.measure.green_s[i];
         const std::string field = "measure.green[" + std::to_string(i) + "]";
@@ -222,7 +229,8 @@ const Table& scenario_table() {
             section<&S::network>("network", network_table, "the roads"),
             section<&S::signal>("signal", signal_table, "the signal; streets have theirs with them")
                 .only("network.kind", {"approach", "intersection", "grid"}),
-            section<&S::demand>("demand", demand_table, "the traffic that enters"),
+            section<&S::demand>("demand", demand_table, "the traffic that enters; SUMO's networks have route files")
+                .only("network.kind", {"approach", "intersection", "grid", "streets"}),
             section<&S::vehicle>("vehicle", vehicle_table, "the vehicles", "vehicles").fallback("petrol_eu4_72kw"),
             section<&S::driver>("driver", driver_table, "the drivers", "drivers").fallback("startup_kit"),
             section<&S::rules>("rules", rules_table, "what drivers do where queues block intersections"),

@@ -7,6 +7,7 @@
 #include "scenario/compose.h"
 #include "scenario/fields.h"
 #include "scenario/file_name.h"
+#include "scenario/import_sumo.h"
 #include "scenario/nearest_name.h"
 #include "scenario/read_fields.h"
 #include "scenario/report.h"
@@ -41,6 +42,7 @@ Scenario scenario_from(SourceNode root, const std::vector<std::string>& override
     report.throw_if_any();
     scenario.vehicle_name = scenario.vehicle.name;
     scenario.driver_name = scenario.driver.name;
+    import_sumo(scenario, source.directory);
     scenario.hash = scenario_hash(scenario);
     return scenario;
 }
@@ -117,6 +119,7 @@ std::uint64_t scenario_hash(const Scenario& scenario) {
         hash ^= static_cast<unsigned char>(c);
         hash *= 0x100000001b3u;
     }
+    if (const std::uint64_t files = sumo_files_hash(scenario); files != 0) hash = (hash ^ files) * 0x100000001b3u;
     return hash;
 }
 

@@ -52,10 +52,9 @@ struct Scenario {
 
     bool is_meso() const { return fidelity == "meso"; }
     double tick_s() const { return is_meso() ? meso.step_s : step_s; }
-    double intersection_cycle_s() const {  // the same at all intersections
-        return network.is_streets() ? network.streets.intersections.front().programme.cycle_s()
-                                    : signal.both_stages_s();
-    }
+    // The same at all intersections; of an imported network the longest.
+    double intersection_cycle_s() const;
+    double longest_green_s() const;
 };
 
 }  // namespace stopline

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "network/street_settings.h"
+#include "network/sumo_graph.h"
 #include "signals/signal_settings.h"
 
 namespace stopline {
@@ -53,6 +54,10 @@ std::vector<GroupProgramme> make_stages(const SignalSettings& settings, int grou
 // whole cycles, puts it. Lanes that only turn left have green with the major street, where they give way, and on their own later.
 std::array<GroupProgramme, 3> make_seven_steps(const SevenSteps& steps, double offset_s, double step_s);
 std::vector<GroupProgramme> make_street_signals(const StreetSettings& streets, double step_s);
+
+// Of each signal group of an imported network. At time t a programme is where it is (t - offset) after its beginning, in every cycle; the
+// letters G g s o O are green, y Y yellow, all others red.
+std::vector<GroupProgramme> make_sumo_signals(const SumoNetwork& network, double step_s);
 
 // Seconds to whole ticks, rounded to the nearest.
 std::int64_t to_ticks(double seconds, double step_s);

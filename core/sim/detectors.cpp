@@ -9,8 +9,10 @@ namespace {
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 void pass_stop_line(State& state, NetworkPart& part, int lane, int slot) {
-    state.vehicles.record[at(slot)].inside_since = static_cast<int>(state.tick);
-    if (state.lights[at(state.plan.lane(lane).signal_group)] != Light::red) return;
+    VehicleRecord& record = state.vehicles.record[at(slot)];
+    record.inside_since = static_cast<int>(state.tick);
+    if (state.lights[at(state.plan.light_before(lane, record.next_lane))] != Light::red) return;
+    if (record.trip >= 0 && record.next_lane < 0) return;  // it does not go into the intersection
     // Whoever was told to stop was told so because it could.
     if (state.stop_lines[at(lane)].stopper == state.vehicles.id[at(slot)]) {
         ++part.violations.red_entries;

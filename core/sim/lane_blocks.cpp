@@ -76,7 +76,7 @@ void lay_out_anew(State& state, const std::vector<int>& expected) {
 double shortest_vehicle_m(const Model& model) {
     double shortest_m = 1e9;
     for (const PowertrainTables& type : model.vehicles) shortest_m = std::min(shortest_m, type.length_m);
-    return shortest_m;
+    return std::min(shortest_m, model.demand.shortest_trip_m);
 }
 
 void lay_out_blocks(const Model& model, State& state) {
@@ -99,7 +99,7 @@ void lay_out_blocks(const Model& model, State& state) {
         const int most = most_vehicles(model, model.graph.lanes[at(lane)]);
         place(state.blocks[at(lane)], rounded_up(most + std::max(most / 2, kSimdWidth)));
     }
-    if (model.rules.teleport_ticks > 0) place(state.limbo, rounded_up(64 + lanes));
+    if (model.rules.teleport_ticks > 0 || !model.demand.trips.empty()) place(state.limbo, rounded_up(64 + lanes));
     slots = rounded_up(slots) + kSimdWidth;  // the last batch of a lane reaches beyond its block
     state.vehicles.resize(slots, model.radar.rows, model.v2v.rows);
 }

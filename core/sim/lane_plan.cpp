@@ -47,6 +47,9 @@ LanePlan plan_of(const Model& model, int index) {
     plan.origin = lane.origin;
     plan.branches = lane.next.size() > 1;
     if (lane.origin >= 0) plan.exit = lane.next[0];
+    plan.keeps_clear = lane.keeps_clear;
+    const auto has_light = [&](int next) { return model.graph.lanes[at(next)].light >= 0; };
+    plan.by_way = lane.origin < 0 && std::any_of(lane.next.begin(), lane.next.end(), has_light);
     for (const Conflict& conflict : model.graph.conflicts_of(index)) {
         plan.first_area_m = std::min(plan.first_area_m, conflict.from_m);
         plan.yields = plan.yields || conflict.yields;
@@ -83,7 +86,8 @@ void count_changes(const Approach& approach, std::size_t turn, std::vector<Besid
     }
 }
 
-std::vector<BesidePlan> plan_beside(const LaneGraph& graph, const std::vector<Turn>& turns) {
+// Routes from one lane with one turn are chained by `like`, the last one first.
+std::vector<BesidePlan> plan_beside(const LaneGraph& graph, const std::vector<Turn>& turns, std::vector<int>& like) {
     std::vector<BesidePlan> beside(graph.lanes.size());
     for (std::size_t lane = 0; lane < graph.lanes.size(); ++lane) {
         beside[lane].left = graph.lanes[lane].left;
@@ -91,8 +95,9 @@ std::vector<BesidePlan> plan_beside(const LaneGraph& graph, const std::vector<Tu
         beside[lane].begin_m = graph.lanes[lane].begin_m;
     }
     for (std::size_t route = 0; route < graph.routes.size(); ++route) {
-        beside[at(graph.routes[route].lanes[0])].ways[static_cast<std::size_t>(turns[route])].route =
-            static_cast<int>(route);
+        int& own = beside[at(graph.routes[route].lanes[0])].ways[static_cast<std::size_t>(turns[route])].route;
+        like.push_back(own);
+        own = static_cast<int>(route);
     }
     for (const Approach& approach : graph.approaches) {
         for (std::size_t turn = 0; turn < beside[0].ways.size(); ++turn) count_changes(approach, turn, beside);
@@ -102,7 +107,7 @@ std::vector<BesidePlan> plan_beside(const LaneGraph& graph, const std::vector<Tu
 
 }  // namespace
 
-NetworkPlan::NetworkPlan(const Model& model) : speed_factor_(model.speed_factor) {
+NetworkPlan::NetworkPlan(const Model& model) : speed_factor_(model.speed_factor), demand_(&model.demand) {
     const auto count = static_cast<int>(model.graph.lanes.size());
     Sets sets(at(count));
     join_intersections(model, sets);
@@ -111,6 +116,7 @@ NetworkPlan::NetworkPlan(const Model& model) : speed_factor_(model.speed_factor)
         lanes_.back().intersection = sets.of(lane);
         intersections_ += sets.of(lane) == lane ? 1 : 0;
         order_.push_back(lane);
+        lights_.push_back(model.graph.lanes[at(lane)].light);
         next_.add(model.graph.lanes[at(lane)].next);
         conflicts_.add(model.graph.conflicts_of(lane));
         std::vector<int> meets;
@@ -123,9 +129,10 @@ NetworkPlan::NetworkPlan(const Model& model) : speed_factor_(model.speed_factor)
         routes_.add(route.lanes);
         turns_.push_back(route.lanes.size() > 1 ? model.graph.lanes[at(route.lanes[1])].turn : Turn::none);
     }
-    beside_ = plan_beside(model.graph, turns_);
+    beside_ = plan_beside(model.graph, turns_, like_);
     for (const Approach& approach : model.graph.approaches) {
-        std::array<int, 4> routes{-1, -1, -1, -1};
+        std::array<int, kMostTurns> routes{};
+        routes.fill(-1);
         for (const int lane : approach.lanes) {
             for (std::size_t turn = 0; turn < routes.size(); ++turn) {
                 routes[turn] = std::max(routes[turn], beside_[at(lane)].ways[turn].route);

@@ -24,6 +24,8 @@ struct alignas(64) LanePlan {
     int intersection = 0;       // number of the lanes that depend on each other in a step
     bool yields = false;        // gives way to some other lane
     bool branches = false;      // several lanes can follow
+    bool by_way = false;        // of a lane with a stop line: its movements have lights of their own
+    bool keeps_clear = true;    // of a lane inside an intersection: not entered without room in its exit
 };
 
 // How to go on from a lane with each turn.
@@ -37,7 +39,7 @@ struct BesidePlan {
     int left = -1;
     int right = -1;
     double begin_m = 0.0;
-    std::array<WayOn, 4> ways = {};  // [Turn]
+    std::array<WayOn, kMostTurns> ways = {};  // [Turn]
 
     const WayOn& way(Turn turn) const { return ways[static_cast<std::size_t>(turn)]; }
     bool changes() const { return left >= 0 || right >= 0; }
@@ -80,6 +82,15 @@ public:
         return routes_with_[static_cast<std::size_t>(approach)][static_cast<std::size_t>(turn)];
     }
     Turn turn_of(int route) const { return turns_[static_cast<std::size_t>(route)]; }
+    // Another route from the same lane with the same turn, to another lane; -1: there is no further one.
+    int like(int route) const { return like_[static_cast<std::size_t>(route)]; }
+    // The signal group that a vehicle on a lane with a stop line minds, which goes on to `next` (-1: it has none).
+    int light_before(int lane, int next) const {
+        const int own = next >= 0 ? lights_[static_cast<std::size_t>(next)] : -1;
+        return own >= 0 ? own : this->lane(lane).signal_group;
+    }
+    // The turn of a trip at the end of its leg-th edge; none: it ends there.
+    Turn turn_of_trip(int trip, int leg) const { return demand_->turn_of_trip(trip, leg); }
     // Of a lane inside an intersection: conflict areas from its start, and the lanes that it meets there.
     std::span<const Conflict> conflicts(int lane) const { return conflicts_.of(lane); }
     std::span<const int> meets(int lane) const { return meets_.of(lane); }
@@ -98,8 +109,11 @@ private:
     std::vector<int> order_;
     std::vector<BesidePlan> beside_;
     std::vector<int> changing_;
-    std::vector<Turn> turns_;                      // [route]
-    std::vector<std::array<int, 4>> routes_with_;  // [approach][turn]
+    std::vector<Turn> turns_;                               // [route]
+    std::vector<std::array<int, kMostTurns>> routes_with_;  // [approach][turn]
+    std::vector<int> like_;                                 // [route]
+    std::vector<int> lights_;                               // [lane] Lane::light
+    const DemandPlan* demand_;                              // of the model, which outlives the plan
 };
 
 }  // namespace stopline

@@ -28,6 +28,35 @@ Ahead still_shared(const State& state, int lane, double& rear_m) {
     return found;
 }
 
+// Beyond the route, which ends on the next edge: on edges that are shorter than the range. Nobody is on the route.
+Ahead ahead_on_trip(const State& state, int lane, int slot, double range_m) {
+    const VehicleRecord& record = state.vehicles.record[at(slot)];
+    const double position_m = state.vehicles.position_m[at(slot)];
+    const std::span<const int> route = state.plan.route(record.route);
+    double start_m = 0.0;  // of `at_lane`, from the start of the vehicle's own
+    int at_lane = lane;
+    for (std::size_t k = at(record.route_index) + 1; k < route.size(); ++k) {
+        start_m += state.plan.lane(at_lane).length_m;
+        at_lane = route[k];
+    }
+    for (int leg = record.leg + 1;; ++leg) {
+        const Turn turn = state.plan.turn_of_trip(record.trip, leg);
+        const int way = turn == Turn::none ? -1 : state.plan.beside(at_lane).way(turn).route;
+        double rear_m = kFar_m;
+        Ahead shared = still_shared(state, at_lane, rear_m);
+        if (shared.slot >= 0) return {shared.slot, start_m + shared.start_m};
+        if (way < 0) return {};
+        const std::span<const int> on = state.plan.route(way);
+        for (std::size_t k = 1; k < on.size(); ++k) {
+            start_m += state.plan.lane(at_lane).length_m;
+            at_lane = on[k];
+            if (start_m - position_m > range_m) return {};
+            const LaneBlock& block = state.blocks[at(at_lane)];
+            if (block.count > 0) return {block.last(), start_m};
+        }
+    }
+}
+
 }  // namespace
 
 Ahead vehicle_ahead(const State& state, int lane, int slot, double range_m) {
@@ -36,7 +65,10 @@ Ahead vehicle_ahead(const State& state, int lane, int slot, double range_m) {
         double rear_m = kFar_m;
         return still_shared(state, lane, rear_m);
     }
-    return vehicle_ahead(state, lane, state.vehicles.position_m[at(slot)], record.route, record.route_index, range_m);
+    const double position_m = state.vehicles.position_m[at(slot)];
+    const Ahead seen = vehicle_ahead(state, lane, position_m, record.route, record.route_index, range_m);
+    if (seen.slot >= 0 || record.trip < 0) return seen;
+    return ahead_on_trip(state, lane, slot, range_m);
 }
 
 Ahead vehicle_ahead(const State& state, int lane, double position_m, int route_number, int index, double range_m) {

@@ -62,7 +62,7 @@ public:
         if (last_imposed() > first + resting.from) resting.imposed = state_.tick;
         find_resting(v_, block_, state_.tick, resting);
         if (resting.from == 0 && resting.to > 0 && rests_before_line()) {
-            sleeps = plan_.signal_group;
+            sleeps = state_.plan.light_before(lane_, v_.record[at(first)].next_lane);
             v_.imposed_mps[at(first)] = 0.0;  // others in its block are moved
             return add(first + resting.to, block_.stop());
         }

@@ -26,6 +26,7 @@ void check(const Model& model) {
     if (model.meso && model.krauss.size() != model.policies.size()) {
         throw InputError("every policy needs a mesoscale model");
     }
+    if (model.demand.trips.size() != model.demand.trip_policies.size()) throw InputError("every trip needs a policy");
     if (model.v2v.steps < 1) throw InputError("driver: v2v_delay must be at least one simulation step");
 }
 

@@ -81,6 +81,9 @@ struct Model {
     double turn_share = 1.0;      // of what is missing to what the way to a turn allows
     double leader_mps2 = 0.0;     // acceleration of platoon leaders, up to a speed; 0: that of their policy's model
     double leader_until_mps = 0.0;
+    // Detectors that stand for where trips begin and end, wherever that is; -1: none. They lie where nobody passes them.
+    int trips_begin = -1;
+    int trips_end = -1;
     bool records_all = true;         // passages, accepted gaps, all detectors; else crossings of zones only
     bool records_detectors = false;  // crossings of all detectors even so
     bool scalar_kernels = false;     // the oracle: one vehicle at a time, none left out, same bits

@@ -69,7 +69,7 @@ void move_vehicles(const Model& model, const FullTables& tables, State& state, N
     part.ended.clear();
     for (const int lane : part.awake) {
         const int first = state.blocks[at(lane)].first;
-        if (state.vehicles.position_m[at(first)] >= state.plan.lane(lane).length_m) part.ended.push_back(lane);
+        if (has_ended(state, lane, first)) part.ended.push_back(lane);
     }
 }
 

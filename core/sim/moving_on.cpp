@@ -18,6 +18,7 @@ std::size_t at(int index) { return static_cast<std::size_t>(index); }
 int lane_beyond(const Model& model, const State& state, int lane, int slot) {
     const VehicleArrays& v = state.vehicles;
     const Route& route = model.graph.routes[at(v.record[at(slot)].route)];
+    if (route.lanes.size() < 2) return -1;  // its trip ends here
     const bool before = model.graph.lanes[at(lane)].signal_group >= 0 || model.graph.lanes[at(lane)].origin >= 0;
     return before ? route.lanes.back() : -1;
 }
@@ -28,12 +29,14 @@ void note(const Model& model, State& state, RuleUse::Kind kind, int slot, int la
     state.hindrance.rules.push_back({kind, model.time_s(state.tick), v.id[at(slot)], lane, -1, stood_s});
 }
 
-void take_out(const Model& model, State& state, int lane) {
+}  // namespace
+
+bool take_out(const Model& model, State& state, int lane) {
     make_room_in_limbo(state);
     LaneBlock& block = state.blocks[at(lane)];
     const int slot = block.first;
     const int beyond = lane_beyond(model, state, lane, slot);
-    if (beyond < 0 || state.limbo.stop() == state.limbo.end) return;
+    if (beyond < 0 || state.limbo.stop() == state.limbo.end) return false;
     // Detectors that it has not passed will not see it.
     for (const int detector : state.detectors_of[at(lane)]) {
         int& upstream = state.upstream[at(detector)];
@@ -45,9 +48,9 @@ void take_out(const Model& model, State& state, int lane) {
     ++state.limbo.count;
     state.removed.push_back({beyond, state.tick});
     remove_first(state, lane);
+    return true;
 }
 
-// Whether a vehicle on its way to the lane could not stop behind one that is put at its start.
 bool somebody_comes(const Model& model, const State& state, int lane) {
     const VehicleArrays& v = state.vehicles;
     const double b = model.driver.cacc.deceleration_comfort_mps2;
@@ -71,6 +74,8 @@ bool somebody_comes(const Model& model, const State& state, int lane) {
     }
     return false;
 }
+
+namespace {
 
 // Puts the k-th vehicle that was taken out at the start of its lane, its rear just behind the intersection. False: there is no room.
 bool put_back(const Model& model, State& state, int k) {
@@ -116,6 +121,9 @@ bool put_back(const Model& model, State& state, int k) {
 void look_further(const Model& model, State& state, int waiting, Removed& removed) {
     const Lane& lane = model.graph.lanes[at(removed.lane)];
     if (lane.signal_group < 0 || model.time_s(state.tick - removed.since) < lane.length_m / lane.limit_mps) return;
+    const VehicleRecord& record = state.vehicles.record[at(waiting)];
+    if (record.trip >= 0 && state.plan.turn_of_trip(record.trip, record.leg + 1) == Turn::none)
+        return;  // its last lane
     choose_way_on(model, state, removed.lane, waiting);
     removed = {model.graph.routes[at(state.vehicles.record[at(waiting)].route)].lanes.back(), state.tick};
 }
@@ -124,7 +132,8 @@ void look_further(const Model& model, State& state, int waiting, Removed& remove
 
 void move_blocked_on(const Model& model, State& state) {
     const RulesPlan& rules = model.rules;
-    if (rules.teleport_ticks == 0 || state.tick % rules.watch_ticks != 0) return;
+    const bool has_some = rules.teleport_ticks > 0 || state.limbo.count > 0;
+    if (!has_some || state.tick % std::max<std::int64_t>(rules.watch_ticks, 1) != 0) return;
     LaneBlock& limbo = state.limbo;
     for (int k = 0; k < limbo.count;) {
         if (!put_back(model, state, k)) {
@@ -138,6 +147,7 @@ void move_blocked_on(const Model& model, State& state) {
         --limbo.count;
         state.vehicles.forget(limbo.stop());
     }
+    if (rules.teleport_ticks == 0) return;
     for (const NetworkPart& part : state.parts) {
         for (const int lane : part.occupied) {
             const LaneBlock& block = state.blocks[at(lane)];

@@ -29,9 +29,15 @@ void gather_reports(State& state);                       // what the parts have 
 void transfer_vehicles(const Model& model, State& state);
 void form_queues(const Model& model, State& state);  // before the first step
 void insert_vehicles(const Model& model, State& state);
+void insert_trips(const Model& model, State& state);  // trips.cpp
 void move_blocked_on(const Model& model, State& state);
 void change_lanes(const Model& model, State& state);
 void verify(State& state);
+
+// Whether a vehicle's trip ends on the edge that it is on; there it minds no stop line.
+inline bool trip_ends(const State& state, const VehicleRecord& record) {
+    return record.trip >= 0 && record.next_lane < 0 && state.plan.turn_of(record.route) == Turn::none;
+}
 
 // Fronts that are beyond the rear of their predecessor on the same lane.
 std::int64_t overlaps(const VehicleArrays& vehicles, std::span<const LaneStep> lanes);
@@ -39,6 +45,15 @@ std::int64_t overlaps(const VehicleArrays& vehicles, std::span<const LaneStep> l
 // A vehicle this near to a conflict area must know whether it can go on.
 inline double decides_within_m(const Model& model, double speed_mps) {
     return 0.5 * square(speed_mps) / model.driver.stop.deceleration_mps2 + 1.5 * speed_mps + 3.0;
+}
+
+// Whether a vehicle leaves its lane: at its end, or at the stop line where its trip ends.
+inline bool has_ended(const State& state, int lane, int slot) {
+    const LanePlan& plan = state.plan.lane(lane);
+    const double position_m = state.vehicles.position_m[static_cast<std::size_t>(slot)];
+    if (position_m >= plan.length_m) return true;
+    if (plan.signal_group < 0 || position_m < plan.stop_line_m) return false;
+    return trip_ends(state, state.vehicles.record[static_cast<std::size_t>(slot)]);
 }
 
 // When the front passed `line_m` within the last step.
@@ -68,6 +83,30 @@ void remove_first(State& state, int lane);
 // Moves the vehicle at place `from` of a lane, counted from its first, to place `place` of another one, its front at `front_m`. Slots of
 // all vehicles may change. Returns its new slot.
 int put_beside(const Model& model, State& state, int lane, int from, int other, int place, double front_m);
+
+// A vehicle as it enters.
+struct Entering {
+    int lane = -1;
+    double position_m = 0.0;
+    double speed_mps = 0.0;
+    double length_m = 0.0;
+    int policy = 0;
+    int route = -1;
+};
+// Puts it behind the last one of its lane, without a way on, and returns its slot.
+int put_on_lane(const Model& model, State& state, const Entering& entering);
+// When it has its way: what it sees, and that it came.
+void begin_to_drive(const Model& model, State& state, int lane, int slot);
+
+// Takes the first vehicle of a lane out, to be put back behind the intersection; false: that is not possible.
+bool take_out(const Model& model, State& state, int lane);
+// Whether a vehicle on its way to the lane could not stop behind one that is put at its start.
+bool somebody_comes(const Model& model, const State& state, int lane);
+
+// A vehicle on a trip comes to the leg-th edge of it, on one of its lanes.
+void follow_trip(const Model& model, State& state, int lane, int slot, int leg);
+// Notes that a trip begins or ends there.
+void note_trip(State& state, int detector, int slot, double time_s);
 
 // Gives a vehicle its place in its route.
 void put_on_route(const Model& model, VehicleArrays& vehicles, int slot, int route_index);

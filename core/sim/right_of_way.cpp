@@ -99,13 +99,64 @@ struct Arrival {
     }
 };
 
+// The vehicle that stops before a lane's line, for the light of the way that is asked for; -1: none. With green all may set out.
+int stops_at_light(const State& state, int lane, int way) {
+    const int stopping = state.stop_slot[at(lane)];
+    if (state.lights[at(state.plan.light_before(lane, way))] != Light::green) return stopping;
+    if (stopping < 0 || !state.plan.lane(lane).by_way) return -1;
+    const int next = state.vehicles.record[at(stopping)].next_lane;
+    return state.lights[at(state.plan.light_before(lane, next))] == Light::green ? -1 : stopping;
+}
+
+// Vehicles that move and come to `lane`, on their trips, to go on to `way`, from further back: on lanes shorter than the horizon. What is
+// decided for them in this step at other intersections is not asked for.
+struct Upstream {
+    int lane;
+    int way;
+    double to_area_m;  // from the lane's start
+    int depth;
+};
+
+void look_upstream(const Model& model, const State& state, const Upstream& here, double horizon_s, Arrival& soonest) {
+    constexpr int kDeepest = 3;
+    const VehicleArrays& v = state.vehicles;
+    if (here.depth == kDeepest) return;
+    const Turn turn = model.graph.lanes[at(here.way)].turn;
+    const auto see = [&](int slot, double distance_m, double limit_mps) {
+        if (v.speed_mps[at(slot)] < kStanding_mps || distance_m > horizon_s * limit_mps) return;
+        const VehicleRecord& record = v.record[at(slot)];
+        if (here.depth == 0 && record.turn_after != turn) return;
+        soonest.earlier(earliest_s(distance_m, v.speed_mps[at(slot)], model.give_way.approach_mps2, limit_mps), slot);
+    };
+    for (const int inside : model.leads_to[at(here.lane)]) {
+        const LanePlan& way = state.plan.lane(inside);
+        if (here.to_area_m > horizon_s * way.limit_mps) continue;
+        const LaneBlock& block = state.blocks[at(inside)];
+        const double limit_mps = state.plan.lane(here.lane).limit_mps;
+        if (block.count > 0) {
+            see(block.first, here.to_area_m + way.length_m - v.position_m[at(block.first)], limit_mps);
+            continue;
+        }
+        const double from_m = here.to_area_m + way.length_m + state.plan.lane(way.origin).length_m;
+        const LaneBlock& before = state.blocks[at(way.origin)];
+        for (int slot = before.first; slot < before.stop(); ++slot) {
+            const double distance_m = from_m - v.position_m[at(slot)];
+            if (distance_m > horizon_s * limit_mps) break;
+            if (v.record[at(slot)].next_lane == inside) {
+                see(slot, distance_m, limit_mps);
+                break;
+            }
+        }
+        look_upstream(model, state, {way.origin, inside, from_m, here.depth + 1}, horizon_s, soonest);
+    }
+}
+
 Arrival next_arrival(const Model& model, const State& state, const Conflict& conflict, double horizon_s) {
     const VehicleArrays& v = state.vehicles;
     const LanePlan& other = state.plan.lane(conflict.other);
     const LanePlan& origin = state.plan.lane(other.origin);
     const double a = model.give_way.approach_mps2;
-    const bool green = state.lights[at(origin.signal_group)] == Light::green;
-    const int stopping = green ? -1 : state.stop_slot[at(other.origin)];
+    const int stopping = stops_at_light(state, other.origin, conflict.other);
     Arrival soonest;
     for (const Insider& w : state.insiders[at(conflict.other)]) {
         if (w.front_m >= conflict.other_from_m) continue;
@@ -123,7 +174,11 @@ Arrival next_arrival(const Model& model, const State& state, const Conflict& con
         if (slot == stopping) break;
         if (v.position_m[at(slot)] > origin.stop_line_m || v.record[at(slot)].next_lane != conflict.other) continue;
         soonest.earlier(earliest_s(distance_m, v.speed_mps[at(slot)], a, other.limit_mps), slot);
-        break;
+        return soonest;
+    }
+    if (!model.demand.trips.empty()) {
+        look_upstream(model, state, {other.origin, conflict.other, origin.length_m + conflict.other_from_m, 0},
+                      horizon_s, soonest);
     }
     return soonest;
 }

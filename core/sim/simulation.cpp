@@ -62,6 +62,7 @@ void Simulation::step() {
     gather_reports(state_);
     transfer_vehicles(model_, state_);
     insert_vehicles(model_, state_);
+    insert_trips(model_, state_);
     move_blocked_on(model_, state_);
     change_lanes(model_, state_);
     ++state_.tick;

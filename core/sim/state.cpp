@@ -43,7 +43,7 @@ std::vector<NetworkPart> make_parts(const Model& model, const State& state, int 
     const int count = std::max(threads, state.plan.intersections() / kIntersectionsTogether);
     std::vector<std::vector<int>> detectors(order.size());
     for (std::size_t k = 0; k < model.detectors.size(); ++k) {
-        detectors[at(model.detectors[k].lane)].push_back(static_cast<int>(k));
+        if (model.detectors[k].lane >= 0) detectors[at(model.detectors[k].lane)].push_back(static_cast<int>(k));
     }
     std::vector<bool> is_exit(order.size(), false);
     std::vector<NetworkPart> parts(1);
@@ -89,6 +89,7 @@ State make_state(const Model& model, int threads) {
     state.holds.resize(lanes);
     state.adapting.resize(lanes);
     state.turned.resize(model.graph.approaches.size());
+    if (!model.demand.trips.empty()) state.waiting_trips.resize(model.graph.approaches.size());
     state.kept_out.resize(lanes);
     state.resting.resize(lanes);
     state.sleeps_until_green_of.assign(lanes, -1);
@@ -109,6 +110,7 @@ State make_state(const Model& model, int threads) {
     state.detectors_of.resize(lanes);
     state.upstream.assign(model.detectors.size(), 0);
     for (std::size_t k = 0; k < model.detectors.size(); ++k) {
+        if (model.detectors[k].lane < 0) continue;
         state.detectors_of[at(model.detectors[k].lane)].push_back(static_cast<int>(k));
     }
     state.inlets.resize(model.demand.inlets.size());

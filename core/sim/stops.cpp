@@ -36,6 +36,7 @@ int choose_stopper(const Model& model, const State& state, const LaneBlock& bloc
     const double deceleration = light == Light::yellow ? model.driver.stop.decision_deceleration_mps2
                                                        : model.driver.cacc.deceleration_emergency_mps2;
     for (int slot = block.first; slot < block.stop(); ++slot) {
+        if (trip_ends(state, state.vehicles.record[at(slot)])) continue;
         if (can_stop(model, state.vehicles, slot, line_m, deceleration)) return slot;
     }
     return -1;
@@ -49,6 +50,26 @@ bool line_is_open(const Model& model, const State& state, int signal_group, cons
 
 double needs_m(const VehicleArrays& v, int slot) {
     return static_cast<double>(v.length_m[at(slot)]) + static_cast<double>(v.standstill_gap_m[at(slot)]);
+}
+
+// Where movements have lights of their own: the first vehicle whose light is not green and that can stop does.
+int choose_stopper_by_way(const Model& model, const State& state, int index, const StopLineState& line) {
+    const LaneBlock& block = state.blocks[at(index)];
+    const VehicleArrays& v = state.vehicles;
+    for (int slot = block.first; slot < block.stop(); ++slot) {
+        const VehicleRecord& record = v.record[at(slot)];
+        if (trip_ends(state, record)) continue;
+        const int group = state.plan.light_before(index, record.next_lane);
+        const Light light = state.lights[at(group)];
+        const bool stopped = line.stopper == v.id[at(slot)];
+        const bool hesitates =
+            stopped && state.tick < model.signals[at(group)].since(state.tick) + model.hesitation_ticks;
+        if (light == Light::green && !hesitates) continue;
+        const double deceleration = light == Light::yellow ? model.driver.stop.decision_deceleration_mps2
+                                                           : model.driver.cacc.deceleration_emergency_mps2;
+        if (stopped || can_stop(model, v, slot, state.plan.lane(index).stop_line_m, deceleration)) return slot;
+    }
+    return -1;
 }
 
 // Looked for once a step, by whoever asks first.
@@ -104,7 +125,8 @@ struct Way {
 bool all_clear(const Model& model, State& state, std::span<const int> ways) {
     return std::all_of(ways.begin(), ways.end(), [&](int inside) {
         const int exit = state.plan.lane(inside).exit;
-        return exit < 0 || (look_into_exit(model, state, exit).standing < 0 && stands_across(model, state, inside) < 0);
+        return exit < 0 || !state.plan.lane(inside).keeps_clear ||
+               (look_into_exit(model, state, exit).standing < 0 && stands_across(model, state, inside) < 0);
     });
 }
 
@@ -114,7 +136,7 @@ public:
     Ways(const Model& model, State& state, std::span<const int> lanes) {
         for (const int inside : lanes) {
             const int exit = state.plan.lane(inside).exit;
-            if (exit < 0 || count_ == each_.size()) continue;
+            if (exit < 0 || !state.plan.lane(inside).keeps_clear || count_ == each_.size()) continue;
             each_[count_++] = {inside, look_into_exit(model, state, exit), stands_across(model, state, inside)};
         }
     }
@@ -126,7 +148,7 @@ public:
     }
 
 private:
-    std::array<Way, 8> each_;
+    std::array<Way, 16> each_;
     std::size_t count_ = 0;
 };
 
@@ -150,6 +172,15 @@ int keep_clear(const Model& model, State& state, int index) {
         return slot;
     }
     return -1;
+}
+
+// It leads what follows it through the next green. One that came to stand a little beyond the line sets out when that lets it. Of one
+// before the line nothing else is changed: its rear may still be in the intersection behind, which another thread looks at.
+void note_stop(State& state, const LanePlan& lane, int slot) {
+    state.vehicles.leads[at(slot)] = 1.0F;
+    if (state.vehicles.position_m[at(slot)] > lane.stop_line_m) {
+        state.vehicles.record[at(slot)].inside_since = static_cast<int>(state.tick);
+    }
 }
 
 // Those that will not stop here and are near to where ways meet, in front of them.
@@ -188,7 +219,15 @@ void decide_stops(const Model& model, State& state, NetworkPart& part) {
         StopLineState& line = state.stop_lines[at(index)];
         const LaneBlock& block = state.blocks[at(index)];
         int stop_slot = -1;
-        if (line_is_open(model, state, lane.signal_group, line)) {
+        if (lane.by_way) {
+            stop_slot = choose_stopper_by_way(model, state, index, line);
+            line.stopper = stop_slot < 0 ? -1 : state.vehicles.id[at(stop_slot)];
+            if (stop_slot >= 0) {
+                note_stop(state, lane, stop_slot);
+            } else if (model.rules.keep_clear) {
+                stop_slot = keep_clear(model, state, index);
+            }
+        } else if (line_is_open(model, state, lane.signal_group, line)) {
             line.stopper = -1;
             if (model.rules.keep_clear) stop_slot = keep_clear(model, state, index);
         } else {
@@ -197,15 +236,7 @@ void decide_stops(const Model& model, State& state, NetworkPart& part) {
                 stop_slot = choose_stopper(model, state, block, lane.stop_line_m, state.lights[at(lane.signal_group)]);
             }
             line.stopper = stop_slot < 0 ? -1 : state.vehicles.id[at(stop_slot)];
-            // It leads what follows it through the next green.
-            if (stop_slot >= 0) {
-                state.vehicles.leads[at(stop_slot)] = 1.0F;
-                // One that came to stand a little beyond the line sets out when the next green lets it. Of one before the
-                // line nothing is changed: its rear may still be in the intersection behind, which another thread looks at.
-                if (state.vehicles.position_m[at(stop_slot)] > lane.stop_line_m) {
-                    state.vehicles.record[at(stop_slot)].inside_since = static_cast<int>(state.tick);
-                }
-            }
+            if (stop_slot >= 0) note_stop(state, lane, stop_slot);
         }
         state.stop_slot[at(index)] = stop_slot;
         list_coming(model, state, index);

@@ -1,5 +1,6 @@
 // Vehicles that change lanes along their route, enter and leave.
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "base/random.h"
@@ -28,22 +29,35 @@ void note(State& state, double time_s, int slot, int from, int to) {
         {time_s, v.id[at(slot)], v.policy[at(slot)], from, to, static_cast<float>(v.speed_mps[at(slot)])});
 }
 
+// The lane does not serve the vehicle's way, and it could not change in time: it is put back behind the intersection, or stops at once.
+void stray(const Model& model, State& state, int lane) {
+    ++state.strayed;
+    if (take_out(model, state, lane)) return;
+    const std::size_t slot = at(state.blocks[at(lane)].first);
+    state.vehicles.position_m[slot] = std::nextafter(state.plan.lane(lane).length_m, 0.0);
+    state.vehicles.speed_mps[slot] = 0.0;
+}
+
 // Moves the first vehicle of a lane on along its route, or out of the network.
 void pass_on(const Model& model, State& state, int lane) {
     VehicleArrays& v = state.vehicles;
     const double length_m = state.plan.lane(lane).length_m;
     const int next = v.record[at(state.blocks[at(lane)].first)].next_lane;
     const bool leaves = next < 0;
+    const VehicleRecord& record = v.record[at(state.blocks[at(lane)].first)];
+    if (leaves && record.trip >= 0 && !trip_ends(state, record)) return stray(model, state, lane);
     if (!leaves) make_room(state, next);
     const int slot = state.blocks[at(lane)].first;
     const int index = v.record[at(slot)].route_index + 1;
-    const double time_s = passing_time_s(model, state, slot, length_m);
+    const double line_m = leaves && record.trip >= 0 ? state.plan.lane(lane).stop_line_m : length_m;
+    const double time_s = passing_time_s(model, state, slot, line_m);
     if (model.records_all) note(state, time_s, slot, lane, next);
     if (const int approach = model.graph.lanes[at(lane)].approach; approach >= 0 && !leaves) {
         ++state.turned[at(approach)][static_cast<std::size_t>(model.graph.lanes[at(next)].turn)];
     }
     if (leaves) {
         ++state.left;
+        if (v.record[at(slot)].trip >= 0) note_trip(state, model.trips_end, slot, time_s);
     } else {
         const int target = append_slot(state, next);
         v.copy(slot, target);
@@ -116,42 +130,56 @@ void drive_as(VehicleArrays& v, std::size_t i, std::size_t ahead) {
 void enter(const Model& model, State& state, int inlet_index, const Entry& entry) {
     const DemandPlan::Inlet& inlet = model.demand.inlets[at(inlet_index)];
     InletState& entered = state.inlets[at(inlet_index)];
-    const int policy = entered.next_policy;
-    const int route = entered.next_route;
+    const double length_m = model.vehicles[0].length_m;
+    const int slot =
+        put_on_lane(model, state,
+                    {inlet.lane, entry.position_m, entry.speed_mps, length_m, entered.next_policy, entered.next_route});
     entered.next_policy = -1;
-    const int slot = append_slot(state, inlet.lane);
     VehicleArrays& v = state.vehicles;
     const std::size_t i = at(slot);
-    const PowertrainTables& type = model.vehicles[0];
     const bool first = state.blocks[at(inlet.lane)].count == 1;
-    v.position_m[i] = entry.position_m;
-    v.speed_mps[i] = entry.speed_mps;
-    v.acceleration_mps2[i] = 0.0F;
-    v.length_m[i] = static_cast<float>(type.length_m);
-    v.reset_powertrain(slot, type, entry.speed_mps);
-    v.leads[i] = 1.0F;
     if (model.demand.saturated && !first && v.speed_mps[i - 1] <= entry.speed_mps) drive_as(v, i, i - 1);
-    v.standstill_gap_m[i] = static_cast<float>(model.policies[at(policy)].settings.standstill_gap_m);
-    v.policy[i] = policy;
-    v.type[i] = 0;
-    v.id[i] = state.next_id++;
-    v.record[i] = {};
-    v.record[i].route = route;
     take_way_of_lane(model, state, inlet.lane, slot);
     look_ahead(model, state, slot, true);
-    v.stands_since[i] = static_cast<int>(state.tick);
-    v.record[i].predecessor = first ? -1 : v.id[i - 1];
-    const double gap_m = first ? 1e6 : v.position_m[i - 1] - v.length_m[i - 1] - v.position_m[i];
-    v.reset_radar(slot, gap_m, first ? 0.0 : entry.speed_mps - v.speed_mps[i - 1]);
-    v.reset_v2v(slot);
-    state.resting[at(inlet.lane)].imposed = state.tick;
+    begin_to_drive(model, state, inlet.lane, slot);
     ++entered.entered;
     entered.last_entry_s = model.time_s(state.tick + 1);
-    ++state.entered;
-    if (model.records_all) note(state, entered.last_entry_s, slot, -1, inlet.lane);
 }
 
 }  // namespace
+
+int put_on_lane(const Model& model, State& state, const Entering& entering) {
+    const int slot = append_slot(state, entering.lane);
+    VehicleArrays& v = state.vehicles;
+    const std::size_t i = at(slot);
+    v.position_m[i] = entering.position_m;
+    v.speed_mps[i] = entering.speed_mps;
+    v.acceleration_mps2[i] = 0.0F;
+    v.length_m[i] = static_cast<float>(entering.length_m);
+    v.reset_powertrain(slot, model.vehicles[0], entering.speed_mps);
+    v.leads[i] = 1.0F;
+    v.standstill_gap_m[i] = static_cast<float>(model.policies[at(entering.policy)].settings.standstill_gap_m);
+    v.policy[i] = entering.policy;
+    v.type[i] = 0;
+    v.id[i] = state.next_id++;
+    v.record[i] = {};
+    v.record[i].route = entering.route;
+    return slot;
+}
+
+void begin_to_drive(const Model& model, State& state, int lane, int slot) {
+    VehicleArrays& v = state.vehicles;
+    const std::size_t i = at(slot);
+    const bool first = slot == state.blocks[at(lane)].first;
+    v.stands_since[i] = static_cast<int>(state.tick);
+    v.record[i].predecessor = first ? -1 : v.id[i - 1];
+    const double gap_m = first ? 1e6 : v.position_m[i - 1] - v.length_m[i - 1] - v.position_m[i];
+    v.reset_radar(slot, gap_m, first ? 0.0 : v.speed_mps[i] - v.speed_mps[i - 1]);
+    v.reset_v2v(slot);
+    state.resting[at(lane)].imposed = state.tick;
+    ++state.entered;
+    if (model.records_all) note(state, model.time_s(state.tick + 1), slot, -1, lane);
+}
 
 double desired_gap_m(const Model& model, int policy_number, double speed_mps) {
     const CompiledPolicy& policy = model.policies[at(policy_number)];
@@ -172,6 +200,10 @@ void put_on_route(const Model& model, VehicleArrays& v, int slot, int index) {
 }
 
 void choose_way_on(const Model& model, State& state, int lane, int slot) {
+    if (const VehicleRecord& own = state.vehicles.record[at(slot)]; own.trip >= 0) {
+        if (state.plan.lane(lane).origin < 0) follow_trip(model, state, lane, slot, own.leg + 1);
+        return;
+    }
     const int inlet = state.inlet_of[at(lane)];
     if (inlet < 0) return;
     VehicleRecord& record = state.vehicles.record[at(slot)];
@@ -182,11 +214,34 @@ void choose_way_on(const Model& model, State& state, int lane, int slot) {
     look_ahead(model, state, slot, false);
 }
 
+namespace {
+
+// Of routes that lead to different lanes of one edge, one to a lane from which fewest changes are left to be made; by turns, if several do.
+int best_of_like(const State& state, int route, int slot) {
+    const auto changes = [&](int way) {
+        const Turn after = state.vehicles.record[at(slot)].turn_after;
+        return std::abs(state.plan.beside(state.plan.route(way).back()).way(after).changes);
+    };
+    int fewest = changes(route);
+    int count = 0;
+    for (int way = route; way >= 0; way = state.plan.like(way)) {
+        if (changes(way) < fewest) fewest = changes(way), count = 0;
+        if (changes(way) == fewest) ++count;
+    }
+    int left = state.vehicles.id[at(slot)] % count;
+    for (int way = route; way >= 0; way = state.plan.like(way)) {
+        if (changes(way) == fewest && left-- == 0) return way;
+    }
+    return route;
+}
+
+}  // namespace
+
 void take_way_of_lane(const Model& model, State& state, int lane, int slot) {
     VehicleRecord& record = state.vehicles.record[at(slot)];
     const int own = state.plan.beside(lane).way(state.plan.turn_of(record.route)).route;
     if (own >= 0) {
-        record.route = own;
+        record.route = state.plan.like(own) < 0 ? own : best_of_like(state, own, slot);
         return put_on_route(model, state.vehicles, slot, 0);
     }
     record.route_index = 0;
@@ -207,10 +262,8 @@ double passing_time_s(const Model& model, const State& state, int slot, double l
 void transfer_vehicles(const Model& model, State& state) {
     for (NetworkPart& part : state.parts) {
         for (const int lane : part.ended) {
-            const double length_m = state.plan.lane(lane).length_m;
             const LaneBlock& block = state.blocks[at(lane)];
-            while (block.count > 0 && state.vehicles.position_m[at(block.first)] >= length_m)
-                pass_on(model, state, lane);
+            while (block.count > 0 && has_ended(state, lane, block.first)) pass_on(model, state, lane);
         }
     }
 }

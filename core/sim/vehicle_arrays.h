@@ -38,6 +38,8 @@ struct alignas(64) VehicleRecord {
     int held_at = -2;              // last tick at which it had to wait before a conflict area
     Turn turn_after = Turn::none;  // at the next intersection but one, if known
     int changed_at = -1'000'000;   // tick of its last change of lanes
+    int trip = -1;                 // of the demand; -1: it draws its way at each intersection
+    int leg = 0;                   // place in the trip of the edge that it is on, or that it has left last
 };
 
 struct VehicleArrays {

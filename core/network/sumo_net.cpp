@@ -1,0 +1,271 @@
+#include "network/sumo_net.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "network/sumo_signal_file.h"
+#include "network/sumo_xml.h"
+
+namespace stopline {
+
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+std::vector<bool> bits_of(std::string_view text) {  // the last letter is link 0
+    std::vector<bool> bits;
+    for (auto letter = text.rbegin(); letter != text.rend(); ++letter) bits.push_back(*letter == '1');
+    return bits;
+}
+
+// Elements of a network that are not read.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kIgnored{{
+    {"roundabout", "roundabouts have no rules of their own: their junctions' matrices hold"},
+    {"prohibition", "prohibitions are contained in the junctions' matrices and not read"},
+    {"WAUT", "signal programmes are not switched"},
+    {"wautJunction", "signal programmes are not switched"},
+    {"stop", "places for stops are not read"},
+}};
+
+class NetReader {
+public:
+    explicit NetReader(const std::filesystem::path& file) : xml_(file, {"net"}) {}
+
+    SumoNet read() {
+        const std::string hand = xml_.root().attribute("lefthand").value();
+        if (hand == "true" || hand == "1") xml_.refuse(xml_.root(), "networks with left-hand traffic are not read");
+        for (const pugi::xml_node node : xml_.root()) {
+            const std::string_view name = node.name();
+            if (name == "edge") read_edge(node);
+            if (name == "junction") read_junction(node);
+            for (const auto& [ignored, why] : kIgnored) {
+                if (name == ignored) net_.warnings.note(xml_.where(node), std::string(why));
+            }
+        }
+        for (const pugi::xml_node node : xml_.root().children("tlLogic")) add_sumo_signal(xml_, node, true, net_);
+        for (const pugi::xml_node node : xml_.root().children("connection")) read_connection(node);
+        const auto drives = [](const SumoEdge& edge) {
+            return !edge.internal && std::any_of(edge.lanes.begin(), edge.lanes.end(), [](auto& l) { return l.cars; });
+        };
+        if (std::none_of(net_.edges.begin(), net_.edges.end(), drives)) {
+            xml_.refuse(xml_.root(), "there is no lane on which passenger cars may drive");
+        }
+        net_.hash = xml_.hash();
+        return std::move(net_);
+    }
+
+private:
+    void read_edge(pugi::xml_node node) {
+        SumoEdge edge;
+        edge.id = xml_.text(node, "id");
+        edge.where = xml_.where(node);
+        const std::string function = node.attribute("function").value();
+        edge.internal = !function.empty() && function != "normal" && function != "connector";
+        const bool walk = function == "crossing" || function == "walkingarea";
+        if (walk) net_.warnings.note(edge.where, "crossings and places for pedestrians are not read");
+        if (node.child("neigh") || node.first_child().child("neigh")) {
+            net_.warnings.note(edge.where, "nobody drives on lanes of the opposite direction");
+        }
+        for (const pugi::xml_node lane : node.children("lane")) {
+            read_lane(lane, edge);
+            if (walk) edge.lanes.back().cars = false;
+        }
+        if (edge.lanes.empty()) xml_.refuse(node, fmt::format("edge '{}' has no lane", edge.id));
+        if (!net_.edge_by_id.emplace(edge.id, static_cast<int>(net_.edges.size())).second) {
+            xml_.refuse(node, fmt::format("there are two edges '{}'", edge.id));
+        }
+        net_.edges.push_back(std::move(edge));
+    }
+
+    void read_lane(pugi::xml_node node, SumoEdge& edge) {
+        constexpr double kLongest_m = 1e6;
+        constexpr double kFastest_mps = 200.0;
+        const auto index = xml_.whole(node, "index");
+        if (index != static_cast<int>(edge.lanes.size())) {
+            xml_.refuse(node, fmt::format("lanes of edge '{}' are not numbered 0, 1, 2, ... in order", edge.id));
+        }
+        SumoLane lane;
+        lane.length_m = xml_.number(node, "length");
+        lane.speed_mps = xml_.number(node, "speed");
+        if (!(lane.length_m > 0.0) || lane.length_m > kLongest_m) {
+            xml_.refuse(node, fmt::format("length=\"{}\" must be more than 0 and at most {} m",
+                                          node.attribute("length").value(), kLongest_m));
+        }
+        lane.cars = sumo_allows_cars(node.attribute("allow").value(), node.attribute("disallow").value());
+        if (lane.cars && (!(lane.speed_mps > 0.0) || lane.speed_mps > kFastest_mps)) {
+            xml_.refuse(node, fmt::format("speed=\"{}\" must be more than 0 and at most {} m/s",
+                                          node.attribute("speed").value(), kFastest_mps));
+        }
+        const std::string shape = xml_.text(node, "shape");
+        std::optional<Polyline> points = sumo_shape(shape);
+        if (!points) xml_.refuse(node, "shape has a point that is not a pair of finite numbers");
+        if (points->size() < 2 && !edge.internal) xml_.refuse(node, "shape needs two different points");
+        lane.shape = std::move(*points);
+        if (node.child("stopOffset")) net_.warnings.note(xml_.where(node), "stopOffset is not read");
+        if (node.attribute("changeLeft") || node.attribute("changeRight")) {
+            net_.warnings.note(xml_.where(node), "permissions to change lanes are not read");
+        }
+        edge.lanes.push_back(std::move(lane));
+    }
+
+    void read_junction(pugi::xml_node node) {
+        SumoJunction junction{xml_.text(node, "id"), xml_.text(node, "type")};
+        const std::string& type = junction.type;
+        if (type == "internal") return;
+        if (type == "rail_signal" || type == "rail_crossing") {
+            net_.warnings.note(xml_.where(node), "signals and crossings of railways are not read");
+        }
+        if (!junctions_.emplace(junction.id, 0).second) {
+            xml_.refuse(node, fmt::format("there are two junctions '{}'", junction.id));
+        }
+        const auto number = static_cast<int>(net_.junctions.size());
+        int link = 0;
+        for (const std::string_view lane : sumo_words(node.attribute("intLanes").value())) {
+            net_.link_of[std::string(lane)] = {number, link++};
+        }
+        for (const std::string_view lane : sumo_words(node.attribute("incLanes").value())) {
+            junction.incoming.emplace_back(lane);
+        }
+        std::size_t expected = 0;
+        for (const pugi::xml_node request : node.children("request")) {
+            const auto index = at(xml_.whole(request, "index"));
+            if (index != expected++) xml_.refuse(request, "requests are not numbered 0, 1, 2, ... in order");
+            junction.response.push_back(bits_of(xml_.text(request, "response")));
+            junction.foes.push_back(bits_of(xml_.text(request, "foes")));
+        }
+        for (std::size_t k = 0; k < junction.response.size(); ++k) {
+            if (junction.response[k].size() == expected && junction.foes[k].size() == expected) continue;
+            xml_.refuse(node, fmt::format("junction '{}': request {} does not have a bit for each of {} links",
+                                          junction.id, k, expected));
+        }
+        net_.junctions.push_back(std::move(junction));
+    }
+
+    int known_edge(pugi::xml_node node, const char* attribute) const {
+        const std::string id = xml_.text(node, attribute);
+        const auto found = net_.edge_by_id.find(id);
+        if (found == net_.edge_by_id.end()) xml_.refuse(node, fmt::format("{}: there is no edge '{}'", attribute, id));
+        return found->second;
+    }
+
+    int known_lane(pugi::xml_node node, const char* attribute, int edge) const {
+        const int lane = xml_.whole(node, attribute);
+        if (at(lane) >= net_.edges[at(edge)].lanes.size()) {
+            xml_.refuse(node, fmt::format("{}: edge '{}' has no lane {}", attribute, net_.edges[at(edge)].id, lane));
+        }
+        return lane;
+    }
+
+    const SumoLane& lane(int edge, int index) const { return net_.edges[at(edge)].lanes[at(index)]; }
+
+    void read_via(pugi::xml_node node, SumoConnection& c) const {
+        const std::string via = node.attribute("via").value();
+        if (via.empty()) return;
+        const std::size_t cut = via.rfind('_');
+        const auto found = net_.edge_by_id.find(via.substr(0, std::min(cut, via.size())));
+        const auto index = cut == std::string::npos ? std::nullopt : sumo_number(via.substr(cut + 1));
+        const bool known = found != net_.edge_by_id.end() && index && *index >= 0.0 &&
+                           *index < static_cast<double>(net_.edges[at(found->second)].lanes.size());
+        if (!known) xml_.refuse(node, fmt::format("via: there is no lane '{}'", via));
+        c.via = found->second;
+        c.via_lane = static_cast<int>(*index);
+    }
+
+    void read_signal(pugi::xml_node node, SumoConnection& c) const {
+        const std::string tl = node.attribute("tl").value();
+        if (tl.empty()) return;
+        const auto found = net_.signal_by_id.find(tl);
+        if (found == net_.signal_by_id.end()) xml_.refuse(node, fmt::format("tl: there is no tlLogic '{}'", tl));
+        c.tl = found->second;
+        c.tl_link = xml_.whole(node, "linkIndex");
+        const std::size_t links = net_.signals[at(c.tl)].phases[0].state.size();
+        if (at(c.tl_link) >= links) {
+            xml_.refuse(node,
+                        fmt::format("linkIndex {}: the phases of tlLogic '{}' have {} letters", c.tl_link, tl, links));
+        }
+    }
+
+    void read_connection(pugi::xml_node node) {
+        SumoConnection c;
+        c.from = known_edge(node, "from");
+        c.to = known_edge(node, "to");
+        c.from_lane = known_lane(node, "fromLane", c.from);
+        c.to_lane = known_lane(node, "toLane", c.to);
+        c.where = xml_.where(node);
+        if (!lane(c.from, c.from_lane).cars || !lane(c.to, c.to_lane).cars) return;
+        if (!sumo_allows_cars(node.attribute("allow").value(), node.attribute("disallow").value())) return;
+        read_via(node, c);
+        read_signal(node, c);
+        const std::string_view dir = node.attribute("dir").value();
+        const std::string_view state = node.attribute("state").value();
+        if (!dir.empty()) c.dir = dir[0];
+        if (!state.empty()) c.state = state[0];
+        const std::string keep_clear = node.attribute("keepClear").value();
+        c.keep_clear = keep_clear != "0" && keep_clear != "false";
+        const std::string pass = node.attribute("pass").value();
+        c.pass = pass == "1" || pass == "true";
+        net_.connections.push_back(std::move(c));
+    }
+
+    SumoXml xml_;
+    SumoNet net_;
+    std::unordered_map<std::string, int> junctions_;
+};
+
+}  // namespace
+
+double SumoSignal::cycle_s() const {
+    double sum_s = 0.0;
+    for (const SumoPhase& phase : phases) sum_s += phase.duration_s;
+    return sum_s;
+}
+
+void SumoWarnings::note(const std::string& where, const std::string& what) {
+    constexpr int kShown = 3;
+    auto known = std::find_if(kinds_.begin(), kinds_.end(), [&](const Kind& kind) { return kind.what == what; });
+    if (known == kinds_.end()) known = kinds_.insert(kinds_.end(), {what, {}, 0});
+    if (++known->count <= kShown) known->places.push_back(where);
+}
+
+std::vector<std::string> SumoWarnings::lines() const {
+    std::vector<std::string> lines;
+    for (const Kind& kind : kinds_) {
+        for (const std::string& place : kind.places) lines.push_back(place + ": " + kind.what);
+        const int more = kind.count - static_cast<int>(kind.places.size());
+        if (more > 0) lines.push_back(fmt::format("{} more times: {}", more, kind.what));
+    }
+    return lines;
+}
+
+bool sumo_allows_cars(std::string_view allow, std::string_view disallow) {
+    const auto has = [](std::string_view list, std::string_view name) {
+        const std::vector<std::string_view> words = sumo_words(list);
+        return std::find(words.begin(), words.end(), name) != words.end();
+    };
+    if (!allow.empty()) return has(allow, "passenger") || has(allow, "all");
+    return !has(disallow, "passenger") && !has(disallow, "all");
+}
+
+std::optional<Polyline> sumo_shape(std::string_view text) {
+    constexpr double kSame_m = 0.005;
+    constexpr double kFarthest_m = 1e8;
+    Polyline line;
+    for (const std::string_view word : sumo_words(text)) {
+        const std::size_t comma = word.find(',');
+        if (comma == std::string_view::npos) return std::nullopt;
+        const std::size_t end = std::min(word.find(',', comma + 1), word.size());
+        const auto x = sumo_number(word.substr(0, comma));
+        const auto y = sumo_number(word.substr(comma + 1, end - comma - 1));
+        if (!x || !y || std::abs(*x) > kFarthest_m || std::abs(*y) > kFarthest_m) return std::nullopt;
+        const bool same = !line.empty() && std::hypot(line.back().x_m - *x, line.back().y_m - *y) < kSame_m;
+        if (!same) line.push_back({*x, *y});
+    }
+    return line;
+}
+
+SumoNet read_sumo_net(const std::filesystem::path& file) { return NetReader(file).read(); }
+
+}  // namespace stopline

@@ -1,0 +1,122 @@
+#include "network/sumo_right_of_way.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <unordered_map>
+
+#include "network/conflicts.h"
+
+namespace stopline {
+
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+bool bit(const std::vector<std::vector<bool>>& matrix, int row, int column) {
+    return row >= 0 && column >= 0 && at(row) < matrix.size() && at(column) < matrix.size() &&
+           matrix[at(row)][at(column)];
+}
+
+bool is_major(char letter) { return letter == 'G' || letter == 'O'; }
+
+class Finder {
+public:
+    Finder(SumoNetwork& made, std::vector<SumoWay>& ways, double clearance_m)
+        : made_(made), ways_(ways), clearance_m_(clearance_m) {}
+
+    void find() {
+        made_.graph.conflicts.assign(made_.graph.lanes.size(), {});
+        count_links_without_via();
+        std::vector<std::vector<int>> of_junction(made_.net.junctions.size());
+        for (std::size_t k = 0; k < ways_.size(); ++k) {
+            if (ways_[k].junction >= 0) of_junction[at(ways_[k].junction)].push_back(static_cast<int>(k));
+        }
+        for (std::size_t junction = 0; junction < of_junction.size(); ++junction) {
+            const std::vector<int>& ways = of_junction[junction];
+            for (std::size_t one = 0; one < ways.size(); ++one) {
+                for (std::size_t two = one + 1; two < ways.size(); ++two) {
+                    add(made_.net.junctions[junction], ways_[at(ways[one])], ways_[at(ways[two])]);
+                }
+            }
+        }
+        for (SumoWay& way : ways_) {
+            std::vector<Conflict>& all = made_.graph.conflicts[at(way.lane)];
+            std::stable_sort(all.begin(), all.end(),
+                             [](const Conflict& a, const Conflict& b) { return a.from_m < b.from_m; });
+            if (all.empty()) lane(way).keeps_clear = false;
+        }
+    }
+
+private:
+    Lane& lane(const SumoWay& way) { return made_.graph.lanes[at(way.lane)]; }
+
+    // In networks without internal lanes links are counted by lane that leads to the junction, and then in the order of the file.
+    void count_links_without_via() {
+        std::unordered_map<std::string, std::vector<SumoWay*>> from;
+        for (SumoWay& way : ways_) {
+            if (way.connection->via < 0) from[made_.graph.lanes[at(lane(way).origin)].name].push_back(&way);
+        }
+        for (std::size_t junction = 0; junction < made_.net.junctions.size() && !from.empty(); ++junction) {
+            int link = 0;
+            for (const std::string& incoming : made_.net.junctions[junction].incoming) {
+                const auto found = from.find(incoming);
+                if (found == from.end()) continue;
+                for (SumoWay* way : found->second) {
+                    way->junction = static_cast<int>(junction);
+                    way->link = link++;
+                }
+            }
+        }
+    }
+
+    void add(const SumoJunction& junction, const SumoWay& one, const SumoWay& two) {
+        const Lane& a = lane(one);
+        const Lane& b = lane(two);
+        const bool foes = bit(junction.foes, one.link, two.link) || bit(junction.foes, two.link, one.link);
+        if (a.origin == b.origin || (!foes && a.next != b.next)) return;
+        const std::optional<Conflict> c = conflict_of(a, b, clearance_m_);
+        if (!c) return;
+        const bool one_yields = yields(junction, one, two);
+        const bool two_yields = yields(junction, two, one);
+        made_.graph.conflicts[at(one.lane)].push_back(
+            {two.lane, c->from_m, c->to_m, c->other_from_m, c->other_to_m, one_yields, two_yields});
+        made_.graph.conflicts[at(two.lane)].push_back(
+            {one.lane, c->other_from_m, c->other_to_m, c->from_m, c->to_m, two_yields, one_yields});
+    }
+
+    // Lights that are green together: those of one programme by its phases, of others possibly.
+    bool yields(const SumoJunction& junction, const SumoWay& way, const SumoWay& to) const {
+        if (way.connection->pass) return false;
+        const bool asked = bit(junction.response, way.link, to.link);
+        const int tl = way.connection->tl;
+        if (tl < 0 || tl != to.connection->tl) return asked && !mutual(junction, way, to);
+        bool together = false;
+        bool minor = false;
+        for (const SumoPhase& phase : made_.net.signals[at(tl)].phases) {
+            const char own = phase.state[at(way.connection->tl_link)];
+            const char other = phase.state[at(to.connection->tl_link)];
+            if (phase.duration_s <= 0.0 || !sumo_is_green(own) || !sumo_is_green(other)) continue;
+            together = true;
+            minor = minor || (!is_major(own) && is_major(other));
+        }
+        return together && (minor || (asked && !mutual(junction, way, to)));
+    }
+
+    // Both are asked to wait, as at an allway stop: then neither comes first.
+    static bool mutual(const SumoJunction& junction, const SumoWay& way, const SumoWay& to) {
+        return bit(junction.response, way.link, to.link) && bit(junction.response, to.link, way.link);
+    }
+
+    SumoNetwork& made_;
+    std::vector<SumoWay>& ways_;
+    double clearance_m_;
+};
+
+}  // namespace
+
+void find_sumo_conflicts(SumoNetwork& made, std::vector<SumoWay>& ways, double clearance_m) {
+    Finder(made, ways, clearance_m).find();
+}
+
+}  // namespace stopline

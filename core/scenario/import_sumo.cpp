@@ -1,0 +1,64 @@
+#include "scenario/import_sumo.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "demand/sumo_routes.h"
+#include "network/sumo_graph.h"
+#include "network/sumo_net.h"
+
+namespace stopline {
+
+void import_sumo(Scenario& scenario, const std::filesystem::path& directory) {
+    NetworkSettings& network = scenario.network;
+    if (!network.is_sumo()) return;
+    SumoNet net = read_sumo_net(directory / network.net);
+    std::vector<std::filesystem::path> additional;
+    for (const std::string& file : network.additional) {
+        additional.push_back(directory / file);
+        read_sumo_additional(additional.back(), net);
+    }
+    const auto made =
+        std::make_shared<SumoNetwork>(make_sumo_network(std::move(net), network.intersection.clearance_m));
+    network.sumo = made;
+    std::vector<std::filesystem::path> routes;
+    for (const std::string& file : network.routes) routes.push_back(directory / file);
+    scenario.demand.sumo = std::make_shared<SumoTraffic>(
+        read_sumo_routes({additional, routes}, *made, scenario.duration_s, scenario.seed));
+}
+
+void add_sumo_trips(const Scenario& scenario, DemandPlan& plan) {
+    const SumoTraffic& traffic = *scenario.demand.sumo;
+    plan.trips = traffic.trips;
+    plan.trip_turns = traffic.turns;
+    plan.shortest_trip_m = traffic.shortest_m();
+    plan.seed = scenario.seed;
+    plan.draw_trip_policies();
+}
+
+std::vector<std::string> sumo_warnings(const Scenario& scenario) {
+    std::vector<std::string> lines;
+    if (!scenario.network.sumo || !scenario.demand.sumo) return lines;
+    lines = scenario.network.sumo->net.warnings.lines();
+    for (std::string& line : scenario.demand.sumo->warnings.lines()) lines.push_back(std::move(line));
+    return lines;
+}
+
+std::uint64_t sumo_files_hash(const Scenario& scenario) {
+    if (!scenario.network.sumo || !scenario.demand.sumo) return 0;
+    return scenario.network.sumo->net.hash * 0x100000001b3U ^ scenario.demand.sumo->hash;
+}
+
+double Scenario::intersection_cycle_s() const {
+    if (network.is_sumo()) return network.sumo->longest_cycle_s();
+    return network.is_streets() ? network.streets.intersections.front().programme.cycle_s() : signal.both_stages_s();
+}
+
+double Scenario::longest_green_s() const {
+    if (network.is_sumo()) return network.sumo->longest_green_s();
+    return network.is_streets() ? network.streets.longest_green_s()
+                                : std::max(signal.green_of_s(0), signal.green_of_s(1));
+}
+
+}  // namespace stopline

@@ -1,0 +1,27 @@
+// SUMO's files of a scenario, read when it is loaded.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scenario/scenario.h"
+
+namespace stopline {
+
+struct DemandPlan;
+
+// Does nothing where the network is not of the kind `sumo`. `directory`: where relative paths start. Throws InputError with file and line.
+void import_sumo(Scenario& scenario, const std::filesystem::path& directory);
+
+// The trips of those files, with the policies that the plan's population gives them.
+void add_sumo_trips(const Scenario& scenario, DemandPlan& plan);
+
+// What those files have that is not read, a line each: "city.net.xml:12: ...".
+std::vector<std::string> sumo_warnings(const Scenario& scenario);
+
+// Of their contents; 0: there are none.
+std::uint64_t sumo_files_hash(const Scenario& scenario);
+
+}  // namespace stopline

@@ -1,0 +1,238 @@
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "network/sumo_graph.h"
+#include "network/sumo_net.h"
+#include "support/sumo_files.h"
+
+namespace stopline {
+namespace {
+
+using testing::crossing_net;
+using testing::refusal;
+using testing::replaced;
+using testing::signal_net;
+using testing::SumoFiles;
+using testing::two_phases;
+
+constexpr double kClearance_m = 2.0;
+
+SumoNetwork made_of(const std::string& text, const std::string& additional = "") {
+    const SumoFiles files;
+    SumoNet net = read_sumo_net(files.write("my.net.xml", text));
+    if (!additional.empty()) read_sumo_additional(files.write("my.add.xml", additional), net);
+    return make_sumo_network(std::move(net), kClearance_m);
+}
+
+int lane_of(const LaneGraph& graph, const std::string& name) {
+    const auto found =
+        std::find_if(graph.lanes.begin(), graph.lanes.end(), [&](auto& lane) { return lane.name == name; });
+    return found == graph.lanes.end() ? -1 : static_cast<int>(found - graph.lanes.begin());
+}
+
+const Lane& lane(const LaneGraph& graph, const std::string& name) {
+    return graph.lanes.at(static_cast<std::size_t>(lane_of(graph, name)));
+}
+
+const Conflict* conflict(const LaneGraph& graph, const std::string& of, const std::string& with) {
+    const int other = lane_of(graph, with);
+    for (const Conflict& c : graph.conflicts_of(lane_of(graph, of))) {
+        if (c.other == other) return &c;
+    }
+    return nullptr;
+}
+
+TEST(SumoNetwork, HasTheLanesOfCarsAndTheirNeighbours) {
+    const SumoNetwork made = made_of(crossing_net());
+    check(made.graph);
+    EXPECT_EQ(made.graph.lanes.size(), 6U + 4U);  // without the lane for bicycles
+    EXPECT_EQ(lane_of(made.graph, "n_out_0"), -1);
+    const Lane& left = lane(made.graph, "w_in_1");
+    EXPECT_EQ(left.right, lane_of(made.graph, "w_in_0"));
+    EXPECT_EQ(left.left, -1);
+    EXPECT_DOUBLE_EQ(left.stop_line_m, 190.0);
+    EXPECT_DOUBLE_EQ(left.limit_mps, 13.89);
+    EXPECT_EQ(left.next.size(), 2U);
+    EXPECT_EQ(lane(made.graph, "e_out_0").signal_group, -1);
+    EXPECT_EQ(left.signal_group, 0);  // always green
+}
+
+TEST(SumoNetwork, JoinsAChainOfViaToOneWay) {
+    const SumoNetwork made = made_of(crossing_net());
+    const Lane& turning = lane(made.graph, ":J_3_0");
+    EXPECT_EQ(turning.turn, Turn::left);
+    EXPECT_EQ(lane_of(made.graph, ":J_4_0"), -1);
+    EXPECT_EQ(turning.shape.size(), 5U);
+    EXPECT_NEAR(turning.length_m + turning.shape_start_m, length_m(turning.shape), 1e-9);
+    EXPECT_GT(turning.shape_start_m, 1.0);  // what it shares with the way straight on
+    EXPECT_DOUBLE_EQ(turning.shape_start_m, lane(made.graph, ":J_1_1").shape_start_m);
+    EXPECT_DOUBLE_EQ(turning.limit_mps, 7.0);
+}
+
+TEST(SumoNetwork, GivesWayAsTheMatrixSays) {
+    const LaneGraph graph = made_of(crossing_net()).graph;
+    const Conflict* const minor = conflict(graph, ":J_0_0", ":J_1_0");
+    ASSERT_NE(minor, nullptr);
+    EXPECT_TRUE(minor->yields);
+    EXPECT_FALSE(minor->other_yields);
+    EXPECT_NEAR(minor->from_m, 10.0 - 4.8 - kClearance_m, 0.3);
+    EXPECT_NEAR(minor->to_m, 10.0 - 4.8 + kClearance_m, 0.3);
+    const Conflict* const major = conflict(graph, ":J_1_0", ":J_0_0");
+    ASSERT_NE(major, nullptr);
+    EXPECT_FALSE(major->yields);
+    EXPECT_TRUE(major->other_yields);
+    EXPECT_NE(conflict(graph, ":J_0_0", ":J_3_0"), nullptr);  // they end on one lane
+    EXPECT_EQ(conflict(graph, ":J_1_0", ":J_1_1"), nullptr);
+}
+
+TEST(SumoNetwork, WhoeverIsAskedToWaitForEachOtherDoesNotYield) {
+    const std::string text = replaced(crossing_net(), "index=\"1\" response=\"0000\"", "index=\"1\" response=\"0001\"");
+    const LaneGraph graph = made_of(text).graph;
+    EXPECT_FALSE(conflict(graph, ":J_0_0", ":J_1_0")->yields);
+    EXPECT_FALSE(conflict(graph, ":J_1_0", ":J_0_0")->yields);
+    EXPECT_TRUE(conflict(graph, ":J_0_0", ":J_1_1")->yields);
+}
+
+TEST(SumoNetwork, LinksThatAreNeverGreenTogetherDoNotYield) {
+    const LaneGraph apart = made_of(signal_net(two_phases())).graph;
+    EXPECT_FALSE(conflict(apart, ":J_0_0", ":J_1_0")->yields);
+    EXPECT_FALSE(conflict(apart, ":J_1_0", ":J_0_0")->yields);
+    const LaneGraph together = made_of(signal_net("<phase duration=\"30\" state=\"gGGG\"/>")).graph;
+    EXPECT_TRUE(conflict(together, ":J_0_0", ":J_1_0")->yields);
+    // Major and minor by letters, against the matrix.
+    const std::string text = replaced(signal_net("<phase duration=\"30\" state=\"GggG\"/>"),
+                                      "index=\"0\" response=\"1110\"", "index=\"0\" response=\"0000\"");
+    const LaneGraph letters = made_of(text).graph;
+    EXPECT_TRUE(conflict(letters, ":J_1_0", ":J_0_0")->yields);
+    EXPECT_FALSE(conflict(letters, ":J_0_0", ":J_1_0")->yields);
+}
+
+TEST(SumoNetwork, MovementsOfALaneCanHaveLightsOfTheirOwn) {
+    const LaneGraph same = made_of(signal_net(two_phases())).graph;
+    EXPECT_EQ(lane(same, ":J_3_0").light, -1);
+    EXPECT_EQ(lane(same, "w_in_0").signal_group, lane(same, "w_in_1").signal_group);
+    const LaneGraph own =
+        made_of(signal_net("<phase duration=\"20\" state=\"rGGr\"/><phase duration=\"9\" state=\"rrrG\"/>")).graph;
+    EXPECT_GE(lane(own, ":J_3_0").light, 1);
+    EXPECT_GE(lane(own, ":J_1_1").light, 1);
+    EXPECT_NE(lane(own, ":J_3_0").light, lane(own, ":J_1_1").light);
+}
+
+TEST(SumoNetwork, ShortLanesBeforeAStopLineAreEnteredSlowly) {
+    // n_out leads on to a light after 12 m: 2 * 3 m/s2 * 10 m.
+    std::string text = signal_net(two_phases());
+    for (int k = 0; k < 1; ++k)
+        text = replaced(text, "length=\"190.00\" shape=\"1.60,10.00 1.60,200.00\"",
+                        "length=\"12.00\" shape=\"1.60,10.00 1.60,22.00\"");
+    text = replaced(text, "    <junction id=\"J\"",
+                    "    <edge id=\"far\"><lane id=\"far_0\" index=\"0\" speed=\"13.89\" length=\"100\" "
+                    "shape=\"1.6,30 1.6,130\"/></edge>\n    <junction id=\"J\"");
+    text = replaced(text, "</net>",
+                    "<connection from=\"n_out\" to=\"far\" fromLane=\"1\" toLane=\"0\" tl=\"J\" "
+                    "linkIndex=\"0\" dir=\"s\" state=\"o\"/></net>");
+    EXPECT_NEAR(lane(made_of(text).graph, ":J_0_0").limit_mps, std::sqrt(2.0 * 3.0 * 10.0), 1e-9);
+}
+
+TEST(SumoNetwork, AdditionalFilesReplaceProgrammesAndOffsets) {
+    const SumoNetwork offset = made_of(signal_net(two_phases()),
+                                       "<additional><tlLogic id=\"J\" programID=\"0\" "
+                                       "offset=\"7.5\"/></additional>");
+    EXPECT_DOUBLE_EQ(offset.net.signals[0].offset_s, 7.5);
+    EXPECT_EQ(offset.net.signals[0].phases.size(), 4U);
+    const SumoNetwork other =
+        made_of(signal_net(two_phases()),
+                "<additional><tlLogic id=\"J\" programID=\"b\" offset=\"1\"><phase duration=\"50\" state=\"GGrr\"/>"
+                "</tlLogic><e1Detector id=\"d\" lane=\"w_in_0\" pos=\"-10\" file=\"x\"/></additional>");
+    EXPECT_EQ(other.net.signals[0].phases.size(), 1U);
+    ASSERT_EQ(other.net.loops.size(), 1U);
+    EXPECT_DOUBLE_EQ(other.net.loops[0].position_m, 180.0);
+}
+
+TEST(SumoNetwork, TellsWhatItDoesNotRead) {
+    const std::string text = replaced(signal_net(two_phases()), "type=\"static\"", "type=\"actuated\"");
+    const std::vector<std::string> lines = made_of(text).net.warnings.lines();
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_NE(lines[0].find("my.net.xml:38: signals of type 'actuated' run as static ones"), std::string::npos)
+        << lines[0];
+}
+
+TEST(SumoNetwork, ReadsGzippedFiles) {
+    const SumoFiles files;
+    const std::string text = crossing_net();
+    const std::filesystem::path file = files.folder() / "my.net.xml.gz";
+    const gzFile out = gzopen(file.c_str(), "wb");
+    gzwrite(out, text.data(), static_cast<unsigned>(text.size()));
+    gzclose(out);
+    EXPECT_EQ(read_sumo_net(file).edges.size(), 8U);
+    EXPECT_EQ(read_sumo_net(file).hash, read_sumo_net(files.write("plain.net.xml", text)).hash);
+    std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
+    EXPECT_NE(refusal([&] { read_sumo_net(file); }).find("damaged or cut off"), std::string::npos);
+}
+
+struct Hostile {
+    const char* from;
+    const char* to;
+    const char* says;
+};
+
+class SumoNetworkErrors : public ::testing::TestWithParam<Hostile> {};
+
+TEST_P(SumoNetworkErrors, NameFileAndLine) {
+    const auto& [from, to, says] = GetParam();
+    const std::string text = replaced(signal_net(two_phases()), from, to);
+    const std::string message = refusal([&] { made_of(text); });
+    EXPECT_NE(message.find(says), std::string::npos) << message;
+    EXPECT_EQ(message.find("my.net.xml"), 0U) << message;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, SumoNetworkErrors,
+    ::testing::Values(
+        Hostile{"<net version", "<!DOCTYPE net [<!ENTITY a \"b\">]>\n<net version", "my.net.xml: has a DOCTYPE"},
+        Hostile{"</net>", "", "my.net.xml:68: is not well-formed XML"}, Hostile{"<net ", "<sumo ", "my.net.xml:"},
+        Hostile{"length=\"190.00\"", "length=\"-1\"", ":22: length=\"-1\""},
+        Hostile{"length=\"190.00\"", "length=\"nan\"", ":22: element 'lane': length=\"nan\" is not a finite number"},
+        Hostile{"speed=\"13.89\" length=\"190.00\"", "speed=\"inf\" length=\"190.00\"", ":22: element 'lane': speed"},
+        Hostile{"length=\"190.00\"", "length=\"1e999\"", ":22: element 'lane'"},
+        Hostile{"-200.00,-4.80", "-200.00,x", ":22: shape has a point"},
+        Hostile{"-200.00,-4.80 -10.00,-4.80", "1,1", ":22: shape needs two different points"},
+        Hostile{"edge id=\"s_in\"", "edge id=\"w_in\"", ":29: there are two edges 'w_in'"},
+        Hostile{"<lane id=\"w_in_1\" index=\"1\"", "<lane id=\"w_in_1\" index=\"3\"", ":23: lanes of edge 'w_in'"},
+        Hostile{"to=\"e_out\" fromLane=\"0\"", "to=\"nowhere\" fromLane=\"0\"", ": to: there is no edge 'nowhere'"},
+        Hostile{"fromLane=\"0\" toLane=\"0\" via=\":J_1_0\"", "fromLane=\"7\" toLane=\"0\" via=\":J_1_0\"",
+                "edge 'w_in' has no lane 7"},
+        Hostile{"via=\":J_1_0\"", "via=\":J_9_0\"", "via: there is no lane ':J_9_0'"},
+        Hostile{"<connection from=\":J_3\" to=\"n_out\"", "<connection from=\":J_3\" to=\"e_out\"",
+                "the chain of 'via' does not lead to lane 1 of edge 'n_out'"},
+        Hostile{"tl=\"J\" linkIndex=\"0\"", "tl=\"K\" linkIndex=\"0\"", "tl: there is no tlLogic 'K'"},
+        Hostile{"tl=\"J\" linkIndex=\"0\"", "tl=\"J\" linkIndex=\"4\"",
+                "linkIndex 4: the phases of tlLogic 'J' have 4"},
+        Hostile{"state=\"ryyy\"", "state=\"ryy\"", ":40: state has 3 letters"},
+        Hostile{"state=\"ryyy\"", "state=\"ryXy\"", ":40: state has the letter 'X'"},
+        Hostile{"duration=\"4\"", "duration=\"-4\"", ":40: duration"},
+        Hostile{"response=\"1110\"", "response=\"110\"", "request 0 does not have a bit for each of 4 links"},
+        Hostile{"request index=\"1\"", "request index=\"2\"", "requests are not numbered"},
+        Hostile{"<net version=\"1.20\"", "<net version=\"1.20\" lefthand=\"true\"", "left-hand"}));
+
+TEST(SumoNetwork, RefusesFilesThatAreNone) {
+    const SumoFiles files;
+    const auto says = [&](const std::string& text) {
+        return refusal([&] { read_sumo_net(files.write("my.net.xml", text)); });
+    };
+    EXPECT_NE(says("").find("the file is empty"), std::string::npos);
+    EXPECT_NE(says(" \n ").find("the file is empty"), std::string::npos);
+    EXPECT_NE(says(std::string(100'000, 'x')).find("my.net.xml"), std::string::npos);
+    EXPECT_NE(says(std::string(1000, '\0')).find("my.net.xml"), std::string::npos);
+    EXPECT_NE(says("<net/>").find("no lane on which passenger cars may drive"), std::string::npos);
+    std::string deep;
+    for (int k = 0; k < 200'000; ++k) deep += "<net>";
+    EXPECT_NE(says(deep).find("not well-formed"), std::string::npos);
+    EXPECT_NE(refusal([&] { read_sumo_net(files.folder() / "none.net.xml"); }).find("no such file"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace stopline

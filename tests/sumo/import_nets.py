@@ -1,0 +1,135 @@
+#!/usr/bin/env python3
+"""Runs networks of SUMO's netgenerate with random trips here, and says what came of it.
+
+    import_nets.py BIN [--fidelity meso|full] [--seeds N] [--only NAME] [--keep DIR] [--net FILE ROUTES]...
+
+BIN is the folder of stopline-run. SUMO is found by SUMO_HOME or the package eclipse-sumo (pip install eclipse-sumo). For each network the table
+has lanes, signals, trips, those that arrived, were moved on or strayed, and violations. Exit code 1 where a run has violations (overlaps,
+entries on red, lost vehicles) or trips do not add up, 77 where SUMO is missing.
+"""
+
+import argparse
+import csv
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+# What netgenerate is called with, but for the seed.
+NETS = {
+    "grid_1": "--grid --grid.number 4 --grid.length 150 --grid.attach-length 100 --default-junction-type traffic_light",
+    "grid_2": "--grid --grid.number 4 --grid.length 180 --grid.attach-length 150 -L 2 --default-junction-type traffic_light",
+    "grid_3": "--grid --grid.number 3 --grid.length 250 --grid.attach-length 200 -L 3 --turn-lanes 1 --default-junction-type traffic_light",
+    "grid_opposites": "--grid --grid.number 3 --grid.length 200 --grid.attach-length 150 -L 2 --default-junction-type traffic_light"
+    " --tls.layout incoming",
+    "grid_priority": "--grid --grid.number 4 --grid.length 150 --grid.attach-length 100 --default-junction-type priority",
+    "grid_right_before_left": "--grid --grid.number 4 --grid.length 150 --grid.attach-length 100"
+    " --default-junction-type right_before_left",
+    "grid_allway_stop": "--grid --grid.number 4 --grid.length 150 --grid.attach-length 100 --default-junction-type allway_stop",
+    "spider": "--spider --spider.arm-number 6 --spider.circle-number 3 --spider.space-radius 120 --tls.guess",
+    "spider_2": "--spider --spider.arm-number 5 --spider.circle-number 3 --spider.space-radius 150 -L 2"
+    " --default-junction-type traffic_light",
+    "random": "--rand --rand.iterations 60 --tls.guess --tls.guess.threshold 30",
+    "random_2": "--rand --rand.iterations 60 -L 2 --tls.guess --tls.guess.threshold 30",
+    "random_lanes": "--rand --rand.iterations 80 --rand.random-lanenumber -L 3 --default-junction-type traffic_light",
+}
+SEEDED = ("spider", "random")
+SECONDS = 900
+PERIODS = {"grid_priority": 2.0, "grid_right_before_left": 2.0, "grid_allway_stop": 2.5, "random": 2.0, "spider": 2.0}
+
+
+def sumo_home():
+    if os.environ.get("SUMO_HOME"):
+        return Path(os.environ["SUMO_HOME"])
+    try:
+        import sumo  # pylint: disable=import-outside-toplevel
+
+        return Path(sumo.SUMO_HOME)
+    except ImportError:
+        return None
+
+
+def make(home, folder, name, options, seed):
+    """Network and trips as files; their names."""
+    net = folder / f"{name}.net.xml.gz"
+    trips = folder / f"{name}.trips.xml"
+    subprocess.run([home / "bin" / "netgenerate", *options.split(), "--seed", str(seed), "-o", net], check=True, capture_output=True)
+    period = PERIODS.get(name.rsplit("_s", 1)[0], 1.0)
+    subprocess.run(
+        [sys.executable, home / "tools" / "randomTrips.py", "-n", net, "-o", trips, "-e", str(SECONDS - 200), "-p", str(period),
+         "--seed", str(seed), "--fringe-factor", "5", "--validate", "--trip-attributes", 'departLane="best" departSpeed="max"'],
+        check=True, capture_output=True, env={**os.environ, "SUMO_HOME": str(home)}, cwd=folder)  # fmt: skip
+    return net, trips
+
+
+def run(binary, folder, name, net, routes, fidelity):
+    scenario = folder / f"{name}.yaml"
+    scenario.write_text(
+        f"fidelity: {fidelity}\nduration: {SECONDS} s\n"
+        f"network: {{kind: sumo, net: {net}, routes: [{routes}]}}\n"
+        "populations: [CDG, {name: MIX, pattern: alternating, components: [{policy: CDG, share: 50 %},"
+        " {policy: CTG-Ref, share: 50 %}]}, CTG-Ref]\nmeasure: {steady: 600 s}\n"
+    )
+    out = folder / f"out_{name}"
+    result = subprocess.run(
+        [binary / "stopline-run", scenario, "--no-figures", "--output", out], capture_output=True, text=True, check=False
+    )
+    if not (out / "summary.csv").is_file():
+        return None, result.stderr.strip()
+    with open(out / "summary.csv", encoding="utf-8") as file:
+        return list(csv.DictReader(file)), result.stderr.strip()
+
+
+def judge(name, rows, errors):
+    """Prints a line a run; False where something is wrong."""
+    if rows is None:
+        print(f"{name:28} {errors[:300]}")
+        return False
+    good = True
+    for row in rows:
+        wrong = {key: int(row[key]) for key in ("overlaps", "conflicts", "red_entries", "lost_vehicles") if int(row[key])}
+        good = good and not wrong
+        print(
+            f"{name:28} {row['population']:8} entered {row['entered']:>5} arrived {row['left']:>5} moved on {row['moved_on']:>4} "
+            f"strayed {row['strayed']:>4} waiting {row['waiting']:>4} gridlocks {row['gridlocks']:>3} s {row['travel_time_s']:>8} "
+            f"forced {row['forced_red_entries']:>3} {wrong or ''}",
+            flush=True,
+        )
+    return good
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("binary", type=Path)
+    parser.add_argument("--fidelity", default="meso")
+    parser.add_argument("--seeds", type=int, default=2)
+    parser.add_argument("--only", default="")
+    parser.add_argument("--keep", type=Path)
+    parser.add_argument("--net", nargs=2, action="append", default=[])
+    options = parser.parse_args()
+    home = sumo_home()
+    if home is None:
+        print("skipped: SUMO is not installed (pip install eclipse-sumo)")
+        return 77
+    good = True
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = (options.keep or Path(temporary)).resolve()
+        folder.mkdir(parents=True, exist_ok=True)
+        binary = options.binary.resolve()
+        for name, call in NETS.items() if not options.net else []:
+            if options.only and options.only not in name:
+                continue
+            seeds = range(1, options.seeds + 1) if name.startswith(SEEDED) else [1]
+            for seed in seeds:
+                full_name = f"{name}_s{seed}"
+                net, trips = make(home, folder, full_name, call, seed)
+                good = judge(full_name, *run(binary, folder, full_name, net, trips, options.fidelity)) and good
+        for net, routes in options.net:
+            name = Path(net).name.split(".")[0]
+            good = judge(name, *run(binary, folder, name, Path(net).resolve(), Path(routes).resolve(), options.fidelity)) and good
+    return 0 if good else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

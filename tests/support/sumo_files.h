@@ -1,0 +1,130 @@
+// Small SUMO networks for tests, written by hand, and files in a folder of their own.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <unistd.h>
+
+#include "base/input_error.h"
+
+namespace stopline::testing {
+
+class SumoFiles {
+public:
+    SumoFiles() {
+        static int count = 0;
+        folder_ = std::filesystem::temp_directory_path() /
+                  ("stopline_sumo_" + std::to_string(getpid()) + "_" + std::to_string(count++));
+        std::filesystem::create_directories(folder_);
+    }
+    ~SumoFiles() { std::filesystem::remove_all(folder_); }
+    SumoFiles(const SumoFiles&) = delete;
+    SumoFiles& operator=(const SumoFiles&) = delete;
+
+    std::filesystem::path write(const std::string& name, const std::string& text) const {
+        std::ofstream(folder_ / name, std::ios::binary) << text;
+        return folder_ / name;
+    }
+    const std::filesystem::path& folder() const { return folder_; }
+
+private:
+    std::filesystem::path folder_;
+};
+
+inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+// What an action that must be refused says.
+template <class Act>
+std::string refusal(const Act& act) {
+    try {
+        act();
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "(nothing was refused)";
+}
+
+// Two streets of 200 m that cross: edges w_in (two lanes) and e_out from west to east, s_in and n_out from south to north; from the
+// left lane of w_in one can also turn to the north, by an internal junction. Links: 0 s_in straight, 1 w_in right lane straight,
+// 2 w_in left lane straight, 3 w_in left. The street from the west comes first.
+inline std::string crossing_net() {
+    return R"(<?xml version="1.0" encoding="UTF-8"?>
+<net version="1.20">
+    <location netOffset="0.00,0.00" convBoundary="-200,-200,200,200" origBoundary="0,0,0,0" projParameter="!"/>
+    <edge id=":J_0" function="internal">
+        <lane id=":J_0_0" index="0" speed="13.89" length="20.00" shape="1.60,-10.00 1.60,10.00"/>
+    </edge>
+    <edge id=":J_1" function="internal">
+        <lane id=":J_1_0" index="0" speed="13.89" length="20.00" shape="-10.00,-4.80 10.00,-4.80"/>
+        <lane id=":J_1_1" index="1" speed="13.89" length="20.00" shape="-10.00,-1.60 10.00,-1.60"/>
+    </edge>
+    <edge id=":J_3" function="internal">
+        <lane id=":J_3_0" index="0" speed="7.00" length="8.00" shape="-10.00,-1.60 -4.00,-0.60 -2.00,0.00"/>
+    </edge>
+    <edge id=":J_4" function="internal">
+        <lane id=":J_4_0" index="0" speed="7.00" length="10.80" shape="-2.00,0.00 0.80,4.00 1.60,10.00"/>
+    </edge>
+    <edge id="w_in" from="W" to="J" priority="2">
+        <lane id="w_in_0" index="0" speed="13.89" length="190.00" shape="-200.00,-4.80 -10.00,-4.80"/>
+        <lane id="w_in_1" index="1" speed="13.89" length="190.00" shape="-200.00,-1.60 -10.00,-1.60"/>
+    </edge>
+    <edge id="e_out" from="J" to="E" priority="2">
+        <lane id="e_out_0" index="0" speed="13.89" length="190.00" shape="10.00,-4.80 200.00,-4.80"/>
+        <lane id="e_out_1" index="1" speed="13.89" length="190.00" shape="10.00,-1.60 200.00,-1.60"/>
+    </edge>
+    <edge id="s_in" from="S" to="J" priority="1">
+        <lane id="s_in_0" index="0" speed="13.89" length="190.00" shape="1.60,-200.00 1.60,-10.00"/>
+    </edge>
+    <edge id="n_out" from="J" to="N" priority="1">
+        <lane id="n_out_0" index="0" allow="pedestrian bicycle" speed="5.00" length="190.00" shape="3.60,10.00 3.60,200.00"/>
+        <lane id="n_out_1" index="1" disallow="tram" speed="13.89" length="190.00" shape="1.60,10.00 1.60,200.00"/>
+    </edge>
+    <junction id="J" type="priority" x="0.00" y="0.00" incLanes="s_in_0 w_in_0 w_in_1" intLanes=":J_0_0 :J_1_0 :J_1_1 :J_4_0" shape="-10,-10 10,10">
+        <request index="0" response="1110" foes="1110" cont="0"/>
+        <request index="1" response="0000" foes="0001" cont="0"/>
+        <request index="2" response="0000" foes="0001" cont="0"/>
+        <request index="3" response="0000" foes="0001" cont="1"/>
+    </junction>
+    <junction id=":J_4_0" type="internal" x="-2" y="0" incLanes=":J_3_0 s_in_0" intLanes=":J_0_0"/>
+    <connection from="s_in" to="n_out" fromLane="0" toLane="1" via=":J_0_0" dir="s" state="m"/>
+    <connection from="w_in" to="e_out" fromLane="0" toLane="0" via=":J_1_0" dir="s" state="M"/>
+    <connection from="w_in" to="e_out" fromLane="1" toLane="1" via=":J_1_1" dir="s" state="M"/>
+    <connection from="w_in" to="n_out" fromLane="1" toLane="1" via=":J_3_0" dir="l" state="M"/>
+    <connection from=":J_0" to="n_out" fromLane="0" toLane="1" dir="s" state="M"/>
+    <connection from=":J_1" to="e_out" fromLane="0" toLane="0" dir="s" state="M"/>
+    <connection from=":J_1" to="e_out" fromLane="1" toLane="1" dir="s" state="M"/>
+    <connection from=":J_3" to="n_out" fromLane="0" toLane="1" via=":J_4_0" dir="l" state="M"/>
+    <connection from=":J_4" to="n_out" fromLane="0" toLane="1" dir="l" state="M"/>
+</net>
+)";
+}
+
+// The same with lights; the phases are for links 0 to 3.
+inline std::string signal_net(const std::string& phases) {
+    std::string text = crossing_net();
+    text = replaced(text, "    <junction id=\"J\" type=\"priority\"",
+                    "    <tlLogic id=\"J\" type=\"static\" programID=\"0\" offset=\"0\">\n" + phases +
+                        "    </tlLogic>\n    <junction id=\"J\" type=\"traffic_light\"");
+    text = replaced(text, "via=\":J_0_0\" dir", "via=\":J_0_0\" tl=\"J\" linkIndex=\"0\" dir");
+    text = replaced(text, "via=\":J_1_0\" dir", "via=\":J_1_0\" tl=\"J\" linkIndex=\"1\" dir");
+    text = replaced(text, "via=\":J_1_1\" dir", "via=\":J_1_1\" tl=\"J\" linkIndex=\"2\" dir");
+    return replaced(text, "via=\":J_3_0\" dir", "via=\":J_3_0\" tl=\"J\" linkIndex=\"3\" dir");
+}
+
+inline std::string two_phases() {
+    return R"(        <phase duration="20" state="rGGG"/>
+        <phase duration="4" state="ryyy"/>
+        <phase duration="12" state="Grrr"/>
+        <phase duration="4" state="yrrr"/>
+)";
+}
+
+}  // namespace stopline::testing
