@@ -31,7 +31,7 @@ class Builder {
 public:
     explicit Builder(const LaneGraph& graph) : graph_(graph) {}
 
-    SumoNetwork build() {
+    PlainNetwork build() {
         make_edges();
         make_connections();
         make_nodes();
@@ -88,18 +88,18 @@ private:
         const int edges = static_cast<int>(network_.edges.size());
         joined_.resize(at(2 * edges));  // the beginning of each edge, then its end
         std::iota(joined_.begin(), joined_.end(), 0);
-        for (const SumoConnection& c : network_.connections) {
+        for (const PlainConnection& c : network_.connections) {
             joined_[at(root(end_of(c.from)))] = root(2 * network_.place_of[at(c.to)].edge);
         }
         std::map<int, int> node_of;
         for (int end = 0; end < 2 * edges; ++end) {
             const auto [place, is_new] = node_of.emplace(root(end), static_cast<int>(network_.nodes.size()));
             if (is_new) network_.nodes.push_back({fmt::format("n{}", place->second)});
-            SumoEdge& edge = network_.edges[at(end / 2)];
+            PlainEdge& edge = network_.edges[at(end / 2)];
             (end % 2 == 0 ? edge.from : edge.to) = place->second;
         }
         place_nodes();
-        for (SumoConnection& c : network_.connections) c.node = network_.edges[at(end_of(c.from) / 2)].to;
+        for (PlainConnection& c : network_.connections) c.node = network_.edges[at(end_of(c.from) / 2)].to;
         number_links();
     }
 
@@ -114,11 +114,11 @@ private:
     void place_nodes() {
         std::vector<int> points(network_.nodes.size());
         const auto add = [&](int node, const Point& point) {
-            SumoNode& n = network_.nodes[at(node)];
+            PlainNode& n = network_.nodes[at(node)];
             n.at = {n.at.x_m + point.x_m, n.at.y_m + point.y_m};
             ++points[at(node)];
         };
-        for (const SumoEdge& edge : network_.edges) {
+        for (const PlainEdge& edge : network_.edges) {
             for (const int lane : edge.lanes) {
                 const Lane& road = graph_.lanes[at(lane)];
                 add(edge.from, place_at(road.shape, road.shape_start_m).point);
@@ -134,23 +134,23 @@ private:
 
     void number_links() {
         std::vector<int> links(network_.nodes.size());
-        for (SumoConnection& c : network_.connections) {
+        for (PlainConnection& c : network_.connections) {
             if (graph_.lanes[at(c.from)].signal_group >= 0) c.link = links[at(c.node)]++;
         }
     }
 
     const LaneGraph& graph_;
-    SumoNetwork network_;
+    PlainNetwork network_;
     std::vector<int> joined_;
 };
 
 }  // namespace
 
-std::string SumoNetwork::lane_id(int lane) const {
+std::string PlainNetwork::lane_id(int lane) const {
     const Place& place = place_of[at(lane)];
     return fmt::format("{}_{}", edges[at(place.edge)].id, place.index);
 }
 
-SumoNetwork sumo_network(const LaneGraph& graph) { return Builder(graph).build(); }
+PlainNetwork plain_network(const LaneGraph& graph) { return Builder(graph).build(); }
 
 }  // namespace stopline

@@ -11,13 +11,13 @@
 
 namespace stopline {
 
-struct SumoNode {
+struct PlainNode {
     std::string id;
     Point at = {};
     bool lights = false;
 };
 
-struct SumoEdge {
+struct PlainEdge {
     std::string id;
     int from = -1;  // nodes
     int to = -1;
@@ -25,7 +25,7 @@ struct SumoEdge {
     double length_m = 0.0;
 };
 
-struct SumoConnection {
+struct PlainConnection {
     int from = -1;  // lanes of the graph
     int to = -1;
     int way = -1;  // lane inside the intersection; -1: one follows the other at once
@@ -34,20 +34,20 @@ struct SumoConnection {
     int link = -1;  // index among those of the node that have a light; -1: none
 };
 
-struct SumoNetwork {
+struct PlainNetwork {
     struct Place {
         int edge = -1;
         int index = -1;  // from the right
     };
-    std::vector<SumoNode> nodes;
-    std::vector<SumoEdge> edges;
-    std::vector<SumoConnection> connections;
+    std::vector<PlainNode> nodes;
+    std::vector<PlainEdge> edges;
+    std::vector<PlainConnection> connections;
     std::vector<Place> place_of;  // [lane]; inside an intersection: of the lane that leads there
 
     std::string lane_id(int lane) const;
 };
 
 // Throws InputError for what cannot be said in SUMO's files: lanes of one edge that differ in length (pockets).
-SumoNetwork sumo_network(const LaneGraph& graph);
+PlainNetwork plain_network(const LaneGraph& graph);
 
 }  // namespace stopline

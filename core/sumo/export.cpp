@@ -50,6 +50,7 @@ std::vector<std::string> run_watched(Simulation& simulation, double end_s,
         look();
         simulation.step();
     }
+    simulation.run_until(end_s);  // checks that nobody is lost
     look();
     std::vector<std::string> said;
     for (const std::unique_ptr<RunWriter>& writer : writers) said.push_back(writer->finish());
@@ -59,7 +60,7 @@ std::vector<std::string> run_watched(Simulation& simulation, double end_s,
 std::string export_to_sumo(const Scenario& scenario, std::size_t population, const std::filesystem::path& folder,
                            const std::function<bool(double)>& on_progress) {
     const Model model = build_model(scenario, population);
-    const SumoNetwork network = sumo_network(model.graph);
+    const PlainNetwork network = plain_network(model.graph);
     const double end_s = run_end_s(scenario);
     write_sumo_inputs(folder, model, network, end_s);
     std::vector<std::unique_ptr<RunWriter>> writers;

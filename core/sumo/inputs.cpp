@@ -31,18 +31,18 @@ Polyline lane_shape(const Lane& lane, double end_m) {
     return part;
 }
 
-void write_nodes(const std::filesystem::path& file, const SumoNetwork& network) {
+void write_nodes(const std::filesystem::path& file, const PlainNetwork& network) {
     XmlFile xml(file, "nodes", "nodes_file.xsd");
-    for (const SumoNode& node : network.nodes) {
+    for (const PlainNode& node : network.nodes) {
         xml.add("    <node id=\"{}\" x=\"{:.3f}\" y=\"{:.3f}\" type=\"{}\"/>\n", node.id, node.at.x_m, node.at.y_m,
                 node.lights ? "traffic_light" : "priority");
     }
     xml.finish();
 }
 
-void write_edges(const std::filesystem::path& file, const LaneGraph& graph, const SumoNetwork& network) {
+void write_edges(const std::filesystem::path& file, const LaneGraph& graph, const PlainNetwork& network) {
     XmlFile xml(file, "edges", "edges_file.xsd");
-    for (const SumoEdge& edge : network.edges) {
+    for (const PlainEdge& edge : network.edges) {
         const Lane& first = graph.lanes[at(edge.lanes[0])];
         Polyline middle = lane_shape(first, edge.length_m);
         const Polyline last = lane_shape(graph.lanes[at(edge.lanes.back())], edge.length_m);
@@ -58,11 +58,11 @@ void write_edges(const std::filesystem::path& file, const LaneGraph& graph, cons
     xml.finish();
 }
 
-void write_connections(const std::filesystem::path& file, const LaneGraph& graph, const SumoNetwork& network) {
+void write_connections(const std::filesystem::path& file, const LaneGraph& graph, const PlainNetwork& network) {
     XmlFile xml(file, "connections", "connections_file.xsd");
-    for (const SumoConnection& c : network.connections) {
-        const SumoNetwork::Place& from = network.place_of[at(c.from)];
-        const SumoNetwork::Place& to = network.place_of[at(c.to)];
+    for (const PlainConnection& c : network.connections) {
+        const PlainNetwork::Place& from = network.place_of[at(c.from)];
+        const PlainNetwork::Place& to = network.place_of[at(c.to)];
         xml.add("    <connection from=\"{}\" to=\"{}\" fromLane=\"{}\" toLane=\"{}\"",
                 xml_escaped(network.edges[at(from.edge)].id), xml_escaped(network.edges[at(to.edge)].id), from.index,
                 to.index);
@@ -77,7 +77,7 @@ void write_connections(const std::filesystem::path& file, const LaneGraph& graph
 }
 
 // G: green with priority; g: green, but gives way to another that has green too.
-char link_state(const Model& model, const SumoConnection& c, std::int64_t tick) {
+char link_state(const Model& model, const PlainConnection& c, std::int64_t tick) {
     const auto light_of = [&](int lane) {
         return model.signals[at(model.graph.lanes[at(lane)].signal_group)].light(tick);
     };
@@ -112,10 +112,10 @@ std::int64_t programme_ticks(const Model& model, const std::vector<int>& groups,
     return cycle;
 }
 
-std::vector<Phase> phases_of(const Model& model, const SumoNetwork& network, int node, std::int64_t run_ticks) {
-    std::vector<const SumoConnection*> links;
+std::vector<Phase> phases_of(const Model& model, const PlainNetwork& network, int node, std::int64_t run_ticks) {
+    std::vector<const PlainConnection*> links;
     std::vector<int> groups;
-    for (const SumoConnection& c : network.connections) {
+    for (const PlainConnection& c : network.connections) {
         if (c.node != node || c.link < 0) continue;
         links.push_back(&c);
         groups.push_back(model.graph.lanes[at(c.from)].signal_group);
@@ -128,7 +128,7 @@ std::vector<Phase> phases_of(const Model& model, const SumoNetwork& network, int
         for (const int group : groups) lights.push_back(model.signals[at(group)].light(tick));
         if (lights != before) {
             std::string text;
-            for (const SumoConnection* const c : links) text += link_state(model, *c, tick);
+            for (const PlainConnection* const c : links) text += link_state(model, *c, tick);
             phases.push_back({0, text});
             before = lights;
         }
@@ -137,7 +137,7 @@ std::vector<Phase> phases_of(const Model& model, const SumoNetwork& network, int
     return phases;
 }
 
-void write_lights(const std::filesystem::path& file, const Model& model, const SumoNetwork& network,
+void write_lights(const std::filesystem::path& file, const Model& model, const PlainNetwork& network,
                   double duration_s) {
     XmlFile xml(file, "tlLogics", "tllogic_file.xsd");
     const std::int64_t run_ticks = std::max<std::int64_t>(to_ticks(duration_s, model.step_s), 1);
@@ -149,10 +149,10 @@ void write_lights(const std::filesystem::path& file, const Model& model, const S
         }
         xml.add("    </tlLogic>\n");
     }
-    for (const SumoConnection& c : network.connections) {
+    for (const PlainConnection& c : network.connections) {
         if (c.link < 0) continue;
-        const SumoNetwork::Place& from = network.place_of[at(c.from)];
-        const SumoNetwork::Place& to = network.place_of[at(c.to)];
+        const PlainNetwork::Place& from = network.place_of[at(c.from)];
+        const PlainNetwork::Place& to = network.place_of[at(c.to)];
         xml.add("    <connection from=\"{}\" to=\"{}\" fromLane=\"{}\" toLane=\"{}\" tl=\"{}\" linkIndex=\"{}\"/>\n",
                 xml_escaped(network.edges[at(from.edge)].id), xml_escaped(network.edges[at(to.edge)].id), from.index,
                 to.index, network.nodes[at(c.node)].id, c.link);
@@ -161,7 +161,7 @@ void write_lights(const std::filesystem::path& file, const Model& model, const S
 }
 
 // Stop lines of all lanes, as SUMO's induction loops.
-void write_detectors(const std::filesystem::path& file, const Model& model, const SumoNetwork& network) {
+void write_detectors(const std::filesystem::path& file, const Model& model, const PlainNetwork& network) {
     XmlFile xml(file, "additional", "additional_file.xsd");
     for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {
         if (model.graph.lanes[at(lane)].signal_group < 0) continue;
@@ -189,7 +189,7 @@ void write_configuration(const std::filesystem::path& file, double duration_s) {
 
 }  // namespace
 
-void write_sumo_inputs(const std::filesystem::path& folder, const Model& model, const SumoNetwork& network,
+void write_sumo_inputs(const std::filesystem::path& folder, const Model& model, const PlainNetwork& network,
                        double duration_s) {
     write_nodes(folder / "nodes.nod.xml", network);
     write_edges(folder / "edges.edg.xml", model.graph, network);

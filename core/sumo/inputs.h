@@ -13,12 +13,12 @@
 namespace stopline {
 
 // Network, lights over `duration_s`, detectors, configuration. Throws InputError where a file cannot be written.
-void write_sumo_inputs(const std::filesystem::path& folder, const Model& model, const SumoNetwork& network,
+void write_sumo_inputs(const std::filesystem::path& folder, const Model& model, const PlainNetwork& network,
                        double duration_s);
 
 // Every vehicle of a run: its number, when, where and how fast it entered, the edges of its way, and the parameters of its
 // policy's mesoscale model. Keeps references until it has finished.
 std::unique_ptr<RunWriter> make_sumo_route_writer(const std::filesystem::path& file, const Model& model,
-                                                  const SumoNetwork& network);
+                                                  const PlainNetwork& network);
 
 }  // namespace stopline

@@ -24,7 +24,7 @@ struct Trip {
 
 class RouteWriter : public RunWriter {
 public:
-    RouteWriter(std::filesystem::path file, const Model& model, const SumoNetwork& network)
+    RouteWriter(std::filesystem::path file, const Model& model, const PlainNetwork& network)
         : file_(std::move(file)), model_(model), network_(network) {}
 
     void look(const State& state) override {
@@ -102,7 +102,7 @@ private:
     }
 
     void add_trip(XmlFile& xml, int vehicle, const Trip& trip) const {
-        const SumoNetwork::Place& place = network_.place_of[at(trip.depart_lane)];
+        const PlainNetwork::Place& place = network_.place_of[at(trip.depart_lane)];
         xml.add(
             "    <vehicle id=\"{}\" type=\"{}\" depart=\"{:.2f}\" departLane=\"{}\" departPos=\"{:.3f}\" "
             "departSpeed=\"{:.3f}\">",
@@ -115,14 +115,14 @@ private:
 
     std::filesystem::path file_;
     const Model& model_;
-    const SumoNetwork& network_;
+    const PlainNetwork& network_;
     std::map<int, Trip> trips_;  // by number
 };
 
 }  // namespace
 
 std::unique_ptr<RunWriter> make_sumo_route_writer(const std::filesystem::path& file, const Model& model,
-                                                  const SumoNetwork& network) {
+                                                  const PlainNetwork& network) {
     return std::make_unique<RouteWriter>(file, model, network);
 }
 

@@ -1,0 +1,129 @@
+// stopline-compare: the mesoscale mode beside SUMO, on the same inputs.
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "base/input_error.h"
+#include "common/command_line.h"
+#include "common/program.h"
+#include "common/progress_bar.h"
+#include "common/results.h"
+#include "common/text_table.h"
+#include "experiment/output.h"
+#include "sumo/compare.h"
+#include "sumo/export.h"
+
+namespace {
+
+using namespace stopline;
+
+struct CompareOptionsOfUser {
+    CommonOptions common;
+    std::string file;
+    std::string population;
+    int repetitions = 3;
+    bool no_figures = false;
+};
+
+void declare(CLI::App& app, CompareOptionsOfUser& options) {
+    add_version_option(app);
+    app.add_option("SCENARIO", options.file, "Scenario file")->required();
+    app.add_option("--population", options.population, "Whose vehicles (default: CTG-Ref, or the first)")
+        ->type_name("NAME");
+    app.add_option("--repetitions", options.repetitions, "Runs of both, with as many seeds")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 1000));
+    app.add_flag("--no-figures", options.no_figures, "Draw no figures");
+    app.add_option("--seed", options.common.seed, "First seed instead of the scenario's");
+    app.add_option("--output", options.common.output, "Folder for results (default: out/NAME_sumo)")->type_name("DIR");
+    add_set_option(app, options.common);
+    app.footer(
+        std::string(
+            "\nBoth get the same network, lights and vehicles: those that entered in our run, when and where they "
+            "did.\n\nExamples:\n"
+            "  stopline-compare scenarios/intersection.yaml\n"
+            "  stopline-compare scenarios/grid.yaml --set 'duration=900 s' --set 'measure.steady=600 s'\n\n") +
+        kExitCodesText);
+}
+
+std::size_t chosen(const CompareOptionsOfUser& options, const Scenario& scenario) {
+    if (!options.population.empty()) return population_index(scenario, options.population);
+    for (std::size_t k = 0; k < scenario.populations.size(); ++k) {
+        if (scenario.populations[k].name == "CTG-Ref") return k;
+    }
+    return 0;
+}
+
+std::string number(double value) { return std::isnan(value) ? "-" : fmt::format("{:.2f}", value); }
+
+std::string band_cells(const ComparedMetric& metric, Band band, std::string& inside) {
+    const std::size_t needed = band == Band::paper ? 3 : 2;
+    inside = "-";
+    if (metric.sumo.size() < needed || std::isnan(mean_of(metric.sumo))) return "-";
+    const Interval interval = metric.band(band);
+    inside = interval.contains(mean_of(metric.ours)) ? "yes" : "no";
+    return fmt::format("{:.2f} .. {:.2f}", interval.low, interval.high);
+}
+
+void print(const Comparison& comparison) {
+    fmt::print("{}, {} seeds, from {:g} to {:g} s\n\n", comparison.population, comparison.runs.size(),
+               comparison.from_s, comparison.to_s);
+    TextTable table;
+    table.row({"", "Stopline", "SUMO", "difference", "band student", "inside", "band paper", "inside"});
+    for (const ComparedMetric& metric : comparison.metrics()) {
+        std::string in_student;
+        std::string in_paper;
+        const std::string student = band_cells(metric, Band::student, in_student);
+        const std::string paper = band_cells(metric, Band::paper, in_paper);
+        const double percent = metric.difference_percent();
+        table.row({metric.name, number(mean_of(metric.ours)), number(mean_of(metric.sumo)),
+                   std::isfinite(percent) ? fmt::format("{:+.1f} %", percent) : "-", student, in_student, paper,
+                   in_paper});
+    }
+    fmt::print("{}", table.text());
+}
+
+ExitCode run(const CompareOptionsOfUser& options) {
+    CommonOptions common = options.common;
+    common.settings.emplace_back("fidelity=meso");
+    const Scenario scenario = load_with_options(options.file, common);
+    const std::string folder = common.output.empty() ? "out/" + scenario.name + "_sumo" : common.output;
+    prepare_folder(folder);
+    const Comparison comparison = [&] {
+        ProgressBar bar(fmt::format("{} runs of both programs", options.repetitions));
+        CompareOptions compare;
+        compare.repetitions = options.repetitions;
+        compare.on_progress = [&bar](double share) { return bar.update(share); };
+        return compare_with_sumo(scenario, chosen(options, scenario), folder, compare);
+    }();
+    print(comparison);
+    std::int64_t violations = 0;
+    for (const ComparedRun& one : comparison.runs) violations += one.overlaps;
+    if (violations > 0) fmt::print("\nVIOLATIONS in our runs: {}\n", violations);
+    fmt::print("\nWritten to {}\n", folder);
+    for (const auto& [name, text] : {std::pair{"comparison.csv", comparison_csv(comparison)},
+                                     std::pair{"stop_lines.csv", stop_lines_csv(comparison)}}) {
+        write_file(std::filesystem::path(folder) / name, text);
+        fmt::print("  {}\n", name);
+    }
+    if (!options.no_figures) {
+        draw_all(comparison_figures(comparison, scenario.title.empty() ? scenario.name : scenario.title), folder);
+    }
+    fmt::print("\nNext: the inputs of both are in {}/seed_N; sumo-gui -c {}/seed_{}/run.sumocfg shows SUMO's run.\n",
+               folder, folder, comparison.runs.front().seed);
+    return violations > 0 ? ExitCode::check_failed : ExitCode::done;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return run_program("stopline-compare", [&] {
+        CLI::App app("Runs SUMO and the mesoscale mode on the same inputs and compares what comes out.",
+                     "stopline-compare");
+        CompareOptionsOfUser options;
+        declare(app, options);
+        const std::optional<ExitCode> end = parse_command_line(app, argc, argv);
+        return end ? *end : run(options);
+    });
+}

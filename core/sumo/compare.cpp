@@ -1,0 +1,119 @@
+#include "sumo/compare.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/child_process.h"
+#include "base/input_error.h"
+#include "experiment/build_model.h"
+#include "experiment/csv.h"
+#include "experiment/intersection_run.h"
+#include "experiment/output.h"
+#include "sumo/export.h"
+#include "sumo/inputs.h"
+
+namespace stopline {
+
+namespace {
+
+double measured_from_s(const Scenario& scenario, double end_s) {
+    if (scenario.network.kind == "intersection") return measured_window(scenario).from_s;
+    if (scenario.network.has_several()) return std::max(0.0, end_s - scenario.measure.steady_s);
+    return 0.0;
+}
+
+void run_sumo(const std::filesystem::path& folder, std::uint64_t seed) {
+    const EndedProcess ended =
+        run_process({"sumo", "-c", "run.sumocfg", "--seed", std::to_string(seed), "--no-step-log", "--tripinfo-output",
+                     "trips.out.xml", "--summary-output", "summary.out.xml", "--summary-output.period", "1"},
+                    folder);
+    if (!ended.failed()) return;
+    throw InputError(fmt::format("SUMO failed in {}:\n{}", folder.string(), ended.words));
+}
+
+std::vector<double> column(const Comparison& comparison, bool ours, double RunSummary::*field) {
+    std::vector<double> values;
+    for (const ComparedRun& run : comparison.runs) {
+        values.push_back(summary_of(ours ? run.ours : run.sumo, comparison.from_s, comparison.to_s).*field);
+    }
+    return values;
+}
+
+ComparedRun compare_seed(const Scenario& scenario, std::size_t population, const std::filesystem::path& folder,
+                         const std::function<bool(double)>& on_progress) {
+    prepare_folder(folder);
+    ComparedRun run{scenario.seed};
+    Model model = build_model(scenario, population);
+    model.records_detectors = true;
+    const PlainNetwork network = plain_network(model.graph);
+    const double end_s = run_end_s(scenario);
+    write_sumo_inputs(folder, model, network, end_s);
+    make_net_file(folder);
+    std::vector<std::unique_ptr<RunWriter>> writers;
+    writers.push_back(make_sumo_route_writer(folder / "vehicles.rou.xml", model, network));
+    writers.push_back(make_facts_writer(model, network, run.ours));
+    Simulation simulation(model);
+    run_watched(simulation, end_s, writers, on_progress);
+    const Violations& v = simulation.state().violations;
+    run.overlaps = v.overlaps + v.conflicts + v.red_entries + v.lost_vehicles + v.deadlocks;
+    run_sumo(folder, scenario.seed);
+    run.sumo = read_sumo_facts(folder);
+    return run;
+}
+
+}  // namespace
+
+double ComparedMetric::difference_percent() const { return 100.0 * (mean_of(ours) / mean_of(sumo) - 1.0); }
+
+Interval ComparedMetric::band(Band kind) const { return confidence_interval(sumo, kind); }
+
+std::vector<ComparedMetric> Comparison::metrics() const {
+    const std::vector<std::pair<const char*, double RunSummary::*>> fields{
+        {"throughput_veh_h", &RunSummary::throughput_veh_h},
+        {"travel_time_s", &RunSummary::travel_time_s},
+        {"stop_line_passages_veh_h", &RunSummary::passages_veh_h},
+        {"mean_speed_mps", &RunSummary::speed_mps},
+        {"standing_vehicles", &RunSummary::halting},
+        {"wait_outside_s", &RunSummary::delay_s}};
+    std::vector<ComparedMetric> metrics;
+    for (const auto& [name, field] : fields) {
+        metrics.push_back({name, column(*this, true, field), column(*this, false, field)});
+    }
+    return metrics;
+}
+
+Comparison compare_with_sumo(const Scenario& scenario, std::size_t population, const std::filesystem::path& folder,
+                             const CompareOptions& options) {
+    if (!has_sumo()) throw InputError("SUMO is not installed: pip install eclipse-sumo, and put its bin into PATH");
+    Comparison comparison;
+    comparison.population = scenario.populations.at(population).name;
+    comparison.to_s = run_end_s(scenario);
+    comparison.from_s = options.from_s < 0.0 ? measured_from_s(scenario, comparison.to_s) : options.from_s;
+    if (comparison.from_s >= comparison.to_s) {
+        throw InputError(fmt::format("nothing is left to compare: the run ends at {:g} s", comparison.to_s));
+    }
+    for (int k = 0; k < options.repetitions; ++k) {
+        Scenario one = scenario;
+        one.seed = scenario.seed + static_cast<std::uint64_t>(k);
+        comparison.runs.push_back(
+            compare_seed(one, population, folder / fmt::format("seed_{}", one.seed), [&](double share) {
+                return !options.on_progress || options.on_progress((k + 0.5 * share) / options.repetitions);
+            }));
+    }
+    return comparison;
+}
+
+std::string comparison_csv(const Comparison& comparison) {
+    CsvWriter csv({"metric", "seed", "ours", "sumo"});
+    for (const ComparedMetric& metric : comparison.metrics()) {
+        for (std::size_t k = 0; k < metric.ours.size(); ++k) {
+            csv.row({metric.name, std::to_string(comparison.runs[k].seed), fixed(metric.ours[k], 4),
+                     fixed(metric.sumo[k], 4)});
+        }
+    }
+    return csv.text();
+}
+
+}  // namespace stopline

@@ -1,0 +1,52 @@
+// What a run is compared by: the same quantities of our runs and of SUMO's.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "record/run_writer.h"
+#include "sumo/edges.h"
+
+namespace stopline {
+
+// All times in seconds from the beginning of the run.
+struct RunFacts {
+    struct Trip {
+        double arrival_s = 0.0;
+        double duration_s = 0.0;  // in the network
+        double delay_s = 0.0;     // waited outside for room
+    };
+    // Every second.
+    struct Instant {
+        double time_s = 0.0;
+        int present = 0;
+        int halting = 0;  // slower than 0.1 m/s
+        double mean_speed_mps = 0.0;
+    };
+    std::vector<Trip> trips;                              // that have ended
+    std::map<std::string, std::vector<double>> passed_s;  // by lane, fronts past its stop line
+    std::vector<Instant> instants;
+};
+
+// Sums over a part of the run.
+struct RunSummary {
+    double throughput_veh_h = 0.0;  // trips that ended
+    double travel_time_s = 0.0;     // mean of them
+    double delay_s = 0.0;           // mean wait outside
+    double passages_veh_h = 0.0;    // at all stop lines
+    double speed_mps = 0.0;         // mean over time of the vehicles' mean
+    double halting = 0.0;           // mean number: the queues
+};
+RunSummary summary_of(const RunFacts& facts, double from_s, double to_s);
+
+// Watches one of our runs. Keeps references, and fills in `facts` until it has finished.
+std::unique_ptr<RunWriter> make_facts_writer(const Model& model, const PlainNetwork& network, RunFacts& facts);
+
+// Of a run of SUMO with the files of sumo/inputs.h: trips.out.xml, detectors.out.xml, summary.out.xml in a folder. Throws InputError
+// where one is missing or not what SUMO writes.
+RunFacts read_sumo_facts(const std::filesystem::path& folder);
+
+}  // namespace stopline
