@@ -13,6 +13,7 @@
 
 #include "base/input_error.h"
 #include "base/random.h"
+#include "demand/sumo_flow.h"
 #include "demand/sumo_router.h"
 #include "demand/sumo_types.h"
 #include "network/sumo_xml.h"
@@ -32,32 +33,6 @@ struct Way {
     std::string where;
     int first_turn = -1;
 };
-
-// Seconds, or hh:mm:ss, or d:hh:mm:ss.
-std::optional<double> time_s(std::string_view text) {
-    if (text.find(':') == std::string_view::npos) return sumo_number(text);
-    double sum_s = 0.0;
-    std::size_t parts = 0;
-    double factor_s = 1.0;
-    while (parts < 4) {
-        const std::size_t colon = text.rfind(':');
-        const auto part = sumo_number(text.substr(colon == std::string_view::npos ? 0 : colon + 1));
-        if (!part || *part < 0.0) return std::nullopt;
-        sum_s += factor_s * *part;
-        factor_s *= parts < 2 ? 60.0 : 24.0;
-        ++parts;
-        if (colon == std::string_view::npos) return parts >= 3 ? std::optional(sum_s) : std::nullopt;
-        text = text.substr(0, colon);
-    }
-    return std::nullopt;
-}
-
-// FNV-1a: the same everywhere.
-std::uint64_t key_of(std::string_view text) {
-    std::uint64_t hash = 0xcbf29ce484222325U;
-    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-    return hash;
-}
 
 class RouteReader {
 public:
@@ -115,10 +90,12 @@ private:
         if (found == network_.net.edge_by_id.end()) {
             xml_->refuse(node, fmt::format("{}: there is no edge '{}'", attribute, id));
         }
-        if (!router_.drives(found->second)) {
+        int edge = found->second;
+        while (network_.net.edges[at(edge)].joined_to >= 0) edge = network_.net.edges[at(edge)].joined_to;
+        if (!router_.drives(edge)) {
             xml_->refuse(node, fmt::format("{}: passenger cars may not drive on edge '{}'", attribute, id));
         }
-        return found->second;
+        return edge;
     }
 
     // A route's edges follow each other.
@@ -126,7 +103,11 @@ private:
         Way way;
         way.where = xml_->where(node);
         const std::string edges = xml_->text(node, "edges");
-        for (const std::string_view id : sumo_words(edges)) way.edges.push_back(edge_of(node, "edges", id));
+        for (const std::string_view id : sumo_words(edges)) {
+            const int edge = edge_of(node, "edges", id);
+            // Twice the same: an edge that was joined to the one before.
+            if (way.edges.empty() || way.edges.back() != edge) way.edges.push_back(edge);
+        }
         if (way.edges.empty()) xml_->refuse(node, "edges: there is none");
         for (std::size_t k = 1; k < way.edges.size(); ++k) {
             if (router_.turn(way.edges[k - 1], way.edges[k]) != Turn::none) continue;
@@ -208,16 +189,6 @@ private:
         way.edges.push_back(edge_of(node, "to", xml_->text(node, "to")));
         ways_.push_back(std::move(way));
         return {{ways_.size() - 1, 1.0}};
-    }
-
-    double time_of(pugi::xml_node node, const char* attribute, double fallback) const {
-        const pugi::xml_attribute found = node.attribute(attribute);
-        if (!found) return fallback;
-        const std::optional<double> value = time_s(found.value());
-        if (!value || *value < 0.0) {
-            xml_->refuse(node, fmt::format("{}=\"{}\" is not a time from 0 on", attribute, found.value()));
-        }
-        return *value;
     }
 
     void read_where(pugi::xml_node node, Trip& trip) {
@@ -315,66 +286,17 @@ private:
             return traffic_.warnings.note(xml_->where(node),
                                           "vehicles that wait for persons or containers are left out");
         }
-        add(node, template_of(node), id, depart == "now" || depart == "begin" ? 0.0 : time_of(node, "depart", 0.0));
+        add(node, template_of(node), id,
+            depart == "now" || depart == "begin" ? 0.0 : sumo_time_s(*xml_, node, "depart", 0.0));
     }
 
     void read_flow(pugi::xml_node node) {
         const std::string id = xml_->text(node, "id");
         const Template made = template_of(node);
-        const double begin_s = time_of(node, "begin", 0.0);
-        const double end_s = time_of(node, "end", until_s_);
-        if (end_s < begin_s) xml_->refuse(node, "end lies before begin");
-        const auto number = xml_->number_if(node, "number");
-        if (number && (*number < 0.0 || *number != std::floor(*number))) xml_->refuse(node, "number is not usable");
-        const double most = number ? *number : 1e12;
         int count = 0;
-        const auto next = [&](double depart_s) { add(node, made, fmt::format("{}.{}", id, count++), depart_s); };
-        if (const auto probability = xml_->number_if(node, "probability")) {
-            if (*probability < 0.0 || *probability > 1.0) xml_->refuse(node, "probability must be 0 to 1");
-            const double stop_s = std::min(end_s, until_s_);
-            for (double at_s = begin_s; at_s < stop_s && count < most; at_s += 1.0) {
-                if (drawn_for(id, at_s) < *probability) next(at_s);
-            }
-            return;
+        for (const double depart_s : sumo_departures(*xml_, node, until_s_, seed_)) {
+            add(node, made, fmt::format("{}.{}", id, count++), depart_s);
         }
-        const std::string period = node.attribute("period").value();
-        if (period.starts_with("exp(") && period.ends_with(")")) {
-            const auto rate = sumo_number(std::string_view(period).substr(4, period.size() - 5));
-            if (!rate || !(*rate > 0.0) || *rate > 1000.0) xml_->refuse(node, "period: the rate is not usable");
-            double at_s = begin_s;
-            for (int k = 0; count < most; ++k) {
-                at_s += -std::log1p(-drawn_for(id, k)) / *rate;
-                if (at_s >= std::min(end_s, until_s_)) return;
-                next(at_s);
-            }
-            return;
-        }
-        const double every_s = period_of(node, number, begin_s, end_s);
-        for (double k = 0.0; k < most; ++k) {
-            const double at_s = begin_s + k * every_s;
-            if (at_s >= until_s_ || (!number && at_s >= end_s) || (number && at_s >= end_s && every_s > 0.0)) return;
-            next(at_s);
-        }
-    }
-
-    double drawn_for(const std::string& flow, double place) const {
-        return random_uniform(seed_, key_of(flow), static_cast<std::uint64_t>(place), Purpose::vehicle_type);
-    }
-
-    double period_of(pugi::xml_node node, const std::optional<double>& number, double begin_s, double end_s) const {
-        constexpr double kShortest_s = 1e-3;
-        double every_s = 0.0;
-        if (const auto period = xml_->number_if(node, "period")) {
-            every_s = *period;
-        } else if (const auto an_hour = xml_->number_if(node, node.attribute("perHour") ? "perHour" : "vehsPerHour")) {
-            every_s = *an_hour > 0.0 ? 3600.0 / *an_hour : 1e12;
-        } else if (number) {
-            return *number > 0.0 ? (end_s - begin_s) / *number : 0.0;
-        } else {
-            xml_->refuse(node, "a flow needs number, period, vehsPerHour or probability");
-        }
-        if (!(every_s >= kShortest_s)) xml_->refuse(node, "vehicles of a flow follow each other too closely");
-        return every_s;
     }
 
     // Ways that are given by some of their edges, those with the same end together; then the turns of all.

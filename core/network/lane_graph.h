@@ -34,6 +34,8 @@ struct Lane {
     int approach = -1;     // the one that it belongs to
     // Of a lane inside an intersection, if its movement has a light of its own; -1: that of the stop line.
     int light = -1;
+    // Of such a lane: whoever gives way waits before the place where ways meet, not before the stop line.
+    bool waits_inside = true;
     bool keeps_clear = true;  // of such a lane: nobody enters it without room in the exit (HindranceRules)
 };
 

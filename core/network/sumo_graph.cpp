@@ -12,6 +12,7 @@
 #include "base/input_error.h"
 #include "network/conflicts.h"
 #include "network/sumo_right_of_way.h"
+#include "network/sumo_short_edges.h"
 
 namespace stopline {
 
@@ -21,21 +22,13 @@ std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 constexpr double kShortest_m = 1.0;  // of a lane inside an intersection
 
-void append(Polyline& line, const Polyline& more) {
-    constexpr double kSame_m = 0.005;
-    for (const Point& point : more) {
-        const bool same =
-            !line.empty() && std::hypot(line.back().x_m - point.x_m, line.back().y_m - point.y_m) < kSame_m;
-        if (!same) line.push_back(point);
-    }
-}
-
 class Builder {
 public:
     Builder(SumoNet net, double clearance_m) : clearance_m_(clearance_m) { made_.net = std::move(net); }
 
     SumoNetwork build() {
         made_.lights.push_back({});
+        join_short_edges(made_.net);
         add_edges();
         index_chains();
         for (const SumoConnection& c : net().connections) {
@@ -104,7 +97,7 @@ private:
         for (int k = 0; via >= 0; ++k) {
             const SumoLane& inner = edge(via).lanes[at(lane)];
             way.speed_mps = std::min(way.speed_mps, inner.speed_mps);
-            append(way.shape, inner.shape);
+            sumo_append(way.shape, inner.shape);
             const auto link = net().link_of.find(fmt::format("{}_{}", edge(via).id, lane));
             if (link != net().link_of.end()) std::tie(way.junction, way.link) = link->second;
             const auto next = onward_.find({via, lane});

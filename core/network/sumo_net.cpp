@@ -84,7 +84,7 @@ private:
         constexpr double kLongest_m = 1e6;
         constexpr double kFastest_mps = 200.0;
         const auto index = xml_.whole(node, "index");
-        if (index != static_cast<int>(edge.lanes.size())) {
+        if (index != static_cast<int>(edge.lanes.size()) && !edge.internal) {
             xml_.refuse(node, fmt::format("lanes of edge '{}' are not numbered 0, 1, 2, ... in order", edge.id));
         }
         SumoLane lane;
@@ -134,6 +134,7 @@ private:
             const auto index = at(xml_.whole(request, "index"));
             if (index != expected++) xml_.refuse(request, "requests are not numbered 0, 1, 2, ... in order");
             junction.response.push_back(bits_of(xml_.text(request, "response")));
+            junction.cont.push_back(std::string_view(request.attribute("cont").value()) == "1");
             junction.foes.push_back(bits_of(xml_.text(request, "foes")));
         }
         for (std::size_t k = 0; k < junction.response.size(); ++k) {
@@ -264,6 +265,15 @@ std::optional<Polyline> sumo_shape(std::string_view text) {
         if (!same) line.push_back({*x, *y});
     }
     return line;
+}
+
+void sumo_append(Polyline& line, const Polyline& more) {
+    constexpr double kSame_m = 0.005;
+    for (const Point& point : more) {
+        const bool same =
+            !line.empty() && std::hypot(line.back().x_m - point.x_m, line.back().y_m - point.y_m) < kSame_m;
+        if (!same) line.push_back(point);
+    }
 }
 
 SumoNet read_sumo_net(const std::filesystem::path& file) { return NetReader(file).read(); }

@@ -44,6 +44,7 @@ struct SumoEdge {
     bool internal = false;
     std::vector<SumoLane> lanes = {};  // by index, from the right
     std::string where;                 // file:line
+    int joined_to = -1;                // the edge whose end it is (sumo_short_edges.h)
 };
 
 // From a lane of an edge, or of an internal one, to another.
@@ -70,6 +71,7 @@ struct SumoJunction {
     std::vector<std::string> incoming = {};        // ids of lanes
     std::vector<std::vector<bool>> response = {};  // [link][other] waits for the other
     std::vector<std::vector<bool>> foes = {};      // [link][other] their ways meet
+    std::vector<bool> cont = {};                   // [link] who waits does so inside
 };
 
 struct SumoPhase {
@@ -115,6 +117,8 @@ void read_sumo_additional(const std::filesystem::path& file, SumoNet& net);
 
 // Whether passenger cars are among those that `allow` and `disallow` say.
 bool sumo_allows_cars(std::string_view allow, std::string_view disallow);
+// Adds the points of one line to another, but for those that are at the same place.
+void sumo_append(Polyline& line, const Polyline& more);
 // Points "x,y" or "x,y,z" between blanks; those at the same place are one. None: a number is not finite.
 std::optional<Polyline> sumo_shape(std::string_view text);
 

@@ -41,6 +41,10 @@ public:
             }
         }
         for (SumoWay& way : ways_) {
+            const bool known = way.junction >= 0 && way.link >= 0;
+            const std::vector<bool> none;
+            const std::vector<bool>& cont = known ? made_.net.junctions[at(way.junction)].cont : none;
+            lane(way).waits_inside = known && at(way.link) < cont.size() && cont[at(way.link)];
             std::vector<Conflict>& all = made_.graph.conflicts[at(way.lane)];
             std::stable_sort(all.begin(), all.end(),
                              [](const Conflict& a, const Conflict& b) { return a.from_m < b.from_m; });
@@ -90,7 +94,11 @@ private:
         if (way.connection->pass) return false;
         const bool asked = bit(junction.response, way.link, to.link);
         const int tl = way.connection->tl;
-        if (tl < 0 || tl != to.connection->tl) return asked && !mutual(junction, way, to);
+        if (tl < 0 || tl != to.connection->tl) {
+            // Where nobody is asked to wait, the later link does.
+            const bool nobody = !asked && !bit(junction.response, to.link, way.link);
+            return asked || (nobody && (to.connection->pass || way.link > to.link));
+        }
         bool together = false;
         bool minor = false;
         for (const SumoPhase& phase : made_.net.signals[at(tl)].phases) {
@@ -100,12 +108,7 @@ private:
             together = true;
             minor = minor || (!is_major(own) && is_major(other));
         }
-        return together && (minor || (asked && !mutual(junction, way, to)));
-    }
-
-    // Both are asked to wait, as at an allway stop: then neither comes first.
-    static bool mutual(const SumoJunction& junction, const SumoWay& way, const SumoWay& to) {
-        return bit(junction.response, way.link, to.link) && bit(junction.response, to.link, way.link);
+        return together && (minor || asked);
     }
 
     SumoNetwork& made_;

@@ -7,10 +7,11 @@
 #include <vector>
 
 #include "network/street_settings.h"
-#include "network/sumo_graph.h"
 #include "signals/signal_settings.h"
 
 namespace stopline {
+
+struct SumoNetwork;  // network/sumo_graph.h
 
 enum class Light : std::uint8_t { red, green, yellow };
 

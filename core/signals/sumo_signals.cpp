@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/input_error.h"
+#include "network/sumo_graph.h"
 #include "signals/programme.h"
 
 namespace stopline {

@@ -116,6 +116,7 @@ NetworkPlan::NetworkPlan(const Model& model) : speed_factor_(model.speed_factor)
         lanes_.back().intersection = sets.of(lane);
         intersections_ += sets.of(lane) == lane ? 1 : 0;
         order_.push_back(lane);
+        waits_inside_.push_back(model.graph.lanes[at(lane)].waits_inside ? 1 : 0);
         lights_.push_back(model.graph.lanes[at(lane)].light);
         next_.add(model.graph.lanes[at(lane)].next);
         conflicts_.add(model.graph.conflicts_of(lane));

@@ -89,6 +89,7 @@ public:
         const int own = next >= 0 ? lights_[static_cast<std::size_t>(next)] : -1;
         return own >= 0 ? own : this->lane(lane).signal_group;
     }
+    bool waits_inside(int lane) const { return waits_inside_[static_cast<std::size_t>(lane)] != 0; }
     // The turn of a trip at the end of its leg-th edge; none: it ends there.
     Turn turn_of_trip(int trip, int leg) const { return demand_->turn_of_trip(trip, leg); }
     // Of a lane inside an intersection: conflict areas from its start, and the lanes that it meets there.
@@ -113,6 +114,7 @@ private:
     std::vector<std::array<int, kMostTurns>> routes_with_;  // [approach][turn]
     std::vector<int> like_;                                 // [route]
     std::vector<int> lights_;                               // [lane] Lane::light
+    std::vector<char> waits_inside_;                        // [lane]
     const DemandPlan* demand_;                              // of the model, which outlives the plan
 };
 

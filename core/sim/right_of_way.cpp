@@ -246,6 +246,14 @@ int keeps_out(const Model& model, State& state, NetworkPart& part, int lane, con
     return -1;
 }
 
+// What a slow way through a long area takes beyond the critical gap: turning round, say. Generated networks have none of these.
+double more_for_s(const Model& model, int lane, const Conflict& conflict, double limit_mps, double length_m) {
+    constexpr double kSpare_s = 1.5;
+    if (model.demand.trips.empty() || model.graph.lanes[at(lane)].origin < 0) return 0.0;
+    const double through_s = (conflict.to_m - conflict.from_m + length_m) / limit_mps + kSpare_s;
+    return std::max(through_s - model.give_way.critical_gap_s, 0.0);
+}
+
 // The slot of a vehicle with priority that is too near for this one to go; -1: none. The decision is noted.
 int comes_first(const Model& model, State& state, NetworkPart& part, int lane, const Candidate& v, double to_hold_m) {
     VehicleArrays& arrays = state.vehicles;
@@ -258,11 +266,14 @@ int comes_first(const Model& model, State& state, NetworkPart& part, int lane, c
     Arrival next;
     for (const Conflict& conflict : state.plan.conflicts(lane)) {
         if (!conflict.yields || v.front_m > conflict.from_m) continue;
-        const Arrival arrival = next_arrival(model, state, conflict, needed_s);
+        const double until_s = needed_s + more_for_s(model, lane, conflict, limit_mps, arrays.length_m[at(v.slot)]);
+        const Arrival arrival = next_arrival(model, state, conflict, until_s);
         next.earlier(arrival.in_s, arrival.slot);
-        if (next.in_s < needed_s) return next.slot;
+        if (arrival.in_s < until_s) return arrival.slot;
     }
     record.cleared_for = lane;
+    // Where each of several gives way to the next one, in a circle, the first that goes is no longer held up.
+    if (!model.demand.trips.empty()) record.held_at = -2;
     if (!model.records_all || again) return -1;
     part.gaps_accepted.push_back({model.time_s(state.tick), arrays.id[at(v.slot)], lane, static_cast<float>(next.in_s),
                                   static_cast<float>(needed_s)});
@@ -277,6 +288,15 @@ struct Wait {
     bool priority = false;
 };
 
+// Of a way on which one does not wait inside, for one that can still stop before the line: where, along the lane inside; else nowhere.
+double waits_at_line_m(const Model& model, const State& state, int lane, const Candidate& v) {
+    if (v.inside || state.plan.waits_inside(lane)) return kNowhere_m;
+    const LanePlan& origin = state.plan.lane(state.plan.lane(lane).origin);
+    const double line_m = origin.stop_line_m - origin.length_m - model.driver.stop.margin_m;
+    const double speed_mps = state.vehicles.speed_mps[at(v.slot)];
+    return v.stands || line_m - v.front_m >= stopping_m(model, speed_mps) ? line_m : kNowhere_m;
+}
+
 // `ahead`: slot of one that waits ahead on the same way, -1: none. Behind it no gap is looked for.
 Wait waiting_place(const Model& model, State& state, NetworkPart& part, int lane, const Candidate& v, int ahead) {
     VehicleArrays& arrays = state.vehicles;
@@ -289,17 +309,23 @@ Wait waiting_place(const Model& model, State& state, NetworkPart& part, int lane
     const double to_first_m = state.plan.lane(lane).first_area_m - margin_m - v.front_m;
     if (!v.stands && to_first_m > stopping_m(model, speed)) decided = false;
     const bool others = state.others_inside[at(lane)].lanes > 0;
+    const double line_m = waits_at_line_m(model, state, lane, v);
+    const bool at_line = line_m < kNowhere_m;
+    const bool no_light = state.plan.light_before(state.plan.lane(lane).origin, lane) == 0;
+    if (at_line && line_m - v.front_m > ahead_m) return {};
     if (!others && (decided || !state.plan.lane(lane).yields)) return {};
     for (const Conflict& conflict : state.plan.conflicts(lane)) {
         const double hold_m = conflict.from_m - margin_m;
         if (v.front_m > conflict.from_m) continue;
-        if (hold_m - v.front_m > ahead_m) break;
+        const bool far = hold_m - v.front_m > ahead_m;
+        if (far && !at_line) break;
         const bool empty = !others || state.insiders[at(conflict.other)].empty();
         const int blocker = empty ? -1 : keeps_out(model, state, part, lane, conflict, v);
-        if (blocker >= 0) return {hold_m, blocker, false};
+        const bool matters = !far || no_light || (blocker >= 0 && arrays.speed_mps[at(blocker)] < kStanding_mps);
+        if (blocker >= 0 && matters) return {std::min(hold_m, line_m), blocker, false};
         if (conflict.yields && !decided) {
             const int first = ahead >= 0 ? ahead : comes_first(model, state, part, lane, v, hold_m - v.front_m);
-            if (first >= 0) return {hold_m, first, true};
+            if (first >= 0) return {std::min(hold_m, line_m), first, true};
             decided = true;
         }
     }

@@ -196,7 +196,11 @@ void list_coming(const Model& model, State& state, int index) {
         if (record.next_lane < 0) continue;
         const LanePlan& way = state.plan.lane(record.next_lane);
         if (way.origin != index || (!way.yields && state.others_inside[at(record.next_lane)].lanes == 0)) continue;
-        const double to_area_m = to_end_m + way.first_area_m - model.give_way.margin_m;
+        double to_area_m = to_end_m + way.first_area_m - model.give_way.margin_m;
+        if (!state.plan.waits_inside(record.next_lane)) {
+            const double line_m = state.plan.lane(index).stop_line_m - model.driver.stop.margin_m;
+            to_area_m = std::min(to_area_m, line_m - v.position_m[at(slot)]);
+        }
         if (to_area_m > decides_within_m(model, v.speed_mps[at(slot)]) && record.cleared_for != record.next_lane)
             continue;
         state.coming[at(record.next_lane)].push_back(slot);

@@ -89,11 +89,11 @@ TEST(SumoNetwork, GivesWayAsTheMatrixSays) {
     EXPECT_EQ(conflict(graph, ":J_1_0", ":J_1_1"), nullptr);
 }
 
-TEST(SumoNetwork, WhoeverIsAskedToWaitForEachOtherDoesNotYield) {
+TEST(SumoNetwork, WhereBothAreAskedToWaitBothDo) {
     const std::string text = replaced(crossing_net(), "index=\"1\" response=\"0000\"", "index=\"1\" response=\"0001\"");
     const LaneGraph graph = made_of(text).graph;
-    EXPECT_FALSE(conflict(graph, ":J_0_0", ":J_1_0")->yields);
-    EXPECT_FALSE(conflict(graph, ":J_1_0", ":J_0_0")->yields);
+    EXPECT_TRUE(conflict(graph, ":J_0_0", ":J_1_0")->yields);
+    EXPECT_TRUE(conflict(graph, ":J_1_0", ":J_0_0")->yields);
     EXPECT_TRUE(conflict(graph, ":J_0_0", ":J_1_1")->yields);
 }
 

@@ -1,0 +1,151 @@
+#include "demand/sumo_flow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "base/random.h"
+
+namespace stopline {
+
+namespace {
+
+constexpr double kMost = 2e7;  // vehicles of a flow
+
+std::optional<double> parsed_s(std::string_view text) {
+    if (text.find(':') == std::string_view::npos) return sumo_number(text);
+    double sum_s = 0.0;
+    double factor_s = 1.0;
+    for (std::size_t parts = 1; parts <= 4; ++parts) {
+        const std::size_t colon = text.rfind(':');
+        const bool last = colon == std::string_view::npos;
+        const auto part = sumo_number(last ? text : text.substr(colon + 1));
+        if (!part || *part < 0.0) return std::nullopt;
+        sum_s += factor_s * *part;
+        factor_s *= parts < 3 ? 60.0 : 24.0;
+        if (last) return parts >= 3 ? std::optional(sum_s) : std::nullopt;
+        text = text.substr(0, colon);
+    }
+    return std::nullopt;
+}
+
+// FNV-1a: the same everywhere.
+std::uint64_t key_of(std::string_view text) {
+    std::uint64_t hash = 0xcbf29ce484222325U;
+    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+    return hash;
+}
+
+class Flow {
+public:
+    Flow(const SumoXml& xml, pugi::xml_node node, double until_s, std::uint64_t seed)
+        : xml_(xml), node_(node), seed_(seed), key_(key_of(xml.text(node, "id"))) {
+        begin_s_ = sumo_time_s(xml, node, "begin", 0.0);
+        end_s_ = sumo_time_s(xml, node, "end", until_s);
+        if (end_s_ < begin_s_) xml.refuse(node, "end lies before begin");
+        stop_s_ = std::min(end_s_, until_s);
+        number_ = xml.number_if(node, "number");
+        if (number_ && (*number_ < 0.0 || *number_ != std::floor(*number_))) xml.refuse(node, "number is not usable");
+    }
+
+    std::vector<double> departures() {
+        const std::string_view period = node_.attribute("period").value();
+        if (node_.attribute("probability")) {
+            by_probability();
+        } else if (period.starts_with("exp(") && period.ends_with(")")) {
+            by_rate(sumo_number(period.substr(4, period.size() - 5)));
+        } else {
+            evenly();
+        }
+        return std::move(times_s_);
+    }
+
+private:
+    double drawn(double place) const {
+        return random_uniform(seed_, key_, static_cast<std::uint64_t>(place), Purpose::vehicle_type);
+    }
+
+    // False: these are all.
+    bool add(double time_s) {
+        const auto count = static_cast<double>(times_s_.size());
+        if (time_s >= stop_s_ || (number_ && count >= *number_)) return false;
+        if (count >= kMost) xml_.refuse(node_, fmt::format("a flow of more than {} vehicles", kMost));
+        times_s_.push_back(time_s);
+        return true;
+    }
+
+    void by_probability() {
+        const double probability = xml_.number(node_, "probability");
+        if (probability < 0.0 || probability > 1.0) xml_.refuse(node_, "probability must be 0 to 1");
+        for (double time_s = begin_s_; time_s < stop_s_; time_s += 1.0) {
+            if (drawn(time_s) < probability && !add(time_s)) return;
+        }
+    }
+
+    void by_rate(const std::optional<double>& rate_1ps) {
+        constexpr double kFastest_1ps = 1000.0;
+        if (!rate_1ps || !(*rate_1ps > 0.0) || *rate_1ps > kFastest_1ps)
+            xml_.refuse(node_, "period: the rate is not usable");
+        double time_s = begin_s_;
+        for (double k = 0.0;; ++k) {
+            time_s -= std::log1p(-drawn(k)) / *rate_1ps;
+            if (!add(time_s)) return;
+        }
+    }
+
+    void evenly() {
+        const double every_s = period_s();
+        for (double k = 0.0; add(begin_s_ + k * every_s);) ++k;
+    }
+
+    double period_s() const {
+        constexpr double kShortest_s = 1e-3;
+        constexpr double kNever_s = 1e12;
+        const char* const hourly = node_.attribute("perHour") ? "perHour" : "vehsPerHour";
+        double every_s = 0.0;
+        if (const auto period = xml_.number_if(node_, "period")) {
+            every_s = *period;
+        } else if (const auto an_hour = xml_.number_if(node_, hourly)) {
+            every_s = *an_hour > 0.0 ? 3600.0 / *an_hour : kNever_s;
+        } else if (number_) {
+            every_s = *number_ > 0.0 ? (end_s_ - begin_s_) / *number_ : kNever_s;
+        } else {
+            xml_.refuse(node_, "a flow needs number, period, vehsPerHour or probability");
+        }
+        if (!(every_s >= kShortest_s)) xml_.refuse(node_, "vehicles of a flow follow each other too closely");
+        return every_s;
+    }
+
+    const SumoXml& xml_;
+    pugi::xml_node node_;
+    std::uint64_t seed_;
+    std::uint64_t key_;
+    double begin_s_ = 0.0;
+    double end_s_ = 0.0;
+    double stop_s_ = 0.0;
+    std::optional<double> number_;
+    std::vector<double> times_s_;
+};
+
+}  // namespace
+
+double sumo_time_s(const SumoXml& xml, pugi::xml_node node, const char* attribute, double fallback_s) {
+    const pugi::xml_attribute found = node.attribute(attribute);
+    if (!found) return fallback_s;
+    const std::optional<double> value_s = parsed_s(found.value());
+    if (!value_s || *value_s < 0.0) {
+        xml.refuse(node, fmt::format("{}=\"{}\" is not a time from 0 on", attribute, found.value()));
+    }
+    return *value_s;
+}
+
+std::vector<double> sumo_departures(const SumoXml& xml, pugi::xml_node flow, double until_s, std::uint64_t seed) {
+    return Flow(xml, flow, until_s, seed).departures();
+}
+
+}  // namespace stopline

@@ -1,0 +1,141 @@
+// Imported networks as they run: small ones, written by hand.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "experiment/network_run.h"
+#include "scenario/import_sumo.h"
+#include "scenario/load_scenario.h"
+#include "support/sumo_files.h"
+
+namespace stopline {
+namespace {
+
+using testing::crossing_net;
+using testing::signal_net;
+using testing::SumoFiles;
+using testing::two_phases;
+
+Scenario scenario_of(const std::string& net, const std::string& routes, const std::string& more = "fidelity: meso\n") {
+    const SumoFiles files;
+    files.write("my.net.xml", net);
+    files.write("my.rou.xml", "<routes>\n" + routes + "\n</routes>");
+    return parse_scenario(more +
+                              "duration: 300 s\n"
+                              "network: {kind: sumo, net: ./my.net.xml, routes: [./my.rou.xml]}\n"
+                              "populations: [CDG, CTG-Ref]\nmeasure: {steady: 200 s}\n",
+                          "my.yaml", {}, files.folder());
+}
+
+constexpr const char* kBusy = R"(<flow id="w" from="w_in" to="e_out" vehsPerHour="700" end="200" departLane="best" departSpeed="max"/>
+<flow id="l" from="w_in" to="n_out" vehsPerHour="200" end="200" departLane="best" departSpeed="max"/>
+<flow id="s" from="s_in" to="n_out" vehsPerHour="400" end="200" departSpeed="max"/>)";
+
+struct Case {
+    const char* name;
+    std::string net;
+};
+
+TEST(SumoRun, EverybodyArrivesWithoutViolationInBothFidelities) {
+    for (const Case& each : {Case{"priority", crossing_net()}, Case{"lights", signal_net(two_phases())}}) {
+        for (const char* const fidelity : {"fidelity: meso\n", "fidelity: full\nstep: 10 ms\n"}) {
+            const Scenario scenario = scenario_of(each.net, kBusy, fidelity);
+            for (std::size_t population = 0; population < 2; ++population) {
+                const NetworkFigures f = run_network(scenario, population, {}, 1, {});
+                EXPECT_TRUE(f.violations.none()) << each.name << fidelity << population;
+                EXPECT_EQ(f.violations.conflicts + f.violations.overlaps + f.violations.lost_vehicles, 0);
+                EXPECT_EQ(f.entered, 39 + 12 + 23) << each.name << fidelity;
+                EXPECT_EQ(f.left_network, f.entered) << each.name << fidelity << population;
+                EXPECT_EQ(f.strayed, 0);
+                EXPECT_EQ(f.waiting, 0);
+            }
+        }
+    }
+}
+
+TEST(SumoRun, IsTheSameWithAnyNumberOfThreads) {
+    const Scenario scenario = scenario_of(signal_net(two_phases()), kBusy);
+    const std::uint64_t one = run_network(scenario, 0, {}, 1, {}).state_hash;
+    EXPECT_EQ(run_network(scenario, 0, {}, 3, {}).state_hash, one);
+    Model model = network_model(scenario, 0);
+    model.scalar_kernels = true;
+    Simulation oracle(model);
+    oracle.run_until(scenario.duration_s);
+    EXPECT_EQ(oracle.state_hash(), one);
+}
+
+// Ticks from which somebody was on a lane.
+double first_seen_s(const Scenario& scenario, const std::string& lane, double until_s) {
+    const Model model = network_model(scenario, 0);
+    Simulation simulation(model);
+    while (simulation.time_s() < until_s) {
+        simulation.step();
+        for (std::size_t k = 0; k < model.graph.lanes.size(); ++k) {
+            if (model.graph.lanes[k].name == lane && simulation.state().blocks[k].count > 0) return simulation.time_s();
+        }
+    }
+    return -1.0;
+}
+
+TEST(SumoRun, WhoeverMustGivesWay) {
+    const std::string stream =
+        R"(<flow id="w" from="w_in" to="e_out" period="2.5" end="90" departLane="0" departSpeed="max"/>)";
+    const std::string minor = R"(<trip id="s" from="s_in" to="n_out" depart="20" departSpeed="max"/>)";
+    const double alone_s = first_seen_s(scenario_of(crossing_net(), minor), "n_out_1", 150.0);
+    EXPECT_NEAR(alone_s, 20.0 + 205.0 / 13.89, 3.0);
+    EXPECT_GT(first_seen_s(scenario_of(crossing_net(), stream + minor), "n_out_1", 150.0), 95.0);
+    // Without the matrix's bits it is the stream that waits.
+    std::string reversed = testing::replaced(crossing_net(), "index=\"0\" response=\"1110\"", "index=\"0\" response=\"0000\"");
+    reversed = testing::replaced(reversed, "index=\"1\" response=\"0000\"", "index=\"1\" response=\"0001\"");
+    EXPECT_LT(first_seen_s(scenario_of(reversed, stream + minor), "n_out_1", 150.0), alone_s + 5.0);
+}
+
+TEST(SumoRun, MovementsOfOneLaneMindTheirOwnLights) {
+    // Straight on from the left lane is green until 60 s, turning left only from then on.
+    const std::string net =
+        signal_net(R"(<phase duration="60" state="rGGr"/><phase duration="4" state="ryyr"/><phase duration="56" state="rrrG"/>)");
+    const std::string straight = R"(<trip id="a" depart="0" from="w_in" to="e_out" departLane="1" departSpeed="max"/>)";
+    const std::string left = R"(<trip id="b" depart="0" from="w_in" to="n_out" departLane="1" departSpeed="max"/>)";
+    EXPECT_LT(first_seen_s(scenario_of(net, straight), "e_out_1", 100.0), 25.0);
+    const double turned_s = first_seen_s(scenario_of(net, left), ":J_3_0", 100.0);
+    EXPECT_GT(turned_s, 64.0);
+    EXPECT_LT(turned_s, 70.0);
+}
+
+TEST(SumoRun, LeavesWhereTheRouteEndsAlthoughTheLightIsRed) {
+    const std::string net = signal_net(R"(<phase duration="290" state="rrrr"/><phase duration="10" state="GGGG"/>)");
+    const Scenario scenario = scenario_of(net, R"(<vehicle id="a" depart="0" departSpeed="max"><route edges="s_in"/></vehicle>
+<vehicle id="b" depart="5" departSpeed="max"><route edges="s_in n_out"/></vehicle>)");
+    const NetworkFigures f = run_network(scenario, 0, {}, 1, {});
+    EXPECT_EQ(f.entered, 2);
+    EXPECT_EQ(f.left_network, 1);
+    EXPECT_TRUE(f.violations.none());
+}
+
+TEST(SumoRun, VehiclesWaitOutsideWhileThereIsNoRoom) {
+    const std::string net = signal_net(R"(<phase duration="299" state="rrrr"/><phase duration="1" state="GGGG"/>)");
+    const NetworkFigures f =
+        run_network(scenario_of(net, R"(<flow id="s" from="s_in" to="n_out" number="60" begin="0" end="100"/>)"), 0, {}, 1, {});
+    EXPECT_GT(f.waiting, 20);
+    EXPECT_EQ(f.entered + f.waiting, 60);
+    EXPECT_TRUE(f.violations.none());
+}
+
+TEST(SumoRun, FilesAreInTheHash) {
+    const std::uint64_t hash = scenario_of(crossing_net(), kBusy).hash;
+    EXPECT_EQ(scenario_of(crossing_net(), kBusy).hash, hash);
+    EXPECT_NE(scenario_of(crossing_net(), std::string(kBusy) + " ").hash, hash);
+    EXPECT_NE(scenario_of(crossing_net() + " ", kBusy).hash, hash);
+}
+
+TEST(SumoScenario, RefusesWhatDoesNotBelongToIt) {
+    const auto says = [](const std::string& more) {
+        return testing::refusal([&] { scenario_of(crossing_net(), kBusy, more); });
+    };
+    EXPECT_NE(says("demand: {vehicles: 3}\n").find("field 'demand' is used only where"), std::string::npos);
+    EXPECT_NE(says("signal: {green: 3 s}\n").find("field 'signal' is used only where"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace stopline
