@@ -14,9 +14,10 @@
 namespace stopline {
 
 std::string ListedFigure::id() const {
+    const std::string own = figure.substr(0, figure.find(','));  // "Fig. 5" of "Fig. 5, speeds"
     std::string kind;
     std::string number;
-    for (const char c : figure) {
+    for (const char c : own) {
         if (std::isdigit(static_cast<unsigned char>(c)) != 0)
             number += c;
         else if (std::isalpha(static_cast<unsigned char>(c)) != 0)

@@ -58,9 +58,12 @@ std::string html_id(std::string_view text) {
 }
 
 HtmlTable::HtmlTable(std::string caption, std::vector<std::string> columns)
-    : caption_(std::move(caption)), columns_(std::move(columns)) {}
+    : caption_(std::move(caption)), columns_(std::move(columns)), numbers_(columns_.size(), false) {}
 
 void HtmlTable::row(const std::vector<Cell>& cells, const std::string& id) {
+    for (std::size_t k = 0; k < cells.size() && k < numbers_.size() && rows_.empty(); ++k) {
+        numbers_[k] = cells[k].css == "number";
+    }
     rows_ += id.empty() ? "<tr>" : fmt::format("<tr id=\"{}\">", html_id(id));
     for (std::size_t k = 0; k < cells.size(); ++k) {
         const std::string css = cells[k].css.empty() ? "" : fmt::format(" class=\"{}\"", html_text(cells[k].css));
@@ -73,14 +76,17 @@ void HtmlTable::row(const std::vector<Cell>& cells, const std::string& id) {
 
 std::string HtmlTable::html() const {
     std::string head;
-    for (const std::string& column : columns_) head += fmt::format("<th scope=\"col\">{}</th>", html_text(column));
-    return fmt::format("<table>\n<caption>{}</caption>\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody>\n</table>\n",
-                       html_text(caption_), head, rows_);
+    for (std::size_t k = 0; k < columns_.size(); ++k) {
+        head +=
+            fmt::format("<th scope=\"col\"{}>{}</th>", numbers_[k] ? " class=\"number\"" : "", html_text(columns_[k]));
+    }
+    const std::string caption = caption_.empty() ? "" : fmt::format("<caption>{}</caption>\n", html_text(caption_));
+    return fmt::format("<table>\n{}<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody>\n</table>\n", caption, head, rows_);
 }
 
-std::string html_of_csv(const std::string& csv, const std::string& label, const std::string& caption) {
+std::string html_of_csv(const std::string& csv, const std::string& label) {
     const CsvTable table = parse_csv(csv, label);
-    HtmlTable html(caption, table.columns);
+    HtmlTable html("", table.columns);
     for (const std::vector<std::string>& row : table.rows) {
         std::vector<HtmlTable::Cell> cells;
         for (const std::string& text : row) cells.push_back({text, parse_number(text) ? "number" : ""});

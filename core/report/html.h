@@ -20,12 +20,11 @@ std::string html_id(std::string_view text);
 class HtmlTable {
 public:
     struct Cell {
-        std::string text;        // escaped here
-        std::string css = {};    // class of the cell
-        std::string title = {};  // of a header cell: what is meant
+        std::string text;      // escaped here
+        std::string css = {};  // class of the cell; number: to the right, its column's name too
     };
 
-    // `caption` is read out before the table.
+    // `caption` is read out before the table; "": none.
     HtmlTable(std::string caption, std::vector<std::string> columns);
     void row(const std::vector<Cell>& cells, const std::string& id = "");
     std::string html() const;
@@ -33,10 +32,11 @@ public:
 private:
     std::string caption_;
     std::vector<std::string> columns_;
+    std::vector<bool> numbers_;  // [column], as in the first row
     std::string rows_;
 };
 
-// A table of CSV text, headers in words (column_name_unit as it stands); numbers to the right.
-std::string html_of_csv(const std::string& csv, const std::string& label, const std::string& caption);
+// A table of CSV text without a caption; numbers to the right. `label` stands for the file in messages.
+std::string html_of_csv(const std::string& csv, const std::string& label);
 
 }  // namespace stopline

@@ -37,7 +37,7 @@ private:
     const JobContext& context_;
 };
 
-// "REDUCED" on a figure, in its lower right corner.
+// "REDUCED" on a figure, along its right edge.
 Figure marked_as_reduced(Figure figure);
 
 // A scenario of the project, reduced as the job is.

@@ -1,12 +1,13 @@
 // Sections VI and VII: arterial, grid, Berlin.
 #include <algorithm>
-#include <array>
+#include <functional>
 
 #include <fmt/format.h>
 
 #include "experiment/network.h"
 #include "experiment/network_sweep_figures.h"
 #include "experiment/seed_means.h"
+#include "experiment/side_by_side.h"
 #include "experiment/street_map.h"
 #include "experiment/street_results.h"
 #include "experiment/sweep_results.h"
@@ -34,13 +35,8 @@ JobOutput sweep_job(const JobContext& context, const char* experiment, const cha
     return writer.output;
 }
 
-NetworkReport network_report(const JobContext& context, const Scenario& scenario, Part part = {0.0, 1.0}) {
-    NetworkOptions options;
-    options.threads = context.threads;
-    options.on_progress = [&](double share) {
-        return !context.on_progress || context.on_progress(part.from + share * (part.to - part.from));
-    };
-    return run_networks(scenario, options);
+NetworkReport network_report(const JobContext& context, const Scenario& scenario) {
+    return run_networks(scenario, {context.threads, context.on_progress, {}});
 }
 
 NetworkReport only(const NetworkReport& report, const std::vector<std::string>& names) {
@@ -65,21 +61,25 @@ JobOutput run_situations_job(const JobContext& context) {
         {"situation_4", {"signal.green=35 s", "signal.cross_green=5 s"}}};
     const std::vector<std::string> shared{"demand.cross_left=0 %", "demand.cross_right=0 %", "populations=[CDG]",
                                           "measure.baseline=CDG"};
-    JobWriter writer(context);
-    for (std::size_t k = 0; k < situations.size(); ++k) {
+    const auto settings_of = [&](std::size_t k) {
         std::vector<std::string> settings = situations[k].settings;
         settings.insert(settings.end(), shared.begin(), shared.end());
-        const Scenario scenario = scenario_named(context, "arterial", settings);
-        const double step = 1.0 / static_cast<double>(situations.size());
-        const double begin = static_cast<double>(k) * step;
-        const NetworkReport report = network_report(context, scenario, {begin, begin + step});
-        if (k == 0) writer.conditions_of(scenario);
+        return settings;
+    };
+    std::vector<NetworkReport> reports(situations.size());
+    run_side_by_side(situations.size(), context.threads, context.on_progress,
+                     [&](std::size_t k, const std::function<bool(double)>& tell) {
+                         reports[k] = run_networks(scenario_named(context, "arterial", settings_of(k)), {1, tell, {}});
+                     });
+    JobWriter writer(context);
+    for (std::size_t k = 0; k < situations.size(); ++k) {
+        if (k == 0) writer.conditions_of(reports[k].scenario);
         std::string command = "stopline-run scenarios/arterial.yaml";
-        for (const std::string& setting : settings) command += fmt::format(" --set '{}'", setting);
+        for (const std::string& setting : settings_of(k)) command += fmt::format(" --set '{}'", setting);
         writer.command(command);
-        writer.table(fmt::format("{}.csv", situations[k].name), network_csv(report));
-        writer.figure(street_figure(report), situations[k].name);
-        writer.output.violations += report.no_violations() ? 0 : 1;
+        writer.table(fmt::format("{}.csv", situations[k].name), network_csv(reports[k]));
+        writer.figure(street_figure(reports[k]), situations[k].name);
+        writer.output.violations += reports[k].no_violations() ? 0 : 1;
     }
     return writer.output;
 }

@@ -38,6 +38,7 @@ std::vector<std::string> sections_of(const std::vector<ScoredRow>& rows) {
         const std::string section = major(row.target.section);
         if (std::find(sections.begin(), sections.end(), section) == sections.end()) sections.push_back(section);
     }
+    std::stable_partition(sections.begin(), sections.end(), [](const std::string& section) { return section == "I"; });
     return sections;
 }
 
@@ -92,13 +93,14 @@ std::string difference_text(const ScoredRow& row) {
     const std::optional<double> ours = parse_number(row.ours);
     if (!paper || !ours) return "";
     const double difference = *ours - *paper;
-    std::string text = fmt::format("{:+.4g}", std::abs(difference) < 1e-9 ? 0.0 : difference);
+    if (std::abs(difference) < 1e-9) return "0";
+    std::string text = fmt::format("{:+.4g}", difference);
     if (row.target.unit != "%" && *paper != 0.0) text += fmt::format(" ({:+.1f} %)", 100.0 * difference / *paper);
     return text;
 }
 
 std::string score_table(const ReportContent& content, const std::string& section) {
-    HtmlTable table(section_title(section) + ". Tolerances are those of data/paper/targets.csv.",
+    HtmlTable table("Paper and tolerance: data/paper/targets.csv; explanations: data/paper/explanations.csv",
                     {"Row", "Quantity", "Conditions", "Paper", "Ours", "Unit", "Difference", "Tolerance", "Verdict",
                      "How it is counted; why it is outside"});
     for (const ScoredRow& row : content.scorecard.rows) {
@@ -112,7 +114,7 @@ std::string score_table(const ReportContent& content, const std::string& section
                    {row.target.value},
                    {row.ours},
                    {row.target.unit == "-" ? "" : row.target.unit},
-                   {difference_text(row)},
+                   {difference_text(row), "short"},
                    {tolerance_text(row.target)},
                    verdict_cell(row.verdict),
                    {row.counted + between + row.reason, "words"}},
@@ -121,17 +123,15 @@ std::string score_table(const ReportContent& content, const std::string& section
     return table.html();
 }
 
-std::string scorecard_html(const ReportContent& content) {
-    std::string html = "<section id=\"scorecard\">\n<h2>Scorecard</h2>\n";
-    HtmlTable summary(
-        "Rows of the paper that we judge, by section. Open: the row states no tolerance, or was not measured here.",
-        {"Section", "Rows", "Inside", "Outside", "Open"});
-    const std::vector<std::string> sections = sections_of(content.scorecard.rows);
+std::string summary_html(const ReportContent& content) {
+    HtmlTable summary("Rows of the paper by section. Open: the row states no tolerance, or was not measured here.",
+                      {"Section", "Rows", "Inside", "Outside", "Open"});
     const auto count_row = [&](const std::string& name, const std::string& section) {
         std::array<int, 3> counts{};
         for (const ScoredRow& row : content.scorecard.rows) {
-            if (section.empty() || major(row.target.section) == section)
+            if (section.empty() || major(row.target.section) == section) {
                 ++counts.at(static_cast<std::size_t>(row.verdict));
+            }
         }
         summary.row({{name},
                      {fmt::format("{}", counts[0] + counts[1] + counts[2]), "number"},
@@ -139,14 +139,18 @@ std::string scorecard_html(const ReportContent& content) {
                      {fmt::format("{}", counts[1]), "number"},
                      {fmt::format("{}", counts[2]), "number"}});
     };
-    for (const std::string& section : sections) count_row(section_title(section), section);
+    for (const std::string& section : sections_of(content.scorecard.rows)) count_row(section_title(section), section);
     count_row("Together", "");
-    html += summary.html();
-    html += fmt::format(
-        "<p>Runs in which vehicles overlapped, entered on red or were lost: {:.0f}. As CSV: <a "
-        "href=\"tables/scorecard.csv\">scorecard.csv</a>.</p>\n",
-        content.scorecard.violations);
-    for (const std::string& section : sections) {
+    return "<h2>How well the paper is met</h2>\n" + summary.html() +
+           fmt::format(
+               "<p>Runs in which vehicles overlapped, entered on red or were lost: {:.0f}. All rows: <a "
+               "href=\"#scorecard\">scorecard</a>; as CSV: <a href=\"tables/scorecard.csv\">scorecard.csv</a>.</p>\n",
+               content.scorecard.violations);
+}
+
+std::string scorecard_html(const ReportContent& content) {
+    std::string html = "<section id=\"scorecard\">\n<h2>Scorecard</h2>\n";
+    for (const std::string& section : sections_of(content.scorecard.rows)) {
         html += fmt::format("<h3>{}</h3>\n{}", html_text(section_title(section)), score_table(content, section));
     }
     return html + "</section>\n";
@@ -252,8 +256,8 @@ std::string report_page(const ReportContent& content) {
                "content=\"width=device-width, initial-scale=1\">\n<title>Stopline: the paper reproduced{}</title>\n<style>{}</style>\n"
                "</head>\n<body>\n<div class=\"page\">\n",
                content.reduced() ? " (reduced)" : "", kPageStyle) +
-           header(content) + contents(content) + "<main>\n" + scorecard_html(content) + figures_html(content) +
-           not_drawn_html(content) + files_html(content) + made_html(content) +
+           header(content) + summary_html(content) + contents(content) + "<main>\n" + scorecard_html(content) +
+           figures_html(content) + not_drawn_html(content) + files_html(content) + made_html(content) +
            fmt::format("</main>\n<footer>Stopline {}. Made by <code>{}</code>.</footer>\n</div>\n</body>\n</html>\n",
                        html_text(content.version), html_text(content.command));
 }

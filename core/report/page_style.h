@@ -28,8 +28,9 @@ caption { text-align: left; color: var(--soft); padding: .25rem 0; }
 th, td { text-align: left; vertical-align: top; padding: .3rem .55rem; border-bottom: 1px solid var(--line); font-weight: 400; }
 thead th { background: var(--band); font-weight: 600; border-bottom: 2px solid var(--line); }
 tbody tr:nth-child(even) { background: #fbfcfd; }
-td.number { text-align: right; font-variant-numeric: tabular-nums; }
+td.number, thead th.number { text-align: right; font-variant-numeric: tabular-nums; }
 td.words { min-width: 16rem; }
+td.short { white-space: nowrap; }
 .inside { color: var(--in); font-weight: 600; white-space: nowrap; }
 .miss { color: var(--out); font-weight: 700; white-space: nowrap; }
 .open { color: var(--soft); font-style: italic; white-space: nowrap; }
@@ -53,7 +54,7 @@ footer { margin-top: 3rem; color: var(--soft); font-size: .88rem; border-top: 1p
   tbody tr { border: 1px solid var(--line); border-radius: 6px; margin: 0 0 .6rem; padding: .3rem .5rem; }
   th, td { border: 0; padding: .1rem 0; }
   tbody th { font-weight: 700; }
-  td.number { text-align: left; }
+  td.number, thead th.number { text-align: left; }
   td.words { min-width: 0; }
   td:empty { display: none; }
   td[data-label]::before { content: attr(data-label) ": "; color: var(--soft); font-weight: 400; font-style: normal; }

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/input_error.h"
 #include "base/version.h"
@@ -74,14 +75,16 @@ JobEnd comparison_job(const ReproduceOptions& options, const std::vector<JobEnd>
     context.reductions = options.reductions;
     JobWriter writer(context);
     writer.figures(scorecard.figures);
+    std::vector<std::string> scenarios;
     for (const char* name : {"intersection_table", "arterial", "grid"}) {
         const JobEnd* const from = job_named(jobs, name);
         if (from == nullptr) continue;
         for (const auto& [what, words] : from->output.conditions) {
-            if (what == "Scenario") writer.condition(what, words);
+            if (what == "Scenario") scenarios.push_back(words);
         }
         writer.output.seeds.insert(from->output.seeds.begin(), from->output.seeds.end());
     }
+    writer.condition("Scenarios", fmt::format("{}", fmt::join(scenarios, "; ")));
     writer.command("stopline-scorecard");
     return {nullptr, context.folder, writer.output, "", {}};
 }
@@ -101,7 +104,7 @@ void find(ShownFigure& shown, const JobEnd& end, Files& files) {
     shown.seeds = seeds_text(end.output.seeds);
     shown.commands = end.output.commands;
     if (shown.listed.is_table()) {
-        shown.table = html_of_csv(read_file(end.folder / name), name, shown.listed.title);
+        shown.table = html_of_csv(read_file(end.folder / name), name);
         return;
     }
     const std::string svg = read_file(end.folder / (name + ".svg"));
