@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 #include <utility>
 
 #include <fmt/format.h>
@@ -25,6 +26,9 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+// Of all threads of this program: what a job costs, whatever else the machine has to do. gnuplot's part is not in it.
+double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 // Files that only the report reads: a job does not depend on them.
 bool is_of_report(const fs::path& file) {
@@ -113,6 +117,7 @@ private:
     void run_one(std::size_t k, JobEnd& end) {
         const Job& job = *jobs_[k];
         const Clock::time_point begin = Clock::now();
+        const double processor_begin_s = processor_seconds();
         estimate_.begin(k, seconds_since(begin_));
         JobContext context{end.folder, folder_ / "stores", options_.reductions, key_, options_.threads, {}, {}};
         context.on_progress = [&](double share) {
@@ -126,7 +131,7 @@ private:
             end.output = job.run(context);
             store_record(end.folder, key_, end.output);
             tell(k, fmt::format("{:.1f} s", seconds_since(begin)));
-            note_time(job, seconds_since(begin));
+            note_time(job, seconds_since(begin), processor_seconds() - processor_begin_s);
         } catch (const Interrupted&) {
             throw;
         } catch (const std::exception& error) {
@@ -145,9 +150,9 @@ private:
         }
     }
 
-    void note_time(const Job& job, double seconds) {
-        times_ += fmt::format("{},{},{:.1f}\n", job.name, options_.threads, seconds);
-        write_file(folder_ / "times.csv", "job,threads,wall_s\n" + times_);
+    void note_time(const Job& job, double wall_s, double processor_s) {
+        times_ += fmt::format("{},{},{:.1f},{:.1f}\n", job.name, options_.threads, wall_s, processor_s);
+        write_file(folder_ / "times.csv", "job,threads,wall_s,processor_s\n" + times_);
     }
 
     const ReproduceOptions& options_;
