@@ -56,7 +56,7 @@ std::string header(const ReportContent& content) {
         html +=
             "<div class=\"reduced\"><strong>REDUCED: a first look.</strong> Fewer combinations, shorter runs or fewer seeds than the "
             "whole; which ones is listed <a href=\"#made\">below</a>. Rows and figures are what these runs give, not what the whole "
-            "gives: leave out <code>--quick</code> for that.</div>\n";
+            "gives: leave out <code>--quick</code> for that. The explanations beside rows are those of the whole.</div>\n";
     }
     html += "<dl class=\"facts\">\n";
     html += fact("Sections", content.section == "all" ? "all (III to VII)" : content.section);
@@ -175,7 +175,7 @@ std::string figure_html(const ReportContent& content, const ShownFigure& shown) 
             listed.id());
     }
     if (shown.problem.empty()) {
-        html += "<details><summary>Conditions and command</summary>\n<dl class=\"facts\">\n";
+        html += "<details open><summary>Conditions and command</summary>\n<dl class=\"facts\">\n";
         for (const auto& [what, words] : shown.conditions) html += fact(what, words);
         html += fact("Seeds", shown.seeds) + fact("Version", content.version) + "</dl>\n";
         const std::vector<std::string> own{content.command};

@@ -38,7 +38,7 @@ figure { margin: 1.25rem 0 2rem; border: 1px solid var(--line); border-radius: 6
 figure img { display: block; max-width: 100%; height: auto; margin: 0 auto .5rem; }
 figcaption { font-size: .95rem; }
 figcaption p { margin: .3rem 0; }
-details { margin: .35rem 0; font-size: .9rem; }
+details { margin: .35rem 0; font-size: .85rem; }
 summary { cursor: pointer; color: var(--blue); }
 .links { font-size: .9rem; }
 .problem { color: var(--out); font-weight: 600; }
@@ -67,7 +67,7 @@ footer { margin-top: 3rem; color: var(--soft); font-size: .88rem; border-top: 1p
   h2 { break-before: page; border-top: 0; }
   h2, h3, caption { break-after: avoid; }
   figure { break-inside: avoid; border: 0; padding: 0; }
-  figure img { max-height: 150mm; }
+  figure img { max-height: 95mm; }
   tr { break-inside: avoid; }
   thead { display: table-header-group; }
   table { font-size: 7.8pt; }

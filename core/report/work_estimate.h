@@ -25,7 +25,7 @@ public:
 
 private:
     struct Job {
-        double expected_s;  // wall seconds, before anything was seen
+        double expected_s = 0.0;  // wall seconds, before anything was seen
         double left_share = 1.0;
     };
     double rest_s() const;  // expected, of all jobs
