@@ -172,12 +172,17 @@ std::vector<Figure> band_figures(const BandCheck& check) {
         }
         const std::string file = figure.name + ".csv";
         figure.data.emplace_back(file, csv.text());
+        figure.height_px = 900;
         figure.body = fmt::format(
-            "set datafile separator ','\nset datafile columnheaders\n"
-            "set xlabel 'permutations, in the order of the mean in full dynamics'\nset ylabel {1}\nset key top left\n"
+            "set datafile separator ','\nset datafile columnheaders\nset multiplot layout 2,1\nset ylabel {1}\nset key top left\n"
             "plot '{0}' using 1:4:5 with filledcurves lc rgb '#c6dbef' title 'band of full dynamics, equation (2)', \\\n"
             "  '{0}' using 1:6:7 with filledcurves lc rgb '#6baed6' title 'Student', \\\n"
-            "  '{0}' using 1:3 with points pt 7 ps 0.4 lc rgb '#d55e00' title 'mesoscale mode'\n",
+            "  '{0}' using 1:3 with points pt 7 ps 0.4 lc rgb '#d55e00' title 'mesoscale mode'\n"
+            "set xlabel 'permutations, in the order of the mean in full dynamics'\nunset key\n"
+            "set ylabel 'the same, from the mean of full dynamics [%]'\n"
+            "plot '{0}' using 1:(100*$4/$2-100):(100*$5/$2-100) with filledcurves lc rgb '#c6dbef', \\\n"
+            "  '{0}' using 1:(100*$6/$2-100):(100*$7/$2-100) with filledcurves lc rgb '#6baed6', \\\n"
+            "  '{0}' using 1:(100*$3/$2-100) with points pt 7 ps 0.4 lc rgb '#d55e00'\nunset multiplot\n",
             file, gnuplot_text(words_of(metric.metric)));
         figures.push_back(std::move(figure));
     }

@@ -150,9 +150,19 @@ private:
         }
     }
 
-    void note_time(const Job& job, double wall_s, double processor_s) {
-        times_ += fmt::format("{},{},{:.1f},{:.1f}\n", job.name, options_.threads, wall_s, processor_s);
-        write_file(folder_ / "times.csv", "job,threads,wall_s,processor_s\n" + times_);
+    void note_time(const Job& job, double wall_s, double processor_s) const {
+        const fs::path file = folder_ / "times.csv";
+        CsvWriter csv({"job", "threads", "wall_s", "processor_s"});
+        if (fs::exists(file)) {
+            try {  // of earlier sessions
+                for (const std::vector<std::string>& row : parse_csv(read_file(file), file.string()).rows) {
+                    if (row.size() == 4 && row[0] != job.name) csv.row(row);
+                }
+            } catch (const InputError&) {  // damaged: it begins anew
+            }
+        }
+        csv.row({job.name, fmt::format("{}", options_.threads), fixed(wall_s, 1), fixed(processor_s, 1)});
+        write_file(file, csv.text());
     }
 
     const ReproduceOptions& options_;
@@ -161,7 +171,6 @@ private:
     fs::path folder_;
     Clock::time_point begin_;
     WorkEstimate estimate_;
-    std::string times_;
 };
 
 }  // namespace

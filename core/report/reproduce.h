@@ -39,7 +39,7 @@ struct JobEnd {
 std::vector<std::string> known_sections();
 
 // Throws InputError for an unknown section, where nothing can be drawn or written, or the program cannot be read; and Interrupted.
-// What a job throws becomes its problem. How long each took in this session is in times.csv beside the jobs.
+// What a job throws becomes its problem. How long each took in the session that ended it is in times.csv beside the jobs.
 std::vector<JobEnd> run_jobs(const ReproduceOptions& options);
 
 // Where the jobs of these options are.

@@ -107,16 +107,16 @@ JobOutput some_output() {
 class Record : public ::testing::Test {
 protected:
     void SetUp() override {
-        fs::create_directories(folder.path() / "sub");
+        fs::create_directories(folder_.path() / "sub");
         for (const char* name : {"sub/one.svg", "sub/one.png", "table.csv", "measured_grid.csv"})
-            folder.write(name, name);
-        store_record(folder.path(), "key", some_output());
+            folder_.write(name, name);
+        store_record(folder_.path(), "key", some_output());
     }
-    TemporaryFolder folder;
+    TemporaryFolder folder_;
 };
 
 TEST_F(Record, IsReadBack) {
-    const std::optional<JobOutput> read = load_record(folder.path(), "key");
+    const std::optional<JobOutput> read = load_record(folder_.path(), "key");
     ASSERT_TRUE(read);
     const JobOutput expected = some_output();
     EXPECT_EQ(read->figures, expected.figures);
@@ -129,27 +129,27 @@ TEST_F(Record, IsReadBack) {
     EXPECT_EQ(read->violations, 3);
 }
 
-TEST_F(Record, OfAnotherProgramOrInputIsNotTaken) { EXPECT_FALSE(load_record(folder.path(), "another key")); }
+TEST_F(Record, OfAnotherProgramOrInputIsNotTaken) { EXPECT_FALSE(load_record(folder_.path(), "another key")); }
 
 TEST_F(Record, IsNotTakenWhereAFileIsMissingOrChanged) {
-    folder.write("sub/one.png", "half");
-    EXPECT_FALSE(load_record(folder.path(), "key"));
-    folder.write("sub/one.png", "sub/one.png");
-    EXPECT_TRUE(load_record(folder.path(), "key"));
-    fs::remove(folder.path() / "measured_grid.csv");
-    EXPECT_FALSE(load_record(folder.path(), "key"));
+    folder_.write("sub/one.png", "half");
+    EXPECT_FALSE(load_record(folder_.path(), "key"));
+    folder_.write("sub/one.png", "sub/one.png");
+    EXPECT_TRUE(load_record(folder_.path(), "key"));
+    fs::remove(folder_.path() / "measured_grid.csv");
+    EXPECT_FALSE(load_record(folder_.path(), "key"));
 }
 
 TEST_F(Record, IsNotTakenWhereItIsDamaged) {
-    const std::string whole = read_file(folder.path() / "job.json");
+    const std::string whole = read_file(folder_.path() / "job.json");
     for (const std::size_t size : {std::size_t{0}, whole.size() / 2, whole.size() - 3}) {
-        folder.write("job.json", whole.substr(0, size));
-        EXPECT_FALSE(load_record(folder.path(), "key")) << size;
+        folder_.write("job.json", whole.substr(0, size));
+        EXPECT_FALSE(load_record(folder_.path(), "key")) << size;
     }
-    folder.write("job.json", "[]");
-    EXPECT_FALSE(load_record(folder.path(), "key"));
-    fs::remove(folder.path() / "job.json");
-    EXPECT_FALSE(load_record(folder.path(), "key"));
+    folder_.write("job.json", "[]");
+    EXPECT_FALSE(load_record(folder_.path(), "key"));
+    fs::remove(folder_.path() / "job.json");
+    EXPECT_FALSE(load_record(folder_.path(), "key"));
 }
 
 }  // namespace
