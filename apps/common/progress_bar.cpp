@@ -24,16 +24,22 @@ constexpr double kPlainLine_s = 10.0;
 ProgressBar::ProgressBar(std::string label)
     : label_(std::move(label)), terminal_(::isatty(STDERR_FILENO) == 1), begin_(Clock::now()), last_shown_(begin_) {}
 
-ProgressBar::~ProgressBar() {
+ProgressBar::~ProgressBar() { clear(); }
+
+void ProgressBar::clear() {
     if (on_screen_) std::fputs("\r\033[K", stderr);
+    on_screen_ = false;
 }
 
-bool ProgressBar::update(double share) {
+bool ProgressBar::update(double share) { return update(share, label_, std::nullopt); }
+
+bool ProgressBar::update(double share, const std::string& label, std::optional<double> left_s) {
     const Clock::time_point now = Clock::now();
     const double elapsed_s = std::chrono::duration<double>(now - begin_).count();
     const double since_s = std::chrono::duration<double>(now - last_shown_).count();
     if (elapsed_s >= kSilent_s && since_s >= (terminal_ ? kRedraw_s : kPlainLine_s)) {
-        const std::string text = progress_text(label_, share, elapsed_s);
+        const std::string text =
+            left_s ? progress_text_with(label, share, *left_s) : progress_text(label, share, elapsed_s);
         if (terminal_) {
             fmt::print(stderr, "\r{}\033[K", text);
             std::fflush(stderr);
@@ -46,14 +52,26 @@ bool ProgressBar::update(double share) {
     return !interrupted();
 }
 
-std::string progress_text(const std::string& label, double share, double elapsed_s) {
+namespace {
+
+std::string bar_text(const std::string& label, double share, const std::string& left) {
     constexpr int kCells = 30;
     const double done = std::clamp(share, 0.0, 1.0);
     const int filled = static_cast<int>(std::floor(done * kCells));
     std::string bar(static_cast<std::size_t>(filled), '#');
     bar.resize(kCells, '.');
-    const std::string left = done > 0.0 ? duration_text(elapsed_s * (1.0 - done) / done) + " left" : "";
     return fmt::format("{} [{}] {:3.0f} %{}{}", label, bar, std::floor(100.0 * done), left.empty() ? "" : ", ", left);
+}
+
+}  // namespace
+
+std::string progress_text(const std::string& label, double share, double elapsed_s) {
+    const double done = std::clamp(share, 0.0, 1.0);
+    return bar_text(label, share, done > 0.0 ? duration_text(elapsed_s * (1.0 - done) / done) + " left" : "");
+}
+
+std::string progress_text_with(const std::string& label, double share, double left_s) {
+    return bar_text(label, share, duration_text(left_s) + " left");
 }
 
 std::string duration_text(double seconds) {

@@ -19,6 +19,17 @@ std::size_t at(int index) { return static_cast<std::size_t>(index); }
 // For keys of figures, which take text as it is.
 std::string in_key(const std::string& text) { return "'" + text + "'"; }
 
+// A column's name as words: its last part is the unit.
+std::string words_of(std::string column) {
+    const std::size_t unit = column.find("_veh_h");
+    const std::size_t last = unit == std::string::npos ? column.rfind('_') : unit;
+    if (last == std::string::npos) return column;
+    std::string shown = column.substr(last + 1);
+    std::replace(shown.begin(), shown.end(), '_', '/');
+    std::replace(column.begin(), column.end(), '_', ' ');
+    return fmt::format("{} [{}]", column.substr(0, last), shown == "percent" ? "%" : shown);
+}
+
 // The detectors with most passages: more lines than this nobody can tell apart.
 constexpr std::size_t kLines = 8;
 
@@ -52,9 +63,10 @@ Figure counters(const std::string& name, const std::string& what, const PairedTi
         figure.data.emplace_back(file, csv.text());
         const std::string colour = line_style(k).colour;
         figure.body += fmt::format(
-            "  '{0}' using 2:1 with steps dt 1 lw 2 lc rgb '{1}' title {2}, \\\n"
+            "  '{0}' using 2:1 with steps dt {4} lw 2 lc rgb '{1}' title {2}, \\\n"
             "  '{0}' using 3:1 with points pt 6 ps 0.6 lc rgb '{1}' notitle{3}\n",
-            file, colour, in_key(detector_name(c.fit.model, at(detectors[k]))), k + 1 < detectors.size() ? ", \\" : "");
+            file, colour, in_key(detector_name(c.fit.model, at(detectors[k]))), k + 1 < detectors.size() ? ", \\" : "",
+            line_style(k).dash);
     }
     figure.body = "set datafile separator ','\nset datafile columnheaders\n" + figure.body;
     return figure;
@@ -86,8 +98,9 @@ Figure histogram(const std::vector<TimingResult>& results) {
         }
         const std::string file = fmt::format("differences_{}.csv", results[r].name);
         figure.data.emplace_back(file, csv.text());
-        figure.body += fmt::format("  '{}' using 1:2 with steps dt 1 lw 2 lc rgb '{}' title {}{}\n", file,
-                                   line_style(r).colour, in_key(results[r].name), r + 1 < results.size() ? ", \\" : "");
+        figure.body += fmt::format("  '{}' using 1:2 with steps dt {} lw 2 lc rgb '{}' title {}{}\n", file, r + 1,
+                                   line_style(r == 0 ? 6 : 0).colour, in_key(results[r].name),
+                                   r + 1 < results.size() ? ", \\" : "");
     }
     return figure;
 }
@@ -159,13 +172,18 @@ std::vector<Figure> band_figures(const BandCheck& check) {
         }
         const std::string file = figure.name + ".csv";
         figure.data.emplace_back(file, csv.text());
+        figure.height_px = 900;
         figure.body = fmt::format(
-            "set datafile separator ','\nset datafile columnheaders\n"
-            "set xlabel 'permutations, in the order of the mean in full dynamics'\nset ylabel {1}\nset key top left\n"
+            "set datafile separator ','\nset datafile columnheaders\nset multiplot layout 2,1\nset ylabel {1}\nset key top left\n"
             "plot '{0}' using 1:4:5 with filledcurves lc rgb '#c6dbef' title 'band of full dynamics, equation (2)', \\\n"
             "  '{0}' using 1:6:7 with filledcurves lc rgb '#6baed6' title 'Student', \\\n"
-            "  '{0}' using 1:3 with points pt 7 ps 0.4 lc rgb '#d55e00' title 'mesoscale mode'\n",
-            file, gnuplot_text(metric.metric));
+            "  '{0}' using 1:3 with points pt 7 ps 0.4 lc rgb '#d55e00' title 'mesoscale mode'\n"
+            "set xlabel 'permutations, in the order of the mean in full dynamics'\nunset key\n"
+            "set ylabel 'the same, from the mean of full dynamics [%]'\n"
+            "plot '{0}' using 1:(100*$4/$2-100):(100*$5/$2-100) with filledcurves lc rgb '#c6dbef', \\\n"
+            "  '{0}' using 1:(100*$6/$2-100):(100*$7/$2-100) with filledcurves lc rgb '#6baed6', \\\n"
+            "  '{0}' using 1:(100*$3/$2-100) with points pt 7 ps 0.4 lc rgb '#d55e00'\nunset multiplot\n",
+            file, gnuplot_text(words_of(metric.metric)));
         figures.push_back(std::move(figure));
     }
     return figures;

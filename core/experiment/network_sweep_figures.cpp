@@ -62,7 +62,9 @@ std::string other_axes(const CsvTable& results, const std::vector<std::string>& 
     for (std::size_t k = 0; k < results.columns.size() && results.columns[k] != "seed"; ++k) {
         const std::string& name = results.columns[k];
         if (name == "point" || name == "green_s" || name == "offset_s" || name == "population") continue;
-        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, row[k]);
+        const std::size_t percent = name.rfind("_percent");
+        text += text.empty() ? "" : ", ";
+        text += percent == std::string::npos ? name + " " + row[k] : name.substr(0, percent) + " " + row[k] + " %";
     }
     return text;
 }
@@ -180,10 +182,10 @@ Figure stability_figure(const Planes& all, const Plane& plane, std::size_t numbe
         }
         const std::string file = fmt::format("{}_{}.dat", figure.name, p);
         figure.data.emplace_back(file, data);
-        body +=
-            fmt::format("set title {}\n{}{}plot ", gnuplot_text(all.populations[p]),
-                        p == 0 ? "set ylabel 'offset [s]'\n" : "unset ylabel\n",
-                        p + 1 == all.populations.size() ? "set key at screen 0.99,0.80 right top\n" : "unset key\n");
+        body += fmt::format(
+            "set title {}\n{}{}plot ", gnuplot_text(all.populations[p]),
+            p == 0 ? "set ylabel 'offset [s]'\n" : "unset ylabel\n",
+            p + 1 == all.populations.size() ? "set key at screen 0.99,0.80 right top spacing 2.4\n" : "unset key\n");
         for (std::size_t k = 0; k < kStabilityNames.size(); ++k) {
             body += fmt::format("{}'{}' using 1:($3=={}?$2:NaN) with points pt {} ps 2.5 lc rgb '{}' title '{}'",
                                 k == 0 ? "" : ", ", file, k, kPoints[k], kColours[k], kStabilityNames[k]);

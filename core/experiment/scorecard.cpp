@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -48,11 +50,6 @@ std::vector<Target> chosen_targets(const std::string& section) {
 
 void tell(const ScorecardOptions& options, const std::string& message) {
     if (options.on_message) options.on_message(message);
-}
-
-Scenario scenario_of(const Experiment& experiment, const ScorecardOptions& options) {
-    const std::string file = std::string(experiment.scenario) + ".yaml";
-    return load_scenario(data_directory().parent_path() / "scenarios" / file, options.settings);
 }
 
 Measurements run_or_reuse(const Experiment& experiment, const Scenario& scenario, const ScorecardOptions& options) {
@@ -104,21 +101,43 @@ std::span<const RowJudge> row_judges() {
     return kAll;
 }
 
+const Experiment& experiment_named(const std::string& name) {
+    for (const Experiment& experiment : experiments()) {
+        if (name == experiment.name) return experiment;
+    }
+    throw std::logic_error("no experiment is named " + name);
+}
+
+Scenario scenario_of(const Experiment& experiment, const ScorecardOptions& options) {
+    std::vector<std::string> settings = options.reductions.settings(std::string("scenarios/") + experiment.scenario);
+    settings.insert(settings.end(), options.settings.begin(), options.settings.end());
+    const std::string file = std::string(experiment.scenario) + ".yaml";
+    return load_scenario(data_directory().parent_path() / "scenarios" / file, settings);
+}
+
 int Scorecard::count(Verdict verdict) const {
     return static_cast<int>(
         std::count_if(rows.begin(), rows.end(), [&](const ScoredRow& row) { return row.verdict == verdict; }));
 }
 
 Scorecard make_scorecard(const ScorecardOptions& options) {
-    const std::vector<Target> targets = chosen_targets(options.section);
+    std::map<std::string, std::uint64_t> hashes;
+    const std::map<std::string, Measurements> measured = measure_for(chosen_targets(options.section), options, hashes);
+    Scorecard scorecard = score(options.section, measured);
+    scorecard.scenario_hashes = std::move(hashes);
+    return scorecard;
+}
+
+Scorecard score(const std::string& section, const std::map<std::string, Measurements>& measured) {
     const std::map<std::string, Explanation> explanations =
         load_explanations(data_directory() / "paper" / "explanations.csv");
     Scorecard scorecard;
-    std::map<std::string, Measurements> measured = measure_for(targets, options, scorecard.scenario_hashes);
-    for (const Target& target : targets) {
+    for (const Target& target : chosen_targets(section)) {
         ScoredRow row{target, "", Verdict::open, "", ""};
-        if (const RowJudge* const judge_row = judge_of(target.id)) {
-            const std::optional<Answer> answer = judge_row->answer(target, measured[judge_row->experiment]);
+        const RowJudge* const judge_row = judge_of(target.id);
+        const auto found = judge_row == nullptr ? measured.end() : measured.find(judge_row->experiment);
+        if (found != measured.end()) {
+            const std::optional<Answer> answer = judge_row->answer(target, found->second);
             row.verdict = judge(target, answer);
             if (answer) row.ours = answer->text;
         }

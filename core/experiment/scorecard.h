@@ -13,6 +13,7 @@
 
 #include "experiment/gnuplot.h"
 #include "experiment/measurements.h"
+#include "experiment/reductions.h"
 #include "experiment/verdict.h"
 
 namespace stopline {
@@ -21,8 +22,10 @@ struct ScorecardOptions {
     std::string section;                // rows of it and below; empty: all
     std::filesystem::path folder;       // measurements are kept here for the next time
     std::vector<std::string> settings;  // of every scenario that is run, as for load_scenario
+    Reductions reductions;              // what is left out of sweeps and scenarios
     int threads = 1;
-    std::function<bool(double)> on_progress;             // share of the experiment under way; false to stop
+    std::function<bool(double)> on_progress;  // share of the experiment under way; false to stop
+    std::function<void(double)> on_stored;    // share that a store had before; on_progress then counts from it
     std::function<void(const std::string&)> on_message;  // what is run and what is reused
 };
 
@@ -44,6 +47,12 @@ struct RowJudge {
 std::span<const Experiment> experiments();
 std::span<const RowJudge> row_judges();
 
+// Throws std::logic_error for a name that no experiment has.
+const Experiment& experiment_named(const std::string& name);
+
+// The scenario that an experiment runs. Throws InputError as load_scenario does.
+Scenario scenario_of(const Experiment& experiment, const ScorecardOptions& options);
+
 struct ScoredRow {
     Target target;
     std::string ours;  // empty where open
@@ -62,6 +71,10 @@ struct Scorecard {
 
 // Throws InputError for a section without rows, and Interrupted.
 Scorecard make_scorecard(const ScorecardOptions& options);
+
+// The rows of a section (empty: of all) judged by what was measured, by name of the experiment; rows whose experiment is not among
+// it are open. Throws InputError for a section without rows.
+Scorecard score(const std::string& section, const std::map<std::string, Measurements>& measured);
 
 // Columns id,section,paper,ours,unit,tolerance,verdict,explanation; the last says how it is counted and why it misses.
 std::string scorecard_csv(const Scorecard& scorecard);

@@ -23,7 +23,7 @@ namespace stopline {
 namespace {
 
 constexpr const char* kRuns = "intersection";
-constexpr int kSeeds = 6;
+constexpr int kSeeds = 6;  // of each point, unless a reduction has fewer
 constexpr std::array kGreens_s{5, 10, 15, 20, 25, 30};
 constexpr std::array<const char*, 3> kPopulations{"CTG-Ref", "P50", "CDG"};
 
@@ -74,10 +74,10 @@ IntersectionFigures run_point(const Scenario& scenario, const Point& point, int 
 }
 
 // All seeds of a point stand side by side. Throws Interrupted.
-std::vector<IntersectionFigures> run_points(const Scenario& scenario, const std::vector<Point>& all,
+std::vector<IntersectionFigures> run_points(const Scenario& scenario, const std::vector<Point>& all, int seeds,
                                             const ScorecardOptions& options) {
     constexpr std::int64_t kTell = 1000;  // steps
-    const int runs = static_cast<int>(all.size()) * kSeeds;
+    const int runs = static_cast<int>(all.size()) * seeds;
     std::vector<IntersectionFigures> figures(static_cast<std::size_t>(runs));
     int done = 0;
     std::mutex mutex;
@@ -94,8 +94,8 @@ std::vector<IntersectionFigures> run_points(const Scenario& scenario, const std:
 #pragma omp parallel for schedule(dynamic) num_threads(options.threads)
     for (int run = 0; run < runs; ++run) {
         if (!go_on) continue;
-        const Point& point = all[static_cast<std::size_t>(run / kSeeds)];
-        figures[static_cast<std::size_t>(run)] = run_point(scenario, point, run % kSeeds, on_step);
+        const Point& point = all[static_cast<std::size_t>(run / seeds)];
+        figures[static_cast<std::size_t>(run)] = run_point(scenario, point, run % seeds, on_step);
         static_cast<void>(tell(1));
     }
     if (!go_on) throw Interrupted();
@@ -108,18 +108,19 @@ struct Sum {
 
 Measurements measure_intersection(const Scenario& scenario, const ScorecardOptions& options) {
     const std::vector<Point> all = points();
-    const std::vector<IntersectionFigures> figures = run_points(scenario, all, options);
+    const int seeds = options.reductions.repetitions("scenarios/intersection").value_or(kSeeds);
+    const std::vector<IntersectionFigures> figures = run_points(scenario, all, seeds, options);
     Measurements measured;
     double present = 0.0;
     double violations = 0.0;
     for (std::size_t k = 0; k < all.size(); ++k) {
         Sum sum;
-        for (std::size_t r = 0; r < kSeeds; ++r) {
-            const IntersectionFigures& f = figures[k * kSeeds + r];
-            sum.throughput += f.throughput_veh_h / kSeeds;
-            sum.travel_s += f.zones.at(0).travel_time_s / kSeeds;
-            sum.density += 100.0 * f.occupied / kSeeds;
-            sum.present += f.vehicles_present / kSeeds;
+        for (std::size_t r = 0; r < static_cast<std::size_t>(seeds); ++r) {
+            const IntersectionFigures& f = figures[k * static_cast<std::size_t>(seeds) + r];
+            sum.throughput += f.throughput_veh_h / seeds;
+            sum.travel_s += f.zones.at(0).travel_time_s / seeds;
+            sum.density += 100.0 * f.occupied / seeds;
+            sum.present += f.vehicles_present / seeds;
             const Violations& v = f.violations;
             sum.violations +=
                 static_cast<double>(v.overlaps + v.conflicts + v.red_entries + std::abs(v.lost_vehicles) + v.deadlocks);

@@ -37,19 +37,28 @@ SweepRuns run_sweep(const ScorecardOptions& options, const char* file, const std
     sweep_options.overrides = options.settings;
     sweep_options.overrides.insert(sweep_options.overrides.end(), overrides.begin(), overrides.end());
     sweep_options.threads = options.threads;
-    Sweep sweep(load_sweep(data_directory() / "../scenarios/sweeps" / file), sweep_options);
+    SweepSettings settings = load_sweep(data_directory() / "../scenarios/sweeps" / file);
+    options.reductions.apply(settings);
+    const std::vector<std::string> reduced = options.reductions.settings("sweeps/" + settings.name);
+    sweep_options.overrides.insert(sweep_options.overrides.end(), reduced.begin(), reduced.end());
+    Sweep sweep(std::move(settings), sweep_options);
     const std::filesystem::path folder = options.folder / "measured";
     std::filesystem::create_directories(folder);
     const std::optional<std::string> program = program_identity();
     if (!program) throw InputError("cannot read this program's own file, so that stored runs could not be told apart");
     RunStore store = store_of(folder / (std::string(name) + ".sqlite"), sweep, *program);
+    const std::vector<std::size_t> todo = points_to_do(sweep, Shard{}, store);
+    const double before =
+        options.on_stored ? 1.0 - static_cast<double>(todo.size()) / static_cast<double>(sweep.points()) : 0.0;
+    const auto place = [part](double share) { return part.from + share * (part.to - part.from); };
+    if (options.on_stored) options.on_stored(place(before));
     SweepRunOptions run_options;
     run_options.threads = options.threads;
     run_options.run = function;
     run_options.on_progress = [&](double share) {
-        return !options.on_progress || options.on_progress(part.from + share * (part.to - part.from));
+        return !options.on_progress || options.on_progress(place(before + share * (1.0 - before)));
     };
-    const SweepSession session = run_points(sweep, points_to_do(sweep, Shard{}, store), store, run_options);
+    const SweepSession session = run_points(sweep, todo, store, run_options);
     for (const SweepFailure& failure : session.failures) {
         throw InputError(fmt::format("{}: {}", sweep.describe(failure.point), failure.message));
     }

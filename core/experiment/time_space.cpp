@@ -114,8 +114,9 @@ Figure time_space_figure(const std::vector<std::string>& populations, const std:
     figure.width_px = 1100;
     figure.height_px = 120 + 330 * static_cast<int>(populations.size());
     std::string body = fmt::format(
-        "set multiplot layout {},1 margins 0.08,0.86,0.07,0.95 spacing 0.08\nset key outside right top\nset ylabel 'distance [m]'\n",
-        populations.size());
+        "set multiplot layout {},1 margins 0.08,0.86,{:.4f},{:.4f} spacing {:.4f}\nset key outside right top\nset ylabel "
+        "'distance [m]'\n",
+        populations.size(), 70.0 / figure.height_px, 1.0 - 50.0 / figure.height_px, 80.0 / figure.height_px);
     for (std::size_t k = 0; k < populations.size(); ++k) {
         const StreetTrace& trace = traces[k];
         std::string reds = "# s, m: when the stop line may not be passed\n";

@@ -26,6 +26,7 @@ ALLOWED = {
     "record": ["base", "network", "signals", "sim"],
     "scenario": ["base", "network", "signals", "demand", "vehicle", "driver", "sim", "measure"],
     "experiment": ["base", "sim", "measure", "scenario"],
+    "report": ["base", "scenario", "experiment"],
     "sumo": ["base", "network", "signals", "sim", "measure", "record", "scenario", "experiment"],
 }
 YAML_FOLDER = "scenario"

@@ -1,0 +1,69 @@
+// Section V: the mesoscale mode beside full dynamics, with the parameters that stopline-calibrate fitted (data/meso/fitted.yaml) and those of
+// the paper's Table 2 (data/meso/table2.yaml). The fit itself is not repeated.
+#include <fmt/format.h>
+
+#include "experiment/band_check.h"
+#include "experiment/calibration.h"
+#include "experiment/calibration_figures.h"
+#include "experiment/csv.h"
+#include "experiment/detector_times.h"
+#include "report/job_writer.h"
+#include "report/jobs.h"
+#include "scenario/load_scenario.h"
+
+namespace stopline {
+
+namespace {
+
+std::string parameters_csv(const MesoSettings& paper, const MesoSettings& ours) {
+    CsvWriter csv({"parameter", "unit", paper.name, ours.name});
+    MesoSettings one = paper;
+    MesoSettings other = ours;
+    for (const FitParameter& p : fit_parameters()) {
+        csv.row({p.name, p.unit, fixed(p.in(one), 3), fixed(p.in(other), 3)});
+    }
+    return csv.text();
+}
+
+}  // namespace
+
+JobOutput run_calibration_times_job(const JobContext& context) {
+    JobWriter writer(context);
+    writer.experiment("meso_parameters");
+    writer.experiment("calibration_times");
+    // The experiment has stored the runs.
+    const SweepRuns full = run_sweep(context.scorecard(), "calibration.yaml", {"fidelity=full"}, "times_full",
+                                     detector_metrics, {0.9, 1.0});
+    const MesoSettings paper = load_meso("table2");
+    const MesoSettings ours = load_meso("fitted");
+    const std::vector<CalibrationCase> cases = calibration_cases(full.sweep, full.store, ours);
+    const std::vector<TimingResult> results{judge_timing(paper.name, cases, paper, context.threads),
+                                            judge_timing(ours.name, cases, ours, context.threads)};
+    writer.conditions_of(full.sweep);
+    writer.condition("Beside", "the mesoscale mode with the parameters table2 and fitted");
+    writer.command("stopline-calibrate --step I --parameters fitted");
+    writer.table("parameters.csv", parameters_csv(paper, ours));
+    writer.table("permutations.csv", permutations_csv(results, cases));
+    writer.table("differences.csv", differences_csv(results.back(), cases));
+    writer.table("misses.csv", misses_csv(timing_misses(results.back(), cases, {}), cases));
+    writer.figures(timing_figures(results, cases, {}));
+    return writer.output;
+}
+
+JobOutput run_calibration_bands_job(const JobContext& context) {
+    JobWriter writer(context);
+    writer.experiment("calibration_bands");
+    // The experiment has stored the runs.
+    const SweepRuns full = intersection_runs(context.scorecard(), {1.0, 1.0});
+    const SweepRuns meso = run_sweep(context.scorecard(), "intersection.yaml", {"fidelity=meso", "meso=fitted"},
+                                     "bands_meso", run_metrics, {1.0, 1.0});
+    const BandCheck check = check_bands(full.sweep, full.store, meso.store, band_metrics(full.store, {}));
+    writer.conditions_of(full.sweep);
+    writer.condition("Beside", "the mesoscale mode with the parameters fitted");
+    writer.command("stopline-calibrate --step II --parameters fitted");
+    writer.table("bands_fitted.csv", bands_csv(check));
+    writer.figures(band_figures(check));
+    return writer.output;
+}
+
+}  // namespace stopline

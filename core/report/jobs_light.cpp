@@ -1,0 +1,91 @@
+// Sections III and IV: a single light and a single intersection.
+#include "experiment/intersection.h"
+#include "experiment/intersection_figures.h"
+#include "experiment/seed_means.h"
+#include "experiment/single_light.h"
+#include "experiment/single_light_csv.h"
+#include "experiment/single_light_figures.h"
+#include "experiment/startup_report.h"
+#include "experiment/sweep_results.h"
+#include "experiment/turn_figures.h"
+#include "report/job_writer.h"
+#include "report/jobs.h"
+#include "scenario/load_scenario.h"
+
+namespace stopline {
+
+JobOutput run_startup_job(const JobContext& context) {
+    constexpr const char* kMeasured = "startup/kit_curve_leader50.csv";
+    JobWriter writer(context);
+    const Scenario scenario = scenario_named(context, "single_light");
+    const StartupReport report = report_startup(scenario, load_startup_curve(data_directory() / kMeasured));
+    writer.conditions_of(scenario);
+    writer.condition("Measured starts", std::string("data/") + kMeasured);
+    writer.command("stopline-startup");
+    writer.table("startup.csv", startup_csv(report));
+    writer.figure(startup_figure(report));
+    return writer.output;
+}
+
+JobOutput run_single_light_job(const JobContext& context) {
+    JobWriter writer(context);
+    writer.experiment("single_light_inputs");
+    writer.experiment("single_light");
+    const Scenario scenario = scenario_named(context, "single_light");
+    SingleLightOptions options;
+    options.threads = context.threads;
+    options.on_progress = context.on_progress;
+    const SingleLight result = run_single_light(scenario, options);
+    writer.conditions_of(scenario);
+    writer.command("stopline-run scenarios/single_light.yaml");
+    writer.table("summary.csv", summary_csv(result));
+    writer.table("improvement.csv", improvement_csv(result));
+    writer.table("passages.csv", passages_csv(result));
+    writer.figures(single_light_figures(result, load_targets()));
+    return writer.output;
+}
+
+JobOutput run_intersection_job(const JobContext& context) {
+    JobWriter writer(context);
+    const Scenario scenario = scenario_named(context, "intersection");
+    IntersectionOptions options;
+    options.threads = context.threads;
+    options.on_progress = context.on_progress;
+    const IntersectionReport report = run_intersections(scenario, options);
+    writer.conditions_of(scenario);
+    writer.command("stopline-run scenarios/intersection.yaml");
+    writer.table("summary.csv", intersection_csv(report));
+    writer.table("headways.csv", headways_csv(report));
+    writer.figures(intersection_figures(report));
+    writer.output.violations = report.no_violations() ? 0 : 1;
+    return writer.output;
+}
+
+JobOutput run_intersection_table_job(const JobContext& context) {
+    JobWriter writer(context);
+    writer.experiment("intersection");
+    writer.conditions_of(scenario_named(context, "intersection"));
+    writer.command("stopline-scorecard --section IV");
+    return writer.output;
+}
+
+SweepRuns intersection_runs(const ScorecardOptions& options, Part part) {
+    return run_sweep(options, "intersection.yaml", {"fidelity=full"}, "bands_full", run_metrics, part);
+}
+
+JobOutput run_intersection_sweep_job(const JobContext& context) {
+    JobWriter writer(context);
+    const SweepRuns runs = intersection_runs(context.scorecard(), {0.0, 1.0});
+    const std::string csv = sweep_results(runs.store).csv;
+    const CsvTable results = parse_csv(csv, "intersection.csv");
+    writer.conditions_of(runs.sweep);
+    writer.command("stopline-sweep scenarios/sweeps/intersection.yaml");
+    writer.table("intersection.csv", csv);
+    if (has_seeds(results)) writer.table("intersection_means.csv", seed_means_csv(results));
+    writer.table("table1.csv", table1_csv(results, load_targets()));
+    writer.figures(turn_figures(results));
+    writer.output.violations = static_cast<std::int64_t>(runs.totals.runs_with_violations);
+    return writer.output;
+}
+
+}  // namespace stopline
