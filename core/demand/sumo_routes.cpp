@@ -30,6 +30,7 @@ constexpr std::size_t kMostTrips = 20'000'000;
 struct Way {
     std::vector<int> edges = {};
     bool complete = true;
+    bool open = true;  // to cars, all of it
     std::string where;
     int first_turn = -1;
 };
@@ -92,9 +93,6 @@ private:
         }
         int edge = found->second;
         while (network_.net.edges[at(edge)].joined_to >= 0) edge = network_.net.edges[at(edge)].joined_to;
-        if (!router_.drives(edge)) {
-            xml_->refuse(node, fmt::format("{}: passenger cars may not drive on edge '{}'", attribute, id));
-        }
         return edge;
     }
 
@@ -105,12 +103,13 @@ private:
         const std::string edges = xml_->text(node, "edges");
         for (const std::string_view id : sumo_words(edges)) {
             const int edge = edge_of(node, "edges", id);
+            way.open = way.open && router_.drives(edge);
             // Twice the same: an edge that was joined to the one before.
             if (way.edges.empty() || way.edges.back() != edge) way.edges.push_back(edge);
         }
         if (way.edges.empty()) xml_->refuse(node, "edges: there is none");
         for (std::size_t k = 1; k < way.edges.size(); ++k) {
-            if (router_.turn(way.edges[k - 1], way.edges[k]) != Turn::none) continue;
+            if (!way.open || router_.turn(way.edges[k - 1], way.edges[k]) != Turn::none) continue;
             xml_->refuse(node, fmt::format("edges: edge '{}' does not lead to edge '{}'",
                                            network_.net.edges[at(way.edges[k - 1])].id,
                                            network_.net.edges[at(way.edges[k])].id));
@@ -187,6 +186,7 @@ private:
         const std::string via = node.attribute("via").value();
         for (const std::string_view id : sumo_words(via)) way.edges.push_back(edge_of(node, "via", id));
         way.edges.push_back(edge_of(node, "to", xml_->text(node, "to")));
+        for (const int edge : way.edges) way.open = way.open && router_.drives(edge);
         ways_.push_back(std::move(way));
         return {{ways_.size() - 1, 1.0}};
     }
@@ -262,6 +262,11 @@ private:
         std::vector<double> shares;
         for (const auto& [way, share] : made.ways) shares.push_back(share);
         const std::size_t way = made.ways[sumo_pick(shares, drawn(1))].first;
+        if (!ways_[way].open) {
+            traffic_.warnings.note(ways_[way].where,
+                                   "a way over edges closed to passenger cars: its vehicles are left out");
+            return;
+        }
         if (trip.where == Trip::Where::lane) trip.lane = lane_from_left(node, ways_[way].edges[0], made.trip.lane);
         way_of_.push_back(way);
         traffic_.trips.push_back(trip);
@@ -309,7 +314,7 @@ private:
         };
         std::vector<Piece> pieces;
         for (std::size_t k = 0; k < ways_.size(); ++k) {
-            for (std::size_t i = 1; !ways_[k].complete && i < ways_[k].edges.size(); ++i) {
+            for (std::size_t i = 1; !ways_[k].complete && ways_[k].open && i < ways_[k].edges.size(); ++i) {
                 pieces.push_back({ways_[k].edges[i], ways_[k].edges[i - 1], k, i});
             }
         }
@@ -325,6 +330,7 @@ private:
             found[{piece.way, piece.place}] = std::move(*edges);
         }
         for (std::size_t k = 0; k < ways_.size(); ++k) {
+            if (!ways_[k].open) continue;
             if (!ways_[k].complete) join(k, found);
             ways_[k].first_turn = static_cast<int>(traffic_.turns.size());
             for (std::size_t i = 1; i < ways_[k].edges.size(); ++i) {

@@ -107,12 +107,10 @@ const Table& network_table() {
                 .only("kind", {"sumo"}),
             texts<&NetworkSettings::routes>("routes", TextField::Rule::title, {0, 1000},
                                             "SUMO's route files: vehicles, trips, flows, types")
-                .fallback("[]")
                 .only("kind", {"sumo"}),
             texts<&NetworkSettings::additional>("additional", TextField::Rule::title, {0, 1000},
                                                 "SUMO's additional files: signal programmes, offsets, induction loops, "
                                                 "types and routes")
-                .fallback("[]")
                 .only("kind", {"sumo"}),
         });
     return table;

@@ -254,6 +254,20 @@ double more_for_s(const Model& model, int lane, const Conflict& conflict, double
     return std::max(through_s - model.give_way.critical_gap_s, 0.0);
 }
 
+// Of several that stood and gave way to each other in a circle, one that goes although this one comes before it; -1: none.
+int sets_out_first(const Model& model, const State& state, int lane, const Candidate& v) {
+    if (model.demand.trips.empty() || !v.stands) return -1;
+    for (const Conflict& conflict : state.plan.conflicts(lane)) {
+        if (!conflict.other_yields) continue;
+        const LaneBlock& block = state.blocks[at(state.plan.lane(conflict.other).origin)];
+        if (block.count == 0) continue;
+        const VehicleRecord& first = state.vehicles.record[at(block.first)];
+        const bool goes = first.next_lane == conflict.other && first.cleared_for == conflict.other;
+        if (goes && !held(state, block.first)) return block.first;
+    }
+    return -1;
+}
+
 // The slot of a vehicle with priority that is too near for this one to go; -1: none. The decision is noted.
 int comes_first(const Model& model, State& state, NetworkPart& part, int lane, const Candidate& v, double to_hold_m) {
     VehicleArrays& arrays = state.vehicles;
@@ -263,6 +277,7 @@ int comes_first(const Model& model, State& state, NetworkPart& part, int lane, c
         model.give_way.critical_gap_s + reach_s(model, to_hold_m, arrays.speed_mps[at(v.slot)], limit_mps);
     const bool again = record.cleared_for == lane;
     record.cleared_for = -1;
+    if (const int goes = sets_out_first(model, state, lane, v); goes >= 0) return goes;
     Arrival next;
     for (const Conflict& conflict : state.plan.conflicts(lane)) {
         if (!conflict.yields || v.front_m > conflict.from_m) continue;

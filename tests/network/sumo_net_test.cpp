@@ -156,7 +156,7 @@ TEST(SumoNetwork, TellsWhatItDoesNotRead) {
     const std::string text = replaced(signal_net(two_phases()), "type=\"static\"", "type=\"actuated\"");
     const std::vector<std::string> lines = made_of(text).net.warnings.lines();
     ASSERT_EQ(lines.size(), 1U);
-    EXPECT_NE(lines[0].find("my.net.xml:38: signals of type 'actuated' run as static ones"), std::string::npos)
+    EXPECT_NE(lines[0].find("my.net.xml:32: signals of type 'actuated' run as static ones"), std::string::npos)
         << lines[0];
 }
 
@@ -193,15 +193,15 @@ INSTANTIATE_TEST_SUITE_P(
     All, SumoNetworkErrors,
     ::testing::Values(
         Hostile{"<net version", "<!DOCTYPE net [<!ENTITY a \"b\">]>\n<net version", "my.net.xml: has a DOCTYPE"},
-        Hostile{"</net>", "", "my.net.xml:68: is not well-formed XML"}, Hostile{"<net ", "<sumo ", "my.net.xml:"},
-        Hostile{"length=\"190.00\"", "length=\"-1\"", ":22: length=\"-1\""},
-        Hostile{"length=\"190.00\"", "length=\"nan\"", ":22: element 'lane': length=\"nan\" is not a finite number"},
-        Hostile{"speed=\"13.89\" length=\"190.00\"", "speed=\"inf\" length=\"190.00\"", ":22: element 'lane': speed"},
-        Hostile{"length=\"190.00\"", "length=\"1e999\"", ":22: element 'lane'"},
-        Hostile{"-200.00,-4.80", "-200.00,x", ":22: shape has a point"},
-        Hostile{"-200.00,-4.80 -10.00,-4.80", "1,1", ":22: shape needs two different points"},
-        Hostile{"edge id=\"s_in\"", "edge id=\"w_in\"", ":29: there are two edges 'w_in'"},
-        Hostile{"<lane id=\"w_in_1\" index=\"1\"", "<lane id=\"w_in_1\" index=\"3\"", ":23: lanes of edge 'w_in'"},
+        Hostile{"</net>", "", "my.net.xml:54: is not well-formed XML"}, Hostile{"<net ", "<sumo ", "my.net.xml:"},
+        Hostile{"length=\"190.00\"", "length=\"-1\"", ":18: length=\"-1\""},
+        Hostile{"length=\"190.00\"", "length=\"nan\"", ":18: element 'lane': length=\"nan\" is not a finite number"},
+        Hostile{"speed=\"13.89\" length=\"190.00\"", "speed=\"inf\" length=\"190.00\"", ":18: element 'lane': speed"},
+        Hostile{"length=\"190.00\"", "length=\"1e999\"", ":18: element 'lane'"},
+        Hostile{"-200.00,-4.80", "-200.00,x", ":18: shape has a point"},
+        Hostile{"-200.00,-4.80 -10.00,-4.80", "1,1", ":18: shape needs two different points"},
+        Hostile{"edge id=\"s_in\"", "edge id=\"w_in\"", ":25: there are two edges 'w_in'"},
+        Hostile{"<lane id=\"w_in_1\" index=\"1\"", "<lane id=\"w_in_1\" index=\"3\"", ":19: lanes of edge 'w_in'"},
         Hostile{"to=\"e_out\" fromLane=\"0\"", "to=\"nowhere\" fromLane=\"0\"", ": to: there is no edge 'nowhere'"},
         Hostile{"fromLane=\"0\" toLane=\"0\" via=\":J_1_0\"", "fromLane=\"7\" toLane=\"0\" via=\":J_1_0\"",
                 "edge 'w_in' has no lane 7"},
@@ -211,9 +211,9 @@ INSTANTIATE_TEST_SUITE_P(
         Hostile{"tl=\"J\" linkIndex=\"0\"", "tl=\"K\" linkIndex=\"0\"", "tl: there is no tlLogic 'K'"},
         Hostile{"tl=\"J\" linkIndex=\"0\"", "tl=\"J\" linkIndex=\"4\"",
                 "linkIndex 4: the phases of tlLogic 'J' have 4"},
-        Hostile{"state=\"ryyy\"", "state=\"ryy\"", ":40: state has 3 letters"},
-        Hostile{"state=\"ryyy\"", "state=\"ryXy\"", ":40: state has the letter 'X'"},
-        Hostile{"duration=\"4\"", "duration=\"-4\"", ":40: duration"},
+        Hostile{"state=\"ryyy\"", "state=\"ryy\"", ":34: state has 3 letters"},
+        Hostile{"state=\"ryyy\"", "state=\"ryXy\"", ":34: state has the letter 'X'"},
+        Hostile{"duration=\"4\"", "duration=\"-4\"", ":34: duration"},
         Hostile{"response=\"1110\"", "response=\"110\"", "request 0 does not have a bit for each of 4 links"},
         Hostile{"request index=\"1\"", "request index=\"2\"", "requests are not numbered"},
         Hostile{"<net version=\"1.20\"", "<net version=\"1.20\" lefthand=\"true\"", "left-hand"}));

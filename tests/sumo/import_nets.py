@@ -69,7 +69,7 @@ def run(binary, folder, name, net, routes, fidelity):
         f"fidelity: {fidelity}\nduration: {SECONDS} s\n"
         f"network: {{kind: sumo, net: {net}, routes: [{routes}]}}\n"
         "populations: [CDG, {name: MIX, pattern: alternating, components: [{policy: CDG, share: 50 %},"
-        " {policy: CTG-Ref, share: 50 %}]}, CTG-Ref]\nmeasure: {steady: 600 s}\n"
+        " {policy: CTG-Ref, share: 50 %}]}, CTG-Ref]\nrules: {teleport_cycles: 3}\nmeasure: {steady: 600 s}\n"
     )
     out = folder / f"out_{name}"
     result = subprocess.run(
