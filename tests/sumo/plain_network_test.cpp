@@ -1,0 +1,153 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "base/input_error.h"
+#include "experiment/build_model.h"
+#include "network/sumo_xml.h"
+#include "scenario/load_scenario.h"
+#include "scenario/scenario_text.h"
+#include "sumo/edges.h"
+#include "sumo/facts.h"
+#include "sumo/inputs.h"
+
+namespace stopline {
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+Model model_of(const std::string& scenario, std::vector<std::string> overrides = {}) {
+    overrides.emplace_back("fidelity=meso");
+    return build_model(load_scenario(STOPLINE_SOURCE_DIR "/scenarios/" + scenario, overrides), 0);
+}
+
+Model small_grid() { return model_of("grid.yaml", {"network.grid.columns=2", "network.grid.rows=3"}); }
+
+TEST(PlainNetwork, HasEachLaneOutsideIntersectionsOnceFromTheRight) {
+    const Model model = small_grid();
+    const PlainNetwork network = plain_network(model.graph);
+    std::set<int> seen;
+    for (std::size_t k = 0; k < network.edges.size(); ++k) {
+        const PlainEdge& edge = network.edges[k];
+        for (std::size_t i = 0; i < edge.lanes.size(); ++i) {
+            EXPECT_TRUE(seen.insert(edge.lanes[i]).second);
+            const PlainNetwork::Place& place = network.place_of[at(edge.lanes[i])];
+            EXPECT_EQ(place.edge, static_cast<int>(k));
+            EXPECT_EQ(place.index, static_cast<int>(i));
+            const Lane& lane = model.graph.lanes[at(edge.lanes[i])];
+            if (i == 0) continue;
+            // The one before lies to the right: seen along the lane, a cross product below zero.
+            const Place here = place_at(lane.shape, 1.0);
+            const Point there = place_at(model.graph.lanes[at(edge.lanes[i - 1])].shape, 1.0).point;
+            EXPECT_LT(here.cosine * (there.y_m - here.point.y_m) - here.sine * (there.x_m - here.point.x_m), -1.0);
+        }
+    }
+    const auto outside = std::count_if(model.graph.lanes.begin(), model.graph.lanes.end(),
+                                       [](const Lane& lane) { return lane.origin < 0; });
+    EXPECT_EQ(seen.size(), static_cast<std::size_t>(outside));
+}
+
+TEST(PlainNetwork, HasANodeForEachIntersectionAndEachEnd) {
+    const Model model = small_grid();
+    const PlainNetwork network = plain_network(model.graph);
+    const auto lights =
+        std::count_if(network.nodes.begin(), network.nodes.end(), [](const PlainNode& node) { return node.lights; });
+    EXPECT_EQ(lights, 6);
+    // Ten streets lead out of 2 x 3 intersections, each with an edge in and one out, whose far ends nothing joins.
+    EXPECT_EQ(network.nodes.size(), 6U + 2U * 10U);
+}
+
+TEST(PlainNetwork, WaysFromStopLineToExitKeepTheirLength) {
+    const Model model = small_grid();
+    const PlainNetwork network = plain_network(model.graph);
+    std::size_t ways = 0;
+    for (const PlainConnection& c : network.connections) {
+        ASSERT_GE(c.way, 0);
+        const Lane& way = model.graph.lanes[at(c.way)];
+        const Lane& from = model.graph.lanes[at(c.from)];
+        EXPECT_EQ(way.origin, c.from);
+        EXPECT_EQ(way.next.front(), c.to);
+        EXPECT_NEAR(c.length_m, from.length_m - from.stop_line_m + way.length_m, 1e-9);
+        EXPECT_GE(c.link, 0);
+        ++ways;
+    }
+    EXPECT_EQ(ways, static_cast<std::size_t>(std::count_if(model.graph.lanes.begin(), model.graph.lanes.end(),
+                                                           [](const Lane& lane) { return lane.origin >= 0; })));
+}
+
+TEST(PlainNetwork, RefusesPockets) { EXPECT_THROW(plain_network(model_of("berlin.yaml").graph), InputError); }
+
+// Every link has a letter in every phase, and the phases make up the cycle.
+TEST(SumoInputs, LightsAreThoseOfTheModel) {
+    const Model model = small_grid();
+    const PlainNetwork network = plain_network(model.graph);
+    const TemporaryFolder folder;
+    write_sumo_inputs(folder.path(), model, network, 600.0);
+    const SumoXml xml(folder.path() / "lights.tll.xml", {"tlLogics"});
+    std::size_t programmes = 0;
+    for (const pugi::xml_node logic : xml.root().children("tlLogic")) {
+        ++programmes;
+        double from_s = 0.0;
+        for (const pugi::xml_node phase : logic.children("phase")) {
+            const std::string letters = xml.text(phase, "state");
+            const double duration_s = xml.number(phase, "duration");
+            for (const PlainConnection& c : network.connections) {
+                if (network.nodes[at(c.node)].id != xml.text(logic, "id")) continue;
+                ASSERT_LT(at(c.link), letters.size());
+                const int group = model.graph.lanes[at(c.from)].signal_group;
+                const Light light = model.signals[at(group)].light(to_ticks(from_s + 0.5 * duration_s, model.step_s));
+                const char letter = letters[at(c.link)];
+                EXPECT_EQ(light == Light::green, letter == 'G' || letter == 'g');
+                EXPECT_EQ(light == Light::yellow, letter == 'y');
+                const Turn turn = model.graph.lanes[at(c.way)].turn;
+                if (letter == 'g') EXPECT_NE(turn, Turn::straight);
+                if (light == Light::green && turn == Turn::left) EXPECT_EQ(letter, 'g');
+            }
+            from_s += duration_s;
+        }
+        EXPECT_NEAR(from_s, model.time_s(model.signals[0].cycle_ticks()), 1e-6);
+    }
+    EXPECT_EQ(programmes, 6U);
+}
+
+// One green only: nothing repeats, so that all of the run is written.
+TEST(SumoInputs, LightsThatDoNotRepeatLastAsLongAsTheRun) {
+    const Model model = model_of("single_light.yaml");
+    const TemporaryFolder folder;
+    write_sumo_inputs(folder.path(), model, plain_network(model.graph), 200.0);
+    const SumoXml xml(folder.path() / "lights.tll.xml", {"tlLogics"});
+    double all_s = 0.0;
+    double green_s = 0.0;
+    for (const pugi::xml_node phase : xml.root().child("tlLogic").children("phase")) {
+        all_s += xml.number(phase, "duration");
+        if (xml.text(phase, "state")[0] == 'G') green_s += xml.number(phase, "duration");
+    }
+    EXPECT_NEAR(all_s, 200.0, 1e-6);
+    double expected_s = 0.0;
+    for (std::int64_t tick = 0; tick < to_ticks(200.0, model.step_s); ++tick) {
+        if (model.signals[0].light(tick) == Light::green) expected_s += model.step_s;
+    }
+    EXPECT_GT(green_s, 0.0);
+    EXPECT_NEAR(green_s, expected_s, 1e-6);
+}
+
+TEST(RunSummary, SumsUpWhatLiesWithinTheWindow) {
+    RunFacts facts;
+    facts.trips = {{10.0, 99.0, 0.0}, {110.0, 30.0, 2.0}, {200.0, 50.0, 4.0}, {201.0, 99.0, 9.0}};
+    facts.passed_s["a_0"] = {99.0, 101.0, 150.0};
+    facts.passed_s["a_1"] = {102.0};
+    facts.instants = {{100.0, 5, 5, 0.0}, {101.0, 4, 2, 8.0}, {102.0, 4, 1, 10.0}};
+    const RunSummary sum = summary_of(facts, 100.0, 200.0);
+    EXPECT_DOUBLE_EQ(sum.throughput_veh_h, 72.0);
+    EXPECT_DOUBLE_EQ(sum.travel_time_s, 40.0);
+    EXPECT_DOUBLE_EQ(sum.delay_s, 3.0);
+    EXPECT_DOUBLE_EQ(sum.passages_veh_h, 108.0);
+    EXPECT_DOUBLE_EQ(sum.speed_mps, 9.0);
+    EXPECT_DOUBLE_EQ(sum.halting, 1.5);
+    EXPECT_TRUE(std::isnan(summary_of(facts, 300.0, 400.0).travel_time_s));
+}
+
+}  // namespace
+}  // namespace stopline
