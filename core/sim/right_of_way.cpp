@@ -108,8 +108,7 @@ int stops_at_light(const State& state, int lane, int way) {
     return state.lights[at(state.plan.light_before(lane, next))] == Light::green ? -1 : stopping;
 }
 
-// Vehicles that move and come to `lane`, on their trips, to go on to `way`, from further back: on lanes shorter than the horizon. What is
-// decided for them in this step at other intersections is not asked for.
+// Vehicles that move and come to `lane` to go on to `way`, from further back. What is decided for them in this step is not asked for.
 struct Upstream {
     int lane;
     int way;
@@ -260,10 +259,9 @@ int sets_out_first(const Model& model, const State& state, int lane, const Candi
     for (const Conflict& conflict : state.plan.conflicts(lane)) {
         if (!conflict.other_yields) continue;
         const LaneBlock& block = state.blocks[at(state.plan.lane(conflict.other).origin)];
-        if (block.count == 0) continue;
+        if (block.count == 0 || held(state, block.first)) continue;
         const VehicleRecord& first = state.vehicles.record[at(block.first)];
-        const bool goes = first.next_lane == conflict.other && first.cleared_for == conflict.other;
-        if (goes && !held(state, block.first)) return block.first;
+        if (first.next_lane == conflict.other && first.cleared_for == conflict.other) return block.first;
     }
     return -1;
 }

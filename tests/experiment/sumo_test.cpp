@@ -28,7 +28,8 @@ Scenario scenario_of(const std::string& net, const std::string& routes, const st
                           "my.yaml", {}, files.folder());
 }
 
-constexpr const char* kBusy = R"(<flow id="w" from="w_in" to="e_out" vehsPerHour="700" end="200" departLane="best" departSpeed="max"/>
+constexpr const char* kBusy =
+    R"(<flow id="w" from="w_in" to="e_out" vehsPerHour="700" end="200" departLane="best" departSpeed="max"/>
 <flow id="l" from="w_in" to="n_out" vehsPerHour="200" end="200" departLane="best" departSpeed="max"/>
 <flow id="s" from="s_in" to="n_out" vehsPerHour="400" end="200" departSpeed="max"/>)";
 
@@ -86,15 +87,16 @@ TEST(SumoRun, WhoeverMustGivesWay) {
     EXPECT_NEAR(alone_s, 20.0 + 205.0 / 13.89, 3.0);
     EXPECT_GT(first_seen_s(scenario_of(crossing_net(), stream + minor), "n_out_1", 150.0), 95.0);
     // Without the matrix's bits it is the stream that waits.
-    std::string reversed = testing::replaced(crossing_net(), "index=\"0\" response=\"1110\"", "index=\"0\" response=\"0000\"");
+    std::string reversed =
+        testing::replaced(crossing_net(), "index=\"0\" response=\"1110\"", "index=\"0\" response=\"0000\"");
     reversed = testing::replaced(reversed, "index=\"1\" response=\"0000\"", "index=\"1\" response=\"0001\"");
     EXPECT_LT(first_seen_s(scenario_of(reversed, stream + minor), "n_out_1", 150.0), alone_s + 5.0);
 }
 
 TEST(SumoRun, MovementsOfOneLaneMindTheirOwnLights) {
     // Straight on from the left lane is green until 60 s, turning left only from then on.
-    const std::string net =
-        signal_net(R"(<phase duration="60" state="rGGr"/><phase duration="4" state="ryyr"/><phase duration="56" state="rrrG"/>)");
+    const std::string net = signal_net(
+        R"(<phase duration="60" state="rGGr"/><phase duration="4" state="ryyr"/><phase duration="56" state="rrrG"/>)");
     const std::string straight = R"(<trip id="a" depart="0" from="w_in" to="e_out" departLane="1" departSpeed="max"/>)";
     const std::string left = R"(<trip id="b" depart="0" from="w_in" to="n_out" departLane="1" departSpeed="max"/>)";
     EXPECT_LT(first_seen_s(scenario_of(net, straight), "e_out_1", 100.0), 25.0);
@@ -105,7 +107,8 @@ TEST(SumoRun, MovementsOfOneLaneMindTheirOwnLights) {
 
 TEST(SumoRun, LeavesWhereTheRouteEndsAlthoughTheLightIsRed) {
     const std::string net = signal_net(R"(<phase duration="290" state="rrrr"/><phase duration="10" state="GGGG"/>)");
-    const Scenario scenario = scenario_of(net, R"(<vehicle id="a" depart="0" departSpeed="max"><route edges="s_in"/></vehicle>
+    const Scenario scenario =
+        scenario_of(net, R"(<vehicle id="a" depart="0" departSpeed="max"><route edges="s_in"/></vehicle>
 <vehicle id="b" depart="5" departSpeed="max"><route edges="s_in n_out"/></vehicle>)");
     const NetworkFigures f = run_network(scenario, 0, {}, 1, {});
     EXPECT_EQ(f.entered, 2);
@@ -115,8 +118,8 @@ TEST(SumoRun, LeavesWhereTheRouteEndsAlthoughTheLightIsRed) {
 
 TEST(SumoRun, VehiclesWaitOutsideWhileThereIsNoRoom) {
     const std::string net = signal_net(R"(<phase duration="299" state="rrrr"/><phase duration="1" state="GGGG"/>)");
-    const NetworkFigures f =
-        run_network(scenario_of(net, R"(<flow id="s" from="s_in" to="n_out" number="60" begin="0" end="100"/>)"), 0, {}, 1, {});
+    const NetworkFigures f = run_network(
+        scenario_of(net, R"(<flow id="s" from="s_in" to="n_out" number="60" begin="0" end="100"/>)"), 0, {}, 1, {});
     EXPECT_GT(f.waiting, 20);
     EXPECT_EQ(f.entered + f.waiting, 60);
     EXPECT_TRUE(f.violations.none());
