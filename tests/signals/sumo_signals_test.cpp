@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "network/sumo_graph.h"
 #include "network/sumo_net.h"
 #include "signals/programme.h"
 #include "support/sumo_files.h"
