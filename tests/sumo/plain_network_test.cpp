@@ -116,7 +116,7 @@ TEST(SumoInputs, LightsAreThoseOfTheModel) {
 TEST(SumoInputs, LightsThatDoNotRepeatLastAsLongAsTheRun) {
     const Model model = model_of("single_light.yaml");
     const TemporaryFolder folder;
-    write_sumo_inputs(folder.path(), model, plain_network(model.graph), 200.0);
+    write_sumo_inputs(folder.path(), model, plain_network(model.graph), 500.0);
     const SumoXml xml(folder.path() / "lights.tll.xml", {"tlLogics"});
     double all_s = 0.0;
     double green_s = 0.0;
@@ -124,9 +124,9 @@ TEST(SumoInputs, LightsThatDoNotRepeatLastAsLongAsTheRun) {
         all_s += xml.number(phase, "duration");
         if (xml.text(phase, "state")[0] == 'G') green_s += xml.number(phase, "duration");
     }
-    EXPECT_NEAR(all_s, 200.0, 1e-6);
+    EXPECT_NEAR(all_s, 500.0, 1e-6);
     double expected_s = 0.0;
-    for (std::int64_t tick = 0; tick < to_ticks(200.0, model.step_s); ++tick) {
+    for (std::int64_t tick = 0; tick < to_ticks(500.0, model.step_s); ++tick) {
         if (model.signals[0].light(tick) == Light::green) expected_s += model.step_s;
     }
     EXPECT_GT(green_s, 0.0);
