@@ -175,6 +175,10 @@ void measure(const Scenario& scenario, const Model& model, const State& state, c
     figures.collapse_s = collapse_of(figures);
 }
 
+// From so many vehicles on, whose step takes some tens of microseconds, a second thread is worth it.
+constexpr int kSharedFromMeso = 4000;
+constexpr int kSharedFromFull = 500;
+
 }  // namespace
 
 Model network_model(const Scenario& scenario, std::size_t population) {
@@ -191,6 +195,7 @@ NetworkFigures run_network(const Scenario& scenario, std::size_t population,
     Model model = network_model(scenario, population);
     observation.prepare(model);
     Simulation simulation(model, threads);
+    simulation.share_from(model.meso ? kSharedFromMeso : kSharedFromFull);
     NetworkFigures figures;
     figures.population = scenario.populations.at(population).name;
     figures.complete = true;

@@ -40,7 +40,11 @@ void FrameEncoder::Events::append_to(std::string& frame) const {
 }
 
 FrameEncoder::FrameEncoder(const Model& model, const FrameGrid& grid)
-    : model_(model), grid_(grid), positions_per_m_(1.0 / grid.position_unit_m), lanes_(model.graph.lanes.size()) {
+    : signals_(model.signals),
+      watch_ticks_(model.rules.watch_ticks),
+      grid_(grid),
+      positions_per_m_(1.0 / grid.position_unit_m),
+      lanes_(model.graph.lanes.size()) {
     lights_.assign(model.signals.size(), Light::red);
     for (const Lane& lane : model.graph.lanes) {
         const double line_m = lane.signal_group >= 0 ? lane.stop_line_m : lane.length_m;
@@ -91,7 +95,7 @@ void FrameEncoder::append(const Snapshot& shot, std::string& bytes) {
 
 void FrameEncoder::note_lights(std::int64_t tick) {
     for (std::size_t group = 0; group < lights_.size(); ++group) {
-        const Light light = model_.signals[group].light(tick);
+        const Light light = signals_[group].light(tick);
         if (light == lights_[group]) continue;
         lights_[group] = light;
         Events& events = events_[lights];
@@ -238,7 +242,7 @@ void FrameEncoder::note_left() {
 
 // The simulation looks now and then at who stands and why.
 void FrameEncoder::note_causes(const Snapshot& shot) {
-    const std::int64_t look_tick = look_tick_before(model_, shot.tick);
+    const std::int64_t look_tick = look_tick_before(watch_ticks_, shot.tick);
     if (look_tick == look_tick_) return;
     look_tick_ = look_tick;
     look_at_standing(shot);

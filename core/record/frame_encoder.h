@@ -15,7 +15,6 @@ namespace stopline {
 
 class FrameEncoder {
 public:
-    // Keeps a reference to the model.
     FrameEncoder(const Model& model, const FrameGrid& grid);
 
     // The next frame can be read without those before it.
@@ -72,7 +71,8 @@ private:
     void append_columns(std::string& bytes);
     void append_codes(std::string& bytes);
 
-    const Model& model_;
+    std::vector<GroupProgramme> signals_;
+    std::int64_t watch_ticks_;
     FrameGrid grid_;
     double positions_per_m_;
     std::vector<std::uint16_t> stop_line_;  // [lane] position; behind it vehicles are drawn on the lane that follows

@@ -7,7 +7,7 @@ namespace stopline {
 
 Recorder::Recorder(const std::filesystem::path& file, const RecordingWindow& window, const RunOrigin& origin,
                    const Model& model)
-    : model_(model),
+    : watch_ticks_(model.rules.watch_ticks),
       clock_(window, model.step_s),
       file_(file),
       grid_(make_frame_grid(model, clock_)),
@@ -21,7 +21,7 @@ Recorder::Recorder(const std::filesystem::path& file, const RecordingWindow& win
 }
 
 void Recorder::record(const State& state) {
-    const std::int64_t look_tick = look_tick_before(model_, state.tick);
+    const std::int64_t look_tick = look_tick_before(watch_ticks_, state.tick);
     const bool with_standing = taken_in_section_ == 0 || look_tick != look_tick_;
     worker_.blank().take(state, with_standing);
     worker_.submit();

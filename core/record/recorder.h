@@ -27,7 +27,7 @@ struct RecordingSize {
 
 class Recorder {
 public:
-    // Keeps a reference to the model until it is finished. Throws InputError where the file cannot be written, as all below,
+    // Keeps no reference to the model. Throws InputError where the file cannot be written, as all below,
     // perhaps some frames later.
     Recorder(const std::filesystem::path& file, const RecordingWindow& window, const RunOrigin& origin,
              const Model& model);
@@ -44,7 +44,7 @@ private:
     void write_section(std::string_view tag, std::string_view bytes);
     void write_frames();
 
-    const Model& model_;
+    std::int64_t watch_ticks_;
     FrameClock clock_;
     int taken_in_section_ = 0;
     std::int64_t look_tick_ = -1;  // of the causes in the last snapshot that has them

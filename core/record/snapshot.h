@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "sim/model.h"
 #include "sim/state.h"
 
 namespace stopline {
@@ -41,10 +40,9 @@ struct Snapshot {
     void take(const State& state, bool with_standing);
 };
 
-// The tick of the last look at hindrance before a state at that tick; -1: none.
-inline std::int64_t look_tick_before(const Model& model, std::int64_t tick) {
-    const std::int64_t every = model.rules.watch_ticks;
-    return every <= 0 || tick == 0 ? -1 : (tick - 1) / every * every;
+// The tick of the last look at hindrance, which is so often, before a state at that tick; -1: none.
+inline std::int64_t look_tick_before(std::int64_t every_ticks, std::int64_t tick) {
+    return every_ticks <= 0 || tick == 0 ? -1 : (tick - 1) / every_ticks * every_ticks;
 }
 
 }  // namespace stopline

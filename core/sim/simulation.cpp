@@ -43,7 +43,7 @@ void Simulation::step() {
     state_.radar = rows_at(model_.radar, state_.tick, state_.vehicles.slots);
     state_.v2v = rows_at(model_.v2v, state_.tick, state_.vehicles.slots);
     read_signals(model_, state_);
-    if (threads_ == 1) {
+    if (threads_ == 1 || state_.present() < share_from_) {
         for (NetworkPart& part : state_.parts) decide(part);
         watch_hindrance(model_, state_);
         for (NetworkPart& part : state_.parts) move(part);

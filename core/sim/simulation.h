@@ -37,6 +37,10 @@ public:
     // `threads`: that share the lanes of this run.
     explicit Simulation(const Model& model, int threads = 1);
 
+    // They share a step only while at least so many vehicles are there (at first: always); nothing else depends on it. Threads wait for each
+    // other several times a step, which costs more than they save where there is little to do, and far more where other work runs.
+    void share_from(int vehicles) { share_from_ = vehicles; }
+
     void step();
     void run_until(double time_s);
     double time_s() const { return model_.time_s(state_.tick); }
@@ -55,6 +59,7 @@ private:
     FullTables tables_;
     State state_;
     int threads_;
+    int share_from_ = 0;
 };
 
 }  // namespace stopline
