@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -44,9 +45,12 @@ std::uint64_t key_of(std::string_view text) {
 class Flow {
 public:
     Flow(const SumoXml& xml, pugi::xml_node node, double until_s, std::uint64_t seed)
-        : xml_(xml), node_(node), seed_(seed), key_(key_of(xml.text(node, "id"))) {
-        begin_s_ = sumo_time_s(xml, node, "begin", 0.0);
-        end_s_ = sumo_time_s(xml, node, "end", until_s);
+        : xml_(xml),
+          node_(node),
+          seed_(seed),
+          key_(key_of(xml.text(node, "id"))),
+          begin_s_(sumo_time_s(xml, node, "begin", 0.0)),
+          end_s_(sumo_time_s(xml, node, "end", until_s)) {
         if (end_s_ < begin_s_) xml.refuse(node, "end lies before begin");
         stop_s_ = std::min(end_s_, until_s);
         number_ = xml.number_if(node, "number");
@@ -82,7 +86,8 @@ private:
     void by_probability() {
         const double probability = xml_.number(node_, "probability");
         if (probability < 0.0 || probability > 1.0) xml_.refuse(node_, "probability must be 0 to 1");
-        for (double time_s = begin_s_; time_s < stop_s_; time_s += 1.0) {
+        for (std::int64_t second = 0; begin_s_ + static_cast<double>(second) < stop_s_; ++second) {
+            const double time_s = begin_s_ + static_cast<double>(second);
             if (drawn(time_s) < probability && !add(time_s)) return;
         }
     }
@@ -92,15 +97,15 @@ private:
         if (!rate_1ps || !(*rate_1ps > 0.0) || *rate_1ps > kFastest_1ps)
             xml_.refuse(node_, "period: the rate is not usable");
         double time_s = begin_s_;
-        for (double k = 0.0;; ++k) {
-            time_s -= std::log1p(-drawn(k)) / *rate_1ps;
+        for (std::int64_t k = 0;; ++k) {
+            time_s -= std::log1p(-drawn(static_cast<double>(k))) / *rate_1ps;
             if (!add(time_s)) return;
         }
     }
 
     void evenly() {
         const double every_s = period_s();
-        for (double k = 0.0; add(begin_s_ + k * every_s);) ++k;
+        for (std::int64_t k = 0; add(begin_s_ + static_cast<double>(k) * every_s);) ++k;
     }
 
     double period_s() const {

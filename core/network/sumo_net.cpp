@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -17,7 +18,7 @@ std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 std::vector<bool> bits_of(std::string_view text) {  // the last letter is link 0
     std::vector<bool> bits;
-    for (auto letter = text.rbegin(); letter != text.rend(); ++letter) bits.push_back(*letter == '1');
+    std::transform(text.rbegin(), text.rend(), std::back_inserter(bits), [](char letter) { return letter == '1'; });
     return bits;
 }
 

@@ -43,9 +43,9 @@ int entry_lane(const Model& model, const State& state, int trip) {
         return changes_a != changes_b ? changes_a < changes_b : free_m(state, a) > free_m(state, b);
     };
     int best = lanes.back();
-    for (auto lane = lanes.rbegin(); lane != lanes.rend(); ++lane) {
-        if (better(*lane, best)) best = *lane;
-    }
+    std::for_each(lanes.rbegin(), lanes.rend(), [&](int lane) {
+        if (better(lane, best)) best = lane;
+    });
     return best;
 }
 

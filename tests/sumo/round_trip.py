@@ -25,10 +25,14 @@ CASES = {
     "arterial": ["duration=700 s", "measure.steady=400 s"],
     "grid": ["duration=700 s", "measure.steady=400 s", "network.grid.columns=3", "network.grid.rows=2"],
 }
+# Of ours, what SUMO has no word for, is left out.
+AS_SUMO = ["fidelity=meso", "meso=table2", "driver.free_drive.hesitation=0 s", "driver.stop.decision_deceleration=4.7 m/s2"]
 IMPORTED = """
 fidelity: meso
 duration: 700 s
 meso: table2
+vehicle: petrol_eu4_72kw
+driver: {{base: startup_kit, stop: {{decision_deceleration: 4.7 m/s2}}, free_drive: {{hesitation: 0 s}}}}
 network: {{kind: sumo, net: {net}, routes: [{routes}]}}
 populations: [CTG-Ref]
 measure: {{steady: 400 s}}
@@ -93,7 +97,7 @@ def trips(file):
 
 
 def compare_runs(name, run, sumo, folder, changes):
-    subprocess.run([run, SCENARIOS / f"{name}.yaml", *settings(changes), "--set", "fidelity=meso", "--set", "meso=table2", "--set",
+    subprocess.run([run, SCENARIOS / f"{name}.yaml", *settings(changes + AS_SUMO), "--set",
                     "populations=[CTG-Ref]", "--set", "measure.baseline=CTG-Ref", "--no-figures", "--output", folder / "ours", "--tripinfo",
                     folder / "ours.xml"], check=True, stdout=subprocess.DEVNULL)
     subprocess.run([sumo, "-c", folder / "run.sumocfg", "--no-step-log", "--tripinfo-output", folder / "sumo.xml"],
@@ -126,7 +130,7 @@ def main():
             folder = Path(top) / name
             print(name)
             subprocess.run([programs / "stopline-export", "--sumo", folder, SCENARIOS / f"{name}.yaml", "--population", "CTG-Ref",
-                            *settings(changes + ["meso=table2"])], check=True, stdout=subprocess.DEVNULL)
+                            *settings(changes + AS_SUMO)], check=True, stdout=subprocess.DEVNULL)
             subprocess.run([found[1], "-n", "nodes.nod.xml", "-e", "edges.edg.xml", "-x", "connections.con.xml", "-i",
                             "lights.tll.xml", "--no-turnarounds", "true", "--offset.disable-normalization", "true", "-o",
                             "net.net.xml"], cwd=folder, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
