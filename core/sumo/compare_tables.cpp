@@ -42,7 +42,7 @@ Figure two_lines(const std::string& name, const std::string& title, const std::s
     figure.name = name;
     figure.data = {{name + "_ours.csv", std::move(ours)}, {name + "_sumo.csv", std::move(sumo)}};
     figure.body = fmt::format(
-        "set datafile separator ','\nset title {}\nset xlabel 'time (s)'\nset ylabel '{}'\nset key bottom right\n"
+        "set datafile separator ','\nset title {}\nset xlabel 'time (s)'\nset ylabel '{}'\nset key outside bottom center horizontal\n"
         "plot '{}_ours.csv' using 1:2 skip 1 with lines lt 1 title 'Stopline, mesoscale mode', "
         "'{}_sumo.csv' using 1:2 skip 1 with lines lt 7 title 'SUMO'",
         gnuplot_text(title), y, name, name);
