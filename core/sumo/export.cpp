@@ -1,7 +1,5 @@
 #include "sumo/export.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "base/child_process.h"
@@ -9,7 +7,6 @@
 #include "experiment/build_model.h"
 #include "experiment/interrupted.h"
 #include "experiment/intersection_run.h"
-
 #include "sumo/inputs.h"
 
 namespace stopline {
