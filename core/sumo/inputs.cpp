@@ -63,13 +63,12 @@ void write_connections(const std::filesystem::path& file, const LaneGraph& graph
     for (const PlainConnection& c : network.connections) {
         const PlainNetwork::Place& from = network.place_of[at(c.from)];
         const PlainNetwork::Place& to = network.place_of[at(c.to)];
-        xml.add("    <connection from=\"{}\" to=\"{}\" fromLane=\"{}\" toLane=\"{}\"",
+        xml.add(R"(    <connection from="{}" to="{}" fromLane="{}" toLane="{}")",
                 xml_escaped(network.edges[at(from.edge)].id), xml_escaped(network.edges[at(to.edge)].id), from.index,
                 to.index);
         if (c.way >= 0) {
             const Lane& way = graph.lanes[at(c.way)];
-            xml.add(" speed=\"{:.6f}\" length=\"{:.3f}\" shape=\"{}\"", way.limit_mps, c.length_m,
-                    points_text(way.shape));
+            xml.add(R"( speed="{:.6f}" length="{:.3f}" shape="{}")", way.limit_mps, c.length_m, points_text(way.shape));
         }
         xml.add("/>\n");
     }
