@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "demand/demand_settings.h"
@@ -19,8 +21,12 @@ struct Trip {
     float length_m = 0.0F;
     enum class Where : std::uint8_t { lane, rightmost, free, random, best } where = Where::rightmost;
     enum class Fast : std::uint8_t { given, limit, as_last, random } fast = Fast::given;
+    // base: its rear at the start of the lane; last: as near behind the last vehicle as its gap allows; random: drawn once;
+    // free: drawn until there is room.
+    enum class Along : std::uint8_t { base, given, last, random, free } along = Along::base;
     int lane = 0;            // where that is given, counted from the left
     float speed_mps = 0.0F;  // where that is given
+    float front_m = 0.0F;    // where that is given, from the start of the lane; below 0: from its end
 };
 
 struct DemandPlan {
@@ -49,10 +55,11 @@ struct DemandPlan {
     std::vector<double> policy_shares;
     Pattern route_pattern = Pattern::random;
     std::uint64_t seed = 1;
-    std::vector<Trip> trips;         // by time of departure, then in the order of the input
-    std::vector<Turn> trip_turns;    // of all trips, one after the other
-    std::vector<int> trip_policies;  // [trip]
-    double shortest_trip_m = 1e9;    // of their vehicles
+    std::vector<Trip> trips;                                     // by time of departure, then in the order of the input
+    std::vector<Turn> trip_turns;                                // of all trips, one after the other
+    std::shared_ptr<const std::vector<std::string>> trip_names;  // [trip]; null: they have none
+    std::vector<int> trip_policies;                              // [trip]
+    double shortest_trip_m = 1e9;                                // of their vehicles
 
     // At the end of the leg-th edge of a trip; none: it ends there.
     Turn turn_of_trip(int trip, int leg) const {

@@ -25,12 +25,14 @@ namespace {
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 constexpr std::size_t kMostTrips = 20'000'000;
+constexpr double kOfLength_m = 0.1;  // as files round
 
 // Edges, all of them, or some between which the fastest way is taken.
 struct Way {
     std::vector<int> edges = {};
     bool complete = true;
-    bool open = true;  // to cars, all of it
+    bool open = true;            // to cars, all of it
+    bool begins_within = false;  // on an edge that was joined to the one before
     std::string where;
     int first_turn = -1;
 };
@@ -104,6 +106,7 @@ private:
         for (const std::string_view id : sumo_words(edges)) {
             const int edge = edge_of(node, "edges", id);
             way.open = way.open && router_.drives(edge);
+            if (way.edges.empty()) way.begins_within = network_.net.edges[at(edge)].id != id;
             // Twice the same: an edge that was joined to the one before.
             if (way.edges.empty() || way.edges.back() != edge) way.edges.push_back(edge);
         }
@@ -182,7 +185,9 @@ private:
         Way way;
         way.complete = false;
         way.where = xml_->where(node);
-        way.edges.push_back(edge_of(node, "from", xml_->text(node, "from")));
+        const std::string from = xml_->text(node, "from");
+        way.edges.push_back(edge_of(node, "from", from));
+        way.begins_within = network_.net.edges[at(way.edges[0])].id != from;
         const std::string via = node.attribute("via").value();
         for (const std::string_view id : sumo_words(via)) way.edges.push_back(edge_of(node, "via", id));
         way.edges.push_back(edge_of(node, "to", xml_->text(node, "to")));
@@ -204,15 +209,25 @@ private:
             trip.where = Trip::Where::lane;
             trip.lane = xml_->whole(node, "departLane");
         }
-        const std::string position = node.attribute("departPos").value();
-        if (!position.empty() && position != "base" && position != "0") {
-            traffic_.warnings.note(xml_->where(node),
-                                   "'departPos' is not read: vehicles enter at the beginning of an edge");
-        }
         if (node.attribute("arrivalPos") || node.attribute("arrivalLane") || node.attribute("arrivalSpeed")) {
             traffic_.warnings.note(xml_->where(node), "'arrival...' is not read: vehicles leave at the end of an edge");
         }
         if (node.child("stop")) traffic_.warnings.note(xml_->where(node), "stops are not read: nobody stops for them");
+    }
+
+    void read_along(pugi::xml_node node, Trip& trip) {
+        const std::string position = node.attribute("departPos").value();
+        const std::map<std::string, Trip::Along> known{{"", Trip::Along::base},     {"base", Trip::Along::base},
+                                                       {"last", Trip::Along::last}, {"random", Trip::Along::random},
+                                                       {"free", Trip::Along::free}, {"random_free", Trip::Along::free}};
+        if (const auto found = known.find(position); found != known.end()) {
+            trip.along = found->second;
+        } else if (position == "stop") {
+            traffic_.warnings.note(xml_->where(node), "departPos 'stop' is not read: base is used");
+        } else {
+            trip.along = Trip::Along::given;
+            trip.front_m = static_cast<float>(xml_->number(node, "departPos"));
+        }
     }
 
     void read_speed(pugi::xml_node node, Trip& trip) {
@@ -239,6 +254,7 @@ private:
     Template template_of(pugi::xml_node node) {
         Template made{{}, ways_of(node), node.attribute("type").value()};
         read_where(node, made.trip);
+        read_along(node, made.trip);
         read_speed(node, made.trip);
         return made;
     }
@@ -268,9 +284,22 @@ private:
             return;
         }
         if (trip.where == Trip::Where::lane) trip.lane = lane_from_left(node, ways_[way].edges[0], made.trip.lane);
+        if (trip.along == Trip::Along::given) check_along(node, ways_[way], trip);
         way_of_.push_back(way);
         traffic_.trips.push_back(trip);
         traffic_.ids.push_back(id);
+    }
+
+    void check_along(pugi::xml_node node, const Way& way, Trip& trip) {
+        const SumoEdge& edge = network_.net.edges[at(way.edges[0])];
+        const double length_m = edge.lanes[0].length_m;
+        if (std::abs(static_cast<double>(trip.front_m)) > length_m + kOfLength_m) {
+            xml_->refuse(node, fmt::format("departPos lies beyond edge '{}' of {:.2f} m", edge.id, length_m));
+        }
+        if (!way.begins_within) return;
+        traffic_.warnings.note(xml_->where(node),
+                               "departPos on an edge that became the end of another one is not read: base is used");
+        trip.along = Trip::Along::base;
     }
 
     // Of those on which cars may drive.

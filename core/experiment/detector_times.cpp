@@ -42,8 +42,9 @@ double quantile(const std::vector<double>& sorted, double share) {
 }  // namespace
 
 std::string detector_name(const Model& model, std::size_t detector) {
-    static constexpr std::array<const char*, 4> kKinds{"stop_line", "zone", "exit", "middle"};
+    static constexpr std::array<const char*, 5> kKinds{"stop_line", "zone", "exit", "middle", "loop"};
     const Detector& d = model.detectors[detector];
+    if (d.loop >= 0) return model.loop_names[at(d.loop)];
     const std::string zone = d.kind == Detector::Kind::zone ? fmt::format("_{}", d.zone) : "";
     return fmt::format("{} {}{}", model.graph.lanes[at(d.lane)].name, kKinds[static_cast<std::size_t>(d.kind)], zone);
 }

@@ -33,9 +33,9 @@ void watch_trips(Model& model) {
 // Where vehicles come into the area that is measured, or leave it: on the lanes by which they enter and leave the network. Pockets that
 // lie in it wholly are entered from lanes beside them.
 void watch_area(const Scenario& scenario, Model& model) {
+    if (scenario.network.is_sumo()) return watch_trips(model);
     std::erase_if(model.detectors, [](const Detector& d) { return d.kind != Detector::Kind::stop_line; });
     const double outside_m = scenario.measure.outside_m;
-    if (scenario.network.is_sumo()) return watch_trips(model);
     for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {
         const Lane& road = model.graph.lanes[at(lane)];
         if (road.origin >= 0) continue;
@@ -232,8 +232,8 @@ NetworkFigures run_network(const Scenario& scenario, std::size_t population,
     backlog.look(state);
     figures.backlog = backlog.backlog();
     figures.strayed = state.strayed;
-    for (const WaitingTrips& waiting : state.waiting_trips) {
-        figures.waiting += static_cast<std::int64_t>(waiting.trips.size() - waiting.entered);
+    for (const std::vector<int>& waiting : state.waiting_trips) {
+        figures.waiting += static_cast<std::int64_t>(waiting.size());
     }
     if (model.trips_begin < 0)
         figures.inflow = inflow_series(model, state.crossings, scenario.measure.interval_s, model.time_s(state.tick));

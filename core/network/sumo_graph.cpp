@@ -42,6 +42,7 @@ public:
         add_lights();
         find_sumo_conflicts(made_, ways_, clearance_m_);
         slow_before_short_lanes();
+        keep_loops_of_cars();
         made_.graph.signal_groups = static_cast<int>(made_.lights.size());
         return std::move(made_);
     }
@@ -50,6 +51,15 @@ private:
     const SumoNet& net() const { return made_.net; }
     const SumoEdge& edge(int index) const { return made_.net.edges[at(index)]; }
     std::vector<Lane>& lanes() { return made_.graph.lanes; }
+
+    void keep_loops_of_cars() {
+        std::erase_if(made_.net.loops, [&](const SumoLoop& loop) {
+            if (made_.lane_of[at(loop.edge)][at(loop.lane)] >= 0) return false;
+            made_.net.warnings.note(loop.where,
+                                    "a detector inside a junction, or on a lane where cars do not drive, is left out");
+            return true;
+        });
+    }
 
     // The lanes of an edge, from the left.
     void add_edges() {

@@ -95,6 +95,7 @@ struct SumoLoop {
     int edge = -1;
     int lane = 0;
     double position_m = 0.0;
+    std::string where;  // file:line
 };
 
 struct SumoNet {

@@ -72,6 +72,7 @@ private:
         std::vector<bool> grown(longer.lanes.size(), false);
         double more_m = 0.0;
         std::vector<SumoConnection> onward;
+        take_over_loops(before, edge);
         for (const std::size_t in : in_[at(edge)]) {
             const SumoConnection c = connection(in);
             SumoLane& lane = longer.lanes[at(c.from_lane)];
@@ -95,6 +96,21 @@ private:
         for (const std::size_t gone : in_[at(edge)]) net_.connections[gone].from = -1;
         for (const std::size_t gone : out_[at(edge)]) net_.connections[gone].from = -1;
         replace(before, edge, std::move(onward));
+    }
+
+    // A loop lies as far before the end as it did.
+    void take_over_loops(int before, int edge) {
+        for (SumoLoop& loop : net_.loops) {
+            if (loop.edge != edge) continue;
+            const auto leads_there = [&](std::size_t k) { return connection(k).to_lane == loop.lane; };
+            const auto in = std::find_if(in_[at(edge)].begin(), in_[at(edge)].end(), leads_there);
+            if (in == in_[at(edge)].end()) continue;  // nobody comes there
+            const SumoConnection& c = connection(*in);
+            loop.edge = before;
+            loop.lane = c.from_lane;
+            loop.position_m += net_.edges[at(before)].lanes[at(c.from_lane)].length_m;
+            for (const SumoLane* const part : way(c)) loop.position_m += part->length_m;
+        }
     }
 
     void replace(int before, int edge, std::vector<SumoConnection> onward) {

@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "record/sumo_files.h"
+#include "record/vehicle_name.h"
 #include "record/vehicle_place.h"
 #include "record/xml_file.h"
 
@@ -41,9 +42,10 @@ private:
         xml_.add(
             "        <vehicle id=\"{}\" x=\"{:.2f}\" y=\"{:.2f}\" angle=\"{:.2f}\" type=\"{}\" speed=\"{:.2f}\" "
             "pos=\"{:.2f}\" lane=\"{}\" slope=\"{:.2f}\" acceleration=\"{:.2f}\"/>\n",
-            v.id[slot], place.point.x_m, place.point.y_m, north_deg < 0.0 ? north_deg + 360.0 : north_deg,
-            policies_[static_cast<std::size_t>(v.policy[slot])], v.speed_mps[slot], v.position_m[slot],
-            lanes_[static_cast<std::size_t>(lane)], slope_deg(lane), v.acceleration_mps2[slot]);
+            vehicle_name(model_, v.record[slot].trip, v.id[slot]), place.point.x_m, place.point.y_m,
+            north_deg < 0.0 ? north_deg + 360.0 : north_deg, policies_[static_cast<std::size_t>(v.policy[slot])],
+            v.speed_mps[slot], v.position_m[slot], lanes_[static_cast<std::size_t>(lane)], slope_deg(lane),
+            v.acceleration_mps2[slot]);
         ++rows_;
     }
     double slope_deg(int lane) const {

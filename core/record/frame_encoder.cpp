@@ -12,14 +12,7 @@ namespace stopline {
 
 namespace {
 
-constexpr double kNowhere_m = std::numeric_limits<double>::quiet_NaN();
-constexpr double kMostCode = 65535.0;
-
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
-std::uint16_t code_of(double value, double per_unit) {
-    return static_cast<std::uint16_t>(static_cast<int>(std::clamp(value * per_unit + 0.5, 0.0, kMostCode)));
-}
 
 std::uint64_t one_more(int number) { return static_cast<std::uint64_t>(number + 1); }
 
@@ -40,16 +33,8 @@ void FrameEncoder::Events::append_to(std::string& frame) const {
 }
 
 FrameEncoder::FrameEncoder(const Model& model, const FrameGrid& grid)
-    : signals_(model.signals),
-      watch_ticks_(model.rules.watch_ticks),
-      grid_(grid),
-      positions_per_m_(1.0 / grid.position_unit_m),
-      lanes_(model.graph.lanes.size()) {
+    : signals_(model.signals), watch_ticks_(model.rules.watch_ticks), grid_(grid), lanes_(model.graph.lanes.size()) {
     lights_.assign(model.signals.size(), Light::red);
-    for (const Lane& lane : model.graph.lanes) {
-        const double line_m = lane.signal_group >= 0 ? lane.stop_line_m : lane.length_m;
-        stop_line_.push_back(code_of(line_m, positions_per_m_));
-    }
 }
 
 void FrameEncoder::start_section() {
@@ -65,8 +50,6 @@ void FrameEncoder::start_section() {
     now_.clear();
     std::fill(guest_.begin(), guest_.end(), -1);
     std::fill(guest_seat_.begin(), guest_seat_.end(), -1);
-    std::fill(rest_m_.begin(), rest_m_.end(), kNowhere_m);
-    std::fill(lane_of_.begin(), lane_of_.end(), -1);
     std::fill(lanes_.begin(), lanes_.end(), Snapshot::Slots{});
     std::fill(lights_.begin(), lights_.end(), Light::red);
     look_tick_ = -1;
@@ -75,14 +58,18 @@ void FrameEncoder::start_section() {
 void FrameEncoder::append(const Snapshot& shot, std::string& bytes) {
     for (Events& events : events_) events.clear();
     vacated_.clear();
-    const std::size_t slots = shot.vehicle.size();
+    const std::size_t slots = shot.position.size();
     if (guest_.size() < slots) {
-        for (std::vector<int>* const each : {&guest_, &guest_seat_, &lane_of_}) each->resize(slots, -1);
-        rest_m_.resize(slots, kNowhere_m);
+        guest_.resize(slots, -1);
+        guest_seat_.resize(slots, -1);
+        position_before_.resize(slots, 0);
+        speed_before_.resize(slots, 0);
     }
     note_lights(shot.tick);
     vacate_slots(shot);
-    note_vehicles(shot);
+    for (const Snapshot::Guest& guest : shot.guests) note_guest(guest);
+    for (const Snapshot::PastLine& one : shot.past_line) note_past_line(one);
+    note_motion(shot);
     note_left();
     note_causes(shot);
     for (const Events& events : events_) events.append_to(bytes);
@@ -107,85 +94,73 @@ void FrameEncoder::note_lights(std::int64_t tick) {
 
 // Slots that a lane had and has no more; another may have them now, so that this comes before anybody is seen there.
 void FrameEncoder::vacate_slots(const Snapshot& shot) {
-    changed_.clear();
     for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
-        const Snapshot::Slots& block = shot.lanes[lane];
-        const Snapshot::Slots& before = lanes_[lane];
-        vehicle_states_ += block.count;
-        if (before == block) continue;
-        changed_.push_back(static_cast<int>(lane));
+        const Snapshot::Slots now = shot.lanes[lane];
+        const Snapshot::Slots before = lanes_[lane];
+        vehicle_states_ += now.count;
+        if (before == now) continue;
         for (int slot = before.first; slot < before.stop(); ++slot) {
-            if (slot < block.first || slot >= block.stop()) vacate(slot);
-            lane_of_[at(slot)] = -1;
+            if (slot < now.first || slot >= now.stop()) vacate(slot);
         }
+        lanes_[lane] = now;
     }
-    for (const int lane : changed_) {
-        const Snapshot::Slots& block = shot.lanes[at(lane)];
-        lanes_[at(lane)] = block;
-        std::fill_n(lane_of_.begin() + block.first, block.count, lane);
-    }
-}
-
-// Half of all vehicles rest in queues: they are left out many at a time.
-void FrameEncoder::note_vehicles(const Snapshot& shot) {
-    const std::size_t slots = shot.vehicle.size();
-    moves_.resize((slots + 7) / 8 * 8, 0);
-    const int* const vehicle = shot.vehicle.data();
-    const double* const position_m = shot.position_m.data();
-    const double* const speed_mps = shot.speed_mps.data();
-    const int* const guest = guest_.data();
-    const double* const rest_m = rest_m_.data();
-    char* const moves = moves_.data();
-    for (std::size_t i = 0; i < slots; ++i) {
-        const bool rests = (vehicle[i] == guest[i]) & (position_m[i] == rest_m[i]) & (speed_mps[i] == 0.0);
-        moves[i] = static_cast<char>(!rests);
-    }
-    for (std::size_t i = 0; i < slots; ++i) {
-        if (moves[i] != 0 && lane_of_[i] >= 0) note_vehicle(shot, static_cast<int>(i), lane_of_[i]);
-    }
-}
-
-void FrameEncoder::note_vehicle(const Snapshot& shot, int slot, int lane) {
-    constexpr double kSpeedsPer_mps = 1.0 / kSpeedUnit_mps;
-    const int seat = guest_[at(slot)] == shot.vehicle[at(slot)] ? guest_seat_[at(slot)] : seat_at(shot, slot, lane);
-    const Motion motion{code_of(shot.position_m[at(slot)], positions_per_m_),
-                        code_of(shot.speed_mps[at(slot)], kSpeedsPer_mps)};
-    now_[at(seat)] = motion;
-    differing_[at(seat) / 64] |= std::uint64_t{1} << (at(seat) % 64);
-    rest_m_[at(slot)] = shot.speed_mps[at(slot)] == 0.0 ? shot.position_m[at(slot)] : kNowhere_m;
-    if (motion.position <= stop_line_[at(lane)]) return;
-    const int next = shot.next_lane[at(slot)];
-    if (seats_[at(seat)].next != next) move(seat, lane, next);
 }
 
 // Whoever was seen in that slot is elsewhere now, or nowhere.
 void FrameEncoder::vacate(int slot) {
     if (guest_seat_[at(slot)] >= 0) vacated_.push_back(guest_seat_[at(slot)]);
     guest_[at(slot)] = guest_seat_[at(slot)] = -1;
-    rest_m_[at(slot)] = kNowhere_m;
 }
 
-// The seat of a vehicle that was not in this slot.
-int FrameEncoder::seat_at(const Snapshot& shot, int slot, int lane) {
-    vacate(slot);
-    const int vehicle = shot.vehicle[at(slot)];
-    if (at(vehicle) >= seat_of_.size()) seat_of_.resize(2 * at(vehicle) + 1000, -1);
-    int seat = seat_of_[at(vehicle)];
+void FrameEncoder::note_guest(const Snapshot::Guest& guest) {
+    vacate(guest.slot);
+    if (at(guest.vehicle) >= seat_of_.size()) seat_of_.resize(2 * at(guest.vehicle) + 1000, -1);
+    int seat = seat_of_[at(guest.vehicle)];
     if (seat < 0) {
-        seat = new_seat(shot, slot, lane);
-    } else if (seats_[at(seat)].lane != lane || seats_[at(seat)].next != shot.next_lane[at(slot)]) {
-        move(seat, lane, shot.next_lane[at(slot)]);
+        seat = new_seat(guest);
+    } else if (seats_[at(seat)].lane != guest.lane || seats_[at(seat)].next != guest.next_lane) {
+        move(seat, guest.lane, guest.next_lane);
     }
-    seats_[at(seat)].slot = slot;
-    guest_[at(slot)] = vehicle;
-    guest_seat_[at(slot)] = seat;
-    return seat;
+    seats_[at(seat)].slot = guest.slot;
+    guest_[at(guest.slot)] = guest.vehicle;
+    guest_seat_[at(guest.slot)] = seat;
+    speed_before_[at(guest.slot)] = 1;
+}
+
+// It may have learnt only now where it goes on.
+void FrameEncoder::note_past_line(const Snapshot::PastLine& one) {
+    const int seat = guest_seat_[at(one.slot)];
+    if (seats_[at(seat)].next == one.next_lane) return;
+    move(seat, one.lane, one.next_lane);
+    speed_before_[at(one.slot)] = 1;
+}
+
+// Half of all vehicles rest in queues: they are left out many at a time.
+void FrameEncoder::note_motion(const Snapshot& shot) {
+    const std::size_t slots = shot.position.size();
+    moves_.resize(slots);
+    const int* const position = shot.position.data();
+    const int* const speed = shot.speed.data();
+    int* const position_before = position_before_.data();
+    int* const speed_before = speed_before_.data();
+    char* const moves = moves_.data();
+    for (std::size_t i = 0; i < slots; ++i) {
+        moves[i] = static_cast<char>((position[i] != position_before[i]) | ((speed[i] | speed_before[i]) != 0));
+        position_before[i] = position[i];
+        speed_before[i] = speed[i];
+    }
+    for (std::size_t i = 0; i < slots; ++i) {
+        if (moves[i] == 0 || guest_seat_[i] < 0) continue;
+        const std::size_t seat = at(guest_seat_[i]);
+        now_[seat] = {static_cast<std::uint16_t>(position[i]), static_cast<std::uint16_t>(speed[i])};
+        differing_[seat / 64] |= std::uint64_t{1} << (seat % 64);
+    }
 }
 
 // -1: it has none, and perhaps never had.
 int FrameEncoder::seat_of(int vehicle) const { return at(vehicle) < seat_of_.size() ? seat_of_[at(vehicle)] : -1; }
 
-int FrameEncoder::new_seat(const Snapshot& shot, int slot, int lane) {
+int FrameEncoder::new_seat(const Snapshot::Guest& guest) {
     if (free_.empty()) {
         free_.push_back(static_cast<int>(seats_.size()));
         seats_.emplace_back();
@@ -196,18 +171,15 @@ int FrameEncoder::new_seat(const Snapshot& shot, int slot, int lane) {
     }
     const int seat = free_.back();
     free_.pop_back();
-    const int vehicle = shot.vehicle[at(slot)];
-    const int next = shot.next_lane[at(slot)];
-    seat_of_[at(vehicle)] = seat;
-    seats_[at(seat)] = Seat{vehicle, slot, lane, next};
+    seat_of_[at(guest.vehicle)] = seat;
+    seats_[at(seat)] = Seat{guest.vehicle, guest.slot, guest.lane, guest.next_lane};
     Events& events = events_[came];
-    for (const int number : {seat, vehicle, shot.policy[at(slot)]}) {
+    for (const int number : {seat, guest.vehicle, guest.policy}) {
         put_varint(events.bytes, static_cast<std::uint64_t>(number));
     }
-    put_varint(events.bytes,
-               static_cast<std::uint64_t>(std::lround(1000.0 * static_cast<double>(shot.length_m[at(slot)]))));
-    put_varint(events.bytes, static_cast<std::uint64_t>(lane));
-    put_varint(events.bytes, one_more(next));
+    put_varint(events.bytes, static_cast<std::uint64_t>(std::lround(1000.0 * static_cast<double>(guest.length_m))));
+    put_varint(events.bytes, static_cast<std::uint64_t>(guest.lane));
+    put_varint(events.bytes, one_more(guest.next_lane));
     ++events.count;
     return seat;
 }

@@ -1,5 +1,5 @@
-// Turns snapshots of a run into frames of a recording (recording_format.h). A vehicle that is where it was in the frame before,
-// by slot, is known by comparing one number, and only positions and speeds are looked at.
+// Turns snapshots of a run into frames of a recording (recording_format.h). Vehicles are known by slot: a snapshot tells who has
+// come to one, and of all others only positions and speeds are looked at.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ class FrameEncoder {
 public:
     FrameEncoder(const Model& model, const FrameGrid& grid);
 
-    // The next frame can be read without those before it.
+    // The next frame can be read without those before it; its snapshot is one taken afresh.
     void start_section();
     void append(const Snapshot& shot, std::string& bytes);
 
@@ -56,13 +56,13 @@ private:
     enum Kind : std::size_t { lights, left, came, moved, waits, kinds };
 
     void note_lights(std::int64_t tick);
-    void note_vehicles(const Snapshot& shot);
     void vacate_slots(const Snapshot& shot);
-    void note_vehicle(const Snapshot& shot, int slot, int lane);
     void vacate(int slot);
-    int seat_at(const Snapshot& shot, int slot, int lane);
+    void note_guest(const Snapshot::Guest& guest);
+    void note_past_line(const Snapshot::PastLine& one);
+    void note_motion(const Snapshot& shot);
     int seat_of(int vehicle) const;
-    int new_seat(const Snapshot& shot, int slot, int lane);
+    int new_seat(const Snapshot::Guest& guest);
     void move(int seat, int lane, int next);
     void note_left();
     void note_causes(const Snapshot& shot);
@@ -74,19 +74,15 @@ private:
     std::vector<GroupProgramme> signals_;
     std::int64_t watch_ticks_;
     FrameGrid grid_;
-    double positions_per_m_;
-    std::vector<std::uint16_t> stop_line_;  // [lane] position; behind it vehicles are drawn on the lane that follows
     std::vector<Seat> seats_;
     std::vector<int> free_;     // seats, the one to take next at the back
     std::vector<int> seat_of_;  // [vehicle] -1: none
-    // [slot] in the frame before: who was there, on which lane (-1: on none), and where it stood; NaN where it did not, so that
-    // whoever stands where it stood is known by comparing, many at a time.
+    // [slot] in the frame before: who was there, and how. A speed other than 0 says that it is to be looked at again.
     std::vector<int> guest_;
     std::vector<int> guest_seat_;
-    std::vector<int> lane_of_;
-    std::vector<double> rest_m_;
+    std::vector<int> position_before_;
+    std::vector<int> speed_before_;
     std::vector<char> moves_;               // [slot] to be looked at
-    std::vector<int> changed_;              // lanes with other slots than in the frame before
     std::vector<Snapshot::Slots> lanes_;    // [lane] in the frame before
     std::vector<int> vacated_;              // seats whose slot is another's now: they moved, or left
     std::vector<Wait> waits_;               // [seat]

@@ -19,6 +19,8 @@ const char* name_of(Detector::Kind kind) {
             return "exit";
         case Detector::Kind::middle:
             return "middle";
+        case Detector::Kind::loop:
+            return "loop";
     }
     return "";
 }
@@ -30,17 +32,15 @@ public:
           every_(std::max<std::int64_t>(to_ticks(interval_s, model.step_s), 1)),
           xml_(file, "detector", "det_e1_file.xsd"),
           loops_(model.detectors.size()) {
-        for (const Detector& detector : model.detectors) {
-            const Lane& lane = model.graph.lanes[static_cast<std::size_t>(detector.lane)];
-            const std::string zone = detector.zone >= 0 ? std::to_string(detector.zone) : "";
-            names_.push_back(xml_escaped(fmt::format("{}_{}{}", lane.name, name_of(detector.kind), zone)));
-        }
+        for (const Detector& detector : model.detectors) names_.push_back(xml_escaped(name_of_loop(detector)));
     }
 
     void look(const State& state) override {
         for (; crossing_ < state.crossings.size(); ++crossing_) note(state.crossings[crossing_]);
         if (state.tick == begin_) return;
-        for (std::size_t k = 0; k < loops_.size(); ++k) loops_[k].occupied += is_covered(state, k) ? 1 : 0;
+        for (std::size_t k = 0; k < loops_.size(); ++k) {
+            if (!names_[k].empty()) loops_[k].occupied += is_covered(state, k) ? 1 : 0;
+        }
         if ((state.tick - begin_) % every_ == 0) write_interval(state.tick);
         last_ = state.tick;
     }
@@ -48,7 +48,8 @@ public:
     std::string finish() override {
         if (last_ > begin_) write_interval(last_);
         xml_.finish();
-        return fmt::format("{} loops, {} rows", loops_.size(), rows_);
+        const auto placed = std::count_if(names_.begin(), names_.end(), [](auto& name) { return !name.empty(); });
+        return fmt::format("{} loops, {} rows", placed, rows_);
     }
 
 private:
@@ -59,6 +60,14 @@ private:
         double lengths_m = 0.0;
         std::int64_t occupied = 0;  // steps
     };
+
+    std::string name_of_loop(const Detector& detector) const {
+        if (detector.loop >= 0) return model_.loop_names[static_cast<std::size_t>(detector.loop)];
+        if (detector.lane < 0) return {};  // trips begin or end there: that is no place
+        const std::string zone = detector.zone >= 0 ? std::to_string(detector.zone) : "";
+        return fmt::format("{}_{}{}", model_.graph.lanes[static_cast<std::size_t>(detector.lane)].name,
+                           name_of(detector.kind), zone);
+    }
 
     void note(const Crossing& crossing) {
         constexpr double kSlowest_mps = 0.01;
@@ -96,6 +105,7 @@ private:
         const double from_s = model_.time_s(begin_);
         const double to_s = model_.time_s(tick);
         for (std::size_t k = 0; k < loops_.size(); ++k) {
+            if (names_[k].empty()) continue;
             const Loop& loop = loops_[k];
             const double passed = loop.passed;
             const bool any = loop.passed > 0;

@@ -9,8 +9,9 @@ Recorder::Recorder(const std::filesystem::path& file, const RecordingWindow& win
                    const Model& model)
     : watch_ticks_(model.rules.watch_ticks),
       clock_(window, model.step_s),
-      file_(file),
       grid_(make_frame_grid(model, clock_)),
+      taker_(model, grid_),
+      file_(file),
       encoder_(model, grid_),
       worker_([this](const Snapshot& shot) { encode(shot); }) {
     std::string begin(kRecordingMagic);
@@ -22,8 +23,9 @@ Recorder::Recorder(const std::filesystem::path& file, const RecordingWindow& win
 
 void Recorder::record(const State& state) {
     const std::int64_t look_tick = look_tick_before(watch_ticks_, state.tick);
-    const bool with_standing = taken_in_section_ == 0 || look_tick != look_tick_;
-    worker_.blank().take(state, with_standing);
+    const bool begins_section = taken_in_section_ == 0;
+    if (begins_section) taker_.start_afresh();
+    taker_.take(state, begins_section || look_tick != look_tick_, worker_.blank());
     worker_.submit();
     look_tick_ = look_tick;
     taken_in_section_ = (taken_in_section_ + 1) % kFramesInSection;

@@ -46,12 +46,13 @@ private:
 
     std::int64_t watch_ticks_;
     FrameClock clock_;
+    FrameGrid grid_;
+    SnapshotTaker taker_;
     int taken_in_section_ = 0;
     std::int64_t look_tick_ = -1;  // of the causes in the last snapshot that has them
     // The worker's, until it has finished.
     ReplacedFile file_;
     Compressor compressor_;
-    FrameGrid grid_;
     FrameEncoder encoder_;
     std::int64_t frames_ = 0;
     int in_section_ = 0;

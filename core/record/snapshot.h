@@ -1,9 +1,13 @@
-// What a recording needs of the state of a run, copied between two steps so that it can be encoded while the run goes on.
+// What a recording needs of the state of a run, copied between two steps so that it can be encoded while the run goes on. The
+// copy is what a recording costs the run, so it is small: who sits where is told only where it has changed since the copy before,
+// positions and speeds as they are recorded.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include "record/recording_header.h"
+#include "sim/model.h"
 #include "sim/state.h"
 
 namespace stopline {
@@ -16,6 +20,21 @@ struct Snapshot {
         int stop() const { return first + count; }
         bool operator==(const Slots&) const = default;
     };
+    // A vehicle that was not in that slot in the snapshot before.
+    struct Guest {
+        int slot = -1;
+        int lane = -1;
+        int vehicle = -1;  // its number
+        int policy = -1;
+        int next_lane = -1;
+        float length_m = 0.0F;
+    };
+    // A vehicle past the stop line of its lane.
+    struct PastLine {
+        int slot = -1;
+        int lane = -1;
+        int next_lane = -1;
+    };
     struct Standing {
         int slot = -1;     // now another's perhaps
         int vehicle = -1;  // its number
@@ -27,17 +46,32 @@ struct Snapshot {
     std::int64_t entered = 0;  // vehicles so far
     std::int64_t left = 0;
     std::vector<Slots> lanes;  // [lane]
-    // [slot]; where there is no vehicle they mean nothing.
-    std::vector<int> vehicle;  // its number
-    std::vector<int> policy;
-    std::vector<int> next_lane;
-    std::vector<double> position_m;  // front, from the lane's start
-    std::vector<double> speed_mps;
-    std::vector<float> length_m;
+    std::vector<Guest> guests;
+    std::vector<PastLine> past_line;
+    // [slot] of the front from the lane's start, in units of the header, 16 bits; where there is no vehicle it means nothing.
+    std::vector<int> position;
+    std::vector<int> speed;          // in the same way
     std::vector<Standing> standing;  // at the last look at hindrance
+};
 
+class SnapshotTaker {
+public:
+    SnapshotTaker(const Model& model, const FrameGrid& grid);
+
+    // The next snapshot tells of every vehicle where it is, not only of those that were elsewhere.
+    void start_afresh();
     // Standing only if asked for: it changes less often than the rest.
-    void take(const State& state, bool with_standing);
+    void take(const State& state, bool with_standing, Snapshot& shot);
+
+private:
+    void note_lanes(const State& state, Snapshot& shot);
+    void note_guests(const VehicleArrays& vehicles, int lane, Snapshot& shot);
+    void note_motion(const VehicleArrays& vehicles, const Snapshot::Slots& slots, Snapshot& shot) const;
+
+    double positions_per_m_;
+    std::vector<int> stop_line_;          // [lane] behind it vehicles are drawn on the lane that follows
+    std::vector<Snapshot::Slots> lanes_;  // [lane] in the snapshot before
+    std::vector<int> guest_;              // [slot] in the snapshot before; -1: nobody
 };
 
 // The tick of the last look at hindrance, which is so often, before a state at that tick; -1: none.

@@ -4,13 +4,15 @@
 
 namespace stopline {
 
-SnapshotWorker::SnapshotWorker(std::function<void(const Snapshot&)> work)
-    : work_(std::move(work)), thread_([this] { run(); }) {}
+SnapshotWorker::SnapshotWorker(std::function<void(const Snapshot&)> work) : work_(std::move(work)) {
+    for (Snapshot& shot : shots_) blank_.push_back(&shot);
+    thread_ = std::thread([this] { run(); });
+}
 
 SnapshotWorker::~SnapshotWorker() {
     {
         const std::scoped_lock lock(mutex_);
-        submitted_ = done_;
+        due_.clear();
     }
     stop();
 }
@@ -18,41 +20,43 @@ SnapshotWorker::~SnapshotWorker() {
 void SnapshotWorker::run() {
     std::unique_lock lock(mutex_);
     while (true) {
-        changed_.wait(lock, [this] { return no_more_ || submitted_ > done_; });
-        if (submitted_ == done_) return;
-        const Snapshot& shot = shots_[done_ % shots_.size()];
+        changed_.wait(lock, [this] { return no_more_ || !due_.empty(); });
+        if (due_.empty()) return;
+        Snapshot* const shot = due_.front();
+        due_.pop_front();
         std::exception_ptr error;
         lock.unlock();
         try {
-            work_(shot);
+            work_(*shot);
         } catch (...) {
             error = std::current_exception();
         }
         lock.lock();
-        if (error) {
-            error_ = error;
-            done_ = submitted_;
-            changed_.notify_all();
-            return;
-        }
-        if (submitted_ > done_) ++done_;
+        blank_.push_back(shot);
+        error_ = error;
         changed_.notify_all();
+        if (error) return;
     }
 }
 
 Snapshot& SnapshotWorker::blank() {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return submitted_ - done_ < shots_.size(); });
+    if (blank_.empty()) changed_.notify_all();
+    changed_.wait(lock, [this] { return !blank_.empty() || error_; });
     rethrow();
-    return shots_[submitted_ % shots_.size()];
+    filled_in_ = blank_.back();
+    blank_.pop_back();
+    return *filled_in_;
 }
 
 void SnapshotWorker::submit() {
+    bool enough = false;
     {
         const std::scoped_lock lock(mutex_);
-        ++submitted_;
+        due_.push_back(filled_in_);
+        enough = due_.size() == kTogether;
     }
-    changed_.notify_all();
+    if (enough) changed_.notify_all();
 }
 
 void SnapshotWorker::finish() {

@@ -3,11 +3,12 @@
 
 #include <array>
 #include <condition_variable>
-#include <cstddef>
+#include <deque>
 #include <exception>
 #include <functional>
 #include <mutex>
 #include <thread>
+#include <vector>
 
 #include "record/snapshot.h"
 
@@ -23,7 +24,7 @@ public:
     // What has been submitted and not worked off is dropped.
     ~SnapshotWorker();
 
-    // One to be filled in and submitted; waits while all are still to be worked off. What the work has thrown comes out here or
+    // One to be filled in and submitted; waits while all are still to be worked off. The worker is woken for several at a time. What the work has thrown comes out here or
     // in finish; nothing is worked on after it.
     Snapshot& blank();
     void submit();
@@ -36,12 +37,15 @@ private:
     void rethrow();
 
     // So many that the run seldom waits while a section is compressed.
-    std::array<Snapshot, 8> shots_;
+    static constexpr std::size_t kShots = 12;
+    static constexpr std::size_t kTogether = 4;
+    std::array<Snapshot, kShots> shots_;
+    std::vector<Snapshot*> blank_;  // the one worked off last, whose memory is nearest, at the back
+    Snapshot* filled_in_ = nullptr;
+    std::deque<Snapshot*> due_;
     std::function<void(const Snapshot&)> work_;
     std::mutex mutex_;
     std::condition_variable changed_;
-    std::size_t submitted_ = 0;
-    std::size_t done_ = 0;
     bool no_more_ = false;
     std::exception_ptr error_;
     std::thread thread_;

@@ -15,7 +15,7 @@ std::unique_ptr<RunWriter> make_fcd_writer(const std::filesystem::path& file, co
                                            const Model& model);
 
 // A row for each vehicle that has left the network, to the step. A vehicle that was moved on past an intersection is still on
-// its trip. Departures have no delay: nobody is known to wait outside.
+// its trip. Departures have a delay where vehicles have trips; elsewhere nobody is known to wait outside.
 std::unique_ptr<RunWriter> make_tripinfo_writer(const std::filesystem::path& file, const Model& model);
 
 // Every detector as an induction loop, by interval: vehicles whose front passed, their mean speed, and the share of steps in which

@@ -2,6 +2,7 @@
 #include <unordered_map>
 
 #include "record/sumo_files.h"
+#include "record/vehicle_name.h"
 #include "record/xml_file.h"
 
 namespace stopline {
@@ -16,6 +17,7 @@ struct Trip {
     double depart_mps = 0.0;
     int depart_lane = -1;
     int policy = 0;
+    int number = -1;  // of the demand; -1: it drew its way
     // As seen last.
     int lane = -1;
     double position_m = 0.0;
@@ -62,6 +64,7 @@ private:
             trip.depart_mps = speed_mps;
             trip.depart_lane = lane;
             trip.policy = v.policy[slot];
+            trip.number = v.record[slot].trip;
         } else {
             const double limit_mps = model_.graph.lanes[static_cast<std::size_t>(lane)].limit_mps;
             const bool waits = speed_mps < kWaits_mps;
@@ -97,15 +100,21 @@ private:
         const double driven_m = trip.driven_m + std::max(to.length_m - trip.position_m, 0.0);
         xml_.add(
             "    <tripinfo id=\"{}\" depart=\"{:.2f}\" departLane=\"{}\" departPos=\"{:.2f}\" departSpeed=\"{:.2f}\" "
-            "departDelay=\"0.00\" arrival=\"{:.2f}\" arrivalLane=\"{}\" arrivalPos=\"{:.2f}\" arrivalSpeed=\"{:.2f}\" ",
-            vehicle, trip.depart_s, sumo_lane_name(from), trip.depart_m, trip.depart_mps, arrival_s, sumo_lane_name(to),
-            to.length_m, trip.speed_mps);
+            "departDelay=\"{:.2f}\" arrival=\"{:.2f}\" arrivalLane=\"{}\" arrivalPos=\"{:.2f}\" arrivalSpeed=\"{:.2f}\" ",
+            vehicle_name(model_, trip.number, vehicle), trip.depart_s, sumo_lane_name(from), trip.depart_m,
+            trip.depart_mps, delay_s(trip), arrival_s, sumo_lane_name(to), to.length_m, trip.speed_mps);
         xml_.add(
             "duration=\"{:.2f}\" routeLength=\"{:.2f}\" waitingTime=\"{:.2f}\" waitingCount=\"{}\" stopTime=\"0.00\" "
             "timeLoss=\"{:.2f}\" rerouteNo=\"0\" devices=\"\" vType=\"{}\" speedFactor=\"1.00\" vaporized=\"\"/>\n",
             arrival_s - trip.depart_s, driven_m, trip.waited_s, trip.waits_begun, trip.lost_s,
             xml_escaped(model_.policies[static_cast<std::size_t>(trip.policy)].settings.name));
         ++ended_;
+    }
+
+    // Where nobody is known to wait outside there is none.
+    double delay_s(const Trip& trip) const {
+        if (trip.number < 0) return 0.0;
+        return std::max(trip.depart_s - model_.demand.trips[static_cast<std::size_t>(trip.number)].depart_s, 0.0);
     }
 
     const Model& model_;

@@ -32,7 +32,8 @@ std::string xml_escaped(std::string_view text) {
 }
 
 std::string sumo_lane_name(const Lane& lane) {
-    return xml_escaped(lane.origin >= 0 ? ":" + lane.name + "_0" : lane.name);
+    const bool is_sumos = lane.origin < 0 || lane.name.front() == ':';
+    return xml_escaped(is_sumos ? lane.name : ":" + lane.name + "_0");
 }
 
 XmlFile::XmlFile(const std::filesystem::path& file, std::string root, std::string_view schema)

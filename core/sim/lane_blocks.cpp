@@ -154,6 +154,23 @@ int append_slot(State& state, int lane) {
     return slot;
 }
 
+int insert_slot(const Model& model, State& state, int lane, double front_m) {
+    const int last = append_slot(state, lane);
+    const LaneBlock& block = state.blocks[at(lane)];
+    VehicleArrays& v = state.vehicles;
+    int slot = last;
+    while (slot > block.first && v.position_m[at(slot - 1)] < front_m) --slot;
+    if (slot < last) {
+        v.move(slot, last - slot, slot + 1);
+        set_lane_of(state, lane, slot);
+        wake(state, lane);
+    }
+    for (const int detector : state.detectors_of[at(lane)]) {
+        if (front_m >= model.detectors[at(detector)].position_m) --state.upstream[at(detector)];
+    }
+    return slot;
+}
+
 int put_beside(const Model& model, State& state, int lane, int from, int other, int place, double front_m) {
     make_room(state, other);
     VehicleArrays& v = state.vehicles;

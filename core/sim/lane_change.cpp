@@ -196,17 +196,6 @@ private:
         return {seen.slot, seen.start_m + rear_m - me_.front_m, v.speed_mps[at(seen.slot)], v.policy[at(seen.slot)]};
     }
 
-    void follow_anew(int slot, const LaneBlock& block) {
-        if (slot >= block.stop()) return;
-        VehicleArrays& v = state_.vehicles;
-        const bool first = slot == block.first;
-        v.record[at(slot)].predecessor = first ? -1 : v.id[at(slot - 1)];
-        if (first) return;  // it looks beyond the lane in the next step
-        v.leads[at(slot)] = 0.0F;
-        const double rear_m = v.position_m[at(slot - 1)] - static_cast<double>(v.length_m[at(slot - 1)]);
-        v.reset_radar(slot, rear_m - v.position_m[at(slot)], v.speed_mps[at(slot)] - v.speed_mps[at(slot - 1)]);
-    }
-
     void go(int other, const Around& there, bool for_route) {
         VehicleArrays& v = state_.vehicles;
         const int id = v.id[at(me_.slot)];
@@ -217,9 +206,9 @@ private:
         record.changed_at = static_cast<int>(state_.tick);
         record.cleared_for = -1;
         take_way_of_lane(model_, state_, other, slot);
-        follow_anew(slot, state_.blocks[at(other)]);
-        follow_anew(slot + 1, state_.blocks[at(other)]);
-        follow_anew(state_.blocks[at(me_.lane)].first + from, state_.blocks[at(me_.lane)]);
+        follow_anew(state_, slot, state_.blocks[at(other)]);
+        follow_anew(state_, slot + 1, state_.blocks[at(other)]);
+        follow_anew(state_, state_.blocks[at(me_.lane)].first + from, state_.blocks[at(me_.lane)]);
         // Who stops at the line there may be another one now.
         state_.stop_lines[at(other)].stopper = -1;
         state_.lane_changes.push_back(

@@ -35,13 +35,15 @@ struct Detector {
         stop_line,
         zone,
         exit,
-        middle
-    };  // exit: behind an intersection; middle: of a link
+        middle,
+        loop
+    };  // exit: behind an intersection; middle: of a link; loop: where the scenario has one, by name
     int lane = -1;
     double position_m = 0.0;
     Kind kind = Kind::stop_line;
     int zone = -1;        // index of the zone that it bounds
     bool leaves = false;  // whether vehicles leave the zone here
+    int loop = -1;        // its name, of Model::loop_names
 };
 
 // Rules of hindrance (driver/hindrance_rules.h), compiled; 0 ticks: never.
@@ -68,6 +70,7 @@ struct Model {
     std::int64_t hesitation_ticks = 0;  // first vehicle at a stop line, after the start of green
     DemandPlan demand;
     std::vector<Detector> detectors;
+    std::vector<std::string> loop_names;
     GiveWaySettings give_way;
     LaneChangeSettings lane_change;
     RulesPlan rules;

@@ -51,7 +51,7 @@ bool take_out(const Model& model, State& state, int lane) {
     return true;
 }
 
-bool somebody_comes(const Model& model, const State& state, int lane) {
+bool somebody_comes(const Model& model, const State& state, int lane, double rear_m) {
     const VehicleArrays& v = state.vehicles;
     const double b = model.driver.cacc.deceleration_comfort_mps2;
     const auto too_near = [&](int slot, double distance_m) {
@@ -62,14 +62,14 @@ bool somebody_comes(const Model& model, const State& state, int lane) {
         const Lane& way = model.graph.lanes[at(inside)];
         const LaneBlock& inner = state.blocks[at(inside)];
         for (int slot = inner.first; slot < inner.stop(); ++slot) {
-            if (too_near(slot, way.length_m - v.position_m[at(slot)])) return true;
+            if (too_near(slot, rear_m + way.length_m - v.position_m[at(slot)])) return true;
         }
         const LaneBlock& before = state.blocks[at(way.origin)];
         const double from_m = model.graph.lanes[at(way.origin)].length_m + way.length_m;
         for (int slot = before.first; slot < before.stop(); ++slot) {
             const double distance_m = from_m - v.position_m[at(slot)];
             if (distance_m > way.length_m + kApproach_m) break;
-            if (v.record[at(slot)].next_lane == inside && too_near(slot, distance_m)) return true;
+            if (v.record[at(slot)].next_lane == inside && too_near(slot, rear_m + distance_m)) return true;
         }
     }
     return false;

@@ -64,6 +64,8 @@ void lay_out_blocks(const Model& model, State& state);
 
 // Appends a slot at the back of a lane and returns it. Slots of all vehicles may change, but for those of lanes with room.
 int append_slot(State& state, int lane);
+// The same for a vehicle whose front is at `front_m`, between those that are there. It has not passed the detectors before that.
+int insert_slot(const Model& model, State& state, int lane, double front_m);
 
 // Slower than this a vehicle stands.
 inline constexpr double kStands_mps = 0.1;
@@ -92,16 +94,19 @@ struct Entering {
     double length_m = 0.0;
     int policy = 0;
     int route = -1;
+    bool behind_last = true;  // of its lane, else anywhere on it
 };
-// Puts it behind the last one of its lane, without a way on, and returns its slot.
+// Puts it on its lane, without a way on, and returns its slot.
 int put_on_lane(const Model& model, State& state, const Entering& entering);
 // When it has its way: what it sees, and that it came.
 void begin_to_drive(const Model& model, State& state, int lane, int slot);
+// What a vehicle sees whose predecessor is another one now.
+void follow_anew(State& state, int slot, const LaneBlock& block);
 
 // Takes the first vehicle of a lane out, to be put back behind the intersection; false: that is not possible.
 bool take_out(const Model& model, State& state, int lane);
-// Whether a vehicle on its way to the lane could not stop behind one that is put at its start.
-bool somebody_comes(const Model& model, const State& state, int lane);
+// Whether a vehicle on its way to the lane could not stop behind one that is put there, its rear at `rear_m` from the start.
+bool somebody_comes(const Model& model, const State& state, int lane, double rear_m = 0.0);
 
 // A vehicle on a trip comes to the leg-th edge of it, on one of its lanes.
 void follow_trip(const Model& model, State& state, int lane, int slot, int leg);

@@ -81,12 +81,6 @@ struct Holds {
     }
 };
 
-// Trips that are due and have not entered: those of one approach enter in their order.
-struct WaitingTrips {
-    std::vector<int> trips = {};
-    std::size_t entered = 0;  // of them
-};
-
 // A vehicle that was taken out and waits for room to be put back.
 struct Removed {
     int lane = -1;           // where it shall be put back
@@ -148,10 +142,10 @@ struct State {
     std::vector<LaneChange> lane_changes;                      // of the whole run, in order
     std::vector<std::array<std::int64_t, kMostTurns>> turned;  // [approach][Turn] vehicles that went on from there
     std::vector<InletState> inlets;
-    std::vector<int> inlet_of;                // [lane] -1: no routes begin there
-    std::size_t next_trip = 0;                // the first that is not due yet
-    std::vector<WaitingTrips> waiting_trips;  // [approach]
-    std::vector<int> waiting_at;              // approaches where trips wait, in order
+    std::vector<int> inlet_of;                    // [lane] -1: no routes begin there
+    std::size_t next_trip = 0;                    // the first that is not due yet
+    std::vector<std::vector<int>> waiting_trips;  // [approach] due and not entered, in their order
+    std::vector<int> waiting_at;                  // approaches where trips wait, in order
     std::int64_t strayed =
         0;  // vehicles on trips that came to the end of a lane that does not serve them, and were moved on
     std::vector<Passage> passages;  // of the whole run, in order

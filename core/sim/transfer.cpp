@@ -149,7 +149,8 @@ void enter(const Model& model, State& state, int inlet_index, const Entry& entry
 }  // namespace
 
 int put_on_lane(const Model& model, State& state, const Entering& entering) {
-    const int slot = append_slot(state, entering.lane);
+    const int slot = entering.behind_last ? append_slot(state, entering.lane)
+                                          : insert_slot(model, state, entering.lane, entering.position_m);
     VehicleArrays& v = state.vehicles;
     const std::size_t i = at(slot);
     v.position_m[i] = entering.position_m;
@@ -179,6 +180,17 @@ void begin_to_drive(const Model& model, State& state, int lane, int slot) {
     state.resting[at(lane)].imposed = state.tick;
     ++state.entered;
     if (model.records_all) note(state, model.time_s(state.tick + 1), slot, -1, lane);
+}
+
+void follow_anew(State& state, int slot, const LaneBlock& block) {
+    if (slot >= block.stop()) return;
+    VehicleArrays& v = state.vehicles;
+    const bool first = slot == block.first;
+    v.record[at(slot)].predecessor = first ? -1 : v.id[at(slot - 1)];
+    if (first) return;  // it looks beyond the lane in the next step
+    v.leads[at(slot)] = 0.0F;
+    const double rear_m = v.position_m[at(slot - 1)] - static_cast<double>(v.length_m[at(slot - 1)]);
+    v.reset_radar(slot, rear_m - v.position_m[at(slot)], v.speed_mps[at(slot)] - v.speed_mps[at(slot - 1)]);
 }
 
 double desired_gap_m(const Model& model, int policy_number, double speed_mps) {

@@ -49,21 +49,85 @@ int entry_lane(const Model& model, const State& state, int trip) {
     return best;
 }
 
-// The vehicle ahead of one that enters: net gap to a front at `front_m`, and speed.
+// Where a vehicle would enter: place in the lane, counted from its first, and front.
+struct Spot {
+    int lane = -1;
+    int place = 0;
+    double front_m = 0.0;
+};
+
+double drawn_along(const Model& model, const State& state, int trip) {
+    const bool anew = model.demand.trips[at(trip)].along == Trip::Along::free;
+    const std::uint64_t draw = anew ? 3 + static_cast<std::uint64_t>(state.tick) : 2;
+    return random_uniform(model.seed, static_cast<std::uint64_t>(trip), draw, Purpose::insertion);
+}
+
+// Behind vehicles that may come its rear is on the lane.
+double entry_front_m(const Model& model, const State& state, int lane, int trip) {
+    using enum Trip::Along;
+    const Trip& own = model.demand.trips[at(trip)];
+    const double line_m = model.graph.lanes[at(lane)].stop_line_m;
+    const double base_m = std::min(static_cast<double>(own.length_m), line_m);
+    const double least_m = model.leads_to[at(lane)].empty() ? 0.0 : base_m;
+    const LaneBlock& block = state.blocks[at(lane)];
+    const auto on_lane = [&](double front_m) { return std::clamp(front_m, least_m, line_m); };
+    switch (own.along) {
+        case base:
+            break;
+        case given: {
+            const auto front_m = static_cast<double>(own.front_m);
+            return on_lane(front_m < 0.0 ? model.graph.lanes[at(lane)].length_m + front_m : front_m);
+        }
+        case last: {
+            if (block.count == 0) return on_lane(line_m - model.driver.stop.margin_m);
+            const int policy = model.demand.trip_policies[at(trip)];
+            const double last_mps = state.vehicles.speed_mps[at(block.last())];
+            return on_lane(free_m(state, lane) - desired_gap_m(model, policy, last_mps));
+        }
+        case random:
+        case free:
+            return std::lerp(base_m, line_m, drawn_along(model, state, trip));
+    }
+    return base_m;
+}
+
+Spot spot_of(const Model& model, const State& state, int trip) {
+    const int lane = entry_lane(model, state, trip);
+    const LaneBlock& block = state.blocks[at(lane)];
+    Spot spot{lane, block.count, entry_front_m(model, state, lane, trip)};
+    while (spot.place > 0 && state.vehicles.position_m[at(block.first + spot.place - 1)] < spot.front_m) --spot.place;
+    return spot;
+}
+
+// The vehicle ahead of one that enters: net gap to its front, and speed.
 struct Leader {
     double gap_m = 1e6;
     double speed_mps = 0.0;
 };
 
-Leader leader_of(const Model& model, const State& state, int lane, double front_m, int route) {
+Leader leader_of(const Model& model, const State& state, const Spot& spot, int route) {
     const VehicleArrays& v = state.vehicles;
-    const LaneBlock& block = state.blocks[at(lane)];
-    if (block.count > 0) return {free_m(state, lane) - front_m, v.speed_mps[at(block.last())]};
-    const Ahead ahead = vehicle_ahead(state, lane, front_m, route, 0, model.driver.cacc.radar_range_m);
+    if (spot.place > 0) {
+        const std::size_t ahead = at(state.blocks[at(spot.lane)].first + spot.place - 1);
+        return {v.position_m[ahead] - static_cast<double>(v.length_m[ahead]) - spot.front_m, v.speed_mps[ahead]};
+    }
+    const Ahead ahead = vehicle_ahead(state, spot.lane, spot.front_m, route, 0, model.driver.cacc.radar_range_m);
     if (ahead.slot < 0) return {};
     const double rear_m =
         ahead.start_m + v.position_m[at(ahead.slot)] - static_cast<double>(v.length_m[at(ahead.slot)]);
-    return {rear_m - front_m, v.speed_mps[at(ahead.slot)]};
+    return {rear_m - spot.front_m, v.speed_mps[at(ahead.slot)]};
+}
+
+// Whether whoever would follow it keeps a gap in which it can brake gently.
+bool follower_has_room(const Model& model, const State& state, const Spot& spot, double rear_m, double speed_mps) {
+    const LaneBlock& block = state.blocks[at(spot.lane)];
+    if (spot.place == block.count) return !somebody_comes(model, state, spot.lane, std::max(rear_m, 0.0));
+    const VehicleArrays& v = state.vehicles;
+    const std::size_t follower = at(block.first + spot.place);
+    const double follower_mps = v.speed_mps[follower];
+    const double braking_m =
+        std::max(square(follower_mps) - square(speed_mps), 0.0) / (2.0 * model.driver.cacc.deceleration_comfort_mps2);
+    return rear_m - v.position_m[follower] >= desired_gap_m(model, v.policy[follower], follower_mps) + braking_m;
 }
 
 // The speed with which it would enter behind that leader; below 0: there is no room.
@@ -89,28 +153,49 @@ double entry_speed_mps(const Model& model, const Trip& trip, int number, int pol
 }
 
 // Whether the vehicle could enter.
-bool enter(const Model& model, State& state, int trip) {
+bool enter(const Model& model, State& state, int trip, const Spot& spot) {
     const Trip& own = model.demand.trips[at(trip)];
-    const int lane = entry_lane(model, state, trip);
-    const Lane& road = model.graph.lanes[at(lane)];
+    const Lane& road = model.graph.lanes[at(spot.lane)];
     const int policy = model.demand.trip_policies[at(trip)];
     const int route = state.plan.route_with(own.approach, model.demand.turn_of_trip(trip, 0));
-    const int way = state.plan.beside(lane).way(model.demand.turn_of_trip(trip, 0)).route;
-    const double front_m = std::min(static_cast<double>(own.length_m), road.stop_line_m);
-    const Leader leader = leader_of(model, state, lane, front_m, way >= 0 ? way : route);
-    double limit_mps = state.plan.driven_mps(lane);
+    const int way = state.plan.beside(spot.lane).way(model.demand.turn_of_trip(trip, 0)).route;
+    const Leader leader = leader_of(model, state, spot, way >= 0 ? way : route);
+    double limit_mps = state.plan.driven_mps(spot.lane);
     if (way < 0) limit_mps = std::min(limit_mps, 0.5 * road.stop_line_m);  // it has to change lanes first
-    const double room_mps = std::sqrt(2.0 * model.driver.stop.deceleration_mps2 * (road.stop_line_m - front_m));
+    const double room_mps = std::sqrt(2.0 * model.driver.stop.deceleration_mps2 * (road.stop_line_m - spot.front_m));
     if (road.signal_group >= 0) limit_mps = std::min(limit_mps, room_mps);
     const double speed_mps = entry_speed_mps(model, own, trip, policy, limit_mps, leader);
-    if (speed_mps < 0.0 || somebody_comes(model, state, lane)) return false;
-    make_room(state, lane);
-    const int slot = put_on_lane(model, state, {lane, front_m, speed_mps, own.length_m, policy, route});
+    const double rear_m = spot.front_m - static_cast<double>(own.length_m);
+    if (speed_mps < 0.0 || !follower_has_room(model, state, spot, rear_m, speed_mps)) return false;
+    make_room(state, spot.lane);
+    const int slot =
+        put_on_lane(model, state, {spot.lane, spot.front_m, speed_mps, own.length_m, policy, route, false});
     state.vehicles.record[at(slot)].trip = trip;
-    follow_trip(model, state, lane, slot, 0);
-    begin_to_drive(model, state, lane, slot);
+    follow_trip(model, state, spot.lane, slot, 0);
+    begin_to_drive(model, state, spot.lane, slot);
+    const LaneBlock& block = state.blocks[at(spot.lane)];
+    follow_anew(state, slot + 1, block);
+    if (slot < block.last()) state.stop_lines[at(spot.lane)].stopper = -1;  // it may be another one now
     note_trip(state, model.trips_begin, slot, model.time_s(state.tick + 1));
     return true;
+}
+
+// Those of one approach in their order, lane by lane: who has a lane of its own waits only for some on the others.
+void enter_all(const Model& model, State& state, int approach) {
+    constexpr std::size_t kLookedAt = 16;  // that cannot enter
+    std::vector<int>& trips = state.waiting_trips[at(approach)];
+    const std::size_t lanes = model.graph.approaches[at(approach)].lanes.size();
+    std::vector<int> full;
+    std::size_t kept = 0;
+    std::size_t k = 0;
+    for (; k < trips.size() && full.size() < lanes && kept < kLookedAt; ++k) {
+        const Spot spot = spot_of(model, state, trips[k]);
+        const bool is_full = std::find(full.begin(), full.end(), spot.lane) != full.end();
+        if (!is_full && enter(model, state, trips[k], spot)) continue;
+        if (!is_full) full.push_back(spot.lane);
+        trips[kept++] = trips[k];
+    }
+    trips.erase(trips.begin() + static_cast<std::ptrdiff_t>(kept), trips.begin() + static_cast<std::ptrdiff_t>(k));
 }
 
 }  // namespace
@@ -136,21 +221,16 @@ void insert_trips(const Model& model, State& state) {
     const double now_s = model.time_s(state.tick + 1);
     for (; state.next_trip < trips.size() && trips[state.next_trip].depart_s < now_s; ++state.next_trip) {
         const int approach = trips[state.next_trip].approach;
-        WaitingTrips& waiting = state.waiting_trips[at(approach)];
-        if (waiting.trips.empty()) {
+        std::vector<int>& waiting = state.waiting_trips[at(approach)];
+        if (waiting.empty()) {
             state.waiting_at.insert(std::lower_bound(state.waiting_at.begin(), state.waiting_at.end(), approach),
                                     approach);
         }
-        waiting.trips.push_back(static_cast<int>(state.next_trip));
+        waiting.push_back(static_cast<int>(state.next_trip));
     }
     std::erase_if(state.waiting_at, [&](int approach) {
-        WaitingTrips& waiting = state.waiting_trips[at(approach)];
-        while (waiting.entered < waiting.trips.size() && enter(model, state, waiting.trips[waiting.entered])) {
-            ++waiting.entered;
-        }
-        if (waiting.entered < waiting.trips.size()) return false;
-        waiting = {};
-        return true;
+        enter_all(model, state, approach);
+        return state.waiting_trips[at(approach)].empty();
     });
 }
 

@@ -49,6 +49,20 @@ TEST(SumoRoutes, VehiclesFollowTheirRoutesInTheOrderOfDeparture) {
     EXPECT_DOUBLE_EQ(traffic.shortest_m(), 5.0);
 }
 
+TEST(SumoRoutes, DeparturesHaveAPlace) {
+    const auto trip = [](const std::string& position) {
+        return read("<trip id=\"t\" depart=\"0\" from=\"w_in\" to=\"e_out\" " + position + "/>").trips[0];
+    };
+    EXPECT_EQ(trip("").along, Trip::Along::base);
+    EXPECT_EQ(trip("departPos=\"base\"").along, Trip::Along::base);
+    EXPECT_EQ(trip("departPos=\"last\"").along, Trip::Along::last);
+    EXPECT_EQ(trip("departPos=\"random\"").along, Trip::Along::random);
+    EXPECT_EQ(trip("departPos=\"random_free\"").along, Trip::Along::free);
+    EXPECT_EQ(trip("departPos=\"-12.5\"").along, Trip::Along::given);
+    EXPECT_FLOAT_EQ(trip("departPos=\"-12.5\"").front_m, -12.5F);
+    EXPECT_FLOAT_EQ(trip("departPos=\"190\"").front_m, 190.0F);
+}
+
 TEST(SumoRoutes, FlowsGiveAsManyAsTheySay) {
     const auto count = [](const std::string& attributes) {
         return read("<flow id=\"f\" from=\"w_in\" to=\"e_out\" " + attributes + "/>").trips.size();
@@ -127,6 +141,11 @@ INSTANTIATE_TEST_SUITE_P(
         Hostile{R"(<vehicle id="a" depart="0" route="r"/>)", "there is no route 'r'"},
         Hostile{R"(<vehicle id="a" depart="0" type="t"><route edges="w_in"/></vehicle>)", "there is no vType 't'"},
         Hostile{R"(<trip id="a" depart="0" from="w_in" to="e_out" departLane="2"/>)", "edge 'w_in' has no lane 2"},
+        Hostile{R"(<trip id="a" depart="0" from="w_in" to="e_out" departPos="191"/>)",
+                "beyond edge 'w_in' of 190.00 m"},
+        Hostile{R"(<trip id="a" depart="0" from="w_in" to="e_out" departPos="-191"/>)", "beyond edge 'w_in'"},
+        Hostile{R"(<trip id="a" depart="0" from="w_in" to="e_out" departPos="nan"/>)", "departPos"},
+        Hostile{R"(<trip id="a" depart="0" from="w_in" to="e_out" departPos="middle"/>)", "departPos"},
         Hostile{R"(<trip id="a" depart="0" from="w_in" to="e_out"/><trip id="a" depart="0" from="w_in" to="e_out"/>)",
                 "there are two vehicles 'a'"},
         Hostile{R"(<vType id="t" length="-3"/>)", "length=\"-3\" must be"},

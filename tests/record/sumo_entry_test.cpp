@@ -1,0 +1,166 @@
+// Where vehicles of imported traffic enter, who counts them, and what they are called.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "experiment/network_run.h"
+#include "record/sumo_files.h"
+#include "scenario/import_sumo.h"
+#include "scenario/load_scenario.h"
+#include "support/sumo_files.h"
+
+namespace stopline {
+namespace {
+
+using testing::crossing_net;
+using testing::SumoFiles;
+
+constexpr const char* kMeso = "fidelity: meso\n";
+constexpr const char* kFull = "fidelity: full\nstep: 10 ms\n";
+
+Scenario scenario_of(const std::string& routes, const std::string& loops = "", const std::string& more = kMeso) {
+    const SumoFiles files;
+    files.write("my.net.xml", crossing_net());
+    files.write("my.rou.xml", "<routes>\n" + routes + "\n</routes>");
+    files.write("my.add.xml", "<additional>\n" + loops + "\n</additional>");
+    return parse_scenario(
+        more +
+            "duration: 200 s\n"
+            "network: {kind: sumo, net: ./my.net.xml, routes: [./my.rou.xml], additional: [./my.add.xml]}\n"
+            "populations: [CDG]\nmeasure: {steady: 100 s}\n",
+        "my.yaml", {}, files.folder());
+}
+
+std::size_t lane_named(const Model& model, const std::string& name) {
+    const std::vector<Lane>& lanes = model.graph.lanes;
+    const auto found = std::find_if(lanes.begin(), lanes.end(), [&](const Lane& lane) { return lane.name == name; });
+    EXPECT_NE(found, lanes.end()) << name;
+    return static_cast<std::size_t>(found - lanes.begin());
+}
+
+// Fronts on a lane after some time.
+std::vector<double> fronts_m(const Scenario& scenario, const std::string& lane, double at_s) {
+    const Model model = network_model(scenario, 0);
+    Simulation simulation(model);
+    simulation.run_until(at_s);
+    const State& state = simulation.state();
+    const LaneBlock& block = state.blocks[lane_named(model, lane)];
+    const auto first = state.vehicles.position_m.begin() + block.first;
+    return {first, first + block.count};
+}
+
+TEST(SumoEntry, IsWhereTheRouteFileSays) {
+    const auto front_m = [](const std::string& position) {
+        const std::vector<double> fronts = fronts_m(
+            scenario_of("<trip id=\"a\" depart=\"0\" from=\"w_in\" to=\"e_out\" " + position + "/>"), "w_in_0", 0.1);
+        EXPECT_EQ(fronts.size(), 1U) << position;
+        return fronts.empty() ? -1.0 : fronts[0];
+    };
+    EXPECT_NEAR(front_m(""), 5.0, 0.3);
+    EXPECT_NEAR(front_m("departPos=\"base\""), 5.0, 0.3);
+    EXPECT_NEAR(front_m("departPos=\"60\""), 60.0, 0.3);
+    EXPECT_NEAR(front_m("departPos=\"2\""), 2.0, 0.3);  // nobody can come from behind
+    EXPECT_NEAR(front_m("departPos=\"-40.5\""), 149.5, 0.3);
+    EXPECT_GT(front_m("departPos=\"last\""), 180.0);
+    EXPECT_NE(front_m("departPos=\"random\""), front_m(""));
+}
+
+TEST(SumoEntry, BetweenOthersLeavesThemInTheirOrder) {
+    for (const char* const fidelity : {kMeso, kFull}) {
+        const Scenario scenario = scenario_of(R"(<trip id="a" depart="0" from="w_in" to="e_out" departPos="40"/>
+<trip id="b" depart="0" from="w_in" to="e_out" departPos="150"/>
+<trip id="c" depart="1" from="w_in" to="e_out" departPos="100"/>)",
+                                              "", fidelity);
+        const std::vector<double> fronts = fronts_m(scenario, "w_in_0", 1.2);
+        ASSERT_EQ(fronts.size(), 3U);
+        EXPECT_NEAR(fronts[1], 100.0, 1.0);
+        EXPECT_GT(fronts[0], 149.9);
+        EXPECT_LT(fronts[2], 45.0);
+        const NetworkFigures f = run_network(scenario, 0, {}, 1, {});
+        EXPECT_EQ(f.left_network, 3) << fidelity;
+        EXPECT_TRUE(f.violations.none()) << fidelity;
+    }
+}
+
+TEST(SumoEntry, AnywhereInDenseTrafficTouchesNobody) {
+    std::string routes;
+    for (const char* const where : {"random", "free", "last", "120", "-30"}) {
+        routes += std::string("<flow id=\"") + where + "\" begin=\"1\" end=\"100\" number=\"30\" from=\"w_in\" " +
+                  "to=\"e_out\" departLane=\"random\" departSpeed=\"avg\" departPos=\"" + where + "\"/>\n";
+    }
+    for (const char* const fidelity : {kMeso, kFull}) {
+        const NetworkFigures f = run_network(scenario_of(routes, "", fidelity), 0, {}, 1, {});
+        EXPECT_TRUE(f.violations.none()) << fidelity;
+        EXPECT_EQ(f.entered + f.waiting, 150) << fidelity;
+        EXPECT_EQ(f.left_network, f.entered) << fidelity;
+        EXPECT_GT(f.entered, 120) << fidelity;
+    }
+}
+
+TEST(SumoEntry, OnOneLaneDoesNotWaitForTheOther) {
+    // Twenty cannot stand on the right lane behind one that nearly blocks its start; the left one is free.
+    const std::string blocker = R"(<trip id="slow" depart="0" from="w_in" to="e_out" departPos="8" departSpeed="0"/>)";
+    const std::string right =
+        R"(<flow id="r" begin="0.1" end="0.2" number="12" from="w_in" to="e_out" departLane="0" departPos="8"/>)";
+    const std::string left = R"(<trip id="l" depart="0.3" from="w_in" to="e_out" departLane="1" departSpeed="max"/>)";
+    EXPECT_EQ(fronts_m(scenario_of(blocker + right + left), "w_in_1", 0.6).size(), 1U);
+}
+
+TEST(SumoLoops, CountThoseThatPass) {
+    const std::string loops = R"(<inductionLoop id="far" lane="w_in_0" pos="-40" period="60" file="x.xml"/>
+<e1Detector id="near &amp; dear" lane="w_in_0" pos="30" period="60" file="x.xml"/>
+<e1Detector id="feet" lane="n_out_0" pos="30" period="60" file="x.xml"/>)";
+    const Scenario scenario = scenario_of(R"(<trip id="a" depart="0" from="w_in" to="e_out" departSpeed="max"/>
+<trip id="b" depart="0" from="w_in" to="e_out" departPos="100" departSpeed="max"/>)",
+                                          loops);
+    EXPECT_EQ(sumo_warnings(scenario).back(),
+              "my.add.xml:4: a detector inside a junction, or on a lane where cars do not drive, is left out");
+    Model model = network_model(scenario, 0);
+    model.records_detectors = true;
+    ASSERT_EQ(model.loop_names, (std::vector<std::string>{"far", "near & dear"}));
+    Simulation simulation(model);
+    simulation.run_until(60.0);
+    std::vector<std::vector<double>> times(2);
+    for (const Crossing& crossing : simulation.state().crossings) {
+        const int loop = model.detectors[static_cast<std::size_t>(crossing.detector)].loop;
+        if (loop >= 0) times[static_cast<std::size_t>(loop)].push_back(crossing.time_s);
+    }
+    ASSERT_EQ(times[0].size(), 2U);
+    EXPECT_NEAR(times[0][0], 50.0 / 13.89, 0.3);
+    EXPECT_NEAR(times[0][1], 145.0 / 13.89, 0.3);
+    ASSERT_EQ(times[1].size(), 1U);  // the other one entered beyond it
+    EXPECT_NEAR(times[1][0], 25.0 / 13.89, 0.3);
+}
+
+TEST(SumoTables, HaveTheNamesOfTheRouteFile) {
+    const SumoFiles files;
+    const Scenario scenario = scenario_of(R"(<trip id="a &amp; b" depart="0.25" from="w_in" to="e_out"/>)",
+                                          R"(<e1Detector id="my loop" lane="w_in_0" pos="30" period="60" file="x"/>)");
+    Model model = network_model(scenario, 0);
+    model.records_detectors = true;
+    const auto written = [&](const char* name, const auto& make) {
+        const std::filesystem::path file = files.folder() / name;
+        const std::unique_ptr<RunWriter> writer = make(file);
+        Simulation simulation(model);
+        for (writer->look(simulation.state()); simulation.time_s() < 60.0; writer->look(simulation.state()))
+            simulation.step();
+        writer->finish();
+        std::ifstream stream(file);
+        return std::string(std::istreambuf_iterator<char>(stream), {});
+    };
+    const std::string trips = written("t.xml", [&](auto& file) { return make_tripinfo_writer(file, model); });
+    EXPECT_NE(trips.find("id=\"a &amp; b\" depart=\"0.30\""), std::string::npos) << trips;
+    EXPECT_NE(trips.find("departDelay=\"0.05\""), std::string::npos) << trips;
+    const std::string fcd = written("f.xml", [&](auto& file) { return make_fcd_writer(file, {}, model); });
+    EXPECT_NE(fcd.find("vehicle id=\"a &amp; b\""), std::string::npos);
+    EXPECT_NE(fcd.find("lane=\":J_1_0\""), std::string::npos);
+    const std::string loops = written("l.xml", [&](auto& file) { return make_loop_writer(file, 60.0, model); });
+    EXPECT_NE(loops.find("id=\"my loop\" nVehContrib=\"1\""), std::string::npos) << loops;
+    EXPECT_NE(loops.find("id=\"w_in_0_stop_line\" nVehContrib=\"1\""), std::string::npos) << loops;
+    EXPECT_EQ(loops.find("id=\"\""), std::string::npos) << loops;
+}
+
+}  // namespace
+}  // namespace stopline
