@@ -13,6 +13,8 @@ namespace {
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
+constexpr double kRounded_m = 0.01;  // places in files are: a queue that was written stands as it stood
+
 // Changes that a vehicle with that turn has to make from a lane.
 int changes_from(const State& state, int lane, Turn turn) {
     return std::abs(state.plan.beside(lane).way(turn).changes);
@@ -127,7 +129,7 @@ bool follower_has_room(const Model& model, const State& state, const Spot& spot,
     const double follower_mps = v.speed_mps[follower];
     const double braking_m =
         std::max(square(follower_mps) - square(speed_mps), 0.0) / (2.0 * model.driver.cacc.deceleration_comfort_mps2);
-    return rear_m - v.position_m[follower] >= desired_gap_m(model, v.policy[follower], follower_mps) + braking_m;
+    return rear_m - v.position_m[follower] + kRounded_m >= desired_gap_m(model, v.policy[follower], follower_mps) + braking_m;
 }
 
 // The speed with which it would enter behind that leader; below 0: there is no room.
@@ -145,7 +147,7 @@ double entry_speed_mps(const Model& model, const Trip& trip, int number, int pol
     const double b = model.driver.stop.deceleration_mps2;
     const auto fits = [&](double speed_mps) {
         const double braking_m = std::max(square(speed_mps) - square(leader.speed_mps), 0.0) / (2.0 * b);
-        return leader.gap_m >= desired_gap_m(model, policy, speed_mps) + braking_m;
+        return leader.gap_m + kRounded_m >= desired_gap_m(model, policy, speed_mps) + braking_m;
     };
     if (fits(wanted_mps)) return wanted_mps;
     const double slower_mps = std::min(wanted_mps, leader.speed_mps);

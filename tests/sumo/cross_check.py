@@ -90,7 +90,7 @@ def find_sumo():
         import sumo as package
         folder = Path(package.SUMO_HOME) / "bin"
         return str(folder / "sumo"), str(folder / "netconvert")
-    except ImportError:
+    except (ImportError, AttributeError):  # AttributeError: some folder of that name
         found = shutil.which("sumo"), shutil.which("netconvert")
         return found if all(found) else None
 
