@@ -78,8 +78,9 @@ Ahead vehicle_ahead(const State& state, int lane, double position_m, int route_n
     if (!here.branches && start_m - position_m > range_m) return {};
     Ahead beside;
     double beside_rear_m = kFar_m;
-    if (here.branches) beside = still_shared(state, lane, beside_rear_m);
     const std::span<const int> route = state.plan.route(route_number);
+    const bool ends_here = at(index) + 1 == route.size();  // where others go on
+    if (here.branches || ends_here) beside = still_shared(state, lane, beside_rear_m);
     for (std::size_t k = at(index) + 1; k < route.size(); ++k) {
         if (start_m - position_m > range_m) break;
         const LaneBlock& block = state.blocks[at(route[k])];

@@ -7,6 +7,7 @@
 #include "experiment/network_run.h"
 #include "scenario/import_sumo.h"
 #include "scenario/load_scenario.h"
+#include "sim/phases.h"
 #include "support/sumo_files.h"
 
 namespace stopline {
@@ -114,6 +115,26 @@ TEST(SumoRun, LeavesWhereTheRouteEndsAlthoughTheLightIsRed) {
     EXPECT_EQ(f.entered, 2);
     EXPECT_EQ(f.left_network, 1);
     EXPECT_TRUE(f.violations.none());
+}
+
+TEST(SumoRun, WhoseTripEndsSeesThoseWhoAreNotWhollyOff) {
+    const Scenario scenario =
+        scenario_of(crossing_net(), R"(<trip id="a" depart="0" from="w_in" to="e_out" departSpeed="max"/>)");
+    const Model model = network_model(scenario, 0);
+    Simulation simulation(model);
+    const auto on = [&](const std::string& name) {
+        for (std::size_t k = 0; k < model.graph.lanes.size(); ++k) {
+            if (model.graph.lanes[k].name == name) return static_cast<int>(k);
+        }
+        return -1;
+    };
+    const State& state = simulation.state();
+    while (state.blocks[static_cast<std::size_t>(on(":J_1_0"))].count == 0) simulation.step();
+    const int lane = on("w_in_0");
+    const int approach = model.graph.lanes[static_cast<std::size_t>(lane)].approach;
+    const Ahead ahead = vehicle_ahead(state, lane, 180.0, state.plan.route_with(approach, Turn::none), 0, 100.0);
+    EXPECT_EQ(ahead.slot, state.blocks[static_cast<std::size_t>(on(":J_1_0"))].first);
+    EXPECT_NEAR(ahead.start_m, 190.0, 0.01);
 }
 
 TEST(SumoRun, VehiclesWaitOutsideWhileThereIsNoRoom) {
