@@ -140,6 +140,53 @@ TEST(Recording, ReadsBackEveryStep) { expect_round_trip("meso", {0.1, 30.0, 150.
 TEST(Recording, ReadsBackRareFrames) { expect_round_trip("meso", {7.0, 0.0, 238.0}); }
 TEST(Recording, SlowReadsBackWhatFullDynamicsDid) { expect_round_trip("full", {0.5, 60.0, 120.0}); }
 
+// The first vehicle past the stop line of its lane.
+int slot_past_line(const Model& model, const State& state) {
+    for (std::size_t lane = 0; lane < state.blocks.size(); ++lane) {
+        const int first = state.blocks[lane].first;
+        const bool may_be = state.blocks[lane].count > 0 && model.graph.lanes[lane].signal_group >= 0;
+        const double front_m = state.vehicles.position_m[static_cast<std::size_t>(first)];
+        if (may_be && front_m > model.graph.lanes[lane].stop_line_m + 0.1) return first;
+    }
+    return -1;
+}
+
+// A vehicle may choose another way at the end of its lane, without being anywhere else.
+TEST(Recording, TellsWhereOnePastTheLineGoesOnAlthoughItStands) {
+    const TemporaryFolder folder;
+    const fs::path file = folder.path() / "run.rec";
+    const Model model = network_model(small_grid("meso"), 2);
+    Simulation simulation(model);
+    while (slot_past_line(model, simulation.state()) < 0 || simulation.state().tick % 5 != 0) simulation.step();
+    State state = simulation.state();
+    const auto slot = static_cast<std::size_t>(slot_past_line(model, state));
+    state.vehicles.speed_mps[slot] = 0.0;
+    Recorder recorder(file, {0.5, model.time_s(state.tick), 300.0}, {}, model);
+    const std::vector<int> ways{3, 3, 4, 4};
+    for (const int way : ways) {
+        state.vehicles.record[slot].next_lane = way;
+        recorder.look(state);
+        state.tick += 5;
+    }
+    recorder.finish();
+    RecordingReader reader(file);
+    RecordedSection section;
+    ASSERT_TRUE(reader.next(section));
+    FrameDecoder decoder(reader.run(), section.bytes);
+    for (const int way : ways) {
+        decoder.next();
+        int next = -2;
+        int position = -1;
+        for (const RecordedVehicle& read : decoder.seats()) {
+            if (read.vehicle != state.vehicles.id[slot]) continue;
+            next = read.next;
+            position = read.position;
+        }
+        EXPECT_EQ(next, way);
+        EXPECT_NEAR(position * reader.run().grid.position_unit_m, state.vehicles.position_m[slot], 0.01);
+    }
+}
+
 class DamagedRecording : public testing::Test {
 protected:
     void SetUp() override {
