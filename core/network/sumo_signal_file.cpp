@@ -106,7 +106,7 @@ void read_loop(const SumoXml& xml, pugi::xml_node node, SumoNet& net) {
 }  // namespace
 
 void read_sumo_additional(const std::filesystem::path& file, SumoNet& net) {
-    const SumoXml xml(file, {"additional", "tlLogics", "add"});
+    const SumoXml xml(file, {"additional", "tlLogics", "add", "routes"});
     SumoWarnings& warnings = net.warnings;
     constexpr std::string_view kRoutes = " vType vTypeDistribution route routeDistribution vehicle trip flow ";
     for (const pugi::xml_node node : xml.root()) {

@@ -65,21 +65,24 @@ bool gaps_are_enough(const Model& model, const Changer& me, const Around& there,
            enough(there.behind, needed_gap_m(model, there.behind.policy, there.behind.speed_mps, me.speed_mps, share));
 }
 
-// Changes that are left to be made for the turn after, if a vehicle leaves the approach with `turn` from a lane; many: it can't.
-int changes_after(const State& state, int lane, Turn turn, Turn after) {
+// Changes that are left to be made, for the turn after or on all of its trip, if a vehicle leaves the approach with `turn` from a lane;
+// many: it can't.
+int changes_after(const State& state, int lane, Turn turn, const VehicleRecord& vehicle) {
     constexpr int kMany = 100;
     const int route = state.plan.beside(lane).way(turn).route;
     if (route < 0) return kMany;
+    if (vehicle.trip >= 0) return state.plan.changes_after(vehicle.trip, vehicle.leg, lane);
+    const Turn after = vehicle.turn_after;
     return after == Turn::none ? 0 : std::abs(state.plan.beside(state.plan.route(route).back()).way(after).changes);
 }
 
 // Signed as WayOn::changes; all lanes up to there lead on.
-int wished_changes(const State& state, int lane, Turn turn, Turn after) {
-    int fewest = changes_after(state, lane, turn, after);
+int wished_changes(const State& state, int lane, Turn turn, const VehicleRecord& vehicle) {
+    int fewest = changes_after(state, lane, turn, vehicle);
     int wished = 0;
     int distance = 0;
     for (int other = state.plan.beside(lane).right; other >= 0; other = state.plan.beside(other).right) {
-        const int changes = changes_after(state, other, turn, after);
+        const int changes = changes_after(state, other, turn, vehicle);
         if (state.plan.beside(other).way(turn).route < 0) break;
         ++distance;
         if (changes >= fewest) continue;
@@ -88,7 +91,7 @@ int wished_changes(const State& state, int lane, Turn turn, Turn after) {
     }
     distance = 0;
     for (int other = state.plan.beside(lane).left; other >= 0; other = state.plan.beside(other).left) {
-        const int changes = changes_after(state, other, turn, after);
+        const int changes = changes_after(state, other, turn, vehicle);
         if (state.plan.beside(other).way(turn).route < 0) break;
         --distance;
         if (changes > fewest || (changes == fewest && -distance >= wished)) continue;
@@ -145,8 +148,8 @@ private:
     // Where the route goes on as well as from here.
     bool serves(int other) const {
         if (other < 0 || !can_be_there(model_, me_, beside_m(state_, me_.lane, me_.front_m, other))) return false;
-        const Turn after = state_.vehicles.record[at(me_.slot)].turn_after;
-        if (changes_after(state_, other, me_.turn, after) > changes_after(state_, me_.lane, me_.turn, after))
+        const VehicleRecord& vehicle = state_.vehicles.record[at(me_.slot)];
+        if (changes_after(state_, other, me_.turn, vehicle) > changes_after(state_, me_.lane, me_.turn, vehicle))
             return false;
         const int changes = std::abs(state_.plan.beside(other).way(me_.turn).changes);
         return route_on(other) >= 0 || me_.to_line_m > model_.lane_change.strategic_m * changes;
@@ -237,7 +240,7 @@ Changer changer_at(const Model& model, const State& state, int lane, int slot) {
     me.to_line_m = state.plan.lane(lane).stop_line_m - model.driver.stop.margin_m - me.front_m;
     const Turn after = v.record[at(slot)].turn_after;
     if (me.changes != 0 || after == Turn::none) return me;
-    me.wished = wished_changes(state, lane, me.turn, after);
+    me.wished = wished_changes(state, lane, me.turn, v.record[at(slot)]);
     const int exit = state.plan.route(v.record[at(slot)].route).back();
     me.to_next_line_m = me.to_line_m + state.plan.beside(exit).begin_m + state.plan.lane(exit).stop_line_m;
     return me;

@@ -100,6 +100,8 @@ std::vector<BesidePlan> plan_beside(const LaneGraph& graph, const std::vector<Tu
         own = static_cast<int>(route);
     }
     for (const Approach& approach : graph.approaches) {
+        for (std::size_t k = 0; k < approach.lanes.size(); ++k)
+            beside[at(approach.lanes[k])].place = static_cast<int>(k);
         for (std::size_t turn = 0; turn < beside[0].ways.size(); ++turn) count_changes(approach, turn, beside);
     }
     return beside;
@@ -144,6 +146,7 @@ NetworkPlan::NetworkPlan(const Model& model) : speed_factor_(model.speed_factor)
     for (const int lane : order_) {
         if (beside_[at(lane)].changes()) changing_.push_back(lane);
     }
+    if (!model.demand.trips.empty()) trip_lanes_ = TripLanes(model, *this);
 }
 
 }  // namespace stopline

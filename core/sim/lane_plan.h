@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sim/model.h"
+#include "sim/trip_lanes.h"
 
 namespace stopline {
 
@@ -38,6 +39,7 @@ struct WayOn {
 struct BesidePlan {
     int left = -1;
     int right = -1;
+    int place = 0;  // on its approach, from the left
     double begin_m = 0.0;
     std::array<WayOn, kMostTurns> ways = {};  // [Turn]
 
@@ -92,6 +94,13 @@ public:
     bool waits_inside(int lane) const { return waits_inside_[static_cast<std::size_t>(lane)] != 0; }
     // The turn of a trip at the end of its leg-th edge; none: it ends there.
     Turn turn_of_trip(int trip, int leg) const { return demand_->turn_of_trip(trip, leg); }
+    // Changes of lanes that a trip takes beyond its leg-th edge, if it leaves that from a lane, and from there on (trip_lanes.h).
+    int changes_after(int trip, int leg, int lane) const {
+        return trip_lanes_.after(demand_->trips[static_cast<std::size_t>(trip)], leg, beside(lane).place);
+    }
+    int changes_from(int trip, int leg, int lane, int places) const {
+        return trip_lanes_.from(demand_->trips[static_cast<std::size_t>(trip)], leg, beside(lane).place, places);
+    }
     // Of a lane inside an intersection: conflict areas from its start, and the lanes that it meets there.
     std::span<const Conflict> conflicts(int lane) const { return conflicts_.of(lane); }
     std::span<const int> meets(int lane) const { return meets_.of(lane); }
@@ -116,6 +125,7 @@ private:
     std::vector<int> lights_;                               // [lane] Lane::light
     std::vector<char> waits_inside_;                        // [lane]
     const DemandPlan* demand_;                              // of the model, which outlives the plan
+    TripLanes trip_lanes_;
 };
 
 }  // namespace stopline

@@ -229,10 +229,14 @@ void choose_way_on(const Model& model, State& state, int lane, int slot) {
 namespace {
 
 // Of routes that lead to different lanes of one edge, one to a lane from which fewest changes are left to be made; by turns, if several do.
-int best_of_like(const State& state, int route, int slot) {
+int best_of_like(const Model& model, const State& state, int route, int slot) {
     const auto changes = [&](int way) {
-        const Turn after = state.vehicles.record[at(slot)].turn_after;
-        return std::abs(state.plan.beside(state.plan.route(way).back()).way(after).changes);
+        const VehicleRecord& vehicle = state.vehicles.record[at(slot)];
+        const int onto = state.plan.route(way).back();
+        if (vehicle.trip < 0) return std::abs(state.plan.beside(onto).way(vehicle.turn_after).changes);
+        const int approach = model.graph.lanes[at(onto)].approach;
+        const auto places = static_cast<int>(model.graph.approaches[at(approach)].lanes.size());
+        return state.plan.changes_from(vehicle.trip, vehicle.leg + 1, onto, places);
     };
     int fewest = changes(route);
     int count = 0;
@@ -253,7 +257,7 @@ void take_way_of_lane(const Model& model, State& state, int lane, int slot) {
     VehicleRecord& record = state.vehicles.record[at(slot)];
     const int own = state.plan.beside(lane).way(state.plan.turn_of(record.route)).route;
     if (own >= 0) {
-        record.route = state.plan.like(own) < 0 ? own : best_of_like(state, own, slot);
+        record.route = state.plan.like(own) < 0 ? own : best_of_like(model, state, own, slot);
         return put_on_route(model, state.vehicles, slot, 0);
     }
     record.route_index = 0;

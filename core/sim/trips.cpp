@@ -15,11 +15,6 @@ std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 constexpr double kRounded_m = 0.01;  // places in files are: a queue that was written stands as it stood
 
-// Changes that a vehicle with that turn has to make from a lane.
-int changes_from(const State& state, int lane, Turn turn) {
-    return std::abs(state.plan.beside(lane).way(turn).changes);
-}
-
 double free_m(const State& state, int lane) {
     const LaneBlock& block = state.blocks[at(lane)];
     if (block.count == 0) return 1e6;
@@ -38,10 +33,12 @@ int entry_lane(const Model& model, const State& state, int trip) {
         const double drawn = random_uniform(model.seed, static_cast<std::uint64_t>(trip), 0, Purpose::insertion);
         return lanes[at(std::min(static_cast<int>(drawn * count), count - 1))];
     }
-    const Turn turn = model.demand.turn_of_trip(trip, 0);
+    const auto changes_from = [&](int lane) {
+        return own.where == Trip::Where::best ? state.plan.changes_from(trip, 0, lane, count) : 0;
+    };
     const auto better = [&](int a, int b) {
-        const int changes_a = own.where == Trip::Where::best ? changes_from(state, a, turn) : 0;
-        const int changes_b = own.where == Trip::Where::best ? changes_from(state, b, turn) : 0;
+        const int changes_a = changes_from(a);
+        const int changes_b = changes_from(b);
         return changes_a != changes_b ? changes_a < changes_b : free_m(state, a) > free_m(state, b);
     };
     int best = lanes.back();
@@ -129,7 +126,8 @@ bool follower_has_room(const Model& model, const State& state, const Spot& spot,
     const double follower_mps = v.speed_mps[follower];
     const double braking_m =
         std::max(square(follower_mps) - square(speed_mps), 0.0) / (2.0 * model.driver.cacc.deceleration_comfort_mps2);
-    return rear_m - v.position_m[follower] + kRounded_m >= desired_gap_m(model, v.policy[follower], follower_mps) + braking_m;
+    return rear_m - v.position_m[follower] + kRounded_m >=
+           desired_gap_m(model, v.policy[follower], follower_mps) + braking_m;
 }
 
 // The speed with which it would enter behind that leader; below 0: there is no room.
