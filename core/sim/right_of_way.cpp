@@ -166,7 +166,7 @@ Arrival next_arrival(const Model& model, const State& state, const Conflict& con
         soonest.earlier(earliest_s(distance_m, v.speed_mps[at(w.slot)], a, other.limit_mps), w.slot);
     }
     const LaneBlock& block = state.blocks[at(other.origin)];
-    if (block.count == 0 || blocked(state, block.first) || held(state, block.first)) return soonest;
+    if (block.count > 0 && (blocked(state, block.first) || held(state, block.first))) return soonest;
     for (int slot = block.first; slot < block.stop(); ++slot) {
         const double distance_m = origin.length_m + conflict.other_from_m - v.position_m[at(slot)];
         if (distance_m > horizon_s * origin.limit_mps) break;
