@@ -97,7 +97,7 @@ private:
         if (tl < 0 || tl != to.connection->tl) {
             // Where nobody is asked to wait, the later link does.
             const bool nobody = !asked && !bit(junction.response, to.link, way.link);
-            return asked || (nobody && (to.connection->pass || way.link > to.link));
+            return asked || (nobody && (to.connection->pass || way.link > to.link || is_left_of(way, to)));
         }
         bool together = false;
         bool minor = false;
@@ -108,7 +108,14 @@ private:
             together = true;
             minor = minor || (!is_major(own) && is_major(other));
         }
-        return together && (minor || asked);
+        return together && (minor || asked || is_left_of(way, to));
+    }
+
+    // Two lanes that an edge that was joined to theirs made one (sumo_short_edges.h): the left one gives way.
+    static bool is_left_of(const SumoWay& way, const SumoWay& other) {
+        const SumoConnection& own = *way.connection;
+        const SumoConnection& its = *other.connection;
+        return own.via >= 0 && own.via == its.via && own.via_lane == its.via_lane && own.from_lane > its.from_lane;
     }
 
     SumoNetwork& made_;

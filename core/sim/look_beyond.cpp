@@ -115,10 +115,15 @@ namespace {
 // conflict areas (right_of_way.cpp).
 bool comes_by_another_way(const State& state, int slot, int ahead) {
     const VehicleArrays& v = state.vehicles;
-    if (v.position_m[at(ahead)] >= v.length_m[at(ahead)]) return false;
-    const int from = v.record[at(ahead)].came_from;
+    const VehicleRecord& other = v.record[at(ahead)];
+    double rear_m = v.position_m[at(ahead)] - static_cast<double>(v.length_m[at(ahead)]);
+    if (rear_m >= 0.0) return false;
     const std::span<const int> route = state.plan.route(v.record[at(slot)].route);
-    return from >= 0 && std::find(route.begin(), route.end(), from) == route.end();
+    const auto is_own = [&](int lane) { return std::find(route.begin(), route.end(), lane) != route.end(); };
+    if (other.came_from >= 0 && !is_own(other.came_from)) return true;
+    // Over an edge that is shorter than the vehicle.
+    if (other.came_from >= 0) rear_m += state.plan.lane(other.came_from).length_m;
+    return rear_m < 0.0 && other.came_by >= 0 && !is_own(other.came_by);
 }
 
 }  // namespace

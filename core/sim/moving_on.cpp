@@ -103,7 +103,7 @@ bool put_back(const Model& model, State& state, int k) {
     v.acceleration_mps2[i] = 0.0F;
     v.reset_powertrain(slot, model.vehicles[at(v.type[i])], speed_mps);
     v.leads[i] = 1.0F;
-    v.record[i].came_from = v.record[i].cleared_for = -1;
+    v.record[i].came_from = v.record[i].came_by = v.record[i].cleared_for = -1;
     v.record[i].predecessor = first ? -1 : v.id[i - 1];
     const double ahead_m = first ? 1e6 : v.position_m[i - 1] - static_cast<double>(v.length_m[i - 1]) - front_m;
     v.reset_radar(slot, ahead_m, first ? 0.0 : speed_mps - v.speed_mps[i - 1]);

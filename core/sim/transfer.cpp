@@ -62,6 +62,7 @@ void pass_on(const Model& model, State& state, int lane) {
         const int target = append_slot(state, next);
         v.copy(slot, target);
         v.position_m[at(target)] -= length_m;
+        v.record[at(target)].came_by = v.record[at(target)].came_from;
         v.record[at(target)].came_from = lane;
         put_on_route(model, v, target, index);
         choose_way_on(model, state, next, target);

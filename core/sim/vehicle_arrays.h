@@ -32,6 +32,7 @@ struct alignas(64) VehicleRecord {
     int route_index = 0;           // place in the route of the lane the vehicle is on
     int next_lane = -1;            // on the route; -1: it leaves, or must change to a lane that leads there
     int came_from = -1;            // lane before; -1: it entered here
+    int came_by = -1;              // the one before that
     int predecessor = -1;          // id of the vehicle that the radar tracks; -1: none
     int cleared_for = -1;          // lane inside an intersection on which it has accepted a gap; -1: none
     int inside_since = 0;          // tick at which it passed its last stop line

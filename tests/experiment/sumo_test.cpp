@@ -117,6 +117,23 @@ TEST(SumoRun, LeavesWhereTheRouteEndsAlthoughTheLightIsRed) {
     EXPECT_TRUE(f.violations.none());
 }
 
+// Over an edge shorter than a truck one has not left the way on which one came, and is seen on one's way to it.
+TEST(SumoRun, GivesWayAcrossShortEdges) {
+    const std::string traffic =
+        R"(<vType id="truck" length="12"/>
+<flow id="b" from="b" to="c" period="7" end="200" type="truck" departSpeed="max"/>
+<flow id="a" from="a" to="c" vehsPerHour="700" end="200" departSpeed="max"/>)";
+    for (const char* const short_m : {"0.5", "4", "20"}) {
+        const Scenario scenario = scenario_of(testing::merge_net(short_m), traffic);
+        for (std::size_t population = 0; population < 2; ++population) {
+            const NetworkFigures f = run_network(scenario, population, {}, 1, {});
+            EXPECT_TRUE(f.violations.none()) << short_m << " m, population " << population << ", overlaps "
+                                             << f.violations.overlaps << ", conflicts " << f.violations.conflicts;
+            EXPECT_GT(f.left_network, 40) << short_m;
+        }
+    }
+}
+
 TEST(SumoRun, WhoseTripEndsSeesThoseWhoAreNotWhollyOff) {
     const Scenario scenario =
         scenario_of(crossing_net(), R"(<trip id="a" depart="0" from="w_in" to="e_out" departSpeed="max"/>)");

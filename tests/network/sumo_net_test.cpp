@@ -97,6 +97,20 @@ TEST(SumoNetwork, WhereBothAreAskedToWaitBothDo) {
     EXPECT_TRUE(conflict(graph, ":J_0_0", ":J_1_1")->yields);
 }
 
+TEST(SumoNetwork, OfTwoLanesThatBecomeOneTheLeftGivesWay) {
+    const LaneGraph graph = made_of(testing::lane_drop_net()).graph;
+    int yielding = 0;
+    for (std::size_t k = 0; k < graph.lanes.size(); ++k) {
+        for (const Conflict& conflict : graph.conflicts_of(static_cast<int>(k))) {
+            EXPECT_NE(conflict.yields, conflict.other_yields);
+            if (!conflict.yields) continue;
+            ++yielding;
+            EXPECT_EQ(graph.lanes[static_cast<std::size_t>(graph.lanes[k].origin)].name, "a_1");
+        }
+    }
+    EXPECT_EQ(yielding, 1);
+}
+
 TEST(SumoNetwork, LinksThatAreNeverGreenTogetherDoNotYield) {
     const LaneGraph apart = made_of(signal_net(two_phases())).graph;
     EXPECT_FALSE(conflict(apart, ":J_0_0", ":J_1_0")->yields);

@@ -107,6 +107,54 @@ inline std::string crossing_net() {
 )";
 }
 
+// Edges a and b, 100 m, join to s, `short_m` long, which leads on to c, 100 m. Who comes from a gives way.
+inline std::string merge_net(const std::string& short_m) {
+    const auto edge = [](const std::string& id, const std::string& length_m, const std::string& shape) {
+        const std::string internal = id[0] == ':' ? " function=\"internal\"" : " from=\"A\" to=\"B\"";
+        return "<edge id=\"" + id + "\"" + internal + "><lane id=\"" + id +
+               "_0\" index=\"0\" speed=\"13.89\" length=\"" + length_m + "\" shape=\"" + shape + "\"/></edge>\n";
+    };
+    const auto leads = [](const std::string& from, const std::string& to, const std::string& via) {
+        return "<connection from=\"" + from + "\" to=\"" + to + "\" fromLane=\"0\" toLane=\"0\"" +
+               (via.empty() ? "" : " via=\"" + via + "_0\"") + " dir=\"s\" state=\"M\"/>\n";
+    };
+    return "<net version=\"1.20\">\n" + edge(":J_0", "10", "0,10 10,0") + edge(":J_1", "10", "0,-10 10,0") +
+           edge(":K_0", "5", "11,0 16,0") + edge("a", "100", "-100,10 0,10") + edge("b", "100", "-100,-10 0,-10") +
+           edge("s", short_m, "10,0 11,0") + edge("c", "100", "16,0 116,0") +
+           R"(<junction id="J" type="priority" x="5" y="0" incLanes="a_0 b_0" intLanes=":J_0_0 :J_1_0" shape="0,0 1,1">
+<request index="0" response="10" foes="10" cont="0"/><request index="1" response="00" foes="01" cont="0"/></junction>
+<junction id="K" type="priority" x="13" y="0" incLanes="s_0" intLanes=":K_0_0" shape="0,0 1,1">
+<request index="0" response="0" foes="0" cont="0"/></junction>
+)" + leads("a", "s", ":J_0") +
+           leads("b", "s", ":J_1") + leads("s", "c", ":K_0") + leads(":J_0", "s", "") + leads(":J_1", "s", "") +
+           leads(":K_0", "c", "") + "</net>\n";
+}
+
+// Two lanes of an edge, 100 m, that become one on a short edge, which leads on.
+inline std::string lane_drop_net() {
+    return R"(<net version="1.20">
+<edge id=":J_0" function="internal"><lane id=":J_0_0" index="0" speed="13.89" length="4" shape="0,0 4,0"/></edge>
+<edge id=":J_1" function="internal"><lane id=":J_1_0" index="0" speed="13.89" length="4" shape="0,3.2 4,0"/></edge>
+<edge id=":K_0" function="internal"><lane id=":K_0_0" index="0" speed="13.89" length="8" shape="9,0 17,0"/></edge>
+<edge id="a" from="A" to="J">
+<lane id="a_0" index="0" speed="13.89" length="100" shape="-100,0 0,0"/>
+<lane id="a_1" index="1" speed="13.89" length="100" shape="-100,3.2 0,3.2"/></edge>
+<edge id="s" from="J" to="K"><lane id="s_0" index="0" speed="13.89" length="5" shape="4,0 9,0"/></edge>
+<edge id="c" from="K" to="C"><lane id="c_0" index="0" speed="13.89" length="100" shape="17,0 117,0"/></edge>
+<junction id="J" type="priority" x="2" y="0" incLanes="a_0 a_1" intLanes=":J_0_0 :J_1_0" shape="0,0 1,1">
+<request index="0" response="00" foes="10" cont="0"/><request index="1" response="01" foes="01" cont="0"/></junction>
+<junction id="K" type="priority" x="13" y="0" incLanes="s_0" intLanes=":K_0_0" shape="0,0 1,1">
+<request index="0" response="0" foes="0" cont="0"/></junction>
+<connection from="a" to="s" fromLane="0" toLane="0" via=":J_0_0" dir="s" state="M"/>
+<connection from="a" to="s" fromLane="1" toLane="0" via=":J_1_0" dir="s" state="m"/>
+<connection from="s" to="c" fromLane="0" toLane="0" via=":K_0_0" dir="s" state="M"/>
+<connection from=":J_0" to="s" fromLane="0" toLane="0" dir="s" state="M"/>
+<connection from=":J_1" to="s" fromLane="0" toLane="0" dir="s" state="M"/>
+<connection from=":K_0" to="c" fromLane="0" toLane="0" dir="s" state="M"/>
+</net>
+)";
+}
+
 // The same with lights; the phases are for links 0 to 3.
 inline std::string signal_net(const std::string& phases) {
     std::string text = crossing_net();
