@@ -1,5 +1,6 @@
 // Vehicles that have stood for too long at the head of a lane are moved on past the intersection (HindranceRules).
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "base/arithmetic.h"
@@ -77,6 +78,10 @@ bool somebody_comes(const Model& model, const State& state, int lane, double rea
 
 namespace {
 
+bool is_last_of_trip(const State& state, const VehicleRecord& record) {
+    return record.trip >= 0 && state.plan.turn_of_trip(record.trip, record.leg + 1) == Turn::none;
+}
+
 // Puts the k-th vehicle that was taken out at the start of its lane, its rear just behind the intersection. False: there is no room.
 bool put_back(const Model& model, State& state, int k) {
     VehicleArrays& v = state.vehicles;
@@ -84,9 +89,14 @@ bool put_back(const Model& model, State& state, int k) {
     make_room(state, removed.lane);
     const int waiting = state.limbo.first + k;
     const LaneBlock& block = state.blocks[at(removed.lane)];
-    const double front_m = v.length_m[at(waiting)];
+    const Lane& lane = model.graph.lanes[at(removed.lane)];
+    const double length_m = v.length_m[at(waiting)];
+    const bool fits = length_m < lane.stop_line_m;
+    if (!fits && !is_last_of_trip(state, v.record[at(waiting)])) return false;
+    const double front_m = std::min(length_m, lane.stop_line_m);
     const double gap_m = v.standstill_gap_m[at(waiting)];
-    double speed_mps = model.graph.lanes[at(removed.lane)].limit_mps;
+    const double room_to_stop_m = lane.stop_line_m - front_m;
+    double speed_mps = std::min(lane.limit_mps, std::sqrt(2.0 * model.driver.stop.deceleration_mps2 * room_to_stop_m));
     if (block.count > 0) {
         const int last = block.last();
         const double room_m = v.position_m[at(last)] - static_cast<double>(v.length_m[at(last)]) - front_m - gap_m;
@@ -122,8 +132,7 @@ void look_further(const Model& model, State& state, int waiting, Removed& remove
     const Lane& lane = model.graph.lanes[at(removed.lane)];
     if (lane.signal_group < 0 || model.time_s(state.tick - removed.since) < lane.length_m / lane.limit_mps) return;
     const VehicleRecord& record = state.vehicles.record[at(waiting)];
-    if (record.trip >= 0 && state.plan.turn_of_trip(record.trip, record.leg + 1) == Turn::none)
-        return;  // its last lane
+    if (is_last_of_trip(state, record)) return;
     choose_way_on(model, state, removed.lane, waiting);
     removed = {model.graph.routes[at(state.vehicles.record[at(waiting)].route)].lanes.back(), state.tick};
 }
