@@ -134,6 +134,39 @@ TEST(SumoRun, GivesWayAcrossShortEdges) {
     }
 }
 
+TEST(SumoRun, GivesWayToThoseWhoComeOverAnEmptyShortEdge) {
+    const std::string traffic =
+        R"xml(<flow id="b" from="b" to="c" period="exp(0.12)" end="270" departSpeed="max"/>
+<flow id="x" from="b" to="x" period="exp(0.05)" end="270" departSpeed="max"/>
+<flow id="a" from="a" to="c" period="exp(0.07)" end="270" departSpeed="max"/>)xml";
+    for (int seed = 1; seed <= 8; ++seed) {
+        const Scenario scenario =
+            scenario_of(testing::roundabout_net(), traffic, "fidelity: meso\nseed: " + std::to_string(seed) + "\n");
+        const NetworkFigures f = run_network(scenario, 1, {}, 1, {});
+        EXPECT_TRUE(f.violations.none()) << f.violations.overlaps << " overlaps, " << f.violations.conflicts
+                                         << " conflicts";
+        EXPECT_GT(f.left_network, 40);
+    }
+}
+
+// Those from a never have green.
+TEST(SumoRun, WhoIsMovedOnIsNotPutOnAnEdgeThatIsTooShort) {
+    std::string net = testing::merge_net("0.5");
+    net = testing::replaced(net, "<junction id=\"J\" type=\"priority\"",
+                            "<tlLogic id=\"J\" type=\"static\" programID=\"0\" offset=\"0\">"
+                            "<phase duration=\"8\" state=\"rG\"/><phase duration=\"2\" state=\"ry\"/></tlLogic>\n"
+                            "<junction id=\"J\" type=\"traffic_light\"");
+    net = testing::replaced(net, "via=\":J_0_0\"", "via=\":J_0_0\" tl=\"J\" linkIndex=\"0\"");
+    net = testing::replaced(net, "via=\":J_1_0\"", "via=\":J_1_0\" tl=\"J\" linkIndex=\"1\"");
+    const Scenario scenario = scenario_of(net, R"(<flow id="b" from="b" to="c" period="4" end="200" departSpeed="max"/>
+<flow id="a" from="a" to="c" period="20" end="200" departSpeed="max"/>)",
+                                          "fidelity: meso\nrules: {teleport_cycles: 3}\n");
+    const NetworkFigures f = run_network(scenario, 0, {}, 1, {});
+    EXPECT_TRUE(f.violations.none()) << f.violations.overlaps << " overlaps, " << f.violations.conflicts
+                                     << " conflicts";
+    EXPECT_GE(f.left_network, 53);
+}
+
 TEST(SumoRun, WhoseTripEndsSeesThoseWhoAreNotWhollyOff) {
     const Scenario scenario =
         scenario_of(crossing_net(), R"(<trip id="a" depart="0" from="w_in" to="e_out" departSpeed="max"/>)");

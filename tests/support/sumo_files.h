@@ -130,6 +130,34 @@ inline std::string merge_net(const std::string& short_m) {
            leads(":K_0", "c", "") + "</net>\n";
 }
 
+// Who comes from b, 100 m, goes over s, 2 m, to c, or leaves for x before; who comes from a gives way where s ends.
+inline std::string roundabout_net() {
+    return R"(<net version="1.20">
+<edge id=":J_0" function="internal"><lane id=":J_0_0" index="0" speed="8" length="4" shape="0,0 4,0"/></edge>
+<edge id=":J_1" function="internal"><lane id=":J_1_0" index="0" speed="8" length="6" shape="0,0 3,-5"/></edge>
+<edge id=":K_0" function="internal"><lane id=":K_0_0" index="0" speed="8" length="8" shape="10,-8 14,0"/></edge>
+<edge id=":K_1" function="internal"><lane id=":K_1_0" index="0" speed="8" length="8" shape="6,0 14,0"/></edge>
+<edge id="a" from="A" to="K"><lane id="a_0" index="0" speed="13.89" length="100" shape="10,-108 10,-8"/></edge>
+<edge id="b" from="B" to="J"><lane id="b_0" index="0" speed="8" length="100" shape="-100,0 0,0"/></edge>
+<edge id="s" from="J" to="K"><lane id="s_0" index="0" speed="8" length="2" shape="4,0 6,0"/></edge>
+<edge id="c" from="K" to="C"><lane id="c_0" index="0" speed="13.89" length="100" shape="14,0 114,0"/></edge>
+<edge id="x" from="J" to="X"><lane id="x_0" index="0" speed="13.89" length="100" shape="3,-5 3,-105"/></edge>
+<junction id="J" type="priority" x="2" y="0" incLanes="b_0" intLanes=":J_0_0 :J_1_0" shape="0,0 1,1">
+<request index="0" response="00" foes="00" cont="0"/><request index="1" response="00" foes="00" cont="0"/></junction>
+<junction id="K" type="priority" x="10" y="0" incLanes="a_0 s_0" intLanes=":K_0_0 :K_1_0" shape="0,0 1,1">
+<request index="0" response="10" foes="10" cont="0"/><request index="1" response="00" foes="01" cont="0"/></junction>
+<connection from="b" to="s" fromLane="0" toLane="0" via=":J_0_0" dir="s" state="M"/>
+<connection from="b" to="x" fromLane="0" toLane="0" via=":J_1_0" dir="r" state="M"/>
+<connection from="a" to="c" fromLane="0" toLane="0" via=":K_0_0" dir="r" state="m"/>
+<connection from="s" to="c" fromLane="0" toLane="0" via=":K_1_0" dir="s" state="M"/>
+<connection from=":J_0" to="s" fromLane="0" toLane="0" dir="s" state="M"/>
+<connection from=":J_1" to="x" fromLane="0" toLane="0" dir="r" state="M"/>
+<connection from=":K_0" to="c" fromLane="0" toLane="0" dir="r" state="M"/>
+<connection from=":K_1" to="c" fromLane="0" toLane="0" dir="s" state="M"/>
+</net>
+)";
+}
+
 // Two lanes of an edge, 100 m, that become one on a short edge, which leads on.
 inline std::string lane_drop_net() {
     return R"(<net version="1.20">
