@@ -91,12 +91,15 @@ bool put_back(const Model& model, State& state, int k) {
     const LaneBlock& block = state.blocks[at(removed.lane)];
     const Lane& lane = model.graph.lanes[at(removed.lane)];
     const double length_m = v.length_m[at(waiting)];
-    const bool fits = length_m < lane.stop_line_m;
-    if (!fits && !is_last_of_trip(state, v.record[at(waiting)])) return false;
-    const double front_m = std::min(length_m, lane.stop_line_m);
+    double front_m = length_m;
+    double speed_mps = lane.limit_mps;
+    if (v.record[at(waiting)].trip >= 0) {  // edges of imported networks may be of any length
+        if (length_m >= lane.stop_line_m && !is_last_of_trip(state, v.record[at(waiting)])) return false;
+        front_m = std::min(length_m, lane.stop_line_m);
+        const double to_line_m = lane.stop_line_m - front_m;
+        speed_mps = std::min(speed_mps, std::sqrt(2.0 * model.driver.stop.deceleration_mps2 * to_line_m));
+    }
     const double gap_m = v.standstill_gap_m[at(waiting)];
-    const double room_to_stop_m = lane.stop_line_m - front_m;
-    double speed_mps = std::min(lane.limit_mps, std::sqrt(2.0 * model.driver.stop.deceleration_mps2 * room_to_stop_m));
     if (block.count > 0) {
         const int last = block.last();
         const double room_m = v.position_m[at(last)] - static_cast<double>(v.length_m[at(last)]) - front_m - gap_m;
