@@ -29,18 +29,16 @@ Ahead still_shared(const State& state, int lane, double& rear_m) {
 }
 
 // Beyond the route, which ends on the next edge: on edges that are shorter than the range. Nobody is on the route.
-Ahead ahead_on_trip(const State& state, int lane, int slot, double range_m) {
-    const VehicleRecord& record = state.vehicles.record[at(slot)];
-    const double position_m = state.vehicles.position_m[at(slot)];
-    const std::span<const int> route = state.plan.route(record.route);
+Ahead ahead_on_trip(const State& state, int lane, double position_m, const OnTrip& on_trip, double range_m) {
+    const std::span<const int> route = state.plan.route(on_trip.route);
     double start_m = 0.0;  // of `at_lane`, from the start of the vehicle's own
     int at_lane = lane;
-    for (std::size_t k = at(record.route_index) + 1; k < route.size(); ++k) {
+    for (std::size_t k = at(on_trip.route_index) + 1; k < route.size(); ++k) {
         start_m += state.plan.lane(at_lane).length_m;
         at_lane = route[k];
     }
-    for (int leg = record.leg + 1;; ++leg) {
-        const Turn turn = state.plan.turn_of_trip(record.trip, leg);
+    for (int leg = on_trip.leg + 1;; ++leg) {
+        const Turn turn = state.plan.turn_of_trip(on_trip.trip, leg);
         const int way = turn == Turn::none ? -1 : state.plan.beside(at_lane).way(turn).route;
         double rear_m = kFar_m;
         Ahead shared = still_shared(state, at_lane, rear_m);
@@ -66,9 +64,13 @@ Ahead vehicle_ahead(const State& state, int lane, int slot, double range_m) {
         return still_shared(state, lane, rear_m);
     }
     const double position_m = state.vehicles.position_m[at(slot)];
-    const Ahead seen = vehicle_ahead(state, lane, position_m, record.route, record.route_index, range_m);
-    if (seen.slot >= 0 || record.trip < 0) return seen;
-    return ahead_on_trip(state, lane, slot, range_m);
+    return vehicle_ahead(state, lane, position_m, {record.route, record.route_index, record.trip, record.leg}, range_m);
+}
+
+Ahead vehicle_ahead(const State& state, int lane, double position_m, const OnTrip& on_trip, double range_m) {
+    const Ahead seen = vehicle_ahead(state, lane, position_m, on_trip.route, on_trip.route_index, range_m);
+    if (seen.slot >= 0 || on_trip.trip < 0) return seen;
+    return ahead_on_trip(state, lane, position_m, on_trip, range_m);
 }
 
 Ahead vehicle_ahead(const State& state, int lane, double position_m, int route_number, int index, double range_m) {

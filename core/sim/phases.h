@@ -131,6 +131,14 @@ struct Ahead {
 Ahead vehicle_ahead(const State& state, int lane, int slot, double range_m);
 // The same as it would be from a place on a lane, the index-th of a route.
 Ahead vehicle_ahead(const State& state, int lane, double position_m, int route, int index, double range_m);
+// The same beyond the route too, on the edges of a trip that follow; -1: there is no trip.
+struct OnTrip {
+    int route = -1;
+    int route_index = 0;
+    int trip = -1;
+    int leg = 0;
+};
+Ahead vehicle_ahead(const State& state, int lane, double position_m, const OnTrip& on_trip, double range_m);
 
 // The net gap that a vehicle with this policy keeps at a speed.
 double desired_gap_m(const Model& model, int policy, double speed_mps);

@@ -13,6 +13,7 @@ namespace {
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
+constexpr double kNearLine_m = 40.0;
 constexpr double kRounded_m = 0.01;  // places in files are: a queue that was written stands as it stood
 
 double free_m(const State& state, int lane) {
@@ -104,13 +105,13 @@ struct Leader {
     double speed_mps = 0.0;
 };
 
-Leader leader_of(const Model& model, const State& state, const Spot& spot, int route) {
+Leader leader_of(const Model& model, const State& state, const Spot& spot, const OnTrip& on_trip) {
     const VehicleArrays& v = state.vehicles;
     if (spot.place > 0) {
         const std::size_t ahead = at(state.blocks[at(spot.lane)].first + spot.place - 1);
         return {v.position_m[ahead] - static_cast<double>(v.length_m[ahead]) - spot.front_m, v.speed_mps[ahead]};
     }
-    const Ahead ahead = vehicle_ahead(state, spot.lane, spot.front_m, route, 0, model.driver.cacc.radar_range_m);
+    const Ahead ahead = vehicle_ahead(state, spot.lane, spot.front_m, on_trip, model.driver.cacc.radar_range_m);
     if (ahead.slot < 0) return {};
     const double rear_m =
         ahead.start_m + v.position_m[at(ahead.slot)] - static_cast<double>(v.length_m[at(ahead.slot)]);
@@ -152,6 +153,23 @@ double entry_speed_mps(const Model& model, const Trip& trip, int number, int pol
     return trip.fast != given && fits(slower_mps) ? slower_mps : -1.0;
 }
 
+// Whether somebody goes across the way of one that has priority, and could not know that it would come.
+bool somebody_crosses(const State& state, int route) {
+    const std::span<const int> lanes = state.plan.route(route);
+    if (lanes.size() < 2) return false;
+    for (const Conflict& conflict : state.plan.conflicts(lanes[1])) {
+        if (!conflict.other_yields) continue;
+        const auto still_there = [&](const Insider& w) { return w.rear_m < conflict.other_to_m; };
+        const std::vector<Insider>& inside = state.insiders[at(conflict.other)];
+        if (std::any_of(inside.begin(), inside.end(), still_there)) return true;
+        const LaneBlock& before = state.blocks[at(state.plan.lane(conflict.other).origin)];
+        for (int slot = before.first; slot < before.stop(); ++slot) {
+            if (state.vehicles.record[at(slot)].cleared_for == conflict.other) return true;
+        }
+    }
+    return false;
+}
+
 // Whether the vehicle could enter.
 bool enter(const Model& model, State& state, int trip, const Spot& spot) {
     const Trip& own = model.demand.trips[at(trip)];
@@ -159,7 +177,7 @@ bool enter(const Model& model, State& state, int trip, const Spot& spot) {
     const int policy = model.demand.trip_policies[at(trip)];
     const int route = state.plan.route_with(own.approach, model.demand.turn_of_trip(trip, 0));
     const int way = state.plan.beside(spot.lane).way(model.demand.turn_of_trip(trip, 0)).route;
-    const Leader leader = leader_of(model, state, spot, way >= 0 ? way : route);
+    const Leader leader = leader_of(model, state, spot, {way >= 0 ? way : route, 0, trip, 0});
     double limit_mps = state.plan.driven_mps(spot.lane);
     if (way < 0) limit_mps = std::min(limit_mps, 0.5 * road.stop_line_m);  // it has to change lanes first
     const double room_mps = std::sqrt(2.0 * model.driver.stop.deceleration_mps2 * (road.stop_line_m - spot.front_m));
@@ -167,6 +185,7 @@ bool enter(const Model& model, State& state, int trip, const Spot& spot) {
     const double speed_mps = entry_speed_mps(model, own, trip, policy, limit_mps, leader);
     const double rear_m = spot.front_m - static_cast<double>(own.length_m);
     if (speed_mps < 0.0 || !follower_has_room(model, state, spot, rear_m, speed_mps)) return false;
+    if (way >= 0 && road.stop_line_m - spot.front_m < kNearLine_m && somebody_crosses(state, way)) return false;
     make_room(state, spot.lane);
     const int slot =
         put_on_lane(model, state, {spot.lane, spot.front_m, speed_mps, own.length_m, policy, route, false});
