@@ -82,6 +82,21 @@ bool is_last_of_trip(const State& state, const VehicleRecord& record) {
     return record.trip >= 0 && state.plan.turn_of_trip(record.trip, record.leg + 1) == Turn::none;
 }
 
+// Whether one on a trip would keep its gap to those who are beyond the lane, or not wholly beyond it.
+bool has_room_beyond(const Model& model, const State& state, const Removed& removed, int waiting, double front_m) {
+    const VehicleArrays& v = state.vehicles;
+    const VehicleRecord& record = v.record[at(waiting)];
+    const Turn turn = state.plan.turn_of_trip(record.trip, record.leg + 1);
+    const int way = state.plan.beside(removed.lane).way(turn).route;
+    if (way < 0) return true;
+    const Ahead ahead = vehicle_ahead(state, removed.lane, front_m, {way, 0, record.trip, record.leg + 1},
+                                      model.driver.cacc.radar_range_m);
+    if (ahead.slot < 0) return true;
+    const double rear_m =
+        ahead.start_m + v.position_m[at(ahead.slot)] - static_cast<double>(v.length_m[at(ahead.slot)]);
+    return rear_m - front_m >= static_cast<double>(v.standstill_gap_m[at(waiting)]);
+}
+
 // Puts the k-th vehicle that was taken out at the start of its lane, its rear just behind the intersection. False: there is no room.
 bool put_back(const Model& model, State& state, int k) {
     VehicleArrays& v = state.vehicles;
@@ -98,6 +113,7 @@ bool put_back(const Model& model, State& state, int k) {
         front_m = std::min(length_m, lane.stop_line_m);
         const double to_line_m = lane.stop_line_m - front_m;
         speed_mps = std::min(speed_mps, std::sqrt(2.0 * model.driver.stop.deceleration_mps2 * to_line_m));
+        if (block.count == 0 && !has_room_beyond(model, state, removed, waiting, front_m)) return false;
     }
     const double gap_m = v.standstill_gap_m[at(waiting)];
     if (block.count > 0) {
