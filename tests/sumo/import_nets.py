@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Runs networks of SUMO's netgenerate with random trips here, and says what came of it.
+"""Runs networks of SUMO's netgenerate, and networks that its package ships, with random trips here, and says what came of it.
 
-    import_nets.py BIN [--fidelity meso|full] [--seeds N] [--only NAME] [--keep DIR] [--net FILE ROUTES]...
+    import_nets.py BIN [--fidelity meso|full] [--seeds N] [--only NAME] [--keep DIR] [--net FILE ROUTES[,ROUTES...]]...
 
 BIN is the folder of stopline-run. SUMO is found by SUMO_HOME or the package eclipse-sumo (pip install eclipse-sumo). For each network the table
 has lanes, signals, trips, those that arrived, were moved on or strayed, and violations. Exit code 1 where a run has violations (overlaps,
@@ -35,6 +35,20 @@ NETS = {
     "random_lanes": "--rand --rand.iterations 80 --rand.random-lanenumber -L 3 --default-junction-type traffic_light",
 }
 SEEDED = ("spider", "random")
+# Below SUMO's folder; seconds between two trips. Several are parts of real cities.
+SHIPPED = {
+    "tools/game/A10KW/osm.net.xml": 1.0,  # a motorway
+    "tools/game/DRT/osm.net.xml": 1.0,
+    "tools/game/bs3d/bs.net.xml": 2.0,
+    "tools/game/corridor/corridor.net.xml": 1.5,
+    "tools/game/cross/cross.net.xml": 2.0,
+    "tools/game/fkk_in/ingolstadt.net.xml.gz": 1.0,
+    "tools/game/grid6/grid6.net.xml": 1.5,
+    "tools/game/kuehne/kuehne.net.xml": 2.0,
+    "tools/game/ramp/ramp.net.xml": 2.0,
+    "tools/game/square/square.net.xml": 2.0,
+    "tools/sumolib/scenario/scenarios/RiLSA1/rilsa1.net.xml": 2.0,
+}
 SECONDS = 900
 PERIODS = {"grid_priority": 2.0, "grid_right_before_left": 2.0, "grid_allway_stop": 2.5, "random": 2.0, "spider": 2.0}
 
@@ -53,14 +67,17 @@ def sumo_home():
 def make(home, folder, name, options, seed):
     """Network and trips as files; their names."""
     net = folder / f"{name}.net.xml.gz"
-    trips = folder / f"{name}.trips.xml"
     subprocess.run([home / "bin" / "netgenerate", *options.split(), "--seed", str(seed), "-o", net], check=True, capture_output=True)
-    period = PERIODS.get(name.rsplit("_s", 1)[0], 1.0)
+    return net, make_trips(home, folder, name, net, PERIODS.get(name.rsplit("_s", 1)[0], 1.0), seed)
+
+
+def make_trips(home, folder, name, net, period, seed):
+    trips = folder / f"{name}.trips.xml"
     subprocess.run(
         [sys.executable, home / "tools" / "randomTrips.py", "-n", net, "-o", trips, "-e", str(SECONDS - 200), "-p", str(period),
          "--seed", str(seed), "--fringe-factor", "5", "--validate", "--trip-attributes", 'departLane="best" departSpeed="max"'],
         check=True, capture_output=True, env={**os.environ, "SUMO_HOME": str(home)}, cwd=folder)  # fmt: skip
-    return net, trips
+    return trips
 
 
 def run(binary, folder, name, net, routes, fidelity):
@@ -125,9 +142,19 @@ def main():
                 full_name = f"{name}_s{seed}"
                 net, trips = make(home, folder, full_name, call, seed)
                 good = judge(full_name, *run(binary, folder, full_name, net, trips, options.fidelity)) and good
+        for path, period in SHIPPED.items() if not options.net else []:
+            name = Path(path).parts[-2]
+            if options.only and options.only not in name:
+                continue
+            if not (home / path).is_file():
+                print(f"{name:28} is not among the files of this version of SUMO")
+                continue
+            trips = make_trips(home, folder, name, home / path, period, 1)
+            good = judge(name, *run(binary, folder, name, home / path, trips, options.fidelity)) and good
         for net, routes in options.net:
             name = Path(net).name.split(".")[0]
-            good = judge(name, *run(binary, folder, name, Path(net).resolve(), Path(routes).resolve(), options.fidelity)) and good
+            files = ", ".join(str(Path(file).resolve()) for file in routes.split(","))
+            good = judge(name, *run(binary, folder, name, Path(net).resolve(), files, options.fidelity)) and good
     return 0 if good else 1
 
 
