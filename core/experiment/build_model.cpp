@@ -8,7 +8,6 @@
 #include <fmt/ranges.h>
 
 #include "base/input_error.h"
-#include "network/sumo_graph.h"
 #include "scenario/import_sumo.h"
 
 namespace stopline {
@@ -153,12 +152,11 @@ void add_rules(const Scenario& scenario, Model& model) {
     model.rules.watch_ticks = needs_watch ? std::max<std::int64_t>(to_ticks(1.0, model.step_s), 1) : 0;
 }
 
-void add_loops(const SumoNetwork& network, Model& model) {
-    for (const SumoLoop& loop : network.net.loops) {
-        const int lane = network.lane_of[at(loop.edge)][at(loop.lane)];
+void add_loops(const Scenario& scenario, Model& model) {
+    for (const SumoLoopPlace& loop : sumo_loops(scenario)) {
         const int name = static_cast<int>(model.loop_names.size());
-        model.detectors.push_back({lane, loop.position_m, Detector::Kind::loop, -1, false, name});
-        model.loop_names.push_back(loop.id);
+        model.detectors.push_back({loop.lane, loop.position_m, Detector::Kind::loop, -1, false, name});
+        model.loop_names.push_back(loop.name);
     }
 }
 
@@ -170,7 +168,7 @@ void add_detectors(const Scenario& scenario, Model& model) {
         if (scenario.network.kind == "intersection") add_zones(scenario, lane, model);
         if (scenario.network.has_several() && !scenario.network.is_sumo()) add_counters(scenario, lane, model);
     }
-    if (scenario.network.is_sumo()) add_loops(*scenario.network.sumo, model);
+    add_loops(scenario, model);
 }
 
 void add_network(const Scenario& scenario, Model& model) {

@@ -38,6 +38,17 @@ void add_sumo_trips(const Scenario& scenario, DemandPlan& plan) {
     plan.draw_trip_policies();
 }
 
+std::vector<SumoLoopPlace> sumo_loops(const Scenario& scenario) {
+    std::vector<SumoLoopPlace> places;
+    if (!scenario.network.sumo) return places;
+    const SumoNetwork& network = *scenario.network.sumo;
+    for (const SumoLoop& loop : network.net.loops) {
+        const int lane = network.lane_of[static_cast<std::size_t>(loop.edge)][static_cast<std::size_t>(loop.lane)];
+        places.push_back({loop.id, lane, loop.position_m});
+    }
+    return places;
+}
+
 std::vector<std::string> sumo_warnings(const Scenario& scenario) {
     std::vector<std::string> lines;
     if (!scenario.network.sumo || !scenario.demand.sumo) return lines;

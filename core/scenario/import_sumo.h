@@ -18,6 +18,14 @@ void import_sumo(Scenario& scenario, const std::filesystem::path& directory);
 // The trips of those files, with the policies that the plan's population gives them.
 void add_sumo_trips(const Scenario& scenario, DemandPlan& plan);
 
+// The induction loops of those files, on lanes of the graph.
+struct SumoLoopPlace {
+    std::string name;
+    int lane = -1;
+    double position_m = 0.0;
+};
+std::vector<SumoLoopPlace> sumo_loops(const Scenario& scenario);
+
 // What those files have that is not read, a line each: "city.net.xml:12: ...".
 std::vector<std::string> sumo_warnings(const Scenario& scenario);
 
