@@ -19,6 +19,12 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array<const char*, 4> kTurnNames{"none", "straight", "right", "left"};
 
+// In imported networks there may be more of them.
+std::string turn_name(Turn turn) {
+    const auto number = static_cast<std::size_t>(turn);
+    return number < kTurnNames.size() ? kTurnNames[number] : "turn " + std::to_string(number);
+}
+
 double to_mm(double length_m) { return std::round(length_m * 1000.0) / 1000.0; }
 
 Json lane_json(const Lane& lane) {
@@ -29,7 +35,7 @@ Json lane_json(const Lane& lane) {
     }
     if (lane.origin >= 0) {
         json["origin"] = lane.origin;
-        json["turn"] = kTurnNames[static_cast<std::size_t>(lane.turn)];
+        json["turn"] = turn_name(lane.turn);
     }
     json["shape_start_m"] = lane.shape_start_m;
     json["shape"] = Json::array();

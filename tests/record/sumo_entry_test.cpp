@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "experiment/network_run.h"
+#include "record/recording_header.h"
 #include "record/sumo_files.h"
 #include "scenario/import_sumo.h"
 #include "scenario/load_scenario.h"
@@ -160,6 +161,14 @@ TEST(SumoTables, HaveTheNamesOfTheRouteFile) {
     EXPECT_NE(loops.find("id=\"my loop\" nVehContrib=\"1\""), std::string::npos) << loops;
     EXPECT_NE(loops.find("id=\"w_in_0_stop_line\" nVehContrib=\"1\""), std::string::npos) << loops;
     EXPECT_EQ(loops.find("id=\"\""), std::string::npos) << loops;
+}
+
+TEST(SumoTables, RecordingsNameTurnsBeyondThree) {
+    Model model = network_model(scenario_of(R"(<trip id="a" depart="0" from="w_in" to="e_out"/>)"), 0);
+    Lane& way = model.graph.lanes[lane_named(model, ":J_1_0")];
+    way.turn = static_cast<Turn>(7);
+    const std::string header = recording_header(model, {}, make_frame_grid(model, FrameClock({}, model.step_s)));
+    EXPECT_NE(header.find("\"turn\":\"turn 7\""), std::string::npos) << header;
 }
 
 }  // namespace
