@@ -27,12 +27,11 @@ std::string turn_name(Turn turn) {
 
 double to_mm(double length_m) { return std::round(length_m * 1000.0) / 1000.0; }
 
-Json lane_json(const Lane& lane) {
+// Group 0 of an imported network is no light: it is always green.
+Json lane_json(const Lane& lane, bool imported) {
     Json json{{"name", lane.name}, {"length_m", lane.length_m}, {"limit_mps", lane.limit_mps}, {"next", lane.next}};
-    if (lane.signal_group >= 0) {
-        json["signal_group"] = lane.signal_group;
-        json["stop_line_m"] = lane.stop_line_m;
-    }
+    if (lane.signal_group >= (imported ? 1 : 0)) json["signal_group"] = lane.signal_group;
+    if (lane.signal_group >= 0) json["stop_line_m"] = lane.stop_line_m;
     if (lane.origin >= 0) {
         json["origin"] = lane.origin;
         json["turn"] = turn_name(lane.turn);
@@ -106,7 +105,7 @@ std::string recording_header(const Model& model, const RunOrigin& origin, const 
               {"lanes", Json::array()},
               {"entries", model.graph.entries}};
     for (const CompiledPolicy& policy : model.policies) json["policies"].push_back(policy.settings.name);
-    for (const Lane& lane : model.graph.lanes) json["lanes"].push_back(lane_json(lane));
+    for (const Lane& lane : model.graph.lanes) json["lanes"].push_back(lane_json(lane, !model.demand.trips.empty()));
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -28,13 +28,21 @@ class Shape {
 class Network {
     constructor(head) {
         this.lanes = head.lanes.map((lane, number) => ({...lane, number, shape: new Shape(lane.shape)}));
-        this.entries = head.entries;
+        this.entries = head.entries.length ? head.entries : this.beginnings();
         this.laneWidth_m = head.lane_width_m;
         this.lines = this.lanes.filter((lane) => lane.signal_group !== undefined);
         this.roads = new Path2D();
         this.inside = new Path2D();
         this.bounds = [Infinity, Infinity, -Infinity, -Infinity];
         for (const lane of this.lanes) this.add(lane);
+    }
+
+    // Of a network that tells no entries: lanes to which no other leads, or all of them.
+    beginnings() {
+        const reached = new Set(this.lanes.flatMap((lane) => lane.next));
+        const outside = this.lanes.filter((lane) => lane.origin === undefined);
+        const first = outside.filter((lane) => !reached.has(lane.number));
+        return (first.length ? first : outside).map((lane) => lane.number);
     }
 
     add(lane) {
@@ -82,9 +90,11 @@ class Network {
     // Lanes that follow each other straight on, with the distance at which each begins.
     street(entry) {
         const street = [];
+        const seen = new Set();
         let from_m = 0;
-        for (let number = entry; number !== undefined && street.length < 1000;) {
+        for (let number = entry; number !== undefined && !seen.has(number);) {
             const lane = this.lanes[number];
+            seen.add(number);
             street.push({lane, from_m});
             from_m += lane.length_m;
             number = lane.next.find((each) => (this.lanes[each].turn || 'straight') === 'straight');
