@@ -26,7 +26,7 @@ struct Trip {
     enum class Along : std::uint8_t { base, given, last, random, free } along = Along::base;
     int lane = 0;            // where that is given, counted from the left
     float speed_mps = 0.0F;  // where that is given
-    float front_m = 0.0F;    // where that is given, from the start of the lane; below 0: from its end
+    float front_m = 0.0F;    // where that is given, from the start of the lane
 };
 
 struct DemandPlan {

@@ -40,7 +40,11 @@ struct Way {
 class RouteReader {
 public:
     RouteReader(const SumoNetwork& network, double until_s, std::uint64_t seed)
-        : network_(network), router_(network), until_s_(until_s), seed_(seed) {}
+        : network_(network), router_(network), until_s_(until_s), seed_(seed), grown_(network.net.edges.size(), 0) {
+        for (const SumoEdge& edge : network.net.edges) {
+            if (edge.joined_to >= 0) grown_[at(edge.joined_to)] = 1;
+        }
+    }
 
     void read(const std::filesystem::path& file, bool additional) {
         const SumoXml xml(file, {"routes", "trips", "additional", "add", "flows", "tlLogics"});
@@ -296,9 +300,15 @@ private:
         if (std::abs(static_cast<double>(trip.front_m)) > length_m + kOfLength_m) {
             xml_->refuse(node, fmt::format("departPos lies beyond edge '{}' of {:.2f} m", edge.id, length_m));
         }
-        if (!way.begins_within) return;
-        traffic_.warnings.note(xml_->where(node),
-                               "departPos on an edge that became the end of another one is not read: base is used");
+        const bool grown = grown_[at(way.edges[0])] != 0;
+        if (!way.begins_within && (trip.front_m >= 0.0F || !grown)) {
+            if (trip.front_m < 0.0F) trip.front_m = std::max(trip.front_m + static_cast<float>(length_m), 0.0F);
+            return;
+        }
+        traffic_.warnings.note(
+            xml_->where(node),
+            "departPos on an edge that became the end of another one, or from the end of one that others were "
+            "joined to, is not read: base is used");
         trip.along = Trip::Along::base;
     }
 
@@ -381,6 +391,7 @@ private:
     SumoRouter router_;
     double until_s_;
     std::uint64_t seed_;
+    std::vector<char> grown_;       // [edge] 1: others are its end
     const SumoXml* xml_ = nullptr;  // the file that is read
     bool additional_ = false;
     SumoTypes types_;

@@ -24,8 +24,8 @@ public:
     // What has been submitted and not worked off is dropped.
     ~SnapshotWorker();
 
-    // One to be filled in and submitted; waits while all are still to be worked off. The worker is woken for several at a time. What the work has thrown comes out here or
-    // in finish; nothing is worked on after it.
+    // One to be filled in and submitted; waits while all are still to be worked off. The worker is woken for several at a time.
+    // What the work has thrown comes out here or in finish; nothing is worked on after it.
     Snapshot& blank();
     void submit();
     // Waits until all is done; nothing can be submitted after it.

@@ -1,6 +1,7 @@
 // Vehicles with a way of their own (DemandPlan::trips): they enter when they are due and there is room, follow it edge by edge and leave at
 // the end of its last one.
 #include <algorithm>
+#include <bitset>
 #include <cmath>
 
 #include "base/arithmetic.h"
@@ -13,8 +14,8 @@ namespace {
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
-constexpr double kNearLine_m = 40.0;
-constexpr double kRounded_m = 0.01;  // places in files are: a queue that was written stands as it stood
+constexpr double kNearLine_m = 40.0;  // to the stop line, within which one that enters cannot be seen coming
+constexpr double kRounded_m = 0.01;   // places in files are: a queue that was written stands as it stood
 
 double free_m(const State& state, int lane) {
     const LaneBlock& block = state.blocks[at(lane)];
@@ -74,10 +75,8 @@ double entry_front_m(const Model& model, const State& state, int lane, int trip)
     switch (own.along) {
         case base:
             break;
-        case given: {
-            const auto front_m = static_cast<double>(own.front_m);
-            return on_lane(front_m < 0.0 ? model.graph.lanes[at(lane)].length_m + front_m : front_m);
-        }
+        case given:
+            return on_lane(static_cast<double>(own.front_m));
         case last: {
             if (block.count == 0) return on_lane(line_m - model.driver.stop.margin_m);
             const int policy = model.demand.trip_policies[at(trip)];
@@ -204,14 +203,14 @@ void enter_all(const Model& model, State& state, int approach) {
     constexpr std::size_t kLookedAt = 16;  // that cannot enter
     std::vector<int>& trips = state.waiting_trips[at(approach)];
     const std::size_t lanes = model.graph.approaches[at(approach)].lanes.size();
-    std::vector<int> full;
+    std::bitset<kLookedAt> full;  // by place of the lane; those further right share the last bit
     std::size_t kept = 0;
     std::size_t k = 0;
-    for (; k < trips.size() && full.size() < lanes && kept < kLookedAt; ++k) {
+    for (; k < trips.size() && full.count() < lanes && kept < kLookedAt; ++k) {
         const Spot spot = spot_of(model, state, trips[k]);
-        const bool is_full = std::find(full.begin(), full.end(), spot.lane) != full.end();
-        if (!is_full && enter(model, state, trips[k], spot)) continue;
-        if (!is_full) full.push_back(spot.lane);
+        const std::size_t place = std::min(at(state.plan.beside(spot.lane).place), kLookedAt - 1);
+        if (!full[place] && enter(model, state, trips[k], spot)) continue;
+        full.set(place);
         trips[kept++] = trips[k];
     }
     trips.erase(trips.begin() + static_cast<std::ptrdiff_t>(kept), trips.begin() + static_cast<std::ptrdiff_t>(k));

@@ -59,7 +59,7 @@ TEST(SumoRoutes, DeparturesHaveAPlace) {
     EXPECT_EQ(trip("departPos=\"random\"").along, Trip::Along::random);
     EXPECT_EQ(trip("departPos=\"random_free\"").along, Trip::Along::free);
     EXPECT_EQ(trip("departPos=\"-12.5\"").along, Trip::Along::given);
-    EXPECT_FLOAT_EQ(trip("departPos=\"-12.5\"").front_m, -12.5F);
+    EXPECT_FLOAT_EQ(trip("departPos=\"-12.5\"").front_m, 177.5F);  // of 190 m
     EXPECT_FLOAT_EQ(trip("departPos=\"190\"").front_m, 190.0F);
 }
 
