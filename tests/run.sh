@@ -46,6 +46,7 @@ run_fast_tests() {
 
 step "Packages: installing what is missing"
 bash apps/install_packages.sh quickstart tests
+bash tests/tools/install_clang_tidy.sh
 
 step "Release: building programs and tests"
 build release ON all

@@ -95,7 +95,7 @@ auto choice(std::string name, std::vector<std::string> names, std::string meanin
 
 // An enumeration whose enumerators 0, 1, 2, ... are called `names`.
 template <auto M>
-auto enumeration(std::string name, std::vector<std::string> names, std::string meaning) {
+auto enumeration(std::string name, const std::vector<std::string>& names, std::string meaning) {
     using S = field_rows::StructOf<M>;
     using T = field_rows::TypeOf<M>;
     static_assert(std::is_enum_v<T>);
