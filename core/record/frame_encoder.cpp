@@ -48,7 +48,6 @@ void FrameEncoder::start_section() {
     differing_.clear();
     known_.clear();
     now_.clear();
-    std::fill(guest_.begin(), guest_.end(), -1);
     std::fill(guest_seat_.begin(), guest_seat_.end(), -1);
     std::fill(lanes_.begin(), lanes_.end(), Snapshot::Slots{});
     std::fill(lights_.begin(), lights_.end(), Light::red);
@@ -58,13 +57,7 @@ void FrameEncoder::start_section() {
 void FrameEncoder::append(const Snapshot& shot, std::string& bytes) {
     for (Events& events : events_) events.clear();
     vacated_.clear();
-    const std::size_t slots = shot.position.size();
-    if (guest_.size() < slots) {
-        guest_.resize(slots, -1);
-        guest_seat_.resize(slots, -1);
-        position_before_.resize(slots, 0);
-        speed_before_.resize(slots, 0);
-    }
+    make_room(shot.lanes);
     note_lights(shot.tick);
     vacate_slots(shot);
     for (const Snapshot::Guest& guest : shot.guests) note_guest(guest);
@@ -78,6 +71,14 @@ void FrameEncoder::append(const Snapshot& shot, std::string& bytes) {
     entered_ = shot.entered;
     left_ = shot.left;
     append_columns(bytes);
+}
+
+void FrameEncoder::make_room(const std::vector<Snapshot::Slots>& lanes) {
+    std::size_t slots = 0;
+    for (const Snapshot::Slots& lane : lanes) slots = std::max(slots, at(lane.stop()));
+    if (slots <= guest_seat_.size()) return;
+    guest_seat_.resize(slots, -1);
+    motion_before_.resize(slots, kToLookAt);
 }
 
 void FrameEncoder::note_lights(std::int64_t tick) {
@@ -98,18 +99,18 @@ void FrameEncoder::vacate_slots(const Snapshot& shot) {
         const Snapshot::Slots now = shot.lanes[lane];
         const Snapshot::Slots before = lanes_[lane];
         vehicle_states_ += now.count;
+        lanes_[lane] = now;
         if (before == now) continue;
         for (int slot = before.first; slot < before.stop(); ++slot) {
             if (slot < now.first || slot >= now.stop()) vacate(slot);
         }
-        lanes_[lane] = now;
     }
 }
 
 // Whoever was seen in that slot is elsewhere now, or nowhere.
 void FrameEncoder::vacate(int slot) {
     if (guest_seat_[at(slot)] >= 0) vacated_.push_back(guest_seat_[at(slot)]);
-    guest_[at(slot)] = guest_seat_[at(slot)] = -1;
+    guest_seat_[at(slot)] = -1;
 }
 
 void FrameEncoder::note_guest(const Snapshot::Guest& guest) {
@@ -122,9 +123,8 @@ void FrameEncoder::note_guest(const Snapshot::Guest& guest) {
         move(seat, guest.lane, guest.next_lane);
     }
     seats_[at(seat)].slot = guest.slot;
-    guest_[at(guest.slot)] = guest.vehicle;
     guest_seat_[at(guest.slot)] = seat;
-    speed_before_[at(guest.slot)] = 1;
+    motion_before_[at(guest.slot)] = kToLookAt;
 }
 
 // It may have learnt only now where it goes on.
@@ -132,28 +132,22 @@ void FrameEncoder::note_past_line(const Snapshot::PastLine& one) {
     const int seat = guest_seat_[at(one.slot)];
     if (seats_[at(seat)].next == one.next_lane) return;
     move(seat, one.lane, one.next_lane);
-    speed_before_[at(one.slot)] = 1;
+    motion_before_[at(one.slot)] = kToLookAt;
 }
 
-// Half of all vehicles rest in queues: they are left out many at a time.
+// Half of all vehicles rest in queues, and are left out.
 void FrameEncoder::note_motion(const Snapshot& shot) {
-    const std::size_t slots = shot.position.size();
-    moves_.resize(slots);
-    const int* const position = shot.position.data();
-    const int* const speed = shot.speed.data();
-    int* const position_before = position_before_.data();
-    int* const speed_before = speed_before_.data();
-    char* const moves = moves_.data();
-    for (std::size_t i = 0; i < slots; ++i) {
-        moves[i] = static_cast<char>((position[i] != position_before[i]) | ((speed[i] | speed_before[i]) != 0));
-        position_before[i] = position[i];
-        speed_before[i] = speed[i];
-    }
-    for (std::size_t i = 0; i < slots; ++i) {
-        if (moves[i] == 0 || guest_seat_[i] < 0) continue;
-        const std::size_t seat = at(guest_seat_[i]);
-        now_[seat] = {static_cast<std::uint16_t>(position[i]), static_cast<std::uint16_t>(speed[i])};
-        differing_[seat / 64] |= std::uint64_t{1} << (seat % 64);
+    const std::uint32_t* motion = shot.motion.data();
+    for (const Snapshot::Slots& slots : lanes_) {
+        for (std::size_t i = at(slots.first); i < at(slots.stop()); ++i) {
+            const std::uint32_t now = *motion++;
+            const std::uint32_t before = motion_before_[i];
+            motion_before_[i] = now;
+            if (now == before && speed_of(now) == 0) continue;
+            const std::size_t seat = at(guest_seat_[i]);
+            now_[seat] = {static_cast<std::uint16_t>(position_of(now)), static_cast<std::uint16_t>(speed_of(now))};
+            differing_[seat / 64] |= std::uint64_t{1} << (seat % 64);
+        }
     }
 }
 
@@ -229,9 +223,7 @@ void FrameEncoder::note_causes(const Snapshot& shot) {
 void FrameEncoder::look_at_standing(const Snapshot& shot) {
     for (const int seat : waiting_) waits_[at(seat)].seen = false;
     for (const Snapshot::Standing& one : shot.standing) {
-        // Mostly it has not moved since; where it has, it is found by its number.
-        const bool there = guest_[at(one.slot)] == one.vehicle;
-        const int seat = there ? guest_seat_[at(one.slot)] : seat_of(one.vehicle);
+        const int seat = seat_of(one.vehicle);
         if (seat < 0) continue;
         Wait& wait = waits_[at(seat)];
         wait.reason = {one.cause, one.waited_for};

@@ -55,6 +55,10 @@ private:
     };
     enum Kind : std::size_t { lights, left, came, moved, waits, kinds };
 
+    // A motion that no vehicle has, nor had when it was looked at last.
+    static constexpr std::uint32_t kToLookAt = 0xFFFFFFFF;
+
+    void make_room(const std::vector<Snapshot::Slots>& lanes);
     void note_lights(std::int64_t tick);
     void vacate_slots(const Snapshot& shot);
     void vacate(int slot);
@@ -77,12 +81,9 @@ private:
     std::vector<Seat> seats_;
     std::vector<int> free_;     // seats, the one to take next at the back
     std::vector<int> seat_of_;  // [vehicle] -1: none
-    // [slot] in the frame before: who was there, and how. A speed other than 0 says that it is to be looked at again.
-    std::vector<int> guest_;
+    // [slot] in the frame before: the seat of who was there, and how it moved.
     std::vector<int> guest_seat_;
-    std::vector<int> position_before_;
-    std::vector<int> speed_before_;
-    std::vector<char> moves_;               // [slot] to be looked at
+    std::vector<std::uint32_t> motion_before_;
     std::vector<Snapshot::Slots> lanes_;    // [lane] in the frame before
     std::vector<int> vacated_;              // seats whose slot is another's now: they moved, or left
     std::vector<Wait> waits_;               // [seat]

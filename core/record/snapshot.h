@@ -36,10 +36,9 @@ struct Snapshot {
         int next_lane = -1;
     };
     struct Standing {
-        int slot = -1;     // now another's perhaps
-        int vehicle = -1;  // its number
+        int vehicle = -1;     // its number
+        int waited_for = -1;  // that of another; -1: none
         Cause cause = Cause::none;
-        int waited_for = -1;  // number of a vehicle; -1: none
     };
 
     std::int64_t tick = 0;
@@ -48,11 +47,14 @@ struct Snapshot {
     std::vector<Slots> lanes;  // [lane]
     std::vector<Guest> guests;
     std::vector<PastLine> past_line;
-    // [slot] of the front from the lane's start, in units of the header, 16 bits; where there is no vehicle it means nothing.
-    std::vector<int> position;
-    std::vector<int> speed;          // in the same way
+    // Of every vehicle, lane by lane and each in the order of its slots: position of the front from the lane's start, and speed
+    // above it, 16 bits each, in units of the header.
+    std::vector<std::uint32_t> motion;
     std::vector<Standing> standing;  // at the last look at hindrance
 };
+
+constexpr std::uint32_t position_of(std::uint32_t motion) { return motion & 0xFFFFU; }
+constexpr std::uint32_t speed_of(std::uint32_t motion) { return motion >> 16U; }
 
 class SnapshotTaker {
 public:
@@ -64,14 +66,14 @@ public:
     void take(const State& state, bool with_standing, Snapshot& shot);
 
 private:
-    void note_lanes(const State& state, Snapshot& shot);
+    std::size_t note_lanes(const State& state, Snapshot& shot);
     void note_guests(const VehicleArrays& vehicles, int lane, Snapshot& shot);
-    void note_motion(const VehicleArrays& vehicles, const Snapshot::Slots& slots, Snapshot& shot) const;
+    void note_past_line(const VehicleArrays& vehicles, int lane, const std::uint32_t* motion, Snapshot& shot) const;
 
     double positions_per_m_;
-    std::vector<int> stop_line_;          // [lane] behind it vehicles are drawn on the lane that follows
-    std::vector<Snapshot::Slots> lanes_;  // [lane] in the snapshot before
-    std::vector<int> guest_;              // [slot] in the snapshot before; -1: nobody
+    std::vector<std::uint32_t> stop_line_;  // [lane] behind it vehicles are drawn on the lane that follows
+    std::vector<Snapshot::Slots> lanes_;    // [lane] in the snapshot before
+    std::vector<int> guest_;                // [slot] in the snapshot before; -1: nobody
 };
 
 // The tick of the last look at hindrance, which is so often, before a state at that tick; -1: none.

@@ -20,8 +20,11 @@ SnapshotWorker::~SnapshotWorker() {
 void SnapshotWorker::run() {
     std::unique_lock lock(mutex_);
     while (true) {
-        changed_.wait(lock, [this] { return no_more_ || !due_.empty(); });
-        if (due_.empty()) return;
+        if (due_.empty()) {
+            if (no_more_) return;
+            changed_.wait_for(lock, kNap, [this] { return no_more_ || due_.size() >= kManyDue; });
+            continue;
+        }
         Snapshot* const shot = due_.front();
         due_.pop_front();
         std::exception_ptr error;
@@ -41,7 +44,6 @@ void SnapshotWorker::run() {
 
 Snapshot& SnapshotWorker::blank() {
     std::unique_lock lock(mutex_);
-    if (blank_.empty()) changed_.notify_all();
     changed_.wait(lock, [this] { return !blank_.empty() || error_; });
     rethrow();
     filled_in_ = blank_.back();
@@ -54,7 +56,7 @@ void SnapshotWorker::submit() {
     {
         const std::scoped_lock lock(mutex_);
         due_.push_back(filled_in_);
-        enough = due_.size() == kTogether;
+        enough = due_.size() == kManyDue;
     }
     if (enough) changed_.notify_all();
 }

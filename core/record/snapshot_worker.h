@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <exception>
@@ -24,8 +25,8 @@ public:
     // What has been submitted and not worked off is dropped.
     ~SnapshotWorker();
 
-    // One to be filled in and submitted; waits while all are still to be worked off. The worker is woken for several at a time.
-    // What the work has thrown comes out here or in finish; nothing is worked on after it.
+    // One to be filled in and submitted; waits while all are still to be worked off. What the work has thrown comes out here or
+    // in finish; nothing is worked on after it.
     Snapshot& blank();
     void submit();
     // Waits until all is done; nothing can be submitted after it.
@@ -37,8 +38,11 @@ private:
     void rethrow();
 
     // So many that the run seldom waits while a section is compressed.
-    static constexpr std::size_t kShots = 12;
-    static constexpr std::size_t kTogether = 4;
+    static constexpr std::size_t kShots = 24;
+    // The worker looks by itself now and then: waking it costs the run more than the copy of a snapshot does, so it is woken
+    // only when so many are due.
+    static constexpr std::chrono::milliseconds kNap{2};
+    static constexpr std::size_t kManyDue = kShots / 2;
     std::array<Snapshot, kShots> shots_;
     std::vector<Snapshot*> blank_;  // the one worked off last, whose memory is nearest, at the back
     Snapshot* filled_in_ = nullptr;
