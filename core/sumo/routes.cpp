@@ -25,7 +25,11 @@ struct Trip {
 class RouteWriter : public RunWriter {
 public:
     RouteWriter(std::filesystem::path file, const Model& model, const PlainNetwork& network)
-        : file_(std::move(file)), model_(model), network_(network) {}
+        : file_(std::move(file)), model_(model), network_(network), edges_after_(network.edges.size()) {
+        for (const PlainConnection& c : network.connections) {
+            edges_after_[at(network.place_of[at(c.from)].edge)].push_back(network.place_of[at(c.to)].edge);
+        }
+    }
 
     void look(const State& state) override {
         for (int lane = 0; lane < static_cast<int>(state.blocks.size()); ++lane) {
@@ -67,7 +71,33 @@ private:
     void add_edge_of(int lane, std::vector<int>& edges) const {
         if (model_.graph.lanes[at(lane)].origin >= 0) return;
         const int edge = network_.place_of[at(lane)].edge;
-        if (edges.empty() || edges.back() != edge) edges.push_back(edge);
+        if (edges.empty()) {
+            edges.push_back(edge);
+        } else if (edges.back() != edge) {
+            add_way_to(edge, edges);
+        }
+    }
+
+    // Those that the rules moved on were not seen on the edges between: they are given the way of fewest edges.
+    void add_way_to(int edge, std::vector<int>& edges) const {
+        const int start = edges.back();
+        const std::vector<int>& after = edges_after_[at(start)];
+        if (std::find(after.begin(), after.end(), edge) != after.end()) {
+            edges.push_back(edge);
+            return;
+        }
+        std::vector<int> before(edges_after_.size(), -1);
+        std::vector<int> reached = {start};
+        for (std::size_t k = 0; k < reached.size() && before[at(edge)] < 0; ++k) {
+            for (const int next : edges_after_[at(reached[k])]) {
+                if (before[at(next)] >= 0 || next == start) continue;
+                before[at(next)] = reached[k];
+                reached.push_back(next);
+            }
+        }
+        const auto end = static_cast<std::ptrdiff_t>(edges.size());
+        edges.push_back(edge);
+        for (int k = before[at(edge)]; k >= 0 && k != start; k = before[at(k)]) edges.insert(edges.begin() + end, k);
     }
 
     // Who is still under way at the end goes on as it was going to, and then straight on out of the network: nobody leaves in the
@@ -90,13 +120,21 @@ private:
         return edges;
     }
 
+    bool changes_lanes() const {
+        const std::vector<Lane>& lanes = model_.graph.lanes;
+        return std::any_of(lanes.begin(), lanes.end(),
+                           [](const Lane& lane) { return lane.left >= 0 || lane.right >= 0; });
+    }
+
     void add_type(XmlFile& xml, std::size_t policy) const {
         const Krauss& k = model_.krauss[policy];
         xml.add(
             "    <vType id=\"{}\" carFollowModel=\"Krauss\" accel=\"{:.4f}\" decel=\"{:.4f}\" tau=\"{:.4f}\" sigma=\"{:.4f}\" "
-            "minGap=\"{:.3f}\" length=\"{:.3f}\" maxSpeed=\"70\" speedFactor=\"{:.4f}\" speedDev=\"0\"/>",
+            "minGap=\"{:.3f}\" length=\"{:.3f}\" maxSpeed=\"70\" speedFactor=\"{:.4f}\" speedDev=\"0\" jmStoplineGap=\"{:.3f}\"{}/>",
             xml_escaped(model_.policies[policy].settings.name), k.acceleration_mps2, k.deceleration_mps2, k.reaction_s,
-            k.dawdling, k.standstill_gap_m + k.band_m, model_.vehicles[0].length_m, model_.speed_factor);
+            k.dawdling, k.standstill_gap_m + k.band_m, model_.vehicles[0].length_m, model_.speed_factor,
+            model_.driver.stop.margin_m,
+            changes_lanes() ? "" : R"( lcSpeedGain="0" lcKeepRight="0" lcCooperative="0")");
         // SUMO has no model of a constant distance.
         xml.add("{}\n", k.constant_distance ? " <!-- keeps a constant distance with us: this is the nearest -->" : "");
     }
@@ -116,7 +154,8 @@ private:
     std::filesystem::path file_;
     const Model& model_;
     const PlainNetwork& network_;
-    std::map<int, Trip> trips_;  // by number
+    std::vector<std::vector<int>> edges_after_;  // [edge]
+    std::map<int, Trip> trips_;                  // by number
 };
 
 }  // namespace

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <sstream>
 
 #include "base/input_error.h"
 #include "experiment/build_model.h"
 #include "network/sumo_xml.h"
 #include "scenario/load_scenario.h"
 #include "scenario/scenario_text.h"
+#include "sim/simulation.h"
 #include "sumo/edges.h"
 #include "sumo/facts.h"
 #include "sumo/inputs.h"
@@ -131,6 +133,40 @@ TEST(SumoInputs, LightsThatDoNotRepeatLastAsLongAsTheRun) {
     }
     EXPECT_GT(green_s, 0.0);
     EXPECT_NEAR(green_s, expected_s, 1e-6);
+}
+
+// Those too that the rules moved on over some edges.
+TEST(SumoInputs, WaysOfVehiclesLeadFromEdgeToEdge) {
+    const Model model =
+        model_of("grid.yaml", {"network.grid.columns=3", "network.grid.rows=3", "network.grid.column_spacing=150 m",
+                               "network.grid.row_spacing=150 m", "network.intersection.approach_length=150 m",
+                               "demand.left=15 %", "signal.green=20 s", "rules.teleport_cycles=1"});
+    const PlainNetwork network = plain_network(model.graph);
+    std::set<std::pair<std::string, std::string>> connected;
+    for (const PlainConnection& c : network.connections) {
+        connected.emplace(network.edges[at(network.place_of[at(c.from)].edge)].id,
+                          network.edges[at(network.place_of[at(c.to)].edge)].id);
+    }
+    const TemporaryFolder folder;
+    const auto writer = make_sumo_route_writer(folder.path() / "v.rou.xml", model, network);
+    Simulation simulation(model);
+    while (simulation.time_s() < 900.0) {
+        writer->look(simulation.state());
+        simulation.step();
+    }
+    writer->finish();
+    ASSERT_GT(simulation.state().hindrance.taken_out, 5);
+
+    const SumoXml xml(folder.path() / "v.rou.xml", {"routes"});
+    int vehicles = 0;
+    for (const pugi::xml_node vehicle : xml.root().children("vehicle")) {
+        ++vehicles;
+        std::istringstream edges(xml.text(vehicle.child("route"), "edges"));
+        std::string from;
+        edges >> from;
+        for (std::string to; edges >> to; from = to) EXPECT_TRUE(connected.count({from, to})) << from << " " << to;
+    }
+    EXPECT_GT(vehicles, 500);
 }
 
 TEST(RunSummary, SumsUpWhatLiesWithinTheWindow) {
