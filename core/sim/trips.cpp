@@ -63,11 +63,20 @@ double drawn_along(const Model& model, const State& state, int trip) {
     return random_uniform(model.seed, static_cast<std::uint64_t>(trip), draw, Purpose::insertion);
 }
 
+// The furthest place from where it can still give way.
+double furthest_entry_m(const Model& model, const State& state, int lane, int trip) {
+    const Lane& road = model.graph.lanes[at(lane)];
+    const int route = state.plan.beside(lane).way(model.demand.turn_of_trip(trip, 0)).route;
+    if (route < 0 || state.plan.route(route).size() < 2) return road.stop_line_m;
+    const double first_area_m = state.plan.lane(state.plan.route(route)[1]).first_area_m;
+    return std::max(std::min(road.stop_line_m, road.length_m + first_area_m - model.give_way.margin_m), 0.0);
+}
+
 // Behind vehicles that may come its rear is on the lane.
 double entry_front_m(const Model& model, const State& state, int lane, int trip) {
     using enum Trip::Along;
     const Trip& own = model.demand.trips[at(trip)];
-    const double line_m = model.graph.lanes[at(lane)].stop_line_m;
+    const double line_m = furthest_entry_m(model, state, lane, trip);
     const double base_m = std::min(static_cast<double>(own.length_m), line_m);
     const double least_m = model.leads_to[at(lane)].empty() ? 0.0 : base_m;
     const LaneBlock& block = state.blocks[at(lane)];
@@ -120,7 +129,7 @@ Leader leader_of(const Model& model, const State& state, const Spot& spot, const
 // Whether whoever would follow it keeps a gap in which it can brake gently.
 bool follower_has_room(const Model& model, const State& state, const Spot& spot, double rear_m, double speed_mps) {
     const LaneBlock& block = state.blocks[at(spot.lane)];
-    if (spot.place == block.count) return !somebody_comes(model, state, spot.lane, std::max(rear_m, 0.0));
+    if (spot.place == block.count) return !somebody_comes(model, state, spot.lane, rear_m);
     const VehicleArrays& v = state.vehicles;
     const std::size_t follower = at(block.first + spot.place);
     const double follower_mps = v.speed_mps[follower];

@@ -100,6 +100,22 @@ TEST(SumoEntry, AnywhereInDenseTrafficTouchesNobody) {
     }
 }
 
+// Their rears reach back into the junction, where others crawl.
+TEST(SumoEntry, OnEdgesShorterThanAVehicleTouchesNobody) {
+    const SumoFiles files;
+    files.write("my.net.xml", testing::replaced(testing::merge_net("0.2"), R"(:J_1_0" index="0" speed="13.89")",
+                                                R"(:J_1_0" index="0" speed="0.5")"));
+    files.write("my.rou.xml", R"(<routes><flow id="b" begin="0" end="600" period="20" from="b" to="c"/>
+<flow id="s" begin="0" end="600" period="13" from="s" to="c"/></routes>)");
+    const Scenario scenario = parse_scenario(
+        std::string(kMeso) + "duration: 600 s\nnetwork: {kind: sumo, net: ./my.net.xml, routes: [./my.rou.xml]}\n" +
+            "populations: [CTG-Ref]\nmeasure: {steady: 300 s}\n",
+        "my.yaml", {}, files.folder());
+    const NetworkFigures f = run_network(scenario, 0, {}, 1, {});
+    EXPECT_TRUE(f.violations.none()) << f.violations.overlaps;
+    EXPECT_GT(f.left_network, 25);
+}
+
 TEST(SumoEntry, OnOneLaneDoesNotWaitForTheOther) {
     // Twenty cannot stand on the right lane behind one that nearly blocks its start; the left one is free.
     const std::string blocker = R"(<trip id="slow" depart="0" from="w_in" to="e_out" departPos="8" departSpeed="0"/>)";
