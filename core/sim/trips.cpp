@@ -198,6 +198,7 @@ bool enter(const Model& model, State& state, int trip, const Spot& spot) {
     const int slot =
         put_on_lane(model, state, {spot.lane, spot.front_m, speed_mps, own.length_m, policy, route, false});
     state.vehicles.record[at(slot)].trip = trip;
+    state.vehicles.record[at(slot)].inside_since = static_cast<int>(state.tick);
     follow_trip(model, state, spot.lane, slot, 0);
     begin_to_drive(model, state, spot.lane, slot);
     const LaneBlock& block = state.blocks[at(spot.lane)];
