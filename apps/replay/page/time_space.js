@@ -144,7 +144,7 @@ class TimeSpace {
         }
         ctx.fillText('time [s]', plot.x + plot.width / 2, plot.y + plot.height + 28 * this.ratio);
         ctx.textAlign = 'right';
-        const step_m = this.street.length_m > 1200 ? 500 : this.street.length_m > 500 ? 200 : 100;
+        const step_m = [100, 200, 500, 1000, 2000, 5000].find((step) => this.street.length_m <= 10 * step) ?? 10000;
         for (let at_m = 0; at_m <= this.street.length_m; at_m += step_m) {
             const y = plot.y + plot.height * (1 - at_m / this.street.length_m);
             ctx.fillText(`${at_m}`, plot.x - 4 * this.ratio, y + 4 * this.ratio);
