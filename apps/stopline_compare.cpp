@@ -43,7 +43,10 @@ void declare(CLI::App& app, CompareOptionsOfUser& options) {
             "\nBoth get the same network, lights and vehicles: those that entered in our run, when and where they "
             "did.\n\nExamples:\n"
             "  stopline-compare scenarios/intersection.yaml\n"
-            "  stopline-compare scenarios/grid.yaml --set 'duration=900 s' --set 'measure.steady=600 s'\n\n") +
+            "  stopline-compare scenarios/grid.yaml --set 'duration=900 s' --set 'measure.steady=600 s'\n\n"
+            "Like with like, without what is ours alone (the project's README says what and why):\n"
+            "  stopline-compare scenarios/intersection.yaml --set meso=table2 --set 'driver.free_drive.hesitation=0 s' \\\n"
+            "      --set 'driver.stop.deceleration=4.7 m/s2' --set 'driver.stop.decision_deceleration=5.3 m/s2'\n\n") +
         kExitCodesText);
 }
 
@@ -67,7 +70,8 @@ std::string band_cells(const ComparedMetric& metric, Band band, std::string& ins
 }
 
 void print(const Comparison& comparison) {
-    fmt::print("{}, {} seeds, from {:g} to {:g} s\n\n", comparison.population, comparison.runs.size(),
+    const std::size_t seeds = comparison.runs.size();
+    fmt::print("{}, {} seed{}, from {:g} to {:g} s\n\n", comparison.population, seeds, seeds == 1 ? "" : "s",
                comparison.from_s, comparison.to_s);
     TextTable table;
     table.row({"", "Stopline", "SUMO", "difference", "band student", "inside", "band paper", "inside"});
@@ -82,6 +86,7 @@ void print(const Comparison& comparison) {
                    in_paper});
     }
     fmt::print("{}", table.text());
+    if (!comparison.note.empty()) fmt::print("\n{}\n", comparison.note);
 }
 
 ExitCode run(const CompareOptionsOfUser& options) {

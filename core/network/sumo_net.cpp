@@ -143,6 +143,11 @@ private:
             xml_.refuse(node, fmt::format("junction '{}': request {} does not have a bit for each of {} links",
                                           junction.id, k, expected));
         }
+        const bool ruled = type != "dead_end" && type != "unregulated";
+        if (ruled && expected < at(link)) {
+            xml_.refuse(node, fmt::format("junction '{}' has {} links in intLanes, but requests for {}", junction.id,
+                                          link, expected));
+        }
         net_.junctions.push_back(std::move(junction));
     }
 

@@ -86,9 +86,15 @@ std::vector<ComparedMetric> Comparison::metrics() const {
 
 Comparison compare_with_sumo(const Scenario& scenario, std::size_t population, const std::filesystem::path& folder,
                              const CompareOptions& options) {
-    if (!has_sumo()) throw InputError("SUMO is not installed: pip install eclipse-sumo, and put its bin into PATH");
+    check_exportable(scenario);
+    if (!has_sumo()) {
+        throw InputError(
+            "SUMO is not installed, or does not run: pip install eclipse-sumo, and put its bin into PATH; 'sumo --version' "
+            "and 'netconvert --version' must work");
+    }
     Comparison comparison;
     comparison.population = scenario.populations.at(population).name;
+    comparison.note = stand_in_note(build_model(scenario, population));
     comparison.to_s = run_end_s(scenario);
     comparison.from_s = options.from_s < 0.0 ? measured_from_s(scenario, comparison.to_s) : options.from_s;
     if (comparison.from_s >= comparison.to_s) {

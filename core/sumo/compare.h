@@ -32,6 +32,7 @@ struct ComparedMetric {
 };
 
 struct Comparison {
+    std::string note = {};  // what SUMO cannot do of this population
     std::string population;
     double from_s = 0.0;  // what is before is not compared
     double to_s = 0.0;

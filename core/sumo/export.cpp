@@ -1,5 +1,7 @@
 #include "sumo/export.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "base/child_process.h"
@@ -54,8 +56,23 @@ std::vector<std::string> run_watched(Simulation& simulation, double end_s,
     return said;
 }
 
+void check_exportable(const Scenario& scenario) {
+    if (scenario.network.kind != "sumo") return;
+    throw InputError("networks of the kind 'sumo' are not exported: the scenario names the files that SUMO runs");
+}
+
+std::string stand_in_note(const Model& model) {
+    const bool keeps_distance =
+        std::any_of(model.krauss.begin(), model.krauss.end(), [](const Krauss& k) { return k.constant_distance; });
+    return keeps_distance
+               ? "SUMO has no model of a constant distance: such vehicles run there with a time gap of nearly 0 s, and "
+                 "collide by its count."
+               : "";
+}
+
 std::string export_to_sumo(const Scenario& scenario, std::size_t population, const std::filesystem::path& folder,
                            const std::function<bool(double)>& on_progress) {
+    check_exportable(scenario);
     const Model model = build_model(scenario, population);
     const PlainNetwork network = plain_network(model.graph);
     const double end_s = run_end_s(scenario);
@@ -63,7 +80,9 @@ std::string export_to_sumo(const Scenario& scenario, std::size_t population, con
     std::vector<std::unique_ptr<RunWriter>> writers;
     writers.push_back(make_sumo_route_writer(folder / "vehicles.rou.xml", model, network));
     Simulation simulation(model);
-    return run_watched(simulation, end_s, writers, on_progress)[0];
+    const std::string vehicles = run_watched(simulation, end_s, writers, on_progress)[0];
+    const std::string note = stand_in_note(model);
+    return note.empty() ? vehicles : vehicles + "\n" + note;
 }
 
 std::size_t population_index(const Scenario& scenario, const std::string& name) {

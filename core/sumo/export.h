@@ -22,7 +22,13 @@ std::vector<std::string> run_watched(Simulation& simulation, double end_s,
                                      const std::vector<std::unique_ptr<RunWriter>>& writers,
                                      const std::function<bool(double)>& on_progress);
 
-// Writes all files but the network itself (sumo/inputs.h). Needs `fidelity: meso`. Says how many vehicles.
+// Throws InputError for networks of the kind 'sumo': they are SUMO's files already.
+void check_exportable(const Scenario& scenario);
+
+// What SUMO cannot do that this population does, as a sentence; empty: nothing.
+std::string stand_in_note(const Model& model);
+
+// Writes all files but the network itself (sumo/inputs.h). Needs `fidelity: meso`. Says how many vehicles, and what SUMO cannot do.
 std::string export_to_sumo(const Scenario& scenario, std::size_t population, const std::filesystem::path& folder,
                            const std::function<bool(double)>& on_progress);
 

@@ -229,6 +229,7 @@ INSTANTIATE_TEST_SUITE_P(
         Hostile{"state=\"ryyy\"", "state=\"ryXy\"", ":34: state has the letter 'X'"},
         Hostile{"duration=\"4\"", "duration=\"-4\"", ":34: duration"},
         Hostile{"response=\"1110\"", "response=\"110\"", "request 0 does not have a bit for each of 4 links"},
+        Hostile{"intLanes=\"", "intLanes=\":J_9_0 ", "has 5 links in intLanes, but requests for 4"},
         Hostile{"request index=\"1\"", "request index=\"2\"", "requests are not numbered"},
         Hostile{"<net version=\"1.20\"", "<net version=\"1.20\" lefthand=\"true\"", "left-hand"}));
 

@@ -12,6 +12,7 @@
 #include "scenario/scenario_text.h"
 #include "sim/simulation.h"
 #include "sumo/edges.h"
+#include "sumo/export.h"
 #include "sumo/facts.h"
 #include "sumo/inputs.h"
 
@@ -80,6 +81,22 @@ TEST(PlainNetwork, WaysFromStopLineToExitKeepTheirLength) {
 }
 
 TEST(PlainNetwork, RefusesPockets) { EXPECT_THROW(plain_network(model_of("berlin.yaml").graph), InputError); }
+
+TEST(SumoExport, RefusesNetworksThatAreSumosAlready) {
+    Scenario scenario = load_scenario(STOPLINE_SOURCE_DIR "/scenarios/single_light.yaml", {});
+    EXPECT_NO_THROW(check_exportable(scenario));
+    scenario.network.kind = "sumo";
+    EXPECT_THROW(check_exportable(scenario), InputError);
+}
+
+TEST(SumoExport, SaysWhatSumoCannotDo) {
+    const Scenario scenario = load_scenario(STOPLINE_SOURCE_DIR "/scenarios/single_light.yaml", {"fidelity=meso"});
+    for (std::size_t k = 0; k < scenario.populations.size(); ++k) {
+        const bool says = !stand_in_note(build_model(scenario, k)).empty();
+        const std::string& name = scenario.populations[k].name;
+        EXPECT_EQ(says, name.rfind("CTG", 0) != 0) << name;
+    }
+}
 
 // Every link has a letter in every phase, and the phases make up the cycle.
 TEST(SumoInputs, LightsAreThoseOfTheModel) {
