@@ -68,7 +68,8 @@ bool blocked(const State& state, int slot) {
            gap_m < kCloseBehind_m;
 }
 
-// The same of one past the stop line on the way to `lane`, where the first of those that stand in front waits for others.
+// The same of one past the stop line on the way to `lane`, where the first of those that stand in front waits for others; on
+// imported networks maybe to go another way from the stretch that they share.
 bool behind_held(const State& state, int lane, const Insider& w) {
     constexpr int kMost = 8;  // vehicles inside, one behind the other
     int slot = w.slot;
@@ -77,8 +78,11 @@ bool behind_held(const State& state, int lane, const Insider& w) {
         const LaneBlock& block = state.blocks[at(on)];
         if (slot == block.first) {
             slot = vehicle_ahead(state, on, slot, kSeen_m).slot;
+            if (slot < 0) return false;
             const LaneBlock& inside = state.blocks[at(lane)];
-            if (slot < inside.first || slot >= inside.stop()) return false;
+            if (slot < inside.first || slot >= inside.stop()) {
+                return state.vehicles.record[at(slot)].trip >= 0 && held(state, slot);
+            }
             on = lane;
         } else {
             --slot;

@@ -150,6 +150,20 @@ TEST(SumoRun, GivesWayToThoseWhoComeOverAnEmptyShortEdge) {
 }
 
 // Those from a never have green.
+// Each gives way to one that stands behind the other.
+TEST(SumoRun, OpposingLeftTurnersDoNotWaitForThoseBehindEachOther) {
+    const Scenario scenario = scenario_of(testing::opposing_lefts_net(),
+                                          R"(<flow id="wl" from="w" to="to_n" period="12" end="240" departSpeed="max"/>
+<flow id="el" from="e" to="to_s" period="12" end="240" departSpeed="max"/>
+<flow id="ws" from="w" to="to_e" period="3" begin="1" end="240" departSpeed="max"/>
+<flow id="es" from="e" to="to_w" period="3" begin="1" end="240" departSpeed="max"/>)");
+    for (std::size_t population = 0; population < 2; ++population) {
+        const NetworkFigures f = run_network(scenario, population, {}, 1, {});
+        EXPECT_TRUE(f.violations.none()) << population;
+        EXPECT_GT(f.left_network, 100) << population;  // 0 if they do
+    }
+}
+
 TEST(SumoRun, WhoIsMovedOnIsNotPutOnAnEdgeThatIsTooShort) {
     std::string net = testing::merge_net("0.5");
     net = testing::replaced(net, "<junction id=\"J\" type=\"priority\"",

@@ -183,7 +183,33 @@ inline std::string lane_drop_net() {
 )";
 }
 
-// The same with lights; the phases are for links 0 to 3.
+// Two streets of one lane, from west and east, where those who turn left, to the north and the south, wait inside for the others.
+inline std::string opposing_lefts_net() {
+    return R"(<net version="1.20">
+<edge id=":J_0" function="internal"><lane id=":J_0_0" index="0" speed="13.89" length="24" shape="-12,-3.2 12,-3.2"/></edge>
+<edge id=":J_1" function="internal"><lane id=":J_1_0" index="0" speed="7" length="23" shape="-12,-3.2 -7,-2.2 -4,-0.6 -1,2 3.2,7 3.2,12"/></edge>
+<edge id=":J_2" function="internal"><lane id=":J_2_0" index="0" speed="13.89" length="24" shape="12,3.2 -12,3.2"/></edge>
+<edge id=":J_3" function="internal"><lane id=":J_3_0" index="0" speed="7" length="23" shape="12,3.2 7,2.2 4,0.6 1,-2 -3.2,-7 -3.2,-12"/></edge>
+<edge id="w" from="W" to="J"><lane id="w_0" index="0" speed="13.89" length="100" shape="-112,-3.2 -12,-3.2"/></edge>
+<edge id="e" from="E" to="J"><lane id="e_0" index="0" speed="13.89" length="100" shape="112,3.2 12,3.2"/></edge>
+<edge id="to_e" from="J" to="E"><lane id="to_e_0" index="0" speed="13.89" length="100" shape="12,-3.2 112,-3.2"/></edge>
+<edge id="to_w" from="J" to="W"><lane id="to_w_0" index="0" speed="13.89" length="100" shape="-12,3.2 -112,3.2"/></edge>
+<edge id="to_n" from="J" to="N"><lane id="to_n_0" index="0" speed="13.89" length="100" shape="3.2,12 3.2,112"/></edge>
+<edge id="to_s" from="J" to="S"><lane id="to_s_0" index="0" speed="13.89" length="100" shape="-3.2,-12 -3.2,-112"/></edge>
+<junction id="J" type="priority" x="0" y="0" incLanes="w_0 e_0" intLanes=":J_0_0 :J_1_0 :J_2_0 :J_3_0" shape="0,0 1,1">
+<request index="0" response="0000" foes="1000" cont="0"/><request index="1" response="0100" foes="0100" cont="1"/>
+<request index="2" response="0000" foes="0010" cont="0"/><request index="3" response="0001" foes="0001" cont="1"/></junction>
+<connection from="w" to="to_e" fromLane="0" toLane="0" via=":J_0_0" dir="s" state="M"/>
+<connection from="w" to="to_n" fromLane="0" toLane="0" via=":J_1_0" dir="l" state="m"/>
+<connection from="e" to="to_w" fromLane="0" toLane="0" via=":J_2_0" dir="s" state="M"/>
+<connection from="e" to="to_s" fromLane="0" toLane="0" via=":J_3_0" dir="l" state="m"/>
+<connection from=":J_0" to="to_e" fromLane="0" toLane="0" dir="s" state="M"/>
+<connection from=":J_1" to="to_n" fromLane="0" toLane="0" dir="l" state="M"/>
+<connection from=":J_2" to="to_w" fromLane="0" toLane="0" dir="s" state="M"/>
+<connection from=":J_3" to="to_s" fromLane="0" toLane="0" dir="l" state="M"/></net>)";
+}
+
+// The same as the crossing with lights; the phases are for links 0 to 3.
 inline std::string signal_net(const std::string& phases) {
     std::string text = crossing_net();
     text = replaced(text, "    <junction id=\"J\" type=\"priority\"",
