@@ -78,11 +78,9 @@ bool behind_held(const State& state, int lane, const Insider& w) {
         const LaneBlock& block = state.blocks[at(on)];
         if (slot == block.first) {
             slot = vehicle_ahead(state, on, slot, kSeen_m).slot;
-            if (slot < 0) return false;
             const LaneBlock& inside = state.blocks[at(lane)];
-            if (slot < inside.first || slot >= inside.stop()) {
-                return state.vehicles.record[at(slot)].trip >= 0 && held(state, slot);
-            }
+            const bool on_way = slot >= inside.first && slot < inside.stop();
+            if (!on_way) return slot >= 0 && state.vehicles.record[at(slot)].trip >= 0 && held(state, slot);
             on = lane;
         } else {
             --slot;
@@ -163,9 +161,7 @@ Arrival next_arrival(const Model& model, const State& state, const Conflict& con
     Arrival soonest;
     for (const Insider& w : state.insiders[at(conflict.other)]) {
         if (w.front_m >= conflict.other_from_m) continue;
-        if (held(state, w.slot) || w.slot == stopping || behind_held(state, conflict.other, w)) {
-            return soonest;
-        }
+        if (held(state, w.slot) || w.slot == stopping || behind_held(state, conflict.other, w)) return soonest;
         const double distance_m = conflict.other_from_m - w.front_m;
         soonest.earlier(earliest_s(distance_m, v.speed_mps[at(w.slot)], a, other.limit_mps), w.slot);
     }
