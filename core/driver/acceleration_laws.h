@@ -148,9 +148,9 @@ STOPLINE_INLINE R follow_acceleration(const CaccSettingsOf<Number>& c, const R& 
     return limited(answer, -c.deceleration_comfort_mps2, c.acceleration_max_mps2);
 }
 
-// Emergency: the deceleration that is needed not to hit the predecessor, once it exceeds the threshold; large (no limit)
-// before. Needed is the greater of: matching a braking predecessor's speed within the room, b_p + closing^2 / (2 room), and
-// stopping behind the place where it will stop, v^2 / (2 (room + v_p^2 / (2 b_p))).
+// Emergency: the least even deceleration with which the predecessor, braking evenly with b_p, is not hit, once it exceeds the
+// threshold; large (no limit) before. Where the speeds meet before the predecessor stands (after 2 room / closing < v_p / b_p) it is
+// b_p + closing^2 / (2 room), else v^2 / (2 (room + v_p^2 / (2 b_p))), which stops behind its place of rest.
 //
 // Braking is 15 % stronger than needed (our choice), since the brake lags: with exactly what is needed now it would always
 // come late, and the need would grow.
@@ -164,15 +164,10 @@ STOPLINE_INLINE R emergency_acceleration(const CaccSettingsOf<Number>& c, const 
     const R asked_p = lesser(p.acceleration_mps2, p.request_mps2);
     const R braking_p = limited(0.0 - asked_p, 0.01, c.deceleration_emergency_mps2);
     const R speed_p = greater(speed_mps - p.closing_mps, 0.0);
-    // Two fractions, compared across and divided once.
-    const R match_over = 2.0 * room_m * braking_p + square(closing);
-    const R match_under = 2.0 * room_m;
-    const R stop_over = square(speed_mps) * braking_p;
-    const R stop_under = 2.0 * room_m * braking_p + square(speed_p);
-    const R match_wins = STOPLINE_FLAG(R, match_over * stop_under > stop_over * match_under);
-    const R matching = match_wins * STOPLINE_FLAG(R, p.closing_mps > 0.0);
-    const R over = choose(matching, match_over, stop_over);
-    const R under = choose(matching, match_under, stop_under);
+    const R twice = 2.0 * room_m * braking_p;
+    const R meet = STOPLINE_FLAG(R, twice < speed_p * closing);
+    const R over = choose(meet, twice + square(closing), square(speed_mps) * braking_p);
+    const R under = choose(meet, 2.0 * room_m, twice + square(speed_p));
     const R urgent = STOPLINE_FLAG(R, over > c.emergency_threshold_mps2 * under);
     const R none = splat<R>(1e3);
     if (!any(urgent)) return none;

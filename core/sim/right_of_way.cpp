@@ -68,8 +68,8 @@ bool blocked(const State& state, int slot) {
            gap_m < kCloseBehind_m;
 }
 
-// The same of one past the stop line on the way to `lane`, where the first of those that stand in front waits for others; on
-// imported networks maybe to go another way from the stretch that they share.
+// The same of one past the stop line on the way to `lane`, where the first of those that stand in front waits for others;
+// maybe to go another way from the stretch that they share.
 bool behind_held(const State& state, int lane, const Insider& w) {
     constexpr int kMost = 8;  // vehicles inside, one behind the other
     int slot = w.slot;
@@ -80,7 +80,7 @@ bool behind_held(const State& state, int lane, const Insider& w) {
             slot = vehicle_ahead(state, on, slot, kSeen_m).slot;
             const LaneBlock& inside = state.blocks[at(lane)];
             const bool on_way = slot >= inside.first && slot < inside.stop();
-            if (!on_way) return slot >= 0 && state.vehicles.record[at(slot)].trip >= 0 && held(state, slot);
+            if (!on_way) return slot >= 0 && held(state, slot);
             on = lane;
         } else {
             --slot;

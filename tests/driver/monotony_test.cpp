@@ -110,6 +110,47 @@ TEST(Emergency, BrakesEnoughOrNotAtAll) {
     }
 }
 
+// The least room between two that brake evenly from `v` and `v_p`, with b and b_p, from `room_m`; in small steps of time.
+double least_room_m(double v, double b, double v_p, double b_p, double room_m) {
+    constexpr double kStep_s = 1e-3;
+    const double until_s = std::fmax(v / b, v_p / b_p);
+    const auto driven = [](double from, double with, double t) {
+        const double braked = std::fmin(t, from / with);
+        return from * braked - 0.5 * with * braked * braked;
+    };
+    double least = room_m;
+    for (double t = 0.0; t < until_s + kStep_s; t += kStep_s) {
+        least = std::fmin(least, room_m + driven(v_p, b_p, t) - driven(v, b, t));
+    }
+    return least;
+}
+
+// One that follows with a time gap does not brake with all it has because the one ahead does: only as hard as the room asks for.
+TEST(Emergency, BrakesAsHardAsABrakingPredecessorAsksFor) {
+    const CaccSettings c = shipped().cacc;
+    int meet = 0;
+    int stop = 0;
+    for (const double v : {5.0, 9.0, 14.0}) {
+        for (const double slower : {0.2, 1.0, 3.0, 5.0}) {
+            for (const double b_p : {1.0, 3.0, 5.0, 7.0}) {
+                for (const double room_m : {0.5, 1.0, 2.0, 5.0, 12.0}) {
+                    const double gap = room_m + c.radar_delay_s * slower + c.emergency_gap_m;
+                    const double answer = emergency_acceleration<double>(c, v, {gap, slower, -b_p, -b_p, 4.0});
+                    const double enough = answer > 100.0 ? c.emergency_threshold_mps2 : -answer / kEmergencyMargin;
+                    if (answer <= -c.deceleration_emergency_mps2) continue;  // it does what it can
+                    EXPECT_GE(least_room_m(v, enough, v - slower, b_p, room_m), -1e-3) << v << slower << b_p << room_m;
+                    if (answer > 100.0) continue;
+                    (2.0 * room_m / slower < (v - slower) / b_p ? meet : stop) += 1;
+                    EXPECT_LT(least_room_m(v, 0.99 * enough, v - slower, b_p, room_m), 0.0)
+                        << v << slower << b_p << room_m;
+                }
+            }
+        }
+    }
+    EXPECT_GT(meet, 3);
+    EXPECT_GT(stop, 20);
+}
+
 TEST(KeepRoom, IsMonotone) {
     const CaccSettings cacc = shipped().cacc;
     for (const double v : kSpeeds) {

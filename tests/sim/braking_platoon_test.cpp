@@ -1,4 +1,5 @@
-// A leader brakes to a stop while ten vehicles follow in equilibrium at 50 km/h: nobody runs into anybody.
+// A leader brakes to a stop while ten vehicles follow in equilibrium at 50 km/h: nobody runs into anybody, and nobody brakes harder than
+// the room asks for.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -48,6 +49,7 @@ TEST_P(BrakingPlatoon, StopsWithoutTouching) {
         leaders.push_back({1000.0, kSpeed_mps, 0.0, 0.0});
     }
     std::vector<double> smallest_m(3, 1e9);
+    std::vector<std::vector<double>> hardest_mps2(3, std::vector<double>(kFollowers + 1, 0.0));
     while (track.time_s() < 60.0) {
         for (int k = 0; k < 3; ++k) {
             Leader& leader = leaders[at(k)];
@@ -58,6 +60,10 @@ TEST_P(BrakingPlatoon, StopsWithoutTouching) {
         track.step();
         if (HasFatalFailure()) return;
         for (int k = 0; k < 3; ++k) {
+            for (int n = 1; n <= kFollowers; ++n) {
+                double& hardest = hardest_mps2[at(k)][at(n)];
+                hardest = std::max(hardest, -track.seen(2 * k, n).request_mps2);
+            }
             for (int n = 2; n <= kFollowers; ++n) {
                 smallest_m[at(k)] = std::min(smallest_m[at(k)], track.seen(2 * k, n).gap_m);
             }
@@ -74,6 +80,17 @@ TEST_P(BrakingPlatoon, StopsWithoutTouching) {
             EXPECT_LT(track.seen(2 * k, n).gap_m, wanted_m + 0.15) << "follower " << n;
         }
     }
+    // Who has a second of room does not brake in an emergency because the one ahead does: hard braking dies out within three vehicles.
+    const GapPolicySettings& policy = track.model().policies[0].settings;
+    const bool has_room = policy.law == "constant_time" && policy.time_gap_s > 0.8;
+    for (int k = 0; k < 3 && has_room; ++k) {
+        for (int n = 4; n <= kFollowers; ++n) {
+            EXPECT_LT(hardest_mps2[at(k)][at(n)], 1.3 * track.model().driver.cacc.deceleration_comfort_mps2)
+                << "follower " << n << " when the leader brakes with " << kBraking_mps2[k];
+        }
+    }
+    std::printf("hardest braking of the last at 2, 4, 7 m/s2: %.2f %.2f %.2f m/s2; ", hardest_mps2[0][kFollowers],
+                hardest_mps2[1][kFollowers], hardest_mps2[2][kFollowers]);
     std::printf("smallest gap at 2, 4, 7 m/s2: %.2f %.2f %.2f m\n", smallest_m[0], smallest_m[1], smallest_m[2]);
 }
 
