@@ -7,8 +7,28 @@
 #include "demand/sumo_routes.h"
 #include "network/sumo_graph.h"
 #include "network/sumo_net.h"
+#include "network/sumo_xml.h"
 
 namespace stopline {
+
+std::vector<FieldProblem> sumo_file_problems(const Scenario& scenario, const std::filesystem::path& directory) {
+    std::vector<FieldProblem> problems;
+    const NetworkSettings& network = scenario.network;
+    if (!network.is_sumo()) return problems;
+    const auto check = [&](const std::string& field, const std::string& name) {
+        const std::filesystem::path file = (directory / name).lexically_normal();
+        const std::string problem = sumo_file_problem(file);
+        if (!problem.empty()) problems.emplace_back(field, file.generic_string() + ": " + problem);
+    };
+    check("network.net", network.net);
+    for (std::size_t k = 0; k < network.routes.size(); ++k) {
+        check("network.routes[" + std::to_string(k) + "]", network.routes[k]);
+    }
+    for (std::size_t k = 0; k < network.additional.size(); ++k) {
+        check("network.additional[" + std::to_string(k) + "]", network.additional[k]);
+    }
+    return problems;
+}
 
 void import_sumo(Scenario& scenario, const std::filesystem::path& directory) {
     NetworkSettings& network = scenario.network;

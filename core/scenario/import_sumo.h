@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scenario/scenario.h"
@@ -12,7 +13,13 @@ namespace stopline {
 
 struct DemandPlan;
 
-// Does nothing where the network is not of the kind `sumo`. `directory`: where relative paths start. Throws InputError with file and line.
+// A field of the scenario and what is wrong with it.
+using FieldProblem = std::pair<std::string, std::string>;
+
+// Files that are not there or cannot be read to an end. `directory`: where relative paths start.
+std::vector<FieldProblem> sumo_file_problems(const Scenario& scenario, const std::filesystem::path& directory);
+
+// Does nothing where the network is not of the kind `sumo`. Throws InputError with file and line.
 void import_sumo(Scenario& scenario, const std::filesystem::path& directory);
 
 // The trips of those files, with the policies that the plan's population gives them.

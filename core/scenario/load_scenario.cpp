@@ -42,6 +42,10 @@ Scenario scenario_from(SourceNode root, const std::vector<std::string>& override
     report.throw_if_any();
     scenario.vehicle_name = scenario.vehicle.name;
     scenario.driver_name = scenario.driver.name;
+    for (const auto& [field, problem] : sumo_file_problems(scenario, source.directory)) {
+        report.error(report.place_of(field), "field '" + field + "': " + problem);
+    }
+    report.throw_if_any();
     import_sumo(scenario, source.directory);
     scenario.hash = scenario_hash(scenario);
     return scenario;

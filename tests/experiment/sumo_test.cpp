@@ -225,5 +225,24 @@ TEST(SumoScenario, RefusesWhatDoesNotBelongToIt) {
     EXPECT_NE(says("signal: {green: 3 s}\n").find("field 'signal' is used only where"), std::string::npos);
 }
 
+TEST(SumoScenario, SaysWhereItNamesFilesThatCannotBeRead) {
+    const SumoFiles files;
+    files.write("my.net.xml", crossing_net());
+    const auto says = [&](const std::string& network) {
+        return testing::refusal([&] {
+            parse_scenario("duration: 300 s\nnetwork:\n  kind: sumo\n" + network, "my.yaml", {}, files.folder());
+        });
+    };
+    EXPECT_EQ(
+        says("  net: ./none.net.xml\n"),
+        "my.yaml:4:8: field 'network.net': " + (files.folder() / "none.net.xml").string() + ": there is no such file");
+    const std::string both = says("  net: ./my.net.xml\n  routes: [., ./none.rou.xml]\n  additional: [/dev/zero]\n");
+    EXPECT_NE(both.find("my.yaml:5:12: field 'network.routes[0]': "), std::string::npos) << both;
+    EXPECT_NE(both.find("my.yaml:5:15: field 'network.routes[1]': "), std::string::npos) << both;
+    EXPECT_NE(both.find("my.yaml:6:16: field 'network.additional[0]': /dev/zero: is not a file that can be read"),
+              std::string::npos)
+        << both;
+}
+
 }  // namespace
 }  // namespace stopline
