@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "demand/sumo_routes.h"
 #include "network/sumo_graph.h"
@@ -75,6 +78,21 @@ std::vector<std::string> sumo_warnings(const Scenario& scenario) {
     lines = scenario.network.sumo->net.warnings.lines();
     for (std::string& line : scenario.demand.sumo->warnings.lines()) lines.push_back(std::move(line));
     return lines;
+}
+
+std::vector<FieldProblem> sumo_demand_problems(const Scenario& scenario) {
+    if (!scenario.demand.sumo || scenario.demand.sumo->elements > 0) return {};
+    return {{"network.routes", "there is no vehicle, trip or flow in the files of 'routes' and 'additional'"}};
+}
+
+std::string sumo_demand_warning(const Scenario& scenario) {
+    if (!scenario.demand.sumo || !scenario.demand.sumo->trips.empty()) return "";
+    if (const std::optional<double> later_s = scenario.demand.sumo->later_s) {
+        return fmt::format(
+            "nobody departs: the run ends at {:g} s ('duration'), and the first vehicle of the routes departs at {:g} s",
+            scenario.duration_s, *later_s);
+    }
+    return "nobody departs: none of the vehicles of the routes drives here, or their flows are of 0 vehicles";
 }
 
 std::uint64_t sumo_files_hash(const Scenario& scenario) {

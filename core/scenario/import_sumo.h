@@ -36,6 +36,11 @@ std::vector<SumoLoopPlace> sumo_loops(const Scenario& scenario);
 // What those files have that is not read, a line each: "city.net.xml:12: ...".
 std::vector<std::string> sumo_warnings(const Scenario& scenario);
 
+// Routes that hold nobody at all.
+std::vector<FieldProblem> sumo_demand_problems(const Scenario& scenario);
+// Where nobody departs within the run: why. Empty: somebody does.
+std::string sumo_demand_warning(const Scenario& scenario);
+
 // Of their contents; 0: there are none.
 std::uint64_t sumo_files_hash(const Scenario& scenario);
 

@@ -244,5 +244,34 @@ TEST(SumoScenario, SaysWhereItNamesFilesThatCannotBeRead) {
         << both;
 }
 
+TEST(SumoScenario, WarnsWhereNobodyDeparts) {
+    const auto warning = [](const std::string& routes) {
+        return sumo_demand_warning(scenario_of(crossing_net(), routes));
+    };
+    EXPECT_EQ(warning(kBusy), "");
+    const std::string late =
+        "nobody departs: the run ends at 300 s ('duration'), and the first vehicle of the routes departs at ";
+    EXPECT_EQ(
+        warning(
+            R"(<trip id="b" depart="500" from="w_in" to="e_out"/><trip id="a" depart="300" from="w_in" to="e_out"/>)"),
+        late + "300 s");
+    EXPECT_EQ(warning(R"(<flow id="a" begin="1000" end="2000" number="5" from="w_in" to="e_out"/>)"), late + "1000 s");
+    EXPECT_NE(warning(R"(<vType id="b" vClass="bicycle"/><trip id="a" type="b" depart="0" from="w_in" to="e_out"/>)")
+                  .find("none of the vehicles of the routes drives here"),
+              std::string::npos);
+    const NetworkFigures f =
+        run_network(scenario_of(crossing_net(), R"(<trip id="a" depart="300" from="w_in" to="e_out"/>)"), 0, {}, 1, {});
+    EXPECT_EQ(f.entered, 0);
+    EXPECT_TRUE(f.violations.none());
+}
+
+TEST(SumoScenario, RefusesRoutesWithNobody) {
+    const std::string message =
+        testing::refusal([] { scenario_of(crossing_net(), R"(<vType id="a"/><route id="r" edges="w_in e_out"/>)"); });
+    EXPECT_EQ(message,
+              "my.yaml:3:50: field 'network.routes': there is no vehicle, trip or flow in the files of 'routes' and "
+              "'additional'");
+}
+
 }  // namespace
 }  // namespace stopline
