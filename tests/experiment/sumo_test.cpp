@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "experiment/network.h"
 #include "experiment/network_run.h"
 #include "scenario/import_sumo.h"
 #include "scenario/load_scenario.h"
@@ -215,6 +216,27 @@ TEST(SumoRun, FilesAreInTheHash) {
     EXPECT_EQ(scenario_of(crossing_net(), kBusy).hash, hash);
     EXPECT_NE(scenario_of(crossing_net(), std::string(kBusy) + " ").hash, hash);
     EXPECT_NE(scenario_of(crossing_net() + " ", kBusy).hash, hash);
+}
+
+TEST(SumoRun, SaysWhichTimeIsMeasured) {
+    const auto says = [](double duration_s, double steady_s) {
+        Scenario scenario = scenario_of(crossing_net(), kBusy);
+        scenario.duration_s = duration_s;
+        scenario.measure.steady_s = steady_s;
+        scenario.measure.interval_s = 60.0;
+        return window_text(run_networks(scenario, {}));
+    };
+    EXPECT_EQ(says(240.0, 120.0), "Measured from 120 to 240 s.");
+    EXPECT_EQ(says(260.0, 160.0),
+              "Measured from 120 to 240 s. measure.steady asks for 100 to 260 s; whole intervals of 60 s "
+              "(measure.interval) are measured.");
+    const std::string more = says(240.0, 500.0);
+    EXPECT_NE(more.find("to 240 s. measure.steady asks for 500 s, the run has 240 s: of each population all but its "
+                        "warm-up is measured"),
+              std::string::npos)
+        << more;
+    EXPECT_EQ(says(240.0, 30.0),
+              "Nothing is measured: no whole interval of 60 s (measure.interval) lies in the last 30 s of the run.");
 }
 
 TEST(SumoScenario, RefusesWhatDoesNotBelongToIt) {
