@@ -63,7 +63,7 @@ std::string number(double value) { return std::isnan(value) ? "-" : fmt::format(
 std::string band_cells(const ComparedMetric& metric, Band band, std::string& inside) {
     const std::size_t needed = band == Band::paper ? 3 : 2;
     inside = "-";
-    if (metric.sumo.size() < needed || std::isnan(mean_of(metric.sumo))) return "-";
+    if (metric.of_sumo_alone || metric.sumo.size() < needed || std::isnan(mean_of(metric.sumo))) return "-";
     const Interval interval = metric.band(band);
     inside = interval.contains(mean_of(metric.ours)) ? "yes" : "no";
     return fmt::format("{:.2f} .. {:.2f}", interval.low, interval.high);
@@ -81,11 +81,13 @@ void print(const Comparison& comparison) {
         const std::string student = band_cells(metric, Band::student, in_student);
         const std::string paper = band_cells(metric, Band::paper, in_paper);
         const double percent = metric.difference_percent();
-        table.row({metric.name, number(mean_of(metric.ours)), number(mean_of(metric.sumo)),
+        table.row({metric.name, metric.of_sumo_alone ? "-" : number(mean_of(metric.ours)), number(mean_of(metric.sumo)),
                    std::isfinite(percent) ? fmt::format("{:+.1f} %", percent) : "-", student, in_student, paper,
                    in_paper});
     }
     fmt::print("{}", table.text());
+    fmt::print(
+        "\nwait_outside_s: how much later than in our run the same vehicles find room to enter in SUMO; no check.\n");
     if (!comparison.note.empty()) fmt::print("\n{}\n", comparison.note);
 }
 

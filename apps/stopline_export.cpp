@@ -9,7 +9,6 @@
 #include "common/command_line.h"
 #include "common/program.h"
 #include "common/progress_bar.h"
-#include "experiment/output.h"
 #include "sumo/export.h"
 
 namespace {
@@ -45,7 +44,6 @@ ExitCode run(const ExportOptionsOfUser& options) {
     common.settings.emplace_back("fidelity=meso");
     const Scenario scenario = load_with_options(options.file, common);
     const std::size_t population = options.population.empty() ? 0 : population_index(scenario, options.population);
-    prepare_folder(options.folder);
     const std::string vehicles = [&] {
         ProgressBar bar("1 run");
         return export_to_sumo(scenario, population, options.folder, [&bar](double share) { return bar.update(share); });
@@ -57,7 +55,6 @@ ExitCode run(const ExportOptionsOfUser& options) {
                    shell_word((std::filesystem::path(options.folder) / "run.sumocfg").string()));
         return ExitCode::done;
     }
-    make_net_file(options.folder);
     fmt::print("\nNext: sumo -c {}\n", shell_word((std::filesystem::path(options.folder) / "run.sumocfg").string()));
     return ExitCode::done;
 }

@@ -211,6 +211,9 @@ ExitCode run(const RunOptionsOfUser& options) {
     }
     const Scenario scenario = load_with_options(options.file, options.common);
     for (const std::string& line : sumo_warnings(scenario)) fmt::print(stderr, "not read: {}\n", line);
+    if (const std::string warning = sumo_demand_warning(scenario); !warning.empty()) {
+        fmt::print(stderr, "warning: {}\n", warning);
+    }
     const double interval_s = trajectory_interval_s(options, scenario);
     const std::filesystem::path folder = options.common.output.empty() ? "out/" + scenario.name : options.common.output;
     RunFilesOptions files = options.files;

@@ -50,7 +50,6 @@ std::string network_text(const NetworkReport& report) {
                    std::to_string(log.taken_out), std::to_string(log.passed_blockers), stability});
         violations += f.violations.none() ? 0 : 1;
     }
-    const AreaFigures* const first = report.populations.empty() ? nullptr : &report.populations[0].steady;
     const bool sumo = report.scenario.network.is_sumo();
     const std::string area =
         sumo ? "Area: the whole network."
@@ -58,8 +57,8 @@ std::string network_text(const NetworkReport& report) {
     const std::string notes = fmt::format(
         "{} veh/h: vehicles that leave it; s: their mean time in it; density: share of\n"
         "its lanes' metres; junction, turn, spillback, gridlock, lane: share of the time that vehicles stand, by what holds up\n"
-        "their queue (lane: one that waits to change lanes); moved on, passed: uses of the rules. Measured from {:.0f} to {:.0f} s.\n",
-        area, first ? first->window.from_s : 0.0, first ? first->window.to_s : 0.0);
+        "their queue (lane: one that waits to change lanes); moved on, passed: uses of the rules.\n{}\n",
+        area, window_text(report));
     const std::string verdict =
         violations == 0
             ? "No overlaps on lanes or in conflict areas but by the rule for blockers, no entries on red, no vehicle "

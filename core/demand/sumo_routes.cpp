@@ -68,6 +68,8 @@ public:
         sorted.turns = std::move(traffic_.turns);
         sorted.warnings = std::move(traffic_.warnings);
         sorted.hash = traffic_.hash;
+        sorted.elements = traffic_.elements;
+        sorted.later_s = traffic_.later_s;
         for (const std::size_t k : order) {
             sorted.trips.push_back(traffic_.trips[k]);
             sorted.ids.push_back(std::move(traffic_.ids[k]));
@@ -86,6 +88,7 @@ private:
         if (name == "vType" || name == "vTypeDistribution") return types_.read(*xml_, node, traffic_.warnings);
         if (name == "route") return name_route(node, {{read_route(node), 1.0}});
         if (name == "routeDistribution") return read_distribution(node);
+        if (name == "vehicle" || name == "trip" || name == "flow") ++traffic_.elements;
         if (name == "vehicle" || name == "trip") return read_vehicle(node);
         if (name == "flow") return read_flow(node);
         if (name == "include") xml_->refuse(node, "'include' is not read: name the file in the scenario");
@@ -268,7 +271,7 @@ private:
     }
 
     void add(pugi::xml_node node, const Template& made, const std::string& id, double depart_s) {
-        if (depart_s >= until_s_) return;
+        if (depart_s >= until_s_) return note_later(depart_s);
         if (traffic_.trips.size() >= kMostTrips) xml_->refuse(node, fmt::format("more than {} vehicles", kMostTrips));
         const SumoType& type = types_.of(*xml_, node, made.type, drawn(0));
         if (!type.drives) {
@@ -293,6 +296,8 @@ private:
         traffic_.trips.push_back(trip);
         traffic_.ids.push_back(id);
     }
+
+    void note_later(double depart_s) { traffic_.later_s = std::min(depart_s, traffic_.later_s.value_or(depart_s)); }
 
     void check_along(pugi::xml_node node, const Way& way, Trip& trip) {
         const SumoEdge& edge = network_.net.edges[at(way.edges[0])];
@@ -338,6 +343,8 @@ private:
         const std::string id = xml_->text(node, "id");
         const Template made = template_of(node);
         int count = 0;
+        const double begin_s = sumo_time_s(*xml_, node, "begin", 0.0);
+        if (begin_s >= until_s_) note_later(begin_s);
         for (const double depart_s : sumo_departures(*xml_, node, until_s_, seed_)) {
             add(node, made, fmt::format("{}.{}", id, count++), depart_s);
         }

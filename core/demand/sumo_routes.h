@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,9 @@ struct SumoTraffic {
     std::vector<Turn> turns;       // of all, see Trip::first_turn
     std::vector<std::string> ids;  // [trip]
     SumoWarnings warnings;
-    std::uint64_t hash = 0;  // of the files
+    std::uint64_t hash = 0;              // of the files
+    std::int64_t elements = 0;           // vehicles, trips and flows in them
+    std::optional<double> later_s = {};  // the first departure of those that come after the run
 
     double shortest_m() const;
 };

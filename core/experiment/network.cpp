@@ -66,6 +66,36 @@ NetworkReport run_networks(const Scenario& scenario, const NetworkOptions& optio
     return report;
 }
 
+std::string window_text(const NetworkReport& report) {
+    const MeasureSettings& measure = report.scenario.measure;
+    const double end_s = report.scenario.duration_s;
+    const double asked_s = end_s - measure.steady_s;
+    if (report.populations.empty()) return "";
+    const TimeWindow& first = report.populations[0].steady.window;
+    if (!(first.length_s() > 0.0)) {
+        return fmt::format(
+            "Nothing is measured: no whole interval of {:g} s (measure.interval) lies in the last {:g} s of the run.",
+            measure.interval_s, std::min(measure.steady_s, end_s));
+    }
+    std::string text = fmt::format("Measured from {:.0f} to {:.0f} s.", first.from_s, first.to_s);
+    if (asked_s <= 0.0) {
+        text += fmt::format(
+            " measure.steady asks for {:g} s, the run has {:g} s: of each population all but its warm-up is measured",
+            measure.steady_s, end_s);
+        const auto same = [&](const NetworkFigures& f) { return f.steady.window.from_s == first.from_s; };
+        if (!std::all_of(report.populations.begin(), report.populations.end(), same)) {
+            text += fmt::format(", here that of {} (others: window_from_s in summary.csv)",
+                                report.populations[0].population);
+        }
+        text += ".";
+    } else if (first.from_s != asked_s || first.to_s != end_s) {
+        text += fmt::format(
+            " measure.steady asks for {:g} to {:g} s; whole intervals of {:g} s (measure.interval) are measured.",
+            asked_s, end_s, measure.interval_s);
+    }
+    return text;
+}
+
 std::string network_csv(const NetworkReport& report) {
     std::vector<std::string> columns{
         "population",       "throughput_veh_h", "improvement_percent", "travel_time_s", "travel_time_saved_percent",

@@ -30,6 +30,9 @@ struct NetworkOptions {
 // The same bits for any number of threads.
 NetworkReport run_networks(const Scenario& scenario, const NetworkOptions& options);
 
+// From when to when is measured; and why that is not what measure.steady asks for, where it is not.
+std::string window_text(const NetworkReport& report);
+
 std::string network_csv(const NetworkReport& report);         // a row a population
 std::string network_series_csv(const NetworkReport& report);  // a row a population and interval
 std::string network_ways_csv(const NetworkReport& report);    // by side of entry and exit

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <iterator>
+#include <tuple>
+#include <unordered_set>
 
 #include <fmt/format.h>
 
@@ -46,6 +49,7 @@ public:
                 if (name == ignored) net_.warnings.note(xml_.where(node), std::string(why));
             }
         }
+        check_references();
         for (const pugi::xml_node node : xml_.root().children("tlLogic")) add_sumo_signal(xml_, node, true, net_);
         for (const pugi::xml_node node : xml_.root().children("connection")) read_connection(node);
         const auto drives = [](const SumoEdge& edge) {
@@ -62,6 +66,9 @@ private:
     void read_edge(pugi::xml_node node) {
         SumoEdge edge;
         edge.id = xml_.text(node, "id");
+        if (!net_.edge_by_id.emplace(edge.id, static_cast<int>(net_.edges.size())).second) {
+            xml_.refuse(node, fmt::format("there are two edges '{}'", edge.id));
+        }
         edge.where = xml_.where(node);
         const std::string function = node.attribute("function").value();
         edge.internal = !function.empty() && function != "normal" && function != "connector";
@@ -75,9 +82,6 @@ private:
             if (walk) edge.lanes.back().cars = false;
         }
         if (edge.lanes.empty()) xml_.refuse(node, fmt::format("edge '{}' has no lane", edge.id));
-        if (!net_.edge_by_id.emplace(edge.id, static_cast<int>(net_.edges.size())).second) {
-            xml_.refuse(node, fmt::format("there are two edges '{}'", edge.id));
-        }
         net_.edges.push_back(std::move(edge));
     }
 
@@ -87,6 +91,12 @@ private:
         const auto index = xml_.whole(node, "index");
         if (index != static_cast<int>(edge.lanes.size()) && !edge.internal) {
             xml_.refuse(node, fmt::format("lanes of edge '{}' are not numbered 0, 1, 2, ... in order", edge.id));
+        }
+        // netconvert numbers some internal lanes wrongly in `index`, but not in `id`.
+        const std::string id = xml_.text(node, "id");
+        if (id != fmt::format("{}_{}", edge.id, edge.lanes.size())) {
+            xml_.refuse(node, fmt::format("lane id=\"{}\" must be '{}_{}': its edge and its place among the lanes", id,
+                                          edge.id, edge.lanes.size()));
         }
         SumoLane lane;
         lane.length_m = xml_.number(node, "length");
@@ -115,12 +125,12 @@ private:
     void read_junction(pugi::xml_node node) {
         SumoJunction junction{xml_.text(node, "id"), xml_.text(node, "type")};
         const std::string& type = junction.type;
+        if (!junctions_.insert(junction.id).second) {
+            xml_.refuse(node, fmt::format("there are two junctions '{}'", junction.id));
+        }
         if (type == "internal") return;
         if (type == "rail_signal" || type == "rail_crossing") {
             net_.warnings.note(xml_.where(node), "signals and crossings of railways are not read");
-        }
-        if (!junctions_.emplace(junction.id, 0).second) {
-            xml_.refuse(node, fmt::format("there are two junctions '{}'", junction.id));
         }
         const auto number = static_cast<int>(net_.junctions.size());
         int link = 0;
@@ -151,6 +161,28 @@ private:
         net_.junctions.push_back(std::move(junction));
     }
 
+    // Between edges and junctions, which may stand in any order.
+    void check_references() const {
+        for (const pugi::xml_node node : xml_.root().children("edge")) {
+            if (net_.edges[at(net_.edge_by_id.at(node.attribute("id").value()))].internal) continue;
+            for (const char* const end : {"from", "to"}) {
+                const std::string junction = xml_.text(node, end);
+                if (junctions_.contains(junction)) continue;
+                xml_.refuse(node, fmt::format("edge '{}': {}=\"{}\": there is no junction of this id",
+                                              node.attribute("id").value(), end, junction));
+            }
+        }
+        for (const pugi::xml_node node : xml_.root().children("junction")) {
+            for (const char* const list : {"incLanes", "intLanes"}) {
+                for (const std::string_view lane : sumo_words(node.attribute(list).value())) {
+                    if (net_.lane(lane)) continue;
+                    xml_.refuse(node, fmt::format("junction '{}': {} has '{}': there is no lane of this id",
+                                                  node.attribute("id").value(), list, lane));
+                }
+            }
+        }
+    }
+
     int known_edge(pugi::xml_node node, const char* attribute) const {
         const std::string id = xml_.text(node, attribute);
         const auto found = net_.edge_by_id.find(id);
@@ -171,14 +203,9 @@ private:
     void read_via(pugi::xml_node node, SumoConnection& c) const {
         const std::string via = node.attribute("via").value();
         if (via.empty()) return;
-        const std::size_t cut = via.rfind('_');
-        const auto found = net_.edge_by_id.find(via.substr(0, std::min(cut, via.size())));
-        const auto index = cut == std::string::npos ? std::nullopt : sumo_number(via.substr(cut + 1));
-        const bool known = found != net_.edge_by_id.end() && index && *index >= 0.0 &&
-                           *index < static_cast<double>(net_.edges[at(found->second)].lanes.size());
-        if (!known) xml_.refuse(node, fmt::format("via: there is no lane '{}'", via));
-        c.via = found->second;
-        c.via_lane = static_cast<int>(*index);
+        const auto lane = net_.lane(via);
+        if (!lane) xml_.refuse(node, fmt::format("via: there is no lane '{}'", via));
+        std::tie(c.via, c.via_lane) = *lane;
     }
 
     void read_signal(pugi::xml_node node, SumoConnection& c) const {
@@ -219,7 +246,7 @@ private:
 
     SumoXml xml_;
     SumoNet net_;
-    std::unordered_map<std::string, int> junctions_;
+    std::unordered_set<std::string> junctions_;
 };
 
 }  // namespace
@@ -228,6 +255,18 @@ double SumoSignal::cycle_s() const {
     double sum_s = 0.0;
     for (const SumoPhase& phase : phases) sum_s += phase.duration_s;
     return sum_s;
+}
+
+std::optional<std::pair<int, int>> SumoNet::lane(std::string_view id) const {
+    const std::size_t cut = id.rfind('_');
+    if (cut == std::string_view::npos) return std::nullopt;
+    const auto edge = edge_by_id.find(std::string(id.substr(0, cut)));
+    const std::string_view text = id.substr(cut + 1);
+    int index = -1;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
+    if (edge == edge_by_id.end() || error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    if (index < 0 || at(index) >= edges[at(edge->second)].lanes.size()) return std::nullopt;
+    return std::pair{edge->second, index};
 }
 
 void SumoWarnings::note(const std::string& where, const std::string& what) {

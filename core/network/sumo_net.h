@@ -109,6 +109,9 @@ struct SumoNet {
     std::unordered_map<std::string, std::pair<int, int>> link_of;  // internal lane -> junction and link
     SumoWarnings warnings;
     std::uint64_t hash = 0;  // of the files
+
+    // Edge and index of a lane; none: there is no such lane.
+    std::optional<std::pair<int, int>> lane(std::string_view id) const;
 };
 
 // Throws InputError, with file and line, where the file cannot be used.

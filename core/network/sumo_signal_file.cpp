@@ -85,14 +85,9 @@ namespace {
 
 void read_loop(const SumoXml& xml, pugi::xml_node node, SumoNet& net) {
     const std::string lane = xml.text(node, "lane");
-    const std::size_t cut = lane.rfind('_');
-    const auto edge = net.edge_by_id.find(lane.substr(0, std::min(cut, lane.size())));
-    const auto index = cut == std::string::npos ? std::nullopt : sumo_number(lane.substr(cut + 1));
-    const bool known = edge != net.edge_by_id.end() && index && *index >= 0.0 &&
-                       *index < static_cast<double>(net.edges[at(edge->second)].lanes.size());
-    if (!known) xml.refuse(node, fmt::format("lane: there is no lane '{}'", lane));
-    SumoLoop loop{xml.text(node, "id"), edge->second, static_cast<int>(*index), xml.number(node, "pos"),
-                  xml.where(node)};
+    const auto place = net.lane(lane);
+    if (!place) xml.refuse(node, fmt::format("lane: there is no lane '{}'", lane));
+    SumoLoop loop{xml.text(node, "id"), place->first, place->second, xml.number(node, "pos"), xml.where(node)};
     const double length_m = net.edges[at(loop.edge)].lanes[at(loop.lane)].length_m;
     if (loop.position_m < 0.0) loop.position_m += length_m;  // counted from the end
     if (loop.position_m < 0.0 || loop.position_m > length_m) xml.refuse(node, "pos does not lie on the lane");

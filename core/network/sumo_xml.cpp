@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include <unistd.h>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <zlib.h>
@@ -19,10 +21,15 @@ namespace {
 
 constexpr std::size_t kMostBytes = std::size_t{1} << 31;
 
+// The line is that of the text as far as it could be unpacked.
+[[noreturn]] void damaged(const std::string& name, const std::string& unpacked) {
+    throw InputError(fmt::format("{}:{}: is damaged or cut off here (gzip)", name,
+                                 std::count(unpacked.begin(), unpacked.end(), '\n') + 1));
+}
+
 // zlib reads plain files too.
 std::string read_text(const std::filesystem::path& file, const std::string& name) {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(file, error)) throw InputError(name + ": there is no such file");
+    if (const std::string problem = sumo_file_problem(file); !problem.empty()) throw InputError(name + ": " + problem);
     struct Close {
         void operator()(gzFile_s* opened) const { gzclose(opened); }
     };
@@ -35,14 +42,14 @@ std::string read_text(const std::filesystem::path& file, const std::string& name
     std::vector<char> chunk(kBuffer);
     for (;;) {
         const int count = gzread(in.get(), chunk.data(), kBuffer);
-        if (count < 0) throw InputError(name + ": is damaged or cut off (gzip)");
+        if (count < 0) damaged(name, text);
         if (count == 0) break;
         text.append(chunk.data(), static_cast<std::size_t>(count));
         if (text.size() >= kMostBytes) throw InputError(name + ": is larger than 2 GiB");
     }
     int state = Z_OK;
     gzerror(in.get(), &state);
-    if (state != Z_OK && state != Z_STREAM_END) throw InputError(name + ": is damaged or cut off (gzip)");
+    if (state != Z_OK && state != Z_STREAM_END) damaged(name, text);
     return text;
 }
 
@@ -55,12 +62,73 @@ std::uint64_t hash_of(const std::string& text) {
     return hash;
 }
 
+// A comment, a CDATA section or a processing instruction.
+struct Section {
+    std::size_t begin = 0;
+    std::size_t end = 0;
+};
+
+Section next_section(std::string_view text, std::size_t from) {
+    constexpr std::array<std::array<std::string_view, 2>, 3> kKinds{
+        {{"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}}};
+    for (std::size_t k = text.find('<', from); k != std::string_view::npos; k = text.find('<', k + 1)) {
+        for (const auto& [opening, closing] : kKinds) {
+            if (text.substr(k, opening.size()) != opening) continue;
+            const std::size_t end = text.find(closing, k + opening.size());
+            return {k, end == std::string_view::npos ? text.size() : end + closing.size()};
+        }
+    }
+    return {text.size(), text.size()};
+}
+
+// What follows a '&'.
+bool is_entity(std::string_view text) {
+    constexpr std::array<std::string_view, 5> kNamed{"amp;", "lt;", "gt;", "quot;", "apos;"};
+    if (std::any_of(kNamed.begin(), kNamed.end(), [&](std::string_view name) { return text.starts_with(name); })) {
+        return true;
+    }
+    if (!text.starts_with('#')) return false;
+    const bool hexadecimal = text.substr(1).starts_with('x');
+    text.remove_prefix(hexadecimal ? 2 : 1);
+    const std::size_t end = text.find_first_not_of(hexadecimal ? "0123456789abcdefABCDEF" : "0123456789");
+    return end != 0 && end != std::string_view::npos && text[end] == ';';
+}
+
+// Of the first '&' that begins nothing that XML knows. pugixml leaves those as they are.
+std::optional<std::size_t> unknown_entity(std::string_view text) {
+    constexpr std::size_t kLongest = 12;
+    Section section;
+    for (std::size_t k = text.find('&'); k != std::string_view::npos; k = text.find('&', k + 1)) {
+        if (is_entity(text.substr(k + 1, kLongest))) continue;
+        while (section.end <= k) section = next_section(text, section.end);
+        if (section.begin > k) return k;
+        k = section.end - 1;
+    }
+    return std::nullopt;
+}
+
+// The element in whose tag or behind whose tag a place lies.
+std::string_view element_at(std::string_view text, std::size_t place) {
+    const std::size_t begin = text.rfind('<', place);
+    if (begin == std::string_view::npos) return "";
+    return text.substr(begin + 1, std::min(text.find_first_of(" \t\r\n/>", begin + 1), place) - begin - 1);
+}
+
 std::string shortened(std::string_view text) {
     constexpr std::size_t kMost = 60;
     return text.size() <= kMost ? std::string(text) : std::string(text.substr(0, kMost)) + "...";
 }
 
 }  // namespace
+
+std::string sumo_file_problem(const std::filesystem::path& file) {
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(file, error);
+    if (status.type() == std::filesystem::file_type::not_found) return "there is no such file";
+    if (std::filesystem::is_directory(status)) return "is a folder, not a file";
+    if (!std::filesystem::is_regular_file(status)) return "is not a file that can be read to an end (a device, a pipe)";
+    return ::access(file.c_str(), R_OK) == 0 ? "" : "cannot be opened (no permission?)";
+}
 
 std::optional<double> sumo_number(std::string_view text) {
     double value = 0.0;
@@ -82,7 +150,7 @@ std::vector<std::string_view> sumo_words(std::string_view text) {
 }
 
 SumoXml::SumoXml(const std::filesystem::path& file, std::initializer_list<std::string_view> roots)
-    : name_(file.filename().string()), text_(read_text(file, name_)), hash_(hash_of(text_)) {
+    : name_(file.lexically_normal().generic_string()), text_(read_text(file, name_)), hash_(hash_of(text_)) {
     for (const char* at = text_.data(); at != nullptr;) {
         at =
             static_cast<const char*>(std::memchr(at, '\n', static_cast<std::size_t>(text_.data() + text_.size() - at)));
@@ -99,10 +167,18 @@ SumoXml::SumoXml(const std::filesystem::path& file, std::initializer_list<std::s
 }
 
 void SumoXml::parse() {
+    std::string entity;  // that is not known
+    if (const std::optional<std::size_t> place = unknown_entity(text_)) {
+        const std::string_view rest = std::string_view(text_).substr(*place);
+        entity =
+            fmt::format("{}:{}: element '{}': '{}' is no entity: known are &amp; &lt; &gt; &quot; &apos; and numbers",
+                        name_, line_of(static_cast<std::ptrdiff_t>(*place)), shortened(element_at(text_, *place)),
+                        shortened(rest.substr(0, rest.find_first_of(" \t\r\n\"';<>", 1))));
+    }
     document_ = std::make_unique<pugi::xml_document>();
     const std::string_view blank = std::string_view(text_).substr(0, 1 << 16);
     if (blank.find_first_not_of(" \t\r\n") == std::string_view::npos && text_.size() < blank.size() + 1) {
-        throw InputError(name_ + ": the file is empty");
+        throw InputError(name_ + ":1: the file is empty");
     }
     const unsigned options = pugi::parse_default | pugi::parse_doctype;
     const pugi::xml_parse_result result =
@@ -113,13 +189,35 @@ void SumoXml::parse() {
     }
     for (const pugi::xml_node node : document_->children()) {
         if (node.type() == pugi::node_doctype) {
-            throw InputError(name_ + ": has a DOCTYPE; documents that declare types or entities are not read");
+            refuse(node, "has a DOCTYPE; documents that declare types or entities are not read");
         }
         if (node.type() != pugi::node_element) continue;
         if (root_) refuse(node, "there is a second outermost element");
         root_ = node;
     }
-    if (!root_) throw InputError(name_ + ": there is no element in it");
+    if (!root_) throw InputError(name_ + ":1: there is no element in it");
+    if (!entity.empty()) throw InputError(entity);
+    refuse_doubles();
+}
+
+// pugixml keeps all attributes of a name, and finds the first.
+void SumoXml::refuse_doubles() const {
+    std::vector<std::string_view> names;
+    for (pugi::xml_node node = root_; node;) {
+        names.clear();
+        for (const pugi::xml_attribute attribute : node.attributes()) names.emplace_back(attribute.name());
+        std::sort(names.begin(), names.end());
+        if (const auto twice = std::adjacent_find(names.begin(), names.end()); twice != names.end()) {
+            refuse(node, fmt::format("element '{}': attribute '{}' is given twice; once is allowed", node.name(),
+                                     shortened(*twice)));
+        }
+        pugi::xml_node next = node.first_child();
+        while (!next && node != root_) {
+            next = node.next_sibling();
+            if (!next) node = node.parent();
+        }
+        node = next;
+    }
 }
 
 std::size_t SumoXml::line_of(std::ptrdiff_t offset) const {

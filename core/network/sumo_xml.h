@@ -1,8 +1,8 @@
 // XML as SUMO writes it, read strictly: whatever cannot be used is an InputError that begins with file and line.
 //
 // Plain or gzipped, told apart by the first bytes. Refused: document type declarations (and so entities of their own), files larger than
-// 2 GiB when unpacked, anything that is not well-formed, numbers that are not finite. pugixml tells byte offsets; lines are counted from
-// them, in the text as it was read.
+// 2 GiB when unpacked, anything that is not well-formed (pugixml minds neither attributes given twice nor unknown entities: they are
+// looked for here), numbers that are not finite. pugixml tells byte offsets; lines are counted from them, in the text as it was read.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ public:
     SumoXml(const std::filesystem::path& file, std::initializer_list<std::string_view> roots);
 
     pugi::xml_node root() const { return root_; }
-    // "city.net.xml:12"
+    // "scenarios/city.net.xml:12"
     std::string where(pugi::xml_node node) const;
     const std::string& name() const { return name_; }
     std::size_t bytes() const { return text_.size(); }
@@ -42,6 +42,7 @@ public:
 
 private:
     void parse();
+    void refuse_doubles() const;
     std::size_t line_of(std::ptrdiff_t offset) const;
 
     std::string name_;
@@ -52,6 +53,8 @@ private:
     pugi::xml_node root_;
 };
 
+// Why a file cannot be opened and read to an end; empty: it can.
+std::string sumo_file_problem(const std::filesystem::path& file);
 // A finite decimal number and nothing else.
 std::optional<double> sumo_number(std::string_view text);
 // Words between blanks.

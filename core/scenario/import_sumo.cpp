@@ -2,13 +2,36 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "demand/sumo_routes.h"
 #include "network/sumo_graph.h"
 #include "network/sumo_net.h"
+#include "network/sumo_xml.h"
 
 namespace stopline {
+
+std::vector<FieldProblem> sumo_file_problems(const Scenario& scenario, const std::filesystem::path& directory) {
+    std::vector<FieldProblem> problems;
+    const NetworkSettings& network = scenario.network;
+    if (!network.is_sumo()) return problems;
+    const auto check = [&](const std::string& field, const std::string& name) {
+        const std::filesystem::path file = (directory / name).lexically_normal();
+        const std::string problem = sumo_file_problem(file);
+        if (!problem.empty()) problems.emplace_back(field, file.generic_string() + ": " + problem);
+    };
+    check("network.net", network.net);
+    for (std::size_t k = 0; k < network.routes.size(); ++k) {
+        check("network.routes[" + std::to_string(k) + "]", network.routes[k]);
+    }
+    for (std::size_t k = 0; k < network.additional.size(); ++k) {
+        check("network.additional[" + std::to_string(k) + "]", network.additional[k]);
+    }
+    return problems;
+}
 
 void import_sumo(Scenario& scenario, const std::filesystem::path& directory) {
     NetworkSettings& network = scenario.network;
@@ -55,6 +78,21 @@ std::vector<std::string> sumo_warnings(const Scenario& scenario) {
     lines = scenario.network.sumo->net.warnings.lines();
     for (std::string& line : scenario.demand.sumo->warnings.lines()) lines.push_back(std::move(line));
     return lines;
+}
+
+std::vector<FieldProblem> sumo_demand_problems(const Scenario& scenario) {
+    if (!scenario.demand.sumo || scenario.demand.sumo->elements > 0) return {};
+    return {{"network.routes", "there is no vehicle, trip or flow in the files of 'routes' and 'additional'"}};
+}
+
+std::string sumo_demand_warning(const Scenario& scenario) {
+    if (!scenario.demand.sumo || !scenario.demand.sumo->trips.empty()) return "";
+    if (const std::optional<double> later_s = scenario.demand.sumo->later_s) {
+        return fmt::format(
+            "nobody departs: the run ends at {:g} s ('duration'), and the first vehicle of the routes departs at {:g} s",
+            scenario.duration_s, *later_s);
+    }
+    return "nobody departs: none of the vehicles of the routes drives here, or their flows are of 0 vehicles";
 }
 
 std::uint64_t sumo_files_hash(const Scenario& scenario) {

@@ -42,7 +42,15 @@ Scenario scenario_from(SourceNode root, const std::vector<std::string>& override
     report.throw_if_any();
     scenario.vehicle_name = scenario.vehicle.name;
     scenario.driver_name = scenario.driver.name;
+    const auto refuse = [&](const std::vector<FieldProblem>& problems) {
+        for (const auto& [field, problem] : problems) {
+            report.error(report.place_of(field), "field '" + field + "': " + problem);
+        }
+        report.throw_if_any();
+    };
+    refuse(sumo_file_problems(scenario, source.directory));
     import_sumo(scenario, source.directory);
+    refuse(sumo_demand_problems(scenario));
     scenario.hash = scenario_hash(scenario);
     return scenario;
 }

@@ -65,7 +65,10 @@ ComparedRun compare_seed(const Scenario& scenario, std::size_t population, const
 
 }  // namespace
 
-double ComparedMetric::difference_percent() const { return 100.0 * (mean_of(ours) / mean_of(sumo) - 1.0); }
+double ComparedMetric::difference_percent() const {
+    if (of_sumo_alone || mean_of(sumo) == 0.0) return std::nan("");
+    return 100.0 * (mean_of(ours) / mean_of(sumo) - 1.0);
+}
 
 Interval ComparedMetric::band(Band kind) const { return confidence_interval(sumo, kind); }
 
@@ -79,7 +82,9 @@ std::vector<ComparedMetric> Comparison::metrics() const {
         {"wait_outside_s", &RunSummary::delay_s}};
     std::vector<ComparedMetric> metrics;
     for (const auto& [name, field] : fields) {
-        metrics.push_back({name, column(*this, true, field), column(*this, false, field)});
+        // SUMO's vehicles are those that entered our run, at their times: only there can they wait for room.
+        const bool of_sumo_alone = field == &RunSummary::delay_s;
+        metrics.push_back({name, column(*this, true, field), column(*this, false, field), of_sumo_alone});
     }
     return metrics;
 }

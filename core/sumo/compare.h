@@ -26,8 +26,9 @@ struct ComparedMetric {
     std::string name;          // with its unit, as a column
     std::vector<double> ours;  // [run]
     std::vector<double> sumo;
+    bool of_sumo_alone = false;  // ours has none of it by construction: not compared
 
-    double difference_percent() const;  // of the means, of SUMO's
+    double difference_percent() const;  // of the means, of SUMO's; NaN: SUMO's is 0, or there is nothing to compare
     Interval band(Band kind) const;     // of SUMO's mean; three runs at least
 };
 

@@ -10,6 +10,7 @@
 #include "experiment/interrupted.h"
 #include "experiment/intersection_run.h"
 #include "sumo/inputs.h"
+#include "sumo/staged_folder.h"
 
 namespace stopline {
 
@@ -76,11 +77,14 @@ std::string export_to_sumo(const Scenario& scenario, std::size_t population, con
     const Model model = build_model(scenario, population);
     const PlainNetwork network = plain_network(model.graph);
     const double end_s = run_end_s(scenario);
-    write_sumo_inputs(folder, model, network, end_s);
+    StagedFolder staged(folder);
+    write_sumo_inputs(staged.path(), model, network, end_s);
     std::vector<std::unique_ptr<RunWriter>> writers;
-    writers.push_back(make_sumo_route_writer(folder / "vehicles.rou.xml", model, network));
+    writers.push_back(make_sumo_route_writer(staged.path() / "vehicles.rou.xml", model, network));
     Simulation simulation(model);
     const std::string vehicles = run_watched(simulation, end_s, writers, on_progress)[0];
+    if (has_sumo()) make_net_file(staged.path());
+    staged.commit();
     const std::string note = stand_in_note(model);
     return note.empty() ? vehicles : vehicles + "\n" + note;
 }

@@ -28,7 +28,8 @@ void check_exportable(const Scenario& scenario);
 // What SUMO cannot do that this population does, as a sentence; empty: nothing.
 std::string stand_in_note(const Model& model);
 
-// Writes all files but the network itself (sumo/inputs.h). Needs `fidelity: meso`. Says how many vehicles, and what SUMO cannot do.
+// Writes all files (sumo/inputs.h), the network itself if has_sumo(), or none where it throws. Needs `fidelity: meso`. Says how many
+// vehicles, and what SUMO cannot do.
 std::string export_to_sumo(const Scenario& scenario, std::size_t population, const std::filesystem::path& folder,
                            const std::function<bool(double)>& on_progress);
 

@@ -13,6 +13,7 @@ namespace {
 using testing::crossing_net;
 using testing::refusal;
 using testing::SumoFiles;
+using testing::without_folder;
 
 constexpr double kUntil_s = 100.0;
 
@@ -110,9 +111,25 @@ TEST(SumoRoutes, OthersThanMotorVehiclesAreLeftOutAndToldOf) {
     EXPECT_EQ(traffic.trips.size(), 1U);
     const std::vector<std::string> lines = traffic.warnings.lines();
     ASSERT_EQ(lines.size(), 3U);
-    EXPECT_EQ(lines[0], "my.rou.xml:3: vehicles of this class do not drive here and are left out");
-    EXPECT_EQ(lines[1], "my.rou.xml:4: 'person' is not read");
-    EXPECT_EQ(lines[2], "my.rou.xml:5: stops are not read: nobody stops for them");
+    EXPECT_EQ(without_folder(lines[0]), "my.rou.xml:3: vehicles of this class do not drive here and are left out");
+    EXPECT_EQ(without_folder(lines[1]), "my.rou.xml:4: 'person' is not read");
+    EXPECT_EQ(without_folder(lines[2]), "my.rou.xml:5: stops are not read: nobody stops for them");
+}
+
+TEST(SumoRoutes, FilesThatAreNoneAreRefusedWithTheirLine) {
+    const SumoFiles files;
+    const SumoNetwork network = make_sumo_network(read_sumo_net(files.write("my.net.xml", crossing_net())), 2.0);
+    const auto says = [&](const std::string& text, bool additional) {
+        const std::filesystem::path file = files.write("my.xml", text);
+        const SumoRouteFiles names = additional ? SumoRouteFiles{{file}, {}} : SumoRouteFiles{{}, {file}};
+        return refusal([&] { read_sumo_routes(names, network, kUntil_s, 1); });
+    };
+    for (const bool additional : {false, true}) {
+        EXPECT_EQ(says("", additional), "my.xml:1: the file is empty");
+        EXPECT_EQ(says("\n<!DOCTYPE routes>\n<routes/>", additional).find("my.xml:2: has a DOCTYPE"), 0U);
+        EXPECT_EQ(says("\x1f\x8b\x08 cut", additional), "my.xml:1: is damaged or cut off here (gzip)");
+        EXPECT_EQ(says("<routes>\n<trip id='a' id='b'/>\n</routes>", additional).find("my.xml:2: "), 0U);
+    }
 }
 
 struct Hostile {
@@ -159,6 +176,9 @@ INSTANTIATE_TEST_SUITE_P(
         Hostile{R"(<flow id="f" from="w_in" to="e_out" begin="9" end="3" number="2"/>)", "end lies before begin"},
         Hostile{R"(<flow id="f" from="w_in" to="e_out" period="0"/>)", "too closely"},
         Hostile{R"(<flow id="f" fromTaz="1" toTaz="2" period="1"/>)", "'fromTaz' is not read"},
+        Hostile{R"(<trip id="a" depart="0" depart="1" from="w_in" to="e_out"/>)", "attribute 'depart' is given twice"},
+        Hostile{R"(<trip id="a&b;" depart="0" from="w_in" to="e_out"/>)", "element 'trip': '&b' is no entity"},
+        Hostile{R"(<!DOCTYPE routes>)", "not well-formed"},
         Hostile{R"(<include href="more.xml"/>)", "'include' is not read"}));
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "experiment/network.h"
 #include "experiment/network_run.h"
 #include "scenario/import_sumo.h"
 #include "scenario/load_scenario.h"
@@ -217,12 +218,81 @@ TEST(SumoRun, FilesAreInTheHash) {
     EXPECT_NE(scenario_of(crossing_net() + " ", kBusy).hash, hash);
 }
 
+TEST(SumoRun, SaysWhichTimeIsMeasured) {
+    const auto says = [](double duration_s, double steady_s) {
+        Scenario scenario = scenario_of(crossing_net(), kBusy);
+        scenario.duration_s = duration_s;
+        scenario.measure.steady_s = steady_s;
+        scenario.measure.interval_s = 60.0;
+        return window_text(run_networks(scenario, {}));
+    };
+    EXPECT_EQ(says(240.0, 120.0), "Measured from 120 to 240 s.");
+    EXPECT_EQ(says(260.0, 160.0),
+              "Measured from 120 to 240 s. measure.steady asks for 100 to 260 s; whole intervals of 60 s "
+              "(measure.interval) are measured.");
+    const std::string more = says(240.0, 500.0);
+    EXPECT_NE(more.find("to 240 s. measure.steady asks for 500 s, the run has 240 s: of each population all but its "
+                        "warm-up is measured"),
+              std::string::npos)
+        << more;
+    EXPECT_EQ(says(240.0, 30.0),
+              "Nothing is measured: no whole interval of 60 s (measure.interval) lies in the last 30 s of the run.");
+}
+
 TEST(SumoScenario, RefusesWhatDoesNotBelongToIt) {
     const auto says = [](const std::string& more) {
         return testing::refusal([&] { scenario_of(crossing_net(), kBusy, more); });
     };
     EXPECT_NE(says("demand: {vehicles: 3}\n").find("field 'demand' is used only where"), std::string::npos);
     EXPECT_NE(says("signal: {green: 3 s}\n").find("field 'signal' is used only where"), std::string::npos);
+}
+
+TEST(SumoScenario, SaysWhereItNamesFilesThatCannotBeRead) {
+    const SumoFiles files;
+    files.write("my.net.xml", crossing_net());
+    const auto says = [&](const std::string& network) {
+        return testing::refusal([&] {
+            parse_scenario("duration: 300 s\nnetwork:\n  kind: sumo\n" + network, "my.yaml", {}, files.folder());
+        });
+    };
+    EXPECT_EQ(
+        says("  net: ./none.net.xml\n"),
+        "my.yaml:4:8: field 'network.net': " + (files.folder() / "none.net.xml").string() + ": there is no such file");
+    const std::string both = says("  net: ./my.net.xml\n  routes: [., ./none.rou.xml]\n  additional: [/dev/zero]\n");
+    EXPECT_NE(both.find("my.yaml:5:12: field 'network.routes[0]': "), std::string::npos) << both;
+    EXPECT_NE(both.find("my.yaml:5:15: field 'network.routes[1]': "), std::string::npos) << both;
+    EXPECT_NE(both.find("my.yaml:6:16: field 'network.additional[0]': /dev/zero: is not a file that can be read"),
+              std::string::npos)
+        << both;
+}
+
+TEST(SumoScenario, WarnsWhereNobodyDeparts) {
+    const auto warning = [](const std::string& routes) {
+        return sumo_demand_warning(scenario_of(crossing_net(), routes));
+    };
+    EXPECT_EQ(warning(kBusy), "");
+    const std::string late =
+        "nobody departs: the run ends at 300 s ('duration'), and the first vehicle of the routes departs at ";
+    EXPECT_EQ(
+        warning(
+            R"(<trip id="b" depart="500" from="w_in" to="e_out"/><trip id="a" depart="300" from="w_in" to="e_out"/>)"),
+        late + "300 s");
+    EXPECT_EQ(warning(R"(<flow id="a" begin="1000" end="2000" number="5" from="w_in" to="e_out"/>)"), late + "1000 s");
+    EXPECT_NE(warning(R"(<vType id="b" vClass="bicycle"/><trip id="a" type="b" depart="0" from="w_in" to="e_out"/>)")
+                  .find("none of the vehicles of the routes drives here"),
+              std::string::npos);
+    const NetworkFigures f =
+        run_network(scenario_of(crossing_net(), R"(<trip id="a" depart="300" from="w_in" to="e_out"/>)"), 0, {}, 1, {});
+    EXPECT_EQ(f.entered, 0);
+    EXPECT_TRUE(f.violations.none());
+}
+
+TEST(SumoScenario, RefusesRoutesWithNobody) {
+    const std::string message =
+        testing::refusal([] { scenario_of(crossing_net(), R"(<vType id="a"/><route id="r" edges="w_in e_out"/>)"); });
+    EXPECT_EQ(message,
+              "my.yaml:3:50: field 'network.routes': there is no vehicle, trip or flow in the files of 'routes' and "
+              "'additional'");
 }
 
 }  // namespace

@@ -142,9 +142,10 @@ TEST(SumoNetwork, ShortLanesBeforeAStopLineAreEnteredSlowly) {
     for (int k = 0; k < 1; ++k)
         text = replaced(text, "length=\"190.00\" shape=\"1.60,10.00 1.60,200.00\"",
                         "length=\"12.00\" shape=\"1.60,10.00 1.60,22.00\"");
-    text = replaced(text, "    <junction id=\"J\"",
-                    "    <edge id=\"far\"><lane id=\"far_0\" index=\"0\" speed=\"13.89\" length=\"100\" "
-                    "shape=\"1.6,30 1.6,130\"/></edge>\n    <junction id=\"J\"");
+    text = replaced(
+        text, "    <junction id=\"J\"",
+        "    <edge id=\"far\" from=\"N\" to=\"S\"><lane id=\"far_0\" index=\"0\" speed=\"13.89\" length=\"100\" "
+        "shape=\"1.6,30 1.6,130\"/></edge>\n    <junction id=\"J\"");
     text = replaced(text, "</net>",
                     "<connection from=\"n_out\" to=\"far\" fromLane=\"1\" toLane=\"0\" tl=\"J\" "
                     "linkIndex=\"0\" dir=\"s\" state=\"o\"/></net>");
@@ -170,7 +171,7 @@ TEST(SumoNetwork, TellsWhatItDoesNotRead) {
     const std::string text = replaced(signal_net(two_phases()), "type=\"static\"", "type=\"actuated\"");
     const std::vector<std::string> lines = made_of(text).net.warnings.lines();
     ASSERT_EQ(lines.size(), 1U);
-    EXPECT_NE(lines[0].find("my.net.xml:32: signals of type 'actuated' run as static ones"), std::string::npos)
+    EXPECT_NE(lines[0].find("/my.net.xml:32: signals of type 'actuated' run as static ones"), std::string::npos)
         << lines[0];
 }
 
@@ -184,7 +185,24 @@ TEST(SumoNetwork, ReadsGzippedFiles) {
     EXPECT_EQ(read_sumo_net(file).edges.size(), 8U);
     EXPECT_EQ(read_sumo_net(file).hash, read_sumo_net(files.write("plain.net.xml", text)).hash);
     std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
-    EXPECT_NE(refusal([&] { read_sumo_net(file); }).find("damaged or cut off"), std::string::npos);
+    const std::string message = refusal([&] { read_sumo_net(file); });
+    EXPECT_EQ(message.find("my.net.xml.gz:"), 0U) << message;
+    EXPECT_NE(message.find(": is damaged or cut off here (gzip)"), std::string::npos) << message;
+}
+
+TEST(SumoNetwork, KnowsTheEntitiesOfXmlAndLeavesCommentsAlone) {
+    const std::string text =
+        replaced(signal_net(two_phases()), "<net version",
+                 "<!-- &up; a & b < c -->\n<?tool &up;?>\n<net title=\"&amp;&lt;&#65;&#x41;\" version");
+    EXPECT_EQ(made_of(text).net.edges.size(), 8U);
+    const std::string after = replaced(text, "programID=\"0\"", "programID=\"&up;\"");
+    EXPECT_EQ(refusal([&] { made_of(after); }).find("my.net.xml:34: "), 0U);
+}
+
+// netconvert writes 0 for the second of two lanes inside a junction on which vehicles wait.
+TEST(SumoNetwork, InternalLanesAreCountedByTheirIds) {
+    EXPECT_EQ(made_of(replaced(crossing_net(), "\":J_1_1\" index=\"1\"", "\":J_1_1\" index=\"0\"")).graph.lanes.size(),
+              10U);
 }
 
 struct Hostile {
@@ -206,8 +224,13 @@ TEST_P(SumoNetworkErrors, NameFileAndLine) {
 INSTANTIATE_TEST_SUITE_P(
     All, SumoNetworkErrors,
     ::testing::Values(
-        Hostile{"<net version", "<!DOCTYPE net [<!ENTITY a \"b\">]>\n<net version", "my.net.xml: has a DOCTYPE"},
-        Hostile{"</net>", "", "my.net.xml:54: is not well-formed XML"}, Hostile{"<net ", "<sumo ", "my.net.xml:"},
+        Hostile{"<net version", "<!DOCTYPE net [<!ENTITY a \"b\">]>\n<net version", "my.net.xml:2: has a DOCTYPE"},
+        Hostile{"length=\"190.00\"", "length=\"190.00\" length=\"9\"",
+                ":18: element 'lane': attribute 'length' is given twice"},
+        Hostile{"programID=\"0\"", "programID=\"&up;\"", ":32: element 'tlLogic': '&up' is no entity"},
+        Hostile{"programID=\"0\"", "programID=\"a & b\"", ":32: element 'tlLogic': '&' is no entity"},
+        Hostile{"programID=\"0\"", "programID=\"&#x;\"", ":32: element 'tlLogic': '&#x' is no entity"},
+        Hostile{"</net>", "", "my.net.xml:58: is not well-formed XML"}, Hostile{"<net ", "<sumo ", "my.net.xml:"},
         Hostile{"length=\"190.00\"", "length=\"-1\"", ":18: length=\"-1\""},
         Hostile{"length=\"190.00\"", "length=\"nan\"", ":18: element 'lane': length=\"nan\" is not a finite number"},
         Hostile{"speed=\"13.89\" length=\"190.00\"", "speed=\"inf\" length=\"190.00\"", ":18: element 'lane': speed"},
@@ -216,6 +239,18 @@ INSTANTIATE_TEST_SUITE_P(
         Hostile{"-200.00,-4.80 -10.00,-4.80", "1,1", ":18: shape needs two different points"},
         Hostile{"edge id=\"s_in\"", "edge id=\"w_in\"", ":25: there are two edges 'w_in'"},
         Hostile{"<lane id=\"w_in_1\" index=\"1\"", "<lane id=\"w_in_1\" index=\"3\"", ":19: lanes of edge 'w_in'"},
+        Hostile{"junction id=\"E\"", "junction id=\"W\"", "there are two junctions 'W'"},
+        Hostile{"junction id=\"E\"", "junction id=\":J_4_0\"", "there are two junctions ':J_4_0'"},
+        Hostile{"from=\"W\"", "from=\"X\"", ":17: edge 'w_in': from=\"X\": there is no junction of this id"},
+        Hostile{"to=\"E\"", "to=\"X\"", ":21: edge 'e_out': to=\"X\": there is no junction of this id"},
+        Hostile{" from=\"W\"", "", ":17: element 'edge' has no 'from'"},
+        Hostile{"lane id=\"w_in_1\"", "lane id=\"w_in_0\"", ":19: lane id=\"w_in_0\" must be 'w_in_1'"},
+        Hostile{"lane id=\":J_1_1\" index=\"1\"", "lane id=\":J_1_0\" index=\"0\"",
+                ":9: lane id=\":J_1_0\" must be ':J_1_1'"},
+        Hostile{"incLanes=\"s_in_0", "incLanes=\"s_in_1", "junction 'J': incLanes has 's_in_1': there is no lane"},
+        Hostile{"incLanes=\"s_in_0", "incLanes=\"s_in", "junction 'J': incLanes has 's_in': there is no lane"},
+        Hostile{"intLanes=\":J_0_0 ", "intLanes=\":J_0_9 ", "junction 'J': intLanes has ':J_0_9': there is no lane"},
+        Hostile{"incLanes=\":J_3_0 ", "incLanes=\":J_3_1 ", "junction ':J_4_0': incLanes has ':J_3_1'"},
         Hostile{"to=\"e_out\" fromLane=\"0\"", "to=\"nowhere\" fromLane=\"0\"", ": to: there is no edge 'nowhere'"},
         Hostile{"fromLane=\"0\" toLane=\"0\" via=\":J_1_0\"", "fromLane=\"7\" toLane=\"0\" via=\":J_1_0\"",
                 "edge 'w_in' has no lane 7"},
@@ -233,20 +268,34 @@ INSTANTIATE_TEST_SUITE_P(
         Hostile{"request index=\"1\"", "request index=\"2\"", "requests are not numbered"},
         Hostile{"<net version=\"1.20\"", "<net version=\"1.20\" lefthand=\"true\"", "left-hand"}));
 
+TEST(SumoNetwork, MessagesNameTheFileWithItsFolder) {
+    const SumoFiles files;
+    const std::filesystem::path file = files.write("my.net.xml", "<net/>");
+    try {
+        read_sumo_net(files.folder() / "." / "my.net.xml");
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_EQ(std::string(error.what()).find(file.string() + ":1: "), 0U) << error.what();
+    }
+}
+
 TEST(SumoNetwork, RefusesFilesThatAreNone) {
     const SumoFiles files;
     const auto says = [&](const std::string& text) {
         return refusal([&] { read_sumo_net(files.write("my.net.xml", text)); });
     };
-    EXPECT_NE(says("").find("the file is empty"), std::string::npos);
-    EXPECT_NE(says(" \n ").find("the file is empty"), std::string::npos);
+    EXPECT_EQ(says(""), "my.net.xml:1: the file is empty");
+    EXPECT_EQ(says(" \n "), "my.net.xml:1: the file is empty");
     EXPECT_NE(says(std::string(100'000, 'x')).find("my.net.xml"), std::string::npos);
     EXPECT_NE(says(std::string(1000, '\0')).find("my.net.xml"), std::string::npos);
     EXPECT_NE(says("<net/>").find("no lane on which passenger cars may drive"), std::string::npos);
     std::string deep;
     for (int k = 0; k < 200'000; ++k) deep += "<net>";
     EXPECT_NE(says(deep).find("not well-formed"), std::string::npos);
-    EXPECT_NE(refusal([&] { read_sumo_net(files.folder() / "none.net.xml"); }).find("no such file"), std::string::npos);
+    EXPECT_EQ(refusal([&] { read_sumo_net(files.folder() / "none.net.xml"); }), "none.net.xml: there is no such file");
+    EXPECT_NE(refusal([&] { read_sumo_net(files.folder()); }).find("is a folder"), std::string::npos);
+    EXPECT_EQ(refusal([&] { read_sumo_net("/dev/zero"); }).find("/dev/zero: is not a file that can be read to an end"),
+              0U);
 }
 
 }  // namespace

@@ -116,6 +116,30 @@ TEST(SumoEntry, OnEdgesShorterThanAVehicleTouchesNobody) {
     EXPECT_GT(f.left_network, 25);
 }
 
+// Of an edge of 2 m, behind which another way comes near at once.
+TEST(SumoEntry, OnEdgesShorterThanAVehicleIsWhereItCanStillGiveWay) {
+    const auto front_m = [](const std::string& position, const std::string& shape_of_the_other) {
+        const SumoFiles files;
+        files.write("my.net.xml", testing::replaced(testing::roundabout_net(), "10,-8 14,0", shape_of_the_other));
+        files.write("my.rou.xml", "<routes><trip id=\"a\" depart=\"0\" departSpeed=\"0\" from=\"s\" to=\"c\" " +
+                                      position + "/></routes>");
+        const Scenario scenario = parse_scenario(
+            std::string(kMeso) + "duration: 60 s\nnetwork: {kind: sumo, net: ./my.net.xml, routes: [./my.rou.xml]}\n" +
+                "populations: [CTG-Ref]\nmeasure: {steady: 60 s}\n",
+            "my.yaml", {}, files.folder());
+        const std::vector<double> fronts = fronts_m(scenario, "s_0", 0.1);
+        EXPECT_EQ(fronts.size(), 1U) << position;
+        return fronts.empty() ? -1.0 : fronts[0];
+    };
+    const double margin_m =
+        network_model(scenario_of(R"(<trip id="a" depart="0" from="w_in" to="e_out"/>)"), 0).give_way.margin_m;
+    ASSERT_GT(margin_m, 0.2);
+    for (const char* const position : {"", "departPos=\"2\"", "departPos=\"last\""}) {
+        EXPECT_NEAR(front_m(position, "10,-8 7,-0.5 14,0"), std::max(2.0 - margin_m, 0.0), 0.05) << position;
+    }
+    EXPECT_NEAR(front_m("departPos=\"2\"", "10,-8 14,0"), 2.0, 0.05);
+}
+
 TEST(SumoEntry, OnOneLaneDoesNotWaitForTheOther) {
     // Twenty cannot stand on the right lane behind one that nearly blocks its start; the left one is free.
     const std::string blocker = R"(<trip id="slow" depart="0" from="w_in" to="e_out" departPos="8" departSpeed="0"/>)";
@@ -132,7 +156,7 @@ TEST(SumoLoops, CountThoseThatPass) {
     const Scenario scenario = scenario_of(R"(<trip id="a" depart="0" from="w_in" to="e_out" departSpeed="max"/>
 <trip id="b" depart="0" from="w_in" to="e_out" departPos="100" departSpeed="max"/>)",
                                           loops);
-    EXPECT_EQ(sumo_warnings(scenario).back(),
+    EXPECT_EQ(testing::without_folder(sumo_warnings(scenario).back()),
               "my.add.xml:4: a detector inside a junction, or on a lane where cars do not drive, is left out");
     Model model = network_model(scenario, 0);
     model.records_detectors = true;

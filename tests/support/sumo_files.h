@@ -35,19 +35,32 @@ private:
     std::filesystem::path folder_;
 };
 
+// Where streets begin and end; one character an id.
+inline std::string dead_ends(const std::string& ids) {
+    std::string text;
+    for (const char id : ids) text += std::string("<junction id=\"") + id + "\" type=\"dead_end\" x=\"0\" y=\"0\"/>\n";
+    return text;
+}
+
 inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
     const std::size_t at = text.find(from);
     EXPECT_NE(at, std::string::npos) << from;
     return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
-// What an action that must be refused says.
+// Without the folder of those above.
+inline std::string without_folder(const std::string& message) {
+    const std::string folder = (std::filesystem::temp_directory_path() / "stopline_sumo_").string();
+    return message.starts_with(folder) ? message.substr(message.find('/', folder.size()) + 1) : message;
+}
+
+// What an action that must be refused says, without the folder of its file.
 template <class Act>
 std::string refusal(const Act& act) {
     try {
         act();
     } catch (const InputError& error) {
-        return error.what();
+        return without_folder(error.what());
     }
     return "(nothing was refused)";
 }
@@ -94,6 +107,10 @@ inline std::string crossing_net() {
         <request index="3" response="0000" foes="0001" cont="1"/>
     </junction>
     <junction id=":J_4_0" type="internal" x="-2" y="0" incLanes=":J_3_0 s_in_0" intLanes=":J_0_0"/>
+    <junction id="W" type="dead_end" x="-200" y="0" incLanes="" intLanes=""/>
+    <junction id="E" type="dead_end" x="200" y="0" incLanes="e_out_0 e_out_1" intLanes=""/>
+    <junction id="S" type="dead_end" x="0" y="-200" incLanes="" intLanes=""/>
+    <junction id="N" type="dead_end" x="0" y="200" incLanes="n_out_0 n_out_1" intLanes=""/>
     <connection from="s_in" to="n_out" fromLane="0" toLane="1" via=":J_0_0" dir="s" state="m"/>
     <connection from="w_in" to="e_out" fromLane="0" toLane="0" via=":J_1_0" dir="s" state="M"/>
     <connection from="w_in" to="e_out" fromLane="1" toLane="1" via=":J_1_1" dir="s" state="M"/>
@@ -127,7 +144,7 @@ inline std::string merge_net(const std::string& short_m) {
 <request index="0" response="0" foes="0" cont="0"/></junction>
 )" + leads("a", "s", ":J_0") +
            leads("b", "s", ":J_1") + leads("s", "c", ":K_0") + leads(":J_0", "s", "") + leads(":J_1", "s", "") +
-           leads(":K_0", "c", "") + "</net>\n";
+           leads(":K_0", "c", "") + dead_ends("AB") + "</net>\n";
 }
 
 // Who comes from b, 100 m, goes over s, 2 m, to c, or leaves for x before; who comes from a gives way where s ends.
@@ -154,8 +171,8 @@ inline std::string roundabout_net() {
 <connection from=":J_1" to="x" fromLane="0" toLane="0" dir="r" state="M"/>
 <connection from=":K_0" to="c" fromLane="0" toLane="0" dir="r" state="M"/>
 <connection from=":K_1" to="c" fromLane="0" toLane="0" dir="s" state="M"/>
-</net>
-)";
+)" + dead_ends("ABCX") +
+           "</net>\n";
 }
 
 // Two lanes of an edge, 100 m, that become one on a short edge, which leads on.
@@ -179,8 +196,8 @@ inline std::string lane_drop_net() {
 <connection from=":J_0" to="s" fromLane="0" toLane="0" dir="s" state="M"/>
 <connection from=":J_1" to="s" fromLane="0" toLane="0" dir="s" state="M"/>
 <connection from=":K_0" to="c" fromLane="0" toLane="0" dir="s" state="M"/>
-</net>
-)";
+)" + dead_ends("AC") +
+           "</net>\n";
 }
 
 // Two streets of one lane, from west and east, where those who turn left, to the north and the south, wait inside for the others.
@@ -206,7 +223,9 @@ inline std::string opposing_lefts_net() {
 <connection from=":J_0" to="to_e" fromLane="0" toLane="0" dir="s" state="M"/>
 <connection from=":J_1" to="to_n" fromLane="0" toLane="0" dir="l" state="M"/>
 <connection from=":J_2" to="to_w" fromLane="0" toLane="0" dir="s" state="M"/>
-<connection from=":J_3" to="to_s" fromLane="0" toLane="0" dir="l" state="M"/></net>)";
+<connection from=":J_3" to="to_s" fromLane="0" toLane="0" dir="l" state="M"/>
+)" + dead_ends("WENS") +
+           "</net>\n";
 }
 
 // The same as the crossing with lights; the phases are for links 0 to 3.

@@ -1,0 +1,31 @@
+// Files that come into their folder together once all of them are made. A program that fails or is interrupted leaves the folder as it
+// was, or as little there as before.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+namespace stopline {
+
+class StagedFolder {
+public:
+    // Makes the folder, with its parents, if need be. This and commit throw InputError with path and reason.
+    explicit StagedFolder(const std::filesystem::path& folder);
+    StagedFolder(const StagedFolder&) = delete;
+    StagedFolder& operator=(const StagedFolder&) = delete;
+    StagedFolder(StagedFolder&&) = delete;
+    StagedFolder& operator=(StagedFolder&&) = delete;
+    ~StagedFolder();
+
+    // Where to write: a hidden folder in the other.
+    const std::filesystem::path& path() const { return stage_; }
+    // Moves the files to their places, where they replace those of their names.
+    void commit();
+
+private:
+    std::filesystem::path folder_;
+    std::filesystem::path stage_;
+    std::vector<std::filesystem::path> made_;  // folders that were not there, the innermost first
+};
+
+}  // namespace stopline

@@ -1,0 +1,91 @@
+#!/usr/bin/env bash
+# SUMO's files that cannot be used: exit code 2, nothing on standard output, and a message with path and line, for each kind of file.
+# Where nobody departs stopline-run warns.
+set -u
+
+. "$STOPLINE_SOURCE/tests/tools/cli.sh"
+run="$STOPLINE_BIN/stopline-run"
+
+net='<net version="1.20">
+<edge id="e" from="A" to="B"><lane id="e_0" index="0" speed="13.89" length="200" shape="0,0 200,0"/></edge>
+<junction id="A" type="dead_end" x="0" y="0"/><junction id="B" type="dead_end" x="200" y="0" incLanes="e_0"/>
+</net>'
+routes='<routes>
+<vehicle id="a" depart="0"><route edges="e"/></vehicle>
+</routes>'
+additional='<additional>
+</additional>'
+
+# ended WHAT CODE: runs the scenario of the files in $work.
+ended() {
+    timeout 60 "$run" "$work/s.yaml" --no-figures --output "$work/out" >"$work/stdout" 2>"$work/stderr"
+    local code=$?
+    [ $code -eq "$2" ] || fail "$1: exit code $code instead of $2: $(head -c 300 "$work/stderr")"
+}
+
+# says WHAT PART
+says() { grep -qF -- "$2" "$work/stderr" || fail "$1: no '$2' in: $(head -c 500 "$work/stderr")"; }
+
+scenario() {
+    printf 'fidelity: meso\nduration: 60 s\nnetwork:\n  kind: sumo\n  net: %s\n  routes: [%s]\n  additional: [%s]\npopulations: [CTG-Ref]\n' \
+        "${1:-./net.xml}" "${2:-./rou.xml}" "${3:-./add.xml}" >"$work/s.yaml"
+    printf '%s' "$net" >"$work/net.xml"
+    printf '%s' "$routes" >"$work/rou.xml"
+    printf '%s' "$additional" >"$work/add.xml"
+    rm -rf "$work/out"
+}
+
+# refused WHAT PART
+refused() {
+    ended "$1" 2
+    says "$1" "$2"
+    [ -s "$work/stdout" ] && fail "$1: writes to standard output"
+    [ -e "$work/out" ] && fail "$1: leaves results behind"
+}
+
+scenario
+ended "good files" 0
+[ -s "$work/stderr" ] && fail "good files: $(head -c 300 "$work/stderr")"
+
+for file in net rou add; do
+    scenario
+    : >"$work/$file.xml"
+    refused "$file: empty" "$work/$file.xml:1: the file is empty"
+    scenario
+    printf '<?xml version="1.0"?>\n<!DOCTYPE x [<!ENTITY a "b">]>\n%s' "$(cat "$work/$file.xml")" >"$work/whole"
+    mv "$work/whole" "$work/$file.xml"
+    refused "$file: DOCTYPE" "$work/$file.xml:2: has a DOCTYPE"
+    scenario
+    {
+        cat "$work/$file.xml"
+        head -c 20000 /dev/urandom | od -A n -t x1
+    } | gzip >"$work/whole"
+    head -c 5000 "$work/whole" >"$work/$file.xml"
+    refused "$file: cut off" ": is damaged or cut off here (gzip)"
+    says "$file: cut off" "$work/$file.xml:"
+    scenario
+    sed -i '1s/>/ a="1" a="2">/' "$work/$file.xml"
+    refused "$file: attribute twice" "$work/$file.xml:1: element '"
+    scenario
+    sed -i '1s/>/ a="\&unknown;">/' "$work/$file.xml"
+    refused "$file: unknown entity" "'&unknown' is no entity"
+    scenario
+    rm "$work/$file.xml"
+    refused "$file: missing" "$work/$file.xml: there is no such file"
+done
+scenario ./none.xml
+refused "missing net" "$work/s.yaml:5:8: field 'network.net': "
+scenario "" /dev/zero
+refused "device as routes" "$work/s.yaml:6:12: field 'network.routes[0]': /dev/zero: is not a file that can be read to an end"
+scenario "" "" .
+refused "folder as additional" "$work/s.yaml:7:16: field 'network.additional[0]': "
+
+scenario
+echo '<routes><vType id="t"/></routes>' >"$work/rou.xml"
+refused "no vehicle" "$work/s.yaml:6:11: field 'network.routes': there is no vehicle, trip or flow"
+scenario
+sed -i 's/depart="0"/depart="60"/' "$work/rou.xml"
+ended "nobody departs" 0
+says "nobody departs" "warning: nobody departs: the run ends at 60 s ('duration'), and the first vehicle of the routes departs at 60 s"
+
+exit $((failures > 0))
