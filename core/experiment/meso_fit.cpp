@@ -56,10 +56,8 @@ struct Search {
 
 MesoSettings with_values(MesoSettings settings, const std::vector<double>& values) {
     for (std::size_t k = 0; k < values.size(); ++k) fit_parameters()[k].in(settings) = values[k];
-    // Nobody stands further behind another than the policy says.
-    const double most_m = settings.calibrated_standstill_gap_m;
-    double& gap_m = settings.constant_distance.standstill_gap_m;
-    gap_m = std::min(gap_m, most_m - settings.band_m);
+    // Vehicles stand as far apart as the policy says.
+    settings.constant_distance.standstill_gap_m = settings.calibrated_standstill_gap_m - settings.band_m;
     return settings;
 }
 
@@ -84,8 +82,10 @@ double evaluate(Search& search) {
     const std::size_t index = search.history.size();
     const auto share = static_cast<double>(index) / static_cast<double>(search.planned);
     if (options.on_progress && !options.on_progress(share)) throw Interrupted();
+    MesoSettings settings = with_values(search.settings, search.values);
+    for (std::size_t k = 0; k < search.values.size(); ++k) search.values[k] = fit_parameters()[k].in(settings);
     const std::optional<double> known = options.known ? options.known(index, search.values) : std::nullopt;
-    const double loss = known ? *known : mean_loss(search, with_values(search.settings, search.values));
+    const double loss = known ? *known : mean_loss(search, settings);
     search.history.push_back({search.stage, search.values, loss});
     if (!known && options.on_evaluation) options.on_evaluation(index, search.history.back());
     if (loss < search.best_loss) {
@@ -142,7 +142,7 @@ std::vector<double> start_values(std::vector<double> values, const std::vector<s
 
 // Nobody brakes harder than 7 m/s2, what brakes give on a dry road; without a reaction time 5 m/s2 are what a vehicle reaches
 // in time for a stop line. Nobody anticipates more than a step of 100 ms: beyond it policies whose gap grows with the speed
-// swing. s_0 of the models with a time gap is what the policy says, and not fitted; in equation (1) s_0 and s_t share it.
+// swing. s_0 of the models with a time gap is what the policy says, and not fitted; in equation (1) s_0 is what s_t leaves of it.
 const std::vector<FitParameter>& fit_parameters() {
     using S = MesoSettings;
     static const std::vector<FitParameter> kAll{
@@ -172,7 +172,7 @@ const std::vector<FitParameter>& fit_parameters() {
          [](S& s) -> double& { return s.constant_distance.deceleration_mps2; }},
         {"constant_distance.reaction", "s", true, 0.0, 0.3,
          [](S& s) -> double& { return s.constant_distance.reaction_s; }},
-        {"constant_distance.standstill_gap", "m", true, 1.5, 2.95,
+        {"constant_distance.standstill_gap", "m", true, 0.0, 0.0,
          [](S& s) -> double& { return s.constant_distance.standstill_gap_m; }},
         {"constant_distance.dawdling", "", true, 0.0, 1.0,
          [](S& s) -> double& { return s.constant_distance.dawdling; }},
@@ -214,9 +214,9 @@ MesoFit fit_meso(const std::vector<FitCase>& cases, const MesoSettings& start, c
     const auto parameters = [&](Subset which) {
         std::vector<std::size_t> free;
         for (std::size_t k = 0; k < fit_parameters().size(); ++k) {
-            if (which == Subset::all || fit_parameters()[k].constant_distance == (which == Subset::constant_distance)) {
-                free.push_back(k);
-            }
+            const FitParameter& p = fit_parameters()[k];
+            if (!p.is_free()) continue;
+            if (which == Subset::all || p.constant_distance == (which == Subset::constant_distance)) free.push_back(k);
         }
         return free;
     };

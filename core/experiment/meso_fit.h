@@ -22,9 +22,11 @@ struct FitParameter {
     const char* name;  // path within MesoSettings, as in a file
     const char* unit;
     bool constant_distance;  // whose it is
-    double low;              // bounds of the search, SI units
+    double low;              // bounds of the search, SI units; equal where others decide it
     double high;
     double& (*in)(MesoSettings&);
+
+    bool is_free() const { return low < high; }
 };
 const std::vector<FitParameter>& fit_parameters();
 
