@@ -90,7 +90,7 @@ void add_run_files_options(CLI::App& app, RunFilesOptions& options) {
         "Record every vehicle and light, for stopline-replay; with several populations, here and below, one file each: "
         "NAME.POPULATION.EXT");
     file("--fcd", options.fcd, "Write every vehicle's path as SUMO's floating car data (XML)");
-    time("--record-interval", options.interval, "Time between frames of both (default: 0.5 s)");
+    time("--record-interval", options.interval, "Time between frames of both (default: 1 s)");
     time("--record-from", options.from, "Write both from this time on (default: 0 s)");
     time("--record-until", options.until, "Write both up to this time (default: the end)");
     file("--tripinfo", options.tripinfo, "Write finished trips as SUMO does (XML)");

@@ -25,7 +25,7 @@ struct RunFilesOptions {
     std::string tripinfo;
     std::string loops;
     std::string trajectories;  // of a grid
-    std::string interval = "0.5 s";
+    std::string interval = "1 s";
     std::string from = "0 s";
     std::string until;  // empty: to the end
     std::string loop_interval = "60 s";

@@ -11,7 +11,7 @@
 namespace stopline {
 
 struct RecordingWindow {
-    double interval_s = 0.5;
+    double interval_s = 1.0;
     double from_s = 0.0;
     double until_s = std::numeric_limits<double>::infinity();
 };

@@ -5,7 +5,7 @@ set -u
 
 . "$STOPLINE_SOURCE/tests/tools/cli.sh"
 "$STOPLINE_BIN/stopline-run" "$STOPLINE_SOURCE/scenarios/intersection.yaml" --set 'populations=[CDG]' --set measure.baseline=CDG \
-    --set measure.cycles=2 --no-figures --trajectories --interval "0.5 s" --record "$work/crossing.rec" \
+    --set measure.cycles=2 --set 'demand.left=15 %' --set 'demand.right=30 %' --no-figures --trajectories --interval "1 s" --record "$work/crossing.rec" \
     --output "$work/crossing" >"$work/stdout" || fail "intersection: exit code $?"
 "$STOPLINE_BIN/stopline-run" "$STOPLINE_SOURCE/scenarios/grid.yaml" --set 'populations=[CDG]' --set measure.baseline=CDG \
     --set network.grid.columns=7 --set network.grid.rows=7 --set 'duration=320 s' --set 'measure.steady=100 s' \

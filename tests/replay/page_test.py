@@ -55,6 +55,35 @@ def shows_the_state(browser, rows):
             check(f"{state['position_m']:.2f} m" in text, f"no place in: {text}")
 
 
+def keeps_to_its_path(browser):
+    """Between two frames, vehicles that turn are drawn on the curve, not on a straight line across it."""
+    off_m, turning = browser.value("""(() => {
+        let [worst, seen] = [0, 0];
+        const {network, recording} = replay;
+        for (let number = 0; number + 1 < recording.frameCount; ++number) {
+            const [from, to] = [recording.frame(number), recording.frame(number + 1)];
+            if (!from || !to) continue;
+            const spots = network.spots(from);
+            const point = [0, 0];
+            between(network, from, to, 0.5, recording.head.frame_s, (k, p) => {
+                const shape = network.lanes[spots.lane[k]].shape;
+                if (shape.numbers.length < 8 || to.indexOf(from.number[k]) < 0) return;
+                if (network.spots(to).lane[to.indexOf(from.number[k])] !== spots.lane[k]) return;
+                let near = Infinity;
+                for (let at = 0; at < shape.length_m; at += 0.05) {
+                    shape.place(at, point, 0);
+                    near = Math.min(near, Math.hypot(point[0] - p[0], point[1] - p[1]));
+                }
+                worst = Math.max(worst, near);
+                ++seen;
+            });
+        }
+        return [worst, seen];
+    })()""")
+    check(turning > 20, f"only {turning} vehicles on curves")
+    check(off_m < 0.05, f"a vehicle is drawn {off_m:.2f} m beside its path")
+
+
 def main():
     if len(sys.argv) < 3:
         sys.exit(__doc__)
@@ -80,6 +109,7 @@ def main():
             browser.value(f"replay.setMode('{mode}')")
             settle(browser)
         shows_the_state(browser, rows[::max(len(rows) // 12, 1)])
+        keeps_to_its_path(browser)
         browser.value("replay.map.fit(); replay.seek(1e9)")
         ready(browser)
         check(browser.value("document.getElementById('count-left').textContent") != "0", "nobody has left at the end")

@@ -57,34 +57,45 @@ class Network {
         }
     }
 
-    // Front and rear of all vehicles of a frame: x, y, x, y for each.
-    points(frame) {
-        if (frame.points) return frame.points;
-        const points = new Float32Array(4 * frame.number.length);
-        for (let k = 0; k < frame.number.length; ++k) this.locate(frame, k, points);
-        frame.points = points;
-        return points;
+    // Where the vehicles of a frame are: lane, lane behind (-1: none) and place of the front along the lane's shape, for each.
+    spots(frame) {
+        if (frame.spots) return frame.spots;
+        const count = frame.number.length;
+        frame.spots = {lane: new Int32Array(count), behind: new Int32Array(count), front_m: new Float32Array(count)};
+        for (let k = 0; k < count; ++k) this.findSpot(frame, k, frame.spots);
+        return frame.spots;
     }
 
-    locate(frame, k, points) {
-        let lane = this.lanes[frame.lane[k]];
-        let before = frame.before[k];
-        let front_m = lane.shape_start_m + frame.position_m[k];
+    findSpot(frame, k, spots) {
+        const lane = this.lanes[frame.lane[k]];
         // Behind the stop line it is on its own path already, which shares that stretch with others.
-        if (lane.stop_line_m !== undefined && frame.position_m[k] > lane.stop_line_m && frame.next[k] >= 0) {
-            before = lane.number;
-            front_m = frame.position_m[k] - lane.stop_line_m;
-            lane = this.lanes[frame.next[k]];
-        }
-        lane.shape.place(front_m, points, 4 * k);
-        const rear_m = front_m - frame.length_m[k];
-        const behind = before >= 0 && rear_m < 0 ? this.lanes[before] : null;
-        if (behind && behind.next.includes(lane.number)) {
-            const end_m = behind.stop_line_m !== undefined ? behind.stop_line_m : behind.shape.length_m;
-            behind.shape.place(end_m + rear_m, points, 4 * k + 2);
+        const past = lane.stop_line_m !== undefined && frame.position_m[k] > lane.stop_line_m && frame.next[k] >= 0;
+        spots.lane[k] = past ? frame.next[k] : lane.number;
+        spots.behind[k] = past ? lane.number : frame.before[k];
+        spots.front_m[k] = frame.position_m[k] + (past ? -lane.stop_line_m : lane.shape_start_m);
+    }
+
+    // Where the path of a lane leaves its shape to go on.
+    end_m(lane) { return lane.stop_line_m !== undefined ? lane.stop_line_m : lane.shape.length_m; }
+
+    // Into out: front and rear of a vehicle, x, y, x, y.
+    place(laneNumber, behindNumber, front_m, length_m, out) {
+        const lane = this.lanes[laneNumber];
+        lane.shape.place(front_m, out, 0);
+        const rear_m = front_m - length_m;
+        const behind = behindNumber >= 0 && rear_m < 0 ? this.lanes[behindNumber] : null;
+        if (behind && behind.next.includes(laneNumber)) {
+            behind.shape.place(this.end_m(behind) + rear_m, out, 2);
         } else {
-            lane.shape.place(rear_m, points, 4 * k + 2);
+            lane.shape.place(rear_m, out, 2);
         }
+    }
+
+    // How far vehicle k of a frame drives to be where vehicle j of a later one is; -1: not along one lane or from one to the next.
+    way_m(a, k, b, j) {
+        if (a.lane[k] === b.lane[j]) return b.front_m[j] - a.front_m[k];
+        const lane = this.lanes[a.lane[k]];
+        return lane.next.includes(b.lane[j]) ? this.end_m(lane) - a.front_m[k] + b.front_m[j] : -1;
     }
 
     // Lanes that follow each other straight on, with the distance at which each begins.
@@ -139,21 +150,35 @@ class Network {
     }
 }
 
-// Where vehicles are between two frames. Along the way their speeds at both ends decide how far they have come.
+// Where vehicles are between two frames: on their lanes, as far along as their speeds at both ends say. Who changes lanes, or passes
+// more than one in between, goes straight.
 function between(network, from, to, share, frame_s, visit) {
-    const a = network.points(from);
-    const b = to ? network.points(to) : a;
+    const a = network.spots(from);
+    const b = to ? network.spots(to) : a;
     const p = [0, 0, 0, 0];
+    const q = [0, 0, 0, 0];
     for (let k = 0; k < from.number.length; ++k) {
         let j = -1;
         if (to) j = to.number[k] === from.number[k] ? k : to.indexOf(from.number[k]);
+        const length_m = from.length_m[k];
         if (j < 0) {
             if (to && share > 0.5) continue;  // it leaves
-            for (let i = 0; i < 4; ++i) p[i] = a[4 * k + i];
+            network.place(a.lane[k], a.behind[k], a.front_m[k], length_m, p);
+            visit(k, p);
+            continue;
+        }
+        const done = (way_m) => (way_m < 0.01 ? 0 : eased(share, from.speed_mps[k] * frame_s / way_m, to.speed_mps[j] * frame_s / way_m));
+        const way_m = network.way_m(a, k, b, j);
+        if (way_m >= 0) {
+            const front_m = a.front_m[k] + done(way_m) * way_m;
+            const left_m = b.front_m[j] - (way_m - (front_m - a.front_m[k]));  // on the lane where it ends
+            if (a.lane[k] === b.lane[j] || left_m < 0) network.place(a.lane[k], a.behind[k], front_m, length_m, p);
+            else network.place(b.lane[j], a.lane[k], left_m, length_m, p);
         } else {
-            const way_m = Math.hypot(b[4 * j] - a[4 * k], b[4 * j + 1] - a[4 * k + 1]);
-            const done = way_m < 0.01 ? 0 : eased(share, from.speed_mps[k] * frame_s / way_m, to.speed_mps[j] * frame_s / way_m);
-            for (let i = 0; i < 4; ++i) p[i] = a[4 * k + i] + done * (b[4 * j + i] - a[4 * k + i]);
+            network.place(a.lane[k], a.behind[k], a.front_m[k], length_m, p);
+            network.place(b.lane[j], b.behind[j], b.front_m[j], length_m, q);
+            const part = done(Math.hypot(q[0] - p[0], q[1] - p[1]));
+            for (let i = 0; i < 4; ++i) p[i] += part * (q[i] - p[i]);
         }
         visit(k, p);
     }
