@@ -7,6 +7,7 @@
 
 #include "base/input_error.h"
 #include "experiment/build_model.h"
+#include "experiment/output.h"
 #include "network/sumo_xml.h"
 #include "scenario/load_scenario.h"
 #include "scenario/scenario_text.h"
@@ -200,6 +201,21 @@ TEST(RunSummary, SumsUpWhatLiesWithinTheWindow) {
     EXPECT_DOUBLE_EQ(sum.speed_mps, 9.0);
     EXPECT_DOUBLE_EQ(sum.halting, 1.5);
     EXPECT_TRUE(std::isnan(summary_of(facts, 300.0, 400.0).travel_time_s));
+}
+
+// SUMO writes meanSpeed="-1.00" for a step without vehicles.
+TEST(RunSummary, LeavesOutOfTheMeanSpeedWhenThereAreNoVehicles) {
+    const TemporaryFolder folder;
+    write_file(folder.path() / "trips.out.xml", "<tripinfos/>");
+    write_file(folder.path() / "detectors.out.xml", "<instantE1/>");
+    write_file(folder.path() / "summary.out.xml",
+               "<summary><step time=\"1\" running=\"2\" halting=\"1\" meanSpeed=\"6.00\"/>"
+               "<step time=\"2\" running=\"0\" halting=\"0\" meanSpeed=\"-1.00\"/></summary>");
+    const RunFacts facts = read_sumo_facts(folder.path());
+    const RunSummary sum = summary_of(facts, 0.0, 2.0);
+    EXPECT_DOUBLE_EQ(sum.speed_mps, 6.0);
+    EXPECT_DOUBLE_EQ(sum.halting, 0.5);
+    EXPECT_TRUE(std::isnan(summary_of(facts, 1.0, 2.0).speed_mps));
 }
 
 }  // namespace
