@@ -175,6 +175,37 @@ TEST(SumoNetwork, TellsWhatItDoesNotRead) {
         << lines[0];
 }
 
+std::vector<std::string> told(const std::string& text, const std::string& additional = "") {
+    std::vector<std::string> lines = made_of(text, additional).net.warnings.lines();
+    std::transform(lines.begin(), lines.end(), lines.begin(), testing::without_folder);
+    return lines;
+}
+
+TEST(SumoNetwork, TellsOfWhatStandsOnAnyLaneOfAnEdge) {
+    const std::string left =
+        replaced(crossing_net(), "-1.60 -10.00,-1.60\"/>", "-1.60 -10.00,-1.60\"><neigh lane=\"s_in_0\"/></lane>");
+    EXPECT_EQ(told(left), std::vector<std::string>{"my.net.xml:19: nobody drives on lanes of the opposite direction"});
+    const std::string edge =
+        replaced(crossing_net(), "<lane id=\"w_in_0\"", "<stopOffset value=\"2\"/><lane id=\"w_in_0\"");
+    EXPECT_EQ(told(edge), std::vector<std::string>{"my.net.xml:18: stopOffset is not read"});
+}
+
+TEST(SumoNetwork, InductionLoopsCountAllVehiclesWhereverTheyGo) {
+    const auto lines = told(crossing_net(),
+                            "<additional>\n<e1Detector id=\"d\" lane=\"w_in_0\" pos=\"9\" file=\"x\" "
+                            "vTypes=\"bus\" nextEdges=\"e_out\"/></additional>");
+    EXPECT_EQ(lines, (std::vector<std::string>{
+                         "my.add.xml:2: 'vTypes' of detectors is not read: all vehicles are counted",
+                         "my.add.xml:2: 'nextEdges' of detectors is not read: all vehicles are counted"}));
+}
+
+TEST(SumoNetwork, LightsThatAreSwitchedOffAreRefused) {
+    const std::string message = refusal([] {
+        made_of(signal_net(two_phases()), "<additional>\n<tlLogic id=\"J\" programID=\"off\"/>\n</additional>");
+    });
+    EXPECT_EQ(message.find("my.add.xml:2: tlLogic 'J': programID=\"off\" switches the light off"), 0U) << message;
+}
+
 TEST(SumoNetwork, ReadsGzippedFiles) {
     const SumoFiles files;
     const std::string text = crossing_net();
