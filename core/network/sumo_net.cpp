@@ -131,6 +131,7 @@ private:
 
     void read_junction(pugi::xml_node node) {
         SumoJunction junction{xml_.text(node, "id"), xml_.text(node, "type")};
+        junction.where = xml_.where(node);
         const std::string& type = junction.type;
         if (!junctions_.insert(junction.id).second) {
             xml_.refuse(node, fmt::format("there are two junctions '{}'", junction.id));
@@ -160,10 +161,10 @@ private:
             xml_.refuse(node, fmt::format("junction '{}': request {} does not have a bit for each of {} links",
                                           junction.id, k, expected));
         }
-        const bool ruled = type != "dead_end" && type != "unregulated";
+        const bool ruled = type != "dead_end" && type != "unregulated" && type != "traffic_light_unregulated";
         if (ruled && expected < at(link)) {
-            xml_.refuse(node, fmt::format("junction '{}' has {} links in intLanes, but requests for {}", junction.id,
-                                          link, expected));
+            xml_.refuse(node, fmt::format("junction '{}' of type '{}' has {} links in intLanes, but requests for {}",
+                                          junction.id, type, link, expected));
         }
         net_.junctions.push_back(std::move(junction));
     }

@@ -88,6 +88,11 @@ void add_sumo_signal(const SumoXml& xml, pugi::xml_node node, bool from_net, Sum
 
 namespace {
 
+bool is_true(pugi::xml_node node, const char* attribute) {
+    const std::string_view value = node.attribute(attribute).value();
+    return value == "true" || value == "1" || value == "yes" || value == "on" || value == "x" || value == "t";
+}
+
 void read_loop(const SumoXml& xml, pugi::xml_node node, SumoNet& net) {
     const std::string lane = xml.text(node, "lane");
     const auto place = net.lane(lane);
@@ -95,6 +100,7 @@ void read_loop(const SumoXml& xml, pugi::xml_node node, SumoNet& net) {
     SumoLoop loop{xml.text(node, "id"), place->first, place->second, xml.number(node, "pos"), xml.where(node)};
     const double length_m = net.edges[at(loop.edge)].lanes[at(loop.lane)].length_m;
     if (loop.position_m < 0.0) loop.position_m += length_m;  // counted from the end
+    if (is_true(node, "friendlyPos")) loop.position_m = std::clamp(loop.position_m, 0.0, length_m);
     if (loop.position_m < 0.0 || loop.position_m > length_m) xml.refuse(node, "pos does not lie on the lane");
     for (const char* const unread : {"vTypes", "nextEdges", "detectPersons"}) {
         if (!node.attribute(unread)) continue;

@@ -192,6 +192,8 @@ INSTANTIATE_TEST_SUITE_P(
         Hostile{R"(<flow id="f" from="w_in" to="e_out" begin="0"/>)", "a flow needs number"},
         Hostile{R"(<flow id="f" from="w_in" to="e_out" begin="9" end="3" number="2"/>)", "end lies before begin"},
         Hostile{R"(<flow id="f" from="w_in" to="e_out" period="0"/>)", "too closely"},
+        Hostile{R"(<flow id="f" from="w_in" to="e_out" vehsPerHour="-5"/>)", "vehsPerHour=\"-5\" must be more than 0"},
+        Hostile{R"(<flow id="f" from="w_in" to="e_out" perHour="0"/>)", "perHour=\"0\" must be more than 0"},
         Hostile{R"(<flow id="f" fromTaz="1" toTaz="2" period="1"/>)", "'fromTaz' is not read"},
         Hostile{R"(<trip id="a" depart="0" depart="1" from="w_in" to="e_out"/>)", "attribute 'depart' is given twice"},
         Hostile{R"(<trip id="a&b;" depart="0" from="w_in" to="e_out"/>)", "element 'trip': '&b' is no entity"},
