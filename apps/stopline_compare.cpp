@@ -93,10 +93,9 @@ void print(const Comparison& comparison) {
 
 ExitCode run(const CompareOptionsOfUser& options) {
     CommonOptions common = options.common;
-    common.settings.emplace_back("fidelity=meso");
+    set_mesoscale("stopline-compare", common);
     const Scenario scenario = load_with_options(options.file, common);
     const std::string folder = common.output.empty() ? "out/" + scenario.name + "_sumo" : common.output;
-    prepare_folder(folder);
     const Comparison comparison = [&] {
         ProgressBar bar(fmt::format("{} runs of both programs", options.repetitions));
         CompareOptions compare;

@@ -41,7 +41,7 @@ void declare(CLI::App& app, ExportOptionsOfUser& options) {
 
 ExitCode run(const ExportOptionsOfUser& options) {
     CommonOptions common = options.common;
-    common.settings.emplace_back("fidelity=meso");
+    set_mesoscale("stopline-export", common);
     const Scenario scenario = load_with_options(options.file, common);
     const std::size_t population = options.population.empty() ? 0 : population_index(scenario, options.population);
     const std::string vehicles = [&] {

@@ -87,6 +87,15 @@ Scenario load_with_options(const std::string& file, const CommonOptions& options
     return load_scenario(file, settings);
 }
 
+void set_mesoscale(const char* program, CommonOptions& options) {
+    const std::string mesoscale = "fidelity=meso";
+    for (const std::string& setting : options.settings) {
+        if (!setting.starts_with("fidelity=") || setting == mesoscale) continue;
+        fmt::print(stderr, "{}: '{}' is not used: this program runs the mesoscale mode\n", program, setting);
+    }
+    options.settings.push_back(mesoscale);
+}
+
 std::string command_text(const std::string& program, const std::string& file, const CommonOptions& options) {
     std::string text = program;
     if (!file.empty()) text += " " + shell_word(file);

@@ -37,6 +37,9 @@ std::optional<ExitCode> parse_command_line(CLI::App& app, int argc, const char* 
 // The scenario with --set and --seed applied.
 Scenario load_with_options(const std::string& file, const CommonOptions& options);
 
+// For programs that run nothing else: says on standard error which --set is not used for that.
+void set_mesoscale(const char* program, CommonOptions& options);
+
 // Quoted as a shell needs it.
 std::string shell_word(const std::string& text);
 

@@ -116,7 +116,11 @@ private:
         if (const auto period = xml_.number_if(node_, "period")) {
             every_s = *period;
         } else if (const auto an_hour = xml_.number_if(node_, hourly)) {
-            every_s = *an_hour > 0.0 ? 3600.0 / *an_hour : kNever_s;
+            if (!(*an_hour > 0.0)) {
+                xml_.refuse(node_,
+                            fmt::format("{}=\"{}\" must be more than 0", hourly, node_.attribute(hourly).value()));
+            }
+            every_s = 3600.0 / *an_hour;
         } else if (number_) {
             every_s = *number_ > 0.0 ? (end_s_ - begin_s_) / *number_ : kNever_s;
         } else {

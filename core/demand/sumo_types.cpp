@@ -26,9 +26,29 @@ constexpr std::array<Class, 25> kClasses{{
     {"ship", 17.0, false},
 }};
 
-constexpr std::string_view kUnread =
-    "speedDev sigma tau accel decel emergencyDecel minGap maxSpeed speedFactor carFollowModel "
-    "lcStrategic";
+// Attributes of types that are read, or change nothing but what SUMO draws.
+constexpr std::string_view kNotTold = " id length vClass probability color guiShape imgFile osgFile ";
+// Of those that are not read.
+constexpr std::string_view kNumbers =
+    " speedDev sigma tau accel decel emergencyDecel minGap maxSpeed speedFactor lcStrategic ";
+
+bool is_in(std::string_view list, std::string_view word) {
+    return list.find(fmt::format(" {} ", word)) != std::string_view::npos;
+}
+
+void tell_unread(const SumoXml& xml, pugi::xml_node type, SumoWarnings& warnings) {
+    for (const pugi::xml_attribute attribute : type.attributes()) {
+        const std::string name = attribute.name();
+        if (is_in(kNotTold, name)) continue;
+        const std::string_view text = attribute.value();
+        if (is_in(kNumbers, name) && text.find('(') == std::string_view::npos) xml.number_if(type, name.c_str());
+        warnings.note(xml.where(type), fmt::format("'{}' of types is not read: populations and drivers say it", name));
+    }
+    for (const pugi::xml_node child : type.children()) {
+        if (child.type() != pugi::node_element) continue;
+        warnings.note(xml.where(child), fmt::format("'{}' of types is not read", child.name()));
+    }
+}
 
 }  // namespace
 
@@ -70,17 +90,7 @@ std::size_t SumoTypes::read_type(const SumoXml& xml, pugi::xml_node node, SumoWa
                                          kShortest_m, kLongest_m));
         }
     }
-    for (const std::string_view attribute : sumo_words(kUnread)) {
-        const std::string name(attribute);
-        const pugi::xml_attribute found = node.attribute(name.c_str());
-        if (!found) continue;
-        if (name != "carFollowModel" && found.value() != std::string_view("normc(1.00,0.00)")) {
-            if (const std::string_view text = found.value(); text.find('(') == std::string_view::npos) {
-                xml.number_if(node, name.c_str());
-            }
-        }
-        warnings.note(xml.where(node), fmt::format("'{}' of types is not read: populations and drivers say it", name));
-    }
+    tell_unread(xml, node, warnings);
     types_.push_back(type);
     return types_.size() - 1;
 }

@@ -74,15 +74,19 @@ private:
         edge.internal = !function.empty() && function != "normal" && function != "connector";
         const bool walk = function == "crossing" || function == "walkingarea";
         if (walk) net_.warnings.note(edge.where, "crossings and places for pedestrians are not read");
-        if (node.child("neigh") || node.first_child().child("neigh")) {
-            net_.warnings.note(edge.where, "nobody drives on lanes of the opposite direction");
-        }
+        note_stop_offset(node);
         for (const pugi::xml_node lane : node.children("lane")) {
             read_lane(lane, edge);
             if (walk) edge.lanes.back().cars = false;
         }
         if (edge.lanes.empty()) xml_.refuse(node, fmt::format("edge '{}' has no lane", edge.id));
         net_.edges.push_back(std::move(edge));
+    }
+
+    // Of an edge or of a lane.
+    void note_stop_offset(pugi::xml_node node) {
+        const pugi::xml_node offset = node.child("stopOffset");
+        if (offset) net_.warnings.note(xml_.where(offset), "stopOffset is not read");
     }
 
     void read_lane(pugi::xml_node node, SumoEdge& edge) {
@@ -115,7 +119,10 @@ private:
         if (!points) xml_.refuse(node, "shape has a point that is not a pair of finite numbers");
         if (points->size() < 2 && !edge.internal) xml_.refuse(node, "shape needs two different points");
         lane.shape = std::move(*points);
-        if (node.child("stopOffset")) net_.warnings.note(xml_.where(node), "stopOffset is not read");
+        note_stop_offset(node);
+        if (node.child("neigh")) {
+            net_.warnings.note(xml_.where(node), "nobody drives on lanes of the opposite direction");
+        }
         if (node.attribute("changeLeft") || node.attribute("changeRight")) {
             net_.warnings.note(xml_.where(node), "permissions to change lanes are not read");
         }
@@ -124,6 +131,7 @@ private:
 
     void read_junction(pugi::xml_node node) {
         SumoJunction junction{xml_.text(node, "id"), xml_.text(node, "type")};
+        junction.where = xml_.where(node);
         const std::string& type = junction.type;
         if (!junctions_.insert(junction.id).second) {
             xml_.refuse(node, fmt::format("there are two junctions '{}'", junction.id));
@@ -153,10 +161,10 @@ private:
             xml_.refuse(node, fmt::format("junction '{}': request {} does not have a bit for each of {} links",
                                           junction.id, k, expected));
         }
-        const bool ruled = type != "dead_end" && type != "unregulated";
+        const bool ruled = type != "dead_end" && type != "unregulated" && type != "traffic_light_unregulated";
         if (ruled && expected < at(link)) {
-            xml_.refuse(node, fmt::format("junction '{}' has {} links in intLanes, but requests for {}", junction.id,
-                                          link, expected));
+            xml_.refuse(node, fmt::format("junction '{}' of type '{}' has {} links in intLanes, but requests for {}",
+                                          junction.id, type, link, expected));
         }
         net_.junctions.push_back(std::move(junction));
     }

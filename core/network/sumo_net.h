@@ -72,6 +72,7 @@ struct SumoJunction {
     std::vector<std::vector<bool>> response = {};  // [link][other] waits for the other
     std::vector<std::vector<bool>> foes = {};      // [link][other] their ways meet
     std::vector<bool> cont = {};                   // [link] who waits does so inside
+    std::string where = {};                        // file:line
 };
 
 struct SumoPhase {

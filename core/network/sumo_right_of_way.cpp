@@ -5,6 +5,8 @@
 #include <string>
 #include <unordered_map>
 
+#include <fmt/format.h>
+
 #include "network/conflicts.h"
 
 namespace stopline {
@@ -34,6 +36,7 @@ public:
         }
         for (std::size_t junction = 0; junction < of_junction.size(); ++junction) {
             const std::vector<int>& ways = of_junction[junction];
+            if (made_.net.junctions[junction].response.empty()) note_free_for_all(made_.net.junctions[junction], ways);
             for (std::size_t one = 0; one < ways.size(); ++one) {
                 for (std::size_t two = one + 1; two < ways.size(); ++two) {
                     add(made_.net.junctions[junction], ways_[at(ways[one])], ways_[at(ways[two])]);
@@ -89,6 +92,25 @@ private:
             {one.lane, c->other_from_m, c->other_to_m, c->from_m, c->to_m, two_yields, one_yields});
     }
 
+    // Without requests no ways are foes; lights, if there are any, are minded.
+    void note_free_for_all(const SumoJunction& junction, const std::vector<int>& ways) {
+        for (const int one : ways) {
+            for (const int two : ways) {
+                const Lane& a = lane(ways_[at(one)]);
+                const Lane& b = lane(ways_[at(two)]);
+                if (one >= two || a.origin == b.origin || a.next == b.next || !conflict_of(a, b, clearance_m_))
+                    continue;
+                made_.net.warnings.note(
+                    junction.where,
+                    fmt::format(
+                        "junction '{}' of type '{}' has no requests: nobody gives way there, and vehicles whose "
+                        "ways cross drive through each other",
+                        junction.id, junction.type));
+                return;
+            }
+        }
+    }
+
     // Lights that are green together: those of one programme by its phases, of others possibly.
     bool yields(const SumoJunction& junction, const SumoWay& way, const SumoWay& to) const {
         if (way.connection->pass) return false;
@@ -101,14 +123,17 @@ private:
         }
         bool together = false;
         bool minor = false;
+        bool major = false;
         for (const SumoPhase& phase : made_.net.signals[at(tl)].phases) {
             const char own = phase.state[at(way.connection->tl_link)];
             const char other = phase.state[at(to.connection->tl_link)];
             if (phase.duration_s <= 0.0 || !sumo_is_green(own) || !sumo_is_green(other)) continue;
             together = true;
             minor = minor || (!is_major(own) && is_major(other));
+            major = major || (is_major(own) && !is_major(other));
         }
-        return together && (minor || asked || is_left_of(way, to));
+        const bool later = junction.response.empty() && !major && way.link > to.link;
+        return together && (minor || asked || later || is_left_of(way, to));
     }
 
     // Two lanes that an edge that was joined to theirs made one (sumo_short_edges.h): the left one gives way.

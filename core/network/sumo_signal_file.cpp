@@ -50,6 +50,11 @@ void add_sumo_signal(const SumoXml& xml, pugi::xml_node node, bool from_net, Sum
     SumoWarnings& warnings = net.warnings;
     SumoSignal signal{xml.text(node, "id"), node.attribute("programID").value()};
     signal.where = xml.where(node);
+    if (signal.programme == "off") {
+        xml.refuse(node, fmt::format("tlLogic '{}': programID=\"off\" switches the light off, which is not read: leave "
+                                     "this element out, or give it phases under another programID",
+                                     signal.id));
+    }
     signal.offset_s = xml.number_or(node, "offset", 0.0);
     if (std::abs(signal.offset_s) > kLongest_s) xml.refuse(node, "offset is too large");
     read_phases(xml, node, signal, warnings);
@@ -83,6 +88,11 @@ void add_sumo_signal(const SumoXml& xml, pugi::xml_node node, bool from_net, Sum
 
 namespace {
 
+bool is_true(pugi::xml_node node, const char* attribute) {
+    const std::string_view value = node.attribute(attribute).value();
+    return value == "true" || value == "1" || value == "yes" || value == "on" || value == "x" || value == "t";
+}
+
 void read_loop(const SumoXml& xml, pugi::xml_node node, SumoNet& net) {
     const std::string lane = xml.text(node, "lane");
     const auto place = net.lane(lane);
@@ -90,7 +100,12 @@ void read_loop(const SumoXml& xml, pugi::xml_node node, SumoNet& net) {
     SumoLoop loop{xml.text(node, "id"), place->first, place->second, xml.number(node, "pos"), xml.where(node)};
     const double length_m = net.edges[at(loop.edge)].lanes[at(loop.lane)].length_m;
     if (loop.position_m < 0.0) loop.position_m += length_m;  // counted from the end
+    if (is_true(node, "friendlyPos")) loop.position_m = std::clamp(loop.position_m, 0.0, length_m);
     if (loop.position_m < 0.0 || loop.position_m > length_m) xml.refuse(node, "pos does not lie on the lane");
+    for (const char* const unread : {"vTypes", "nextEdges", "detectPersons"}) {
+        if (!node.attribute(unread)) continue;
+        net.warnings.note(loop.where, fmt::format("'{}' of detectors is not read: all vehicles are counted", unread));
+    }
     const auto same = [&](const SumoLoop& other) { return other.id == loop.id; };
     if (std::any_of(net.loops.begin(), net.loops.end(), same)) {
         xml.refuse(node, fmt::format("there are two detectors '{}'", loop.id));

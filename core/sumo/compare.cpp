@@ -10,9 +10,9 @@
 #include "experiment/build_model.h"
 #include "experiment/csv.h"
 #include "experiment/intersection_run.h"
-#include "experiment/output.h"
 #include "sumo/export.h"
 #include "sumo/inputs.h"
+#include "sumo/staged_folder.h"
 
 namespace stopline {
 
@@ -43,12 +43,12 @@ std::vector<double> column(const Comparison& comparison, bool ours, double RunSu
 
 ComparedRun compare_seed(const Scenario& scenario, std::size_t population, const std::filesystem::path& folder,
                          const std::function<bool(double)>& on_progress) {
-    prepare_folder(folder);
     ComparedRun run{scenario.seed};
     Model model = build_model(scenario, population);
     model.records_detectors = true;
     const PlainNetwork network = plain_network(model.graph);
     const double end_s = run_end_s(scenario);
+    const NewFolders made(folder);
     write_sumo_inputs(folder, model, network, end_s);
     make_net_file(folder);
     std::vector<std::unique_ptr<RunWriter>> writers;
@@ -105,6 +105,7 @@ Comparison compare_with_sumo(const Scenario& scenario, std::size_t population, c
     if (comparison.from_s >= comparison.to_s) {
         throw InputError(fmt::format("nothing is left to compare: the run ends at {:g} s", comparison.to_s));
     }
+    const NewFolders made(folder);
     for (int k = 0; k < options.repetitions; ++k) {
         Scenario one = scenario;
         one.seed = scenario.seed + static_cast<std::uint64_t>(k);

@@ -48,7 +48,8 @@ struct CompareOptions {
     std::function<bool(double)> on_progress;
 };
 
-// Leaves the files of each seed in FOLDER/seed_N. Throws InputError where SUMO is missing or fails, Interrupted.
+// Leaves the files of each seed in FOLDER/seed_N, and makes no folder for what is refused. Throws InputError where SUMO is missing or
+// fails, Interrupted.
 Comparison compare_with_sumo(const Scenario& scenario, std::size_t population, const std::filesystem::path& folder,
                              const CompareOptions& options);
 

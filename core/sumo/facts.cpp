@@ -93,18 +93,21 @@ RunSummary summary_of(const RunFacts& facts, double from_s, double to_s) {
         for (const double time_s : times_s) passages += within(time_s) ? 1 : 0;
     }
     int instants = 0;
+    int driven = 0;  // of them, with vehicles: SUMO writes a mean speed of -1 where there are none
     for (const RunFacts::Instant& instant : facts.instants) {
         if (!within(instant.time_s)) continue;
         ++instants;
-        sum.speed_mps += instant.mean_speed_mps;
         sum.halting += instant.halting;
+        if (instant.present == 0) continue;
+        ++driven;
+        sum.speed_mps += instant.mean_speed_mps;
     }
     const double nan = std::nan("");
     sum.throughput_veh_h = trips / hours;
     sum.passages_veh_h = passages / hours;
     sum.travel_time_s = trips > 0 ? sum.travel_time_s / trips : nan;
     sum.delay_s = trips > 0 ? sum.delay_s / trips : nan;
-    sum.speed_mps = instants > 0 ? sum.speed_mps / instants : nan;
+    sum.speed_mps = driven > 0 ? sum.speed_mps / driven : nan;
     sum.halting = instants > 0 ? sum.halting / instants : nan;
     return sum;
 }

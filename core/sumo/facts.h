@@ -23,8 +23,8 @@ struct RunFacts {
     struct Instant {
         double time_s = 0.0;
         int present = 0;
-        int halting = 0;  // slower than 0.1 m/s
-        double mean_speed_mps = 0.0;
+        int halting = 0;              // slower than 0.1 m/s
+        double mean_speed_mps = 0.0;  // where nobody is present: nothing that counts
     };
     std::vector<Trip> trips;                              // that have ended
     std::map<std::string, std::vector<double>> passed_s;  // by lane, fronts past its stop line
@@ -37,7 +37,7 @@ struct RunSummary {
     double travel_time_s = 0.0;     // mean of them
     double delay_s = 0.0;           // mean wait outside
     double passages_veh_h = 0.0;    // at all stop lines
-    double speed_mps = 0.0;         // mean over time of the vehicles' mean
+    double speed_mps = 0.0;         // mean over time, while vehicles are there, of their mean
     double halting = 0.0;           // mean number: the queues
 };
 RunSummary summary_of(const RunFacts& facts, double from_s, double to_s);

@@ -40,6 +40,7 @@ public:
 
     std::string finish() override {
         XmlFile xml(file_, "routes", "routes_file.xsd");
+        xml.add("    <!-- minGap: 1 mm less than the gap by which queues stand at the beginning -->\n");
         for (std::size_t k = 0; k < model_.policies.size(); ++k) add_type(xml, k);
         // In the order of departure, as SUMO wants them.
         std::vector<std::pair<int, const Trip*>> trips;
@@ -127,12 +128,14 @@ private:
     }
 
     void add_type(XmlFile& xml, std::size_t policy) const {
+        // Vehicles of a queue stand by the policy's gap, which SUMO, by rounding, may find too small to put them in: it gets less.
+        constexpr double kRounding_m = 0.001;
         const Krauss& k = model_.krauss[policy];
         xml.add(
             "    <vType id=\"{}\" carFollowModel=\"Krauss\" accel=\"{:.4f}\" decel=\"{:.4f}\" tau=\"{:.4f}\" sigma=\"{:.4f}\" "
-            "minGap=\"{:.3f}\" length=\"{:.3f}\" maxSpeed=\"70\" speedFactor=\"{:.4f}\" speedDev=\"0\" jmStoplineGap=\"{:.3f}\"{}/>",
+            "minGap=\"{:.4f}\" length=\"{:.4f}\" maxSpeed=\"70\" speedFactor=\"{:.4f}\" speedDev=\"0\" jmStoplineGap=\"{:.3f}\"{}/>",
             xml_escaped(model_.policies[policy].settings.name), k.acceleration_mps2, k.deceleration_mps2, k.reaction_s,
-            k.dawdling, k.standstill_gap_m + k.band_m, model_.vehicles[0].length_m, model_.speed_factor,
+            k.dawdling, k.standstill_gap_m + k.band_m - kRounding_m, model_.vehicles[0].length_m, model_.speed_factor,
             model_.driver.stop.margin_m,
             changes_lanes() ? "" : R"( lcSpeedGain="0" lcKeepRight="0" lcCooperative="0")");
         // SUMO has no model of a constant distance.
@@ -142,7 +145,7 @@ private:
     void add_trip(XmlFile& xml, int vehicle, const Trip& trip) const {
         const PlainNetwork::Place& place = network_.place_of[at(trip.depart_lane)];
         xml.add(
-            "    <vehicle id=\"{}\" type=\"{}\" depart=\"{:.2f}\" departLane=\"{}\" departPos=\"{:.3f}\" "
+            "    <vehicle id=\"{}\" type=\"{}\" depart=\"{:.2f}\" departLane=\"{}\" departPos=\"{:.4f}\" "
             "departSpeed=\"{:.3f}\">",
             vehicle, xml_escaped(model_.policies[at(trip.policy)].settings.name), trip.depart_s, place.index,
             trip.depart_m, trip.depart_mps);

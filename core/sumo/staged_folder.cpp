@@ -13,21 +13,37 @@ namespace stopline {
 
 namespace fs = std::filesystem;
 
-StagedFolder::StagedFolder(const fs::path& folder) : folder_(fs::absolute(folder).lexically_normal()) {
-    if (!folder_.has_filename()) folder_ = folder_.parent_path();  // "out/"
+namespace {
+
+fs::path without_last_slash(const fs::path& folder) {
+    const fs::path normal = fs::absolute(folder).lexically_normal();
+    return normal.has_filename() ? normal : normal.parent_path();  // "out/"
+}
+
+}  // namespace
+
+NewFolders::NewFolders(const fs::path& folder) {
     std::error_code ignored;
-    for (fs::path each = folder_; !fs::exists(each, ignored) && each.has_filename(); each = each.parent_path()) {
+    for (fs::path each = without_last_slash(folder); !fs::exists(each, ignored) && each.has_filename();
+         each = each.parent_path()) {
         made_.push_back(each);
     }
-    prepare_folder(folder_);
-    stage_ = folder_ / fmt::format(".{}.part", ::getpid());
+    prepare_folder(folder);
+}
+
+NewFolders::~NewFolders() {
+    std::error_code ignored;
+    for (const fs::path& each : made_) fs::remove(each, ignored);  // fails where it is not empty
+}
+
+StagedFolder::StagedFolder(const fs::path& folder)
+    : folder_(without_last_slash(folder)), made_(folder_), stage_(folder_ / fmt::format(".{}.part", ::getpid())) {
     prepare_folder(stage_);
 }
 
 StagedFolder::~StagedFolder() {
     std::error_code ignored;
     fs::remove_all(stage_, ignored);
-    for (const fs::path& each : made_) fs::remove(each, ignored);  // as far as they are empty
 }
 
 void StagedFolder::commit() {
@@ -37,7 +53,6 @@ void StagedFolder::commit() {
         fs::rename(file.path(), target, error);
         if (error) throw InputError(fmt::format("{}: cannot write: {}", target.string(), error.message()));
     }
-    made_.clear();
 }
 
 }  // namespace stopline

@@ -7,6 +7,21 @@
 
 namespace stopline {
 
+// Makes a folder, with its parents, if need be. At the end those of them that it made, and that are still empty, are taken away.
+class NewFolders {
+public:
+    // Throws InputError with path and reason.
+    explicit NewFolders(const std::filesystem::path& folder);
+    NewFolders(const NewFolders&) = delete;
+    NewFolders& operator=(const NewFolders&) = delete;
+    NewFolders(NewFolders&&) = delete;
+    NewFolders& operator=(NewFolders&&) = delete;
+    ~NewFolders();
+
+private:
+    std::vector<std::filesystem::path> made_;  // the innermost first
+};
+
 class StagedFolder {
 public:
     // Makes the folder, with its parents, if need be. This and commit throw InputError with path and reason.
@@ -24,8 +39,8 @@ public:
 
 private:
     std::filesystem::path folder_;
+    NewFolders made_;
     std::filesystem::path stage_;
-    std::vector<std::filesystem::path> made_;  // folders that were not there, the innermost first
 };
 
 }  // namespace stopline

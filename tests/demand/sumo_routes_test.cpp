@@ -103,6 +103,23 @@ TEST(SumoRoutes, TypesCanStandInAdditionalFiles) {
     EXPECT_TRUE(traffic.warnings.lines().empty());
 }
 
+TEST(SumoRoutes, AttributesOfTypesThatAreNotReadAreToldOf) {
+    const std::string read_ones = R"( id="t" length="5" vClass="taxi" color="1,0,0" guiShape="taxi")";
+    for (const std::string name : {"width", "laneChangeModel", "lcKeepRight", "jmTimegapMinor", "impatience",
+                                   "startupDelay", "actionStepLength"}) {
+        const SumoTraffic traffic = read("<vType" + read_ones + " " + name + R"(="1"/>
+<trip id="a" depart="0" from="w_in" to="e_out"/>)");
+        const std::vector<std::string> lines = traffic.warnings.lines();
+        ASSERT_EQ(lines.size(), 1U) << name;
+        EXPECT_EQ(without_folder(lines[0]),
+                  "my.rou.xml:2: '" + name + "' of types is not read: populations and drivers say it");
+    }
+    const SumoTraffic nested = read("<vType" + read_ones + R"(><carFollowing-IDM tau="1"/></vType>
+<trip id="a" depart="0" from="w_in" to="e_out"/>)");
+    ASSERT_EQ(nested.warnings.lines().size(), 1U);
+    EXPECT_EQ(without_folder(nested.warnings.lines()[0]), "my.rou.xml:2: 'carFollowing-IDM' of types is not read");
+}
+
 TEST(SumoRoutes, OthersThanMotorVehiclesAreLeftOutAndToldOf) {
     const SumoTraffic traffic = read(R"(<vType id="b" vClass="bicycle"/>
 <trip id="t" type="b" depart="0" from="w_in" to="e_out"/>
@@ -175,6 +192,8 @@ INSTANTIATE_TEST_SUITE_P(
         Hostile{R"(<flow id="f" from="w_in" to="e_out" begin="0"/>)", "a flow needs number"},
         Hostile{R"(<flow id="f" from="w_in" to="e_out" begin="9" end="3" number="2"/>)", "end lies before begin"},
         Hostile{R"(<flow id="f" from="w_in" to="e_out" period="0"/>)", "too closely"},
+        Hostile{R"(<flow id="f" from="w_in" to="e_out" vehsPerHour="-5"/>)", "vehsPerHour=\"-5\" must be more than 0"},
+        Hostile{R"(<flow id="f" from="w_in" to="e_out" perHour="0"/>)", "perHour=\"0\" must be more than 0"},
         Hostile{R"(<flow id="f" fromTaz="1" toTaz="2" period="1"/>)", "'fromTaz' is not read"},
         Hostile{R"(<trip id="a" depart="0" depart="1" from="w_in" to="e_out"/>)", "attribute 'depart' is given twice"},
         Hostile{R"(<trip id="a&b;" depart="0" from="w_in" to="e_out"/>)", "element 'trip': '&b' is no entity"},

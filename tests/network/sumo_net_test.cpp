@@ -175,6 +175,81 @@ TEST(SumoNetwork, TellsWhatItDoesNotRead) {
         << lines[0];
 }
 
+std::vector<std::string> told(const std::string& text, const std::string& additional = "") {
+    std::vector<std::string> lines = made_of(text, additional).net.warnings.lines();
+    std::transform(lines.begin(), lines.end(), lines.begin(), testing::without_folder);
+    return lines;
+}
+
+TEST(SumoNetwork, TellsOfWhatStandsOnAnyLaneOfAnEdge) {
+    const std::string left =
+        replaced(crossing_net(), "-1.60 -10.00,-1.60\"/>", "-1.60 -10.00,-1.60\"><neigh lane=\"s_in_0\"/></lane>");
+    EXPECT_EQ(told(left), std::vector<std::string>{"my.net.xml:19: nobody drives on lanes of the opposite direction"});
+    const std::string edge =
+        replaced(crossing_net(), "<lane id=\"w_in_0\"", "<stopOffset value=\"2\"/><lane id=\"w_in_0\"");
+    EXPECT_EQ(told(edge), std::vector<std::string>{"my.net.xml:18: stopOffset is not read"});
+}
+
+TEST(SumoNetwork, InductionLoopsCountAllVehiclesWhereverTheyGo) {
+    const auto lines = told(crossing_net(),
+                            "<additional>\n<e1Detector id=\"d\" lane=\"w_in_0\" pos=\"9\" file=\"x\" "
+                            "vTypes=\"bus\" nextEdges=\"e_out\"/></additional>");
+    EXPECT_EQ(lines, (std::vector<std::string>{
+                         "my.add.xml:2: 'vTypes' of detectors is not read: all vehicles are counted",
+                         "my.add.xml:2: 'nextEdges' of detectors is not read: all vehicles are counted"}));
+}
+
+TEST(SumoNetwork, InductionLoopsBeyondTheLaneAreRefusedUnlessFriendly) {
+    const auto loop = [](const std::string& attributes) {
+        return made_of(crossing_net(),
+                       "<additional><e1Detector id=\"d\" lane=\"w_in_0\" file=\"x\" " + attributes + "/></additional>")
+            .net.loops.at(0)
+            .position_m;
+    };
+    for (const char* const beyond : {"pos=\"200\"", "pos=\"-200\"", "pos=\"200\" friendlyPos=\"false\""}) {
+        EXPECT_EQ(refusal([&] { loop(beyond); }), "my.add.xml:1: pos does not lie on the lane");
+    }
+    EXPECT_DOUBLE_EQ(loop("pos=\"200\" friendlyPos=\"true\""), 190.0);
+    EXPECT_DOUBLE_EQ(loop("pos=\"-200\" friendlyPos=\"1\""), 0.0);
+}
+
+TEST(SumoNetwork, LightsThatAreSwitchedOffAreRefused) {
+    const std::string message = refusal([] {
+        made_of(signal_net(two_phases()), "<additional>\n<tlLogic id=\"J\" programID=\"off\"/>\n</additional>");
+    });
+    EXPECT_EQ(message.find("my.add.xml:2: tlLogic 'J': programID=\"off\" switches the light off"), 0U) << message;
+}
+
+std::string without_requests(std::string text) {
+    for (std::size_t from = text.find("<request"); from != std::string::npos; from = text.find("<request")) {
+        text.erase(from, text.find('\n', from) - from);
+    }
+    return text;
+}
+
+TEST(SumoNetwork, TellsWhereNobodyGivesWay) {
+    const std::string text = without_requests(crossing_net());
+    for (const std::string type : {"unregulated", "traffic_light_unregulated"}) {
+        const std::string of_type = replaced(text, "type=\"priority\"", "type=\"" + type + "\"");
+        EXPECT_EQ(told(of_type),
+                  std::vector<std::string>{"my.net.xml:32: junction 'J' of type '" + type +
+                                           "' has no requests: nobody gives way there, and vehicles whose "
+                                           "ways cross drive through each other"});
+    }
+    const std::string message = refusal([&] { made_of(text); });
+    EXPECT_NE(message.find("junction 'J' of type 'priority' has 4 links"), std::string::npos) << message;
+}
+
+TEST(SumoNetwork, WithoutRequestsTheLaterLinkOfThoseThatEndOnOneLaneGivesWay) {
+    const std::string text = without_requests(replaced(signal_net("<phase duration=\"30\" state=\"GGGG\"/>"),
+                                                       "type=\"traffic_light\"", "type=\"traffic_light_unregulated\""));
+    const LaneGraph graph = made_of(text).graph;
+    ASSERT_NE(conflict(graph, ":J_3_0", ":J_0_0"), nullptr);
+    EXPECT_TRUE(conflict(graph, ":J_3_0", ":J_0_0")->yields);
+    EXPECT_FALSE(conflict(graph, ":J_0_0", ":J_3_0")->yields);
+    EXPECT_EQ(conflict(graph, ":J_0_0", ":J_1_0"), nullptr);  // they cross
+}
+
 TEST(SumoNetwork, ReadsGzippedFiles) {
     const SumoFiles files;
     const std::string text = crossing_net();

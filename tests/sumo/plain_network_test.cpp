@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <set>
 #include <sstream>
 
 #include "base/input_error.h"
 #include "experiment/build_model.h"
+#include "experiment/output.h"
 #include "network/sumo_xml.h"
 #include "scenario/load_scenario.h"
 #include "scenario/scenario_text.h"
@@ -25,6 +28,8 @@ Model model_of(const std::string& scenario, std::vector<std::string> overrides =
     overrides.emplace_back("fidelity=meso");
     return build_model(load_scenario(STOPLINE_SOURCE_DIR "/scenarios/" + scenario, overrides), 0);
 }
+
+std::string first_word(const std::string& text) { return text.substr(0, text.find(' ')); }
 
 Model small_grid() { return model_of("grid.yaml", {"network.grid.columns=2", "network.grid.rows=3"}); }
 
@@ -186,6 +191,44 @@ TEST(SumoInputs, WaysOfVehiclesLeadFromEdgeToEdge) {
     EXPECT_GT(vehicles, 500);
 }
 
+// SUMO puts a vehicle in only where more than the gap of its type is free before it.
+TEST(SumoInputs, QueuesAtTheBeginningHaveRoomForTheGapsOfTheirTypes) {
+    for (const char* const name : {"intersection.yaml", "calibration.yaml"}) {
+        const Model model = model_of(name);
+        const PlainNetwork network = plain_network(model.graph);
+        const TemporaryFolder folder;
+        const auto writer = make_sumo_route_writer(folder.path() / "v.rou.xml", model, network);
+        const Simulation simulation(model);
+        writer->look(simulation.state());
+        writer->finish();
+
+        const SumoXml xml(folder.path() / "v.rou.xml", {"routes"});
+        std::map<std::string, double> gap_m;  // by type
+        std::map<std::string, double> length_m;
+        for (const pugi::xml_node type : xml.root().children("vType")) {
+            length_m[xml.text(type, "id")] = xml.number(type, "length");
+            gap_m[xml.text(type, "id")] = xml.number(type, "minGap");
+        }
+        std::map<std::string, std::map<double, std::string>> lanes;  // types by lane and place
+        for (const pugi::xml_node vehicle : xml.root().children("vehicle")) {
+            const std::string edge = first_word(xml.text(vehicle.child("route"), "edges"));
+            lanes[edge + "_" + xml.text(vehicle, "departLane")][xml.number(vehicle, "departPos")] =
+                xml.text(vehicle, "type");
+        }
+        int pairs = 0;
+        for (const auto& [lane, places] : lanes) {
+            for (auto behind = places.begin(); std::next(behind) != places.end(); ++behind) {
+                const auto ahead = std::next(behind);
+                const double free_m = ahead->first - length_m[ahead->second] - behind->first;
+                EXPECT_GT(free_m - gap_m[behind->second], 0.0005) << name << " " << lane;
+                EXPECT_LT(free_m - gap_m[behind->second], 0.0015) << name << " " << lane;
+                ++pairs;
+            }
+        }
+        EXPECT_GT(pairs, 5) << name;
+    }
+}
+
 TEST(RunSummary, SumsUpWhatLiesWithinTheWindow) {
     RunFacts facts;
     facts.trips = {{10.0, 99.0, 0.0}, {110.0, 30.0, 2.0}, {200.0, 50.0, 4.0}, {201.0, 99.0, 9.0}};
@@ -200,6 +243,21 @@ TEST(RunSummary, SumsUpWhatLiesWithinTheWindow) {
     EXPECT_DOUBLE_EQ(sum.speed_mps, 9.0);
     EXPECT_DOUBLE_EQ(sum.halting, 1.5);
     EXPECT_TRUE(std::isnan(summary_of(facts, 300.0, 400.0).travel_time_s));
+}
+
+// SUMO writes meanSpeed="-1.00" for a step without vehicles.
+TEST(RunSummary, LeavesOutOfTheMeanSpeedWhenThereAreNoVehicles) {
+    const TemporaryFolder folder;
+    write_file(folder.path() / "trips.out.xml", "<tripinfos/>");
+    write_file(folder.path() / "detectors.out.xml", "<instantE1/>");
+    write_file(folder.path() / "summary.out.xml",
+               "<summary><step time=\"1\" running=\"2\" halting=\"1\" meanSpeed=\"6.00\"/>"
+               "<step time=\"2\" running=\"0\" halting=\"0\" meanSpeed=\"-1.00\"/></summary>");
+    const RunFacts facts = read_sumo_facts(folder.path());
+    const RunSummary sum = summary_of(facts, 0.0, 2.0);
+    EXPECT_DOUBLE_EQ(sum.speed_mps, 6.0);
+    EXPECT_DOUBLE_EQ(sum.halting, 0.5);
+    EXPECT_TRUE(std::isnan(summary_of(facts, 1.0, 2.0).speed_mps));
 }
 
 }  // namespace
