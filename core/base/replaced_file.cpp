@@ -1,9 +1,13 @@
 #include "base/replaced_file.h"
 
 #include <fcntl.h>
+#include <signal.h>  // kill is POSIX
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
+#include <optional>
+#include <string>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -16,14 +20,30 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::string_view kPart = ".part";
+
 [[noreturn]] void fail(const fs::path& path, int error) {
     throw InputError(fmt::format("{}: cannot write: {}", path.string(), std::generic_category().message(error)));
 }
 
 // Several may be written at once, by several programs and by threads of one.
 fs::path name_beside(const fs::path& target) {
-    return target.parent_path() / fmt::format(".{}.{}.part", target.filename().string(), ::getpid());
+    return target.parent_path() / fmt::format(".{}.{}{}", target.filename().string(), ::getpid(), kPart);
 }
+
+// Of the program that made the file; nothing where name_beside gives no such name.
+std::optional<pid_t> writer_of(const std::string& name) {
+    if (!name.starts_with('.') || !name.ends_with(kPart)) return std::nullopt;
+    const std::string rest = name.substr(0, name.size() - kPart.size());
+    const char* const begin = rest.data() + rest.rfind('.') + 1;
+    const char* const end = rest.data() + rest.size();
+    pid_t writer = 0;
+    const auto [stop, error] = std::from_chars(begin, end, writer);
+    if (error != std::errc() || stop != end || begin == rest.data() + 1 || writer <= 0) return std::nullopt;
+    return writer;
+}
+
+bool is_running(pid_t process) { return ::kill(process, 0) == 0 || errno != ESRCH; }
 
 }  // namespace
 
@@ -70,6 +90,14 @@ void ReplacedFile::close() {
     const int result = ::close(descriptor_);
     descriptor_ = -1;
     if (result != 0) fail(shown_, errno);
+}
+
+void remove_left_parts(const fs::path& folder) {
+    std::error_code ignored;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+        const std::optional<pid_t> writer = writer_of(entry.path().filename().string());
+        if (writer && !is_running(*writer)) fs::remove(entry.path(), ignored);
+    }
 }
 
 }  // namespace stopline

@@ -35,4 +35,8 @@ private:
     int descriptor_ = -1;
 };
 
+// Removes from a folder what programs that were killed had not yet put into its place; what others are writing just now stays.
+// Whether they run is asked of this machine: not for folders that several machines write into.
+void remove_left_parts(const std::filesystem::path& folder);
+
 }  // namespace stopline

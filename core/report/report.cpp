@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "base/input_error.h"
+#include "base/replaced_file.h"
 #include "base/version.h"
 #include "experiment/output.h"
 #include "experiment/program_identity.h"
@@ -29,8 +30,10 @@ constexpr std::size_t kSvgMost_bytes = 500'000;
 class Files {
 public:
     explicit Files(fs::path folder) : folder_(std::move(folder)) {
-        prepare_folder(folder_ / "figures");
-        prepare_folder(folder_ / "tables");
+        for (const char* sub : {"", "figures", "tables"}) {
+            prepare_folder(folder_ / sub);
+            remove_left_parts(folder_ / sub);
+        }
     }
     void put(const std::string& name, const std::string& content) {
         write_file(folder_ / name, content);

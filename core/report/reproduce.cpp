@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "base/input_error.h"
+#include "base/replaced_file.h"
 #include "experiment/csv.h"
 #include "experiment/gnuplot.h"
 #include "experiment/interrupted.h"
@@ -70,6 +71,8 @@ public:
           begin_(Clock::now()),
           estimate_(expected(), options.threads) {
         prepare_folder(folder_);
+        remove_left_parts(folder_);
+        for (const Job* job : jobs_) remove_left_parts(folder_ / job->name);
     }
 
     std::vector<JobEnd> run() {

@@ -68,7 +68,12 @@ for ms in 50 200 400 800 1200 1600; do
     kill -KILL $pid 2>/dev/null
     wait $pid 2>/dev/null
 done
+mkdir -p "$work/killed/figures" "$work/killed/runs_reduced/startup"
+sleep 0 &
+wait $!  # its number is nobody's now
+touch "$work/killed/figures/.fig05_counters.svg.$!.part" "$work/killed/runs_reduced/startup/.startup.csv.$!.part"
 report "$work/killed" >/dev/null || fail "after kills: exit code $?"
+find "$work/killed" -name '.*.part' | grep -q . && fail "parts of files of killed programs stay: $(find "$work/killed" -name '.*.part')"
 same_report "after kills" "$work/killed"
 
 # A kill in the middle of a sweep: finished runs are not lost.

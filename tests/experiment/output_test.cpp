@@ -4,10 +4,14 @@
 #include <gtest/gtest.h>
 #include <signal.h>  // SIGXFSZ is POSIX
 #include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
+#include <iterator>
+#include <string>
 
+#include "base/replaced_file.h"
 #include "scenario/scenario_text.h"
 
 namespace stopline {
@@ -45,6 +49,26 @@ TEST(WriteFile, KeepsTheOldFileWhereTheNewOneCannotBeWritten) {
     EXPECT_TRUE(contains(error, "File too large"));
     EXPECT_EQ(read_text(file), "old");
     EXPECT_EQ(files_in(folder.path()), 1U) << "half a file is left";
+}
+
+TEST(RemoveLeftParts, TakesTheFilesOfProcessesThatAreGone) {
+    const TemporaryFolder folder;
+    const pid_t gone = ::fork();
+    if (gone == 0) ::_exit(0);
+    ASSERT_EQ(::waitpid(gone, nullptr, 0), gone);
+    folder.write(".a.csv." + std::to_string(gone) + ".part", "half");
+    const std::string kept[] = {".a.csv." + std::to_string(::getpid()) + ".part",
+                                "a.csv." + std::to_string(gone) + ".part",
+                                ".a.csv.part",
+                                ".a.csv.-1.part",
+                                ".a.csv.12x.part",
+                                "." + std::to_string(gone) + ".part",
+                                ".a.csv." + std::to_string(gone)};
+    for (const std::string& name : kept) folder.write(name, "other");
+    remove_left_parts(folder.path());
+    for (const std::string& name : kept) EXPECT_TRUE(fs::exists(folder.path() / name)) << name;
+    EXPECT_EQ(files_in(folder.path()), std::size(kept));
+    remove_left_parts(folder.path() / "none");
 }
 
 TEST(WriteFile, WritesToADeviceAndReportsThatItIsFull) {
