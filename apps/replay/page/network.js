@@ -167,18 +167,21 @@ function between(network, from, to, share, frame_s, visit) {
             visit(k, p);
             continue;
         }
-        const done = (way_m) => (way_m < 0.01 ? 0 : eased(share, from.speed_mps[k] * frame_s / way_m, to.speed_mps[j] * frame_s / way_m));
-        const way_m = network.way_m(a, k, b, j);
-        if (way_m >= 0) {
-            const front_m = a.front_m[k] + done(way_m) * way_m;
-            const left_m = b.front_m[j] - (way_m - (front_m - a.front_m[k]));  // on the lane where it ends
-            if (a.lane[k] === b.lane[j] || left_m < 0) network.place(a.lane[k], a.behind[k], front_m, length_m, p);
-            else network.place(b.lane[j], a.lane[k], left_m, length_m, p);
-        } else {
+        let way_m = network.way_m(a, k, b, j);
+        const straight = way_m < 0;
+        if (straight) {
             network.place(a.lane[k], a.behind[k], a.front_m[k], length_m, p);
             network.place(b.lane[j], b.behind[j], b.front_m[j], length_m, q);
-            const part = done(Math.hypot(q[0] - p[0], q[1] - p[1]));
-            for (let i = 0; i < 4; ++i) p[i] += part * (q[i] - p[i]);
+            way_m = Math.hypot(q[0] - p[0], q[1] - p[1]);
+        }
+        const done = way_m < 0.01 ? 0 : eased(share, from.speed_mps[k] * frame_s / way_m, to.speed_mps[j] * frame_s / way_m);
+        const on_next_m = b.front_m[j] - (1 - done) * way_m;  // on the lane where it ends
+        if (straight) {
+            for (let i = 0; i < 4; ++i) p[i] += done * (q[i] - p[i]);
+        } else if (a.lane[k] === b.lane[j] || on_next_m < 0) {
+            network.place(a.lane[k], a.behind[k], a.front_m[k] + done * way_m, length_m, p);
+        } else {
+            network.place(b.lane[j], a.lane[k], on_next_m, length_m, p);
         }
         visit(k, p);
     }
