@@ -65,8 +65,11 @@ std::optional<Conflict> areas_of(const Lane& one, const Lane& two, double cleara
     const auto on_one = near_part(one.shape, two.shape, clearance_m);
     const auto on_two = on_one ? near_part(two.shape, one.shape, clearance_m) : std::nullopt;
     if (!on_one || !on_two) return std::nullopt;
-    return Conflict{-1, on_one->from_m - one.shape_start_m, on_one->to_m - one.shape_start_m,
-                    on_two->from_m - two.shape_start_m, on_two->to_m - two.shape_start_m};
+    const auto along = [](const Lane& lane, double on_shape_m) {
+        return on_shape_m / lane.shape_scale - lane.shape_start_m;
+    };
+    return Conflict{-1, along(one, on_one->from_m), along(one, on_one->to_m), along(two, on_two->from_m),
+                    along(two, on_two->to_m)};
 }
 
 int rank(Turn turn) { return turn == Turn::left ? 2 : turn == Turn::right ? 1 : 0; }

@@ -26,9 +26,11 @@ struct Lane {
     Polyline shape = {};         // centre line, from shape_start_m before the lane's start
     double stop_line_m = 0.0;    // from the lane's start; behind it the lane may go on, shared by its movements
     double shape_start_m = 0.0;  // length of `shape` that belongs to the lane before: the shared stretch
-    Turn turn = Turn::none;      // of a lane inside an intersection
-    int origin = -1;             // of such a lane: the entry lane that leads to it
-    int left = -1;               // lane beside it to which one may change, up to the stop line; -1: none
+    double shape_scale = 1.0;    // metres of `shape` to one of the lane, where they differ: of imported networks
+    double clear_m = 0.0;    // of a lane inside an intersection: rears beyond it are clear of the origin's other ways
+    Turn turn = Turn::none;  // of a lane inside an intersection
+    int origin = -1;         // of such a lane: the entry lane that leads to it
+    int left = -1;           // lane beside it to which one may change, up to the stop line; -1: none
     int right = -1;
     double begin_m = 0.0;  // where it begins, from where the longest lanes of its approach do: pockets
     int approach = -1;     // the one that it belongs to
@@ -79,6 +81,11 @@ struct LaneGraph {
 
     const std::vector<Conflict>& conflicts_of(int lane) const;
 };
+
+// The point of a lane's shape at a distance from where the shape begins, counted as the lane counts.
+inline Place place_along(const Lane& lane, double distance_m) {
+    return place_at(lane.shape, distance_m * lane.shape_scale);
+}
 
 // Straight lanes side by side, each with a stop line (signal group 0) and the road behind it. Entry lane k is lane 2 k, its
 // continuation lane 2 k + 1, its route k.

@@ -78,6 +78,7 @@ private:
                 lane.length_m = lane.stop_line_m = cars->length_m;
                 lane.limit_mps = from.speed_mps;
                 lane.shape = from.shape;
+                lane.shape_scale = length_m(lane.shape) / lane.length_m;
                 lane.approach = made_.approach_of.back();
                 lane.left = approach.lanes.empty() ? -1 : approach.lanes.back();
                 numbers[at(k)] = static_cast<int>(lanes().size());
@@ -171,28 +172,66 @@ private:
         lanes().push_back(std::move(lane));
     }
 
-    // What the movements of a lane share belongs to it.
+    // What the movements of a lane share belongs to it: beyond, their vehicles are clear of each other. Where a way is too short for that,
+    // they are so further on.
     void share_stretches() {
-        constexpr double kMostOfWay = 0.7;
         for (int index = 0; index < inside_from_; ++index) {
             const std::vector<int> next = lanes()[at(index)].next;
-            double shared_m = 0.0;
-            double shortest_m = 1e9;
-            for (const int one : next) {
-                shortest_m = std::min(shortest_m, lanes()[at(one)].length_m);
-                for (const int two : next) {
-                    if (one == two || lanes()[at(one)].next == lanes()[at(two)].next) continue;
-                    shared_m = std::max(shared_m,
-                                        shared_stretch_m(lanes()[at(one)].shape, lanes()[at(two)].shape, clearance_m_));
-                }
-            }
-            shared_m = std::min(shared_m, kMostOfWay * shortest_m);
+            widen_turnarounds(next);
+            const double parted_m = parting_m(next, [](const Lane&) { return true; });
+            double shared_m = parted_m;
+            for (const int one : next) shared_m = std::min(shared_m, lanes()[at(one)].length_m - kShortest_m);
+            shared_m = std::max(shared_m, 0.0);
             lanes()[at(index)].length_m += shared_m;
             for (const int one : next) {
-                lanes()[at(one)].length_m -= shared_m;
-                lanes()[at(one)].shape_start_m = shared_m;
+                Lane& way = lanes()[at(one)];
+                way.length_m -= shared_m;
+                way.shape_start_m = shared_m;
+                way.clear_m = parted_m - shared_m;
             }
         }
+    }
+
+    // Where the last two of some lanes part whose turns are counted.
+    template <class Counts>
+    double parting_m(const std::vector<int>& next, const Counts& counts) {
+        double parted_m = 0.0;
+        for (const int one : next) {
+            for (const int two : next) {
+                const Lane& a = lanes()[at(one)];
+                const Lane& b = lanes()[at(two)];
+                if (one == two || a.next == b.next || !counts(a) || !counts(b)) continue;
+                parted_m = std::max(parted_m, shared_stretch_m(a.shape, b.shape, clearance_m_));
+            }
+        }
+        return parted_m;
+    }
+
+    // Who turns round drives on to where the others part, if that is near, and not on the spot, as the shapes of netconvert do.
+    void widen_turnarounds(const std::vector<int>& next) {
+        constexpr double kFurthest_m = 4.0;
+        const double parted_m = parting_m(next, [&](const Lane& lane) { return !turns_round(lane); }) + kShortest_m;
+        for (const int one : next) {
+            Lane& way = lanes()[at(one)];
+            if (way.length_m >= parted_m || !turns_round(way)) continue;
+            const double ahead_m = std::min(0.5 * (parted_m - way.length_m), kFurthest_m);
+            const Place from = end_of(lanes()[at(way.origin)]);
+            Polyline wide{way.shape.front()};
+            for (const Point& p : way.shape) {
+                wide.push_back({p.x_m + ahead_m * from.cosine, p.y_m + ahead_m * from.sine});
+            }
+            wide.push_back(way.shape.back());
+            way.shape = std::move(wide);
+            way.length_m = length_m(way.shape);
+        }
+    }
+
+    static Place end_of(const Lane& lane) { return place_at(lane.shape, length_m(lane.shape)); }
+
+    bool turns_round(const Lane& way) {
+        const Place from = end_of(lanes()[at(way.origin)]);
+        const Place to = place_at(lanes()[at(way.next[0])].shape, 0.0);
+        return from.cosine * to.cosine + from.sine * to.sine < -0.9;
     }
 
     // Vehicles go on from every lane, or their routes end there.

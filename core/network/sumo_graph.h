@@ -2,7 +2,7 @@
 //
 // - Every lane on which passenger cars may drive is a lane with SUMO's name and length; the lanes of an edge are an approach.
 // - Every connection is one lane inside an intersection: the lanes of its chain of `via`, joined. As in the generators' networks, the
-//   stretch that a lane's movements share belongs to the lane before.
+//   stretch that a lane's movements share belongs to the lane before. Who turns round does so where the others part, not on the spot.
 // - Conflict areas follow from the shapes, for the links that the junctions' matrices call foes, and where two ways end on the same lane.
 // - Who gives way: the `response` matrix. Of links with lights only those that are green together give way, and one with 'G' not to one
 //   with 'g'.

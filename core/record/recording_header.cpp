@@ -37,6 +37,7 @@ Json lane_json(const Lane& lane, bool imported) {
         json["turn"] = turn_name(lane.turn);
     }
     json["shape_start_m"] = lane.shape_start_m;
+    if (lane.shape_scale != 1.0) json["shape_scale"] = lane.shape_scale;
     json["shape"] = Json::array();
     for (const Point& point : lane.shape) {
         json["shape"].push_back(to_mm(point.x_m));

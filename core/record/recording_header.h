@@ -3,10 +3,10 @@
 //     program, version, command, scenario, title, scenario_hash, seed, population, fidelity
 //     step_s, frame_s, first_frame_s, position_unit_m, speed_unit_mps, advance_q12 (see expected_advance)
 //     policies: [name], causes: [name], signal_groups: number, lane_width_m
-//     lanes: [{name, length_m, limit_mps, next: [lane], shape: [x, y, ...], shape_start_m,
+//     lanes: [{name, length_m, limit_mps, next: [lane], shape: [x, y, ...], shape_start_m, shape_scale if not 1,
 //              stop_line_m where it has one, signal_group where that has a light, turn and origin inside an intersection}]
 //     entries: [lane]
-// Lanes, groups, policies and causes are numbered as they are listed, from 0. For shape_start_m see network/lane_graph.h.
+// Lanes, groups, policies and causes are numbered as they are listed, from 0. For shape_start_m and shape_scale see network/lane_graph.h.
 #pragma once
 
 #include <cstdint>

@@ -14,9 +14,9 @@ inline Place vehicle_place(const Model& model, const State& state, int lane, std
     const double position_m = state.vehicles.position_m[slot];
     const int next = state.vehicles.record[slot].next_lane;
     if (road.signal_group >= 0 && position_m > road.stop_line_m && next >= 0) {
-        return place_at(model.graph.lanes[static_cast<std::size_t>(next)].shape, position_m - road.stop_line_m);
+        return place_along(model.graph.lanes[static_cast<std::size_t>(next)], position_m - road.stop_line_m);
     }
-    return place_at(road.shape, road.shape_start_m + position_m);
+    return place_along(road, road.shape_start_m + position_m);
 }
 
 }  // namespace stopline

@@ -57,6 +57,13 @@ LanePlan plan_of(const Model& model, int index) {
     return plan;
 }
 
+double longest_vehicle_m(const Model& model) {
+    double longest_m = 0.0;
+    for (const PowertrainTables& type : model.vehicles) longest_m = std::max(longest_m, type.length_m);
+    for (const Trip& trip : model.demand.trips) longest_m = std::max(longest_m, static_cast<double>(trip.length_m));
+    return longest_m;
+}
+
 // Lanes inside depend on those that lead there and on those that they meet. An exit that leads nowhere goes with them, to be near.
 void join_intersections(const Model& model, Sets& sets) {
     for (int index = 0; index < static_cast<int>(model.graph.lanes.size()); ++index) {
@@ -111,6 +118,7 @@ std::vector<BesidePlan> plan_beside(const LaneGraph& graph, const std::vector<Tu
 
 NetworkPlan::NetworkPlan(const Model& model) : speed_factor_(model.speed_factor), demand_(&model.demand) {
     const auto count = static_cast<int>(model.graph.lanes.size());
+    const double longest_m = longest_vehicle_m(model);
     Sets sets(at(count));
     join_intersections(model, sets);
     for (int lane = 0; lane < count; ++lane) {
@@ -120,6 +128,8 @@ NetworkPlan::NetworkPlan(const Model& model) : speed_factor_(model.speed_factor)
         order_.push_back(lane);
         waits_inside_.push_back(model.graph.lanes[at(lane)].waits_inside ? 1 : 0);
         lights_.push_back(model.graph.lanes[at(lane)].light);
+        const Lane& each = model.graph.lanes[at(lane)];
+        parting_.push_back({each.clear_m, each.origin >= 0 && each.length_m - each.clear_m < longest_m});
         next_.add(model.graph.lanes[at(lane)].next);
         conflicts_.add(model.graph.conflicts_of(lane));
         std::vector<int> meets;

@@ -91,6 +91,10 @@ public:
         const int own = next >= 0 ? lights_[static_cast<std::size_t>(next)] : -1;
         return own >= 0 ? own : this->lane(lane).signal_group;
     }
+    // Of a lane inside an intersection: where the rears of its vehicles are clear of the other lanes of its origin.
+    double clear_m(int lane) const { return parting_[static_cast<std::size_t>(lane)].clear_m; }
+    // Of such a lane: vehicles can reach from its exit back over it to where they are not.
+    bool is_short(int lane) const { return parting_[static_cast<std::size_t>(lane)].is_short; }
     bool waits_inside(int lane) const { return waits_inside_[static_cast<std::size_t>(lane)] != 0; }
     // The turn of a trip at the end of its leg-th edge; none: it ends there.
     Turn turn_of_trip(int trip, int leg) const { return demand_->turn_of_trip(trip, leg); }
@@ -124,7 +128,12 @@ private:
     std::vector<int> like_;                                 // [route]
     std::vector<int> lights_;                               // [lane] Lane::light
     std::vector<char> waits_inside_;                        // [lane]
-    const DemandPlan* demand_;                              // of the model, which outlives the plan
+    struct PartingPlan {
+        double clear_m = 0.0;
+        bool is_short = false;
+    };
+    std::vector<PartingPlan> parting_;  // [lane]
+    const DemandPlan* demand_;          // of the model, which outlives the plan
     TripLanes trip_lanes_;
 };
 

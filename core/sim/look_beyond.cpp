@@ -12,21 +12,54 @@ std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 constexpr double kFar_m = 1e9;
 
-// Where movements part: the vehicle on any of them whose rear is still on the shared stretch, if any.
-Ahead still_shared(const State& state, int lane, double& rear_m) {
-    const VehicleArrays& v = state.vehicles;
-    const double end_m = state.plan.lane(lane).length_m;
-    Ahead found;
-    for (const int next : state.plan.next(lane)) {
-        const LaneBlock& block = state.blocks[at(next)];
-        if (block.count == 0) continue;
-        const double beyond_m = v.position_m[at(block.last())] - v.length_m[at(block.last())];
-        if (beyond_m >= 0.0 || end_m + beyond_m >= rear_m) continue;
-        rear_m = end_m + beyond_m;
-        found = {block.last(), end_m};
+// Where movements part: the vehicle on any of them whose rear is still on the stretch where it is not clear of the others, if any. Only fronts
+// that are further than `front_m` from the end of the lane.
+class Parting {
+public:
+    Parting(const State& state, int lane, double front_m = kAll_m)
+        : state_(state), v_(state.vehicles), end_m_(state.plan.lane(lane).length_m), front_m_(front_m) {
+        for (const int next : state.plan.next(lane)) look_at(next);
     }
-    return found;
-}
+    // The one whose rear is the furthest back, and where that is, from the start of the lane.
+    Ahead last() const { return found_; }
+    double rear_m() const { return rear_m_; }
+
+private:
+    void look_at(int way) {
+        const double clear_m = state_.plan.clear_m(way);
+        const LaneBlock& block = state_.blocks[at(way)];
+        for (int slot = block.last(); slot >= block.first; --slot) {
+            if (!see(slot, 0.0, clear_m) || front_m_ == kAll_m) break;
+        }
+        if (!state_.plan.is_short(way)) return;
+        const LanePlan& plan = state_.plan.lane(way);
+        const LaneBlock& exit = state_.blocks[at(plan.exit)];
+        for (int slot = std::max(exit.stop() - kReachBack, exit.first); slot < exit.stop(); ++slot) {
+            if (v_.record[at(slot)].came_from == way) see(slot, plan.length_m, clear_m);
+        }
+    }
+
+    // `start_m`: of its lane, from the end of the lane where the movements part. False: it is clear.
+    bool see(int slot, double start_m, double clear_m) {
+        const double front_m = start_m + v_.position_m[at(slot)];
+        const double beyond_m = front_m - v_.length_m[at(slot)];
+        if (beyond_m >= clear_m) return false;
+        if (front_m <= front_m_ || end_m_ + beyond_m >= rear_m_) return true;
+        rear_m_ = end_m_ + beyond_m;
+        found_ = {slot, end_m_ + start_m};
+        return true;
+    }
+
+    static constexpr double kAll_m = -1.0;
+    static constexpr int kReachBack = 2;  // vehicles of a lane, over the one before it
+
+    const State& state_;
+    const VehicleArrays& v_;
+    double end_m_;
+    double front_m_;
+    double rear_m_ = kFar_m;
+    Ahead found_;
+};
 
 // Beyond the route, which ends on the next edge: on edges that are shorter than the range. Nobody is on the route.
 Ahead ahead_on_trip(const State& state, int lane, double position_m, const OnTrip& on_trip, double range_m) {
@@ -40,8 +73,7 @@ Ahead ahead_on_trip(const State& state, int lane, double position_m, const OnTri
     for (int leg = on_trip.leg + 1;; ++leg) {
         const Turn turn = state.plan.turn_of_trip(on_trip.trip, leg);
         const int way = turn == Turn::none ? -1 : state.plan.beside(at_lane).way(turn).route;
-        double rear_m = kFar_m;
-        Ahead shared = still_shared(state, at_lane, rear_m);
+        const Ahead shared = Parting(state, at_lane).last();
         if (shared.slot >= 0) return {shared.slot, start_m + shared.start_m};
         if (way < 0) return {};
         const std::span<const int> on = state.plan.route(way);
@@ -60,8 +92,7 @@ Ahead ahead_on_trip(const State& state, int lane, double position_m, const OnTri
 Ahead vehicle_ahead(const State& state, int lane, int slot, double range_m) {
     const VehicleRecord& record = state.vehicles.record[at(slot)];
     if (record.next_lane < 0) {  // it leaves, or waits for a gap: it sees who still reaches back
-        double rear_m = kFar_m;
-        return still_shared(state, lane, rear_m);
+        return Parting(state, lane).last();
     }
     const double position_m = state.vehicles.position_m[at(slot)];
     return vehicle_ahead(state, lane, position_m, {record.route, record.route_index, record.trip, record.leg}, range_m);
@@ -82,7 +113,16 @@ Ahead vehicle_ahead(const State& state, int lane, double position_m, int route_n
     double beside_rear_m = kFar_m;
     const std::span<const int> route = state.plan.route(route_number);
     const bool ends_here = at(index) + 1 == route.size();  // where others go on
-    if (here.branches || ends_here) beside = still_shared(state, lane, beside_rear_m);
+    if (here.branches || ends_here) {
+        const Parting parting(state, lane);
+        beside = parting.last();
+        beside_rear_m = parting.rear_m();
+    } else if (here.origin >= 0 && position_m < state.plan.clear_m(lane)) {
+        const double origin_m = state.plan.lane(here.origin).length_m;
+        const Parting parting(state, here.origin, position_m);
+        beside = {parting.last().slot, parting.last().start_m - origin_m};
+        beside_rear_m = parting.rear_m() - origin_m;
+    }
     for (std::size_t k = at(index) + 1; k < route.size(); ++k) {
         if (start_m - position_m > range_m) break;
         const LaneBlock& block = state.blocks[at(route[k])];
@@ -115,13 +155,14 @@ namespace {
 
 // Whether the rear of the vehicle ahead is still on a way that joins that of this one further on. Whether they touch before is a matter of
 // conflict areas (right_of_way.cpp).
-bool comes_by_another_way(const State& state, int slot, int ahead) {
+bool comes_by_another_way(const State& state, int lane, int slot, int ahead) {
     const VehicleArrays& v = state.vehicles;
     const VehicleRecord& other = v.record[at(ahead)];
     double rear_m = v.position_m[at(ahead)] - static_cast<double>(v.length_m[at(ahead)]);
     if (rear_m >= 0.0) return false;
     const std::span<const int> route = state.plan.route(v.record[at(slot)].route);
-    const auto is_own = [&](int lane) { return std::find(route.begin(), route.end(), lane) != route.end(); };
+    const auto is_own = [&](int way) { return std::find(route.begin(), route.end(), way) != route.end(); };
+    if (other.came_from >= 0 && state.plan.lane(other.came_from).origin == lane) return false;  // parts here
     if (other.came_from >= 0 && !is_own(other.came_from)) return true;
     // Over an edge that is shorter than the vehicle.
     if (other.came_from >= 0) rear_m += state.plan.lane(other.came_from).length_m;
@@ -145,7 +186,7 @@ void look_beyond_lanes(const Model& model, State& state, NetworkPart& part) {
         v.length_m[sentinel] = v.length_m[other];
         v.acceleration_mps2[sentinel] = seen ? v.acceleration_mps2[other] : 0.0F;
         if (const double reach_m = v.position_m[sentinel] - v.position_m[at(head)];
-            seen && reach_m < v.length_m[sentinel] && comes_by_another_way(state, head, ahead.slot)) {
+            seen && reach_m < v.length_m[sentinel] && comes_by_another_way(state, lane, head, ahead.slot)) {
             v.length_m[sentinel] = static_cast<float>(std::max(reach_m - kTouch_m, 0.0));
         }
         const double rear_m = v.position_m[sentinel] - v.length_m[sentinel];

@@ -17,6 +17,7 @@ void look_beyond_lanes(const Model& model, State& state, NetworkPart& part);
 void find_insiders(State& state, NetworkPart& part);
 void decide_stops(const Model& model, State& state, NetworkPart& part);
 void give_way(const Model& model, State& state, NetworkPart& part);
+void count_conflicts(const Model& model, State& state, NetworkPart& part);  // the last part of give_way
 void wait_to_change(const Model& model, State& state, NetworkPart& part);
 // Then, when all parts are done: everybody moves.
 void move_vehicles(const Model& model, const FullTables& tables, State& state, NetworkPart& part);

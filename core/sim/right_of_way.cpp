@@ -12,7 +12,6 @@
 // A vehicle that has stood inside for long may be passed where the rules say so (driver/hindrance_rules.h).
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "base/arithmetic.h"
 #include "sim/phases.h"
@@ -266,6 +265,23 @@ int sets_out_first(const Model& model, const State& state, int lane, const Candi
     return -1;
 }
 
+// The slot of a vehicle of the other lane that gives way to this one but set out for the area when this one stood and waited, and cannot stop any
+// more; -1: none. For one that is about to set out.
+int cannot_stop(const Model& model, const State& state, const Conflict& conflict) {
+    const VehicleArrays& v = state.vehicles;
+    const LanePlan& origin = state.plan.lane(state.plan.lane(conflict.other).origin);
+    const LaneBlock& block = state.blocks[at(state.plan.lane(conflict.other).origin)];
+    for (int slot = block.first; slot < block.stop(); ++slot) {
+        if (v.record[at(slot)].next_lane != conflict.other) continue;
+        const double speed_mps = v.speed_mps[at(slot)];
+        const double to_area_m =
+            origin.length_m + conflict.other_from_m - model.give_way.margin_m - v.position_m[at(slot)];
+        const bool comes = v.record[at(slot)].cleared_for == conflict.other && speed_mps >= kStanding_mps;
+        return comes && to_area_m < stopping_m(model, speed_mps) ? slot : -1;
+    }
+    return -1;
+}
+
 // The slot of a vehicle with priority that is too near for this one to go; -1: none. The decision is noted.
 int comes_first(const Model& model, State& state, NetworkPart& part, int lane, const Candidate& v, double to_hold_m) {
     VehicleArrays& arrays = state.vehicles;
@@ -326,14 +342,16 @@ Wait waiting_place(const Model& model, State& state, NetworkPart& part, int lane
     const bool at_line = line_m < kNowhere_m;
     const bool no_light = state.plan.light_before(state.plan.lane(lane).origin, lane) == 0;
     if (at_line && line_m - v.front_m > ahead_m) return {};
-    if (!others && (decided || !state.plan.lane(lane).yields)) return {};
+    const bool sets_out = v.stands && !model.demand.trips.empty();
+    if (!others && !sets_out && (decided || !state.plan.lane(lane).yields)) return {};
     for (const Conflict& conflict : state.plan.conflicts(lane)) {
         const double hold_m = conflict.from_m - margin_m;
         if (v.front_m > conflict.from_m) continue;
         const bool far = hold_m - v.front_m > ahead_m;
         if (far && !at_line) break;
         const bool empty = !others || state.insiders[at(conflict.other)].empty();
-        const int blocker = empty ? -1 : keeps_out(model, state, part, lane, conflict, v);
+        int blocker = empty ? -1 : keeps_out(model, state, part, lane, conflict, v);
+        if (blocker < 0 && sets_out && conflict.other_yields) blocker = cannot_stop(model, state, conflict);
         const bool matters = !far || no_light || (blocker >= 0 && arrays.speed_mps[at(blocker)] < kStanding_mps);
         if (blocker >= 0 && matters) return {std::min(hold_m, line_m), blocker, false};
         if (conflict.yields && !decided) {
@@ -389,44 +407,6 @@ void decide(const Model& model, State& state, NetworkPart& part, int lane) {
     coming.clear();
 }
 
-// Whether one of two vehicles in the same area passes the other by the rule for blockers; notes when it begins to.
-bool passes(const Model& model, State& state, NetworkPart& part, int one, int two, int lane) {
-    const std::pair<int, int> pair = std::minmax(state.vehicles.id[at(one)], state.vehicles.id[at(two)]);
-    for (Passing& known : part.passing) {
-        if (std::pair<int, int>(std::minmax(known.vehicle, known.blocker)) != pair) continue;
-        known.seen = state.tick;
-        if (known.begun) return true;
-        known.begun = true;
-        ++part.passed_blockers;
-        part.rules.push_back({RuleUse::Kind::passed_blocker, model.time_s(state.tick), known.vehicle, lane,
-                              known.blocker, model.time_s(known.stood)});
-        return true;
-    }
-    return false;
-}
-
-// Pairs of vehicles that are in the area at the same time, but for those that pass each other by a rule.
-std::int64_t pairs_in(const Model& model, State& state, NetworkPart& part, int lane, const Conflict& c) {
-    std::int64_t pairs = 0;
-    for (const Insider& w : state.insiders[at(lane)]) {
-        if (w.front_m <= c.from_m || w.rear_m >= c.to_m) continue;
-        for (const Insider& x : state.insiders[at(c.other)]) {
-            if (x.front_m <= c.other_from_m || x.rear_m >= c.other_to_m) continue;
-            pairs += passes(model, state, part, w.slot, x.slot, lane) ? 0 : 1;
-        }
-    }
-    return pairs;
-}
-
-// The same, of a lane with all others.
-std::int64_t conflicts_of(const Model& model, State& state, NetworkPart& part, int lane) {
-    std::int64_t pairs = 0;
-    for (const Conflict& c : state.plan.conflicts(lane)) {
-        if (c.other > lane && !state.insiders[at(c.other)].empty()) pairs += pairs_in(model, state, part, lane, c);
-    }
-    return pairs;
-}
-
 }  // namespace
 
 void give_way(const Model& model, State& state, NetworkPart& part) {
@@ -441,10 +421,7 @@ void give_way(const Model& model, State& state, NetworkPart& part) {
         state.deciding[at(lane)] = 0;
         decide(model, state, part, lane);
     }
-    for (const int lane : part.with_insiders) {
-        if (state.others_inside[at(lane)].lanes > 0)
-            part.violations.conflicts += conflicts_of(model, state, part, lane);
-    }
+    count_conflicts(model, state, part);
 }
 
 }  // namespace stopline

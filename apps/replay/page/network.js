@@ -4,12 +4,13 @@
 const VEHICLE_WIDTH_M = 1.8;
 
 class Shape {
-    constructor(numbers) {
+    // scale: metres of the shape to one of the lane, as which distances count.
+    constructor(numbers, scale) {
         this.numbers = numbers;
         this.along_m = [0];  // of each point
         for (let k = 2; k < numbers.length; k += 2) {
             const step = Math.hypot(numbers[k] - numbers[k - 2], numbers[k + 1] - numbers[k - 1]);
-            this.along_m.push(this.along_m[this.along_m.length - 1] + step);
+            this.along_m.push(this.along_m[this.along_m.length - 1] + step / scale);
         }
         this.length_m = this.along_m[this.along_m.length - 1];
     }
@@ -27,7 +28,7 @@ class Shape {
 
 class Network {
     constructor(head) {
-        this.lanes = head.lanes.map((lane, number) => ({...lane, number, shape: new Shape(lane.shape)}));
+        this.lanes = head.lanes.map((lane, number) => ({...lane, number, shape: new Shape(lane.shape, lane.shape_scale ?? 1)}));
         this.entries = head.entries.length ? head.entries : this.beginnings();
         this.laneWidth_m = head.lane_width_m;
         this.lines = this.lanes.filter((lane) => lane.signal_group !== undefined);
