@@ -81,11 +81,13 @@ private:
         const Lane& a = lane(one);
         const Lane& b = lane(two);
         const bool foes = bit(junction.foes, one.link, two.link) || bit(junction.foes, two.link, one.link);
-        if (a.origin == b.origin || (!foes && a.next != b.next)) return;
+        const bool turning_round = turns_round(one) || turns_round(two);
+        if (a.origin == b.origin || (!foes && a.next != b.next && !turning_round)) return;
         const std::optional<Conflict> c = conflict_of(a, b, clearance_m_);
         if (!c) return;
-        const bool one_yields = yields(junction, one, two);
-        const bool two_yields = yields(junction, two, one);
+        const bool known = foes || a.next == b.next;
+        const bool one_yields = known ? yields(junction, one, two) : yields_turning(one, two);
+        const bool two_yields = known ? yields(junction, two, one) : yields_turning(two, one);
         made_.graph.conflicts[at(one.lane)].push_back(
             {two.lane, c->from_m, c->to_m, c->other_from_m, c->other_to_m, one_yields, two_yields});
         made_.graph.conflicts[at(two.lane)].push_back(
@@ -109,6 +111,13 @@ private:
                 return;
             }
         }
+    }
+
+    static bool turns_round(const SumoWay& way) { return way.connection->dir == 't'; }
+
+    // Of two that are no foes in the matrix but meet, since one turns round further ahead here (sumo_graph.cpp).
+    static bool yields_turning(const SumoWay& way, const SumoWay& to) {
+        return turns_round(way) && (!turns_round(to) || way.link > to.link);
     }
 
     // Lights that are green together: those of one programme by its phases, of others possibly.

@@ -265,8 +265,8 @@ int sets_out_first(const Model& model, const State& state, int lane, const Candi
     return -1;
 }
 
-// The slot of a vehicle of the other lane that gives way to this one but set out for the area when this one stood and waited, and cannot stop any
-// more; -1: none. For one that is about to set out.
+// The slot of a vehicle of the other lane that gives way to this one but set out when this one stood and waited, and cannot stop before its
+// first area any more, where it would decide again; -1: none. For one that is about to set out.
 int cannot_stop(const Model& model, const State& state, const Conflict& conflict) {
     const VehicleArrays& v = state.vehicles;
     const LanePlan& origin = state.plan.lane(state.plan.lane(conflict.other).origin);
@@ -274,8 +274,8 @@ int cannot_stop(const Model& model, const State& state, const Conflict& conflict
     for (int slot = block.first; slot < block.stop(); ++slot) {
         if (v.record[at(slot)].next_lane != conflict.other) continue;
         const double speed_mps = v.speed_mps[at(slot)];
-        const double to_area_m =
-            origin.length_m + conflict.other_from_m - model.give_way.margin_m - v.position_m[at(slot)];
+        const double first_m = state.plan.lane(conflict.other).first_area_m - model.give_way.margin_m;
+        const double to_area_m = origin.length_m + first_m - v.position_m[at(slot)];
         const bool comes = v.record[at(slot)].cleared_for == conflict.other && speed_mps >= kStanding_mps;
         return comes && to_area_m < stopping_m(model, speed_mps) ? slot : -1;
     }
@@ -342,7 +342,9 @@ Wait waiting_place(const Model& model, State& state, NetworkPart& part, int lane
     const bool at_line = line_m < kNowhere_m;
     const bool no_light = state.plan.light_before(state.plan.lane(lane).origin, lane) == 0;
     if (at_line && line_m - v.front_m > ahead_m) return {};
-    const bool sets_out = v.stands && !model.demand.trips.empty();
+    const bool waits = v.stands || arrays.record[at(v.slot)].held_at >= state.tick - 1;
+    const double braking_m = 0.5 * square(speed) / model.driver.cacc.deceleration_emergency_mps2;
+    const bool sets_out = waits && !model.demand.trips.empty();
     if (!others && !sets_out && (decided || !state.plan.lane(lane).yields)) return {};
     for (const Conflict& conflict : state.plan.conflicts(lane)) {
         const double hold_m = conflict.from_m - margin_m;
@@ -351,7 +353,8 @@ Wait waiting_place(const Model& model, State& state, NetworkPart& part, int lane
         if (far && !at_line) break;
         const bool empty = !others || state.insiders[at(conflict.other)].empty();
         int blocker = empty ? -1 : keeps_out(model, state, part, lane, conflict, v);
-        if (blocker < 0 && sets_out && conflict.other_yields) blocker = cannot_stop(model, state, conflict);
+        if (blocker < 0 && sets_out && conflict.other_yields && conflict.from_m - v.front_m >= braking_m)
+            blocker = cannot_stop(model, state, conflict);
         const bool matters = !far || no_light || (blocker >= 0 && arrays.speed_mps[at(blocker)] < kStanding_mps);
         if (blocker >= 0 && matters) return {std::min(hold_m, line_m), blocker, false};
         if (conflict.yields && !decided) {

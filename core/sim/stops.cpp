@@ -185,13 +185,15 @@ void note_stop(State& state, const LanePlan& lane, int slot) {
 
 // Those that will not stop here and are near to where ways meet, in front of them.
 void list_coming(const Model& model, State& state, int index) {
-    constexpr double kLookBack_m = 60.0;
+    constexpr double kLookBack_m = 60.0;   // of 50 km/h and a comfortable stop
+    constexpr double kFastBack_m = 160.0;  // imported networks have faster roads
+    const double look_back_m = model.demand.trips.empty() ? kLookBack_m : kFastBack_m;
     const VehicleArrays& v = state.vehicles;
     const double length_m = state.plan.lane(index).length_m;
     const LaneBlock& block = state.blocks[at(index)];
     for (int slot = block.first; slot < block.stop(); ++slot) {
         const double to_end_m = length_m - v.position_m[at(slot)];
-        if (to_end_m > kLookBack_m || slot == state.stop_slot[at(index)]) break;
+        if (to_end_m > look_back_m || slot == state.stop_slot[at(index)]) break;
         const VehicleRecord& record = v.record[at(slot)];
         if (record.next_lane < 0) continue;
         const LanePlan& way = state.plan.lane(record.next_lane);
