@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "network/sumo_graph.h"
 #include "network/sumo_net.h"
@@ -17,6 +18,7 @@ using testing::refusal;
 using testing::replaced;
 using testing::signal_net;
 using testing::SumoFiles;
+using testing::turnaround_net;
 using testing::two_phases;
 
 constexpr double kClearance_m = 2.0;
@@ -71,6 +73,35 @@ TEST(SumoNetwork, JoinsAChainOfViaToOneWay) {
     EXPECT_GT(turning.shape_start_m, 1.0);  // what it shares with the way straight on
     EXPECT_DOUBLE_EQ(turning.shape_start_m, lane(made.graph, ":J_1_1").shape_start_m);
     EXPECT_DOUBLE_EQ(turning.limit_mps, 7.0);
+}
+
+TEST(SumoNetwork, SharesWhatWaysOfALaneHaveInCommonAndTurnsRoundBeyond) {
+    const SumoNetwork made = made_of(turnaround_net());
+    const std::vector<int>& ways = lane(made.graph, "a_0").next;
+    ASSERT_EQ(ways.size(), 3U);
+    for (const int one : ways) {
+        const Lane& way = made.graph.lanes[static_cast<std::size_t>(one)];
+        EXPECT_NEAR(way.length_m + way.shape_start_m, length_m(way.shape), 1e-9) << way.name;
+        EXPECT_NEAR(way.shape_start_m, lane(made.graph, "a_0").length_m - 100.0, 1e-9);
+        EXPECT_LT(way.clear_m, 0.5) << "the ways part further on than they begin";
+        for (const int two : ways) {
+            if (one == two) continue;
+            const Lane& other = made.graph.lanes[static_cast<std::size_t>(two)];
+            for (double m = way.shape_start_m + way.clear_m; m <= length_m(way.shape); m += 0.1) {
+                EXPECT_GE(distance_m(other.shape, place_along(way, m).point), kClearance_m - 0.05) << way.name << m;
+            }
+        }
+    }
+    EXPECT_LT(length_m(lane(made.graph, ":J_2_0").shape), 4.5 + 8.0) << "turns round too far ahead";
+}
+
+TEST(SumoNetwork, ScalesShapesToTheLengthsThatAreStated) {
+    const std::string longer = replaced(turnaround_net(), "id=\"d_0\" index=\"0\" speed=\"13.89\" length=\"100\"",
+                                        "id=\"d_0\" index=\"0\" speed=\"13.89\" length=\"125\"");
+    const SumoNetwork made = made_of(longer);
+    EXPECT_DOUBLE_EQ(lane(made.graph, "d_0").length_m, 125.0);
+    EXPECT_NEAR(place_along(lane(made.graph, "d_0"), 125.0).point.y_m, -108.0, 1e-9);
+    EXPECT_NEAR(place_along(lane(made.graph, "c_0"), 25.0).point.x_m, 39.0, 1e-9);
 }
 
 TEST(SumoNetwork, GivesWayAsTheMatrixSays) {

@@ -175,6 +175,29 @@ inline std::string roundabout_net() {
            "</net>\n";
 }
 
+// From a, 100 m, one goes straight on to c, right to d, or round to b, on the spot as netconvert has it.
+inline std::string turnaround_net() {
+    return R"(<net version="1.20">
+<edge id=":J_0" function="internal"><lane id=":J_0_0" index="0" speed="9" length="9.2" shape="0,-1.6 3,-2.2 5.2,-4.6 6,-8"/></edge>
+<edge id=":J_1" function="internal"><lane id=":J_1_0" index="0" speed="13.89" length="14" shape="0,-1.6 14,-1.6"/></edge>
+<edge id=":J_2" function="internal"><lane id=":J_2_0" index="0" speed="4" length="4.5" shape="0,-1.6 1.2,-0.8 1.2,0.8 0,1.6"/></edge>
+<edge id="a" from="A" to="J"><lane id="a_0" index="0" speed="13.89" length="100" shape="-100,-1.6 0,-1.6"/></edge>
+<edge id="b" from="J" to="A"><lane id="b_0" index="0" speed="13.89" length="100" shape="0,1.6 -100,1.6"/></edge>
+<edge id="c" from="J" to="C"><lane id="c_0" index="0" speed="13.89" length="100" shape="14,-1.6 114,-1.6"/></edge>
+<edge id="d" from="J" to="D"><lane id="d_0" index="0" speed="13.89" length="100" shape="6,-8 6,-108"/></edge>
+<junction id="J" type="priority" x="7" y="0" incLanes="a_0" intLanes=":J_0_0 :J_1_0 :J_2_0" shape="0,0 1,1">
+<request index="0" response="000" foes="000" cont="0"/><request index="1" response="000" foes="000" cont="0"/>
+<request index="2" response="000" foes="000" cont="0"/></junction>
+<connection from="a" to="d" fromLane="0" toLane="0" via=":J_0_0" dir="r" state="M"/>
+<connection from="a" to="c" fromLane="0" toLane="0" via=":J_1_0" dir="s" state="M"/>
+<connection from="a" to="b" fromLane="0" toLane="0" via=":J_2_0" dir="t" state="M"/>
+<connection from=":J_0" to="d" fromLane="0" toLane="0" dir="r" state="M"/>
+<connection from=":J_1" to="c" fromLane="0" toLane="0" dir="s" state="M"/>
+<connection from=":J_2" to="b" fromLane="0" toLane="0" dir="t" state="M"/>
+)" + dead_ends("ACD") +
+           "</net>\n";
+}
+
 // Two lanes of an edge, 100 m, that become one on a short edge, which leads on.
 inline std::string lane_drop_net() {
     return R"(<net version="1.20">
