@@ -15,6 +15,7 @@
 namespace stopline {
 namespace {
 
+using testing::replaced;
 using testing::SumoFiles;
 using testing::turnaround_net;
 
@@ -72,17 +73,26 @@ double apart_m(const Model& model, const Body& one, const Body& two) {
 struct Mode {
     const char* fidelity;
     std::size_t population;
+    const char* slow;  // where it goes on slowly: the others wait for rears
 };
+
+// Straight on over 3 m, less than a vehicle.
+std::string short_net(const std::string& net) {
+    std::string text = replaced(net, "length=\"14\" shape=\"0,-1.6 14,-1.6\"", "length=\"3\" shape=\"0,-1.6 3,-1.6\"");
+    return replaced(text, "shape=\"14,-1.6 114,-1.6\"", "shape=\"3,-1.6 103,-1.6\"");
+}
 
 class Parting : public ::testing::TestWithParam<Mode> {};
 
 TEST_P(Parting, VehiclesOnDifferentWaysDoNotTouch) {
     const SumoFiles files;
-    files.write("my.net.xml", turnaround_net());
+    const std::string slow = std::string("id=\"") + GetParam().slow + "_0\" index=\"0\" speed=\"";
+    const std::string net = replaced(turnaround_net(), slow + "13.89", slow + "1.5");
+    files.write("my.net.xml", *GetParam().slow == 'c' ? short_net(net) : net);
     files.write("my.rou.xml", R"(<routes>
 <flow id="r" from="a" to="d" vehsPerHour="500" end="200" departSpeed="max"/>
 <flow id="s" from="a" to="c" vehsPerHour="500" end="200" departSpeed="max"/>
-<flow id="t" from="a" to="b" vehsPerHour="500" end="200" departSpeed="max"/></routes>)");
+<flow id="t" from="a" to="b" vehsPerHour="300" end="200" departSpeed="max"/></routes>)");
     const Scenario scenario =
         parse_scenario(std::string(GetParam().fidelity) +
                            "duration: 240 s\nnetwork: {kind: sumo, net: ./my.net.xml, routes: [./my.rou.xml]}\n"
@@ -97,22 +107,26 @@ TEST_P(Parting, VehiclesOnDifferentWaysDoNotTouch) {
         const std::vector<Body> all = bodies(model, simulation.state());
         for (std::size_t k = 0; k < all.size(); ++k) {
             for (std::size_t l = 0; l < k; ++l) {
-                if (all[k].way == all[l].way || std::max(all[k].front_m, all[l].front_m) < 0.0) continue;
+                const bool follows =
+                    all[k].rear_m > all[l].front_m || all[l].rear_m > all[k].front_m;  // one behind the other
+                if (all[k].way == all[l].way || follows) continue;
                 least_m = std::min(least_m, apart_m(model, all[k], all[l]));
                 ++together;
             }
         }
     }
-    EXPECT_GT(together, 1000);
+    EXPECT_GT(together, 100);
     EXPECT_GT(least_m, 1.0) << "bodies 1 m wide touch";
-    EXPECT_GT(simulation.state().left, 70);
+    EXPECT_GT(simulation.state().left, 30);
     EXPECT_TRUE(simulation.state().violations.none());
 }
 
+constexpr const char* kMeso = "fidelity: meso\n";
+constexpr const char* kFull = "fidelity: full\nstep: 10 ms\n";
 INSTANTIATE_TEST_SUITE_P(Modes, Parting,
-                         ::testing::Values(Mode{"fidelity: meso\n", 0}, Mode{"fidelity: meso\n", 1},
-                                           Mode{"fidelity: full\nstep: 10 ms\n", 0},
-                                           Mode{"fidelity: full\nstep: 10 ms\n", 1}));
+                         ::testing::Values(Mode{kMeso, 0, "b"}, Mode{kMeso, 1, "b"}, Mode{kFull, 0, "b"},
+                                           Mode{kFull, 1, "b"}, Mode{kMeso, 0, "c"}, Mode{kMeso, 1, "c"},
+                                           Mode{kFull, 0, "c"}, Mode{kFull, 1, "c"}));
 
 }  // namespace
 }  // namespace stopline
