@@ -30,6 +30,20 @@ std::string trips_text(const NetworkReport& report) {
     return "\n" + table.text() + "\nstrayed: at the end of a lane that does not serve their way, and moved on.\n";
 }
 
+std::string sighting_text(const NetworkFigures& f, const std::vector<std::string>& lanes) {
+    const Sighting& seen = f.violations.first;
+    if (seen.time_s < 0.0) return "";
+    const std::string lane = seen.lane < 0 ? "" : fmt::format(" on {}", lanes[static_cast<std::size_t>(seen.lane)]);
+    std::string what = fmt::format("vehicle {} enters on red{}", seen.vehicle, lane);
+    if (seen.kind == Sighting::Kind::overlap)
+        what = fmt::format("vehicle {}{} reaches into vehicle {}", seen.vehicle, lane, seen.other);
+    if (seen.kind == Sighting::Kind::conflict)
+        what = fmt::format("vehicle {}{} is in a conflict area with vehicle {}", seen.vehicle, lane, seen.other);
+    return fmt::format(
+        "First of {}: at {:.1f} s {}. Look at it: --record FILE, stopline-replay, PAGE#t={:.0f}&vehicle={}\n",
+        f.population, seen.time_s, what, seen.time_s, seen.vehicle);
+}
+
 }  // namespace
 
 std::string network_text(const NetworkReport& report) {
@@ -37,6 +51,7 @@ std::string network_text(const NetworkReport& report) {
     table.row({"", "veh/h", "gain %", "s", "saved %", "density %", "present", "junction %", "turn %", "spillback %",
                "gridlock %", "lane %", "gridlocks", "moved on", "passed", "stability"});
     std::int64_t violations = 0;
+    std::string sightings;
     for (const NetworkFigures& f : report.populations) {
         const HindranceLog& log = f.hindrance;
         std::string stability = kStabilityNames[static_cast<std::size_t>(f.stability)];
@@ -49,6 +64,7 @@ std::string network_text(const NetworkReport& report) {
                    share_text(log, Cause::wrong_lane), std::to_string(log.gridlocks.size()),
                    std::to_string(log.taken_out), std::to_string(log.passed_blockers), stability});
         violations += f.violations.none() ? 0 : 1;
+        sightings += sighting_text(f, report.lanes);
     }
     const bool sumo = report.scenario.network.is_sumo();
     const std::string area =
@@ -63,7 +79,7 @@ std::string network_text(const NetworkReport& report) {
         violations == 0
             ? "No overlaps on lanes or in conflict areas but by the rule for blockers, no entries on red, no vehicle "
               "lost.\n"
-            : fmt::format("VIOLATIONS in {} runs: see summary.csv.\n", violations);
+            : fmt::format("VIOLATIONS in {} runs: see summary.csv.\n{}", violations, sightings);
     return table.text() + "\n" + notes + (sumo ? trips_text(report) : "") + "\n" + verdict;
 }
 

@@ -33,7 +33,11 @@ std::int64_t pairs_in(const Model& model, State& state, NetworkPart& part, int l
         if (w.front_m <= c.from_m || w.rear_m >= c.to_m) continue;
         for (const Insider& x : state.insiders[at(c.other)]) {
             if (x.front_m <= c.other_from_m || x.rear_m >= c.other_to_m) continue;
-            pairs += passes(model, state, part, w.slot, x.slot, lane) ? 0 : 1;
+            if (passes(model, state, part, w.slot, x.slot, lane)) continue;
+            const auto& id = state.vehicles.id;
+            part.violations.see(
+                {model.time_s(state.tick), Sighting::Kind::conflict, lane, id[at(w.slot)], id[at(x.slot)]});
+            ++pairs;
         }
     }
     return pairs;

@@ -8,7 +8,7 @@ namespace {
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
-void pass_stop_line(State& state, NetworkPart& part, int lane, int slot) {
+void pass_stop_line(const Model& model, State& state, NetworkPart& part, int lane, int slot) {
     VehicleRecord& record = state.vehicles.record[at(slot)];
     record.inside_since = static_cast<int>(state.tick);
     if (state.lights[at(state.plan.light_before(lane, record.next_lane))] != Light::red) return;
@@ -16,6 +16,8 @@ void pass_stop_line(State& state, NetworkPart& part, int lane, int slot) {
     // Whoever was told to stop was told so because it could.
     if (state.stop_lines[at(lane)].stopper == state.vehicles.id[at(slot)]) {
         ++part.violations.red_entries;
+        part.violations.see(
+            {model.time_s(state.tick + 1), Sighting::Kind::red_entry, lane, state.vehicles.id[at(slot)], -1});
     } else {
         ++part.violations.forced_red_entries;
     }
@@ -37,7 +39,7 @@ void watch_detectors(const Model& model, State& state, NetworkPart& part) {
                 part.crossings.push_back({passing_time_s(model, state, slot, detector.position_m), v.id[at(slot)],
                                           v.policy[at(slot)], number, static_cast<float>(v.speed_mps[at(slot)]),
                                           v.length_m[at(slot)]});
-            if (detector.kind == Detector::Kind::stop_line) pass_stop_line(state, part, detector.lane, slot);
+            if (detector.kind == Detector::Kind::stop_line) pass_stop_line(model, state, part, detector.lane, slot);
         }
     }
 }

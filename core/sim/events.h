@@ -44,6 +44,16 @@ struct LaneChange {
     bool for_route;    // else for speed
 };
 
+// Something that must never happen, as it was seen.
+struct Sighting {
+    enum class Kind : std::uint8_t { overlap, conflict, red_entry };
+    double time_s = -1.0;  // below 0: nothing was seen
+    Kind kind = Kind::overlap;
+    int lane = -1;
+    int vehicle = -1;  // by number
+    int other = -1;    // -1: none
+};
+
 // Counts of what must never happen; checked in every step of every run.
 struct Violations {
     std::int64_t overlaps = 0;            // vehicle-steps with a negative net gap
@@ -52,8 +62,13 @@ struct Violations {
     std::int64_t forced_red_entries = 0;  // passed on red because stopping was not possible (no violation by itself)
     std::int64_t lost_vehicles = 0;       // entered minus left minus present
     std::int64_t deadlocks = 0;           // runs in which a vehicle was inside an intersection for two cycles
+    Sighting first = {};                  // of all but lost vehicles and deadlocks
 
+    void see(const Sighting& sighting) {
+        if (first.time_s < 0.0) first = sighting;
+    }
     void add(const Violations& more) {
+        see(more.first);
         overlaps += more.overlaps;
         conflicts += more.conflicts;
         red_entries += more.red_entries;

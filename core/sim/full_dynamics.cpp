@@ -93,7 +93,9 @@ void step_full(const Model& model, const FullTables& tables, const LaneGroup& la
         kernels.drive(tables.vehicles[k], group, lanes.vehicles, model.step_s, only);
     }
     kernels.scatter(streams, lanes.lanes, group, model.step_s);
-    part.violations.overlaps += overlaps(state.vehicles, lanes.lanes);
+    const std::int64_t count = overlaps(state.vehicles, lanes.lanes);
+    if (count > 0) see_overlap(model, state, part);
+    part.violations.overlaps += count;
 }
 
 }  // namespace stopline

@@ -191,7 +191,10 @@ void look_beyond_lanes(const Model& model, State& state, NetworkPart& part) {
         }
         const double rear_m = v.position_m[sentinel] - v.length_m[sentinel];
         // The mesoscale mode counts with all others (meso_kernels.h).
-        if (!model.meso) part.violations.overlaps += static_cast<std::int64_t>(seen && rear_m < v.position_m[at(head)]);
+        if (!model.meso && seen && rear_m < v.position_m[at(head)]) {
+            ++part.violations.overlaps;
+            part.violations.see({model.time_s(state.tick), Sighting::Kind::overlap, lane, v.id[at(head)], v.id[other]});
+        }
         if (v.has_powertrain()) hear(state, sentinel, other, seen);
         const int id = seen ? v.id[other] : -1;
         if (v.record[at(head)].predecessor == id) continue;

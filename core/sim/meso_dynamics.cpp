@@ -79,8 +79,10 @@ void step_meso(const Model& model, State& state, NetworkPart& part) {
     const MesoKernels& kernels = meso_kernels(model.scalar_kernels);
     collect_blocks(model, kernels.size, state, part);
     const MesoMore more = evaluate_more(model, static_cast<std::size_t>(kernels.size), v, part);
-    part.violations.overlaps +=
+    const std::int64_t count =
         kernels.step(meso_streams(v), part.blocks, model.krauss, more, meso_step(model, state.tick));
+    if (count > 0) see_overlap(model, state, part);
+    part.violations.overlaps += count;
     for (const int slot : part.imposed) v.imposed_mps[at(slot)] = kAnySpeed_mps;
     part.imposed.clear();
 }

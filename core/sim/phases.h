@@ -43,6 +43,9 @@ inline bool trip_ends(const State& state, const VehicleRecord& record) {
 // Fronts that are beyond the rear of their predecessor on the same lane.
 std::int64_t overlaps(const VehicleArrays& vehicles, std::span<const LaneStep> lanes);
 
+// Notes which, if it is the first of a run. For when there are any.
+void see_overlap(const Model& model, const State& state, NetworkPart& part);
+
 // A vehicle this near to a conflict area must know whether it can go on.
 inline double decides_within_m(const Model& model, double speed_mps) {
     return 0.5 * square(speed_mps) / model.driver.stop.deceleration_mps2 + 1.5 * speed_mps + 3.0;

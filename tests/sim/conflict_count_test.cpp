@@ -82,6 +82,43 @@ TEST_F(ConflictCount, IsOneForAPairInItsAreaInEachStep) {
     EXPECT_FALSE(track_.state().violations.none());
 }
 
+TEST_F(ConflictCount, SaysWhereTheFirstWasSeen) {
+    const Conflict c = conflict("west_0_straight", "south_0_straight");
+    place("west_0_straight", c.from_m + 0.1);
+    place("south_0_straight", c.other_from_m + 0.1);
+    EXPECT_LT(track_.state().violations.first.time_s, 0.0);
+    counted();
+    const Sighting first = track_.state().violations.first;
+    EXPECT_EQ(first.kind, Sighting::Kind::conflict);
+    EXPECT_DOUBLE_EQ(first.time_s, track_.model().time_s(1000));
+    EXPECT_EQ(first.lane, std::min(lane("west_0_straight"), lane("south_0_straight")));
+    EXPECT_EQ(std::minmax(first.vehicle, first.other), std::minmax(0, 1));
+    ++track_.editable().tick;
+    counted();
+    EXPECT_DOUBLE_EQ(track_.state().violations.first.time_s, first.time_s) << "not the first";
+}
+
+// A vehicle half a metre inside the one ahead of it.
+TEST(Overlap, IsSeenOnItsLane) {
+    for (const bool meso : {false, true}) {
+        const std::string fidelity = meso ? "fidelity=meso" : "fidelity=full";
+        Model model = build_model(load_scenario(STOPLINE_SOURCE_DIR "/scenarios/intersection.yaml", {fidelity}), 0);
+        for (DemandPlan::Inlet& inlet : model.demand.inlets) inlet.vehicles = 0;
+        Track track(std::move(model));
+        const int lane = track.model().graph.entries[2];
+        track.place(lane, 60.0, 0.0);
+        track.place(lane, 60.5 - track.model().vehicles[0].length_m, 0.0);
+        track.simulation().step();
+        const Sighting first = track.state().violations.first;
+        EXPECT_GT(track.state().violations.overlaps, 0) << meso;
+        EXPECT_EQ(first.kind, Sighting::Kind::overlap) << meso;
+        EXPECT_DOUBLE_EQ(first.time_s, track.model().step_s) << meso;
+        EXPECT_EQ(first.lane, lane) << meso;
+        EXPECT_EQ(first.vehicle, 1) << meso;
+        EXPECT_EQ(first.other, 0) << meso;
+    }
+}
+
 TEST_F(ConflictCount, BeginsWithTheFrontAndEndsWithTheRear) {
     const Conflict c = conflict("west_0_straight", "south_0_straight");
     place("west_0_straight", c.to_m + length_m() - 0.1);
