@@ -12,7 +12,7 @@ namespace {
 
 std::size_t at(int slot) { return static_cast<std::size_t>(slot); }
 
-FullStreams streams_of(State& state) {
+FullStreams streams_of(const Model& model, State& state) {
     VehicleArrays& v = state.vehicles;
     const Rows& radar = state.radar;
     const Rows& v2v = state.v2v;
@@ -22,8 +22,8 @@ FullStreams streams_of(State& state) {
     s.length = v.length_m.data();
     s.standstill_gap = v.standstill_gap_m.data();
     s.end_speed = v.end_speed_mps.data();
-    s.policy = v.policy.data();
-    s.type = v.type.data();
+    s.policy = model.policies.size() > 1 ? v.policy.data() : nullptr;
+    s.type = model.vehicles.size() > 1 ? v.type.data() : nullptr;
     s.acceleration = v.acceleration_mps2.data();
     s.lag = v.lag_s.data();
     s.request = v.request_mps2.data();
@@ -59,7 +59,7 @@ void evaluate_gap_laws(const Model& model, int vehicles, const FullGroup& g) {
         const CompiledPolicy& p = model.policies[at(policy)];
         p.law->evaluate(p.settings, speed, {gap, n}, {slope, n});
     };
-    const int first = policy_of[0];
+    const int first = model.policies.size() > 1 ? policy_of[0] : 0;
     evaluate(first, g.desired_gap, g.slope);
     for (int k = 0; k < static_cast<int>(model.policies.size()); ++k) {
         if (k == first || std::find(policy_of, policy_of + n, k) == policy_of + n) continue;
@@ -79,18 +79,18 @@ FullTables full_tables(const Model& model) {
     return tables;
 }
 
-void step_full(const Model& model, const FullTables& tables, const LaneGroup& lanes, std::span<const LaneStep> next,
+void step_full(const Model& model, const FullTables& tables, const LaneGroup& lanes, std::span<const int> next,
                State& state, NetworkPart& part) {
     const FullKernels& kernels = full_kernels(model.scalar_kernels);
-    const FullStreams streams = streams_of(state);
+    const FullStreams streams = streams_of(model, state);
     const FullGroup group = part.full_group.streams();
     kernels.gather(streams, state.radar, state.v2v, lanes, group);
-    kernels.prefetch(streams, next);
     evaluate_gap_laws(model, lanes.vehicles, group);
-    kernels.plan(tables.driver, group, lanes.vehicles, model.step_s);
+    kernels.plan(tables.driver, group, lanes.vehicles, model.step_s, streams, next);
     for (std::size_t k = 0; k < tables.vehicles.size(); ++k) {
         const int only = tables.vehicles.size() == 1 ? -1 : static_cast<int>(k);
-        kernels.drive(tables.vehicles[k], group, lanes.vehicles, model.step_s, only);
+        kernels.drive(tables.vehicles[k], group, lanes.vehicles, model.step_s, only, streams,
+                      k == 0 ? next : std::span<const int>());
     }
     kernels.scatter(streams, lanes.lanes, group, model.step_s);
     const std::int64_t count = overlaps(state.vehicles, lanes.lanes);

@@ -18,8 +18,8 @@ struct FullTables {
 FullTables full_tables(const Model& model);
 
 // One step of the vehicles on some lanes, which the part's scratch must have room for; lanes in any order.
-// `next`: lanes whose vehicles are fetched from memory meanwhile.
-void step_full(const Model& model, const FullTables& tables, const LaneGroup& lanes, std::span<const LaneStep> next,
+// `next`: LaneGroup::lines of the next group, which are fetched from memory meanwhile; empty: nothing is.
+void step_full(const Model& model, const FullTables& tables, const LaneGroup& lanes, std::span<const int> next,
                State& state, NetworkPart& part);
 
 }  // namespace stopline

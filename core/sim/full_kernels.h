@@ -14,7 +14,7 @@ namespace stopline {
 struct FullStreams {
     double *position, *speed;
     const float *length, *standstill_gap, *end_speed;
-    const int *policy, *type;
+    const int *policy, *type;  // null where the model has one alone
     float *acceleration, *lag, *request, *leads, *torque, *brake, *gear_time, *gear;
     // Rows of the delay lines.
     float *gap_now, *closing_now, *tell_acceleration, *tell_request, *tell_rate;
@@ -26,16 +26,18 @@ struct FullStreams {
 // The kernels of one step of a group of lanes, in this order.
 struct FullKernels {
     using Lanes = std::span<const LaneStep>;
+    using NextSlots =
+        std::span<const int>;  // a slot in each line of the cache that the next group needs; empty: they are there
 
     const char* name;
     // Brings the group together: measures, looks up what is known of predecessors, and what lanes ask of their vehicles.
     void (*gather)(const FullStreams&, const Rows& radar, const Rows& v2v, const LaneGroup&, const FullGroup&);
-    // Fetches what another group will need: a lane's share of an array is too short for the processor to see a stream in it.
-    void (*prefetch)(const FullStreams&, Lanes);
-    // Driver: what acceleration is asked for, for the first `vehicles` of the group.
-    void (*plan)(const DriverTablesOf<float>&, const FullGroup&, int vehicles, double dt);
+    // Driver: what acceleration is asked for, for the first `vehicles` of the group. `next`: see NextSlots.
+    void (*plan)(const DriverTablesOf<float>&, const FullGroup&, int vehicles, double dt, const FullStreams&,
+                 NextSlots next);
     // Vehicle: what the powertrain makes of it. `only`: treats vehicles of this type; < 0: all are of the type given.
-    void (*drive)(const PowertrainTablesOf<float>&, const FullGroup&, int vehicles, double dt, int only);
+    void (*drive)(const PowertrainTablesOf<float>&, const FullGroup&, int vehicles, double dt, int only,
+                  const FullStreams&, NextSlots next);
     // Takes the group apart again, and moves its vehicles.
     void (*scatter)(const FullStreams&, Lanes, const FullGroup&, double dt);
 };

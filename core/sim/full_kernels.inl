@@ -60,8 +60,8 @@ STOPLINE_INLINE void gather_at(const FullStreams& s, const Rows& radar, const Ro
     take(s.lag, g.lag), take(s.request, g.request), take(s.leads, g.leads), take(s.torque, g.torque);
     take(s.brake, g.brake), take(s.gear_time, g.gear_time), take(s.gear, g.gear);
     std::memcpy(g.speed_mps + k, s.speed + i, kWidthOf<R> * sizeof(double));
-    std::memcpy(g.policy + k, s.policy + i, kWidthOf<R> * sizeof(int));
-    std::memcpy(g.type + k, s.type + i, kWidthOf<R> * sizeof(int));
+    if (s.policy != nullptr) std::memcpy(g.policy + k, s.policy + i, kWidthOf<R> * sizeof(int));
+    if (s.type != nullptr) std::memcpy(g.type + k, s.type + i, kWidthOf<R> * sizeof(int));
 }
 
 // Calls treat(number type, i) for the slots of a lane, from its first vehicle on: whole batches, and half a batch where that is
@@ -77,39 +77,55 @@ STOPLINE_INLINE void for_each_batch(const LaneStep& lane, Treat treat) {
     }
 }
 
-inline void prefetch(const FullStreams& s, FullKernels::Lanes lanes) {
-    for (const LaneStep& lane : lanes) {
-        for (int i = lane.begin; i < lane.stop; i += kSimdWidth) {
+// Fetches what the next group needs, some of it with each batch of this one: memory then works while the processor computes, and
+// no burst of requests waits for its turn. The processor itself sees no stream in a lane's share of an array: it is too short.
+class Fetching {
+public:
+    Fetching(const FullStreams& streams, const FullKernels::NextSlots& slots, int vehicles, int width)
+        : slots_(slots), streams_(streams) {
+        const auto batches = static_cast<std::size_t>((vehicles + width - 1) / width);
+        a_batch_ = slots.empty() ? 0 : (slots.size() + batches - 1) / batches;
+    }
+
+    // What the driver's part of the k-th batch brings: where vehicles are, what they are, and what they measured.
+    STOPLINE_INLINE void known(int k) const {
+        each(k, [&](int i) STOPLINE_INLINE_LAMBDA {
+            const FullStreams& s = streams_;
             for (const double* stream : {s.position, s.speed}) {
                 __builtin_prefetch(stream + i);
                 __builtin_prefetch(stream + i + kSimdWidth / 2);
             }
-            const std::array<const float*, 21> streams{s.acceleration,
-                                                       s.lag,
-                                                       s.length,
-                                                       s.request,
-                                                       s.leads,
-                                                       s.standstill_gap,
-                                                       s.end_speed,
-                                                       s.torque,
-                                                       s.brake,
-                                                       s.gear_time,
-                                                       s.gear,
-                                                       s.gap_now,
-                                                       s.gap_late,
-                                                       s.closing_now,
-                                                       s.closing_late,
-                                                       s.tell_acceleration,
-                                                       s.tell_request,
-                                                       s.tell_rate,
-                                                       s.heard_acceleration,
-                                                       s.heard_request,
-                                                       s.heard_rate};
-            for (const float* stream : streams) __builtin_prefetch(stream + i);
-            for (const int* stream : {s.policy, s.type}) __builtin_prefetch(stream + i);
-        }
+            fetch_lines(i, s.length, s.standstill_gap, s.end_speed, s.gap_now, s.gap_late, s.closing_now,
+                        s.closing_late, s.leads);
+        });
     }
-}
+    // What the vehicle's part of it brings: its powertrain, and what is told.
+    STOPLINE_INLINE void driven(int k) const {
+        each(k, [&](int i) STOPLINE_INLINE_LAMBDA {
+            const FullStreams& s = streams_;
+            fetch_lines(i, s.acceleration, s.lag, s.request, s.torque, s.brake, s.gear_time, s.gear,
+                        s.tell_acceleration, s.tell_request, s.tell_rate, s.heard_acceleration, s.heard_request,
+                        s.heard_rate);
+            if (s.policy != nullptr) fetch_lines(i, s.policy);
+            if (s.type != nullptr) fetch_lines(i, s.type);
+        });
+    }
+
+private:
+    template <class... Streams>
+    STOPLINE_INLINE static void fetch_lines(int i, Streams... streams) {
+        (__builtin_prefetch(streams + i), ...);
+    }
+    template <class Fetch>
+    STOPLINE_INLINE void each(int k, Fetch fetch) const {
+        const std::size_t end = std::min(slots_.size(), (static_cast<std::size_t>(k) + 1) * a_batch_);
+        for (std::size_t j = static_cast<std::size_t>(k) * a_batch_; j < end; ++j) fetch(slots_[j]);
+    }
+
+    FullKernels::NextSlots slots_;
+    std::size_t a_batch_ = 0;  // slots that each batch of this group brings
+    FullStreams streams_;
+};
 
 template <class R>
 void gather(const FullStreams& streams, const Rows& radar_rows, const Rows& v2v_rows, const LaneGroup& lanes,
@@ -217,15 +233,25 @@ STOPLINE_INLINE void drive_at(const PowertrainTablesOf<float>& t, const FullGrou
 }
 
 template <class R>
-void plan(const DriverTablesOf<float>& d, const FullGroup& group, int vehicles, double dt) {
+void plan(const DriverTablesOf<float>& d, const FullGroup& group, int vehicles, double dt, const FullStreams& streams,
+          FullKernels::NextSlots next) {
     const FullGroup g = group;
-    for (int k = 0; k < vehicles; k += kWidthOf<R>) plan_at<R>(d, g, dt, k);
+    const Fetching fetching(streams, next, vehicles, kWidthOf<R>);
+    for (int k = 0; k < vehicles; k += kWidthOf<R>) {
+        fetching.known(k / kWidthOf<R>);
+        plan_at<R>(d, g, dt, k);
+    }
 }
 
 template <class R>
-void drive(const PowertrainTablesOf<float>& t, const FullGroup& group, int vehicles, double dt, int only) {
+void drive(const PowertrainTablesOf<float>& t, const FullGroup& group, int vehicles, double dt, int only,
+           const FullStreams& streams, FullKernels::NextSlots next) {
     const FullGroup g = group;
-    for (int k = 0; k < vehicles; k += kWidthOf<R>) drive_at<R>(t, g, dt, only, k);
+    const Fetching fetching(streams, next, vehicles, kWidthOf<R>);
+    for (int k = 0; k < vehicles; k += kWidthOf<R>) {
+        fetching.driven(k / kWidthOf<R>);
+        drive_at<R>(t, g, dt, only, k);
+    }
 }
 
 template <class R>
@@ -257,7 +283,7 @@ void scatter(const FullStreams& streams, FullKernels::Lanes lanes, const FullGro
 
 template <class R>
 constexpr FullKernels kernels_of(const char* name) {
-    return {name, gather<R>, prefetch, plan<R>, drive<R>, scatter<R>};
+    return {name, gather<R>, plan<R>, drive<R>, scatter<R>};
 }
 
 }  // namespace

@@ -25,10 +25,12 @@ struct Imposed {
 struct LaneGroup {
     std::vector<LaneStep> lanes;
     std::vector<Imposed> imposed;
+    std::vector<int> lines;  // slots of its vehicles, one in each line of the cache
     int vehicles = 0;
 
     void clear() {
         lanes.clear();
+        lines.clear();
         imposed.clear();
         vehicles = 0;
     }

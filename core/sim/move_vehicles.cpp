@@ -33,6 +33,8 @@ void add_lane(const Model& model, const State& state, int lane, LaneGroup& group
             {group.vehicles + adapting.slot - block.first, std::max(asks_mps2, -Adapting::kBraking_mps2)});
     }
     group.lanes.push_back({block.first, block.stop(), plan.turn_m, plan.limit_mps, static_cast<double>(plan.sine)});
+    const int line = block.first / kSimdWidth * kSimdWidth;  // blocks and arrays begin with one
+    for (int slot = line; slot < block.stop(); slot += kSimdWidth) group.lines.push_back(slot);
     group.vehicles += block.count;
 }
 
@@ -52,8 +54,8 @@ void step_full_groups(const Model& model, const FullTables& tables, State& state
     collect_group(model, state, part, seen, group);
     while (!group.lanes.empty()) {
         collect_group(model, state, part, seen, next);
-        step_full(model, tables, group, prefetch ? std::span<const LaneStep>(next.lanes) : std::span<const LaneStep>(),
-                  state, part);
+        step_full(model, tables, group, prefetch ? std::span<const int>(next.lines) : std::span<const int>(), state,
+                  part);
         std::swap(group, next);
     }
 }

@@ -209,9 +209,10 @@ INSTANTIATE_TEST_SUITE_P(Modes, LaneChanging,
                                          Case{"meso", "MIX"}),
                          name_of);
 INSTANTIATE_TEST_SUITE_P(Modes, DenseLaneChanging,
-                         testing::Values(Case{"full", "CDG"}, Case{"full", "CTG-Ref"}, Case{"full", "SWITCH-2"},
-                                         Case{"full", "MIX"}, Case{"meso", "CDG"}, Case{"meso", "CTG-Ref"},
-                                         Case{"meso", "SWITCH-1"}, Case{"meso", "SWITCH-2"}, Case{"meso", "MIX"}),
+                         testing::Values(Case{"full", "CDG"}, Case{"full", "CTG-Ref"}, Case{"full", "SWITCH-1"},
+                                         Case{"full", "SWITCH-2"}, Case{"full", "MIX"}, Case{"meso", "CDG"},
+                                         Case{"meso", "CTG-Ref"}, Case{"meso", "SWITCH-1"}, Case{"meso", "SWITCH-2"},
+                                         Case{"meso", "MIX"}),
                          name_of);
 
 }  // namespace
