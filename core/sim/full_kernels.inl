@@ -175,7 +175,8 @@ STOPLINE_INLINE void plan_at(const DriverTablesOf<float>& d, const FullGroup& g,
     }
     // Follow.
     const R follow = follow_acceleration(c, acceleration, lag, rate, before, get(g.desired_gap), get(g.slope), p, dt);
-    const R emergency = lesser(emergency_acceleration(c, speed, p), keep_room_acceleration(c, speed, p));
+    const R growth_m = greater(get(g.desired_gap) - get(g.standstill_gap), 0.0);
+    const R emergency = lesser(emergency_acceleration(c, speed, p), keep_room_acceleration(c, speed, growth_m, p));
     // Stop behind a standing predecessor; where else it must stop, `imposed` says.
     const R speed_p = greater(speed - p.closing_mps, 0.0);
     const R stopping_p = STOPLINE_FLAG(R, p.request_mps2 <= splat<R>(0.0) - lesser(speed_p, 1.0) * kBraking_mps2) *

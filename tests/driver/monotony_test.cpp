@@ -155,10 +155,12 @@ TEST(KeepRoom, IsMonotone) {
     const CaccSettings cacc = shipped().cacc;
     for (const double v : kSpeeds) {
         for (const double a_p : kAccelerations) {
-            const auto answer = [&](double gap, double closing) {
-                return keep_room_acceleration<double>(cacc, v, {gap, closing, a_p, 0.0, 4.0});
-            };
-            expect_monotone(answer, "keeping room at " + std::to_string(v));
+            for (const double growth_m : {0.0, 2.0, 12.0}) {
+                const auto answer = [&](double gap, double closing) {
+                    return keep_room_acceleration<double>(cacc, v, growth_m, {gap, closing, a_p, 0.0, 4.0});
+                };
+                expect_monotone(answer, "keeping room at " + std::to_string(v));
+            }
         }
     }
 }
@@ -172,13 +174,17 @@ TEST(KeepRoom, BeginsWhereBrakingAlikeWouldJustBeEnough) {
             const double v = v_p + closing;
             const double room_m = (v * v - v_p * v_p) / (2.0 * b);
             if (room_m < 0.1) continue;  // less than 0.05 m does not count as less
-            const double just_m = room_m + (c.radar_delay_s + kBrakeReserve_s) * closing + c.emergency_gap_m;
-            const auto answer = [&](double gap_m) {
-                return keep_room_acceleration<double>(c, v, {gap_m, closing, 1.0, 1.0, 4.0});
-            };
-            EXPECT_GT(answer(just_m + 0.01), 100.0) << v << ' ' << closing;
-            EXPECT_LT(answer(just_m - 0.01), -0.9 * b * closing / v) << v << ' ' << closing;
-            EXPECT_GE(answer(0.0), -b);
+            for (const double growth_m : {0.0, 1.0, 12.0}) {
+                const double reserve_m =
+                    (c.radar_delay_s + kBrakeReserve_s) * closing + std::min(kBrakeReserve_s * v, growth_m);
+                const double just_m = room_m + reserve_m + c.emergency_gap_m;
+                const auto answer = [&](double gap_m) {
+                    return keep_room_acceleration<double>(c, v, growth_m, {gap_m, closing, 1.0, 1.0, 4.0});
+                };
+                EXPECT_GT(answer(just_m + 0.01), 100.0) << v << ' ' << closing;
+                EXPECT_LT(answer(just_m - 0.01), -0.9 * b * closing / v) << v << ' ' << closing;
+                EXPECT_GE(answer(0.0), -b);
+            }
         }
     }
 }
@@ -214,7 +220,7 @@ TEST(EveryAnswer, IsFinite) {
                             follow_acceleration<double>(d.cacc, 1.0, 1.0 / rate, rate, -1.0, 3.0, slope, p, 0.01);
                         ASSERT_TRUE(std::isfinite(follow)) << gap << ' ' << closing << ' ' << rate << ' ' << slope;
                         ASSERT_TRUE(std::isfinite(emergency_acceleration(d.cacc, v, p)));
-                        ASSERT_TRUE(std::isfinite(keep_room_acceleration(d.cacc, v, p)));
+                        ASSERT_TRUE(std::isfinite(keep_room_acceleration(d.cacc, v, slope * v, p)));
                     }
                 }
             }
