@@ -115,12 +115,12 @@ Figure course_figure(const Comparison& comparison, const std::string& title, con
         gnuplot_text(fmt::format("{}, {}, {}", title, comparison.population, which)), y, comparison.to_s, top);
     if (seeds > 1) {
         figure.body += fmt::format(
-            "'{}' using 1:4:5 skip 1 with filledcurves fs transparent solid 0.25 noborder lc rgb '{}' title '95 % band "
-            "of its mean', ",
+            "'{}' using 1:4:5 skip 1 with filledcurves fs transparent solid 0.25 noborder lc rgb '{}' title 'SUMO, 95 % "
+            "band of the mean', ",
             file, line_style(6).colour);
     }
     figure.body += fmt::format(
-        "'{}' using 1:3 skip 1 with lines lt 7 title 'SUMO', '{}' using 1:2 skip 1 with lines lt 1 title 'Stopline, mesoscale mode'",
+        "'{}' using 1:3 skip 1 with lines lt 7 dt (10,3) title 'SUMO', '{}' using 1:2 skip 1 with lines lt 1 title 'Stopline, mesoscale mode'",
         file, file);
     return figure;
 }
