@@ -140,10 +140,9 @@ void write_imported_vehicles(const std::filesystem::path& file, const Model& mod
     const Ways ways(network);
     for (int k = 0; k < static_cast<int>(plan.trips.size()); ++k) {
         const Trip& trip = plan.trips[at(k)];
-        xml.add(
-            "    <vehicle id=\"{}\" type=\"{}\" depart=\"{:.3f}\" departLane=\"{}\" departPos=\"{}\" departSpeed=\"{}\">",
-            vehicle_name(model, k, k), type_id(model, plan.trip_policies[at(k)], trip.length_m), trip.depart_s,
-            depart_lane(trip, network, ways.first_edge(trip)), depart_pos(trip, network), depart_speed(trip));
+        xml.add(R"(    <vehicle id="{}" type="{}" depart="{:.3f}" departLane="{}" departPos="{}" departSpeed="{}">)",
+                vehicle_name(model, k, k), type_id(model, plan.trip_policies[at(k)], trip.length_m), trip.depart_s,
+                depart_lane(trip, network, ways.first_edge(trip)), depart_pos(trip, network), depart_speed(trip));
         xml.add("<route edges=\"{}\"/></vehicle>\n", xml_escaped(fmt::format("{}", fmt::join(ways.of(plan, k), " "))));
     }
     xml.finish();
