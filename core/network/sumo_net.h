@@ -89,6 +89,7 @@ struct SumoSignal {
     std::vector<SumoPhase> phases =
         {};  // none: connections name it, and its programme may follow in an additional file
     std::string where;
+    bool in_net = false;  // the file of the network has a programme
 
     double cycle_s() const;
 };

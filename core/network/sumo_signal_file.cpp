@@ -50,6 +50,7 @@ void add_sumo_signal(const SumoXml& xml, pugi::xml_node node, bool from_net, Sum
     SumoWarnings& warnings = net.warnings;
     SumoSignal signal{xml.text(node, "id"), node.attribute("programID").value()};
     signal.where = xml.where(node);
+    signal.in_net = from_net;
     if (signal.programme == "off") {
         xml.refuse(node, fmt::format("tlLogic '{}': programID=\"off\" switches the light off, which is not read: leave "
                                      "this element out, or give it phases under another programID",
@@ -84,6 +85,7 @@ void add_sumo_signal(const SumoXml& xml, pugi::xml_node node, bool from_net, Sum
         xml.refuse(node, fmt::format("tlLogic '{}': state has {} letters, the network's {}", signal.id,
                                      signal.phases[0].state.size(), old.phases[0].state.size()));
     }
+    signal.in_net = signal.in_net || old.in_net;
     old = std::move(signal);  // as in SUMO, the last one is used
 }
 

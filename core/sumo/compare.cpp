@@ -34,7 +34,21 @@ void run_sumo(const std::filesystem::path& folder, std::uint64_t seed) {
                      "trips.out.xml", "--summary-output", "summary.out.xml", "--summary-output.period", "1"},
                     folder);
     if (!ended.failed()) return;
-    throw InputError(fmt::format("SUMO failed in {}:\n{}", folder.string(), ended.words));
+    constexpr std::size_t kMost = 2000;  // of what may be the same for each of thousands of vehicles
+    const std::string words = ended.words.size() > kMost ? ended.words.substr(0, kMost) + "\n(and more)" : ended.words;
+    throw InputError(fmt::format("SUMO failed in {}:\n{}", folder.string(), words));
+}
+
+void check_lights(const SumoNetwork& network) {
+    for (const SumoLight& light : network.lights) {
+        if (light.signal < 0) continue;
+        const SumoSignal& signal = network.net.signals[static_cast<std::size_t>(light.signal)];
+        if (signal.in_net) continue;
+        throw InputError(fmt::format(
+            "{}: tlLogic '{}' is not in {}: SUMO does not load networks whose lights have a programme in an "
+            "additional file alone. Put the element into the network, before its connections",
+            signal.where, signal.id, network.net.file.string()));
+    }
 }
 
 std::vector<double> column(const Comparison& comparison, bool ours, double RunSummary::*field) {
@@ -146,6 +160,7 @@ std::vector<ComparedMetric> Comparison::metrics() const {
 
 Comparison compare_with_sumo(const Scenario& scenario, std::size_t population, const std::filesystem::path& folder,
                              const CompareOptions& options) {
+    if (scenario.network.is_sumo()) check_lights(*scenario.network.sumo);
     if (!has_sumo()) {
         throw InputError(
             "SUMO is not installed, or does not run: pip install eclipse-sumo, and put its bin into PATH; 'sumo --version' "

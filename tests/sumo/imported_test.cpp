@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "network/sumo_xml.h"
 #include "scenario/load_scenario.h"
 #include "scenario/scenario_text.h"
+#include "sumo/compare.h"
 #include "sumo/export.h"
 #include "sumo/facts.h"
 #include "support/sumo_files.h"
@@ -133,6 +135,20 @@ TEST(Imported, LightsRunAsTheAdditionalFilesSay) {
     EXPECT_EQ(inputs.rows("lights.add.xml", "tlLogic", {"id", "type", "programID", "offset"}),
               Rows{"J static stopline 7.500"});
     EXPECT_EQ(inputs.rows("detectors.add.xml", "instantInductionLoop", {"lane"}), (Rows{"s_in_0", "w_in_0", "w_in_1"}));
+}
+
+TEST(Imported, AreRefusedWhereSumoWouldNotLoadTheLights) {
+    std::string net = signal_net(two_phases());
+    const std::size_t from = net.find("<tlLogic");
+    const std::size_t to = net.find("</tlLogic>") + std::string("</tlLogic>").size();
+    const std::string programme = net.substr(from, to - from);
+    net.erase(from, to - from);
+    const Scenario scenario = scenario_of(net, "<trip id=\"a\" depart=\"0\" from=\"s_in\" to=\"n_out\"/>", programme);
+    const TemporaryFolder folder;
+    const std::string message =
+        testing::refusal([&] { compare_with_sumo(scenario, 0, folder.path() / "new", CompareOptions{1}); });
+    EXPECT_EQ(message.find("my.add.xml:2: tlLogic 'J' is not in "), 0U) << message;
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "new"));
 }
 
 TEST(Imported, RunsTheScenariosOwnNetworkByItsRules) {
