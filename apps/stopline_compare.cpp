@@ -40,8 +40,9 @@ void declare(CLI::App& app, CompareOptionsOfUser& options) {
     add_set_option(app, options.common);
     app.footer(
         std::string(
-            "\nBoth get the same network, lights and vehicles: those that entered in our run, when and where they "
-            "did.\n\nExamples:\n"
+            "\nBoth get the same network, lights and vehicles: those that entered in our run, when and where they did; "
+            "on imported\nnetworks those of the route files, when they are planned to depart, and the ways that the "
+            "import took for them.\n\nExamples:\n"
             "  stopline-compare scenarios/intersection.yaml\n"
             "  stopline-compare scenarios/grid.yaml --set 'duration=900 s' --set 'measure.steady=600 s'\n\n"
             "Like with like, without what is ours alone (the project's README says what and why):\n"
@@ -86,8 +87,21 @@ void print(const Comparison& comparison) {
                    in_paper});
     }
     fmt::print("{}", table.text());
-    fmt::print(
-        "\nwait_outside_s: how much later than in our run the same vehicles find room to enter in SUMO; no check.\n");
+    fmt::print("\n{}\n",
+               comparison.imported
+                   ? "wait_outside_s: from the planned departure to entering, of trips that ended. "
+                     "waiting_at_end_veh: found no room to enter until\nthe end. moved_on_veh, of the whole run: "
+                     "SUMO's teleports; ours by a rule, or from a lane that does not serve their way."
+                   : "wait_outside_s: how much later than in our run the same vehicles find room to enter in "
+                     "SUMO; no check.");
+    double ours_s = 0.0;
+    double sumo_s = 0.0;
+    for (const ComparedRun& run : comparison.runs) {
+        ours_s += run.ours_took_s;
+        sumo_s += run.sumo_took_s;
+    }
+    fmt::print("By the clock: our runs {:.1f} s, SUMO's {:.1f} s (the whole program, with its files; one thread).\n",
+               ours_s, sumo_s);
     if (!comparison.note.empty()) fmt::print("\n{}\n", comparison.note);
 }
 

@@ -27,6 +27,7 @@ public:
     Builder(SumoNet net, double clearance_m) : clearance_m_(clearance_m) { made_.net = std::move(net); }
 
     SumoNetwork build() {
+        net().check_lights();
         made_.lights.push_back({});
         join_short_edges(made_.net);
         add_edges();

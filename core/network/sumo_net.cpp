@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "base/input_error.h"
 #include "network/sumo_signal_file.h"
 #include "network/sumo_xml.h"
 
@@ -36,7 +37,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kIgnored{
 
 class NetReader {
 public:
-    explicit NetReader(const std::filesystem::path& file) : xml_(file, {"net"}) {}
+    explicit NetReader(const std::filesystem::path& file) : file_(file), xml_(file, {"net"}) {}
 
     SumoNet read() {
         const std::string hand = xml_.root().attribute("lefthand").value();
@@ -59,6 +60,7 @@ public:
             xml_.refuse(xml_.root(), "there is no lane on which passenger cars may drive");
         }
         net_.hash = xml_.hash();
+        net_.file = std::filesystem::absolute(file_).lexically_normal();
         return std::move(net_);
     }
 
@@ -216,18 +218,11 @@ private:
         std::tie(c.via, c.via_lane) = *lane;
     }
 
-    void read_signal(pugi::xml_node node, SumoConnection& c) const {
+    void read_signal(pugi::xml_node node, SumoConnection& c) {
         const std::string tl = node.attribute("tl").value();
         if (tl.empty()) return;
-        const auto found = net_.signal_by_id.find(tl);
-        if (found == net_.signal_by_id.end()) xml_.refuse(node, fmt::format("tl: there is no tlLogic '{}'", tl));
-        c.tl = found->second;
+        c.tl = net_.signal(tl);
         c.tl_link = xml_.whole(node, "linkIndex");
-        const std::size_t links = net_.signals[at(c.tl)].phases[0].state.size();
-        if (at(c.tl_link) >= links) {
-            xml_.refuse(node,
-                        fmt::format("linkIndex {}: the phases of tlLogic '{}' have {} letters", c.tl_link, tl, links));
-        }
     }
 
     void read_connection(pugi::xml_node node) {
@@ -237,6 +232,8 @@ private:
         c.from_lane = known_lane(node, "fromLane", c.from);
         c.to_lane = known_lane(node, "toLane", c.to);
         c.where = xml_.where(node);
+        // Of others than cars too: its programme may stand in an additional file.
+        if (const std::string tl = node.attribute("tl").value(); !tl.empty()) net_.signal(tl);
         if (!lane(c.from, c.from_lane).cars || !lane(c.to, c.to_lane).cars) return;
         if (!sumo_allows_cars(node.attribute("allow").value(), node.attribute("disallow").value())) return;
         read_via(node, c);
@@ -252,6 +249,7 @@ private:
         net_.connections.push_back(std::move(c));
     }
 
+    std::filesystem::path file_;
     SumoXml xml_;
     SumoNet net_;
     std::unordered_set<std::string> junctions_;
@@ -275,6 +273,28 @@ std::optional<std::pair<int, int>> SumoNet::lane(std::string_view id) const {
     if (edge == edge_by_id.end() || error != std::errc() || end != text.data() + text.size()) return std::nullopt;
     if (index < 0 || at(index) >= edges[at(edge->second)].lanes.size()) return std::nullopt;
     return std::pair{edge->second, index};
+}
+
+int SumoNet::signal(const std::string& id) {
+    const auto [found, added] = signal_by_id.try_emplace(id, static_cast<int>(signals.size()));
+    if (added) signals.push_back({id, "", 0.0, {}, ""});
+    return found->second;
+}
+
+void SumoNet::check_lights() const {
+    for (const SumoConnection& c : connections) {
+        if (c.tl < 0) continue;
+        const SumoSignal& signal = signals[at(c.tl)];
+        if (signal.phases.empty()) {
+            throw InputError(
+                fmt::format("{}: tl: there is no tlLogic '{}', neither in the network nor in additional files", c.where,
+                            signal.id));
+        }
+        const std::size_t links = signal.phases[0].state.size();
+        if (at(c.tl_link) < links) continue;
+        throw InputError(fmt::format("{}: linkIndex {}: the phases of tlLogic '{}' have {} letters", c.where, c.tl_link,
+                                     signal.id, links));
+    }
 }
 
 void SumoWarnings::note(const std::string& where, const std::string& what) {

@@ -37,6 +37,8 @@ struct SumoLane {
     double speed_mps = 0.0;
     bool cars = true;  // passenger cars may drive there
     Polyline shape = {};
+    std::vector<std::string> ends =
+        {};  // lanes of edges that were joined to its own, at whose ends it ends; none: at its own
 };
 
 struct SumoEdge {
@@ -84,8 +86,10 @@ struct SumoSignal {
     std::string id;
     std::string programme;
     double offset_s = 0.0;
-    std::vector<SumoPhase> phases = {};
+    std::vector<SumoPhase> phases =
+        {};  // none: connections name it, and its programme may follow in an additional file
     std::string where;
+    bool in_net = false;  // the file of the network has a programme
 
     double cycle_s() const;
 };
@@ -100,6 +104,7 @@ struct SumoLoop {
 };
 
 struct SumoNet {
+    std::filesystem::path file;  // absolute
     std::vector<SumoEdge> edges;
     std::vector<SumoConnection> connections;
     std::vector<SumoJunction> junctions;
@@ -113,6 +118,10 @@ struct SumoNet {
 
     // Edge and index of a lane; none: there is no such lane.
     std::optional<std::pair<int, int>> lane(std::string_view id) const;
+    // The signal of this id, which may have no programme yet.
+    int signal(const std::string& id);
+    // Throws InputError where a connection's light has no programme, or one without its link. After all additional files.
+    void check_lights() const;
 };
 
 // Throws InputError, with file and line, where the file cannot be used.

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <string>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace stopline {
 
@@ -80,6 +83,7 @@ private:
             std::vector<const SumoLane*> parts = way(c);
             for (const SumoLane* const part : parts) way_m += part->length_m;
             parts.push_back(&own.lanes[at(c.to_lane)]);
+            add_end(lane, own, c.to_lane, !grown[at(c.from_lane)]);
             if (!grown[at(c.from_lane)]) {
                 for (const SumoLane* const part : parts) sumo_append(lane.shape, part->shape);
                 more_m = std::max(more_m, way_m);
@@ -96,6 +100,15 @@ private:
         for (const std::size_t gone : in_[at(edge)]) net_.connections[gone].from = -1;
         for (const std::size_t gone : out_[at(edge)]) net_.connections[gone].from = -1;
         replace(before, edge, std::move(onward));
+    }
+
+    // That a lane ends where another one of a shorter edge does; `anew`: and nowhere else.
+    static void add_end(SumoLane& lane, const SumoEdge& shorter, int index, bool anew) {
+        if (anew) lane.ends.clear();
+        const SumoLane& last = shorter.lanes[at(index)];
+        std::vector<std::string> ends = last.ends;
+        if (ends.empty()) ends.push_back(fmt::format("{}_{}", shorter.id, index));
+        lane.ends.insert(lane.ends.end(), ends.begin(), ends.end());
     }
 
     // A loop lies as far before the end as it did.

@@ -50,6 +50,7 @@ void add_sumo_signal(const SumoXml& xml, pugi::xml_node node, bool from_net, Sum
     SumoWarnings& warnings = net.warnings;
     SumoSignal signal{xml.text(node, "id"), node.attribute("programID").value()};
     signal.where = xml.where(node);
+    signal.in_net = from_net;
     if (signal.programme == "off") {
         xml.refuse(node, fmt::format("tlLogic '{}': programID=\"off\" switches the light off, which is not read: leave "
                                      "this element out, or give it phases under another programID",
@@ -64,13 +65,14 @@ void add_sumo_signal(const SumoXml& xml, pugi::xml_node node, bool from_net, Sum
     }
     const auto known = net.signal_by_id.find(signal.id);
     const bool is_known = known != net.signal_by_id.end();
+    const bool has_phases = is_known && !net.signals[at(known->second)].phases.empty();
     if (signal.phases.empty()) {
-        if (from_net || !is_known) xml.refuse(node, fmt::format("tlLogic '{}' has no phase", signal.id));
+        if (from_net || !has_phases) xml.refuse(node, fmt::format("tlLogic '{}' has no phase", signal.id));
         net.signals[at(known->second)].offset_s = signal.offset_s;
         return;
     }
     if (!is_known) {
-        if (!from_net) xml.refuse(node, fmt::format("the network has no tlLogic '{}'", signal.id));
+        if (!from_net) xml.refuse(node, fmt::format("the network has no light '{}'", signal.id));
         net.signal_by_id.emplace(signal.id, static_cast<int>(net.signals.size()));
         net.signals.push_back(std::move(signal));
         return;
@@ -79,10 +81,11 @@ void add_sumo_signal(const SumoXml& xml, pugi::xml_node node, bool from_net, Sum
     if (from_net && old.programme == signal.programme) {
         xml.refuse(node, fmt::format("there are two programmes '{}' of tlLogic '{}'", signal.programme, signal.id));
     }
-    if (old.phases[0].state.size() > signal.phases[0].state.size()) {
+    if (has_phases && old.phases[0].state.size() > signal.phases[0].state.size()) {
         xml.refuse(node, fmt::format("tlLogic '{}': state has {} letters, the network's {}", signal.id,
                                      signal.phases[0].state.size(), old.phases[0].state.size()));
     }
+    signal.in_net = signal.in_net || old.in_net;
     old = std::move(signal);  // as in SUMO, the last one is used
 }
 

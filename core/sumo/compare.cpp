@@ -1,7 +1,10 @@
 #include "sumo/compare.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,6 +14,7 @@
 #include "experiment/csv.h"
 #include "experiment/intersection_run.h"
 #include "sumo/export.h"
+#include "sumo/imported.h"
 #include "sumo/inputs.h"
 #include "sumo/staged_folder.h"
 
@@ -30,7 +34,21 @@ void run_sumo(const std::filesystem::path& folder, std::uint64_t seed) {
                      "trips.out.xml", "--summary-output", "summary.out.xml", "--summary-output.period", "1"},
                     folder);
     if (!ended.failed()) return;
-    throw InputError(fmt::format("SUMO failed in {}:\n{}", folder.string(), ended.words));
+    constexpr std::size_t kMost = 2000;  // of what may be the same for each of thousands of vehicles
+    const std::string words = ended.words.size() > kMost ? ended.words.substr(0, kMost) + "\n(and more)" : ended.words;
+    throw InputError(fmt::format("SUMO failed in {}:\n{}", folder.string(), words));
+}
+
+void check_lights(const SumoNetwork& network) {
+    for (const SumoLight& light : network.lights) {
+        if (light.signal < 0) continue;
+        const SumoSignal& signal = network.net.signals[static_cast<std::size_t>(light.signal)];
+        if (signal.in_net) continue;
+        throw InputError(fmt::format(
+            "{}: tlLogic '{}' is not in {}: SUMO does not load networks whose lights have a programme in an "
+            "additional file alone. Put the element into the network, before its connections",
+            signal.where, signal.id, network.net.file.string()));
+    }
 }
 
 std::vector<double> column(const Comparison& comparison, bool ours, double RunSummary::*field) {
@@ -41,25 +59,64 @@ std::vector<double> column(const Comparison& comparison, bool ours, double RunSu
     return values;
 }
 
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// The names of all stop lines of a network of ours.
+std::vector<std::string> own_stop_lines(const Model& model, const PlainNetwork& network) {
+    std::vector<std::string> names(model.graph.lanes.size());
+    for (const Detector& detector : model.detectors) {
+        if (detector.kind != Detector::Kind::stop_line) continue;
+        names[static_cast<std::size_t>(detector.lane)] = network.lane_id(detector.lane);
+    }
+    return names;
+}
+
+// Passages by the names of stop lines, instead of by SUMO's lanes.
+void rename(const std::map<std::string, std::string>& names, RunFacts& facts) {
+    std::map<std::string, std::vector<double>> renamed;
+    for (const auto& [lane, times_s] : facts.passed_s) {
+        const auto known = names.find(lane);
+        std::vector<double>& all = renamed[known == names.end() ? lane : known->second];
+        all.insert(all.end(), times_s.begin(), times_s.end());
+    }
+    facts.passed_s = std::move(renamed);
+}
+
 ComparedRun compare_seed(const Scenario& scenario, std::size_t population, const std::filesystem::path& folder,
                          const std::function<bool(double)>& on_progress) {
     ComparedRun run{scenario.seed};
     Model model = build_model(scenario, population);
     model.records_detectors = true;
-    const PlainNetwork network = plain_network(model.graph);
     const double end_s = run_end_s(scenario);
     const NewFolders made(folder);
-    write_sumo_inputs(folder, model, network, end_s);
-    make_net_file(folder);
     std::vector<std::unique_ptr<RunWriter>> writers;
-    writers.push_back(make_sumo_route_writer(folder / "vehicles.rou.xml", model, network));
-    writers.push_back(make_facts_writer(model, network, run.ours));
+    PlainNetwork network;
+    StopLineNames lines;
+    if (scenario.network.is_sumo()) {
+        lines = stop_line_names(*scenario.network.sumo);
+        write_imported_inputs(folder, model, *scenario.network.sumo, lines, end_s);
+    } else {
+        network = plain_network(model.graph);
+        lines.of_lane = own_stop_lines(model, network);
+        write_sumo_inputs(folder, model, network, end_s);
+        make_net_file(folder);
+        writers.push_back(make_sumo_route_writer(folder / "vehicles.rou.xml", model, network));
+    }
+    writers.push_back(make_facts_writer(model, lines.of_lane, run.ours));
     Simulation simulation(model);
+    const auto start = std::chrono::steady_clock::now();
     run_watched(simulation, end_s, writers, on_progress);
+    run.ours_took_s = seconds_since(start);
     const Violations& v = simulation.state().violations;
     run.overlaps = v.overlaps + v.conflicts + v.red_entries + v.lost_vehicles + v.deadlocks;
+    const auto start_of_sumo = std::chrono::steady_clock::now();
     run_sumo(folder, scenario.seed);
-    run.sumo = read_sumo_facts(folder);
+    run.sumo_took_s = seconds_since(start_of_sumo);
+    const bool has_loops = !scenario.network.is_sumo() || !lines.of_ends.empty();
+    run.sumo = read_sumo_facts(folder, has_loops);
+    rename(lines.of_ends, run.sumo);
     return run;
 }
 
@@ -82,16 +139,28 @@ std::vector<ComparedMetric> Comparison::metrics() const {
         {"wait_outside_s", &RunSummary::delay_s}};
     std::vector<ComparedMetric> metrics;
     for (const auto& [name, field] : fields) {
-        // SUMO's vehicles are those that entered our run, at their times: only there can they wait for room.
-        const bool of_sumo_alone = field == &RunSummary::delay_s;
+        // Where SUMO's vehicles are those that entered our run, at their times, only there can they wait for room.
+        const bool of_sumo_alone = field == &RunSummary::delay_s && !imported;
         metrics.push_back({name, column(*this, true, field), column(*this, false, field), of_sumo_alone});
+        if (field != &RunSummary::passages_veh_h || has_stop_lines) continue;
+        for (std::vector<double>* const values : {&metrics.back().ours, &metrics.back().sumo}) {
+            std::fill(values->begin(), values->end(), std::nan(""));
+        }
+    }
+    if (!imported) return metrics;
+    metrics.push_back(
+        {"waiting_at_end_veh", column(*this, true, &RunSummary::waiting), column(*this, false, &RunSummary::waiting)});
+    metrics.push_back({"moved_on_veh", {}, {}});
+    for (const ComparedRun& run : runs) {
+        metrics.back().ours.push_back(static_cast<double>(run.ours.moved_on));
+        metrics.back().sumo.push_back(static_cast<double>(run.sumo.moved_on));
     }
     return metrics;
 }
 
 Comparison compare_with_sumo(const Scenario& scenario, std::size_t population, const std::filesystem::path& folder,
                              const CompareOptions& options) {
-    check_exportable(scenario);
+    if (scenario.network.is_sumo()) check_lights(*scenario.network.sumo);
     if (!has_sumo()) {
         throw InputError(
             "SUMO is not installed, or does not run: pip install eclipse-sumo, and put its bin into PATH; 'sumo --version' "
@@ -105,6 +174,8 @@ Comparison compare_with_sumo(const Scenario& scenario, std::size_t population, c
     if (comparison.from_s >= comparison.to_s) {
         throw InputError(fmt::format("nothing is left to compare: the run ends at {:g} s", comparison.to_s));
     }
+    comparison.imported = scenario.network.is_sumo();
+    if (comparison.imported) comparison.has_stop_lines = !stop_line_names(*scenario.network.sumo).of_ends.empty();
     const NewFolders made(folder);
     for (int k = 0; k < options.repetitions; ++k) {
         Scenario one = scenario;

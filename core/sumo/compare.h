@@ -20,6 +20,8 @@ struct ComparedRun {
     RunFacts ours;
     RunFacts sumo;
     std::int64_t overlaps = 0;  // of ours; also all other violations
+    double ours_took_s = 0.0;   // by the clock: from the first step to the last, ...
+    double sumo_took_s = 0.0;   // ... and the whole program
 };
 
 struct ComparedMetric {
@@ -37,7 +39,9 @@ struct Comparison {
     std::string population;
     double from_s = 0.0;  // what is before is not compared
     double to_s = 0.0;
-    std::vector<ComparedRun> runs;
+    std::vector<ComparedRun> runs = {};
+    bool imported = false;       // both get the same planned departures, so that waiting outside can be compared
+    bool has_stop_lines = true;  // that are counted
 
     std::vector<ComparedMetric> metrics() const;
 };
@@ -48,7 +52,8 @@ struct CompareOptions {
     std::function<bool(double)> on_progress;
 };
 
-// Leaves the files of each seed in FOLDER/seed_N, and makes no folder for what is refused. Throws InputError where SUMO is missing or
+// Imported networks: SUMO runs the scenario's own network with the vehicles that the import planned (sumo/imported.h); others: both run the
+// vehicles that entered our run (sumo/inputs.h). Leaves the files of each seed in FOLDER/seed_N, and makes no folder for what is refused. Throws InputError where SUMO is missing or
 // fails, Interrupted.
 Comparison compare_with_sumo(const Scenario& scenario, std::size_t population, const std::filesystem::path& folder,
                              const CompareOptions& options);
@@ -56,7 +61,8 @@ Comparison compare_with_sumo(const Scenario& scenario, std::size_t population, c
 std::string comparison_csv(const Comparison& comparison);
 // By stop line: passages of both, mean of the seeds.
 std::string stop_lines_csv(const Comparison& comparison);
-// Vehicles past all stop lines and vehicles that stand, over time, of the first seed.
+// Over time: vehicles past all stop lines (if there are any), trips that have ended, and vehicles that stand; means of the seeds, with the
+// band of SUMO's where there are several.
 std::vector<Figure> comparison_figures(const Comparison& comparison, const std::string& title);
 
 }  // namespace stopline

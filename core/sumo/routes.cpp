@@ -4,6 +4,7 @@
 
 #include "record/xml_file.h"
 #include "sumo/inputs.h"
+#include "sumo/vehicle_type.h"
 
 namespace stopline {
 
@@ -41,7 +42,11 @@ public:
     std::string finish() override {
         XmlFile xml(file_, "routes", "routes_file.xsd");
         xml.add("    <!-- minGap: 1 mm less than the gap by which queues stand at the beginning -->\n");
-        for (std::size_t k = 0; k < model_.policies.size(); ++k) add_type(xml, k);
+        for (std::size_t k = 0; k < model_.policies.size(); ++k) {
+            add_vehicle_type(
+                xml, model_, k,
+                {xml_escaped(model_.policies[k].settings.name), model_.vehicles[0].length_m, changes_lanes()});
+        }
         // In the order of departure, as SUMO wants them.
         std::vector<std::pair<int, const Trip*>> trips;
         for (const auto& [vehicle, trip] : trips_) trips.emplace_back(vehicle, &trip);
@@ -125,21 +130,6 @@ private:
         const std::vector<Lane>& lanes = model_.graph.lanes;
         return std::any_of(lanes.begin(), lanes.end(),
                            [](const Lane& lane) { return lane.left >= 0 || lane.right >= 0; });
-    }
-
-    void add_type(XmlFile& xml, std::size_t policy) const {
-        // Vehicles of a queue stand by the policy's gap, which SUMO, by rounding, may find too small to put them in: it gets less.
-        constexpr double kRounding_m = 0.001;
-        const Krauss& k = model_.krauss[policy];
-        xml.add(
-            "    <vType id=\"{}\" carFollowModel=\"Krauss\" accel=\"{:.4f}\" decel=\"{:.4f}\" tau=\"{:.4f}\" sigma=\"{:.4f}\" "
-            "minGap=\"{:.4f}\" length=\"{:.4f}\" maxSpeed=\"70\" speedFactor=\"{:.4f}\" speedDev=\"0\" jmStoplineGap=\"{:.3f}\"{}/>",
-            xml_escaped(model_.policies[policy].settings.name), k.acceleration_mps2, k.deceleration_mps2, k.reaction_s,
-            k.dawdling, k.standstill_gap_m + k.band_m - kRounding_m, model_.vehicles[0].length_m, model_.speed_factor,
-            model_.driver.stop.margin_m,
-            changes_lanes() ? "" : R"( lcSpeedGain="0" lcKeepRight="0" lcCooperative="0")");
-        // SUMO has no model of a constant distance.
-        xml.add("{}\n", k.constant_distance ? " <!-- keeps a constant distance with us: this is the nearest -->" : "");
     }
 
     void add_trip(XmlFile& xml, int vehicle, const Trip& trip) const {

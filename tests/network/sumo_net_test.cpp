@@ -198,6 +198,43 @@ TEST(SumoNetwork, AdditionalFilesReplaceProgrammesAndOffsets) {
     EXPECT_DOUBLE_EQ(other.net.loops[0].position_m, 180.0);
 }
 
+// The net of signal_net, whose programme stands elsewhere.
+std::string without_programme() {
+    std::string text = signal_net(two_phases());
+    const std::size_t from = text.find("<tlLogic");
+    return text.erase(from, text.find("</tlLogic>") + 10 - from);
+}
+
+TEST(SumoNetwork, ProgrammesCanStandInAdditionalFilesAlone) {
+    const std::string offset = "<tlLogic id=\"J\" programID=\"a\" offset=\"7\"/>";
+    const std::string programme = "<tlLogic id=\"J\" programID=\"a\" offset=\"3\">" + two_phases() + "</tlLogic>";
+    const SumoNetwork made = made_of(without_programme(), "<additional>" + programme + "</additional>");
+    const SumoNetwork usual = made_of(signal_net(two_phases()));
+    ASSERT_EQ(made.net.signals.size(), 1U);
+    EXPECT_EQ(made.net.signals[0].phases.size(), 4U);
+    EXPECT_DOUBLE_EQ(made.net.signals[0].offset_s, 3.0);
+    EXPECT_EQ(made.lights.size(), usual.lights.size());
+    EXPECT_EQ(lane(made.graph, "s_in_0").signal_group, lane(usual.graph, "s_in_0").signal_group);
+    EXPECT_FALSE(conflict(made.graph, ":J_0_0", ":J_1_0")->yields);  // they are never green together
+    EXPECT_DOUBLE_EQ(
+        made_of(without_programme(), "<additional>" + programme + offset + "</additional>").net.signals[0].offset_s,
+        7.0);
+}
+
+TEST(SumoNetwork, LightsWithoutAProgrammeAreRefused) {
+    const auto says = [](const std::string& additional) {
+        return refusal([&] { made_of(without_programme(), "<additional>\n" + additional + "\n</additional>"); });
+    };
+    EXPECT_NE(says("").find("tl: there is no tlLogic 'J', neither in the network nor in additional files"),
+              std::string::npos)
+        << says("");
+    EXPECT_EQ(says(R"(<tlLogic id="J" programID="a" offset="1"/>)"), "my.add.xml:2: tlLogic 'J' has no phase");
+    EXPECT_EQ(says(R"(<tlLogic id="K"><phase duration="9" state="G"/></tlLogic>)"),
+              "my.add.xml:2: the network has no light 'K'");
+    const std::string few = says(R"(<tlLogic id="J"><phase duration="9" state="Grr"/></tlLogic>)");
+    EXPECT_NE(few.find("linkIndex 3: the phases of tlLogic 'J' have 3 letters"), std::string::npos) << few;
+}
+
 TEST(SumoNetwork, TellsWhatItDoesNotRead) {
     const std::string text = replaced(signal_net(two_phases()), "type=\"static\"", "type=\"actuated\"");
     const std::vector<std::string> lines = made_of(text).net.warnings.lines();

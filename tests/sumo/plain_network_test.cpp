@@ -250,13 +250,16 @@ TEST(RunSummary, LeavesOutOfTheMeanSpeedWhenThereAreNoVehicles) {
     const TemporaryFolder folder;
     write_file(folder.path() / "trips.out.xml", "<tripinfos/>");
     write_file(folder.path() / "detectors.out.xml", "<instantE1/>");
-    write_file(folder.path() / "summary.out.xml",
-               "<summary><step time=\"1\" running=\"2\" halting=\"1\" meanSpeed=\"6.00\"/>"
-               "<step time=\"2\" running=\"0\" halting=\"0\" meanSpeed=\"-1.00\"/></summary>");
-    const RunFacts facts = read_sumo_facts(folder.path());
+    write_file(
+        folder.path() / "summary.out.xml",
+        "<summary><step time=\"1\" running=\"2\" halting=\"1\" meanSpeed=\"6.00\" waiting=\"0\" teleports=\"0\"/>"
+        "<step time=\"2\" running=\"0\" halting=\"0\" meanSpeed=\"-1.00\" waiting=\"4\" teleports=\"2\"/></summary>");
+    const RunFacts facts = read_sumo_facts(folder.path(), true);
     const RunSummary sum = summary_of(facts, 0.0, 2.0);
     EXPECT_DOUBLE_EQ(sum.speed_mps, 6.0);
     EXPECT_DOUBLE_EQ(sum.halting, 0.5);
+    EXPECT_DOUBLE_EQ(sum.waiting, 4.0);
+    EXPECT_EQ(facts.moved_on, 2);
     EXPECT_TRUE(std::isnan(summary_of(facts, 1.0, 2.0).speed_mps));
 }
 
