@@ -181,9 +181,11 @@ STOPLINE_INLINE R emergency_acceleration(const CaccSettingsOf<Number>& c, const 
 // speed follows, d v_safe / dt = (v_p a_p - b closing) / v_safe, and returns to the curve. No limit below that speed. A reserve of
 // time covers what the own brake is late (our choice: its lag of 0.2 s and half as much for the command to change). Whoever keeps a
 // distance at all speeds hears of braking in time by its feedforward; a time gap delays that as well (H = 1 + h s), so that a vehicle
-// nearer than its policy wants would use up its room: such a policy keeps the reserve at its own speed too, as far as the gap that it
-// wants exceeds that at standstill (`growth_m`; 0 for a constant distance).
+// nearer than its policy wants would use up its room: such a policy keeps the reserve at its own speed too, up to half of what the gap
+// that it wants exceeds that at standstill by (`growth_m`; 0 for a constant distance). With all of it SWITCH-2 would brake in each
+// start, where gaps grow later than speeds.
 inline constexpr double kBrakeReserve_s = 0.3;
+inline constexpr double kReservedGrowth = 0.5;
 
 template <class R, class Number>
 STOPLINE_INLINE R keep_room_acceleration(const CaccSettingsOf<Number>& c, const R& speed_mps, const R& growth_m,
@@ -191,7 +193,7 @@ STOPLINE_INLINE R keep_room_acceleration(const CaccSettingsOf<Number>& c, const 
     constexpr double kSpeedGain_1ps = 2.0;  // our choice: slower than the brake answers
     const double b = c.deceleration_emergency_mps2;
     const R late_m = (c.radar_delay_s + kBrakeReserve_s) * greater(p.closing_mps, 0.0);
-    const R reserve_m = lesser(kBrakeReserve_s * speed_mps, growth_m);
+    const R reserve_m = lesser(kBrakeReserve_s * speed_mps, kReservedGrowth * growth_m);
     const R room_m = greater(p.gap_m - late_m - reserve_m - c.emergency_gap_m, 0.05);
     const R speed_p = greater(speed_mps - p.closing_mps, 0.0);
     const R safe_squared = square(speed_p) + 2.0 * b * room_m;

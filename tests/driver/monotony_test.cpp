@@ -175,8 +175,8 @@ TEST(KeepRoom, BeginsWhereBrakingAlikeWouldJustBeEnough) {
             const double room_m = (v * v - v_p * v_p) / (2.0 * b);
             if (room_m < 0.1) continue;  // less than 0.05 m does not count as less
             for (const double growth_m : {0.0, 1.0, 12.0}) {
-                const double reserve_m =
-                    (c.radar_delay_s + kBrakeReserve_s) * closing + std::min(kBrakeReserve_s * v, growth_m);
+                const double reserve_m = (c.radar_delay_s + kBrakeReserve_s) * closing +
+                                         std::min(kBrakeReserve_s * v, kReservedGrowth * growth_m);
                 const double just_m = room_m + reserve_m + c.emergency_gap_m;
                 const auto answer = [&](double gap_m) {
                     return keep_room_acceleration<double>(c, v, growth_m, {gap_m, closing, 1.0, 1.0, 4.0});
