@@ -14,34 +14,14 @@
 #include <cmath>
 
 #include "base/arithmetic.h"
+#include "sim/arrivals.h"
 #include "sim/phases.h"
 
 namespace stopline {
 
 namespace {
 
-constexpr double kNever_s = 1e9;
-constexpr double kStanding_mps = 1.0;
-constexpr double kCloseBehind_m = 6.0;
-constexpr double kSeen_m = 20.0;
-
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
-// Stands and waits for others itself: it will not come before they have gone, and they may be waiting for who asks.
-bool held(const State& state, int slot) {
-    const VehicleArrays& v = state.vehicles;
-    return v.record[at(slot)].held_at >= state.tick - 1 && v.speed_mps[at(slot)] < kStanding_mps;
-}
-
-// Time to cover a distance, accelerating up to the limit.
-double earliest_s(double distance_m, double speed_mps, double acceleration_mps2, double limit_mps) {
-    const double to_limit_mps = std::max(limit_mps - speed_mps, 0.0);
-    const double to_limit_m = to_limit_mps * (speed_mps + 0.5 * to_limit_mps) / acceleration_mps2;
-    if (distance_m <= to_limit_m) {
-        return (std::sqrt(square(speed_mps) + 2.0 * acceleration_mps2 * distance_m) - speed_mps) / acceleration_mps2;
-    }
-    return to_limit_mps / acceleration_mps2 + (distance_m - to_limit_m) / std::max(limit_mps, speed_mps);
-}
 
 // Time to a waiting place, slowing down to the limit of the way beyond it.
 double reach_s(const Model& model, double distance_m, double speed_mps, double limit_mps) {
@@ -56,129 +36,6 @@ double reach_s(const Model& model, double distance_m, double speed_mps, double l
 // To a comfortable stop.
 double stopping_m(const Model& model, double speed_mps) {
     return 0.5 * square(speed_mps) / model.driver.stop.deceleration_mps2;
-}
-
-// Stands right behind a vehicle that stands: it will not come, nor will those behind it.
-bool blocked(const State& state, int slot) {
-    const VehicleArrays& v = state.vehicles;
-    const std::size_t i = at(slot);
-    const double gap_m = v.position_m[i - 1] - v.length_m[i - 1] - v.position_m[i];
-    return v.record[i].predecessor >= 0 && v.speed_mps[i] < kStanding_mps && v.speed_mps[i - 1] < kStanding_mps &&
-           gap_m < kCloseBehind_m;
-}
-
-// The same of one past the stop line on the way to `lane`, where the first of those that stand in front waits for others;
-// maybe to go another way from the stretch that they share.
-bool behind_held(const State& state, int lane, const Insider& w) {
-    constexpr int kMost = 8;  // vehicles inside, one behind the other
-    int slot = w.slot;
-    int on = w.front_m > 0.0 ? lane : state.plan.lane(lane).origin;
-    for (int k = 0; k < kMost && blocked(state, slot); ++k) {
-        const LaneBlock& block = state.blocks[at(on)];
-        if (slot == block.first) {
-            slot = vehicle_ahead(state, on, slot, kSeen_m).slot;
-            const LaneBlock& inside = state.blocks[at(lane)];
-            const bool on_way = slot >= inside.first && slot < inside.stop();
-            if (!on_way) return slot >= 0 && held(state, slot);
-            on = lane;
-        } else {
-            --slot;
-        }
-        if (held(state, slot)) return true;
-    }
-    return false;
-}
-
-// When the next vehicle of the other lane, inside or before its stop line, can be at the conflict area; those that will stop
-// at the light do not count. Looks no further ahead than `horizon_s`.
-struct Arrival {
-    double in_s = kNever_s;
-    int slot = -1;
-
-    void earlier(double in, int who) {
-        if (in < in_s) *this = {in, who};
-    }
-};
-
-// The vehicle that stops before a lane's line, for the light of the way that is asked for; -1: none. With green all may set out.
-int stops_at_light(const State& state, int lane, int way) {
-    const int stopping = state.stop_slot[at(lane)];
-    if (state.lights[at(state.plan.light_before(lane, way))] != Light::green) return stopping;
-    if (stopping < 0 || !state.plan.lane(lane).by_way) return -1;
-    const int next = state.vehicles.record[at(stopping)].next_lane;
-    return state.lights[at(state.plan.light_before(lane, next))] == Light::green ? -1 : stopping;
-}
-
-// Vehicles that move and come to `lane` to go on to `way`, from further back. What is decided for them in this step is not asked for.
-struct Upstream {
-    int lane;
-    int way;
-    double to_area_m;  // from the lane's start
-    int depth;
-};
-
-void look_upstream(const Model& model, const State& state, const Upstream& here, double horizon_s, Arrival& soonest) {
-    constexpr int kDeepest = 3;
-    const VehicleArrays& v = state.vehicles;
-    if (here.depth == kDeepest) return;
-    const Turn turn = model.graph.lanes[at(here.way)].turn;
-    const auto see = [&](int slot, double distance_m, double limit_mps) {
-        if (v.speed_mps[at(slot)] < kStanding_mps || distance_m > horizon_s * limit_mps) return;
-        const VehicleRecord& record = v.record[at(slot)];
-        if (here.depth == 0 && record.turn_after != turn) return;
-        soonest.earlier(earliest_s(distance_m, v.speed_mps[at(slot)], model.give_way.approach_mps2, limit_mps), slot);
-    };
-    for (const int inside : model.leads_to[at(here.lane)]) {
-        const LanePlan& way = state.plan.lane(inside);
-        if (here.to_area_m > horizon_s * way.limit_mps) continue;
-        const LaneBlock& block = state.blocks[at(inside)];
-        const double limit_mps = state.plan.lane(here.lane).limit_mps;
-        if (block.count > 0) {
-            see(block.first, here.to_area_m + way.length_m - v.position_m[at(block.first)], limit_mps);
-            continue;
-        }
-        const double from_m = here.to_area_m + way.length_m + state.plan.lane(way.origin).length_m;
-        const LaneBlock& before = state.blocks[at(way.origin)];
-        for (int slot = before.first; slot < before.stop(); ++slot) {
-            const double distance_m = from_m - v.position_m[at(slot)];
-            if (distance_m > horizon_s * limit_mps) break;
-            if (v.record[at(slot)].next_lane == inside) {
-                see(slot, distance_m, limit_mps);
-                break;
-            }
-        }
-        look_upstream(model, state, {way.origin, inside, from_m, here.depth + 1}, horizon_s, soonest);
-    }
-}
-
-Arrival next_arrival(const Model& model, const State& state, const Conflict& conflict, double horizon_s) {
-    const VehicleArrays& v = state.vehicles;
-    const LanePlan& other = state.plan.lane(conflict.other);
-    const LanePlan& origin = state.plan.lane(other.origin);
-    const double a = model.give_way.approach_mps2;
-    const int stopping = stops_at_light(state, other.origin, conflict.other);
-    Arrival soonest;
-    for (const Insider& w : state.insiders[at(conflict.other)]) {
-        if (w.front_m >= conflict.other_from_m) continue;
-        if (held(state, w.slot) || w.slot == stopping || behind_held(state, conflict.other, w)) return soonest;
-        const double distance_m = conflict.other_from_m - w.front_m;
-        soonest.earlier(earliest_s(distance_m, v.speed_mps[at(w.slot)], a, other.limit_mps), w.slot);
-    }
-    const LaneBlock& block = state.blocks[at(other.origin)];
-    if (block.count > 0 && (blocked(state, block.first) || held(state, block.first))) return soonest;
-    for (int slot = block.first; slot < block.stop(); ++slot) {
-        const double distance_m = origin.length_m + conflict.other_from_m - v.position_m[at(slot)];
-        if (distance_m > horizon_s * origin.limit_mps) break;
-        if (slot == stopping) break;
-        if (v.position_m[at(slot)] > origin.stop_line_m || v.record[at(slot)].next_lane != conflict.other) continue;
-        soonest.earlier(earliest_s(distance_m, v.speed_mps[at(slot)], a, other.limit_mps), slot);
-        return soonest;
-    }
-    if (!model.demand.trips.empty()) {
-        look_upstream(model, state, {other.origin, conflict.other, origin.length_m + conflict.other_from_m, 0},
-                      horizon_s, soonest);
-    }
-    return soonest;
 }
 
 struct Candidate {
@@ -225,7 +82,9 @@ int keeps_out(const Model& model, State& state, NetworkPart& part, int lane, con
         if (w.front_m > conflict.other_from_m) return w.slot;
         if (conflict.yields || w.slot == stopping) continue;
         if (conflict.other_yields) {
-            if (state.vehicles.record[at(w.slot)].cleared_for == conflict.other && !held(state, w.slot)) return w.slot;
+            const bool comes = state.vehicles.record[at(w.slot)].cleared_for == conflict.other &&
+                               !held_before(model, state, w.slot, conflict.other_from_m);
+            if (comes) return w.slot;
             continue;
         }
         // Two that stand and wait for each other: who can go does, and the other waits for it as long as nothing else holds it up.
@@ -266,7 +125,7 @@ int sets_out_first(const Model& model, const State& state, int lane, const Candi
 }
 
 // The slot of a vehicle of the other lane that gives way to this one but set out when this one stood and waited, and cannot stop before its
-// first area any more, where it would decide again; -1: none. For one that is about to set out.
+// first area any more, where it would decide again; -1: none.
 int cannot_stop(const Model& model, const State& state, const Conflict& conflict) {
     const VehicleArrays& v = state.vehicles;
     const LanePlan& origin = state.plan.lane(state.plan.lane(conflict.other).origin);
@@ -276,7 +135,7 @@ int cannot_stop(const Model& model, const State& state, const Conflict& conflict
         const double speed_mps = v.speed_mps[at(slot)];
         const double first_m = state.plan.lane(conflict.other).first_area_m - model.give_way.margin_m;
         const double to_area_m = origin.length_m + first_m - v.position_m[at(slot)];
-        const bool comes = v.record[at(slot)].cleared_for == conflict.other && speed_mps >= kStanding_mps;
+        const bool comes = v.record[at(slot)].cleared_for == conflict.other && speed_mps >= kAlmostStands_mps;
         return comes && to_area_m < stopping_m(model, speed_mps) ? slot : -1;
     }
     return -1;
@@ -307,6 +166,20 @@ int comes_first(const Model& model, State& state, NetworkPart& part, int lane, c
     part.gaps_accepted.push_back({model.time_s(state.tick), arrays.id[at(v.slot)], lane, static_cast<float>(next.in_s),
                                   static_cast<float>(needed_s)});
     return -1;
+}
+
+// Whether one that cannot stop any more is still in the area when this one, with priority and on the move, can be there at the earliest:
+// it came later, or got on worse, than was foreseen when it accepted its gap.
+bool still_there(const Model& model, const State& state, int lane, const Conflict& conflict, const Candidate& v,
+                 int other) {
+    const VehicleArrays& arrays = state.vehicles;
+    const LanePlan& way = state.plan.lane(conflict.other);
+    const double in_s = earliest_s(std::max(conflict.from_m - v.front_m, 0.0), arrays.speed_mps[at(v.slot)],
+                                   model.give_way.approach_mps2, state.plan.lane(lane).limit_mps);
+    const double speed_mps = arrays.speed_mps[at(other)];
+    const double to_way_m = state.plan.lane(way.origin).length_m - arrays.position_m[at(other)];
+    const double through_m = conflict.other_to_m + arrays.length_m[at(other)];
+    return reach_s(model, to_way_m, speed_mps, way.limit_mps) + through_m / std::min(speed_mps, way.limit_mps) > in_s;
 }
 
 // Where this vehicle must wait, along the lane inside, and for what; beyond the lane where it need not.
@@ -344,8 +217,9 @@ Wait waiting_place(const Model& model, State& state, NetworkPart& part, int lane
     if (at_line && line_m - v.front_m > ahead_m) return {};
     const bool waits = v.stands || arrays.record[at(v.slot)].held_at >= state.tick - 1;
     const double braking_m = 0.5 * square(speed) / model.driver.cacc.deceleration_emergency_mps2;
-    const bool sets_out = waits && !model.demand.trips.empty();
-    if (!others && !sets_out && (decided || !state.plan.lane(lane).yields)) return {};
+    const bool has_trips = !model.demand.trips.empty();
+    const bool sets_out = waits && has_trips;
+    if (!others && !has_trips && (decided || !state.plan.lane(lane).yields)) return {};
     for (const Conflict& conflict : state.plan.conflicts(lane)) {
         const double hold_m = conflict.from_m - margin_m;
         if (v.front_m > conflict.from_m) continue;
@@ -353,9 +227,11 @@ Wait waiting_place(const Model& model, State& state, NetworkPart& part, int lane
         if (far && !at_line) break;
         const bool empty = !others || state.insiders[at(conflict.other)].empty();
         int blocker = empty ? -1 : keeps_out(model, state, part, lane, conflict, v);
-        if (blocker < 0 && sets_out && conflict.other_yields && conflict.from_m - v.front_m >= braking_m)
-            blocker = cannot_stop(model, state, conflict);
-        const bool matters = !far || no_light || (blocker >= 0 && arrays.speed_mps[at(blocker)] < kStanding_mps);
+        if (blocker < 0 && has_trips && conflict.other_yields && conflict.from_m - v.front_m >= braking_m) {
+            const int comes = cannot_stop(model, state, conflict);
+            if (comes >= 0 && (sets_out || still_there(model, state, lane, conflict, v, comes))) blocker = comes;
+        }
+        const bool matters = !far || no_light || (blocker >= 0 && arrays.speed_mps[at(blocker)] < kAlmostStands_mps);
         if (blocker >= 0 && matters) return {std::min(hold_m, line_m), blocker, false};
         if (conflict.yields && !decided) {
             const int first = ahead >= 0 ? ahead : comes_first(model, state, part, lane, v, hold_m - v.front_m);
@@ -368,7 +244,10 @@ Wait waiting_place(const Model& model, State& state, NetworkPart& part, int lane
 
 // Remembers who waits; of those on one lane the first ones.
 void wait(State& state, NetworkPart& part, int lane, int slot, double place_m, const Wait& wait) {
-    state.vehicles.record[at(slot)].held_at = static_cast<int>(state.tick);
+    VehicleRecord& record = state.vehicles.record[at(slot)];
+    record.held_at = static_cast<int>(state.tick);
+    record.held_m =
+        static_cast<float>(place_m - (state.plan.lane(lane).origin < 0 ? state.plan.lane(lane).length_m : 0.0));
     Holds& holds = state.holds[at(lane)];
     if (holds.count == 0) part.holding.push_back(lane);
     holds.add({slot, place_m, wait.blocker, wait.priority});
@@ -396,14 +275,14 @@ void decide(const Model& model, State& state, NetworkPart& part, int lane) {
         return found;
     };
     for (int slot = block.first; slot < block.stop(); ++slot) {
-        const Wait found = place_of({slot, v.position_m[at(slot)], true, v.speed_mps[at(slot)] < kStanding_mps});
+        const Wait found = place_of({slot, v.position_m[at(slot)], true, v.speed_mps[at(slot)] < kAlmostStands_mps});
         if (found.place_m < kNowhere_m) wait(state, part, lane, slot, found.place_m, found);
     }
     std::vector<int>& coming = state.coming[at(lane)];
     for (const int slot : coming) {
         const double position_m = v.position_m[at(slot)];
         const Candidate candidate{slot, position_m - origin.length_m, position_m > origin.stop_line_m,
-                                  v.speed_mps[at(slot)] < kStanding_mps};
+                                  v.speed_mps[at(slot)] < kAlmostStands_mps};
         const Wait found = place_of(candidate);
         if (found.place_m < kNowhere_m) wait(state, part, plan.origin, slot, found.place_m + origin.length_m, found);
     }

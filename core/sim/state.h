@@ -68,7 +68,7 @@ struct KeptOut {
 
 // Those of one lane: the first ones, from the front.
 struct Holds {
-    static constexpr int kMost = 3;
+    static constexpr int kMost = 6;
     std::array<Hold, kMost> each = {};
     int count = 0;
 

@@ -187,7 +187,8 @@ void note_stop(State& state, const LanePlan& lane, int slot) {
 void list_coming(const Model& model, State& state, int index) {
     constexpr double kLookBack_m = 60.0;   // of 50 km/h and a comfortable stop
     constexpr double kFastBack_m = 160.0;  // imported networks have faster roads
-    const double look_back_m = model.demand.trips.empty() ? kLookBack_m : kFastBack_m;
+    const bool has_trips = !model.demand.trips.empty();
+    const double look_back_m = has_trips ? kFastBack_m : kLookBack_m;
     const VehicleArrays& v = state.vehicles;
     const double length_m = state.plan.lane(index).length_m;
     const LaneBlock& block = state.blocks[at(index)];
@@ -197,7 +198,10 @@ void list_coming(const Model& model, State& state, int index) {
         const VehicleRecord& record = v.record[at(slot)];
         if (record.next_lane < 0) continue;
         const LanePlan& way = state.plan.lane(record.next_lane);
-        if (way.origin != index || (!way.yields && state.others_inside[at(record.next_lane)].lanes == 0)) continue;
+        if (way.origin != index) continue;
+        // With priority, and nobody there: only imported networks have vehicles that come too fast to give way any more.
+        const bool alone = state.others_inside[at(record.next_lane)].lanes == 0;
+        if (!way.yields && alone && (!has_trips || state.plan.conflicts(record.next_lane).empty())) continue;
         double to_area_m = to_end_m + way.first_area_m - model.give_way.margin_m;
         if (!state.plan.waits_inside(record.next_lane)) {
             const double line_m = state.plan.lane(index).stop_line_m - model.driver.stop.margin_m;

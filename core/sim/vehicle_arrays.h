@@ -37,6 +37,7 @@ struct alignas(64) VehicleRecord {
     int cleared_for = -1;          // lane inside an intersection on which it has accepted a gap; -1: none
     int inside_since = 0;          // tick at which it passed its last stop line
     int held_at = -2;              // last tick at which it had to wait before a conflict area
+    float held_m = 0.0F;           // where, along the lane inside
     Turn turn_after = Turn::none;  // at the next intersection but one, if known
     int changed_at = -1'000'000;   // tick of its last change of lanes
     int trip = -1;                 // of the demand; -1: it draws its way at each intersection
