@@ -24,7 +24,7 @@ public:
     void look(const State& state) override {
         note_passages(state);
         if (state.tick % every_ == 0) note_instant(state);
-        facts_.moved_on = state.hindrance.taken_out + state.strayed;
+        facts_.moved_on = state.hindrance.taken_out;  // those that strayed are among them
     }
     std::string finish() override { return ""; }
 
