@@ -66,6 +66,7 @@ std::string band_cells(const ComparedMetric& metric, Band band, std::string& ins
     inside = "-";
     if (metric.of_sumo_alone || metric.sumo.size() < needed || std::isnan(mean_of(metric.sumo))) return "-";
     const Interval interval = metric.band(band);
+    if (interval.high - interval.low < 1e-6 * std::fabs(interval.high)) return "no spread";
     inside = interval.contains(mean_of(metric.ours)) ? "yes" : "no";
     return fmt::format("{:.2f} .. {:.2f}", interval.low, interval.high);
 }
@@ -94,6 +95,11 @@ void print(const Comparison& comparison) {
                      "SUMO's teleports; ours by a rule, or from a lane that does not serve their way."
                    : "wait_outside_s: how much later than in our run the same vehicles find room to enter in "
                      "SUMO; no check.");
+    if (!comparison.imported) {
+        fmt::print(
+            "SUMO gets the vehicles that entered our run, no more: in the long run it cannot pass more than ours does, however "
+            "much more\nit could. Then its travel times are shorter.\n");
+    }
     double ours_s = 0.0;
     double sumo_s = 0.0;
     for (const ComparedRun& run : comparison.runs) {
@@ -103,6 +109,21 @@ void print(const Comparison& comparison) {
     fmt::print("By the clock: our runs {:.1f} s, SUMO's {:.1f} s (the whole program, with its files; one thread).\n",
                ours_s, sumo_s);
     if (!comparison.note.empty()) fmt::print("\n{}\n", comparison.note);
+}
+
+// Without these settings drivers differ from SUMO's by design, and the table says no nearly everywhere.
+void print_what_differs(const Scenario& scenario) {
+    std::string settings;
+    const auto unlike = [&](bool differs, const char* setting) {
+        if (differs) settings += fmt::format(" --set '{}'", setting);
+    };
+    const auto apart = [](double value, double other) { return std::fabs(value - other) > 1e-9; };
+    unlike(scenario.meso.name != "table2", "meso=table2");
+    unlike(apart(scenario.driver.free_drive.hesitation_s, 0.0), "driver.free_drive.hesitation=0 s");
+    unlike(apart(scenario.driver.stop.deceleration_mps2, 4.7), "driver.stop.deceleration=4.7 m/s2");
+    unlike(apart(scenario.driver.stop.decision_deceleration_mps2, 5.3), "driver.stop.decision_deceleration=5.3 m/s2");
+    if (settings.empty()) return;
+    fmt::print("\nOur drivers differ from SUMO's by design. Like with like (the README says why):{}\n", settings);
 }
 
 ExitCode run(const CompareOptionsOfUser& options) {
@@ -118,6 +139,7 @@ ExitCode run(const CompareOptionsOfUser& options) {
         return compare_with_sumo(scenario, chosen(options, scenario), folder, compare);
     }();
     print(comparison);
+    print_what_differs(scenario);
     std::int64_t violations = 0;
     for (const ComparedRun& one : comparison.runs) violations += one.overlaps;
     if (violations > 0) fmt::print("\nVIOLATIONS in our runs: {}\n", violations);

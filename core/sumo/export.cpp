@@ -16,6 +16,8 @@ namespace stopline {
 
 namespace {
 
+constexpr const char* kNetFile = "net.net.xml";
+
 const std::vector<std::string>& netconvert_words() {
     static const std::vector<std::string> kWords{"netconvert",
                                                  "--node-files=nodes.nod.xml",
@@ -24,7 +26,7 @@ const std::vector<std::string>& netconvert_words() {
                                                  "--tllogic-files=lights.tll.xml",
                                                  "--no-turnarounds=true",
                                                  "--offset.disable-normalization=true",
-                                                 "--output-file=net.net.xml"};
+                                                 std::string("--output-file=") + kNetFile};
     return kWords;
 }
 
@@ -84,7 +86,7 @@ std::string export_to_sumo(const Scenario& scenario, std::size_t population, con
     Simulation simulation(model);
     const std::string vehicles = run_watched(simulation, end_s, writers, on_progress)[0];
     if (has_sumo()) make_net_file(staged.path());
-    staged.commit();
+    staged.commit(kNetFile);
     const std::string note = stand_in_note(model);
     return note.empty() ? vehicles : vehicles + "\n" + note;
 }

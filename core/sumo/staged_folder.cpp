@@ -46,7 +46,9 @@ StagedFolder::~StagedFolder() {
     fs::remove_all(stage_, ignored);
 }
 
-void StagedFolder::commit() {
+void StagedFolder::commit(const std::string& made) {
+    std::error_code ignored;
+    if (!fs::exists(stage_ / made)) fs::remove(folder_ / made, ignored);
     for (const fs::directory_entry& file : fs::directory_iterator(stage_)) {
         const fs::path target = folder_ / file.path().filename();
         std::error_code error;

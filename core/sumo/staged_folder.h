@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace stopline {
@@ -34,8 +35,9 @@ public:
 
     // Where to write: a hidden folder in the other.
     const std::filesystem::path& path() const { return stage_; }
-    // Moves the files to their places, where they replace those of their names.
-    void commit();
+    // Moves the files to their places, where they replace those of their names. `made`: what may be there of an earlier time, made of
+    // files that are replaced now; it is taken away unless it is among them.
+    void commit(const std::string& made);
 
 private:
     std::filesystem::path folder_;

@@ -165,6 +165,21 @@ TEST(SumoRun, OpposingLeftTurnersDoNotWaitForThoseBehindEachOther) {
     }
 }
 
+// tests/data/fast_random.*: netgenerate --rand --rand.iterations 9 --default.speed 27.8 --tls.guess --seed 11, and random trips. A vehicle
+// that had stood sets out with priority, while one that comes fast and gives way had found the way free and can stop no more.
+TEST(SumoRun, WithPriorityOneMindsThoseWhoCannotStopAnyMore) {
+    const std::string data = STOPLINE_TEST_DATA_DIR;
+    const Scenario scenario = parse_scenario(
+        "fidelity: meso\nduration: 300 s\nnetwork: {kind: sumo, net: ./fast_random.net.xml, routes: [./fast_random.rou.xml]}\n"
+        "populations: [CDG, CTG-Ref]\nrules: {teleport_cycles: 3}\nmeasure: {steady: 100 s}\n",
+        "my.yaml", {}, data);
+    for (std::size_t population = 0; population < 2; ++population) {
+        const NetworkFigures f = run_network(scenario, population, {}, 1, {});
+        EXPECT_TRUE(f.violations.none()) << f.violations.conflicts << " conflicts of population " << population;
+        EXPECT_EQ(f.left_network, f.entered);
+    }
+}
+
 TEST(SumoRun, WhoIsMovedOnIsNotPutOnAnEdgeThatIsTooShort) {
     std::string net = testing::merge_net("0.5");
     net = testing::replaced(net, "<junction id=\"J\" type=\"priority\"",
