@@ -100,4 +100,19 @@ int DemandPlan::route_on_lane(int inlet, std::int64_t k) const {
     return in.routes[draw(route_pattern, in.lane_shares, seed, inlet, k, Purpose::turn)];
 }
 
+int DemandPlan::route_that_is_due(int inlet, std::int64_t k, std::span<const std::int64_t> drawn, std::int64_t all,
+                                  bool chose_lane) const {
+    const Inlet& in = inlets[static_cast<std::size_t>(inlet)];
+    std::vector<double> shares = chose_lane && !in.lane_shares.empty() ? in.lane_shares : in.shares;
+    double sum = 0.0;
+    for (std::size_t c = 0; c < shares.size(); ++c) {
+        const double behind =
+            (in.approach_shares[c] * static_cast<double>(all) - static_cast<double>(drawn[c])) / kPatience;
+        shares[c] = behind >= 0.0 ? shares[c] * (1.0 + behind) : shares[c] / (1.0 - behind);
+        sum += shares[c];
+    }
+    for (double& share : shares) share /= sum;
+    return in.routes[draw(route_pattern, shares, seed, inlet, k, Purpose::turn)];
+}
+
 }  // namespace stopline

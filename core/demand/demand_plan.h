@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,8 @@ struct DemandPlan {
         std::vector<double> shares;  // ... their shares, summing to 1
         // The same of vehicles that chose the lane for where they go: such that all lanes of the approach are as full; empty: as `shares`.
         std::vector<double> lane_shares = {};
+        // Those of the approach as a whole, for the same routes, which hold whatever its lanes let through; empty: not asked for.
+        std::vector<double> approach_shares = {};
     };
     std::vector<Inlet> inlets;  // entries, then links
     double entry_speed_mps = 0.0;
@@ -74,6 +77,11 @@ struct DemandPlan {
     int route_of(int inlet, std::int64_t k) const;
     // The same for one that chose its lane.
     int route_on_lane(int inlet, std::int64_t k) const;
+    // The same where approach_shares are asked for: `drawn` [route] is how often each turn was drawn before, `all` how often any, on all lanes of the approach. Shares are
+    // multiplied by 1 + d / kPatience for a route that is d vehicles behind its share, and divided likewise for one ahead.
+    static constexpr double kPatience = 4.0;
+    int route_that_is_due(int inlet, std::int64_t k, std::span<const std::int64_t> drawn, std::int64_t all,
+                          bool chose_lane) const;
 };
 
 // Of all entries of streets, then of all links, with routes and shares, and no vehicle. Vehicles that enter the network turn from a lane

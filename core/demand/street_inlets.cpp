@@ -50,12 +50,13 @@ private:
     std::vector<std::array<int, 3>> of_;  // [lane][turn] route that begins there
 };
 
-DemandPlan::Inlet inlet_of(const Routes& routes, int lane, const TurnShares& shares) {
+DemandPlan::Inlet inlet_of(const Routes& routes, int lane, const TurnShares& shares, const TurnShares& all) {
     DemandPlan::Inlet inlet{lane, 0, {}, {}};
     for (std::size_t turn = 0; turn < shares.size(); ++turn) {
         if (shares[turn] <= kNobody) continue;
         inlet.routes.push_back(routes.nearest(lane, turn));
         inlet.shares.push_back(shares[turn]);
+        inlet.approach_shares.push_back(all[turn]);
     }
     return inlet;
 }
@@ -97,11 +98,11 @@ std::vector<DemandPlan::Inlet> street_inlets(const LaneGraph& graph) {
             add(lane, shares[next++], shares_of(graph.approaches[at(approach)]));
         }
     };
-    for_each(graph.entries, [&](int lane, const TurnShares& own, const TurnShares&) {
-        inlets.push_back(inlet_of(routes, lane, own));
+    for_each(graph.entries, [&](int lane, const TurnShares& own, const TurnShares& all) {
+        inlets.push_back(inlet_of(routes, lane, own, all));
     });
     for_each(graph.links, [&](int lane, const TurnShares& own, const TurnShares& all) {
-        inlets.push_back(inlet_of(routes, lane, all));
+        inlets.push_back(inlet_of(routes, lane, all, all));
         for (std::size_t turn = 0; turn < all.size(); ++turn) {
             if (all[turn] > kNobody) inlets.back().lane_shares.push_back(own[turn]);
         }

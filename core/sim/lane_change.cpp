@@ -14,6 +14,8 @@ std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 constexpr double kEvery_s = 0.5;    // each vehicle looks this often
 constexpr double kBetween_s = 2.0;  // at least, from one change to the next: about what it takes
+constexpr double kReturn_s =
+    30.0;  // our choice: nobody goes back for speed sooner, as queues that move by turns would have it
 constexpr double kReaction_s = 0.5;
 
 // Acceleration by the intelligent driver model (Treiber, Hennecke, Helbing 2000), the policy's gap in place of s_0 + v T.
@@ -149,6 +151,7 @@ private:
     bool serves(int other) const {
         if (other < 0 || !can_be_there(model_, me_, beside_m(state_, me_.lane, me_.front_m, other))) return false;
         const VehicleRecord& vehicle = state_.vehicles.record[at(me_.slot)];
+        if (other == vehicle.changed_from && since_ < kReturn_s) return false;
         if (changes_after(state_, other, me_.turn, vehicle) > changes_after(state_, me_.lane, me_.turn, vehicle))
             return false;
         const int changes = std::abs(state_.plan.beside(other).way(me_.turn).changes);
@@ -207,6 +210,7 @@ private:
                                     beside_m(state_, me_.lane, me_.front_m, other));
         VehicleRecord& record = v.record[at(slot)];
         record.changed_at = static_cast<int>(state_.tick);
+        record.changed_from = me_.lane;
         record.cleared_for = -1;
         take_way_of_lane(model_, state_, other, slot);
         follow_anew(state_, slot, state_.blocks[at(other)]);

@@ -89,6 +89,7 @@ State make_state(const Model& model, int threads) {
     state.holds.resize(lanes);
     state.adapting.resize(lanes);
     state.turned.resize(model.graph.approaches.size());
+    state.drawn.resize(model.graph.approaches.size());
     if (!model.demand.trips.empty()) state.waiting_trips.resize(model.graph.approaches.size());
     state.kept_out.resize(lanes);
     state.resting.resize(lanes);

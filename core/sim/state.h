@@ -140,6 +140,7 @@ struct State {
     std::vector<Crossing> crossings;             // of the whole run, in order
     std::vector<GapAccepted> gaps_accepted;
     std::vector<LaneChange> lane_changes;                      // of the whole run, in order
+    std::vector<std::array<std::int64_t, kMostTurns>> drawn;   // [approach][Turn] where approach_shares are asked for
     std::vector<std::array<std::int64_t, kMostTurns>> turned;  // [approach][Turn] vehicles that went on from there
     std::vector<InletState> inlets;
     std::vector<int> inlet_of;                    // [lane] -1: no routes begin there

@@ -1,7 +1,9 @@
 // Vehicles that change lanes along their route, enter and leave.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 
 #include "base/random.h"
 #include "sim/phases.h"
@@ -70,12 +72,28 @@ void pass_on(const Model& model, State& state, int lane) {
     remove_first(state, lane);
 }
 
+// The way of an inlet's k-th vehicle. `chose_lane`: it is on a lane from which it gets there.
+int draw_route(const Model& model, State& state, int inlet, std::int64_t k, bool chose_lane) {
+    const DemandPlan::Inlet& in = model.demand.inlets[at(inlet)];
+    if (in.approach_shares.empty()) {
+        return chose_lane ? model.demand.route_on_lane(inlet, k) : model.demand.route_of(inlet, k);
+    }
+    auto& drawn = state.drawn[at(model.graph.lanes[at(in.lane)].approach)];
+    std::array<std::int64_t, kMostTurns> of_routes{};
+    const auto turn = [&](int route) { return static_cast<std::size_t>(state.plan.turn_of(route)); };
+    for (std::size_t c = 0; c < in.routes.size(); ++c) of_routes[c] = drawn[turn(in.routes[c])];
+    const std::int64_t all = std::accumulate(drawn.begin(), drawn.end(), std::int64_t{0});
+    const int route = model.demand.route_that_is_due(inlet, k, {of_routes.data(), in.routes.size()}, all, chose_lane);
+    ++drawn[turn(route)];
+    return route;
+}
+
 // Who enters next, drawn once for each vehicle.
 void draw_next(const Model& model, State& state, int inlet) {
     InletState& entered = state.inlets[at(inlet)];
     if (entered.next_policy >= 0) return;
     entered.next_policy = model.demand.policy_of(inlet, entered.entered);
-    entered.next_route = model.demand.route_of(inlet, entered.entered);
+    entered.next_route = draw_route(model, state, inlet, entered.entered, false);
 }
 
 // How a vehicle would enter: whether there is room, where its front is, and how fast it is.
@@ -111,7 +129,7 @@ void look_ahead(const Model& model, State& state, int slot, bool chose_lane) {
     const int inlet = state.inlet_of[at(exit)];
     if (inlet < 0) return;
     const std::int64_t k = state.inlets[at(inlet)].entered++;
-    const int route = chose_lane ? model.demand.route_on_lane(inlet, k) : model.demand.route_of(inlet, k);
+    const int route = draw_route(model, state, inlet, k, chose_lane);
     record.turn_after = state.plan.turn_of(route);
 }
 
@@ -222,7 +240,7 @@ void choose_way_on(const Model& model, State& state, int lane, int slot) {
     VehicleRecord& record = state.vehicles.record[at(slot)];
     const int approach = model.graph.lanes[at(lane)].approach;
     const int known = record.turn_after == Turn::none ? -1 : state.plan.route_with(approach, record.turn_after);
-    record.route = known >= 0 ? known : model.demand.route_of(inlet, state.inlets[at(inlet)].entered++);
+    record.route = known >= 0 ? known : draw_route(model, state, inlet, state.inlets[at(inlet)].entered++, false);
     take_way_of_lane(model, state, lane, slot);
     look_ahead(model, state, slot, false);
 }

@@ -40,6 +40,7 @@ struct alignas(64) VehicleRecord {
     float held_m = 0.0F;           // where, along the lane inside
     Turn turn_after = Turn::none;  // at the next intersection but one, if known
     int changed_at = -1'000'000;   // tick of its last change of lanes
+    int changed_from = -1;         // which lane it left then
     int trip = -1;                 // of the demand; -1: it draws its way at each intersection
     int leg = 0;                   // place in the trip of the edge that it is on, or that it has left last
 };

@@ -14,7 +14,7 @@ namespace {
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 Scenario berlin(std::vector<std::string> overrides = {}) {
-    overrides.emplace_back("duration=400 s");
+    overrides.insert(overrides.begin(), "duration=400 s");
     return load_scenario(STOPLINE_SOURCE_DIR "/scenarios/berlin.yaml", overrides);
 }
 
@@ -51,29 +51,31 @@ TEST(BerlinSlow, HasNoViolationsInEitherModeWithThreeAndFourLanes) {
 }
 
 // Vehicles that could not get to the lane of their turn are the difference; those on the first link have chosen their lane.
+// On links each approach has its shares, whatever its lanes let through; on entries too where no lane is held up by its turners: those at
+// Koenigin-Elisabeth-Str. and Krumme Str. are (README).
 TEST(Berlin, TurnsAreThoseOfTableThree) {
-    const Scenario scenario = berlin({"driver.lane_change.help=on"});
+    const Scenario scenario = berlin({"duration=3600 s", "measure.steady=3000 s"});
     const LaneGraph graph = make_network(scenario.network);
-    const NetworkFigures figures = run_network(scenario, 0);
-    ASSERT_EQ(figures.turned.size(), graph.approaches.size());
-    std::array<double, 4> all{};
-    double vehicles = 0.0;
-    double right = 0.0;
-    double left = 0.0;
-    for (std::size_t k = 0; k < figures.turned.size(); ++k) {
-        double here = 0.0;
-        for (std::size_t turn = 0; turn < all.size(); ++turn) {
-            all[turn] += static_cast<double>(figures.turned[k][turn]);
-            here += static_cast<double>(figures.turned[k][turn]);
+    int checked = 0;
+    for (const std::size_t population : {0U, 1U}) {
+        const NetworkFigures figures = run_network(scenario, population);
+        ASSERT_EQ(figures.turned.size(), graph.approaches.size());
+        for (std::size_t k = 0; k < figures.turned.size(); ++k) {
+            const Approach& approach = graph.approaches[k];
+            const bool entry =
+                std::find(graph.entries.begin(), graph.entries.end(), approach.lanes[0]) != graph.entries.end();
+            const auto of = [&](Turn turn) {
+                return static_cast<double>(figures.turned[k][static_cast<std::size_t>(turn)]);
+            };
+            const double all = of(Turn::straight) + of(Turn::right) + of(Turn::left);
+            if (entry || approach.name.starts_with("krumme") || all < 150.0) continue;
+            constexpr double kShare = 0.03;
+            EXPECT_NEAR(of(Turn::right) / all, approach.right, kShare) << approach.name << ' ' << population;
+            EXPECT_NEAR(of(Turn::left) / all, approach.left, kShare) << approach.name << ' ' << population;
+            ++checked;
         }
-        vehicles += here;
-        right += here * graph.approaches[k].right;
-        left += here * graph.approaches[k].left;
     }
-    ASSERT_GT(vehicles, 1000.0);
-    constexpr double kShare = 0.015;
-    EXPECT_NEAR(all[static_cast<std::size_t>(Turn::right)] / vehicles, right / vehicles, kShare);
-    EXPECT_NEAR(all[static_cast<std::size_t>(Turn::left)] / vehicles, left / vehicles, kShare);
+    EXPECT_GE(checked, 20);
 }
 
 TEST(Backlog, FillsAnApproachWhenItIsSlowUpstreamForFiveIntervals) {

@@ -4,6 +4,8 @@
 
 #include <array>
 #include <cmath>
+#include <map>
+#include <vector>
 
 #include "base/random.h"
 #include "support/track.h"
@@ -88,6 +90,18 @@ void fill(Track& track, std::uint64_t seed, int lanes, double least_m, double sp
 class LaneChanging : public testing::TestWithParam<Case> {};
 class DenseLaneChanging : public testing::TestWithParam<Case> {};
 
+// Nobody goes back for speed to the lane that it has left in the half minute before.
+void expect_nobody_goes_to_and_fro(const std::vector<LaneChange>& changes) {
+    std::map<int, LaneChange> last;
+    for (const LaneChange& change : changes) {
+        const auto before = last.find(change.vehicle);
+        if (before != last.end() && !change.for_route && change.time_s - before->second.time_s < 30.0) {
+            EXPECT_NE(change.to_lane, before->second.from_lane) << "vehicle " << change.vehicle << " at " << change.time_s;
+        }
+        last[change.vehicle] = change;
+    }
+}
+
 // One run: everybody wants to some lane, before a light.
 void run_crowd(const Case& which, std::uint64_t seed, double gap_m) {
     TrackPlan plan = plan_of(which, 3);
@@ -106,6 +120,7 @@ void run_crowd(const Case& which, std::uint64_t seed, double gap_m) {
     EXPECT_TRUE(seen.none()) << seen.overlaps << " overlaps, " << seen.red_entries << " red entries, seed " << seed
                              << ", gap " << gap_m;
     EXPECT_GT(track.state().lane_changes.size(), at(static_cast<int>(all / 20)));
+    expect_nobody_goes_to_and_fro(track.state().lane_changes);
 }
 
 // Seeds 2, 10 and 29 are those with which SWITCH-1 and SWITCH-2 touched while they had no reserve at their own speed.
