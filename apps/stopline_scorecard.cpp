@@ -105,10 +105,8 @@ ExitCode run(const ScorecardOptionsOfUser& options) {
         fmt::print("{}{}\n", table_text(scorecard), remarks_text(scorecard));
         fmt::print("{} inside, {} miss, {} open\n", scorecard.count(Verdict::inside), misses,
                    scorecard.count(Verdict::open));
-        fmt::print(
-            "\nNext: the table as CSV in {}; the runs behind it with tables and figures:\n"
-            "stopline-run scenarios/single_light.yaml\n",
-            (folder / "scorecard.csv").string());
+        fmt::print("\nNext: the table as CSV in {}; the runs behind it with tables and figures:\n{}\n",
+                   (folder / "scorecard.csv").string(), fmt::join(commands_behind(scorecard.rows), "\n"));
     }
     if (scorecard.violations > 0.0) {
         fmt::print(stderr,

@@ -1,6 +1,7 @@
 #include "experiment/scorecard.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -113,6 +114,29 @@ Scenario scenario_of(const Experiment& experiment, const ScorecardOptions& optio
     settings.insert(settings.end(), options.settings.begin(), options.settings.end());
     const std::string file = std::string(experiment.scenario) + ".yaml";
     return load_scenario(data_directory().parent_path() / "scenarios" / file, settings);
+}
+
+std::vector<std::string> commands_behind(const std::vector<ScoredRow>& rows) {
+    constexpr const char* kBerlin = "stopline-sweep scenarios/sweeps/berlin.yaml";
+    constexpr std::array<std::array<const char*, 2>, 8> kCommands{{
+        {"I", kBerlin},  // the gain that the paper's introduction names
+        {"III", "stopline-run scenarios/single_light.yaml"},
+        {"IV", "stopline-sweep scenarios/sweeps/intersection.yaml"},
+        {"V", "stopline-calibrate"},
+        {"VI.B", "stopline-sweep scenarios/sweeps/arterial.yaml"},
+        {"VI.C", "stopline-sweep scenarios/sweeps/grid.yaml"},
+        {"VI.D", "stopline-sweep scenarios/sweeps/stability.yaml"},
+        {"VII", kBerlin},
+    }};
+    std::vector<std::string> commands;
+    for (const auto& [section, command] : kCommands) {
+        const std::string of = section;
+        const bool shown =
+            std::any_of(rows.begin(), rows.end(), [&](const ScoredRow& row) { return in_section(row.target, of); });
+        const bool named = std::find(commands.begin(), commands.end(), command) != commands.end();
+        if (shown && !named) commands.emplace_back(command);
+    }
+    return commands;
 }
 
 int Scorecard::count(Verdict verdict) const {

@@ -86,6 +86,9 @@ struct Explanation {
 };
 std::map<std::string, Explanation> load_explanations(const std::filesystem::path& file);
 
+// The commands that show the runs behind the rows with tables and figures, one a section of the paper.
+std::vector<std::string> commands_behind(const std::vector<ScoredRow>& rows);
+
 // Puts the explanation beside the row; a miss without a reason says that it is not explained yet.
 void explain(const std::map<std::string, Explanation>& explanations, ScoredRow& row);
 

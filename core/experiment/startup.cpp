@@ -187,15 +187,23 @@ StartupFit fit_startup(const Scenario& scenario, const StartupCurve& curve,
 std::vector<BandExit> band_exits(const StartupCurve& curve, const StartupRun& run, bool of_mean) {
     std::vector<BandExit> exits;
     if (of_mean ? curve.mean_ci_mps.empty() : curve.low_mps.empty()) return exits;
+    const auto measured_mps = [&](const std::vector<double>& values_mps, double time_s) {
+        return interpolate({curve.time_s, values_mps}, time_s);
+    };
     bool outside_before = false;
-    for (std::size_t k = 0; k < curve.time_s.size(); ++k) {
-        const double deviation_mps = run.speed_mps[k] - curve.mean_mps[k];
-        const bool outside = of_mean ? std::fabs(deviation_mps) > curve.mean_ci_mps[k]
-                                     : run.speed_mps[k] < curve.low_mps[k] || run.speed_mps[k] > curve.high_mps[k];
-        if (outside && !outside_before) exits.push_back({curve.time_s[k], curve.time_s[k], deviation_mps});
+    for (std::size_t k = 0; k < run.time_s.size(); ++k) {
+        const double time_s = run.time_s[k];
+        const double speed_mps = run.speed_mps[k];
+        const double deviation_mps = speed_mps - measured_mps(curve.mean_mps, time_s);
+        const bool outside = of_mean ? std::fabs(deviation_mps) > measured_mps(curve.mean_ci_mps, time_s)
+                                     : speed_mps < measured_mps(curve.low_mps, time_s) ||
+                                           speed_mps > measured_mps(curve.high_mps, time_s);
+        // From ahead to behind between two samples, it was inside.
+        const bool crossed = outside_before && deviation_mps * exits.back().largest_mps < 0.0;
+        if (outside && (!outside_before || crossed)) exits.push_back({time_s, time_s, deviation_mps});
         if (outside) {
             BandExit& exit = exits.back();
-            exit.to_s = curve.time_s[k];
+            exit.to_s = time_s;
             if (std::fabs(deviation_mps) > std::fabs(exit.largest_mps)) exit.largest_mps = deviation_mps;
         }
         outside_before = outside;

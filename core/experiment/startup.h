@@ -47,7 +47,8 @@ struct StartupFit {
 StartupFit fit_startup(const Scenario& scenario, const StartupCurve& curve,
                        const std::function<bool(int)>& on_progress = {});
 
-// Where a start leaves a band: one row an interval of time. None where the curve does not have that band.
+// Where a start leaves a band, at the times of the run; between measured points the band is straight. One row an interval of
+// time and side. None where the curve does not have that band.
 struct BandExit {
     double from_s, to_s;
     double largest_mps;  // deviation from the mean, signed, where it is largest

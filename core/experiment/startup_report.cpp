@@ -12,6 +12,8 @@ namespace stopline {
 
 namespace {
 
+constexpr double kFine_s = 0.05;
+
 struct GearChange {
     double time_s;
     int from, to;
@@ -25,27 +27,35 @@ std::vector<GearChange> gear_changes(const StartupRun& run) {
     return changes;
 }
 
-// What is known of an exit: how time 0 is set, and the gear changes around it.
+// What is known of an exit: how time 0 is set, and gear changes. One that comes right at its end, or while it lasts, ends being
+// ahead; one before or in it explains being behind.
 std::string remark(const StartupReport& report, const BandExit& exit) {
-    constexpr double kAround_s = 1.0;
+    constexpr double kBefore_s = 1.0;
+    constexpr double kBehind_s = 2.5 * kFine_s;
     std::string text;
     if (exit.from_s == 0.0) {
         text += fmt::format("; time 0 is where the simulated car reaches {:.1f} km/h", kMoving_mps * kKmhPerMps);
+    } else if (exit.from_s < report.curve.time_s[1]) {
+        text += fmt::format("; the start: measured points are at 0 and {:g} s, the band between them is straight",
+                            report.curve.time_s[1]);
     }
+    const bool ahead = exit.largest_mps > 0.0;
     for (const GearChange& change : gear_changes(report.fine)) {
-        if (change.time_s < exit.from_s - kAround_s || change.time_s > exit.to_s + kAround_s) continue;
-        text += fmt::format("; gear change {}-{} at {:.1f} s, no torque while it lasts", change.from, change.to,
-                            change.time_s);
+        const double from_s = ahead ? exit.from_s : exit.from_s - kBefore_s;
+        const double to_s = ahead ? exit.to_s + kBehind_s : exit.to_s;
+        if (change.time_s < from_s || change.time_s > to_s) continue;
+        text += fmt::format("; {}gear change {}-{} at {:.2f} s, no torque while it lasts", ahead ? "ahead until " : "",
+                            change.from, change.to, change.time_s);
     }
     return text;
 }
 
 std::string exits_text(const StartupReport& report, bool of_mean) {
-    const std::vector<BandExit> exits = band_exits(report.curve, report.run, of_mean);
+    const std::vector<BandExit> exits = band_exits(report.curve, report.fine, of_mean);
     if (exits.empty()) return "  never\n";
     std::string text;
     for (const BandExit& exit : exits) {
-        text += fmt::format("  {:4.1f} to {:4.1f} s, by {:+.1f} km/h from the mean{}\n", exit.from_s, exit.to_s,
+        text += fmt::format("  {:5.2f} to {:5.2f} s, by {:+.1f} km/h from the mean{}\n", exit.from_s, exit.to_s,
                             exit.largest_mps * kKmhPerMps, remark(report, exit));
     }
     return text;
@@ -88,7 +98,6 @@ double time_to_reach_s(const StartupRun& run, double speed_mps) {
 }  // namespace
 
 StartupReport report_startup(const Scenario& scenario, const StartupCurve& curve) {
-    constexpr double kFine_s = 0.05;
     std::vector<double> times_s;
     for (int k = 0; k * kFine_s <= curve.time_s.back(); ++k) times_s.push_back(k * kFine_s);
     return {curve, simulate_start(scenario, curve.time_s), simulate_start(scenario, times_s), scenario.vehicle_name,

@@ -11,7 +11,7 @@ namespace stopline {
 struct StartupReport {
     StartupCurve curve;
     StartupRun run;   // at the times of the curve
-    StartupRun fine;  // the same start every 0.05 s, for the figure
+    StartupRun fine;  // the same start every 0.05 s, for the figure and where it leaves the bands
     std::string vehicle;
     std::string driver;
 };

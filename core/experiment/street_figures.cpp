@@ -78,10 +78,13 @@ Figure backlog_figure(const NetworkReport& report) {
     Figure figure;
     figure.name = "backlog";
     figure.width_px = 1000;
-    figure.height_px = static_cast<int>(rows) * kPanel_px + 90;
+    figure.height_px = static_cast<int>(rows) * kPanel_px + 115;
     std::string body =
         fmt::format("set multiplot layout {},2 margins 0.10,0.90,{:.4f},{:.4f} spacing 0.03,{:.4f}\n", rows,
-                    60.0 / figure.height_px, 1.0 - 40.0 / figure.height_px, 32.0 / figure.height_px);
+                    85.0 / figure.height_px, 1.0 - 40.0 / figure.height_px, 32.0 / figure.height_px);
+    body += fmt::format(
+        "set label 1 'white: no vehicle there at that time on a lane to an intersection' at screen 0.5,{:.4f} center\n",
+        16.0 / figure.height_px);
     body += "unset key\nset xrange [0:*]\nset autoscale yfix\nset cbrange [0:50]\n";
     // From dark to light by speed; legible in grey and for the colour-blind (viridis).
     body += "set palette defined (0 '#440154', 12 '#3b528b', 24 '#21908d', 37 '#5dc963', 50 '#fde725')\n";

@@ -14,13 +14,14 @@ namespace stopline {
 
 namespace {
 
-constexpr double kRow_m = 760.0;       // of a corridor, in a row
+constexpr double kRow_m = 560.0;       // of a corridor, in a row
 constexpr double kRow_px = 1520.0;     // as wide as that is
 constexpr double kMajorArm_m = 130.0;  // what is drawn of arms that lead to the border, from the centre
 constexpr double kMinorArm_m = 55.0;
-constexpr double kBelow_m = 60.0;   // of a row, below and ...
-constexpr double kAbove_m = 104.0;  // ... above the lowest and highest centre
-constexpr double kBars_m = 60.0;    // length of the bars that show a cycle
+constexpr double kBelow_m = 57.0;  // of a row, below and ...
+constexpr double kAbove_m = 95.0;  // ... above the lowest and highest centre
+constexpr double kBars_m = 60.0;   // length of the bars that show a cycle
+constexpr double kBar_m = 4.0;     // height of one
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
@@ -88,21 +89,26 @@ struct Drawn {
     std::array<std::string, 3> lines{"# x_m y_m, stop lines\n", "# x_m y_m, stop lines\n", "# x_m y_m, stop lines\n"};
 };
 
+// Long and as wide as the lane allows, as painted on roads: a lane is a few dots wide on a page.
 void add_arrow(const LaneGraph& graph, const Lane& lane, Drawn& drawn) {
-    constexpr double kBegin_m = -17.0;
+    constexpr double kBegin_m = -29.0;
+    constexpr double kBend_m = -19.0;
     for (const int next : lane.next) {
         const Turn turn = graph.lanes[at(next)].turn;
         const double side = turn == Turn::right ? 1.0 : turn == Turn::left ? -1.0 : 0.0;
         if (turn == Turn::straight) {
-            drawn.stems += line_of({beside(lane, kBegin_m, 0.0), beside(lane, -7.0, 0.0)});
-            drawn.heads += line_of(
-                {beside(lane, -7.5, -0.9), beside(lane, -3.5, 0.0), beside(lane, -7.5, 0.9), beside(lane, -7.5, -0.9)});
-        } else {
-            drawn.stems +=
-                line_of({beside(lane, kBegin_m, 0.0), beside(lane, -12.0, 0.0), beside(lane, -10.7, 0.6 * side)});
-            drawn.heads += line_of({beside(lane, -12.4, 0.5 * side), beside(lane, -8.8, 0.5 * side),
-                                    beside(lane, -10.6, 1.6 * side), beside(lane, -12.4, 0.5 * side)});
+            drawn.stems += line_of({beside(lane, kBegin_m, 0.0), beside(lane, -10.0, 0.0)});
+            drawn.heads += line_of({beside(lane, -11.0, -1.2), beside(lane, -3.0, 0.0), beside(lane, -11.0, 1.2),
+                                    beside(lane, -11.0, -1.2)});
+            continue;
         }
+        // One that only turns has all of the lane's width for that.
+        const double stem_m = lane.next.size() == 1 ? -0.9 * side : 0.0;
+        const double neck_m = lane.next.size() == 1 ? -0.2 * side : 0.3 * side;
+        drawn.stems += line_of(
+            {beside(lane, kBegin_m, stem_m), beside(lane, kBend_m, stem_m), beside(lane, kBend_m + 2.5, neck_m)});
+        drawn.heads += line_of({beside(lane, kBend_m - 1.5, neck_m), beside(lane, kBend_m + 6.5, neck_m),
+                                beside(lane, kBend_m + 2.5, 1.65 * side), beside(lane, kBend_m - 1.5, neck_m)});
     }
 }
 
@@ -133,29 +139,42 @@ struct Bars {
     std::array<std::string, 3> of_light{"# x_m y_m, red\n", "# x_m y_m, green\n", "# x_m y_m, yellow\n"};
 };
 
-void add_bars(const StreetIntersection& node, const std::array<bool, 3>& used, double y_m, Bars& bars) {
+// Signal groups of an intersection that lanes have: major street, its left turns, minor street.
+std::array<bool, 3> used_groups(const LaneGraph& graph, std::size_t node) {
+    std::array<bool, 3> used{};
+    for (const Lane& lane : graph.lanes) {
+        if (lane.signal_group < 0 || at(lane.signal_group / 3) != node) continue;
+        used[at(lane.signal_group % 3)] = true;
+    }
+    return used;
+}
+
+double top_of_bar_m(const StreetIntersection& node, int number) {
+    return node.y_m + kAbove_m - 18.0 - 1.35 * kBar_m * number;
+}
+
+void add_bars(const StreetIntersection& node, const std::array<bool, 3>& used, Bars& bars) {
     constexpr double kTick_s = 0.1;
-    constexpr double kHeight_m = 4.0;
     const double m_per_tick = kBars_m / (node.programme.cycle_s() / kTick_s);
-    double row_m = y_m;
+    int number = 0;
     std::size_t group = 0;
     for (const GroupProgramme& programme : make_seven_steps(node.programme, node.offset_s, kTick_s)) {
         if (!used[group++]) continue;
+        const double row_m = top_of_bar_m(node, number++);
         std::int64_t from = 0;
         for (std::int64_t tick = 1; tick <= programme.cycle_ticks(); ++tick) {
             const Light light = programme.light(from);
             if (tick < programme.cycle_ticks() && programme.light(tick) == light) continue;
-            const double inset_m = light == Light::red ? 0.35 * kHeight_m : 0.0;  // a thin line
+            const double inset_m = light == Light::red ? 0.35 * kBar_m : 0.0;  // a thin line
             const double x0 = node.x_m - 0.5 * kBars_m + static_cast<double>(from) * m_per_tick;
             const double x1 = node.x_m - 0.5 * kBars_m + static_cast<double>(tick) * m_per_tick;
             bars.of_light[static_cast<std::size_t>(light)] += line_of({{x0, row_m - inset_m},
                                                                        {x1, row_m - inset_m},
-                                                                       {x1, row_m - kHeight_m + inset_m},
-                                                                       {x0, row_m - kHeight_m + inset_m},
+                                                                       {x1, row_m - kBar_m + inset_m},
+                                                                       {x0, row_m - kBar_m + inset_m},
                                                                        {x0, row_m - inset_m}});
             from = tick;
         }
-        row_m -= 1.35 * kHeight_m;
     }
 }
 
@@ -190,9 +209,23 @@ struct Span {
     double high_m = -std::numeric_limits<double>::infinity();
 };
 
-std::string labels_of(const StreetSettings& streets, const Row& row) {
+// Before each bar, which signals it is of.
+std::string bar_labels(const StreetIntersection& node, const std::array<bool, 3>& used) {
+    constexpr std::array<const char*, 3> kNames{"major", "left", "minor"};
+    std::string text;
+    int number = 0;
+    for (std::size_t group = 0; group < kNames.size(); ++group) {
+        if (!used[group]) continue;
+        text += fmt::format("set label '{}' at {:.1f},{:.1f} right front font ',9'\n", kNames[group],
+                            node.x_m - 0.5 * kBars_m - 2.0, top_of_bar_m(node, number++) - 0.5 * kBar_m);
+    }
+    return text;
+}
+
+std::string labels_of(const StreetSettings& streets, const LaneGraph& graph, const Row& row) {
     std::string text = "unset label\n";
-    for (const StreetIntersection& node : streets.intersections) {
+    for (std::size_t n = 0; n < streets.intersections.size(); ++n) {
+        const StreetIntersection& node = streets.intersections[n];
         if (node.x_m < row.from_m || node.x_m > row.to_m) continue;
         std::string name = node.name;
         std::replace(name.begin(), name.end(), '_', ' ');
@@ -200,10 +233,11 @@ std::string labels_of(const StreetSettings& streets, const Row& row) {
         for (const double step_s : node.programme.steps_s())
             steps += fmt::format("{}{:g}", steps.empty() ? "" : "/", step_s);
         text += fmt::format("set label {} at {:.1f},{:.1f} center front boxed\n", gnuplot_text(name), node.x_m,
-                            node.y_m + kAbove_m - 9.0);
+                            node.y_m + kAbove_m - 6.0);
         text += fmt::format("set label {} at {:.1f},{:.1f} center front boxed font ',10' tc rgb '#555555'\n",
                             gnuplot_text(fmt::format("{} s, offset {:g} s", steps, node.offset_s)), node.x_m,
-                            node.y_m + kAbove_m - 19.0);
+                            node.y_m + kAbove_m - 13.5);
+        text += bar_labels(node, used_groups(graph, n));
     }
     return text;
 }
@@ -213,7 +247,7 @@ std::string plots() {
         "plot 'network_inside.dat' with filledcurves closed fc rgb '#c4c4c4' notitle, 'network_lanes.dat' with filledcurves "
         "closed fc rgb '#9a9a9a' notitle, 'network_pockets.dat' with filledcurves closed fc rgb '#7d8aa0' title 'pocket'";
     text +=
-        ", 'network_stems.dat' with lines lc rgb 'white' lw 1.5 dt 1 notitle, 'network_heads.dat' with filledcurves closed fc "
+        ", 'network_stems.dat' with lines lc rgb 'white' lw 2.5 dt 1 notitle, 'network_heads.dat' with filledcurves closed fc "
         "rgb 'white' notitle";
     const std::array<std::array<const char*, 2>, 3> groups{{{"#0072b2", "stop line of the major street"},
                                                             {"#cc79a7", "left turns with a green of their own"},
@@ -223,10 +257,10 @@ std::string plots() {
                             groups[k][1]);
     }
     const std::array<std::array<const char*, 2>, 3> lights{
-        {{"#d55e00", ""}, {"#009e73", "green in the cycle from 0 s"}, {"#e69f00", "yellow"}}};
+        {{"#222222", "red (thin line)"}, {"#009e73", "green in the cycle from 0 s"}, {"#f0e442", "yellow"}}};
     for (std::size_t k = 0; k < lights.size(); ++k) {
-        const std::string title = k == 0 ? "notitle" : fmt::format("title '{}'", lights[k][1]);
-        text += fmt::format(", 'network_light_{}.dat' with filledcurves closed fc rgb '{}' {}", k, lights[k][0], title);
+        text += fmt::format(", 'network_light_{}.dat' with filledcurves closed fc rgb '{}' title '{}'", k, lights[k][0],
+                            lights[k][1]);
     }
     return text + "\n";
 }
@@ -241,12 +275,7 @@ Figure street_map(const Scenario& scenario) {
     Span span;
     for (std::size_t n = 0; n < streets.intersections.size(); ++n) {
         const StreetIntersection& node = streets.intersections[n];
-        std::array<bool, 3> used{};
-        for (const Lane& lane : graph.lanes) {
-            if (lane.signal_group / 3 == static_cast<int>(n) && lane.signal_group >= 0)
-                used[at(lane.signal_group % 3)] = true;
-        }
-        add_bars(node, used, node.y_m + kAbove_m - 25.0, bars);
+        add_bars(node, used_groups(graph, n), bars);
         span.low_m = std::min(span.low_m, node.y_m - kBelow_m);
         span.high_m = std::max(span.high_m, node.y_m + kAbove_m);
     }
@@ -262,7 +291,7 @@ Figure street_map(const Scenario& scenario) {
         figure.data.emplace_back(fmt::format("network_light_{}.dat", k), bars.of_light[k]);
     }
     const std::vector<Row> rows = rows_of(streets);
-    constexpr double kHead_px = 60.0;
+    constexpr double kHead_px = 90.0;
     constexpr double kAxis_px = 44.0;
     constexpr double kFoot_px = 20.0;
     constexpr double kSide_px = 40.0;
@@ -288,7 +317,7 @@ Figure street_map(const Scenario& scenario) {
                 fmt::format("set key at screen 0.98,{:.5f} right top horizontal maxcols 6\n", 1.0 - 8.0 / height_px);
         if (k == 1) figure.body += "unset key\n";
         if (k + 1 == rows.size()) figure.body += "set xlabel 'metres to the east'\n";
-        figure.body += labels_of(streets, row) + plots();
+        figure.body += labels_of(streets, graph, row) + plots();
     }
     figure.body += "unset multiplot\n";
     return figure;

@@ -24,6 +24,8 @@ public:
     explicit Checks(const StreetSettings& streets) : s_(streets), layout_(streets) {}
 
     std::vector<StreetProblem> run() {
+        const std::string touching = clearance_problem(s_.clearance_m, s_.lane_width_m);
+        if (!touching.empty()) problem("clearance", touching);
         for (int n = 0; n < layout_.nodes(); ++n) {
             name_and_sides(n);
             programme(n);
@@ -225,6 +227,16 @@ private:
 };
 
 }  // namespace
+
+std::string clearance_problem(double clearance_m, double lane_width_m) {
+    constexpr double kMargin_m = 0.5;
+    const double most_m = lane_width_m - kMargin_m;
+    if (clearance_m <= most_m + kTiny) return "";
+    return fmt::format(
+        "value {:g} m is too large for lanes of {:g} m, vehicles on neighbouring lanes would touch: at most {:g} m, "
+        "which is {:g} m below lane_width",
+        clearance_m, lane_width_m, most_m, kMargin_m);
+}
 
 std::vector<StreetProblem> street_problems(const StreetSettings& streets) { return Checks(streets).run(); }
 

@@ -16,4 +16,8 @@ struct StreetProblem {
 // Empty where a lane graph can be built. Fields that depend on others are looked at only where those are sound.
 std::vector<StreetProblem> street_problems(const StreetSettings& streets);
 
+// Vehicles touch whose centre lines are nearer than the clearance; ways of neighbouring lanes through a turn come a little nearer to
+// each other than the lanes are wide. Empty where the clearance keeps enough below the width.
+std::string clearance_problem(double clearance_m, double lane_width_m);
+
 }  // namespace stopline

@@ -43,7 +43,8 @@ const Table& meso_table() {
         "the mesoscale mode",
         {
             text<&S::name>("name", TextField::Rule::name, "name; if not given, that of the file"),
-            number<&S::step_s>("step", "s", {0.01, 1}, "time step"),
+            number<&S::step_s>("step", "s", {0.01, 0.5},
+                               "time step; with longer ones vehicles would pass a light that has turned red"),
             number<&S::leader_share>("leader_share", "%", {50, 100},
                                      "share of the limit that vehicles without a predecessor drive, so that others can "
                                      "catch up with them"),

@@ -1,6 +1,7 @@
 // Fields of the network, the signal and the demand.
 #include <string>
 
+#include "network/street_checks.h"
 #include "scenario/field_rows.h"
 #include "scenario/fields.h"
 
@@ -42,9 +43,13 @@ const Table& intersection_table() {
             number<&S::lane_width_m>("lane_width", "m", {2, 6}, "width of a lane"),
             number<&S::speed_limit_mps>("speed_limit", "km/h", {5, 150}, "speed limit"),
             number<&S::turn_speed_mps>("turn_speed", "m/s", {1, 40}, "speed on turning paths"),
-            number<&S::clearance_m>("clearance", "m", {1, 5}, "vehicles whose centre lines are nearer than this touch"),
+            number<&S::clearance_m>(
+                "clearance", "m", {1, 5},
+                "vehicles whose centre lines are nearer than this touch; 0.5 m below lane_width or less"),
         },
         [](const S& s, Checker& check) {
+            const std::string touching = clearance_problem(s.clearance_m, s.lane_width_m);
+            if (!touching.empty()) check.error("clearance", touching);
             const double half_m = static_cast<double>(s.lanes.size()) * s.lane_width_m;
             if (half_m + s.clearance_m > s.radius_m) {
                 check.error("radius",

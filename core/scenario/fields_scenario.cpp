@@ -128,6 +128,25 @@ void check_intersection(const Scenario& scenario, Checker& check) {
     }
 }
 
+// In a pocket that is shorter than a vehicle nobody would find room to change to it.
+void check_pockets(const Scenario& scenario, Checker& check) {
+    const double place_m = scenario.vehicle.length_m + longest_standstill_gap_m(scenario);
+    for (const StreetIntersection& node : scenario.network.streets.intersections) {
+        for (std::size_t a = 0; a < node.arms.size(); ++a) {
+            for (std::size_t k = 0; k < node.arms[a].lanes.size(); ++k) {
+                const double pocket_m = node.arms[a].lanes[k].pocket_m;
+                if (pocket_m == 0.0 || pocket_m >= place_m - 1e-9) continue;
+                check.error("network.streets.intersections[" + node.name + "].arms[" + std::to_string(a) + "].lanes[" +
+                                std::to_string(k) + "].pocket",
+                            "value " + short_text(pocket_m, unit("m")) + " is too short for a vehicle of " +
+                                short_text(scenario.vehicle.length_m, unit("m")) +
+                                " and its standstill gap: at least " + short_text(place_m, unit("m")) +
+                                ", or 0 m for a lane as long as the approach");
+            }
+        }
+    }
+}
+
 // The street's own file says who turns where.
 void check_streets(const Scenario& scenario, Checker& check) {
     const DemandSettings& demand = scenario.demand;
@@ -139,6 +158,7 @@ void check_streets(const Scenario& scenario, Checker& check) {
     refuse_turns("cross_turns", demand.cross_turns != "alike");
     if (demand.kind == "rate") check.error("demand.kind", "streets have arms of different width: queue or saturated");
     if (!scenario.measure.green_s.empty()) check.error("measure.green", "is for a single light");
+    check_pockets(scenario, check);
 }
 
 void check_sumo(const Scenario& scenario, Checker& check) {

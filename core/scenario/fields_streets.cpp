@@ -14,8 +14,9 @@ const Table& lane_table() {
         "a lane to the intersection",
         {
             choice<&StreetLane::movements>("movements", lane_movements(), "where its vehicles may go").required(),
-            number<&StreetLane::pocket_m>("pocket", "m", {0, 1000},
-                                          "how far before the stop line it begins; 0 m: it is as long as the approach"),
+            number<&StreetLane::pocket_m>(
+                "pocket", "m", {0, 1000},
+                "how far before the stop line it begins: a vehicle and its standstill gap or more; 0 m: it is as long as the approach"),
         });
     return table;
 }
@@ -93,7 +94,9 @@ const Table& streets_table() {
             number<&S::minor_median_m>("minor_median", "m", {0, 50}, "and of those from south to north"),
             number<&S::lane_width_m>("lane_width", "m", {2, 6}, "width of a lane"),
             number<&S::turn_speed_mps>("turn_speed", "m/s", {1, 40}, "speed on turning paths"),
-            number<&S::clearance_m>("clearance", "m", {1, 5}, "vehicles whose centre lines are nearer than this touch"),
+            number<&S::clearance_m>(
+                "clearance", "m", {1, 5},
+                "vehicles whose centre lines are nearer than this touch; 0.5 m below lane_width or less"),
             list<&S::intersections>("intersections", node_table, {1, 1000}, "the intersections").required(),
         },
         [](const S& streets, Checker& check) {

@@ -38,4 +38,9 @@ grep -q 'not explained yet' "$work/table" && fail "a miss is not explained: $(gr
 [ "$(grep -c '^C[0-9][0-9],' "$work/later.csv")" -eq "$(grep -c ',V.A' "$STOPLINE_SOURCE/data/paper/targets.csv")" ] ||
     fail "not the rows of Section V.A"
 
+# The hint at the end is of the section shown.
+grep -q '^stopline-run scenarios/single_light.yaml$' "$work/table" || fail "no command for the runs of Section III"
+"$scorecard" --section V.A --output "$work/out" >"$work/later" 2>/dev/null || fail "exit code $?"
+grep -q '^stopline-calibrate$' "$work/later" || fail "no command for the runs of Section V: $(tail -n 2 "$work/later")"
+
 exit $((failures > 0))

@@ -42,7 +42,8 @@ says() {
 }
 says "$data/kit_curve_leader50.csv"
 grep -qF "117 starts; half width at most 1.5 km/h" "$work/stdout" || fail "not said: 117 starts"
-grep -qE "lag|gear change before" "$work/stdout" && fail "an explanation that is not known"
+grep -qE "2\.55 to +2\.90 s.*gear change 1-2 at 2\.80 s" "$work/stdout" || fail "not said: ahead until gear change 1-2, between measured points"
+grep -qE "lag|gear change before|gear change 3-4" "$work/stdout" && fail "an explanation that is not known"
 says "$data/kit_curve.csv"
 grep -qF "213 starts; half width at most 1.1 km/h" "$work/stdout" || fail "not said: 213 starts"
 says "$data/stuttgart_curve.csv"

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <set>
 
 #include "experiment/csv.h"
@@ -142,6 +143,25 @@ TEST(Scorecard, RefusesASectionThatThePaperDoesNotHave) {
     options.section = "XI";
     const std::string error = input_error_of([&] { make_scorecard(options); });
     EXPECT_TRUE(contains(error, "no rows of section 'XI'; known are: III.B"));
+}
+
+// Every section has a command, and the files that it names are there.
+TEST(Scorecard, NamesTheRunsBehindTheSectionShown) {
+    const auto of = [](const std::string& section) { return commands_behind(score(section, {}).rows); };
+    using Commands = std::vector<std::string>;
+    EXPECT_EQ(of("III"), Commands{"stopline-run scenarios/single_light.yaml"});
+    EXPECT_EQ(of("IV"), Commands{"stopline-sweep scenarios/sweeps/intersection.yaml"});
+    EXPECT_EQ(of("V"), Commands{"stopline-calibrate"});
+    EXPECT_EQ(of("VI.C"), Commands{"stopline-sweep scenarios/sweeps/grid.yaml"});
+    EXPECT_EQ(of("VII"), Commands{"stopline-sweep scenarios/sweeps/berlin.yaml"});
+    EXPECT_EQ(of("I"), of("VII"));
+    EXPECT_EQ(of("").size(), 7u);
+    for (const std::string& command : of("")) {
+        const std::size_t file = command.find("scenarios/");
+        if (file == std::string::npos) continue;
+        EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(STOPLINE_SOURCE_DIR) / command.substr(file)))
+            << command;
+    }
 }
 
 }  // namespace

@@ -53,6 +53,30 @@ TEST(StreetMap, NamesEveryIntersectionOnce) {
     EXPECT_NE(figure.body.find("22/3/8/3/11/3/10 s, offset 54 s"), std::string::npos);
 }
 
+// A bar for each signal that lanes have, named before it; its colours are none of those of the stop lines.
+TEST(StreetMap, NamesTheBarsOfTheProgrammes) {
+    const Figure figure = street_map(berlin());
+    const auto count = [&](const std::string& part) {
+        std::size_t found = 0;
+        for (std::size_t at = figure.body.find(part); at != std::string::npos; at = figure.body.find(part, at + 1))
+            ++found;
+        return found;
+    };
+    EXPECT_EQ(count("set label 'major' at "), 10u);
+    EXPECT_EQ(count("set label 'left' at "), 1u);
+    EXPECT_EQ(count("set label 'minor' at "), 9u);  // none at the pedestrian lights
+    const auto colour_of = [&](const std::string& file) {
+        const std::size_t from = figure.body.find("rgb '", figure.body.find("'" + file + "'")) + 5;
+        return figure.body.substr(from, 7);
+    };
+    for (const char* const light : {"network_light_0.dat", "network_light_1.dat", "network_light_2.dat"}) {
+        for (const char* const line : {"network_lines_0.dat", "network_lines_1.dat", "network_lines_2.dat"}) {
+            EXPECT_NE(colour_of(light), colour_of(line)) << light << ", " << line;
+        }
+    }
+    EXPECT_NE(figure.body.find("title 'red (thin line)'"), std::string::npos);
+}
+
 TEST(StreetMap, IsDrawn) {
     if (!gnuplot_installed()) GTEST_SKIP() << "no gnuplot";
     const std::filesystem::path folder = std::filesystem::temp_directory_path() / "stopline_street_map_test";

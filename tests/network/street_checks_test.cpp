@@ -52,6 +52,10 @@ const Damage kDamages[] = {
          s.intersections[0].arms[0].lanes.insert(s.intersections[0].arms[0].lanes.begin(), {"left", 50.0});
      },
      "intersections[first].arms[0].lanes", "1 of 3.5 m do not fit into its 3 m"},
+    {"lanes of which neighbours touch", [](StreetSettings& s) { s.clearance_m = 3.2; }, "clearance",
+     "value 3.2 m is too large for lanes of 3.5 m, vehicles on neighbouring lanes would touch: at most 3 m"},
+    {"lanes as wide as a vehicle", [](StreetSettings& s) { s.lane_width_m = 2.0; }, "clearance",
+     "value 2 m is too large for lanes of 2 m, vehicles on neighbouring lanes would touch: at most 1.5 m"},
     {"too small", [](StreetSettings& s) { second(s).radius_m = 14.0; }, "intersections[second].radius",
      "need at least 14.5 m"},
     {"more than all turn", [](StreetSettings& s) { first(s).arms[0].right = 0.95; },
@@ -88,6 +92,9 @@ const Damage kDamages[] = {
 TEST(StreetChecks, AcceptWhatIsSound) {
     EXPECT_TRUE(street_problems(two_streets()).empty());
     EXPECT_TRUE(street_problems(streets_with_pockets()).empty());
+    StreetSettings narrow = two_streets();
+    narrow.lane_width_m = 2.5;
+    EXPECT_TRUE(street_problems(narrow).empty());
 }
 
 TEST(StreetChecks, NameEveryProblem) {

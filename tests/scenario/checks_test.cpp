@@ -101,6 +101,28 @@ TEST(Checks, TheQueueFitsTheApproach) {
     EXPECT_TRUE(contains(after({"network.approach.length=480 m", "populations=[CDG, CTG-Ref]"}), "is 487 m long"));
 }
 
+TEST(Checks, VehiclesOnNeighbouringLanesDoNotTouch) {
+    for (const std::string kind : {"intersection", "grid"}) {
+        const auto with = [&](const std::string& field) {
+            return error_of(
+                "network: {kind: " + kind + "}\nduration: 600 s\nsignal: {green: 20 s}\nmeasure: {green: []}\n",
+                {"network.intersection." + field});
+        };
+        EXPECT_TRUE(contains(with("clearance=5 m"),
+                             "field 'network.intersection.clearance': value 5 m is too large for "
+                             "lanes of 3.5 m, vehicles on neighbouring lanes would touch: at most 3 m"));
+        EXPECT_TRUE(contains(with("lane_width=2 m"), "value 2 m is too large for lanes of 2 m"));
+        EXPECT_EQ(with("clearance=3 m"), "");
+        EXPECT_EQ(with("lane_width=2.5 m"), "");
+    }
+}
+
+TEST(Checks, StepsOfTheMesoscaleModeAreHalfASecondAtMost) {
+    EXPECT_TRUE(contains(error_of("fidelity: meso\n", {"meso={base: fitted, step: 1 s}"}),
+                         "field 'meso.step': value '1 s' is out of range (allowed: 0.01 s to 0.5 s)"));
+    EXPECT_EQ(error_of("fidelity: meso\n", {"meso={base: fitted, step: 0.5 s}"}), "");
+}
+
 TEST(Checks, GearsAgree) {
     EXPECT_TRUE(contains(after({"vehicle.gear_ratios=[3, 2, 1]"}),
                          "field 'vehicle.rotating_mass_factors': has 5 values for 3 gears"));

@@ -32,10 +32,10 @@ Scenario load(const std::string& streets, const std::vector<std::string>& overri
     return load_scenario(file, overrides);
 }
 
-std::string error_with(const std::string& from, const std::string& to) {
+std::string error_with(const std::string& from, const std::string& to, const std::vector<std::string>& overrides = {}) {
     std::string text = kStreets;
     text.replace(text.find(from), from.size(), to);
-    return input_error_of([&] { load(text); });
+    return input_error_of([&] { load(text, overrides); });
 }
 
 TEST(Streets, AreReadFromAFileOfTheUser) {
@@ -66,12 +66,30 @@ TEST(Streets, ProblemsNameFileLineAndField) {
                          "my_streets.yaml:10:6: field 'network.streets.intersections[second].x': only 30 m from"));
     EXPECT_TRUE(contains(error_with("movements: straight+left}", "movements: straight+left, pocket: 60}"),
                          "lanes[0].pocket': value '60' has no unit"));
+    EXPECT_TRUE(contains(error_with("median: 4 m", "median: 4 m\nclearance: 5 m"),
+                         "my_streets.yaml:2:12: field 'network.streets.clearance': value 5 m is too large for lanes of "
+                         "3.5 m, vehicles on neighbouring lanes would touch: at most 3 m"));
     EXPECT_TRUE(contains(error_with("from: west", "from: left"), "value 'left' is unknown"));
     EXPECT_TRUE(
         contains(error_with("x: 200 m", "offset: 1 s\n  radius: 2 m"), "is out of range (allowed: 3 m to 100 m)"));
     EXPECT_TRUE(contains(error_of("network: {kind: streets}\n"), "field 'network.streets' is missing"));
     EXPECT_TRUE(contains(error_of("network: {kind: streets, streets: four}\n"), "there is no 'four'"));
     EXPECT_TRUE(contains(error_of("network: {kind: streets, streets: four}\n"), "four_lanes"));
+}
+
+TEST(Streets, PocketsAreAsLongAsAVehicleAndItsGap) {
+    const std::string west = "{movements: straight+left}, {movements: straight}, ";
+    const auto with = [&](const std::string& pocket) {
+        return error_with(west,
+                          "{movements: left, pocket: " + pocket + "}, {movements: straight}, {movements: straight}, ",
+                          {"populations=[CDG]"});
+    };
+    EXPECT_TRUE(contains(
+        with("1 m"),
+        "my_streets.yaml:5:59: field 'network.streets.intersections[first].arms[0].lanes[0].pocket': value 1 m "
+        "is too short for a vehicle of 5.15 m and its standstill gap: at least 8.1 m, or 0 m"));
+    EXPECT_TRUE(contains(with("8 m"), "value 8 m is too short"));
+    EXPECT_EQ(with("8.1 m"), "");
 }
 
 TEST(Streets, HaveTheirSignalsAndTurnsThemselves) {
