@@ -96,7 +96,8 @@ void expect_nobody_goes_to_and_fro(const std::vector<LaneChange>& changes) {
     for (const LaneChange& change : changes) {
         const auto before = last.find(change.vehicle);
         if (before != last.end() && !change.for_route && change.time_s - before->second.time_s < 30.0) {
-            EXPECT_NE(change.to_lane, before->second.from_lane) << "vehicle " << change.vehicle << " at " << change.time_s;
+            EXPECT_NE(change.to_lane, before->second.from_lane)
+                << "vehicle " << change.vehicle << " at " << change.time_s;
         }
         last[change.vehicle] = change;
     }
