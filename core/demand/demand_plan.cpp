@@ -1,6 +1,9 @@
 #include "demand/demand_plan.h"
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
+#include <span>
 #include <unordered_map>
 
 #include "base/random.h"
@@ -10,7 +13,7 @@ namespace stopline {
 namespace {
 
 // Index of the component that a number in [0, 1) falls into.
-std::size_t pick(const std::vector<double>& shares, double number) {
+std::size_t pick(std::span<const double> shares, double number) {
     std::size_t k = 0;
     double upper = shares[0];
     while (number >= upper && k + 1 < shares.size()) upper += shares[++k];
@@ -19,7 +22,7 @@ std::size_t pick(const std::vector<double>& shares, double number) {
 
 // The component that is furthest behind its share after k vehicles: shares hold in every stretch of the sequence, and equal
 // shares alternate, the first component first.
-std::size_t next_behind(const std::vector<double>& shares, std::int64_t n, std::vector<double>& given) {
+std::size_t next_behind(std::span<const double> shares, std::int64_t n, std::vector<double>& given) {
     std::size_t chosen = 0;
     for (std::size_t c = 1; c < shares.size(); ++c) {
         const double behind = shares[c] * static_cast<double>(n + 1) - given[c];
@@ -30,7 +33,7 @@ std::size_t next_behind(const std::vector<double>& shares, std::int64_t n, std::
     return chosen;
 }
 
-std::size_t most_behind(const std::vector<double>& shares, std::int64_t k) {
+std::size_t most_behind(std::span<const double> shares, std::int64_t k) {
     std::vector<double> given(shares.size(), 0.0);
     std::size_t chosen = 0;
     for (std::int64_t n = 0; n <= k; ++n) chosen = next_behind(shares, n, given);
@@ -57,7 +60,7 @@ double balanced_number(std::uint64_t seed, int inlet, std::int64_t k, Purpose pu
 }
 
 // Index of the component that the k-th vehicle of an inlet gets.
-std::size_t draw(DemandPlan::Pattern pattern, const std::vector<double>& shares, std::uint64_t seed, int inlet,
+std::size_t draw(DemandPlan::Pattern pattern, std::span<const double> shares, std::uint64_t seed, int inlet,
                  std::int64_t k, Purpose purpose) {
     using Pattern = DemandPlan::Pattern;
     if (pattern == Pattern::alternating) return most_behind(shares, k);
@@ -103,7 +106,10 @@ int DemandPlan::route_on_lane(int inlet, std::int64_t k) const {
 int DemandPlan::route_that_is_due(int inlet, std::int64_t k, std::span<const std::int64_t> drawn, std::int64_t all,
                                   bool chose_lane) const {
     const Inlet& in = inlets[static_cast<std::size_t>(inlet)];
-    std::vector<double> shares = chose_lane && !in.lane_shares.empty() ? in.lane_shares : in.shares;
+    const std::vector<double>& own = chose_lane && !in.lane_shares.empty() ? in.lane_shares : in.shares;
+    std::array<double, kMostTurns> due{};
+    const std::span<double> shares(due.data(), own.size());
+    std::copy(own.begin(), own.end(), shares.begin());
     double sum = 0.0;
     for (std::size_t c = 0; c < shares.size(); ++c) {
         const double behind =
