@@ -50,14 +50,16 @@ FullStreams streams_of(const Model& model, State& state) {
     return s;
 }
 
-// Desired gaps: each law runs over the whole group, its vehicles take its answer.
+// Desired gaps, at the speed at the end of the step, as what is seen and heard is what is known by then (model.radar): with the
+// speed of its beginning passages would differ by 0.05 s between steps of 5 and 20 ms. Each law runs over the whole group, its
+// vehicles take its answer.
 void evaluate_gap_laws(const Model& model, int vehicles, const FullGroup& g) {
     const std::size_t n = at(vehicles);
-    const std::span<const double> speed(g.speed_mps, n);
+    const std::span<const double> speed_mps(g.coming_mps, n);
     const int* const policy_of = g.policy;
     const auto evaluate = [&](int policy, double* gap, double* slope) {
         const CompiledPolicy& p = model.policies[at(policy)];
-        p.law->evaluate(p.settings, speed, {gap, n}, {slope, n});
+        p.law->evaluate(p.settings, speed_mps, {gap, n}, {slope, n});
     };
     const int first = model.policies.size() > 1 ? policy_of[0] : 0;
     evaluate(first, g.desired_gap, g.slope);
@@ -84,7 +86,7 @@ void step_full(const Model& model, const FullTables& tables, const LaneGroup& la
     const FullKernels& kernels = full_kernels(model.scalar_kernels);
     const FullStreams streams = streams_of(model, state);
     const FullGroup group = part.full_group.streams();
-    kernels.gather(streams, state.radar, state.v2v, lanes, group);
+    kernels.gather(streams, state.radar, state.v2v, lanes, model.step_s, group);
     evaluate_gap_laws(model, lanes.vehicles, group);
     kernels.plan(tables.driver, group, lanes.vehicles, model.step_s, streams, next);
     for (std::size_t k = 0; k < tables.vehicles.size(); ++k) {

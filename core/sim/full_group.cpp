@@ -31,7 +31,7 @@ void FullGroupArrays::resize(int vehicles) {
 // Places without a vehicle are computed too: their divisors must not be zero, and are 1 at first.
 FullGroup FullGroupArrays::streams() {
     FullGroup s{};
-    divide(doubles_, vehicles_, {&s.speed_mps, &s.desired_gap, &s.slope, &s.law_gap, &s.law_slope});
+    divide(doubles_, vehicles_, {&s.coming_mps, &s.desired_gap, &s.slope, &s.law_gap, &s.law_slope});
     divide(floats_, vehicles_,
            {&s.speed,
             &s.acceleration,

@@ -11,7 +11,7 @@ namespace stopline {
 // Plain pointers to the arrays of a group, so that the compiler sees independent streams.
 struct FullGroup {
     // What a vehicle knows and where it is.
-    double* speed_mps;
+    double* coming_mps;  // its speed at the end of the step, where what is planned now is in force
     float *speed, *acceleration, *lag, *request;  // request: of the last step, then of this one
     float *gap, *closing;                         // of the predecessor, as the radar tells with its delay
     float *heard_acceleration, *heard_request, *heard_rate;

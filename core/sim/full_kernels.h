@@ -31,7 +31,8 @@ struct FullKernels {
 
     const char* name;
     // Brings the group together: measures, looks up what is known of predecessors, and what lanes ask of their vehicles.
-    void (*gather)(const FullStreams&, const Rows& radar, const Rows& v2v, const LaneGroup&, const FullGroup&);
+    void (*gather)(const FullStreams&, const Rows& radar, const Rows& v2v, const LaneGroup&, double dt,
+                   const FullGroup&);
     // Driver: what acceleration is asked for, for the first `vehicles` of the group. `next`: see NextSlots.
     void (*plan)(const DriverTablesOf<float>&, const FullGroup&, int vehicles, double dt, const FullStreams&,
                  NextSlots next);

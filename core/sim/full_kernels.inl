@@ -37,7 +37,7 @@ STOPLINE_INLINE R delayed(const Rows& rows, const float* late, const float* late
 // The vehicle in slot i of a lane, or with R = Batch those from slot i on, to place k of the group.
 template <class R>
 STOPLINE_INLINE void gather_at(const FullStreams& s, const Rows& radar, const Rows& v2v, const LaneStep& lane, int i,
-                               int k, const FullGroup& g) {
+                               int k, double dt, const FullGroup& g) {
     const R speed = load<R>(s.speed + i);
     // Measure. A radar without delay reads what is written here.
     store(s.gap_now + i, load_difference<R>(s.position + i - 1, s.position + i) - load<R>(s.length + i - 1));
@@ -59,7 +59,9 @@ STOPLINE_INLINE void gather_at(const FullStreams& s, const Rows& radar, const Ro
     take(s.end_speed, g.end_speed), take(s.standstill_gap, g.standstill_gap), take(s.acceleration, g.acceleration);
     take(s.lag, g.lag), take(s.request, g.request), take(s.leads, g.leads), take(s.torque, g.torque);
     take(s.brake, g.brake), take(s.gear_time, g.gear_time), take(s.gear, g.gear);
-    std::memcpy(g.speed_mps + k, s.speed + i, kWidthOf<R> * sizeof(double));
+    for (int j = 0; j < kWidthOf<R>; ++j) {
+        g.coming_mps[k + j] = std::max(s.speed[i + j] + static_cast<double>(s.acceleration[i + j]) * dt, 0.0);
+    }
     if (s.policy != nullptr) std::memcpy(g.policy + k, s.policy + i, kWidthOf<R> * sizeof(int));
     if (s.type != nullptr) std::memcpy(g.type + k, s.type + i, kWidthOf<R> * sizeof(int));
 }
@@ -128,7 +130,7 @@ private:
 };
 
 template <class R>
-void gather(const FullStreams& streams, const Rows& radar_rows, const Rows& v2v_rows, const LaneGroup& lanes,
+void gather(const FullStreams& streams, const Rows& radar_rows, const Rows& v2v_rows, const LaneGroup& lanes, double dt,
             const FullGroup& group) {
     const FullStreams s = streams;  // own copies: nothing that is written here can change them
     const FullGroup g = group;
@@ -138,7 +140,7 @@ void gather(const FullStreams& streams, const Rows& radar_rows, const Rows& v2v_
     for (const LaneStep& lane : lanes.lanes) {
         const int to_place = first - lane.begin;
         for_each_batch<R>(lane, [&](auto number, int i) STOPLINE_INLINE_LAMBDA {
-            gather_at<decltype(number)>(s, radar, v2v, lane, i, i + to_place, g);
+            gather_at<decltype(number)>(s, radar, v2v, lane, i, i + to_place, dt, g);
         });
         first += lane.stop - lane.begin;
     }
