@@ -135,7 +135,8 @@ void print_report(const SingleLight& result) {
     fmt::print("{}\n", scenario.title.empty() ? scenario.name : scenario.title);
     fmt::print("scenario {} ({:016x}), seed {}, vehicle {}, driver {}\n\n", scenario.name, scenario.hash, scenario.seed,
                scenario.vehicle_name, scenario.driver_name);
-    fmt::print("{}{}\n{}{}", counts_text(result), headways_text(result), queue_text(result), violations_text(result));
+    fmt::print("{}{}{}\n{}{}", counts_text(result), ideal_text(result), headways_text(result), queue_text(result),
+               violations_text(result));
 }
 
 // A signalised intersection: a table, files, figures.

@@ -65,6 +65,31 @@ std::string counts_text(const SingleLight& result) {
     return text + "\n";
 }
 
+std::string ideal_text(const SingleLight& result) {
+    constexpr double kSaturated_s = 20.0;  // from here on Fig. 6 is level (Section III.E)
+    const std::vector<double>& green_s = result.scenario.measure.green_s;
+    if (green_s.empty()) return "";
+    const bool compares = result.baseline && kSaturated_s < result.scenario.signal.green_s;
+    TextTable table;
+    std::vector<std::string> head{"population"};
+    for (const double green : green_s) head.push_back(fmt::format("{:.4g} s", green));
+    if (compares) head.insert(head.end(), {"|", "simulated", "ideal"});
+    table.row(head);
+    for (const PopulationSummary& summary : result.populations) {
+        std::vector<std::string> cells{summary.name};
+        for (const double green : green_s) cells.push_back(std::to_string(summary.ideal.passed(green)));
+        if (compares) {
+            cells.emplace_back("|");
+            cells.push_back(signed_number(result.mean_improvement_percent(summary, kSaturated_s), 1));
+            cells.push_back(signed_number(result.ideal_improvement_percent(summary, kSaturated_s), 1));
+        }
+        table.row(cells);
+    }
+    std::string text = "Ideal platoons behind the same leaders, whose gaps are those of the policy at every moment";
+    if (compares) text += fmt::format(" | mean improvement from {:.4g} s on [%]", kSaturated_s);
+    return text + "\n" + table.text() + "\n";
+}
+
 std::string headways_text(const SingleLight& result) {
     TextTable table;
     std::vector<std::string> head{"population", "vehicles", "gap [m]", "policy",  "headway [s]",

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <numeric>
 
+#include "experiment/ideal_platoon.h"
 #include "sim/model.h"
 
 namespace stopline {
@@ -13,6 +15,8 @@ namespace stopline {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 std::int64_t ticks_of(double interval_s, double step_s) {
     return std::max<std::int64_t>(1, to_ticks(interval_s, step_s));
@@ -72,6 +76,41 @@ LeaderStart leader_of(const Scenario& scenario, const std::vector<LinePassage>& 
     return start;
 }
 
+std::vector<SpeedSample> speeds_from(const std::vector<TrajectoryPoint>& points, double start_s) {
+    std::vector<SpeedSample> samples;
+    for (const TrajectoryPoint& point : points) {
+        if (point.time_s >= start_s) samples.push_back({point.time_s - start_s, point.speed_mps});
+    }
+    return samples;
+}
+
+// Each lane's queue at the start of green, as an ideal platoon behind its leader.
+Counter ideal_counter(const Scenario& scenario, const PopulationSettings& population,
+                      const std::vector<TrajectoryPoint>& points, double green_start_s) {
+    const double line_m = scenario.network.approach.length_m;
+    const double sample_s = kSampleInterval_s;
+    std::map<int, std::vector<TrajectoryPoint>> queues;  // by lane
+    for (const TrajectoryPoint& point : points) {
+        if (point.time_s < green_start_s || point.time_s >= green_start_s + 0.5 * sample_s) continue;
+        if (point.distance_m < line_m) queues[point.lane].push_back(point);
+    }
+    std::vector<double> times_s;
+    for (auto& [lane, queue] : queues) {
+        std::sort(queue.begin(), queue.end(), [](const TrajectoryPoint& one, const TrajectoryPoint& other) {
+            return one.distance_m > other.distance_m;
+        });
+        std::vector<const GapPolicySettings*> policies;
+        for (const TrajectoryPoint& point : queue) {
+            policies.push_back(&policy_named(scenario, population.components[at(point.policy)].policy));
+        }
+        const std::vector<SpeedSample> leader = speeds_from(points_of(points, queue.front().vehicle), green_start_s);
+        const std::vector<double> lane_s = ideal_passages_s(leader, policies, scenario.vehicle.length_m,
+                                                            line_m - queue.front().distance_m, scenario.signal.green_s);
+        times_s.insert(times_s.end(), lane_s.begin(), lane_s.end());
+    }
+    return Counter(times_s);
+}
+
 void compare_with_baseline(SingleLight& result) {
     for (PopulationSummary& summary : result.populations) {
         summary.asymptotic_improvement_percent = kNone;
@@ -109,6 +148,7 @@ PopulationSummary summary_of(const Scenario& scenario, std::size_t index, const 
                                                     road.speed_limit_mps, scenario.vehicle.length_m));
     summary.leader = leader_of(scenario, summary.line, points, run.green_start_s);
     summary.queue = queue_gaps(run.queue_gaps_m);
+    summary.ideal = ideal_counter(scenario, population, points, run.green_start_s);
     return summary;
 }
 
@@ -134,6 +174,17 @@ double SingleLight::mean_improvement_percent(const PopulationSummary& population
         if (!std::isnan(emptied_s)) to_s = std::min(to_s, emptied_s);
     }
     return stopline::mean_improvement_percent(population.counter, base.counter, from_s, to_s);
+}
+
+double SingleLight::ideal_improvement_percent(const PopulationSummary& population, double from_s) const {
+    if (!baseline) return kNone;
+    const Counter& base = populations[*baseline].ideal;
+    const int queued = scenario.demand.vehicles * scenario.network.approach.lanes;
+    double to_s = scenario.signal.green_s;
+    for (const Counter* const counter : {&population.ideal, &base}) {
+        if (counter->total() >= queued) to_s = std::min(to_s, counter->times_s().back());
+    }
+    return stopline::mean_improvement_percent(population.ideal, base, from_s, to_s);
 }
 
 bool SingleLight::no_violations() const {

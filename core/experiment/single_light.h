@@ -37,8 +37,9 @@ struct PopulationSummary {
     std::vector<int> passed;                  // [green]
     std::vector<double> improvement_percent;  // [green]; NaN without a baseline
     double asymptotic_improvement_percent =
-        0.0;                        // ratio of the measured settled headways: where the improvement tends to
-    double emptied_s = 0.0;         // time at which the last of the queue passed; NaN: not within the green
+        0.0;                 // ratio of the measured settled headways: where the improvement tends to
+    double emptied_s = 0.0;  // time at which the last of the queue passed; NaN: not within the green
+    Counter ideal{{}};       // of the same queue behind the same leader, were each gap kept exactly (ideal_platoon.h)
     std::vector<LinePassage> line;  // passages within the green
     LateFlow late;                  // the last ten positions of each lane, whatever their speed
     SettledFlow settled;
@@ -57,6 +58,8 @@ struct SingleLight {
     // Of one population over the baseline, averaged over the green times from `from_s` on for as long as both queues last
     // and the light is green. NaN without a baseline.
     double mean_improvement_percent(const PopulationSummary& population, double from_s) const;
+    // The same of the ideal platoons.
+    double ideal_improvement_percent(const PopulationSummary& population, double from_s) const;
     bool no_violations() const;
 };
 
