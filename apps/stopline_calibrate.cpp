@@ -18,6 +18,7 @@
 #include "common/text_table.h"
 #include "experiment/calibration.h"
 #include "experiment/calibration_figures.h"
+#include "experiment/leader_profile.h"
 #include "experiment/output.h"
 #include "experiment/program_identity.h"
 #include "experiment/sweep_results.h"
@@ -234,11 +235,12 @@ void write_all(const std::vector<std::pair<std::string, std::string>>& files, co
 MesoSettings step_one(const CalibrateOptions& options, const std::filesystem::path& folder, bool& sound) {
     const std::string file = options.timing_sweep.empty() ? scenario_file("calibration.yaml") : options.timing_sweep;
     const AcceptedFile accepted = options.accepted.empty() ? AcceptedFile{} : load_accepted(options.accepted);
-    const MesoSettings start = load_meso(options.start);
+    MesoSettings start = load_meso(options.start);
     std::optional<MesoSettings> given;
     if (!options.parameters.empty()) given = load_meso(options.parameters);
     const Runs full =
         run_sweep(options, file, {"fidelity=full"}, folder / "passages.sqlite", detector_metrics, "full dynamics");
+    if (!given && !start.leader_profile_mps.empty()) measure_leader_profile(full.sweep.base(), start);
     const std::vector<CalibrationCase> cases = calibration_cases(full.sweep, full.store, start);
     MesoFit fit;
     if (!given) fit = run_fit(options, cases, full, start, folder);

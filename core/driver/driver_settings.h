@@ -90,8 +90,9 @@ struct KraussSettings {
     double acceleration_mps2 = 1.7;
     double acceleration_until_mps = 500.0 / 3.6;  // beyond it the power is constant: acceleration falls with 1 / v
     double catch_up = 1.0;                        // times the acceleration, for those close behind a predecessor
-    double anticipation_s = 0.0;                  // the predecessor's speed is reckoned with as it will be then
-    double transient_gap_s2 = 0.0;                // added to the gap for each m/s2 that the predecessor accelerates
+    double tracking = 0.0;          // 1: no faster than the gap is that of the time gap; 0: as v_safe says
+    double anticipation_s = 0.0;    // the predecessor's speed is reckoned with as it will be then
+    double transient_gap_s2 = 0.0;  // added to the gap for each m/s2 that the predecessor accelerates
     double deceleration_mps2 = 4.7;
     double reaction_s = 0.9;         // tau
     double standstill_gap_m = 2.95;  // minGap
@@ -102,12 +103,15 @@ struct KraussSettings {
 struct MesoSettings {
     std::string name;  // of the file in data/meso
     double step_s = 0.1;
-    double leader_share = 0.95;             // of the limit, for vehicles without a predecessor (Section V.A)
-    double speed_factor = 1.0;              // of every limit
-    double speed_gain_1ps = 1000;           // acceleration towards a limit, a second and m/s below it
-    double turn_gain_1ps = 1000;            // the same towards the speed allowed on the way to a turn
-    double leader_mps2 = 0.0;               // acceleration of platoon leaders (0: as the model says), ...
-    double leader_until_mps = 500.0 / 3.6;  // ... and the speed up to which it is available
+    double leader_share = 0.95;               // of the limit, for vehicles without a predecessor (Section V.A)
+    double speed_factor = 1.0;                // of every limit
+    double speed_gain_1ps = 1000;             // acceleration towards a limit, a second and m/s below it
+    double turn_gain_1ps = 1000;              // the same towards the speed allowed on the way to a turn
+    double leader_mps2 = 0.0;                 // acceleration of platoon leaders (0: as the model says), ...
+    double leader_until_mps = 500.0 / 3.6;    // ... and the speed up to which it is available
+    std::vector<double> leader_profile_mps;   // their acceleration over speed, instead of these two: speeds, ...
+    std::vector<double> leader_profile_mps2;  // ... and accelerations
+    int relayed = 0;             // resting vehicles that hear at once that those further ahead set out (V2V)
     double start_delay_s = 0.0;  // by which the first vehicle at a stop line sets out later: what the powertrain takes
     KraussSettings constant_time;
     KraussSettings constant_distance;

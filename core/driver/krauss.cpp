@@ -4,6 +4,23 @@
 
 namespace stopline {
 
+// In each bin the acceleration at the nearest of the settings' speeds.
+LeaderProfile leader_profile(const MesoSettings& settings) {
+    LeaderProfile profile;
+    const std::vector<double>& speeds = settings.leader_profile_mps;
+    if (speeds.empty()) return profile;
+    profile.bins_per_mps = (LeaderProfile::kBins - 0.5) / std::max(speeds.back(), 1.0);
+    for (int bin = 0; bin < LeaderProfile::kBins; ++bin) {
+        const double middle_mps = (bin + 0.5) / profile.bins_per_mps;
+        std::size_t nearest = 0;
+        for (std::size_t k = 1; k < speeds.size(); ++k) {
+            if (std::abs(speeds[k] - middle_mps) < std::abs(speeds[nearest] - middle_mps)) nearest = k;
+        }
+        profile.acceleration_mps2[static_cast<std::size_t>(bin)] = settings.leader_profile_mps2[nearest];
+    }
+    return profile;
+}
+
 Krauss krauss_of(const MesoSettings& settings, const GapPolicySettings& policy) {
     const bool time_gap = policy.law == "constant_time";
     const KraussSettings& s = time_gap ? settings.constant_time : settings.constant_distance;
@@ -12,6 +29,7 @@ Krauss krauss_of(const MesoSettings& settings, const GapPolicySettings& policy) 
     k.until_mps = s.acceleration_until_mps;
     k.transient_gap_s2 = s.transient_gap_s2;
     k.catch_up = s.catch_up;
+    k.tracking = s.tracking;
     k.anticipation_s = s.anticipation_s;
     k.deceleration_mps2 = s.deceleration_mps2;
     k.reaction_s = s.reaction_s;

@@ -10,13 +10,15 @@
 //
 //   v' = min(v_safe, v + a(v) dt, cap),  v <- max(0, v' - sigma dt xi min(v', a 1 s)),  x <- x + v dt
 //
-// Where the predecessor accelerates with a_l, v_l + T a_l stands for v_l (T: anticipation; 0 in the paper's models).
+// Where the predecessor accelerates with a_l, v_l + T a_l stands for v_l (T: anticipation; 0 in the paper's models). Models with a time
+// gap can track it: see tracked (not in the paper's).
 //
 // Below 1 cm/s v' is 0. a(v) = a min(1, v_p / v): constant power beyond the speed v_p. The paper's models have none (v_p beyond all limits). xi is
 // uniform in [0, 1); slow vehicles dawdle less, so that nobody is kept from starting (as in SUMO). Policies with a gap
 // that grows above a switching speed (SWITCH) are the variant with s_0 raised by what the policy adds at the own speed.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -32,6 +34,7 @@ struct Krauss {
     double until_mps = 1e9;          // v_p
     double transient_gap_s2 = 0.0;   // times the predecessor's acceleration, where it accelerates: added to the gap
     double catch_up = 1.0;           // times the acceleration, close behind a predecessor
+    double tracking = 0.0;           // of the time gap, 0 .. 1: see tracked
     double anticipation_s = 0.0;     // the predecessor is seen as fast as it will be then, if it goes on accelerating
     double deceleration_mps2 = 0.0;  // b
     double reaction_s = 0.0;         // tau
@@ -47,7 +50,7 @@ struct Krauss {
 // The same for several vehicles side by side, each with the parameters of its policy; names as above.
 template <class R>
 struct KraussSideBySide {
-    R acceleration_mps2, until_mps, transient_gap_s2, catch_up, anticipation_s, deceleration_mps2, reaction_s;
+    R acceleration_mps2, until_mps, transient_gap_s2, catch_up, tracking, anticipation_s, deceleration_mps2, reaction_s;
     R standstill_gap_m, dawdling;
     decltype(std::declval<R>() < std::declval<R>()) constant_distance;
     R band_m, below_band;
@@ -92,6 +95,15 @@ struct KraussInputOf {
 };
 using KraussInput = KraussInputOf<double>;
 
+// v_safe lets a vehicle come nearer than its time gap while the predecessor draws away, since that would need longer to stop. Who
+// tracks the gap is no faster than (s - s_0) / tau: with tracking < 1 a share of the way from v_safe down to that.
+template <class R, class Model>
+STOPLINE_INLINE R tracked(const Model& k, const KraussInputOf<R>& in, const R& more_m, const R& safe_mps) {
+    const R keeps_mps = (in.gap_m - k.standstill_gap_m - more_m) * (1.0 / greater(R(k.reaction_s), R(0.05)));
+    const R less_mps = k.tracking * greater(safe_mps - keeps_mps, R(0.0));
+    return select(k.constant_distance, safe_mps, R(safe_mps - less_mps));
+}
+
 // Whether the model's power is ever the limit: the same for all vehicles of a loop, and a division each that is spared.
 inline bool has_power_limit(const Krauss& k) { return k.until_mps < 100.0; }
 
@@ -102,7 +114,7 @@ STOPLINE_INLINE R speed_after_mps(const Model& k, const KraussInputOf<R>& in, co
                                   const R& lowest_mps = R(0.0)) {
     const R more_m = in.more_m + k.transient_gap_s2 * in.ahead_mps2;
     const R ahead_mps = in.ahead_mps + k.anticipation_s * in.ahead_mps2;
-    const R safe = safe_speed_mps(k, in.gap_m, ahead_mps, more_m);
+    const R safe = tracked(k, in, more_m, safe_speed_mps(k, in.gap_m, ahead_mps, more_m));
     R acceleration = k.acceleration_mps2;
     if constexpr (power_limit)
         acceleration = acceleration * lesser(R(1.0), R(k.until_mps / greater(in.speed_mps, R(1e-3))));
@@ -117,6 +129,14 @@ STOPLINE_INLINE R speed_after_mps(const Model& k, const KraussInputOf<R>& in, co
     constexpr double kSlow_s = 1.0;  // vehicles slower than a x 1 s dawdle in proportion to their speed
     return wanted - k.dawdling * dt * random * lesser(wanted, R(k.acceleration_mps2 * kSlow_s));
 }
+
+// Acceleration of platoon leaders over speed, constant in bins from 0 on and beyond the last.
+struct LeaderProfile {
+    static constexpr int kBins = 64;
+    double bins_per_mps = 0.0;  // 0: none
+    std::array<double, kBins> acceleration_mps2{};
+};
+LeaderProfile leader_profile(const MesoSettings& settings);
 
 // For one vehicle.
 inline double next_speed_mps(const Krauss& k, const KraussInput& in, double random, double dt) {

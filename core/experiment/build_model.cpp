@@ -204,6 +204,8 @@ void set_meso(const Scenario& scenario, const MesoSettings& settings, Model& mod
     model.turn_share = std::min(settings.turn_gain_1ps * model.step_s, 1.0);
     model.leader_mps2 = settings.leader_mps2;
     model.leader_until_mps = settings.leader_until_mps;
+    model.leader_profile = leader_profile(settings);
+    model.relayed = settings.relayed;
     model.hesitation_ticks = to_ticks(scenario.driver.free_drive.hesitation_s + settings.start_delay_s, model.step_s);
 }
 

@@ -145,17 +145,20 @@ std::vector<double> start_values(std::vector<double> values, const std::vector<s
 // swing. s_0 of the models with a time gap is what the policy says, and not fitted; in equation (1) s_0 is what s_t leaves of it.
 const std::vector<FitParameter>& fit_parameters() {
     using S = MesoSettings;
+    constexpr auto kNoProfile = [](const S& s) { return s.leader_profile_mps.empty(); };
     static const std::vector<FitParameter> kAll{
         {"start_delay", "s", false, 0.0, 1.0, [](S& s) -> double& { return s.start_delay_s; }},
-        {"leader_acceleration", "m/s2", false, 0.8, 4.0, [](S& s) -> double& { return s.leader_mps2; }},
-        {"leader_acceleration_until", "m/s", false, 2.0, 16.0, [](S& s) -> double& { return s.leader_until_mps; }},
+        {"leader_acceleration", "m/s2", false, 0.8, 4.0, [](S& s) -> double& { return s.leader_mps2; }, kNoProfile},
+        {"leader_acceleration_until", "m/s", false, 2.0, 16.0, [](S& s) -> double& { return s.leader_until_mps; },
+         kNoProfile},
         {"constant_time.acceleration", "m/s2", false, 0.8, 4.0,
          [](S& s) -> double& { return s.constant_time.acceleration_mps2; }},
         {"constant_time.acceleration_until", "m/s", false, 2.0, 16.0,
          [](S& s) -> double& { return s.constant_time.acceleration_until_mps; }},
         {"constant_time.catch_up", "", false, 1.0, 3.0, [](S& s) -> double& { return s.constant_time.catch_up; }},
         {"constant_time.transient_gap", "", false, 0.0, 1.5,
-         [](S& s) -> double& { return s.constant_time.transient_gap_s2; }},
+         [](S& s) -> double& { return s.constant_time.transient_gap_s2; },
+         [](const S& s) { return s.constant_time.tracking == 0.0; }},
         {"constant_time.deceleration", "m/s2", false, 1.0, 7.0,
          [](S& s) -> double& { return s.constant_time.deceleration_mps2; }},
         {"constant_time.reaction", "s", false, 0.3, 1.3, [](S& s) -> double& { return s.constant_time.reaction_s; }},
@@ -215,7 +218,7 @@ MesoFit fit_meso(const std::vector<FitCase>& cases, const MesoSettings& start, c
         std::vector<std::size_t> free;
         for (std::size_t k = 0; k < fit_parameters().size(); ++k) {
             const FitParameter& p = fit_parameters()[k];
-            if (!p.is_free()) continue;
+            if (!p.is_free(start)) continue;
             if (which == Subset::all || p.constant_distance == (which == Subset::constant_distance)) free.push_back(k);
         }
         return free;

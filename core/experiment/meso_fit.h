@@ -25,8 +25,9 @@ struct FitParameter {
     double low;              // bounds of the search, SI units; equal where others decide it
     double high;
     double& (*in)(MesoSettings&);
+    bool (*counts)(const MesoSettings&) = nullptr;  // whether it matters beside the others; not given: it does
 
-    bool is_free() const { return low < high; }
+    bool is_free(const MesoSettings& settings) const { return low < high && (counts == nullptr || counts(settings)); }
 };
 const std::vector<FitParameter>& fit_parameters();
 

@@ -20,6 +20,9 @@ const Table& krauss_table() {
                                  "times the acceleration, for a vehicle no further than 2 m beyond its gap: what it "
                                  "needs to make up for the step that it starts later than its predecessor (1: none, as "
                                  "in the paper)"),
+            number<&S::tracking>("tracking", "", {0, 1},
+                                 "1: a vehicle with a time gap is no faster than its gap allows, also while its "
+                                 "predecessor draws away (0: as Krauss's safe speed says, as in the paper)"),
             number<&S::anticipation_s>(
                 "anticipation", "s", {0, 1},
                 "an accelerating predecessor's speed is reckoned with as it will be then, as V2V "
@@ -62,6 +65,14 @@ const Table& meso_table() {
                 "policy's model says, as in the paper)"),
             number<&S::leader_until_mps>("leader_acceleration_until", "km/h", {5, 500},
                                          "speed up to which leader_acceleration is available"),
+            curve<&S::leader_profile_mps, &S::leader_profile_mps2>(
+                "leader_profile", {"km/h", {0, 500}}, {"m/s2", {0.001, 10}}, {0, 200},
+                "acceleration of leaders at the nearest of these speeds, instead of leader_acceleration; "
+                "stopline-calibrate measures it in full dynamics (not given: none, as in the paper)"),
+            whole<&S::relayed>(
+                "relayed", {0, 50},
+                "vehicles of constant distance at rest that hear, besides the next, in the same step that "
+                "those ahead of them set out: as many as V2V reaches (0: none, as in the paper)"),
             number<&S::start_delay_s>("start_delay", "s", {0, 5},
                                       "time that the first vehicle at a stop line takes to set out, besides the "
                                       "driver's hesitation: the powertrain's"),

@@ -28,6 +28,27 @@ void find_resting(const VehicleArrays& v, const LaneBlock& block, std::int64_t t
     while (resting.to < block.count && rests(resting.to)) ++resting.to;
 }
 
+// A queue of vehicles that keep a constant distance hears of a start as fast as V2V carries it from each to the next, further than
+// one vehicle in a step: those that will set out tell so before they move. A time gap holds back who keeps it, and ends the chain.
+// Returns how many were told.
+int relay_start(const Model& model, VehicleArrays& v, const LaneBlock& block, const Resting& resting) {
+    constexpr double kClosedUp_m = 0.5;  // no further behind than that: who has room to close sets out later
+    if (resting.from == 0) return 0;
+    const std::size_t before = at(block.first + resting.from - 1);
+    const float told_mps2 = v.acceleration_mps2[before];
+    if (told_mps2 <= 0.0F || v.speed_mps[before] == 0.0) return 0;
+    int told = 0;
+    while (told < model.relayed && resting.from + told < resting.to) {
+        const std::size_t i = at(block.first + resting.from + told);
+        const Krauss& krauss = model.krauss[at(v.policy[i])];
+        const double gap_m = v.position_m[i - 1] - static_cast<double>(v.length_m[i - 1]) - v.position_m[i];
+        if (!krauss.constant_distance || gap_m > krauss.equilibrium_gap_m(0.0) + kClosedUp_m) break;
+        v.acceleration_mps2[i] = told_mps2;
+        ++told;
+    }
+    return told;
+}
+
 class Collector {
 public:
     Collector(const Model& model, int size, State& state, NetworkPart& part, int lane)
@@ -55,12 +76,13 @@ public:
         }
         v_.imposed_mps[at(first)] = kAnySpeed_mps;  // if the lane has slept
         adapt();
+        if (last_imposed() > first + resting.from) resting.imposed = state_.tick;
+        find_resting(v_, block_, state_.tick, resting);
+        const int told = relay_start(model_, v_, block_, resting);
         if (model_.scalar_kernels) {
             impose_all();
             return add(first, block_.stop());
         }
-        if (last_imposed() > first + resting.from) resting.imposed = state_.tick;
-        find_resting(v_, block_, state_.tick, resting);
         if (resting.from == 0 && resting.to > 0 && rests_before_line()) {
             sleeps = state_.plan.light_before(lane_, v_.record[at(first)].next_lane);
             v_.imposed_mps[at(first)] = 0.0;  // others in its block are moved
@@ -68,7 +90,7 @@ public:
         }
         impose_all();
         if (resting.to - resting.from <= 1) return add(first, block_.stop());
-        add(first, first + resting.from + 1);
+        add(first, std::min(first + resting.from + told + 1, block_.stop()));
         add(first + resting.to, block_.stop());
     }
 

@@ -71,6 +71,8 @@ MesoStep meso_step(const Model& model, std::int64_t tick) {
             model.turn_share,
             model.leader_mps2,
             model.leader_until_mps,
+            model.leader_profile.bins_per_mps > 0.0 ? &model.leader_profile : nullptr,
+            model.relayed > 0,
             model.graph.approaches.empty() ? kAny_mps2 : model.driver.cacc.deceleration_emergency_mps2};
 }
 

@@ -28,7 +28,9 @@ struct MesoStep {
     double turn_share;      // of what is missing to what the way to a turn allows
     double leader_mps2;     // acceleration of platoon leaders; 0: that of their policy
     double leader_until_mps;
-    double hardest_mps2;  // braking
+    const LeaderProfile* leader_profile;  // instead of these two; nullptr: none
+    bool relays;                          // starts are relayed: leaders, too, know what the vehicle ahead will do
+    double hardest_mps2;                  // braking
 };
 
 // What policies with a gap that grows above a switching speed (SWITCH) add to their standstill gap, for the slots of each block in

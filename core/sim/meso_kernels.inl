@@ -1,6 +1,7 @@
 // The kernels' text. Included by one file for each build, each in a namespace of its own. R is what the equations are evaluated with: as
 // many doubles as a block has slots, or one.
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -74,6 +75,7 @@ STOPLINE_INLINE KraussSideBySide<R> of_two(const R& policy, const Krauss& a, con
             of(a.until_mps, b.until_mps),
             of(a.transient_gap_s2, b.transient_gap_s2),
             of(a.catch_up, b.catch_up),
+            of(a.tracking, b.tracking),
             of(a.anticipation_s, b.anticipation_s),
             of(a.deceleration_mps2, b.deceleration_mps2),
             of(a.reaction_s, b.reaction_s),
@@ -129,15 +131,41 @@ STOPLINE_INLINE R allowed_mps(const MesoStreams& s, const MesoStep& t, int i, co
 
 constexpr double kAlone_m = 1e5;  // a gap without predecessor is longer
 
+// What a table holds for each vehicle's bin.
+template <class R, std::size_t bins>
+STOPLINE_INLINE R in_bin(const std::array<double, bins>& table, const R& bin) {
+    const R within = limited(bin, 0.0, static_cast<double>(bins) - 1.0);
+    if constexpr (std::is_same_v<R, double>) {
+        return table[static_cast<std::size_t>(within)];
+    } else {
+        R values = 0.0;
+        for (int j = 0; j < kWide; ++j) values.v[j] = table[static_cast<std::size_t>(within.v[j])];
+        return values;
+    }
+}
+
+// The acceleration of a platoon's leader at a speed.
+template <class R>
+STOPLINE_INLINE R leading_mps2(const MesoStep& t, const R& speed_mps) {
+    if (t.leader_profile != nullptr) {
+        // In the middle of the step: from its beginning, gear changes would be jumped over.
+        const LeaderProfile& profile = *t.leader_profile;
+        const R first_mps2 = in_bin(profile.acceleration_mps2, R(speed_mps * profile.bins_per_mps));
+        const R middle_mps = speed_mps + first_mps2 * (0.5 * t.dt);
+        return in_bin(profile.acceleration_mps2, R(middle_mps * profile.bins_per_mps));
+    }
+    return t.leader_mps2 * R(t.leader_until_mps / greater(speed_mps, R(t.leader_until_mps)));
+}
+
 // Leaders of platoons accelerate alike, whatever their policy, until following asks for less. One that stands goes on leading
 // until it moves. `next`: what the others do; `mine`: 1 for those that are treated.
 template <class R, class Model>
 STOPLINE_INLINE R lead(const Model& k, const MesoStep& t, const KraussInputOf<R>& in, const R& next, const R& mine,
                        float* leads) {
-    const R share = t.leader_until_mps / greater(in.speed_mps, R(t.leader_until_mps));
-    const R faster_mps = in.speed_mps + t.leader_mps2 * share * t.dt;
+    const R faster_mps = in.speed_mps + leading_mps2(t, in.speed_mps) * t.dt;
     const R touch_mps = greater(in.gap_m, R(0.0)) * (1.0 / t.dt);
-    const R safe_mps = lesser(safe_speed_mps(k, in.gap_m, in.ahead_mps, in.more_m), touch_mps);
+    const R ahead_mps = t.relays ? R(in.ahead_mps + k.anticipation_s * in.ahead_mps2) : in.ahead_mps;
+    const R safe_mps = lesser(safe_speed_mps(k, in.gap_m, ahead_mps, in.more_m), touch_mps);
     const R follows_mps = select(in.gap_m > kAlone_m, touch_mps, safe_mps);
     const R leading = at_rest(lesser(follows_mps, lesser(faster_mps, in.cap_mps)));
     const R led = get<R>(leads);
@@ -161,7 +189,7 @@ STOPLINE_INLINE R step_slots(const MesoStreams& s, int i, std::span<const Krauss
                               get<R>(more),
                               allowed_mps<R, at_once>(s, t, i, position, speed)};
     const R random = dawdle<R>(t, s.id + i);
-    const bool leaders = t.leader_mps2 > 0.0 && any_other<R>(s.leads + i, 0.0F);
+    const bool leaders = (t.leader_mps2 > 0.0 || t.leader_profile != nullptr) && any_other<R>(s.leads + i, 0.0F);
     const R policy = get<R>(s.policy + i);
     R next = speed;
     const auto drive = [&](const auto& model, const R& mine) STOPLINE_INLINE_LAMBDA {

@@ -84,6 +84,8 @@ struct Model {
     double turn_share = 1.0;      // of what is missing to what the way to a turn allows
     double leader_mps2 = 0.0;     // acceleration of platoon leaders, up to a speed; 0: that of their policy's model
     double leader_until_mps = 0.0;
+    LeaderProfile leader_profile;  // instead of these two, where it has bins
+    int relayed = 0;               // vehicles at rest that hear at once that those ahead set out, mesoscale mode
     // Detectors that stand for where trips begin and end, wherever that is; -1: none. They lie where nobody passes them.
     int trips_begin = -1;
     int trips_end = -1;

@@ -49,6 +49,18 @@ TEST(Krauss, FallsBackByTheTransientGap) {
     EXPECT_GT(next_speed_mps(k, {8.0, gap_m, 8.0, 0.0, 0.0, 1e3}, 0.0, kStep_s), 8.05);
 }
 
+// Behind a predecessor that draws away v_safe asks for a higher speed than the time gap has room for; who tracks the gap keeps it.
+TEST(Krauss, TracksItsTimeGap) {
+    Krauss k = model();
+    const double gap_m = k.standstill_gap_m + 5.0 * k.reaction_s;
+    const KraussInput in{5.0, gap_m, 10.0, 0.0, 0.0, 1e3};
+    EXPECT_GT(next_speed_mps(k, in, 0.0, kStep_s), 5.05);
+    k.tracking = 1.0;
+    EXPECT_NEAR(next_speed_mps(k, in, 0.0, kStep_s), 5.0, 1e-9);
+    k.constant_distance = true;
+    EXPECT_GT(next_speed_mps(k, in, 0.0, kStep_s), 5.05) << "a constant distance has no time gap";
+}
+
 TEST(Krauss, CatchesUpOnlyCloseBehindAPredecessor) {
     Krauss k = model();
     k.catch_up = 1.5;

@@ -58,7 +58,7 @@ protected:
 };
 INSTANTIATE_TEST_SUITE_P(EveryPolicy, MesoModel,
                          testing::Combine(testing::ValuesIn(policy_names()), testing::Values(0.05, 0.1, 0.2),
-                                          testing::Values("table2", "fitted")),
+                                          testing::Values("table2", "fitted", "passages")),
                          [](const testing::TestParamInfo<MesoModel::ParamType>& setting) {
                              std::string name = std::get<0>(setting.param);
                              std::replace_if(
@@ -197,7 +197,9 @@ TEST(MesoKernels, GiveTheSameBitsAsOneVehicleAtATime) {
         const Scenario scenario =
             load_scenario(STOPLINE_SOURCE_DIR "/scenarios/intersection.yaml",
                           {"fidelity=meso", "demand.left=15 %", "demand.right=10 %",
-                           "meso.constant_distance.dawdling=0.2", std::string("populations=") + kPopulations});
+                           "meso.constant_distance.dawdling=0.2", "meso.relayed=4", "meso.constant_time.tracking=1",
+                           "meso.leader_profile={2 km/h: 2 m/s2, 20 km/h: 0.5 m/s2, 40 km/h: 1 m/s2}",
+                           std::string("populations=") + kPopulations});
         const auto named = [&](const PopulationSettings& p) { return p.name == population; };
         const auto found = std::find_if(scenario.populations.begin(), scenario.populations.end(), named);
         const Model fast = build_model(scenario, static_cast<std::size_t>(found - scenario.populations.begin()));

@@ -1,0 +1,101 @@
+// How a queue sets out in the mesoscale mode, beside full dynamics: the leader as measured there, the others as soon as V2V tells them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "experiment/leader_profile.h"
+#include "support/track.h"
+
+namespace stopline {
+namespace {
+
+using namespace testing_support;
+
+constexpr double kGreen_s = 2.0;
+constexpr double kLine_m = 400.0;
+
+Track queue(const std::string& policy, int vehicles, const std::vector<std::string>& overrides) {
+    TrackPlan plan;
+    plan.policy = policy;
+    plan.length_m = kLine_m;
+    plan.exit_m = 1000.0;
+    plan.green_from_s = kGreen_s;
+    plan.overrides = overrides;
+    if (!overrides.empty()) plan.step_s = 0.1;
+    Track track(plan);
+    track.place_platoon(0, kLine_m - track.model().driver.stop.margin_m, 0.0, vehicles - 1);
+    return track;
+}
+
+// Time from the start of green at which the last of a queue drives with 0.1 m/s.
+double last_sets_out_s(Track track, int vehicles) {
+    EXPECT_EQ(track.count(0), vehicles);
+    while (track.seen(0, track.count(0) - 1).speed_mps < 0.1 && track.time_s() < 60.0) track.run(track.step_s());
+    return track.time_s() - kGreen_s;
+}
+
+TEST(MesoStart, GoesThroughAQueueOfConstantDistanceAsFastAsV2V) {
+    constexpr int kQueue = 31;
+    const std::string set = "meso=passages";
+    const double alone_s = last_sets_out_s(queue("CDG", 1, {"fidelity=meso", set}), 1);
+    const double relayed_s = last_sets_out_s(queue("CDG", kQueue, {"fidelity=meso", set}), kQueue) - alone_s;
+    EXPECT_NEAR(relayed_s, 0.1 * (kQueue - 1) / 5.0, 0.25) << "five vehicles a step of 100 ms";
+    const double singly_s =
+        last_sets_out_s(queue("CDG", kQueue, {"fidelity=meso", set, "meso.relayed=0"}), kQueue) - alone_s;
+    EXPECT_NEAR(singly_s, 0.1 * (kQueue - 1), 0.25) << "one vehicle a step";
+    const double full_s = last_sets_out_s(queue("CDG", kQueue, {}), kQueue) - last_sets_out_s(queue("CDG", 1, {}), 1);
+    EXPECT_NEAR(relayed_s, full_s, 0.5);
+}
+
+// A vehicle with a time gap ends the chain: those behind it learn from what they see.
+TEST(MesoStart, EndsItsRelayAtATimeGap) {
+    constexpr int kQueue = 21;
+    const double all_s = last_sets_out_s(queue("CTG-Ref", kQueue, {"fidelity=meso", "meso=passages"}), kQueue);
+    const double none_s =
+        last_sets_out_s(queue("CTG-Ref", kQueue, {"fidelity=meso", "meso=passages", "meso.relayed=0"}), kQueue);
+    EXPECT_DOUBLE_EQ(all_s, none_s);
+}
+
+// The first vehicle, alone: from a metre on it takes as long as in full dynamics. (When it begins is start_delay, which is fitted.)
+TEST(MesoStart, LeadersAccelerateAsMeasured) {
+    const auto times_s = [](Track track) {
+        std::vector<double> times;
+        const double from_m = track.seen(0, 0).position_m;
+        for (const double way_m : {1.0, 10.0, 30.0, 60.0, 100.0, 150.0, 200.0}) {
+            double before_m = 0.0;
+            double m = 0.0;
+            while (m < way_m && track.time_s() < 60.0) {
+                before_m = m;
+                track.run(track.step_s());
+                m = track.count(0) > 0 ? track.seen(0, 0).position_m - from_m
+                                       : kLine_m - from_m + track.seen(1, 0).position_m;
+            }
+            times.push_back(track.time_s() - track.step_s() * (m - way_m) / std::max(m - before_m, 1e-9));
+        }
+        return times;
+    };
+    const std::vector<double> full = times_s(queue("CDG", 1, {}));
+    const std::vector<double> meso = times_s(queue("CDG", 1, {"fidelity=meso", "meso=passages"}));
+    for (std::size_t k = 1; k < full.size(); ++k) EXPECT_NEAR(meso[k] - meso[0], full[k] - full[0], 0.15) << k;
+}
+
+TEST(LeaderProfile, IsThatOfTheVehicleAtHand) {
+    MesoSettings petrol;
+    measure_leader_profile(single_light("petrol_eu4_72kw", "CDG"), petrol);
+    ASSERT_EQ(petrol.leader_profile_mps.size(), 48U);
+    // What it takes to get to 50 km/h is what the bins say.
+    double time_s = 0.0;
+    for (std::size_t k = 0; k < 40; ++k) time_s += 1.25 / 3.6 / petrol.leader_profile_mps2[k];
+    EXPECT_GT(time_s, 12.0);
+    EXPECT_LT(time_s, 16.0);
+    MesoSettings electric;
+    measure_leader_profile(single_light("electric_100kw", "CDG"), electric);
+    EXPECT_GT(*std::min_element(electric.leader_profile_mps2.begin(), electric.leader_profile_mps2.begin() + 36), 0.6)
+        << "no gear changes";
+    EXPECT_LT(*std::min_element(petrol.leader_profile_mps2.begin(), petrol.leader_profile_mps2.begin() + 36), 0.6);
+}
+
+}  // namespace
+}  // namespace stopline
