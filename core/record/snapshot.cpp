@@ -103,7 +103,7 @@ void SnapshotTaker::note_guests(const VehicleArrays& vehicles, int lane, Snapsho
         const int vehicle = vehicles.id[at(slot)];
         if (vehicle == guest_[at(slot)]) continue;
         guest_[at(slot)] = vehicle;
-        shot.guests.push_back({slot, lane, vehicle, vehicles.policy[at(slot)], vehicles.record[at(slot)].next_lane,
+        shot.guests.push_back({slot, lane, vehicle, vehicles.policy[at(slot)], vehicles.next_lane[at(slot)],
                                vehicles.length_m[at(slot)]});
     }
 }
@@ -112,7 +112,7 @@ void SnapshotTaker::note_past_line(const VehicleArrays& vehicles, int lane, cons
                                    Snapshot& shot) const {
     const Snapshot::Slots slots = lanes_[at(lane)];
     for (int slot = slots.first; slot < slots.stop() && position_of(*motion) > stop_line_[at(lane)]; ++slot, ++motion) {
-        shot.past_line.push_back({slot, lane, vehicles.record[at(slot)].next_lane});
+        shot.past_line.push_back({slot, lane, vehicles.next_lane[at(slot)]});
     }
 }
 

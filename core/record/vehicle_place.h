@@ -12,7 +12,7 @@ namespace stopline {
 inline Place vehicle_place(const Model& model, const State& state, int lane, std::size_t slot) {
     const Lane& road = model.graph.lanes[static_cast<std::size_t>(lane)];
     const double position_m = state.vehicles.position_m[slot];
-    const int next = state.vehicles.record[slot].next_lane;
+    const int next = state.vehicles.next_lane[slot];
     if (road.signal_group >= 0 && position_m > road.stop_line_m && next >= 0) {
         return place_along(model.graph.lanes[static_cast<std::size_t>(next)], position_m - road.stop_line_m);
     }

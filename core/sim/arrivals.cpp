@@ -70,7 +70,7 @@ int stops_at_light(const State& state, int lane, int way) {
     const int stopping = state.stop_slot[at(lane)];
     if (state.lights[at(state.plan.light_before(lane, way))] != Light::green) return stopping;
     if (stopping < 0 || !state.plan.lane(lane).by_way) return -1;
-    const int next = state.vehicles.record[at(stopping)].next_lane;
+    const int next = state.vehicles.next_lane[at(stopping)];
     return state.lights[at(state.plan.light_before(lane, next))] == Light::green ? -1 : stopping;
 }
 
@@ -107,7 +107,7 @@ void look_upstream(const Model& model, const State& state, const Upstream& here,
         for (int slot = before.first; slot < before.stop(); ++slot) {
             const double distance_m = from_m - v.position_m[at(slot)];
             if (distance_m > horizon_s * limit_mps) break;
-            if (v.record[at(slot)].next_lane == inside) {
+            if (v.next_lane[at(slot)] == inside) {
                 see(slot, distance_m, limit_mps);
                 break;
             }
@@ -140,7 +140,7 @@ Arrival next_arrival(const Model& model, const State& state, const Conflict& con
         const double distance_m = origin.length_m + conflict.other_from_m - v.position_m[at(slot)];
         if (distance_m > horizon_s * origin.limit_mps) break;
         if (slot == stopping) break;
-        if (v.position_m[at(slot)] > origin.stop_line_m || v.record[at(slot)].next_lane != conflict.other) continue;
+        if (v.position_m[at(slot)] > origin.stop_line_m || v.next_lane[at(slot)] != conflict.other) continue;
         soonest.earlier(earliest_s(distance_m, v.speed_mps[at(slot)], a, other.limit_mps), slot);
         return soonest;
     }

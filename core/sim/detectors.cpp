@@ -11,8 +11,9 @@ std::size_t at(int index) { return static_cast<std::size_t>(index); }
 void pass_stop_line(const Model& model, State& state, NetworkPart& part, int lane, int slot) {
     VehicleRecord& record = state.vehicles.record[at(slot)];
     record.inside_since = static_cast<int>(state.tick);
-    if (state.lights[at(state.plan.light_before(lane, record.next_lane))] != Light::red) return;
-    if (record.trip >= 0 && record.next_lane < 0) return;  // it does not go into the intersection
+    const int next = state.vehicles.next_lane[at(slot)];
+    if (state.lights[at(state.plan.light_before(lane, next))] != Light::red) return;
+    if (record.trip >= 0 && next < 0) return;  // it does not go into the intersection
     // Whoever was told to stop was told so because it could.
     if (state.stop_lines[at(lane)].stopper == state.vehicles.id[at(slot)]) {
         ++part.violations.red_entries;

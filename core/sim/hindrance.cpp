@@ -71,7 +71,8 @@ private:
     // What one that stands waits for.
     void wait(int slot) {
         const int lane = w_.lane[at(slot)];
-        if (const Hold* hold = state_.holds[at(lane)].of(slot)) {
+        const Hold* const hold = state_.has_holds[at(lane)] != 0 ? state_.holds[at(lane)].of(slot) : nullptr;
+        if (hold != nullptr) {
             if (hold->blocker < 0) return set(slot, -1, Cause::wrong_lane);
             const bool standing = stands(hold->blocker);
             const bool blocked = !hold->priority && standing;
@@ -112,7 +113,7 @@ private:
     Cause full_exit(int slot) const {
         const int lane = w_.lane[at(slot)];
         const bool within = model_.graph.lanes[at(lane)].origin >= 0;
-        const Turn turn = model_.graph.lanes[at(within ? lane : v_.record[at(slot)].next_lane)].turn;
+        const Turn turn = model_.graph.lanes[at(within ? lane : v_.next_lane[at(slot)])].turn;
         return turn == Turn::straight ? Cause::spillback : Cause::turn_blocking;
     }
 

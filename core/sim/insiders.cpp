@@ -27,8 +27,9 @@ public:
         const auto reaches_back = [&](int slot) { return v_.position_m[at(slot)] < v_.length_m[at(slot)]; };
         if (block.count == 0 || !reaches_back(block.last())) return;
         for (int slot = std::max(block.first, block.stop() - 2); slot < block.stop(); ++slot) {
+            if (!reaches_back(slot)) continue;
             const int from = v_.record[at(slot)].came_from;
-            if (from >= 0 && state_.plan.lane(from).exit == exit && reaches_back(slot)) {
+            if (from >= 0 && state_.plan.lane(from).exit == exit) {
                 add(from, slot, state_.plan.lane(from).length_m);
             }
         }
@@ -38,6 +39,7 @@ public:
         const LaneBlock& block = state_.blocks[at(lane)];
         for (int slot = block.first; slot < block.stop(); ++slot) add(lane, slot, 0.0);
         state_.deciding[at(lane)] = 1;
+        state_.plan.fetch_conflicts(lane);
     }
 
     // Fronts past the stop line.
@@ -46,7 +48,7 @@ public:
         const LanePlan& plan = state_.plan.lane(lane);
         for (int slot = block.first; slot < block.stop(); ++slot) {
             if (v_.position_m[at(slot)] <= plan.stop_line_m) break;
-            const int next = v_.record[at(slot)].next_lane;
+            const int next = v_.next_lane[at(slot)];
             if (next >= 0 && state_.plan.lane(next).origin == lane) add(next, slot, -plan.length_m);
         }
     }
@@ -80,39 +82,10 @@ private:
 
 }  // namespace
 
-namespace {
-
-// Fetches what will be read and written at a lane's head, and at its end by the lane before.
-void fetch_ends(const State& state, int lane) {
-    const VehicleArrays& v = state.vehicles;
-    const LaneBlock& block = state.blocks[at(lane)];
-    if (block.count == 0) return;
-    __builtin_prefetch(&state.plan.lane(lane));
-    for (const int slot : {block.first - 1, block.last()}) {
-        __builtin_prefetch(&v.position_m[at(slot)]);
-        __builtin_prefetch(&v.speed_mps[at(slot)]);
-        __builtin_prefetch(&v.length_m[at(slot)]);
-        if (!v.has_powertrain()) continue;
-        for (const std::size_t row : {state.v2v.late, state.v2v.later}) {
-            __builtin_prefetch(&v.v2v_acceleration_mps2[row + at(slot)]);
-            __builtin_prefetch(&v.v2v_request_mps2[row + at(slot)]);
-            __builtin_prefetch(&v.v2v_rate_1ps[row + at(slot)]);
-        }
-    }
-    __builtin_prefetch(&v.record[at(block.first)]);
-    __builtin_prefetch(&v.id[at(block.last())]);
-}
-
-}  // namespace
-
 void find_occupied_lanes(State& state, NetworkPart& part) {
     for (std::vector<int>* list : {&part.occupied, &part.awake, &part.awake_before, &part.awake_inside}) list->clear();
     part.present = 0;
-    constexpr std::size_t kLanesAhead = 8;
-    const bool prefetch = state.outgrows_cache();
-    for (std::size_t k = 0; k < part.lanes.size(); ++k) {
-        if (prefetch && k + kLanesAhead < part.lanes.size()) fetch_ends(state, part.lanes[k + kLanesAhead]);
-        const int lane = part.lanes[k];
+    for (const int lane : part.lanes) {
         const int count = state.blocks[at(lane)].count;
         if (count == 0) continue;
         part.present += count;
@@ -132,7 +105,10 @@ void find_insiders(State& state, NetworkPart& part) {
     Search search(state, part);
     search.forget();
     // The order makes that each lane's insiders are listed from the front.
-    for (const int exit : part.exits) search.look_at_exit(exit);
+    for (const int exit : part.exits) {
+        fetch_on(state, part.fetching);
+        search.look_at_exit(exit);
+    }
     for (const int lane : part.awake_inside) search.look_inside(lane);
     for (const int lane : part.awake_before) search.look_before(lane);
     search.count();

@@ -54,7 +54,7 @@ Neighbour coming(const Model& model, const State& state, int lane, double rear_a
         }
         const LaneBlock& before = state.blocks[at(way.origin)];
         for (int slot = before.first; slot < before.stop(); ++slot) {
-            if (v.record[at(slot)].next_lane != inside) continue;
+            if (v.next_lane[at(slot)] != inside) continue;
             look(slot, state.plan.lane(way.origin).length_m - v.position_m[at(slot)] + way.length_m + rear_at_m);
             break;
         }

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "base/simd.h"
 #include "sim/model.h"
 #include "sim/trip_lanes.h"
 
@@ -61,6 +62,17 @@ public:
         return {all_.data() + from, from_[static_cast<std::size_t>(list) + 1] - from};
     }
 
+    // Where in memory a list is, and what says so: visit(begin, end).
+    template <class Visit>
+    void for_each_place(int list, Visit visit) const {
+        place_of_bounds(list, visit);
+        visit(of(list).data(), of(list).data() + of(list).size());
+    }
+    template <class Visit>
+    void place_of_bounds(int list, Visit visit) const {
+        visit(from_.data() + list, from_.data() + list + 2);
+    }
+
 private:
     std::vector<T> all_;
     std::vector<std::size_t> from_{0};
@@ -105,9 +117,23 @@ public:
     int changes_from(int trip, int leg, int lane, int places) const {
         return trip_lanes_.from(demand_->trips[static_cast<std::size_t>(trip)], leg, beside(lane).place, places);
     }
+    // Brings its conflict areas into the cache.
+    STOPLINE_INLINE void fetch_conflicts(int lane) const {
+        for (const Conflict& conflict : conflicts_.of(lane)) __builtin_prefetch(&conflict);
+    }
     // Of a lane inside an intersection: conflict areas from its start, and the lanes that it meets there.
     std::span<const Conflict> conflicts(int lane) const { return conflicts_.of(lane); }
     std::span<const int> meets(int lane) const { return meets_.of(lane); }
+    // Where in memory is what steps need to know of a lane: visit(begin, end).
+    template <class Visit>
+    void for_each_place(int lane, Visit visit) const {
+        const auto one = [&](const auto& array) { visit(array.data() + lane, array.data() + lane + 1); };
+        one(lanes_), one(parting_), one(lights_), one(waits_inside_);
+        next_.for_each_place(lane, visit), meets_.for_each_place(lane, visit), conflicts_.place_of_bounds(lane, visit);
+        for (const WayOn& way : beside(lane).ways) {
+            if (way.route >= 0) routes_.for_each_place(way.route, visit);
+        }
+    }
     // Lanes by intersection: what happens in one of them in a step depends on what is done in it alone.
     const std::vector<int>& order() const { return order_; }
     int intersections() const { return intersections_; }

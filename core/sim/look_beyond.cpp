@@ -90,10 +90,10 @@ Ahead ahead_on_trip(const State& state, int lane, double position_m, const OnTri
 }  // namespace
 
 Ahead vehicle_ahead(const State& state, int lane, int slot, double range_m) {
-    const VehicleRecord& record = state.vehicles.record[at(slot)];
-    if (record.next_lane < 0) {  // it leaves, or waits for a gap: it sees who still reaches back
+    if (state.vehicles.next_lane[at(slot)] < 0) {  // it leaves, or waits for a gap: it sees who still reaches back
         return Parting(state, lane).last();
     }
+    const VehicleRecord& record = state.vehicles.record[at(slot)];
     const double position_m = state.vehicles.position_m[at(slot)];
     return vehicle_ahead(state, lane, position_m, {record.route, record.route_index, record.trip, record.leg}, range_m);
 }
@@ -176,6 +176,7 @@ void look_beyond_lanes(const Model& model, State& state, NetworkPart& part) {
     constexpr double kTouch_m = 1e-4;  // against rounding
     VehicleArrays& v = state.vehicles;
     for (const int lane : part.awake) {
+        fetch_on(state, part.fetching);
         const int head = state.blocks[at(lane)].first;
         const std::size_t sentinel = at(head - 1);
         const Ahead ahead = vehicle_ahead(state, lane, head, model.driver.cacc.radar_range_m);

@@ -49,6 +49,9 @@ int relay_start(const Model& model, VehicleArrays& v, const LaneBlock& block, co
     return told;
 }
 
+const Holds kNobodyHeld;
+constexpr double kRounding_m = 1e-3;
+
 class Collector {
 public:
     Collector(const Model& model, int size, State& state, NetworkPart& part, int lane)
@@ -61,7 +64,7 @@ public:
           block_(state.blocks[at(lane)]),
           plan_(state.plan.lane(lane)),
           stop_slot_(plan_.signal_group < 0 ? -1 : state.stop_slot[at(lane)]),
-          holds_(state.holds[at(lane)]) {}
+          holds_(state.has_holds[at(lane)] != 0 ? state.holds[at(lane)] : kNobodyHeld) {}
 
     void collect() {
         const int first = block_.first;
@@ -74,6 +77,7 @@ public:
             find_resting(v_, block_, state_.tick, resting);
             return add(first + resting.to, block_.stop());
         }
+        if (is_near_end()) part_.near_end.push_back(lane_);
         v_.imposed_mps[at(first)] = kAnySpeed_mps;  // if the lane has slept
         adapt();
         if (last_imposed() > first + resting.from) resting.imposed = state_.tick;
@@ -84,7 +88,7 @@ public:
             return add(first, block_.stop());
         }
         if (resting.from == 0 && resting.to > 0 && rests_before_line()) {
-            sleeps = state_.plan.light_before(lane_, v_.record[at(first)].next_lane);
+            sleeps = state_.plan.light_before(lane_, v_.next_lane[at(first)]);
             v_.imposed_mps[at(first)] = 0.0;  // others in its block are moved
             return add(first + resting.to, block_.stop());
         }
@@ -100,7 +104,15 @@ private:
         return std::max(stop_slot_, holds_.count == 0 ? -1 : holds_.each[at(holds_.count - 1)].slot);
     }
 
+    // Nobody drives faster than its lane allows.
+    bool is_near_end() const {
+        const double end_m = plan_.signal_group < 0 ? plan_.length_m : std::min(plan_.length_m, plan_.stop_line_m);
+        const double further_m = state_.plan.driven_mps(lane_) * model_.step_s;
+        return v_.position_m[at(block_.first)] + further_m + kRounding_m >= end_m;
+    }
+
     void adapt() {
+        if (part_.adapting.empty()) return;
         const double gently_mps = Adapting::kBraking_mps2 * model_.step_s;
         for (const Adapting& adapting : state_.adapting[at(lane_)]) {
             const double speed_mps = v_.speed_mps[at(adapting.slot)];
@@ -172,9 +184,15 @@ private:
 
 }  // namespace
 
-void collect_blocks(const Model& model, int size, State& state, NetworkPart& part) {
+// What is needed for it is still in the cache when the part has been decided.
+void collect_moves(const Model& model, State& state, NetworkPart& part) {
+    const int size = meso_kernels(model.scalar_kernels).size;
     part.blocks.clear();
-    for (const int lane : part.occupied) Collector(model, size, state, part, lane).collect();
+    part.near_end.clear();
+    for (const int lane : part.occupied) {
+        fetch_on(state, part.fetching);
+        Collector(model, size, state, part, lane).collect();
+    }
 }
 
 }  // namespace stopline

@@ -43,7 +43,7 @@ MesoMore evaluate_more(const Model& model, std::size_t size, const VehicleArrays
 }  // namespace
 
 double stopping_speed_mps(const Model& model, const VehicleArrays& v, int slot, double room_m) {
-    const Krauss& krauss = model.krauss[at(v.policy[at(slot)])];
+    const Krauss& krauss = model.krauss[model.krauss.size() == 1 ? 0 : at(v.policy[at(slot)])];
     const double b = std::min(krauss.deceleration_mps2, model.driver.stop.deceleration_mps2);
     const double hardest_mps2 = model.driver.cacc.deceleration_emergency_mps2;
     const double lowest_mps = v.speed_mps[at(slot)] - hardest_mps2 * model.step_s;
@@ -79,7 +79,6 @@ MesoStep meso_step(const Model& model, std::int64_t tick) {
 void step_meso(const Model& model, State& state, NetworkPart& part) {
     VehicleArrays& v = state.vehicles;
     const MesoKernels& kernels = meso_kernels(model.scalar_kernels);
-    collect_blocks(model, kernels.size, state, part);
     const MesoMore more = evaluate_more(model, static_cast<std::size_t>(kernels.size), v, part);
     const std::int64_t count =
         kernels.step(meso_streams(v), part.blocks, model.krauss, more, meso_step(model, state.tick));

@@ -20,10 +20,7 @@ double leading_speed_mps(const Model& model, double speed_mps, double limit_mps)
 MesoStreams meso_streams(VehicleArrays& vehicles);
 MesoStep meso_step(const Model& model, std::int64_t tick);
 
-// Finds out who of the part has to be moved, in blocks of `size` slots, and what is imposed on whom in this step (meso_blocks.cpp).
-void collect_blocks(const Model& model, int size, State& state, NetworkPart& part);
-
-// One step of the vehicles of the part.
+// One step of the vehicles of the part, those that collect_moves() found.
 void step_meso(const Model& model, State& state, NetworkPart& part);
 
 }  // namespace stopline

@@ -69,7 +69,7 @@ void move_vehicles(const Model& model, const FullTables& tables, State& state, N
         step_full_groups(model, tables, state, part);
     }
     part.ended.clear();
-    for (const int lane : part.awake) {
+    for (const int lane : model.meso ? part.near_end : part.awake) {
         const int first = state.blocks[at(lane)].first;
         if (has_ended(state, lane, first)) part.ended.push_back(lane);
     }

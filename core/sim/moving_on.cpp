@@ -70,7 +70,7 @@ bool somebody_comes(const Model& model, const State& state, int lane, double rea
         for (int slot = before.first; slot < before.stop(); ++slot) {
             const double distance_m = from_m - v.position_m[at(slot)];
             if (distance_m > way.length_m + kApproach_m) break;
-            if (v.record[at(slot)].next_lane == inside && too_near(slot, rear_m + distance_m)) return true;
+            if (v.next_lane[at(slot)] == inside && too_near(slot, rear_m + distance_m)) return true;
         }
     }
     return false;
@@ -138,7 +138,7 @@ bool put_back(const Model& model, State& state, int k) {
     v.reset_radar(slot, ahead_m, first ? 0.0 : speed_mps - v.speed_mps[i - 1]);
     v.reset_v2v(slot);
     const int index = static_cast<int>(model.graph.routes[at(v.record[i].route)].lanes.size()) - 1;
-    put_on_route(model, v, slot, index);
+    put_on_route(state, slot, index);
     choose_way_on(model, state, removed.lane, slot);
     note(model, state, RuleUse::Kind::put_back, slot, removed.lane);
     v.stands_since[i] = static_cast<int>(state.tick);

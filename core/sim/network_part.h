@@ -29,11 +29,24 @@ struct Agreed {
     std::int64_t seen = 0;  // last tick at which it mattered
 };
 
+struct NetworkPart;
+
+// What is fetched for the next parts while one is decided, and how far that is.
+struct Fetching {
+    const NetworkPart* next = nullptr;
+    const NetworkPart* second = nullptr;  // the one behind
+    std::size_t lane = 0;                 // of the next part
+    std::size_t line = 0;                 // of the second
+};
+
 struct NetworkPart {
     std::vector<int> lanes;      // by intersection
     std::vector<int> inside;     // those of them inside an intersection that meet others
     std::vector<int> exits;      // where these lead to
     std::vector<int> detectors;  // on the lanes
+    // What is known of the lanes, as far as a step needs it in any case: lines of the cache, in the order of memory (fetch.cpp).
+    std::vector<const char*> lines;
+    Fetching fetching;
     // In this step.
     std::vector<int> occupied;       // lanes with vehicles
     std::vector<int> awake;          // those of them where there is something to decide (State::sleeps_until_green_of)
@@ -42,7 +55,8 @@ struct NetworkPart {
     std::vector<int> with_insiders;  // lanes inside with vehicles on them, before or behind
     std::vector<int> holding;        // lanes where vehicles wait to give way or to change lanes
     std::vector<int> adapting;       // lanes where vehicles adapt their speed to those beside
-    std::vector<int> ended;          // lanes whose first vehicle has reached the end
+    std::vector<int> near_end;       // lanes whose first vehicle may reach the end
+    std::vector<int> ended;          // lanes whose first vehicle has reached it
     std::vector<Passing> passing;
     std::vector<Agreed> agreed;
     // To be told.

@@ -12,6 +12,13 @@
 namespace stopline {
 
 // For each part by itself, in this order: what is decided and seen from the state at the beginning of the step.
+// Mesoscale mode: brings into the cache what the next parts, up to `end`, need, a little each time (fetch.cpp).
+void begin_to_fetch(State& state, std::size_t number, std::size_t end);
+void fetch_more(const State& state, Fetching& fetching);
+inline void fetch_on(const State& state, Fetching& fetching) {
+    if (fetching.next != nullptr) fetch_more(state, fetching);
+}
+void list_lines(const Model& model, State& state, NetworkPart& part);  // what there is to fetch
 void find_occupied_lanes(State& state, NetworkPart& part);
 void look_beyond_lanes(const Model& model, State& state, NetworkPart& part);
 void find_insiders(State& state, NetworkPart& part);
@@ -19,6 +26,8 @@ void decide_stops(const Model& model, State& state, NetworkPart& part);
 void give_way(const Model& model, State& state, NetworkPart& part);
 void count_conflicts(const Model& model, State& state, NetworkPart& part);  // the last part of give_way
 void wait_to_change(const Model& model, State& state, NetworkPart& part);
+void collect_moves(const Model& model, State& state,
+                   NetworkPart& part);  // mesoscale mode: who has to be moved (meso_blocks.cpp)
 // Then, when all parts are done: everybody moves.
 void move_vehicles(const Model& model, const FullTables& tables, State& state, NetworkPart& part);
 void watch_detectors(const Model& model, State& state, NetworkPart& part);
@@ -36,8 +45,11 @@ void change_lanes(const Model& model, State& state);
 void verify(State& state);
 
 // Whether a vehicle's trip ends on the edge that it is on; there it minds no stop line.
-inline bool trip_ends(const State& state, const VehicleRecord& record) {
-    return record.trip >= 0 && record.next_lane < 0 && state.plan.turn_of(record.route) == Turn::none;
+inline bool trip_ends(const State& state, int slot) {
+    const auto i = static_cast<std::size_t>(slot);
+    if (state.vehicles.next_lane[i] >= 0) return false;
+    const VehicleRecord& record = state.vehicles.record[i];
+    return record.trip >= 0 && state.plan.turn_of(record.route) == Turn::none;
 }
 
 // Fronts that are beyond the rear of their predecessor on the same lane.
@@ -57,7 +69,7 @@ inline bool has_ended(const State& state, int lane, int slot) {
     const double position_m = state.vehicles.position_m[static_cast<std::size_t>(slot)];
     if (position_m >= plan.length_m) return true;
     if (plan.signal_group < 0 || position_m < plan.stop_line_m) return false;
-    return trip_ends(state, state.vehicles.record[static_cast<std::size_t>(slot)]);
+    return trip_ends(state, slot);
 }
 
 // When the front passed `line_m` within the last step.
@@ -118,7 +130,7 @@ void follow_trip(const Model& model, State& state, int lane, int slot, int leg);
 void note_trip(State& state, int detector, int slot, double time_s);
 
 // Gives a vehicle its place in its route.
-void put_on_route(const Model& model, VehicleArrays& vehicles, int slot, int route_index);
+void put_on_route(State& state, int slot, int route_index);
 
 // On a link the vehicle gets its next route.
 void choose_way_on(const Model& model, State& state, int lane, int slot);

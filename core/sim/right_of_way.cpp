@@ -118,8 +118,9 @@ int sets_out_first(const Model& model, const State& state, int lane, const Candi
         if (!conflict.other_yields) continue;
         const LaneBlock& block = state.blocks[at(state.plan.lane(conflict.other).origin)];
         if (block.count == 0 || held(state, block.first)) continue;
-        const VehicleRecord& first = state.vehicles.record[at(block.first)];
-        if (first.next_lane == conflict.other && first.cleared_for == conflict.other) return block.first;
+        const VehicleArrays& arrays = state.vehicles;
+        if (arrays.next_lane[at(block.first)] != conflict.other) continue;
+        if (arrays.record[at(block.first)].cleared_for == conflict.other) return block.first;
     }
     return -1;
 }
@@ -131,7 +132,7 @@ int cannot_stop(const Model& model, const State& state, const Conflict& conflict
     const LanePlan& origin = state.plan.lane(state.plan.lane(conflict.other).origin);
     const LaneBlock& block = state.blocks[at(state.plan.lane(conflict.other).origin)];
     for (int slot = block.first; slot < block.stop(); ++slot) {
-        if (v.record[at(slot)].next_lane != conflict.other) continue;
+        if (v.next_lane[at(slot)] != conflict.other) continue;
         const double speed_mps = v.speed_mps[at(slot)];
         const double first_m = state.plan.lane(conflict.other).first_area_m - model.give_way.margin_m;
         const double to_area_m = origin.length_m + first_m - v.position_m[at(slot)];
@@ -248,9 +249,7 @@ void wait(State& state, NetworkPart& part, int lane, int slot, double place_m, c
     record.held_at = static_cast<int>(state.tick);
     record.held_m =
         static_cast<float>(place_m - (state.plan.lane(lane).origin < 0 ? state.plan.lane(lane).length_m : 0.0));
-    Holds& holds = state.holds[at(lane)];
-    if (holds.count == 0) part.holding.push_back(lane);
-    holds.add({slot, place_m, wait.blocker, wait.priority});
+    hold(state, part, lane, {slot, place_m, wait.blocker, wait.priority});
 }
 
 void decide(const Model& model, State& state, NetworkPart& part, int lane) {
@@ -296,7 +295,10 @@ void give_way(const Model& model, State& state, NetworkPart& part) {
     constexpr std::int64_t kAgreed_steps = 5;
     std::erase_if(part.agreed, [&](const Agreed& a) { return state.tick - a.seen > kAgreed_steps; });
     std::erase_if(part.passing, [&](const Passing& p) { return state.tick - p.seen > model.rules.memory_ticks; });
-    for (const int lane : part.holding) state.holds[at(lane)].count = 0;
+    for (const int lane : part.holding) {
+        state.holds[at(lane)].count = 0;
+        state.has_holds[at(lane)] = 0;
+    }
     part.holding.clear();
     for (const int lane : part.inside) {
         if (state.deciding[at(lane)] == 0) continue;

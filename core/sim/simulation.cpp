@@ -14,6 +14,18 @@ State checked_state(const Model& model, int threads) {
     return make_state(model, threads);
 }
 
+// The parts of one thread.
+struct Share {
+    std::size_t begin;
+    std::size_t end;
+};
+
+Share share_of(std::size_t parts, int thread, int threads) {
+    if (threads == 1) return {0, parts};
+    const auto from = [&](int k) { return parts * static_cast<std::size_t>(k) / static_cast<std::size_t>(threads); };
+    return {from(thread), from(thread + 1)};
+}
+
 }  // namespace
 
 Simulation::Simulation(const Model& model, int threads)
@@ -24,6 +36,14 @@ Simulation::Simulation(const Model& model, int threads)
     form_queues(model_, state_);
 }
 
+void Simulation::decide(int thread, int threads) {
+    const Share share = share_of(state_.parts.size(), thread, threads);
+    for (std::size_t k = share.begin; k < share.end; ++k) {
+        if (model_.meso) begin_to_fetch(state_, k, share.end);
+        decide(state_.parts[k]);
+    }
+}
+
 void Simulation::decide(NetworkPart& part) {
     find_occupied_lanes(state_, part);
     look_beyond_lanes(model_, state_, part);
@@ -31,6 +51,13 @@ void Simulation::decide(NetworkPart& part) {
     decide_stops(model_, state_, part);
     give_way(model_, state_, part);
     wait_to_change(model_, state_, part);
+    if (model_.meso) collect_moves(model_, state_, part);
+}
+
+// From the last part to the first: what was decided last, and what the next step begins with, is still in the cache.
+void Simulation::move(int thread, int threads) {
+    const Share share = share_of(state_.parts.size(), thread, threads);
+    for (std::size_t k = share.end; k-- > share.begin;) move(state_.parts[k]);
 }
 
 void Simulation::move(NetworkPart& part) {
@@ -44,19 +71,18 @@ void Simulation::step() {
     state_.v2v = rows_at(model_.v2v, state_.tick, state_.vehicles.slots);
     read_signals(model_, state_);
     if (threads_ == 1 || state_.present() < share_from_) {
-        for (NetworkPart& part : state_.parts) decide(part);
+        decide(0, 1);
         watch_hindrance(model_, state_);
-        for (NetworkPart& part : state_.parts) move(part);
+        move(0, 1);
     } else {
-        const std::size_t parts = state_.parts.size();
 #pragma omp parallel num_threads(threads_)
         {
-#pragma omp for schedule(static)
-            for (std::size_t k = 0; k < parts; ++k) decide(state_.parts[k]);
+#pragma omp for schedule(static, 1)
+            for (int thread = 0; thread < threads_; ++thread) decide(thread, threads_);
 #pragma omp single
             watch_hindrance(model_, state_);
-#pragma omp for schedule(static)
-            for (std::size_t k = 0; k < parts; ++k) move(state_.parts[k]);
+#pragma omp for schedule(static, 1)
+            for (int thread = 0; thread < threads_; ++thread) move(thread, threads_);
         }
     }
     gather_reports(state_);

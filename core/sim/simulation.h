@@ -52,7 +52,9 @@ public:
     std::uint64_t state_hash() const;
 
 private:
+    void decide(int thread, int threads);
     void decide(NetworkPart& part);
+    void move(int thread, int threads);
     void move(NetworkPart& part);
 
     const Model& model_;

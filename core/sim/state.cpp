@@ -30,6 +30,12 @@ void Holds::add(const Hold& hold) {
     each[static_cast<std::size_t>(place)] = hold;
 }
 
+void hold(State& state, NetworkPart& part, int lane, const Hold& hold) {
+    if (state.has_holds[at(lane)] == 0) part.holding.push_back(lane);
+    state.has_holds[at(lane)] = 1;
+    state.holds[at(lane)].add(hold);
+}
+
 namespace {
 
 std::vector<NetworkPart> make_parts(const Model& model, const State& state, int threads) {
@@ -38,9 +44,10 @@ std::vector<NetworkPart> make_parts(const Model& model, const State& state, int 
     double metres = 0.0;
     double longest_m = 0.0;
     for (const int lane : order) metres += metres_of(lane), longest_m = std::max(longest_m, metres_of(lane));
-    // What is decided for an intersection reads what was decided before: some 40 kB of lanes and vehicles each.
-    constexpr int kIntersectionsTogether = 16;
-    const int count = std::max(threads, state.plan.intersections() / kIntersectionsTogether);
+    // What is decided for an intersection reads what was decided before: some 20 kB of lanes and vehicles each, and those of the next parts
+    // come into the cache meanwhile.
+    const int intersections_together = model.meso ? 8 : 16;
+    const int count = std::max(threads, state.plan.intersections() / intersections_together);
     std::vector<std::vector<int>> detectors(order.size());
     for (std::size_t k = 0; k < model.detectors.size(); ++k) {
         if (model.detectors[k].lane >= 0) detectors[at(model.detectors[k].lane)].push_back(static_cast<int>(k));
@@ -69,7 +76,8 @@ std::vector<NetworkPart> make_parts(const Model& model, const State& state, int 
         NetworkPart::kVehiclesTogether + static_cast<int>(longest_m / shortest_vehicle_m(model)) + 2 * kSimdWidth;
     for (NetworkPart& part : parts) {
         part.full_group.resize(model.meso ? 0 : together);
-        for (std::vector<int>* list : {&part.occupied, &part.awake, &part.awake_before, &part.awake_inside}) {
+        for (std::vector<int>* list :
+             {&part.occupied, &part.awake, &part.awake_before, &part.awake_inside, &part.near_end}) {
             list->reserve(part.lanes.size());
         }
     }
@@ -87,6 +95,7 @@ State make_state(const Model& model, int threads) {
     state.stop_lines.resize(lanes);
     state.stop_slot.assign(lanes, -1);
     state.holds.resize(lanes);
+    state.has_holds.assign(lanes, 0);
     state.adapting.resize(lanes);
     state.turned.resize(model.graph.approaches.size());
     state.drawn.resize(model.graph.approaches.size());
@@ -118,10 +127,14 @@ State make_state(const Model& model, int threads) {
     state.inlet_of.assign(lanes, -1);
     for (std::size_t k = 0; k < model.demand.inlets.size(); ++k) {
         state.inlet_of[at(model.demand.inlets[k].lane)] = static_cast<int>(k);
+        state.open_inlets.push_back(static_cast<int>(k));
     }
     std::size_t expected = 0;
     for (const DemandPlan::Inlet& inlet : model.demand.inlets) {
         expected += static_cast<std::size_t>(std::min<std::int64_t>(inlet.vehicles, 2000));
+    }
+    if (model.meso) {
+        for (NetworkPart& part : state.parts) list_lines(model, state, part);
     }
     if (model.records_all) state.passages.reserve(4 * expected);
     return state;

@@ -122,6 +122,7 @@ struct State {
     std::vector<StopLineState> stop_lines;        // [lane]
     std::vector<int> stop_slot;                   // [lane] slot of the vehicle that stops at the line; -1: none
     std::vector<Holds> holds;                     // [lane] vehicles that wait to give way or to change lanes
+    std::vector<char> has_holds;                  // [lane] 1: there are some
     std::vector<std::vector<Adapting>> adapting;  // [lane]
     std::vector<KeptOut> kept_out;                // [lane] why who stops at the line does so although it is green
     std::vector<ExitRoom> exit_rooms;             // [lane] that leads out of an intersection
@@ -143,6 +144,7 @@ struct State {
     std::vector<std::array<std::int64_t, kMostTurns>> drawn;   // [approach][Turn] where approach_shares are asked for
     std::vector<std::array<std::int64_t, kMostTurns>> turned;  // [approach][Turn] vehicles that went on from there
     std::vector<InletState> inlets;
+    std::vector<int> open_inlets;                 // entries, and links where vehicles are still to enter, in order
     std::vector<int> inlet_of;                    // [lane] -1: no routes begin there
     std::size_t next_trip = 0;                    // the first that is not due yet
     std::vector<std::vector<int>> waiting_trips;  // [approach] due and not entered, in their order
@@ -165,6 +167,9 @@ struct State {
     // About 150 bytes of each vehicle are read and written in a step; a second-level cache holds 1 MiB or more.
     bool outgrows_cache() const { return present() > 4000; }
 };
+
+// One more that waits on a lane.
+void hold(State& state, NetworkPart& part, int lane, const Hold& hold);
 
 // `threads`: into how many parts a step is split at least, where there are as many intersections.
 State make_state(const Model& model, int threads);

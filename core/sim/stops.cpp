@@ -36,7 +36,7 @@ int choose_stopper(const Model& model, const State& state, const LaneBlock& bloc
     const double deceleration = light == Light::yellow ? model.driver.stop.decision_deceleration_mps2
                                                        : model.driver.cacc.deceleration_emergency_mps2;
     for (int slot = block.first; slot < block.stop(); ++slot) {
-        if (trip_ends(state, state.vehicles.record[at(slot)])) continue;
+        if (trip_ends(state, slot)) continue;
         if (can_stop(model, state.vehicles, slot, line_m, deceleration)) return slot;
     }
     return -1;
@@ -57,9 +57,8 @@ int choose_stopper_by_way(const Model& model, const State& state, int index, con
     const LaneBlock& block = state.blocks[at(index)];
     const VehicleArrays& v = state.vehicles;
     for (int slot = block.first; slot < block.stop(); ++slot) {
-        const VehicleRecord& record = v.record[at(slot)];
-        if (trip_ends(state, record)) continue;
-        const int group = state.plan.light_before(index, record.next_lane);
+        if (trip_ends(state, slot)) continue;
+        const int group = state.plan.light_before(index, v.next_lane[at(slot)]);
         const Light light = state.lights[at(group)];
         const bool stopped = line.stopper == v.id[at(slot)];
         const bool hesitates =
@@ -163,7 +162,7 @@ int keep_clear(const Model& model, State& state, int index) {
     const LaneBlock& block = state.blocks[at(index)];
     for (int slot = block.first; slot < block.stop(); ++slot) {
         if (v.position_m[at(slot)] < line_m - kDecides_m) break;
-        Way* const way = ways.to(v.record[at(slot)].next_lane);
+        Way* const way = ways.to(v.next_lane[at(slot)]);
         if (way == nullptr) continue;
         way->room.room_m -= needs_m(v, slot);
         if ((way->room.room_m >= 0.0 && way->across < 0) || v.position_m[at(slot)] > line_m) continue;
@@ -195,22 +194,23 @@ void list_coming(const Model& model, State& state, int index) {
     for (int slot = block.first; slot < block.stop(); ++slot) {
         const double to_end_m = length_m - v.position_m[at(slot)];
         if (to_end_m > look_back_m || slot == state.stop_slot[at(index)]) break;
-        const VehicleRecord& record = v.record[at(slot)];
-        if (record.next_lane < 0) continue;
-        const LanePlan& way = state.plan.lane(record.next_lane);
+        const int next = v.next_lane[at(slot)];
+        if (next < 0) continue;
+        const LanePlan& way = state.plan.lane(next);
         if (way.origin != index) continue;
         // With priority, and nobody there: only imported networks have vehicles that come too fast to give way any more.
-        const bool alone = state.others_inside[at(record.next_lane)].lanes == 0;
-        if (!way.yields && alone && (!has_trips || state.plan.conflicts(record.next_lane).empty())) continue;
+        const bool alone = state.others_inside[at(next)].lanes == 0;
+        if (!way.yields && alone && (!has_trips || state.plan.conflicts(next).empty())) continue;
         double to_area_m = to_end_m + way.first_area_m - model.give_way.margin_m;
-        if (!state.plan.waits_inside(record.next_lane)) {
+        if (!state.plan.waits_inside(next)) {
             const double line_m = state.plan.lane(index).stop_line_m - model.driver.stop.margin_m;
             to_area_m = std::min(to_area_m, line_m - v.position_m[at(slot)]);
         }
-        if (to_area_m > decides_within_m(model, v.speed_mps[at(slot)]) && record.cleared_for != record.next_lane)
+        if (to_area_m > decides_within_m(model, v.speed_mps[at(slot)]) && v.record[at(slot)].cleared_for != next)
             continue;
-        state.coming[at(record.next_lane)].push_back(slot);
-        state.deciding[at(record.next_lane)] = 1;
+        state.coming[at(next)].push_back(slot);
+        if (state.deciding[at(next)] == 0) state.plan.fetch_conflicts(next);
+        state.deciding[at(next)] = 1;
     }
 }
 
@@ -224,6 +224,7 @@ void read_signals(const Model& model, State& state) {
 
 void decide_stops(const Model& model, State& state, NetworkPart& part) {
     for (const int index : part.awake_before) {
+        fetch_on(state, part.fetching);
         const LanePlan& lane = state.plan.lane(index);
         state.kept_out[at(index)] = {};
         StopLineState& line = state.stop_lines[at(index)];

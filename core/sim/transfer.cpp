@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <span>
 
 #include "base/random.h"
 #include "sim/phases.h"
@@ -18,10 +19,10 @@ constexpr double kEntryHeadway_s = 2.0;  // of vehicles that waited outside
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 // Limit that the vehicle's route sets at the end of the lane it is on.
-float end_speed(const Model& model, const Route& route, int index) {
-    if (at(index) + 1 >= route.lanes.size()) return kNoLowerLimit_mps;
-    const double here = model.graph.lanes[at(route.lanes[at(index)])].limit_mps;
-    const double next = model.graph.lanes[at(route.lanes[at(index) + 1])].limit_mps;
+float end_speed(const State& state, std::span<const int> route, int index) {
+    if (at(index) + 1 >= route.size()) return kNoLowerLimit_mps;
+    const double here = state.plan.lane(route[at(index)]).limit_mps;
+    const double next = state.plan.lane(route[at(index) + 1]).limit_mps;
     return next < here ? static_cast<float>(next) : kNoLowerLimit_mps;
 }
 
@@ -44,10 +45,10 @@ void stray(const Model& model, State& state, int lane) {
 void pass_on(const Model& model, State& state, int lane) {
     VehicleArrays& v = state.vehicles;
     const double length_m = state.plan.lane(lane).length_m;
-    const int next = v.record[at(state.blocks[at(lane)].first)].next_lane;
+    const int next = v.next_lane[at(state.blocks[at(lane)].first)];
     const bool leaves = next < 0;
     const VehicleRecord& record = v.record[at(state.blocks[at(lane)].first)];
-    if (leaves && record.trip >= 0 && !trip_ends(state, record)) return stray(model, state, lane);
+    if (leaves && record.trip >= 0 && !trip_ends(state, state.blocks[at(lane)].first)) return stray(model, state, lane);
     if (!leaves) make_room(state, next);
     const int slot = state.blocks[at(lane)].first;
     const int index = v.record[at(slot)].route_index + 1;
@@ -66,7 +67,7 @@ void pass_on(const Model& model, State& state, int lane) {
         v.position_m[at(target)] -= length_m;
         v.record[at(target)].came_by = v.record[at(target)].came_from;
         v.record[at(target)].came_from = lane;
-        put_on_route(model, v, target, index);
+        put_on_route(state, target, index);
         choose_way_on(model, state, next, target);
     }
     remove_first(state, lane);
@@ -183,6 +184,7 @@ int put_on_lane(const Model& model, State& state, const Entering& entering) {
     v.type[i] = 0;
     v.id[i] = state.next_id++;
     v.record[i] = {};
+    v.next_lane[i] = -1;
     v.record[i].route = entering.route;
     return slot;
 }
@@ -223,11 +225,12 @@ double desired_gap_m(const Model& model, int policy_number, double speed_mps) {
     return krauss.equilibrium_gap_m(speed_mps) + more_m;
 }
 
-void put_on_route(const Model& model, VehicleArrays& v, int slot, int index) {
-    const Route& route = model.graph.routes[at(v.record[at(slot)].route)];
+void put_on_route(State& state, int slot, int index) {
+    VehicleArrays& v = state.vehicles;
+    const std::span<const int> route = state.plan.route(v.record[at(slot)].route);
     v.record[at(slot)].route_index = index;
-    v.record[at(slot)].next_lane = at(index) + 1 < route.lanes.size() ? route.lanes[at(index) + 1] : -1;
-    v.end_speed_mps[at(slot)] = end_speed(model, route, index);
+    v.next_lane[at(slot)] = at(index) + 1 < route.size() ? route[at(index) + 1] : -1;
+    v.end_speed_mps[at(slot)] = end_speed(state, route, index);
 }
 
 void choose_way_on(const Model& model, State& state, int lane, int slot) {
@@ -277,10 +280,10 @@ void take_way_of_lane(const Model& model, State& state, int lane, int slot) {
     const int own = state.plan.beside(lane).way(state.plan.turn_of(record.route)).route;
     if (own >= 0) {
         record.route = state.plan.like(own) < 0 ? own : best_of_like(model, state, own, slot);
-        return put_on_route(model, state.vehicles, slot, 0);
+        return put_on_route(state, slot, 0);
     }
     record.route_index = 0;
-    record.next_lane = -1;
+    state.vehicles.next_lane[at(slot)] = -1;
     state.vehicles.end_speed_mps[at(slot)] = kNoLowerLimit_mps;
 }
 
@@ -366,15 +369,22 @@ double next_entry_s(const Model& model, const State& state, int inlet) {
 }  // namespace
 
 void insert_vehicles(const Model& model, State& state) {
-    for (int k = 0; k < static_cast<int>(model.demand.inlets.size()); ++k) {
+    const auto is_dry = [&](int k) { return state.inlets[at(k)].entered >= model.demand.inlets[at(k)].vehicles; };
+    const auto is_link = [&](int k) { return !model.leads_to[at(model.demand.inlets[at(k)].lane)].empty(); };
+    bool some_dry = false;
+    for (const int k : state.open_inlets) {
+        if (is_dry(k)) {
+            some_dry = some_dry || is_link(k);
+            continue;
+        }
         const DemandPlan::Inlet& inlet = model.demand.inlets[at(k)];
         InletState& entered = state.inlets[at(k)];
-        if (entered.entered >= inlet.vehicles) continue;
         draw_next(model, state, k);
         if (model.time_s(state.tick + 1) < next_entry_s(model, state, k)) continue;
         const Entry entry = entry_of(model, state, inlet.lane, entered.next_policy);
         if (entry.possible) enter(model, state, k, entry);
     }
+    if (some_dry) std::erase_if(state.open_inlets, [&](int k) { return is_dry(k) && is_link(k); });
 }
 
 }  // namespace stopline

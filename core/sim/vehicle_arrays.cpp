@@ -7,7 +7,8 @@ namespace stopline {
 template <class Visit>
 void VehicleArrays::for_each_common(Visit visit) {
     visit(position_m), visit(speed_mps), visit(acceleration_mps2), visit(length_m), visit(end_speed_mps), visit(leads);
-    visit(policy), visit(id), visit(record), visit(stands_since), visit(standstill_gap_m), visit(type);
+    visit(policy), visit(id), visit(next_lane), visit(record), visit(stands_since), visit(standstill_gap_m),
+        visit(type);
 }
 
 template <class Visit>

@@ -30,7 +30,6 @@ struct LaneBlock {
 struct alignas(64) VehicleRecord {
     int route = -1;
     int route_index = 0;           // place in the route of the lane the vehicle is on
-    int next_lane = -1;            // on the route; -1: it leaves, or must change to a lane that leads there
     int came_from = -1;            // lane before; -1: it entered here
     int came_by = -1;              // the one before that
     int predecessor = -1;          // id of the vehicle that the radar tracks; -1: none
@@ -73,7 +72,8 @@ struct VehicleArrays {
     LargeArray<float> v2v_acceleration_mps2;
     LargeArray<float> v2v_request_mps2;
     LargeArray<float> v2v_rate_1ps;
-    // Read at a lane's head and at events.
+    // Read near a lane's head and at events.
+    LargeArray<int> next_lane;  // on the route; -1: it leaves, or must change to a lane that leads there
     LargeArray<VehicleRecord> record;
     LargeArray<int> stands_since;  // tick at which it was last seen to move
     LargeArray<float> standstill_gap_m;

@@ -27,8 +27,7 @@ public:
     void look() {
         const LaneBlock& block = state_.blocks[at(lane_)];
         for (int slot = block.first; slot < block.stop(); ++slot) {
-            const VehicleRecord& record = v_.record[at(slot)];
-            if (record.next_lane >= 0 && record.turn_after == Turn::none) continue;
+            if (v_.next_lane[at(slot)] >= 0 && v_.record[at(slot)].turn_after == Turn::none) continue;
             const Changer me = changer_at(model_, state_, lane_, slot);
             if (me.to_line_m < -model_.driver.stop.margin_m) continue;
             const double urgent_m = model_.lane_change.urgent_m;
@@ -45,9 +44,7 @@ private:
     void hold(const Changer& me) {
         const double place_m = waiting_place_m(model_, state_, me);
         if (place_m - me.front_m > decides_within_m(model_, me.speed_mps)) return;
-        Holds& holds = state_.holds[at(lane_)];
-        if (holds.count == 0) part_.holding.push_back(lane_);
-        holds.add({me.slot, place_m, -1, false});
+        stopline::hold(state_, part_, lane_, {me.slot, place_m, -1, false});
     }
 
     // The speed at which one comes to follow another vehicle, not much slower than it meanwhile.

@@ -35,8 +35,9 @@ std::vector<Body> bodies(const Model& model, const State& state) {
         for (int slot = block.first; slot < block.stop(); ++slot) {
             const VehicleRecord& record = state.vehicles.record[at(slot)];
             const Lane& lane = model.graph.lanes[k];
-            const bool before = lane.origin < 0 && record.next_lane >= 0;
-            const int way = before ? record.next_lane : lane.origin >= 0 ? static_cast<int>(k) : record.came_from;
+            const int next = state.vehicles.next_lane[at(slot)];
+            const bool before = lane.origin < 0 && next >= 0;
+            const int way = before ? next : lane.origin >= 0 ? static_cast<int>(k) : record.came_from;
             if (way < 0) continue;
             const Lane& inside = model.graph.lanes[at(way)];
             double start_m = before ? -lane.stop_line_m : inside.shape_start_m;

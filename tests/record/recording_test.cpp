@@ -32,8 +32,7 @@ Picture picture_of(const State& state) {
     for (int lane = 0; lane < static_cast<int>(state.blocks.size()); ++lane) {
         const LaneBlock& block = state.blocks[static_cast<std::size_t>(lane)];
         for (auto slot = static_cast<std::size_t>(block.first); slot < static_cast<std::size_t>(block.stop()); ++slot) {
-            picture[v.id[slot]] = {v.policy[slot], lane, v.record[slot].next_lane, v.position_m[slot],
-                                   v.speed_mps[slot]};
+            picture[v.id[slot]] = {v.policy[slot], lane, v.next_lane[slot], v.position_m[slot], v.speed_mps[slot]};
         }
     }
     return picture;
@@ -164,7 +163,7 @@ TEST(Recording, TellsWhereOnePastTheLineGoesOnAlthoughItStands) {
     Recorder recorder(file, {0.5, model.time_s(state.tick), 300.0}, {}, model);
     const std::vector<int> ways{3, 3, 4, 4};
     for (const int way : ways) {
-        state.vehicles.record[slot].next_lane = way;
+        state.vehicles.next_lane[slot] = way;
         recorder.look(state);
         state.tick += 5;
     }

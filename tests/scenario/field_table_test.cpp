@@ -223,13 +223,21 @@ TEST_P(EveryField, ListsAndCurvesRefuseWhatIsWrong) {
             if (f->size.min > 0) expect_refused(leaf, "[]", "has 0 entries");
             ++fields;
         } else if (const auto* const c = std::get_if<CurveField>(&leaf.field->kind)) {
-            // The first point stands where the map begins.
-            expect_refused(leaf, "nan: nan", "is not a finite number");
-            expect_refused(leaf, "1e7 " + std::string(c->x_shown->text) + ": " + quantity(c->y_range.max, *c->y_shown),
-                           "is out of range");
-            expect_refused(leaf, "1 " + other_unit(*c->x_shown) + ": 1", "is needed");
-            EXPECT_TRUE(contains(error_of(replaced(leaf.value, quantity(c->x_range.max, *c->x_shown) + ": " +
-                                                                   quantity(c->y_range.max, *c->y_shown))),
+            // Without points the map is written as {}; else the first point stands where it begins.
+            const bool empty = text_.compare(offset(leaf.value), 2, "{}") == 0;
+            const std::string highest = quantity(c->y_range.max, *c->y_shown);
+            const auto refused_point = [&](const std::string& point, const std::string& remark) {
+                if (!empty) return expect_refused(leaf, point, remark);
+                const std::string message = error_of(replaced(leaf.value, "{" + point + "}"));
+                EXPECT_TRUE(contains(message, "field '" + leaf.path + "': "));
+                EXPECT_TRUE(contains(message, remark));
+            };
+            refused_point("nan: nan", "is not a finite number");
+            refused_point("1e7 " + std::string(c->x_shown->text) + ": " + highest, "is out of range");
+            refused_point("1 " + other_unit(*c->x_shown) + ": 1", "is needed");
+            const std::string last = quantity(c->x_range.max, *c->x_shown) + ": " + highest;
+            const std::string lower = quantity(0.5 * c->x_range.max, *c->x_shown) + ": " + highest;
+            EXPECT_TRUE(contains(error_of(replaced(leaf.value, empty ? "{" + last + ", " + lower + "}" : last)),
                                  "does not rise"));
             ++fields;
         }

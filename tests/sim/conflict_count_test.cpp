@@ -51,7 +51,7 @@ protected:
         track_.place(on, front_m - from_m, 0.0);
         State& state = track_.editable();
         const std::size_t slot = at(state.blocks[at(on)].last());
-        state.vehicles.record[slot].next_lane = on == road.origin ? number : -1;
+        state.vehicles.next_lane[slot] = on == road.origin ? number : -1;
         state.vehicles.record[slot].came_from = number;
         state.vehicles.record[slot].inside_since = static_cast<int>(state.tick) - inside;
     }

@@ -56,13 +56,13 @@ protected:
         const Lane& road = track_.model().graph.lanes[at(on)];
         const std::string leads_to =
             next.empty() && road.origin >= 0 ? track_.model().graph.lanes[at(road.next[0])].name : next;
-        state().vehicles.record[slot].next_lane = leads_to.empty() ? -1 : lane(leads_to);
+        state().vehicles.next_lane[slot] = leads_to.empty() ? -1 : lane(leads_to);
         const auto& routes = track_.model().graph.routes;
         for (std::size_t k = 0; k < routes.size(); ++k) {
             const auto place = std::find(routes[k].lanes.begin(), routes[k].lanes.end(), on);
             if (place == routes[k].lanes.end()) continue;
             const auto after =
-                std::find(routes[k].lanes.begin(), routes[k].lanes.end(), state().vehicles.record[slot].next_lane);
+                std::find(routes[k].lanes.begin(), routes[k].lanes.end(), state().vehicles.next_lane[slot]);
             if (!leads_to.empty() && after == routes[k].lanes.end()) continue;
             state().vehicles.record[slot].route = static_cast<int>(k);
             state().vehicles.record[slot].route_index = static_cast<int>(place - routes[k].lanes.begin());

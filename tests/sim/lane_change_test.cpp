@@ -185,7 +185,7 @@ TEST_P(LaneChanging, WithoutAGapItWaitsBeforeTheLine) {
     for (int k = 0; k < 40; ++k) {
         track.place(2, 980.0 - k * (track.model().vehicles[0].length_m + 2.0), 0.0);
     }
-    track.editable().vehicles.record[track.slot(2, 0)].next_lane = -1;
+    track.editable().vehicles.next_lane[track.slot(2, 0)] = -1;
     Model& model = const_cast<Model&>(track.model());
     model.signals = {GroupProgramme({{1, Light::red}}, 0, true)};
     track.run(40.0);

@@ -111,7 +111,7 @@ public:
         v.record[i] = {};
         v.record[i].route = lane / 2;
         v.record[i].route_index = lane % 2;
-        v.record[i].next_lane = lane % 2 == 0 ? lane + 1 : -1;
+        v.next_lane[i] = lane % 2 == 0 ? lane + 1 : -1;
         const bool first = state.blocks[at(lane)].count == 1;
         v.record[i].predecessor = first ? -1 : v.id[i - 1];
         v.reset_radar(slot, first ? 1e6 : v.position_m[i - 1] - v.length_m[i - 1] - position_m,
