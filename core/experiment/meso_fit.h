@@ -19,12 +19,12 @@ namespace stopline {
 // start_delay and the leaders' acceleration, which all vehicles share and which are fitted with the models with a time gap;
 // then a, v_p, b, tau, sigma of either model, s_0, s_t and d, and what was added to the models.
 struct FitParameter {
-    const char* name;  // path within MesoSettings, as in a file
-    const char* unit;
-    bool constant_distance;  // whose it is
-    double low;              // bounds of the search, SI units; equal where others decide it
-    double high;
-    double& (*in)(MesoSettings&);
+    const char* name = "";  // path within MesoSettings, as in a file
+    const char* unit = "";
+    bool constant_distance = false;  // whose it is
+    double low = 0.0;                // bounds of the search, SI units; equal where others decide it
+    double high = 0.0;
+    double& (*in)(MesoSettings&) = nullptr;
     bool (*counts)(const MesoSettings&) = nullptr;  // whether it matters beside the others; not given: it does
 
     bool is_free(const MesoSettings& settings) const { return low < high && (counts == nullptr || counts(settings)); }
