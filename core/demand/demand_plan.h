@@ -41,6 +41,7 @@ struct DemandPlan {
         std::vector<double> lane_shares = {};
         // Those of the approach as a whole, for the same routes, which hold whatever its lanes let through; empty: not asked for.
         std::vector<double> approach_shares = {};
+        double headway_s = 0.0;  // vehicles arrive evenly here, though all other inlets are saturated; 0: as the others
     };
     std::vector<Inlet> inlets;  // entries, then links
     double entry_speed_mps = 0.0;
@@ -49,6 +50,12 @@ struct DemandPlan {
     // Inlets never run dry: each vehicle enters as part of an endless platoon, in the gap of its policy and with the speed of
     // the vehicle ahead.
     bool saturated = false;
+    bool is_saturated(int inlet) const { return saturated && inlets[static_cast<std::size_t>(inlet)].headway_s == 0.0; }
+    bool is_even(int inlet) const { return evenly || inlets[static_cast<std::size_t>(inlet)].headway_s > 0.0; }
+    double headway_at(int inlet) const {
+        const double own_s = inlets[static_cast<std::size_t>(inlet)].headway_s;
+        return own_s > 0.0 ? own_s : entry_headway_s;
+    }
     bool queued = false;  // a queue stands from the stop line to the entry when the run begins
 
     // Policy of the k-th vehicle of an inlet: component shares, and how they are arranged.

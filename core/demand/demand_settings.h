@@ -15,6 +15,8 @@ struct DemandSettings {
     std::string kind = "queue";
     int vehicles = 60;
     double inflow_1ps = 600.0 / 3600.0;
+    // The same of streets from south to north, where the others are saturated; 0: saturated too.
+    double cross_inflow_1ps = 0.0;
     std::vector<std::string> arms = {};  // where vehicles enter: how names of lanes begin; none: all entries
     double entry_speed_mps = 50.0 / 3.6;
     // Of the vehicles on lanes from which one can turn and go straight on.

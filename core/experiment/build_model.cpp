@@ -33,6 +33,9 @@ void add_policies(const Scenario& scenario, const PopulationSettings& population
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
+// Of intersections, which have two signal groups each.
+bool from_south_or_north(const LaneGraph& graph, int lane) { return graph.lanes[at(lane)].signal_group % 2 == 1; }
+
 // A route's share of its entry lane: turns as the demand says where there is a choice.
 double share_of(const Scenario& scenario, const Model& model, const Route& route) {
     const LaneGraph& graph = model.graph;
@@ -42,7 +45,7 @@ double share_of(const Scenario& scenario, const Model& model, const Route& route
     const auto possible = [&](Turn turn) {
         return std::any_of(ways.begin(), ways.end(), [&](int lane) { return graph.lanes[at(lane)].turn == turn; });
     };
-    const bool crosses = scenario.demand.cross_turns == "own" && graph.lanes[at(route.lanes[0])].signal_group % 2 == 1;
+    const bool crosses = scenario.demand.cross_turns == "own" && from_south_or_north(graph, route.lanes[0]);
     const double right = crosses ? scenario.demand.cross_right : scenario.demand.right;
     double left = !possible(Turn::left) ? 0.0 : crosses ? scenario.demand.cross_left : scenario.demand.left;
     if (!possible(Turn::straight)) left = 1.0 - right;
@@ -101,6 +104,10 @@ void add_demand(const Scenario& scenario, Model& model) {
         model.demand.entry_headway_s = lanes / scenario.demand.inflow_1ps;
         model.demand.evenly = true;
     }
+    const double cross_headway_s =
+        scenario.demand.cross_inflow_1ps > 0.0
+            ? static_cast<double>(scenario.network.intersection.lanes.size()) / scenario.demand.cross_inflow_1ps
+            : 0.0;
     for (std::size_t k = 0; k < graph.entries.size() + graph.links.size(); ++k) {
         const bool entry = k < graph.entries.size();
         const int lane = entry ? graph.entries[k] : graph.links[k - graph.entries.size()];
@@ -108,6 +115,7 @@ void add_demand(const Scenario& scenario, Model& model) {
             (entry || !scenario.demand.arms.empty()) && enters(scenario.demand, graph.lanes[at(lane)].name);
         if (!scenario.network.is_streets()) model.demand.inlets.push_back(inlet_of(scenario, model, lane));
         model.demand.inlets[k].vehicles = used ? vehicles : 0;
+        if (from_south_or_north(graph, lane)) model.demand.inlets[k].headway_s = cross_headway_s;
     }
 }
 

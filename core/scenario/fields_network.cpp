@@ -159,6 +159,10 @@ const Table& demand_table() {
             number<&DemandSettings::inflow_1ps>("inflow", "veh/h", {1, 100'000},
                                                 "vehicles that arrive on an arm, evenly in time and over its lanes")
                 .only("kind", {"rate"}),
+            number<&DemandSettings::cross_inflow_1ps>("cross_inflow", "veh/h", {0, 100'000},
+                                                      "the same of arms from south and north, though all others are "
+                                                      "saturated; 0 veh/h: saturated as those")
+                .only("kind", {"saturated"}),
             number<&DemandSettings::entry_speed_mps>("entry_speed", "km/h", {0, 150}, "speed on entering"),
             number<&DemandSettings::right>("right", "%", {0, 100}, "turning right, on lanes where others go elsewhere"),
             number<&DemandSettings::left>("left", "%", {0, 100}, "turning left, on lanes where others go elsewhere"),

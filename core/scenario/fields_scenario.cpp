@@ -194,7 +194,14 @@ void check_times(const Scenario& scenario, Checker& check) {
     }
 }
 
+void check_cross_inflow(const Scenario& scenario, Checker& check) {
+    const std::string& kind = scenario.network.kind;
+    if (scenario.demand.cross_inflow_1ps == 0.0 || kind == "intersection" || kind == "grid") return;
+    check.error("demand.cross_inflow", "is for intersections and grids");
+}
+
 void check_scenario(const Scenario& scenario, Checker& check) {
+    check_cross_inflow(scenario, check);
     check_steps(scenario, check);
     check_times(scenario, check);
     check_names(scenario, check);

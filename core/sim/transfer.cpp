@@ -104,7 +104,8 @@ struct Entry {
     double speed_mps = 0.0;
 };
 
-Entry entry_of(const Model& model, const State& state, int lane, int policy) {
+Entry entry_of(const Model& model, const State& state, int inlet, int policy) {
+    const int lane = model.demand.inlets[at(inlet)].lane;
     const double fastest_mps = std::min(model.demand.entry_speed_mps, model.graph.lanes[at(lane)].limit_mps);
     const LaneBlock& block = state.blocks[at(lane)];
     if (block.count == 0) return {true, 0.0, fastest_mps};
@@ -112,11 +113,11 @@ Entry entry_of(const Model& model, const State& state, int lane, int policy) {
     const std::size_t last = at(block.last());
     const double rear_m = v.position_m[last] - v.length_m[last];
     const double speed_mps = std::min(fastest_mps, v.speed_mps[last]);
-    if (model.demand.saturated) {
+    if (model.demand.is_saturated(inlet)) {
         const double position_m = rear_m - desired_gap_m(model, policy, speed_mps);
         return {position_m >= 0.0, position_m, speed_mps};
     }
-    const double headway_s = model.demand.evenly ? kEntryHeadway_s : model.demand.entry_headway_s;
+    const double headway_s = model.demand.is_even(inlet) ? kEntryHeadway_s : model.demand.entry_headway_s;
     const double room_m = desired_gap_m(model, policy, speed_mps) + speed_mps * headway_s * 0.5;
     return {rear_m >= room_m, 0.0, speed_mps};
 }
@@ -358,10 +359,10 @@ namespace {
 
 // Not before this does the next vehicle enter.
 double next_entry_s(const Model& model, const State& state, int inlet) {
-    if (model.demand.saturated) return -kFar_s;
+    if (model.demand.is_saturated(inlet)) return -kFar_s;
     const InletState& entered = state.inlets[at(inlet)];
-    const double headway_s = model.demand.entry_headway_s;
-    if (!model.demand.evenly) return entered.last_entry_s + headway_s;
+    const double headway_s = model.demand.headway_at(inlet);
+    if (!model.demand.is_even(inlet)) return entered.last_entry_s + headway_s;
     const double shift = random_uniform(model.seed, static_cast<std::uint64_t>(inlet), 0, Purpose::insertion);
     return (static_cast<double>(entered.entered) + shift) * headway_s;
 }
@@ -377,11 +378,10 @@ void insert_vehicles(const Model& model, State& state) {
             some_dry = some_dry || is_link(k);
             continue;
         }
-        const DemandPlan::Inlet& inlet = model.demand.inlets[at(k)];
         InletState& entered = state.inlets[at(k)];
         draw_next(model, state, k);
         if (model.time_s(state.tick + 1) < next_entry_s(model, state, k)) continue;
-        const Entry entry = entry_of(model, state, inlet.lane, entered.next_policy);
+        const Entry entry = entry_of(model, state, k, entered.next_policy);
         if (entry.possible) enter(model, state, k, entry);
     }
     if (some_dry) std::erase_if(state.open_inlets, [&](int k) { return is_dry(k) && is_link(k); });

@@ -102,6 +102,8 @@ TEST(Streets, HaveTheirSignalsAndTurnsThemselves) {
     EXPECT_TRUE(contains(with({"demand.left=5 %"}), "field 'demand.left': has no effect on streets"));
     EXPECT_TRUE(contains(with({"demand.cross_turns=own"}), "field 'demand.cross_turns': has no effect on streets"));
     EXPECT_TRUE(contains(with({"demand={kind: rate, inflow: 600 veh/h}"}), "field 'demand.kind': "));
+    EXPECT_TRUE(
+        contains(with({"demand={kind: saturated, cross_inflow: 600 veh/h}"}), "field 'demand.cross_inflow': is for"));
     EXPECT_TRUE(contains(with({"network.streets.intersections[first].offset=0.005 s"}), "not a whole number of steps"));
 }
 

@@ -43,6 +43,25 @@ TEST(Inflow, ComesEvenlyAtItsRate) {
     EXPECT_TRUE(simulation.state().violations.none());
 }
 
+// Streets that cross with a rate of their own: one vehicle every 36 s a lane of theirs, while the others never run dry.
+TEST(Inflow, OfStreetsThatCrossIsTheirOwn) {
+    const Scenario scenario =
+        load_scenario(STOPLINE_SOURCE_DIR "/scenarios/arterial.yaml", {"demand.cross_inflow=200 veh/h"});
+    const Model model = build_model(scenario, 0);
+    Simulation simulation(model);
+    simulation.run_until(1800.0);
+    const State& state = simulation.state();
+    for (std::size_t k = 0; k < model.graph.entries.size(); ++k) {
+        const Lane& lane = model.graph.lanes[at(model.graph.entries[k])];
+        if (lane.signal_group % 2 == 1) {
+            EXPECT_NEAR(static_cast<double>(state.inlets[k].entered), 50.0, 1.0) << lane.name;
+        } else {
+            EXPECT_GT(state.inlets[k].entered, 150) << lane.name;
+        }
+    }
+    EXPECT_TRUE(state.violations.none());
+}
+
 // A left turner that accepted a gap from afar, behind one that waited, must not count on it when that one sets out: here, at 1,917 s,
 // two once were in the same conflict area.
 TEST(Inflow, ThatIsLightIsNeverInTheSameConflictArea) {
