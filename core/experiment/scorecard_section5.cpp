@@ -1,5 +1,5 @@
 // Section V of the paper: the mesoscale mode's parameters beside Table 2 (C01..C10), and its two criteria (C11, C12) with the
-// parameters in data/meso/fitted.yaml. What stopline-calibrate shows in full.
+// calibrated parameters. What stopline-calibrate shows in full.
 #include <array>
 #include <optional>
 #include <string>
@@ -22,7 +22,6 @@ namespace {
 constexpr const char* kParameters = "meso_parameters";
 constexpr const char* kTimes = "calibration_times";
 constexpr const char* kBands = "calibration_bands";
-constexpr const char* kFitted = "fitted";
 
 void set_model(Measurements& measured, const char* name, const KraussSettings& model) {
     measured.set(fmt::format("krauss_decel {}", name), model.deceleration_mps2);
@@ -33,7 +32,7 @@ void set_model(Measurements& measured, const char* name, const KraussSettings& m
 }
 
 Measurements measure_parameters(const Scenario& /*scenario*/, const ScorecardOptions& /*options*/) {
-    const MesoSettings meso = load_meso(kFitted);
+    const MesoSettings meso = load_meso(kCalibratedMeso);
     Measurements measured;
     set_model(measured, "CTG", meso.constant_time);
     set_model(measured, "CDG", meso.constant_distance);
@@ -43,9 +42,9 @@ Measurements measure_parameters(const Scenario& /*scenario*/, const ScorecardOpt
 Measurements measure_times(const Scenario& /*scenario*/, const ScorecardOptions& options) {
     const SweepRuns full =
         run_sweep(options, "calibration.yaml", {"fidelity=full"}, "times_full", detector_metrics, {0.0, 0.9});
-    const MesoSettings meso = load_meso(kFitted);
+    const MesoSettings meso = load_meso(kCalibratedMeso);
     const std::vector<CalibrationCase> cases = calibration_cases(full.sweep, full.store, meso);
-    const TimingResult result = judge_timing(kFitted, cases, meso, options.threads);
+    const TimingResult result = judge_timing(kCalibratedMeso, cases, meso, options.threads);
     const Agreement held_out = agreement_of(result, cases, Chosen::held_out);
     Measurements measured;
     measured.set("held_out_within_percent", 100.0 * held_out.within_share);
@@ -60,8 +59,8 @@ Measurements measure_times(const Scenario& /*scenario*/, const ScorecardOptions&
 Measurements measure_bands(const Scenario& /*scenario*/, const ScorecardOptions& options) {
     constexpr const char* kSweep = "intersection.yaml";
     const SweepRuns full = run_sweep(options, kSweep, {"fidelity=full"}, "bands_full", run_metrics, {0.0, 0.85});
-    const SweepRuns meso = run_sweep(options, kSweep, {"fidelity=meso", std::string("meso=") + kFitted}, "bands_meso",
-                                     run_metrics, {0.85, 1.0});
+    const SweepRuns meso = run_sweep(options, kSweep, {"fidelity=meso", std::string("meso=") + kCalibratedMeso},
+                                     "bands_meso", run_metrics, {0.85, 1.0});
     const BandCheck check = check_bands(full.sweep, full.store, meso.store, band_metrics(full.store, {}));
     Measurements measured;
     for (const MetricBands& metric : check.metrics) {

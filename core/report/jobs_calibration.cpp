@@ -1,4 +1,4 @@
-// Section V: the mesoscale mode beside full dynamics, with the parameters that stopline-calibrate fitted (data/meso/fitted.yaml) and those of
+// Section V: the mesoscale mode beside full dynamics, with the parameters that stopline-calibrate fitted and those of
 // the paper's Table 2 (data/meso/table2.yaml). The fit itself is not repeated.
 #include <fmt/format.h>
 
@@ -35,13 +35,13 @@ JobOutput run_calibration_times_job(const JobContext& context) {
     const SweepRuns full = run_sweep(context.scorecard(), "calibration.yaml", {"fidelity=full"}, "times_full",
                                      detector_metrics, {0.9, 1.0});
     const MesoSettings paper = load_meso("table2");
-    const MesoSettings ours = load_meso("fitted");
+    const MesoSettings ours = load_meso(kCalibratedMeso);
     const std::vector<CalibrationCase> cases = calibration_cases(full.sweep, full.store, ours);
     const std::vector<TimingResult> results{judge_timing(paper.name, cases, paper, context.threads),
                                             judge_timing(ours.name, cases, ours, context.threads)};
     writer.conditions_of(full.sweep);
-    writer.condition("Beside", "the mesoscale mode with the parameters table2 and fitted");
-    writer.command("stopline-calibrate --step I --parameters fitted");
+    writer.condition("Beside", std::string("the mesoscale mode with the parameters table2 and ") + kCalibratedMeso);
+    writer.command(std::string("stopline-calibrate --step I --parameters ") + kCalibratedMeso);
     writer.table("parameters.csv", parameters_csv(paper, ours));
     writer.table("permutations.csv", permutations_csv(results, cases));
     writer.table("differences.csv", differences_csv(results.back(), cases));
@@ -55,13 +55,14 @@ JobOutput run_calibration_bands_job(const JobContext& context) {
     writer.experiment("calibration_bands");
     // The experiment has stored the runs.
     const SweepRuns full = intersection_runs(context.scorecard(), {1.0, 1.0});
-    const SweepRuns meso = run_sweep(context.scorecard(), "intersection.yaml", {"fidelity=meso", "meso=fitted"},
-                                     "bands_meso", run_metrics, {1.0, 1.0});
+    const SweepRuns meso =
+        run_sweep(context.scorecard(), "intersection.yaml", {"fidelity=meso", std::string("meso=") + kCalibratedMeso},
+                  "bands_meso", run_metrics, {1.0, 1.0});
     const BandCheck check = check_bands(full.sweep, full.store, meso.store, band_metrics(full.store, {}));
     writer.conditions_of(full.sweep);
-    writer.condition("Beside", "the mesoscale mode with the parameters fitted");
-    writer.command("stopline-calibrate --step II --parameters fitted");
-    writer.table("bands_fitted.csv", bands_csv(check));
+    writer.condition("Beside", std::string("the mesoscale mode with the parameters ") + kCalibratedMeso);
+    writer.command(std::string("stopline-calibrate --step II --parameters ") + kCalibratedMeso);
+    writer.table("bands_calibrated.csv", bands_csv(check));
     writer.figures(band_figures(check));
     return writer.output;
 }

@@ -42,6 +42,9 @@ std::vector<std::string> data_names(const std::string& folder);
 // A driver file with `comment` (may have several lines) on top. load_driver reads the same numbers back, bit for bit.
 std::string driver_yaml(const DriverSettings& driver, const std::string& comment);
 
+// In data/meso: what stopline-calibrate found for our full dynamics; judged in Section V, used in Sections VI and VII.
+inline constexpr const char* kCalibratedMeso = "fitted";
+
 // The same for a file of parameters of the mesoscale mode.
 MesoSettings load_meso(const std::string& name_or_path, const std::filesystem::path& directory = ".");
 std::string meso_yaml(const MesoSettings& meso, const std::string& comment);
