@@ -8,8 +8,8 @@ namespace stopline {
 
 struct HindranceRules {
     // The no-block rule: nobody passes the stop line unless the exit has room for it and for those ahead on their way there,
-    // before the last vehicle that stands within sight, nor while somebody from the streets that cross stands across its way. It can
-    // fail: who moves there may stop.
+    // before the last vehicle that stands or crawls (1 m/s) within sight, nor while somebody from the streets that cross does
+    // so across its way. It can fail: who moves there may stop.
     std::string keep_clear = "off";  // off | on
     double sight_m = 100.0;          // into the exit
     // The first vehicle of a lane that has stood for as long as this is moved on past the intersection, as soon as there is

@@ -49,14 +49,14 @@ private:
         for (int slot = block.first; slot < block.stop(); ++slot) {
             w_.mark[at(slot)] = 0;
             w_.cause[at(slot)] = Cause::none;
+            w_.lane[at(slot)] = lane;
+            w_.vehicle[at(slot)] = v_.id[at(slot)];
             if (v_.speed_mps[at(slot)] >= kStands_mps) {
                 v_.stands_since[at(slot)] = static_cast<int>(state_.tick);
                 continue;
             }
             const double stood_s = model_.time_s(state_.tick - v_.stands_since[at(slot)]);
             state_.hindrance.longest_stand_s = std::max(state_.hindrance.longest_stand_s, stood_s);
-            w_.lane[at(slot)] = lane;
-            w_.vehicle[at(slot)] = v_.id[at(slot)];
             w_.standing.push_back(slot);
         }
     }
@@ -68,7 +68,7 @@ private:
         w_.edge[at(slot)] = edge;
     }
 
-    // What one that stands waits for.
+    // What one that stands waits for, be it that this one only crawls.
     void wait(int slot) {
         const int lane = w_.lane[at(slot)];
         const Hold* const hold = state_.has_holds[at(lane)] != 0 ? state_.holds[at(lane)].of(slot) : nullptr;
@@ -124,7 +124,7 @@ private:
             ++walk;
             w_.walk.clear();
             int slot = start;
-            while (slot >= 0 && w_.mark[at(slot)] == 0) {
+            while (slot >= 0 && stands(slot) && w_.mark[at(slot)] == 0) {
                 w_.mark[at(slot)] = walk;
                 w_.walk.push_back(slot);
                 slot = w_.waits_for[at(slot)];

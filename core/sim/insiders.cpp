@@ -1,6 +1,7 @@
 // Where vehicles are: on which lanes, and who is inside intersections, past the stop line and not yet wholly on the exit lane.
 #include <algorithm>
 
+#include "sim/arrivals.h"
 #include "sim/phases.h"
 
 namespace stopline {
@@ -59,7 +60,7 @@ public:
             part_.longest_inside = std::max(part_.longest_inside, state_.tick - since);
             int standing = 0;
             for (const Insider& w : state_.insiders[at(lane)])
-                standing += v_.speed_mps[at(w.slot)] < kStands_mps ? 1 : 0;
+                standing += v_.speed_mps[at(w.slot)] < kAlmostStands_mps ? 1 : 0;
             for (const int other : state_.plan.meets(lane)) {
                 ++state_.others_inside[at(other)].lanes;
                 state_.others_inside[at(other)].standing += standing;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/arithmetic.h"
+#include "sim/arrivals.h"
 #include "sim/phases.h"
 
 namespace stopline {
@@ -82,7 +83,7 @@ const ExitRoom& look_into_exit(const Model& model, State& state, int exit) {
     for (int slot = block.last(); slot >= block.first; --slot) {
         const double rear_m = v.position_m[at(slot)] - static_cast<double>(v.length_m[at(slot)]);
         if (rear_m > model.rules.sight_m) return room;
-        if (v.speed_mps[at(slot)] < kStands_mps) {
+        if (v.speed_mps[at(slot)] < kAlmostStands_mps) {
             room.standing = slot;
             room.room_m = rear_m - moving_m;
             break;
@@ -105,7 +106,7 @@ int stands_across(const Model& model, const State& state, int inside) {
     for (const Conflict& c : state.plan.conflicts(inside)) {
         if (c.yields || c.other_yields) continue;
         for (const Insider& w : state.insiders[at(c.other)]) {
-            if (w.front_m <= c.other_from_m || w.rear_m >= c.other_to_m || v.speed_mps[at(w.slot)] >= kStands_mps)
+            if (w.front_m <= c.other_from_m || w.rear_m >= c.other_to_m || v.speed_mps[at(w.slot)] >= kAlmostStands_mps)
                 continue;
             if (patience > 0 && state.tick - v.stands_since[at(w.slot)] >= patience) continue;
             return w.slot;

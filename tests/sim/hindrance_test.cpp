@@ -25,7 +25,9 @@ Scenario arterial(const std::vector<std::string>& overrides = {}) {
 // Two intersections without vehicles. Every place is given as a lane's name.
 class Hindrance : public testing::Test {
 protected:
-    Hindrance() : track_(empty()) {
+    Hindrance() : track_(empty()) { set_lights(); }
+
+    void set_lights() {
         state().tick = 1000;
         // Streets from west to east have green.
         for (std::size_t group = 0; group < state().lights.size(); ++group) {
@@ -49,8 +51,12 @@ protected:
 
     // A vehicle that stands there; returns its number.
     int stand(const std::string& name, double front_m, const std::string& next = {}) {
+        return put(name, front_m, 0.0, next);
+    }
+    // One that moves.
+    int put(const std::string& name, double front_m, double speed_mps, const std::string& next = {}) {
         const int on = lane(name);
-        track_.place(on, front_m, 0.0);
+        track_.place(on, front_m, speed_mps);
         const std::size_t slot = at(state().blocks[at(on)].last());
         state().vehicles.stands_since[slot] = static_cast<int>(state().tick);
         const Lane& road = track_.model().graph.lanes[at(on)];
@@ -131,6 +137,33 @@ TEST_F(Hindrance, AFullExitIsSpillbackOrTurnBlocking) {
     for (const HindranceEpisode& e : state().hindrance.episodes) {
         EXPECT_EQ(e.cause, e.vehicle == straight ? Cause::spillback : Cause::turn_blocking);
         EXPECT_TRUE(e.vehicle == straight || e.vehicle == turning);
+    }
+}
+
+// A column that closes up to its queue crawls for some seconds in full dynamics. Who comes does not take that for traffic that moves.
+TEST_F(Hindrance, WhoCrawlsInTheExitOrAcrossTheWayIsWaitedForAsIfItStood) {
+    const double m = area_m("c0r0_south_0_straight", "c0r0_west_0_straight");
+    for (const double speed_mps : {0.3, 2.0}) {
+        for (const bool in_exit : {false, true}) {
+            track_ = Track(empty());
+            set_lights();
+            const int slow = in_exit ? put("c1r0_west_in_0", 4.0, speed_mps, "c1r0_west_0_straight")
+                                     : put("c0r0_south_0_straight", m + 1.0, speed_mps);
+            stand("c0r0_west_in_0", 154.0, "c0r0_west_0_straight");
+            look();
+            const int stopped = state().stop_slot[at(lane("c0r0_west_in_0"))];
+            if (speed_mps > 1.0) {
+                EXPECT_EQ(stopped, -1) << "makes room";
+                continue;
+            }
+            EXPECT_GE(stopped, 0);
+            ASSERT_EQ(state().hindrance.episodes.size(), 1u);
+            const HindranceEpisode& e = state().hindrance.episodes[0];
+            EXPECT_EQ(e.cause, in_exit ? Cause::spillback : Cause::junction_blocking);
+            EXPECT_EQ(e.blocker, slow);
+            EXPECT_EQ(e.blocker_lane, lane(in_exit ? "c1r0_west_in_0" : "c0r0_south_0_straight"));
+            EXPECT_EQ(e.most, 1) << "it does not stand itself";
+        }
     }
 }
 

@@ -159,10 +159,10 @@ TEST(SumoInputs, LightsThatDoNotRepeatLastAsLongAsTheRun) {
 
 // Those too that the rules moved on over some edges.
 TEST(SumoInputs, WaysOfVehiclesLeadFromEdgeToEdge) {
-    const Model model =
-        model_of("grid.yaml", {"network.grid.columns=3", "network.grid.rows=3", "network.grid.column_spacing=150 m",
-                               "network.grid.row_spacing=150 m", "network.intersection.approach_length=150 m",
-                               "demand.left=15 %", "signal.green=20 s", "rules.teleport_cycles=1"});
+    const Model model = model_of(
+        "grid.yaml", {"network.grid.columns=3", "network.grid.rows=3", "network.grid.column_spacing=150 m",
+                      "network.grid.row_spacing=150 m", "network.intersection.approach_length=150 m",
+                      "demand.left=15 %", "signal.green=20 s", "rules.keep_clear=off", "rules.teleport_cycles=1"});
     const PlainNetwork network = plain_network(model.graph);
     std::set<std::pair<std::string, std::string>> connected;
     for (const PlainConnection& c : network.connections) {
