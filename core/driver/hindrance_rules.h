@@ -11,7 +11,7 @@ struct HindranceRules {
     // before the last vehicle that stands or crawls (1 m/s) within sight, nor while somebody from the streets that cross does
     // so across its way. It can fail: who moves there may stop.
     std::string keep_clear = "off";  // off | on
-    double sight_m = 100.0;          // into the exit
+    double sight_m = 300.0;          // into the exit, of which SUMO's rule takes in all
     // The first vehicle of a lane that has stood for as long as this is moved on past the intersection, as soon as there is
     // room (SUMO's teleport); 0: never.
     double teleport_cycles = 0.0;
