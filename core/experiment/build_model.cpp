@@ -1,6 +1,7 @@
 #include "experiment/build_model.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -189,7 +190,8 @@ void add_network(const Scenario& scenario, Model& model) {
     } else if (network.kind == "grid") {
         for (const GridPlace& place : grid_places(network.grid)) {
             SignalSettings signal = scenario.signal;
-            signal.first_green_s += (place.column + place.row) * signal.offset_s;
+            // Whole cycles make no difference but to how long it would stay red in the beginning.
+            signal.first_green_s += std::fmod((place.column + place.row) * signal.offset_s, signal.both_stages_s());
             for (GroupProgramme& one : make_stages(signal, 2, scenario.tick_s())) {
                 model.signals.push_back(std::move(one));
             }

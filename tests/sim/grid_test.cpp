@@ -87,6 +87,28 @@ TEST(Saturated, SlowTrafficIsNeverInTheSameConflictArea) {
     EXPECT_TRUE(simulation.state().violations.none());
 }
 
+// Coordinated signals run in every cycle: the farthest intersection does not stay red until its offsets add up, and each is green later
+// by the offset than the one before it.
+TEST(Signals, OfAGridAreAllGreenWithinTheFirstCycle) {
+    const Scenario scenario =
+        load_scenario(STOPLINE_SOURCE_DIR "/scenarios/grid.yaml", {"signal.green=10 s", "signal.offset=15 s"});
+    const Model model = build_model(scenario, 0);
+    const std::int64_t cycle = to_ticks(36.0, model.step_s);
+    const std::int64_t offset = to_ticks(15.0, model.step_s);
+    const auto first_green = [&](std::size_t group) {
+        std::int64_t tick = 0;
+        while (model.signals[group].light(tick) != Light::green) ++tick;
+        return tick;
+    };
+    const std::vector<GridPlace> places = grid_places(scenario.network.grid);
+    ASSERT_EQ(model.signals.size(), 2 * places.size());
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        EXPECT_LE(first_green(2 * k), cycle + to_ticks(1.0, model.step_s));
+        EXPECT_LE(first_green(2 * k + 1), 2 * cycle);
+        EXPECT_EQ((first_green(2 * k) - first_green(0) - (places[k].column + places[k].row) * offset) % cycle, 0);
+    }
+}
+
 // Where streets that cross have turns of their own, each keeps its share.
 TEST(CrossTurns, AreThoseOfTheStreetsThatCross) {
     const Scenario scenario = load_scenario(STOPLINE_SOURCE_DIR "/scenarios/arterial.yaml", {"demand.left=10 %"});

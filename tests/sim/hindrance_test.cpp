@@ -206,7 +206,7 @@ TEST_P(SlowRules, AreUsedAsTheySay) {
     const Scenario scenario =
         load_scenario(STOPLINE_SOURCE_DIR "/scenarios/grid.yaml",
                       {std::string("fidelity=") + GetParam().fidelity, "signal.green=20 s", "demand.left=10 %",
-                       "demand.right=30 %", "network.grid.columns=3", "network.grid.rows=3"});
+                       "demand.right=30 %", "rules.sight=30 m", "network.grid.columns=3", "network.grid.rows=3"});
     const Model model = network_model(scenario, 2);
     Simulation simulation(model);
     simulation.run_until(GetParam().until_s);
