@@ -7,6 +7,7 @@
 #include "report/html.h"
 #include "report/page_style.h"
 #include "report/report.h"
+#include "scenario/load_scenario.h"
 
 namespace stopline {
 
@@ -230,10 +231,11 @@ std::string files_html(const ReportContent& content) {
 std::string made_html(const ReportContent& content) {
     std::string html = "<section id=\"made\">\n<h2>How this was made</h2>\n";
     html += fmt::format("<pre><code>{}</code></pre>\n", html_text(content.command));
-    html +=
+    html += fmt::format(
         "<p>Run again it takes what is finished from its folder and writes the same bytes; the number of threads does not matter. The "
-        "parameters of the mesoscale mode are those in data/meso/fitted.yaml; the fit itself is repeated by "
-        "<code>stopline-calibrate</code>.</p>\n";
+        "parameters of the mesoscale mode are those in data/meso/{}.yaml; the fit itself is repeated by "
+        "<code>stopline-calibrate</code>.</p>\n",
+        kCalibratedMeso);
     for (const std::string& problem : content.problems) {
         html += fmt::format("<p class=\"problem\">Failed: {}</p>\n", html_text(problem));
     }

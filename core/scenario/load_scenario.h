@@ -43,7 +43,7 @@ std::vector<std::string> data_names(const std::string& folder);
 std::string driver_yaml(const DriverSettings& driver, const std::string& comment);
 
 // In data/meso: what stopline-calibrate found for our full dynamics; judged in Section V, used in Sections VI and VII.
-inline constexpr const char* kCalibratedMeso = "fitted";
+inline constexpr const char* kCalibratedMeso = "passages";
 
 // The same for a file of parameters of the mesoscale mode.
 MesoSettings load_meso(const std::string& name_or_path, const std::filesystem::path& directory = ".");

@@ -68,7 +68,7 @@ TEST(Inflow, ThatIsLightIsNeverInTheSameConflictArea) {
     const Scenario scenario =
         load_scenario(STOPLINE_SOURCE_DIR "/scenarios/grid.yaml",
                       {"demand={kind: rate, inflow: 600 veh/h, left: 10 %, right: 30 %}", "network.grid.columns=2",
-                       "network.grid.rows=2", "signal.green=30 s", "signal.offset=0 s", "seed=7"});
+                       "network.grid.rows=2", "signal.green=30 s", "signal.offset=0 s", "seed=7", "meso=fitted"});
     const Model model = build_model(scenario, 2);
     Simulation simulation(model);
     simulation.run_until(2000.0);
@@ -78,9 +78,9 @@ TEST(Inflow, ThatIsLightIsNeverInTheSameConflictArea) {
 
 // One that has accepted a gap and is held up beyond the area must not lose it before it has used it: here, at 3,908 s, another came.
 TEST(Saturated, SlowTrafficIsNeverInTheSameConflictArea) {
-    const Scenario scenario =
-        load_scenario(STOPLINE_SOURCE_DIR "/scenarios/grid.yaml",
-                      {"demand.left=5 %", "demand.right=10 %", "signal.green=20 s", "signal.offset=10 s", "seed=2"});
+    const Scenario scenario = load_scenario(
+        STOPLINE_SOURCE_DIR "/scenarios/grid.yaml",
+        {"demand.left=5 %", "demand.right=10 %", "signal.green=20 s", "signal.offset=10 s", "seed=2", "meso=fitted"});
     const Model model = network_model(scenario, 2);
     Simulation simulation(model);
     simulation.run_until(3910.0);
