@@ -206,6 +206,7 @@ void remove_first(State& state, int lane) {
     Resting& resting = state.resting[at(lane)];
     resting.from = std::max(resting.from - 1, 0);
     resting.to = std::max(resting.to - 1, 0);
+    resting.told = std::max(resting.told - 1, 0);
     if (state.vehicles.has_powertrain() && block.count <= kMovedUp) move_up(state, block);
 }
 

@@ -20,6 +20,11 @@ void find_resting(const VehicleArrays& v, const LaneBlock& block, std::int64_t t
         return v.speed_mps[i] == 0.0 && v.acceleration_mps2[i] == 0.0F;
     };
     while (resting.from < resting.to && !rests(resting.from)) ++resting.from;
+    // Of those that were told, one may have closed up although who is ahead of it did not set out.
+    for (int place = resting.from + 1; place < std::min(resting.told, resting.to); ++place) {
+        if (!rests(place)) resting.to = place;
+    }
+    resting.told = 0;
     if (resting.from == resting.to) resting.from = resting.to = 0;
     if (resting.imposed >= tick - 1) {
         resting.to = resting.from;
@@ -30,8 +35,9 @@ void find_resting(const VehicleArrays& v, const LaneBlock& block, std::int64_t t
 
 // A queue of vehicles that keep a constant distance hears of a start as fast as V2V carries it from each to the next, further than
 // one vehicle in a step: those that will set out tell so before they move. A time gap holds back who keeps it, and ends the chain.
-// Returns how many were told.
-int relay_start(const Model& model, VehicleArrays& v, const LaneBlock& block, const Resting& resting) {
+// They hear of it when the vehicles move: until then vehicles of other lanes look at their state. Returns how many were told.
+int relay_start(const Model& model, const VehicleArrays& v, const LaneBlock& block, Resting& resting,
+                std::vector<ToldToStart>& to) {
     constexpr double kClosedUp_m = 0.5;  // no further behind than that: who has room to close sets out later
     if (resting.from == 0) return 0;
     const std::size_t before = at(block.first + resting.from - 1);
@@ -43,9 +49,10 @@ int relay_start(const Model& model, VehicleArrays& v, const LaneBlock& block, co
         const Krauss& krauss = model.krauss[at(v.policy[i])];
         const double gap_m = v.position_m[i - 1] - static_cast<double>(v.length_m[i - 1]) - v.position_m[i];
         if (!krauss.constant_distance || gap_m > krauss.equilibrium_gap_m(0.0) + kClosedUp_m) break;
-        v.acceleration_mps2[i] = told_mps2;
+        to.push_back({static_cast<int>(i), told_mps2});
         ++told;
     }
+    if (told > 0) resting.told = resting.from + told + 1;
     return told;
 }
 
@@ -82,7 +89,8 @@ public:
         adapt();
         if (last_imposed() > first + resting.from) resting.imposed = state_.tick;
         find_resting(v_, block_, state_.tick, resting);
-        const int told = relay_start(model_, v_, block_, resting);
+        const bool kept = last_imposed() >= first + resting.from;
+        const int told = kept ? 0 : relay_start(model_, v_, block_, resting, part_.told);
         if (model_.scalar_kernels) {
             impose_all();
             return add(first, block_.stop());
@@ -189,6 +197,7 @@ void collect_moves(const Model& model, State& state, NetworkPart& part) {
     const int size = meso_kernels(model.scalar_kernels).size;
     part.blocks.clear();
     part.near_end.clear();
+    part.told.clear();
     for (const int lane : part.occupied) {
         fetch_on(state, part.fetching);
         Collector(model, size, state, part, lane).collect();

@@ -79,6 +79,7 @@ MesoStep meso_step(const Model& model, std::int64_t tick) {
 void step_meso(const Model& model, State& state, NetworkPart& part) {
     VehicleArrays& v = state.vehicles;
     const MesoKernels& kernels = meso_kernels(model.scalar_kernels);
+    for (const ToldToStart& told : part.told) v.acceleration_mps2[at(told.slot)] = told.mps2;
     const MesoMore more = evaluate_more(model, static_cast<std::size_t>(kernels.size), v, part);
     const std::int64_t count =
         kernels.step(meso_streams(v), part.blocks, model.krauss, more, meso_step(model, state.tick));

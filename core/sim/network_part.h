@@ -39,6 +39,12 @@ struct Fetching {
     std::size_t line = 0;                 // of the second
 };
 
+// Who hears by V2V that its queue sets out, and how fast. Noted while others may still look at it.
+struct ToldToStart {
+    int slot;
+    float mps2;
+};
+
 struct NetworkPart {
     std::vector<int> lanes;      // by intersection
     std::vector<int> inside;     // those of them inside an intersection that meet others
@@ -57,6 +63,7 @@ struct NetworkPart {
     std::vector<int> adapting;       // lanes where vehicles adapt their speed to those beside
     std::vector<int> near_end;       // lanes whose first vehicle may reach the end
     std::vector<int> ended;          // lanes whose first vehicle has reached it
+    std::vector<ToldToStart> told;   // mesoscale mode
     std::vector<Passing> passing;
     std::vector<Agreed> agreed;
     // To be told.

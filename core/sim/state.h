@@ -101,7 +101,8 @@ struct Resting {
     int from = 0;
     int to = 0;
     std::int64_t imposed =
-        -1;  // last tick at which something else kept one of them, but for the first, or one was put on the lane
+        -1;        // last tick at which something else kept one of them, but for the first, or one was put on the lane
+    int told = 0;  // those before this place were told in the step before that the queue sets out
 };
 
 // On the lanes that a lane inside an intersection meets.
