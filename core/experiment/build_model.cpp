@@ -55,14 +55,18 @@ double share_of(const Scenario& scenario, const Model& model, const Route& route
     return 1.0 - left - (possible(Turn::right) ? right : 0.0);
 }
 
-DemandPlan::Inlet inlet_of(const Scenario& scenario, const Model& model, int lane) {
-    DemandPlan::Inlet inlet{lane, 0, {}, {}};
-    for (std::size_t k = 0; k < model.graph.routes.size(); ++k) {
-        const Route& route = model.graph.routes[k];
-        if (route.lanes[0] != lane) continue;
-        inlet.routes.push_back(static_cast<int>(k));
-        inlet.shares.push_back(share_of(scenario, model, route));
+// The routes that begin on each lane, in order of number.
+std::vector<std::vector<int>> routes_by_first_lane(const LaneGraph& graph) {
+    std::vector<std::vector<int>> routes(graph.lanes.size());
+    for (std::size_t k = 0; k < graph.routes.size(); ++k) {
+        routes[at(graph.routes[k].lanes[0])].push_back(static_cast<int>(k));
     }
+    return routes;
+}
+
+DemandPlan::Inlet inlet_of(const Scenario& scenario, const Model& model, int lane, const std::vector<int>& routes) {
+    DemandPlan::Inlet inlet{lane, 0, routes, {}};
+    for (const int route : routes) inlet.shares.push_back(share_of(scenario, model, model.graph.routes[at(route)]));
     return inlet;
 }
 
@@ -109,12 +113,15 @@ void add_demand(const Scenario& scenario, Model& model) {
         scenario.demand.cross_inflow_1ps > 0.0
             ? static_cast<double>(scenario.network.intersection.lanes.size()) / scenario.demand.cross_inflow_1ps
             : 0.0;
+    const std::vector<std::vector<int>> routes = routes_by_first_lane(graph);
     for (std::size_t k = 0; k < graph.entries.size() + graph.links.size(); ++k) {
         const bool entry = k < graph.entries.size();
         const int lane = entry ? graph.entries[k] : graph.links[k - graph.entries.size()];
         const bool used =
             (entry || !scenario.demand.arms.empty()) && enters(scenario.demand, graph.lanes[at(lane)].name);
-        if (!scenario.network.is_streets()) model.demand.inlets.push_back(inlet_of(scenario, model, lane));
+        if (!scenario.network.is_streets()) {
+            model.demand.inlets.push_back(inlet_of(scenario, model, lane, routes[at(lane)]));
+        }
         model.demand.inlets[k].vehicles = used ? vehicles : 0;
         if (from_south_or_north(graph, lane)) model.demand.inlets[k].headway_s = cross_headway_s;
     }
