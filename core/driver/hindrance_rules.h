@@ -12,6 +12,9 @@ struct HindranceRules {
     // so across its way. It can fail: who moves there may stop.
     std::string keep_clear = "off";  // off | on
     double sight_m = 300.0;          // into the exit, of which SUMO's rule takes in all
+    // Those who move in the exit count as if they stood up to the light at its end while that is not green: SUMO's rule takes a
+    // lane whose last vehicle has to wait at its end like one where somebody stands.
+    std::string light_ahead = "on";  // off | on
     // The first vehicle of a lane that has stood for as long as this is moved on past the intersection, as soon as there is
     // room (SUMO's teleport); 0: never.
     double teleport_cycles = 0.0;

@@ -161,6 +161,7 @@ void add_rules(const Scenario& scenario, Model& model) {
     const HindranceRules& rules = scenario.rules;
     model.rules.keep_clear = rules.keep_clear == "on";
     model.rules.sight_m = rules.sight_m;
+    model.rules.minds_light_ahead = rules.light_ahead == "on";
     model.rules.teleport_ticks = to_ticks(rules.teleport_cycles * scenario.intersection_cycle_s(), model.step_s);
     model.rules.pass_blocker_ticks = to_ticks(rules.pass_blocker_greens * scenario.longest_green_s(), model.step_s);
     model.rules.memory_ticks = to_ticks(2.0, model.step_s);

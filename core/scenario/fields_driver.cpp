@@ -184,23 +184,26 @@ const Table& driver_table() {
 
 const Table& rules_table() {
     using S = HindranceRules;
-    static const Table table =
-        make_table<S>("rules that keep traffic going where queues reach back into intersections",
-                      {
-                          choice<&S::keep_clear>(
-                              "keep_clear", {"off", "on"},
-                              "nobody passes the stop line unless there is room behind the last vehicle that stands "
-                              "in the exit"),
-                          number<&S::sight_m>("sight", "m", {1, 10'000}, "how far into the exit drivers look for that"),
-                          number<&S::teleport_cycles>(
-                              "teleport_cycles", "", {0, 1000},
-                              "the first vehicle of a lane that has stood for this many cycles is moved on past "
-                              "the intersection; 0: never"),
-                          number<&S::pass_blocker_greens>(
-                              "pass_blocker_greens", "", {0, 1000},
-                              "who has stood inside an intersection for this many greens no longer holds up "
-                              "those that cross; 0: never"),
-                      });
+    static const Table table = make_table<S>(
+        "rules that keep traffic going where queues reach back into intersections",
+        {
+            choice<&S::keep_clear>(
+                "keep_clear", {"off", "on"},
+                "nobody passes the stop line unless there is room behind the last vehicle that stands "
+                "in the exit"),
+            number<&S::sight_m>("sight", "m", {1, 10'000}, "how far into the exit drivers look for that"),
+            choice<&S::light_ahead>("light_ahead", {"off", "on"},
+                                    "those who move in the exit count as if they stood up to the light at "
+                                    "its end while that is not green"),
+            number<&S::teleport_cycles>(
+                "teleport_cycles", "", {0, 1000},
+                "the first vehicle of a lane that has stood for this many cycles is moved on past "
+                "the intersection; 0: never"),
+            number<&S::pass_blocker_greens>(
+                "pass_blocker_greens", "", {0, 1000},
+                "who has stood inside an intersection for this many greens no longer holds up "
+                "those that cross; 0: never"),
+        });
     return table;
 }
 

@@ -50,6 +50,7 @@ struct Detector {
 struct RulesPlan {
     bool keep_clear = false;
     double sight_m = 0.0;
+    bool minds_light_ahead = false;
     std::int64_t teleport_ticks = 0;
     std::int64_t pass_blocker_ticks = 0;
     std::int64_t watch_ticks = 0;   // hindrance is looked for this often

@@ -91,7 +91,7 @@ struct Removed {
 struct ExitRoom {
     std::int64_t tick = -1;
     double room_m = 1e9;  // before the last vehicle that stands within sight, less what those on their way there need
-    int standing = -1;    // its slot
+    int standing = -1;    // its slot; of the lane's last one where all have to wait for the light at its end
 };
 
 // Vehicles of a lane that stand, one behind the other, and stood in the step before, although nothing but their predecessor kept them

@@ -72,6 +72,13 @@ int choose_stopper_by_way(const Model& model, const State& state, int index, con
     return -1;
 }
 
+// The light at a lane's end is not green for its last vehicle: all of them are going to stop, though they move now.
+bool minds_light(const Model& model, const State& state, int lane) {
+    if (!model.rules.minds_light_ahead || state.plan.lane(lane).signal_group < 0) return false;
+    const int next = state.vehicles.next_lane[at(state.blocks[at(lane)].last())];
+    return state.lights[at(state.plan.light_before(lane, next))] != Light::green;
+}
+
 // Looked for once a step, by whoever asks first.
 const ExitRoom& look_into_exit(const Model& model, State& state, int exit) {
     const VehicleArrays& v = state.vehicles;
@@ -79,7 +86,9 @@ const ExitRoom& look_into_exit(const Model& model, State& state, int exit) {
     if (room.tick == state.tick) return room;
     room = {state.tick, 1e9, -1};
     const LaneBlock& block = state.blocks[at(exit)];
+    const double line_m = state.plan.lane(exit).turn_m;  // its stop line or end
     double moving_m = 0.0;
+    double leaving_m = 0.0;  // of that, those that have passed its stop line
     for (int slot = block.last(); slot >= block.first; --slot) {
         const double rear_m = v.position_m[at(slot)] - static_cast<double>(v.length_m[at(slot)]);
         if (rear_m > model.rules.sight_m) return room;
@@ -89,6 +98,11 @@ const ExitRoom& look_into_exit(const Model& model, State& state, int exit) {
             break;
         }
         moving_m += needs_m(v, slot);
+        if (v.position_m[at(slot)] > line_m) leaving_m += needs_m(v, slot);
+    }
+    if (room.standing < 0 && block.count > 0 && line_m <= model.rules.sight_m && minds_light(model, state, exit)) {
+        room.standing = block.last();
+        room.room_m = line_m - model.driver.stop.margin_m - (moving_m - leaving_m);
     }
     if (room.standing < 0) return room;
     for (const int other : model.leads_to[at(exit)]) {

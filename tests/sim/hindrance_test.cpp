@@ -167,6 +167,39 @@ TEST_F(Hindrance, WhoCrawlsInTheExitOrAcrossTheWayIsWaitedForAsIfItStood) {
     }
 }
 
+// A column that fills the exit moves, but up to a light that is not green: there will be no room.
+TEST_F(Hindrance, WhoMovesInTheExitCountsAsStandingWhileTheLightAtItsEndIsNotGreen) {
+    constexpr double kNeeds_m = 5.15 + 2.95;  // a vehicle and its gap at standstill
+    constexpr double kMoves_mps = 10.0;
+    const std::string exit = "c1r0_west_in_0";
+    const double line_m = track_.model().graph.lanes[at(lane(exit))].stop_line_m;
+    const int fit = static_cast<int>(line_m / kNeeds_m);
+    const int beyond = track_.model().graph.lanes[at(lane("c1r0_west_0_straight"))].origin;
+    ASSERT_EQ(beyond, lane(exit));
+    for (const Light light : {Light::green, Light::yellow, Light::red}) {
+        for (const int present : {fit - 1, fit}) {
+            track_ = Track(empty());
+            set_lights();
+            state().lights[at(track_.model().graph.lanes[at(lane(exit))].signal_group)] = light;
+            int last = -1;
+            // Evenly, so that they are not where they will stand.
+            for (int k = 0; k < present; ++k) {
+                last = put(exit, line_m - 1.0 - kNeeds_m * (k + 0.3), kMoves_mps, "c1r0_west_0_straight");
+            }
+            const int asks = stand("c0r0_west_in_0", 154.0, "c0r0_west_0_straight");
+            look();
+            const bool room = light == Light::green || present < fit;
+            const int stopped = state().stop_slot[at(lane("c0r0_west_in_0"))];
+            EXPECT_EQ(stopped < 0, room) << static_cast<int>(light) << ", " << present << " of " << fit;
+            if (room || stopped < 0) continue;
+            ASSERT_EQ(state().hindrance.episodes.size(), 1u);
+            EXPECT_EQ(state().hindrance.episodes[0].cause, Cause::spillback);
+            EXPECT_EQ(state().hindrance.episodes[0].vehicle, asks);
+            EXPECT_EQ(state().hindrance.episodes[0].blocker, last);
+        }
+    }
+}
+
 // Four vehicles from four sides, each across the way of the next.
 TEST_F(Hindrance, ACircleIsAGridlockWithItsMembers) {
     const std::vector<std::string> ring{"c0r0_west_0_straight", "c0r0_south_0_straight", "c0r0_east_0_straight",
@@ -285,6 +318,23 @@ TEST(SlowKeepClear, LeavesTheJunctionFreeMoreOften) {
                             static_cast<double>(simulation.state().hindrance.passed_blockers));
     }
     EXPECT_LT(blocked_s[1], 0.5 * blocked_s[0]);
+}
+
+// Where lights change one after the other, a column drives up to a light that is red already.
+TEST(SlowKeepClear, MindsTheLightAtTheEndOfTheExit) {
+    std::vector<double> blocked_s;
+    for (const char* rule : {"rules.light_ahead=off", "rules.light_ahead=on"}) {
+        const Scenario grid = load_scenario(STOPLINE_SOURCE_DIR "/scenarios/grid.yaml",
+                                            {rule, "network.grid.columns=3", "network.grid.rows=3", "demand.left=0 %",
+                                             "demand.right=0 %", "signal.green=20 s", "signal.offset=5 s"});
+        const Model model = network_model(grid, 2);
+        Simulation simulation(model);
+        simulation.run_until(900.0);
+        EXPECT_TRUE(simulation.state().violations.none());
+        blocked_s.push_back(simulation.state().hindrance.lost_s[static_cast<std::size_t>(Cause::junction_blocking)]);
+    }
+    EXPECT_GT(blocked_s[0], 1000.0);
+    EXPECT_LT(blocked_s[1], 0.2 * blocked_s[0]);
 }
 
 }  // namespace
