@@ -18,7 +18,12 @@ std::size_t at(int index) { return static_cast<std::size_t>(index); }
 class Watch {
 public:
     Watch(const Model& model, State& state)
-        : model_(model), state_(state), v_(state.vehicles), w_(state.watch), now_s_(model.time_s(state.tick)) {}
+        : model_(model),
+          state_(state),
+          v_(state.vehicles),
+          w_(state.watch),
+          now_(static_cast<int>(state.tick)),
+          now_s_(model.time_s(state.tick)) {}
 
     void look() {
         prepare();
@@ -46,19 +51,21 @@ private:
 
     void note_standing(int lane) {
         const LaneBlock& block = state_.blocks[at(lane)];
+        int since = now_;
         for (int slot = block.first; slot < block.stop(); ++slot) {
             w_.mark[at(slot)] = 0;
             w_.cause[at(slot)] = Cause::none;
             w_.lane[at(slot)] = lane;
             w_.vehicle[at(slot)] = v_.id[at(slot)];
             if (v_.speed_mps[at(slot)] >= kStands_mps) {
-                v_.stands_since[at(slot)] = static_cast<int>(state_.tick);
+                v_.stands_since[at(slot)] = now_;
                 continue;
             }
-            const double stood_s = model_.time_s(state_.tick - v_.stands_since[at(slot)]);
-            state_.hindrance.longest_stand_s = std::max(state_.hindrance.longest_stand_s, stood_s);
+            since = std::min(since, v_.stands_since[at(slot)]);
             w_.standing.push_back(slot);
         }
+        state_.hindrance.longest_stand_s =
+            std::max(state_.hindrance.longest_stand_s, model_.time_s(state_.tick - since));
     }
 
     bool stands(int slot) const { return v_.speed_mps[at(slot)] < kStands_mps; }
@@ -178,9 +185,10 @@ private:
     // Time lost to each cause, in all and in the episode of the lane that it began on.
     void count() {
         const double each_s = model_.time_s(model_.rules.watch_ticks);
+        std::array<int, kCauses> vehicles{};
         for (const int slot : w_.standing) {
             const Cause cause = w_.cause[at(slot)];
-            state_.hindrance.lost_s[static_cast<std::size_t>(cause)] += each_s;
+            ++vehicles[static_cast<std::size_t>(cause)];
             if (cause < Cause::junction_blocking) continue;
             HindranceEpisode& episode = episode_of(w_.owner[at(slot)], cause);
             if (episode.to_s < now_s_) {
@@ -189,6 +197,9 @@ private:
             }
             episode.lost_s += each_s;
             episode.most = std::max(episode.most, ++episode.last);
+        }
+        for (std::size_t cause = 0; cause < vehicles.size(); ++cause) {
+            state_.hindrance.lost_s[cause] += each_s * vehicles[cause];
         }
     }
 
@@ -226,6 +237,7 @@ private:
     State& state_;
     VehicleArrays& v_;
     HindranceWatch& w_;
+    int now_;  // tick
     double now_s_;
 };
 

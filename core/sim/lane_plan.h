@@ -100,8 +100,9 @@ public:
     int like(int route) const { return like_[static_cast<std::size_t>(route)]; }
     // The signal group that a vehicle on a lane with a stop line minds, which goes on to `next` (-1: it has none).
     int light_before(int lane, int next) const {
-        const int own = next >= 0 ? lights_[static_cast<std::size_t>(next)] : -1;
-        return own >= 0 ? own : this->lane(lane).signal_group;
+        const LanePlan& plan = this->lane(lane);
+        const int own = plan.by_way && next >= 0 ? lights_[static_cast<std::size_t>(next)] : -1;
+        return own >= 0 ? own : plan.signal_group;
     }
     // Of a lane inside an intersection: where the rears of its vehicles are clear of the other lanes of its origin.
     double clear_m(int lane) const { return parting_[static_cast<std::size_t>(lane)].clear_m; }

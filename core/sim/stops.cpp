@@ -74,9 +74,18 @@ int choose_stopper_by_way(const Model& model, const State& state, int index, con
 
 // The light at a lane's end is not green for its last vehicle: all of them are going to stop, though they move now.
 bool minds_light(const Model& model, const State& state, int lane) {
-    if (!model.rules.minds_light_ahead || state.plan.lane(lane).signal_group < 0) return false;
-    const int next = state.vehicles.next_lane[at(state.blocks[at(lane)].last())];
+    const LanePlan& plan = state.plan.lane(lane);
+    if (!model.rules.minds_light_ahead || plan.signal_group < 0) return false;
+    const int next = plan.by_way ? state.vehicles.next_lane[at(state.blocks[at(lane)].last())] : -1;
     return state.lights[at(state.plan.light_before(lane, next))] != Light::green;
+}
+
+// Whether somebody on the lane stands or crawls.
+bool is_slow(const State& state, const LaneBlock& block) {
+    const std::span<const double> all(state.vehicles.speed_mps.data(), at(state.vehicles.slots));
+    bool slow = false;
+    for (const double mps : all.subspan(at(block.first), at(block.count))) slow |= mps < kAlmostStands_mps;
+    return slow;
 }
 
 // Looked for once a step, by whoever asks first.
@@ -86,7 +95,10 @@ const ExitRoom& look_into_exit(const Model& model, State& state, int exit) {
     if (room.tick == state.tick) return room;
     room = {state.tick, 1e9, -1};
     const LaneBlock& block = state.blocks[at(exit)];
+    if (block.count == 0) return room;
     const double line_m = state.plan.lane(exit).turn_m;  // its stop line or end
+    const bool have_to_wait = line_m <= model.rules.sight_m && minds_light(model, state, exit);
+    if (!have_to_wait && !is_slow(state, block)) return room;
     double moving_m = 0.0;
     double leaving_m = 0.0;  // of that, those that have passed its stop line
     for (int slot = block.last(); slot >= block.first; --slot) {
@@ -100,7 +112,7 @@ const ExitRoom& look_into_exit(const Model& model, State& state, int exit) {
         moving_m += needs_m(v, slot);
         if (v.position_m[at(slot)] > line_m) leaving_m += needs_m(v, slot);
     }
-    if (room.standing < 0 && block.count > 0 && line_m <= model.rules.sight_m && minds_light(model, state, exit)) {
+    if (room.standing < 0 && have_to_wait) {
         room.standing = block.last();
         room.room_m = line_m - model.driver.stop.margin_m - (moving_m - leaving_m);
     }
@@ -132,8 +144,9 @@ int stands_across(const Model& model, const State& state, int inside) {
 // One way on from a stop line.
 struct Way {
     int inside = -1;
-    ExitRoom room;
-    int across = -1;  // slot of who stands across it
+    int standing = -1;  // see ExitRoom
+    int across = -1;    // slot of who stands across it
+    double room_m = 0.0;
 };
 
 bool all_clear(const Model& model, State& state, std::span<const int> ways) {
@@ -151,7 +164,8 @@ public:
         for (const int inside : lanes) {
             const int exit = state.plan.lane(inside).exit;
             if (exit < 0 || !state.plan.lane(inside).keeps_clear || count_ == each_.size()) continue;
-            each_[count_++] = {inside, look_into_exit(model, state, exit), stands_across(model, state, inside)};
+            const ExitRoom& room = look_into_exit(model, state, exit);
+            each_[count_++] = {inside, room.standing, stands_across(model, state, inside), room.room_m};
         }
     }
     Way* to(int inside) {
@@ -179,10 +193,10 @@ int keep_clear(const Model& model, State& state, int index) {
         if (v.position_m[at(slot)] < line_m - kDecides_m) break;
         Way* const way = ways.to(v.next_lane[at(slot)]);
         if (way == nullptr) continue;
-        way->room.room_m -= needs_m(v, slot);
-        if ((way->room.room_m >= 0.0 && way->across < 0) || v.position_m[at(slot)] > line_m) continue;
+        way->room_m -= needs_m(v, slot);
+        if ((way->room_m >= 0.0 && way->across < 0) || v.position_m[at(slot)] > line_m) continue;
         if (!can_stop(model, v, slot, line_m, model.driver.cacc.deceleration_comfort_mps2)) continue;
-        state.kept_out[at(index)] = way->across >= 0 ? KeptOut{way->across, false} : KeptOut{way->room.standing, true};
+        state.kept_out[at(index)] = way->across >= 0 ? KeptOut{way->across, false} : KeptOut{way->standing, true};
         return slot;
     }
     return -1;
@@ -221,8 +235,8 @@ void list_coming(const Model& model, State& state, int index) {
             const double line_m = state.plan.lane(index).stop_line_m - model.driver.stop.margin_m;
             to_area_m = std::min(to_area_m, line_m - v.position_m[at(slot)]);
         }
-        if (to_area_m > decides_within_m(model, v.speed_mps[at(slot)]) && v.record[at(slot)].cleared_for != next)
-            continue;
+        const bool far = to_area_m > decides_within_m(model, v.speed_mps[at(slot)]);
+        if (far && !(way.yields && v.record[at(slot)].cleared_for == next)) continue;
         state.coming[at(next)].push_back(slot);
         if (state.deciding[at(next)] == 0) state.plan.fetch_conflicts(next);
         state.deciding[at(next)] = 1;
