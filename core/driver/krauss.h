@@ -107,14 +107,23 @@ STOPLINE_INLINE R tracked(const Model& k, const KraussInputOf<R>& in, const R& m
 // Whether the model's power is ever the limit: the same for all vehicles of a loop, and a division each that is spared.
 inline bool has_power_limit(const Krauss& k) { return k.until_mps < 100.0; }
 
-// `random`: in [0, 1). `power_limit`: see has_power_limit.
+// v_safe with regard to what the predecessor is about to do.
+template <class R, class Model>
+STOPLINE_INLINE R foreseen_safe_mps(const Model& k, const KraussInputOf<R>& in, const R& more_m) {
+    return safe_speed_mps(k, in.gap_m, R(in.ahead_mps + k.anticipation_s * in.ahead_mps2), more_m);
+}
+template <class R, class Model>
+STOPLINE_INLINE R foreseen_safe_mps(const Model& k, const KraussInputOf<R>& in) {
+    return foreseen_safe_mps(k, in, R(in.more_m + k.transient_gap_s2 * in.ahead_mps2));
+}
+
+// `safe_mps`: foreseen_safe_mps. `random`: in [0, 1). `power_limit`: see has_power_limit.
 // `lowest_mps`: nobody brakes to less but to avoid touching; Krauss's models ask for no such braking unless somebody changed lanes.
 template <bool power_limit, class R, class Model>
-STOPLINE_INLINE R speed_after_mps(const Model& k, const KraussInputOf<R>& in, const R& random, double dt,
-                                  const R& lowest_mps = R(0.0)) {
+STOPLINE_INLINE R speed_after_mps(const Model& k, const KraussInputOf<R>& in, const R& safe_mps, const R& random,
+                                  double dt, const R& lowest_mps = R(0.0)) {
     const R more_m = in.more_m + k.transient_gap_s2 * in.ahead_mps2;
-    const R ahead_mps = in.ahead_mps + k.anticipation_s * in.ahead_mps2;
-    const R safe = tracked(k, in, more_m, safe_speed_mps(k, in.gap_m, ahead_mps, more_m));
+    const R safe = tracked(k, in, more_m, safe_mps);
     R acceleration = k.acceleration_mps2;
     if constexpr (power_limit)
         acceleration = acceleration * lesser(R(1.0), R(k.until_mps / greater(in.speed_mps, R(1e-3))));
@@ -140,7 +149,7 @@ LeaderProfile leader_profile(const MesoSettings& settings);
 
 // For one vehicle.
 inline double next_speed_mps(const Krauss& k, const KraussInput& in, double random, double dt) {
-    return speed_after_mps<true>(k, in, random, dt);
+    return speed_after_mps<true>(k, in, foreseen_safe_mps(k, in), random, dt);
 }
 
 // The model of a spacing policy: one with a time gap is a Krauss model, any other the variant with constant distance; what the

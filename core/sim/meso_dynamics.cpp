@@ -63,6 +63,8 @@ MesoStreams meso_streams(VehicleArrays& v) {
 
 MesoStep meso_step(const Model& model, std::int64_t tick) {
     constexpr double kAny_mps2 = 1e9;
+    const bool relays = model.relayed > 0;
+    const auto is_plain = [](const Krauss& k) { return k.transient_gap_s2 == 0.0; };
     return {model.step_s,
             dawdle_key(model.seed),
             static_cast<std::uint64_t>(tick),
@@ -72,7 +74,8 @@ MesoStep meso_step(const Model& model, std::int64_t tick) {
             model.leader_mps2,
             model.leader_until_mps,
             model.leader_profile.bins_per_mps > 0.0 ? &model.leader_profile : nullptr,
-            model.relayed > 0,
+            relays,
+            relays && std::all_of(model.krauss.begin(), model.krauss.end(), is_plain),
             model.graph.approaches.empty() ? kAny_mps2 : model.driver.cacc.deceleration_emergency_mps2};
 }
 

@@ -30,6 +30,7 @@ struct MesoStep {
     double leader_until_mps;
     const LeaderProfile* leader_profile;  // instead of these two; nullptr: none
     bool relays;                          // starts are relayed: leaders, too, know what the vehicle ahead will do
+    bool leads_foreseeing;                // and no policy has a transient gap: their safe speed is that of followers
     double hardest_mps2;                  // braking
 };
 

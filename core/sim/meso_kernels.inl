@@ -179,14 +179,17 @@ STOPLINE_INLINE R leading_mps2(const MesoStep& t, const R& speed_mps) {
 }
 
 // Leaders of platoons accelerate alike, whatever their policy, until following asks for less. One that stands goes on leading
-// until it moves. `next`: what the others do; `mine`: 1 for those that are treated.
+// until it moves. `foreseen_mps`: foreseen_safe_mps; `next`: what the others do; `mine`: 1 for those that are treated.
 template <class R, class Model>
-STOPLINE_INLINE R lead(const Model& k, const MesoStep& t, const KraussInputOf<R>& in, const R& next, const R& mine,
-                       float* leads) {
+STOPLINE_INLINE R lead(const Model& k, const MesoStep& t, const KraussInputOf<R>& in, const R& foreseen_mps,
+                       const R& next, const R& mine, float* leads) {
     const R faster_mps = in.speed_mps + leading_mps2(t, in.speed_mps) * t.dt;
     const R touch_mps = greater(in.gap_m, R(0.0)) * (1.0 / t.dt);
-    const R ahead_mps = t.relays ? R(in.ahead_mps + k.anticipation_s * in.ahead_mps2) : in.ahead_mps;
-    const R safe_mps = lesser(safe_speed_mps(k, in.gap_m, ahead_mps, in.more_m), touch_mps);
+    R own_mps = foreseen_mps;
+    if (!t.leads_foreseeing) {
+        own_mps = t.relays ? foreseen_safe_mps(k, in, in.more_m) : safe_speed_mps(k, in.gap_m, in.ahead_mps, in.more_m);
+    }
+    const R safe_mps = lesser(own_mps, touch_mps);
     const R follows_mps = select(in.gap_m > kAlone_m, touch_mps, safe_mps);
     const R leading = at_rest(lesser(follows_mps, lesser(faster_mps, in.cap_mps)));
     const R led = get<R>(leads);
@@ -214,8 +217,10 @@ STOPLINE_INLINE R step_slots(const MesoStreams& s, int i, std::span<const Krauss
     const R policy = get<R>(s.policy + i);
     R next = speed;
     const auto drive = [&](const auto& model, const R& mine) STOPLINE_INLINE_LAMBDA {
-        R following = speed_after_mps<power_limit>(model, in, random, t.dt, R(in.speed_mps - t.hardest_mps2 * t.dt));
-        if (leaders) following = lead(model, t, in, following, mine, s.leads + i);
+        const R safe_mps = foreseen_safe_mps(model, in);
+        const R lowest_mps = in.speed_mps - t.hardest_mps2 * t.dt;
+        R following = speed_after_mps<power_limit>(model, in, safe_mps, random, t.dt, lowest_mps);
+        if (leaders) following = lead(model, t, in, safe_mps, following, mine, s.leads + i);
         return following;
     };
     if constexpr (policies == 1) {
@@ -281,7 +286,8 @@ inline void follow(const Krauss& krauss, const MesoStep& step, const KraussInput
     for (std::size_t i = 0; i < ids.size(); i += kSize) {
         const KraussInputOf<R> one{get<R>(in.speed_mps + i),  get<R>(in.gap_m + i),  get<R>(in.ahead_mps + i),
                                    get<R>(in.ahead_mps2 + i), get<R>(in.more_m + i), get<R>(in.cap_mps + i)};
-        put(next_mps + i, speed_after_mps<true>(k, one, dawdle<R>(t, ids.data() + i), t.dt));
+        const R safe_mps = foreseen_safe_mps(k, one);
+        put(next_mps + i, speed_after_mps<true>(k, one, safe_mps, dawdle<R>(t, ids.data() + i), t.dt));
     }
 }
 

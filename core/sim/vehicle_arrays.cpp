@@ -46,6 +46,7 @@ void VehicleArrays::grow(int slot_count) {
     slots = slot_count;
     id.resize(static_cast<std::size_t>(slot_count), -1);
     imposed_mps.resize(static_cast<std::size_t>(slot_count), kAnySpeed_mps);
+    end_speed_mps.resize(static_cast<std::size_t>(slot_count), kNoLowerLimit_mps);
     const auto resized = [slot_count](auto& array) { array.resize(static_cast<std::size_t>(slot_count)); };
     for_each_common(resized);
     for_each_of_lane(resized);

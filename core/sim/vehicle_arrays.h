@@ -44,6 +44,9 @@ struct alignas(64) VehicleRecord {
     int leg = 0;                   // place in the trip of the edge that it is on, or that it has left last
 };
 
+inline constexpr double kAnySpeed_mps = 1e9;
+inline constexpr float kNoLowerLimit_mps = 1e3F;  // end_speed_mps where the next lane's limit is no lower
+
 struct VehicleArrays {
     // Read and written every step. One value a slot, SI units.
     LargeArray<double> position_m;  // front, from the lane's start
@@ -93,8 +96,13 @@ struct VehicleArrays {
     void copy(int from, int to);
     // Moves vehicles in consecutive slots to others of the same lane.
     void move(int from, int count, int to);
-    // Where there is no vehicle any more.
-    void forget(int slot) { id[static_cast<std::size_t>(slot)] = -1; }
+    // Where there is no vehicle any more, nothing shall be worked out for one (meso_kernels.inl).
+    void forget(int slot) {
+        const auto i = static_cast<std::size_t>(slot);
+        id[i] = -1;
+        leads[i] = 0.0F;
+        end_speed_mps[i] = kNoLowerLimit_mps;
+    }
     // As a vehicle that has driven like this for long.
     void reset_powertrain(int slot, const PowertrainTables& vehicle, double speed);
     // Fills the past of a vehicle: radar with one measurement, V2V with its present state.
@@ -113,8 +121,5 @@ private:
     template <class Visit>
     void for_each_of_lane(Visit visit);
 };
-
-inline constexpr double kAnySpeed_mps = 1e9;
-inline constexpr float kNoLowerLimit_mps = 1e3F;  // end_speed_mps where the next lane's limit is no lower
 
 }  // namespace stopline
