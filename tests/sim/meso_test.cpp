@@ -191,28 +191,49 @@ constexpr const char* kPopulations =
     "[CDG, CTG-Ref, SWITCH-2, {name: two, components: [{policy: CDG, share: 50 %}, {policy: CTG-Ref, share: 50 %}]}, "
     "{name: three, components: [{policy: SWITCH-1, share: 40 %}, {policy: CTG-Ref, share: 30 %}, {policy: CDG, share: 30 %}]}]";
 
+Model mixed_model(const std::string& population) {
+    const Scenario scenario =
+        load_scenario(STOPLINE_SOURCE_DIR "/scenarios/intersection.yaml",
+                      {"fidelity=meso", "demand.left=15 %", "demand.right=10 %", "meso.constant_distance.dawdling=0.2",
+                       "meso.relayed=4", "meso.constant_time.tracking=1",
+                       "meso.leader_profile={2 km/h: 2 m/s2, 20 km/h: 0.5 m/s2, 40 km/h: 1 m/s2}",
+                       std::string("populations=") + kPopulations});
+    const auto named = [&](const PopulationSettings& p) { return p.name == population; };
+    const auto found = std::find_if(scenario.populations.begin(), scenario.populations.end(), named);
+    return build_model(scenario, static_cast<std::size_t>(found - scenario.populations.begin()));
+}
+
+void expect_same_bits(const Model& model, const Model& other) {
+    Simulation one(model);
+    Simulation two(other);
+    for (int k = 1; k <= 20; ++k) {
+        one.run_until(10.0 * k);
+        two.run_until(10.0 * k);
+        ASSERT_EQ(one.state_hash(), two.state_hash()) << "at " << 10 * k << " s";
+    }
+    EXPECT_TRUE(one.state().violations.none());
+}
+
 // The compiler's vectors and one vehicle at a time, with mixed policies.
 TEST(MesoKernels, GiveTheSameBitsAsOneVehicleAtATime) {
     for (const char* const population : {"CDG", "two", "CTG-Ref", "SWITCH-2", "three"}) {
-        const Scenario scenario =
-            load_scenario(STOPLINE_SOURCE_DIR "/scenarios/intersection.yaml",
-                          {"fidelity=meso", "demand.left=15 %", "demand.right=10 %",
-                           "meso.constant_distance.dawdling=0.2", "meso.relayed=4", "meso.constant_time.tracking=1",
-                           "meso.leader_profile={2 km/h: 2 m/s2, 20 km/h: 0.5 m/s2, 40 km/h: 1 m/s2}",
-                           std::string("populations=") + kPopulations});
-        const auto named = [&](const PopulationSettings& p) { return p.name == population; };
-        const auto found = std::find_if(scenario.populations.begin(), scenario.populations.end(), named);
-        const Model fast = build_model(scenario, static_cast<std::size_t>(found - scenario.populations.begin()));
+        SCOPED_TRACE(population);
+        const Model fast = mixed_model(population);
         Model slow = fast;
         slow.scalar_kernels = true;
-        Simulation one(fast);
-        Simulation two(slow);
-        for (int k = 1; k <= 20; ++k) {
-            one.run_until(10.0 * k);
-            two.run_until(10.0 * k);
-            ASSERT_EQ(one.state_hash(), two.state_hash()) << population << " at " << 10 * k << " s";
-        }
-        EXPECT_TRUE(one.state().violations.none());
+        expect_same_bits(fast, slow);
+    }
+}
+
+// Where no policy has a transient gap, leaders take the safe speed of followers; with one too small to matter they have their own.
+TEST(MesoKernels, LeadersAreAsSafeAsFollowersWithoutTransientGap) {
+    for (const char* const population : {"CDG", "two", "CTG-Ref", "three"}) {
+        SCOPED_TRACE(population);
+        Model without = mixed_model(population);
+        Model with = without;
+        for (Krauss& krauss : without.krauss) krauss.transient_gap_s2 = 0.0;
+        for (Krauss& krauss : with.krauss) krauss.transient_gap_s2 = 1e-30;
+        expect_same_bits(without, with);
     }
 }
 
