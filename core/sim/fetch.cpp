@@ -112,10 +112,11 @@ void fetch_more(const State& state, Fetching& fetching) {
     }
     const NetworkPart& next = *fetching.next;
     const std::size_t k = fetching.lane++;
-    if (k < next.lanes.size()) {
-        fetch_ends(state, next.lanes[k]);
-    } else if (k - next.lanes.size() < next.exits.size()) {
-        const LaneBlock& block = state.blocks[at(next.exits[k - next.lanes.size()])];
+    const std::vector<int>& occupied = next.occupied;  // in the step before
+    if (k < occupied.size()) {
+        fetch_ends(state, occupied[k]);
+    } else if (k - occupied.size() < next.exits.size()) {
+        const LaneBlock& block = state.blocks[at(next.exits[k - occupied.size()])];
         if (block.count == 0) return;
         fetch_seen(state.vehicles, block.last());
         fetch(state.vehicles.standstill_gap_m, block.last());

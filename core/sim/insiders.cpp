@@ -22,11 +22,11 @@ public:
         part_.with_insiders.clear();
     }
 
-    // Rears that reach back from an exit.
-    void look_at_exit(int exit) {
+    // Rears that reach back from an exit; false: none.
+    bool look_at_exit(int exit) {
         const LaneBlock& block = state_.blocks[at(exit)];
         const auto reaches_back = [&](int slot) { return v_.position_m[at(slot)] < v_.length_m[at(slot)]; };
-        if (block.count == 0 || !reaches_back(block.last())) return;
+        if (block.count == 0 || !reaches_back(block.last())) return false;
         for (int slot = std::max(block.first, block.stop() - 2); slot < block.stop(); ++slot) {
             if (!reaches_back(slot)) continue;
             const int from = v_.record[at(slot)].came_from;
@@ -34,6 +34,7 @@ public:
                 add(from, slot, state_.plan.lane(from).length_m);
             }
         }
+        return true;
     }
 
     void look_inside(int lane) {
@@ -86,19 +87,21 @@ private:
 void find_occupied_lanes(State& state, NetworkPart& part) {
     for (std::vector<int>* list : {&part.occupied, &part.awake, &part.awake_before, &part.awake_inside}) list->clear();
     part.present = 0;
-    for (const int lane : part.lanes) {
+    part.may_be_occupied.keep_if([&](std::size_t place) {
+        const int lane = part.lanes[place];
         const int count = state.blocks[at(lane)].count;
-        if (count == 0) continue;
+        if (count == 0) return false;
         part.present += count;
         part.occupied.push_back(lane);
         int& sleeps = state.sleeps_until_green_of[at(lane)];
         if (sleeps >= 0 && state.lights[at(sleeps)] == Light::green) sleeps = -1;
-        if (sleeps >= 0) continue;
+        if (sleeps >= 0) return true;
         part.awake.push_back(lane);
         const LanePlan& plan = state.plan.lane(lane);
         if (plan.signal_group >= 0) part.awake_before.push_back(lane);
         if (plan.origin >= 0) part.awake_inside.push_back(lane);
-    }
+        return true;
+    });
 }
 
 void find_insiders(State& state, NetworkPart& part) {
@@ -106,10 +109,10 @@ void find_insiders(State& state, NetworkPart& part) {
     Search search(state, part);
     search.forget();
     // The order makes that each lane's insiders are listed from the front.
-    for (const int exit : part.exits) {
+    part.may_reach_back.keep_if([&](std::size_t place) {
         fetch_on(state, part.fetching);
-        search.look_at_exit(exit);
-    }
+        return search.look_at_exit(part.exits[place]);
+    });
     for (const int lane : part.awake_inside) search.look_inside(lane);
     for (const int lane : part.awake_before) search.look_before(lane);
     search.count();

@@ -136,6 +136,13 @@ void set_lane_of(State& state, int lane, int slot) {
     v.imposed_mps[at(slot)] = kAnySpeed_mps;
 }
 
+// Somebody comes to a lane.
+void mark(State& state, int lane) {
+    const ListedLane& listed = state.listed[at(lane)];
+    state.parts[listed.part].may_be_occupied.set(listed.place);
+    if (listed.exits_of >= 0) state.parts[at(listed.exits_of)].may_reach_back.set(listed.exit);
+}
+
 // Vehicles of a lane have come or gone within it.
 void wake(State& state, int lane) {
     state.sleeps_until_green_of[at(lane)] = -1;
@@ -149,6 +156,7 @@ int append_slot(State& state, int lane) {
     LaneBlock& block = state.blocks[at(lane)];
     if (block.count == 0) move_up(state, block);
     make_room(state, lane);
+    mark(state, lane);
     const int slot = block.first + block.count++;
     set_lane_of(state, lane, slot);
     return slot;
@@ -180,6 +188,7 @@ int put_beside(const Model& model, State& state, int lane, int from, int other, 
     const int slot = target.first + place;
     v.move(slot, target.count - place, slot + 1);
     ++target.count;
+    mark(state, other);
     v.copy(old, slot);
     set_lane_of(state, other, slot);
     v.move(old + 1, source.count - from - 1, old);

@@ -61,7 +61,7 @@ MesoStreams meso_streams(VehicleArrays& v) {
             v.leads.data(),       v.id.data(),        v.policy.data()};
 }
 
-MesoStep meso_step(const Model& model, std::int64_t tick) {
+MesoStep meso_step(const Model& model, std::int64_t tick, bool fetches) {
     constexpr double kAny_mps2 = 1e9;
     const bool relays = model.relayed > 0;
     const auto is_plain = [](const Krauss& k) { return k.transient_gap_s2 == 0.0; };
@@ -76,7 +76,8 @@ MesoStep meso_step(const Model& model, std::int64_t tick) {
             model.leader_profile.bins_per_mps > 0.0 ? &model.leader_profile : nullptr,
             relays,
             relays && std::all_of(model.krauss.begin(), model.krauss.end(), is_plain),
-            model.graph.approaches.empty() ? kAny_mps2 : model.driver.cacc.deceleration_emergency_mps2};
+            model.graph.approaches.empty() ? kAny_mps2 : model.driver.cacc.deceleration_emergency_mps2,
+            fetches};
 }
 
 void step_meso(const Model& model, State& state, NetworkPart& part) {
@@ -84,8 +85,8 @@ void step_meso(const Model& model, State& state, NetworkPart& part) {
     const MesoKernels& kernels = meso_kernels(model.scalar_kernels);
     for (const ToldToStart& told : part.told) v.acceleration_mps2[at(told.slot)] = told.mps2;
     const MesoMore more = evaluate_more(model, static_cast<std::size_t>(kernels.size), v, part);
-    const std::int64_t count =
-        kernels.step(meso_streams(v), part.blocks, model.krauss, more, meso_step(model, state.tick));
+    const std::int64_t count = kernels.step(meso_streams(v), part.blocks, model.krauss, more,
+                                            meso_step(model, state.tick, state.outgrows_cache()));
     if (count > 0) see_overlap(model, state, part);
     part.violations.overlaps += count;
     for (const int slot : part.imposed) v.imposed_mps[at(slot)] = kAnySpeed_mps;

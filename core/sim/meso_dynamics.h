@@ -18,7 +18,7 @@ double leading_speed_mps(const Model& model, double speed_mps, double limit_mps)
 
 // What the kernels take.
 MesoStreams meso_streams(VehicleArrays& vehicles);
-MesoStep meso_step(const Model& model, std::int64_t tick);
+MesoStep meso_step(const Model& model, std::int64_t tick, bool fetches = false);
 
 // One step of the vehicles of the part, those that collect_moves() found.
 void step_meso(const Model& model, State& state, NetworkPart& part);

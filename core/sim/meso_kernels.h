@@ -32,6 +32,7 @@ struct MesoStep {
     bool relays;                          // starts are relayed: leaders, too, know what the vehicle ahead will do
     bool leads_foreseeing;                // and no policy has a transient gap: their safe speed is that of followers
     double hardest_mps2;                  // braking
+    bool fetches;                         // more vehicles than a cache holds: blocks are brought there ahead of time
 };
 
 // What policies with a gap that grows above a switching speed (SWITCH) add to their standstill gap, for the slots of each block in

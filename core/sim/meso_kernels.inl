@@ -31,6 +31,24 @@ STOPLINE_INLINE To same_bits(const From& from) {
     return to;
 }
 
+// To as many numbers of another type. The compiler would convert registers of 512 bits in halves.
+template <class To, class From>
+STOPLINE_INLINE Vector<To, kWide> converted(const Vector<From, kWide>& from) {
+#if defined(__AVX512F__)
+    constexpr __mmask8 kAll = 0xff;  // g++ warns of the functions without a mask
+    if constexpr (kWide == 8 && std::is_same_v<From, float> && std::is_same_v<To, double>) {
+        return same_bits<Vector<To, kWide>>(_mm512_maskz_cvtps_pd(kAll, same_bits<__m256>(from)));
+    } else if constexpr (kWide == 8 && std::is_same_v<From, double> && std::is_same_v<To, float>) {
+        return same_bits<Vector<To, kWide>>(_mm512_maskz_cvtpd_ps(kAll, same_bits<__m512d>(from)));
+    } else if constexpr (kWide == 8 && std::is_same_v<From, int> && std::is_same_v<To, double>) {
+        return same_bits<Vector<To, kWide>>(_mm512_maskz_cvtepi32_pd(kAll, same_bits<__m256i>(from)));
+    } else if constexpr (kWide == 8 && std::is_same_v<From, int> && std::is_same_v<To, std::int64_t>) {
+        return same_bits<Vector<To, kWide>>(_mm512_maskz_cvtepi32_epi64(kAll, same_bits<__m256i>(from)));
+    }
+#endif
+    return __builtin_convertvector(from, Vector<To, kWide>);
+}
+
 // Slots from `from` on, as R.
 template <class R, class Stored>
 STOPLINE_INLINE R get(const Stored* from) {
@@ -39,7 +57,7 @@ STOPLINE_INLINE R get(const Stored* from) {
     } else {
         Vector<Stored, kWide> values;
         std::memcpy(&values, from, sizeof values);
-        return packed<kWide>(__builtin_convertvector(values, Vector<double, kWide>));
+        return packed<kWide>(converted<double, Stored>(values));
     }
 }
 template <class Stored>
@@ -48,7 +66,7 @@ STOPLINE_INLINE void put(Stored* to, double value) {
 }
 template <class Stored>
 STOPLINE_INLINE void put(Stored* to, const Wide& value) {
-    const auto values = __builtin_convertvector(value.v, Vector<Stored, kWide>);
+    const auto values = converted<Stored, double>(value.v);
     std::memcpy(to, &values, sizeof values);
 }
 
@@ -60,8 +78,20 @@ STOPLINE_INLINE R dawdle(const MesoStep& t, const int* id) {
     } else {
         Vector<int, kWide> ids;
         std::memcpy(&ids, id, sizeof ids);
-        const Words bits = dawdle_bits(t.key, __builtin_convertvector(ids, Words), t.tick);
+        const Words bits = dawdle_bits(t.key, same_bits<Words>(converted<std::int64_t, int>(ids)), t.tick);
         return packed<kWide>(same_bits<Vector<double, kWide>>(bits)) - 1.0;
+    }
+}
+
+// In which slots there is a vehicle.
+template <class R>
+STOPLINE_INLINE auto are_there(const int* id) {
+    if constexpr (std::is_same_v<R, double>) {
+        return *id >= 0;
+    } else {
+        Vector<int, kWide> ids;
+        std::memcpy(&ids, id, sizeof ids);
+        return typename R::Mask{converted<std::int64_t, int>(ids) >= 0};
     }
 }
 
@@ -105,12 +135,18 @@ STOPLINE_INLINE bool any_other(const float* floats, float value) {
     if constexpr (std::is_same_v<R, double>) {
         return *floats != value;
     } else {
-        const std::uint64_t bits = std::bit_cast<std::uint32_t>(value);
-        const std::uint64_t pair = bits << 32U | bits;
-        std::uint64_t pairs[kWide / 2];
-        std::memcpy(pairs, floats, sizeof pairs);
-        std::uint64_t others = 0;
-        for (const std::uint64_t each : pairs) others |= each ^ pair;
+#if defined(__AVX512VL__)
+        if constexpr (kWide == 8) {
+            __m256i all;
+            std::memcpy(&all, floats, sizeof all);
+            return _mm256_cmpneq_epi32_mask(all, _mm256_set1_epi32(std::bit_cast<int>(value))) != 0;
+        }
+#endif
+        const auto bits = std::bit_cast<std::uint32_t>(value);
+        std::uint32_t all[kWide];
+        std::memcpy(all, floats, sizeof all);
+        std::uint32_t others = 0;
+        for (const std::uint32_t each : all) others |= each ^ bits;
         return others != 0;
     }
 }
@@ -234,7 +270,7 @@ STOPLINE_INLINE R step_slots(const MesoStreams& s, int i, std::span<const Krauss
         }
     }
     constexpr double kRounding_m = 1e-6;
-    const auto there = get<R>(s.id + i) >= 0.0;
+    const auto there = are_there<R>(s.id + i);
     put(s.acceleration + i, select(there, R((next - speed) * (1.0 / t.dt)), get<R>(s.acceleration + i)));
     put(s.speed + i, select(there, next, speed));
     put(s.position + i, select(there, R(position + next * t.dt), position));
@@ -270,7 +306,7 @@ inline int step_blocks(const MesoStreams& streams, std::span<const int> blocks, 
     R overlaps = 0.0;
     constexpr std::size_t kAhead = 8;
     for (std::size_t n = blocks.size(); n-- > 0;) {
-        if (n >= kAhead) fetch(s, blocks[n - kAhead] * kSize);
+        if (t.fetches && n >= kAhead) fetch(s, blocks[n - kAhead] * kSize);
         const double* const more = all_more == nullptr ? kNoMore : all_more + n * kSize;
         overlaps += step_slots<R, policies, power_limit, at_once>(s, blocks[n] * kSize, models, more, t);
     }

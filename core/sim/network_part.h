@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/marks.h"
 #include "sim/events.h"
 #include "sim/full_group.h"
 #include "sim/hindrance.h"
@@ -50,6 +51,9 @@ struct NetworkPart {
     std::vector<int> inside;     // those of them inside an intersection that meet others
     std::vector<int> exits;      // where these lead to
     std::vector<int> detectors;  // on the lanes
+    // Where somebody has come since it was last looked at without finding anybody.
+    Marks may_be_occupied;  // [place in lanes]
+    Marks may_reach_back;   // [place in exits]
     // What is known of the lanes, as far as a step needs it in any case: lines of the cache, in the order of memory (fetch.cpp).
     std::vector<const char*> lines;
     Fetching fetching;

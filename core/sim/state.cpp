@@ -84,11 +84,30 @@ std::vector<NetworkPart> make_parts(const Model& model, const State& state, int 
     return parts;
 }
 
+// Where lanes are listed in the parts.
+void list_lanes(State& state) {
+    state.listed.resize(state.plan.order().size());
+    for (std::size_t number = 0; number < state.parts.size(); ++number) {
+        NetworkPart& part = state.parts[number];
+        part.may_be_occupied.resize(part.lanes.size());
+        part.may_reach_back.resize(part.exits.size());
+        for (std::size_t place = 0; place < part.lanes.size(); ++place) {
+            state.listed[at(part.lanes[place])].part = number;
+            state.listed[at(part.lanes[place])].place = place;
+        }
+        for (std::size_t exit = 0; exit < part.exits.size(); ++exit) {
+            state.listed[at(part.exits[exit])].exits_of = static_cast<int>(number);
+            state.listed[at(part.exits[exit])].exit = exit;
+        }
+    }
+}
+
 }  // namespace
 
 State make_state(const Model& model, int threads) {
     State state(model);
     state.parts = make_parts(model, state, threads);
+    list_lanes(state);
     lay_out_blocks(model, state);
     const std::size_t lanes = model.graph.lanes.size();
     state.lights.assign(model.signals.size(), Light::red);

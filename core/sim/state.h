@@ -105,6 +105,14 @@ struct Resting {
     int told = 0;  // those before this place were told in the step before that the queue sets out
 };
 
+// Where a lane is listed.
+struct ListedLane {
+    std::size_t part = 0;
+    std::size_t place = 0;  // in its lanes
+    int exits_of = -1;      // part that has it among its exits; -1: none
+    std::size_t exit = 0;   // place there
+};
+
 // On the lanes that a lane inside an intersection meets.
 struct OthersInside {
     int lanes = 0;     // of them that have insiders
@@ -118,6 +126,7 @@ struct State {
     Rows v2v;
     NetworkPlan plan;
     std::vector<NetworkPart> parts;               // one or more for each thread
+    std::vector<ListedLane> listed;               // [lane]
     std::vector<LaneBlock> blocks;                // [lane]
     std::vector<Light> lights;                    // [signal group] in this step
     std::vector<StopLineState> stop_lines;        // [lane]
