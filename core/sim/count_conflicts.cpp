@@ -56,7 +56,7 @@ std::int64_t conflicts_of(const Model& model, State& state, NetworkPart& part, i
 
 void count_conflicts(const Model& model, State& state, NetworkPart& part) {
     for (const int lane : part.with_insiders) {
-        if (state.others_inside[at(lane)].lanes > 0)
+        if (state.with_insiders.has_any(state.plan.meets(lane)))
             part.violations.conflicts += conflicts_of(model, state, part, lane);
     }
 }

@@ -77,13 +77,17 @@ void list_lines(const Model& model, State& state, NetworkPart& part) {
     for (const int lane : part.lanes) {
         state.plan.for_each_place(lane, add);
         one(state.blocks, lane), one(state.sleeps_until_green_of, lane), one(state.resting, lane);
-        one(state.has_holds, lane), one(state.deciding, lane), one(state.others_inside, lane);
+        one(state.has_holds, lane);
         if (state.plan.lane(lane).signal_group >= 0) {
             one(state.stop_lines, lane), one(state.stop_slot, lane), one(state.kept_out, lane);
         }
     }
     for (const int lane : part.inside) {
         one(state.insiders, lane), one(state.coming, lane);
+        for (const Marks* marks : {&state.with_insiders, &state.with_standing, &state.deciding}) {
+            const std::uint64_t* const word = marks->word_of(at(state.plan.lane(lane).mark));
+            add(word, word + 1);
+        }
         add(state.insiders[at(lane)].data(), state.insiders[at(lane)].data() + 1);
     }
     for (const int exit : part.exits) {

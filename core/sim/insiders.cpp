@@ -17,7 +17,10 @@ public:
     void forget() {
         for (const int lane : part_.with_insiders) {
             state_.insiders[at(lane)].clear();
-            for (const int other : state_.plan.meets(lane)) state_.others_inside[at(other)] = {};
+            const int mark = state_.plan.lane(lane).mark;
+            if (mark < 0) continue;
+            state_.with_insiders.clear_word_of(at(mark));
+            state_.with_standing.clear_word_of(at(mark));
         }
         part_.with_insiders.clear();
     }
@@ -40,7 +43,7 @@ public:
     void look_inside(int lane) {
         const LaneBlock& block = state_.blocks[at(lane)];
         for (int slot = block.first; slot < block.stop(); ++slot) add(lane, slot, 0.0);
-        state_.deciding[at(lane)] = 1;
+        if (const int mark = state_.plan.lane(lane).mark; mark >= 0) state_.deciding.set(at(mark));
         state_.plan.fetch_conflicts(lane);
     }
 
@@ -55,17 +58,15 @@ public:
         }
     }
 
-    void count() {
+    void mark() {
         for (const int lane : part_.with_insiders) {
-            const std::int64_t since = state_.insiders[at(lane)].front().since;
-            part_.longest_inside = std::max(part_.longest_inside, state_.tick - since);
-            int standing = 0;
-            for (const Insider& w : state_.insiders[at(lane)])
-                standing += v_.speed_mps[at(w.slot)] < kAlmostStands_mps ? 1 : 0;
-            for (const int other : state_.plan.meets(lane)) {
-                ++state_.others_inside[at(other)].lanes;
-                state_.others_inside[at(other)].standing += standing;
-            }
+            const std::vector<Insider>& insiders = state_.insiders[at(lane)];
+            part_.longest_inside = std::max(part_.longest_inside, state_.tick - insiders.front().since);
+            const int mark = state_.plan.lane(lane).mark;
+            if (mark < 0) continue;
+            state_.with_insiders.set(at(mark));
+            const auto stands = [&](const Insider& w) { return v_.speed_mps[at(w.slot)] < kAlmostStands_mps; };
+            if (std::any_of(insiders.begin(), insiders.end(), stands)) state_.with_standing.set(at(mark));
         }
     }
 
@@ -115,7 +116,7 @@ void find_insiders(State& state, NetworkPart& part) {
     });
     for (const int lane : part.awake_inside) search.look_inside(lane);
     for (const int lane : part.awake_before) search.look_before(lane);
-    search.count();
+    search.mark();
 }
 
 }  // namespace stopline

@@ -64,6 +64,12 @@ double longest_vehicle_m(const Model& model) {
     return longest_m;
 }
 
+double needs_at_most(const Model& model) {
+    double gap_m = 0.0;
+    for (const CompiledPolicy& policy : model.policies) gap_m = std::max(gap_m, policy.settings.standstill_gap_m);
+    return longest_vehicle_m(model) + gap_m;
+}
+
 // Lanes inside depend on those that lead there and on those that they meet. An exit that leads nowhere goes with them, to be near.
 void join_intersections(const Model& model, Sets& sets) {
     for (int index = 0; index < static_cast<int>(model.graph.lanes.size()); ++index) {
@@ -116,14 +122,15 @@ std::vector<BesidePlan> plan_beside(const LaneGraph& graph, const std::vector<Tu
 
 }  // namespace
 
-NetworkPlan::NetworkPlan(const Model& model) : speed_factor_(model.speed_factor), demand_(&model.demand) {
+NetworkPlan::NetworkPlan(const Model& model)
+    : speed_factor_(model.speed_factor), needs_at_most_m_(needs_at_most(model)), demand_(&model.demand) {
     const auto count = static_cast<int>(model.graph.lanes.size());
     const double longest_m = longest_vehicle_m(model);
     Sets sets(at(count));
     join_intersections(model, sets);
     for (int lane = 0; lane < count; ++lane) {
         lanes_.push_back(plan_of(model, lane));
-        lanes_.back().intersection = sets.of(lane);
+        intersection_of_.push_back(sets.of(lane));
         intersections_ += sets.of(lane) == lane ? 1 : 0;
         order_.push_back(lane);
         waits_inside_.push_back(model.graph.lanes[at(lane)].waits_inside ? 1 : 0);
@@ -132,12 +139,10 @@ NetworkPlan::NetworkPlan(const Model& model) : speed_factor_(model.speed_factor)
         parting_.push_back({each.clear_m, each.origin >= 0 && each.length_m - each.clear_m < longest_m});
         next_.add(model.graph.lanes[at(lane)].next);
         conflicts_.add(model.graph.conflicts_of(lane));
-        std::vector<int> meets;
-        for (const Conflict& conflict : model.graph.conflicts_of(lane)) meets.push_back(conflict.other);
-        meets_.add(meets);
     }
     std::stable_sort(order_.begin(), order_.end(),
-                     [this](int a, int b) { return lanes_[at(a)].intersection < lanes_[at(b)].intersection; });
+                     [this](int a, int b) { return intersection_of(a) < intersection_of(b); });
+    number_inside(model);
     for (const Route& route : model.graph.routes) {
         routes_.add(route.lanes);
         turns_.push_back(route.lanes.size() > 1 ? model.graph.lanes[at(route.lanes[1])].turn : Turn::none);
@@ -157,6 +162,31 @@ NetworkPlan::NetworkPlan(const Model& model) : speed_factor_(model.speed_factor)
         if (beside_[at(lane)].changes()) changing_.push_back(lane);
     }
     if (!model.demand.trips.empty()) trip_lanes_ = TripLanes(model, *this);
+}
+
+void NetworkPlan::number_inside(const Model& model) {
+    int intersection = -1;
+    for (const int lane : order_) {
+        if (lanes_[at(lane)].origin < 0 || model.graph.conflicts_of(lane).empty()) continue;
+        if (intersection_of(lane) != intersection) {
+            marked_.resize((marked_.size() + Marks::kBits - 1) / Marks::kBits * Marks::kBits, -1);
+            intersection = intersection_of(lane);
+        }
+        lanes_[at(lane)].mark = static_cast<int>(marked_.size());
+        marked_.push_back(lane);
+    }
+    for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
+        std::vector<NumbersOfWord> meets;
+        for (const Conflict& conflict : model.graph.conflicts_of(static_cast<int>(lane))) {
+            const int mark = lanes_[at(conflict.other)].mark;
+            if (mark < 0) continue;
+            const std::size_t word = at(mark) / Marks::kBits;
+            auto of_word = std::find_if(meets.begin(), meets.end(), [&](const auto& m) { return m.word == word; });
+            if (of_word == meets.end()) of_word = meets.insert(of_word, {word, 0});
+            of_word->bits |= std::uint64_t{1} << at(mark) % Marks::kBits;
+        }
+        meets_.add(meets);
+    }
 }
 
 }  // namespace stopline

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "base/marks.h"
 #include "base/simd.h"
 #include "sim/model.h"
 #include "sim/trip_lanes.h"
@@ -23,7 +24,7 @@ struct alignas(64) LanePlan {
     int signal_group = -1;      // -1: no stop line
     int origin = -1;            // of a lane inside an intersection; -1: it is none
     int exit = -1;              // the same: the lane it leads to
-    int intersection = 0;       // number of the lanes that depend on each other in a step
+    int mark = -1;              // of a lane inside an intersection that meets others: its number in Marks
     bool yields = false;        // gives way to some other lane
     bool branches = false;      // several lanes can follow
     bool by_way = false;        // of a lane with a stop line: its movements have lights of their own
@@ -84,6 +85,8 @@ public:
 
     const LanePlan& lane(int lane) const { return lanes_[static_cast<std::size_t>(lane)]; }
     int lanes() const { return static_cast<int>(lanes_.size()); }
+    // The longest vehicle, with the largest gap that one keeps to it at rest.
+    double needs_at_most_m() const { return needs_at_most_m_; }
     // What vehicles of the mesoscale mode drive there at most.
     double driven_mps(int lane) const { return speed_factor_ * this->lane(lane).limit_mps; }
     std::span<const int> route(int route) const { return routes_.of(route); }
@@ -122,9 +125,12 @@ public:
     STOPLINE_INLINE void fetch_conflicts(int lane) const {
         for (const Conflict& conflict : conflicts_.of(lane)) __builtin_prefetch(&conflict);
     }
-    // Of a lane inside an intersection: conflict areas from its start, and the lanes that it meets there.
+    // Of a lane inside an intersection: conflict areas from its start, and the marks of the lanes that it meets there.
     std::span<const Conflict> conflicts(int lane) const { return conflicts_.of(lane); }
-    std::span<const int> meets(int lane) const { return meets_.of(lane); }
+    std::span<const NumbersOfWord> meets(int lane) const { return meets_.of(lane); }
+    // Lanes inside are marked by number: those of an intersection share words, with no other one's, in the order of lanes.
+    std::size_t marks() const { return marked_.size(); }
+    int marked(std::size_t mark) const { return marked_[mark]; }  // -1: none has this number
     // Where in memory is what steps need to know of a lane: visit(begin, end).
     template <class Visit>
     void for_each_place(int lane, Visit visit) const {
@@ -138,16 +144,23 @@ public:
     // Lanes by intersection: what happens in one of them in a step depends on what is done in it alone.
     const std::vector<int>& order() const { return order_; }
     int intersections() const { return intersections_; }
+    // Number of the lanes that depend on each other in a step.
+    int intersection_of(int lane) const { return intersection_of_[static_cast<std::size_t>(lane)]; }
 
 private:
+    void number_inside(const Model& model);
+
     double speed_factor_;
+    double needs_at_most_m_ = 0.0;
     int intersections_ = 0;
     std::vector<LanePlan> lanes_;
     Lists<int> routes_;
     Lists<int> next_;
     Lists<Conflict> conflicts_;
-    Lists<int> meets_;
+    Lists<NumbersOfWord> meets_;
+    std::vector<int> marked_;  // [mark]
     std::vector<int> order_;
+    std::vector<int> intersection_of_;  // [lane]
     std::vector<BesidePlan> beside_;
     std::vector<int> changing_;
     std::vector<Turn> turns_;                               // [route]

@@ -87,24 +87,9 @@ Ahead ahead_on_trip(const State& state, int lane, double position_m, const OnTri
     }
 }
 
-}  // namespace
-
-Ahead vehicle_ahead(const State& state, int lane, int slot, double range_m) {
-    if (state.vehicles.next_lane[at(slot)] < 0) {  // it leaves, or waits for a gap: it sees who still reaches back
-        return Parting(state, lane).last();
-    }
-    const VehicleRecord& record = state.vehicles.record[at(slot)];
-    const double position_m = state.vehicles.position_m[at(slot)];
-    return vehicle_ahead(state, lane, position_m, {record.route, record.route_index, record.trip, record.leg}, range_m);
-}
-
-Ahead vehicle_ahead(const State& state, int lane, double position_m, const OnTrip& on_trip, double range_m) {
-    const Ahead seen = vehicle_ahead(state, lane, position_m, on_trip.route, on_trip.route_index, range_m);
-    if (seen.slot >= 0 || on_trip.trip < 0) return seen;
-    return ahead_on_trip(state, lane, position_m, on_trip, range_m);
-}
-
-Ahead vehicle_ahead(const State& state, int lane, double position_m, int route_number, int index, double range_m) {
+// On the route. Once a lane and step: inlined.
+STOPLINE_INLINE Ahead ahead_on_route(const State& state, int lane, double position_m, int route_number, int index,
+                                     double range_m) {
     const VehicleArrays& v = state.vehicles;
     const LanePlan& here = state.plan.lane(lane);
     double start_m = here.length_m;
@@ -133,6 +118,30 @@ Ahead vehicle_ahead(const State& state, int lane, double position_m, int route_n
         start_m += state.plan.lane(route[k]).length_m;
     }
     return beside;
+}
+
+}  // namespace
+
+Ahead vehicle_ahead(const State& state, int lane, int slot, double range_m) {
+    if (state.vehicles.next_lane[at(slot)] < 0) {  // it leaves, or waits for a gap: it sees who still reaches back
+        return Parting(state, lane).last();
+    }
+    const VehicleRecord& record = state.vehicles.record[at(slot)];
+    const double position_m = state.vehicles.position_m[at(slot)];
+    const Ahead seen = ahead_on_route(state, lane, position_m, record.route, record.route_index, range_m);
+    if (seen.slot >= 0 || record.trip < 0) return seen;
+    const OnTrip on_trip{record.route, record.route_index, record.trip, record.leg};
+    return ahead_on_trip(state, lane, position_m, on_trip, range_m);
+}
+
+Ahead vehicle_ahead(const State& state, int lane, double position_m, const OnTrip& on_trip, double range_m) {
+    const Ahead seen = vehicle_ahead(state, lane, position_m, on_trip.route, on_trip.route_index, range_m);
+    if (seen.slot >= 0 || on_trip.trip < 0) return seen;
+    return ahead_on_trip(state, lane, position_m, on_trip, range_m);
+}
+
+Ahead vehicle_ahead(const State& state, int lane, double position_m, int route, int index, double range_m) {
+    return ahead_on_route(state, lane, position_m, route, index, range_m);
 }
 
 namespace {

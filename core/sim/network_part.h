@@ -49,6 +49,8 @@ struct ToldToStart {
 struct NetworkPart {
     std::vector<int> lanes;      // by intersection
     std::vector<int> inside;     // those of them inside an intersection that meet others
+    std::size_t first_word = 0;  // of the marks of these: [first_word, end_word)
+    std::size_t end_word = 0;
     std::vector<int> exits;      // where these lead to
     std::vector<int> detectors;  // on the lanes
     // Where somebody has come since it was last looked at without finding anybody.

@@ -211,7 +211,7 @@ Wait waiting_place(const Model& model, State& state, NetworkPart& part, int lane
     bool decided = arrays.record[at(v.slot)].cleared_for == lane;
     const double to_first_m = state.plan.lane(lane).first_area_m - margin_m - v.front_m;
     if (!v.stands && to_first_m > stopping_m(model, speed)) decided = false;
-    const bool others = state.others_inside[at(lane)].lanes > 0;
+    const bool others = state.with_insiders.has_any(state.plan.meets(lane));
     const double line_m = waits_at_line_m(model, state, lane, v);
     const bool at_line = line_m < kNowhere_m;
     const bool no_light = state.plan.light_before(state.plan.lane(lane).origin, lane) == 0;
@@ -300,11 +300,10 @@ void give_way(const Model& model, State& state, NetworkPart& part) {
         state.has_holds[at(lane)] = 0;
     }
     part.holding.clear();
-    for (const int lane : part.inside) {
-        if (state.deciding[at(lane)] == 0) continue;
-        state.deciding[at(lane)] = 0;
-        decide(model, state, part, lane);
-    }
+    state.deciding.keep_if(part.first_word, part.end_word, [&](std::size_t mark) {
+        decide(model, state, part, state.plan.marked(mark));
+        return false;
+    });
     count_conflicts(model, state, part);
 }
 

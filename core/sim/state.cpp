@@ -58,7 +58,7 @@ std::vector<NetworkPart> make_parts(const Model& model, const State& state, int 
     for (std::size_t k = 0; k < order.size(); ++k) {
         const int lane = order[k];
         const bool new_intersection =
-            k > 0 && state.plan.lane(lane).intersection != state.plan.lane(order[k - 1]).intersection;
+            k > 0 && state.plan.intersection_of(lane) != state.plan.intersection_of(order[k - 1]);
         const double share = metres / count * static_cast<double>(parts.size());
         if (new_intersection && done >= share && static_cast<int>(parts.size()) < count) parts.emplace_back();
         done += metres_of(lane);
@@ -66,6 +66,9 @@ std::vector<NetworkPart> make_parts(const Model& model, const State& state, int 
         part.lanes.push_back(lane);
         part.detectors.insert(part.detectors.end(), detectors[at(lane)].begin(), detectors[at(lane)].end());
         if (state.plan.lane(lane).origin < 0 || model.graph.conflicts_of(lane).empty()) continue;
+        const std::size_t word = at(state.plan.lane(lane).mark) / Marks::kBits;
+        if (part.inside.empty()) part.first_word = word;
+        part.end_word = word + 1;
         part.inside.push_back(lane);
         const int exit = state.plan.lane(lane).exit;
         if (!is_exit[at(exit)]) part.exits.push_back(exit);
@@ -125,8 +128,9 @@ State make_state(const Model& model, int threads) {
     state.exit_rooms.resize(lanes);
     state.insiders.resize(lanes);
     state.coming.resize(lanes);
-    state.deciding.assign(lanes, 0);
-    state.others_inside.resize(lanes);
+    for (Marks* marks : {&state.with_insiders, &state.with_standing, &state.deciding}) {
+        marks->resize(state.plan.marks());
+    }
     const double shortest_m = shortest_vehicle_m(model);
     for (const NetworkPart& part : state.parts) {
         for (const int lane : part.inside) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/marks.h"
 #include "sim/events.h"
 #include "sim/hindrance.h"
 #include "sim/lane_plan.h"
@@ -113,12 +114,6 @@ struct ListedLane {
     std::size_t exit = 0;   // place there
 };
 
-// On the lanes that a lane inside an intersection meets.
-struct OthersInside {
-    int lanes = 0;     // of them that have insiders
-    int standing = 0;  // of these
-};
-
 struct State {
     std::int64_t tick = 0;
     VehicleArrays vehicles;
@@ -137,8 +132,11 @@ struct State {
     std::vector<KeptOut> kept_out;                // [lane] why who stops at the line does so although it is green
     std::vector<ExitRoom> exit_rooms;             // [lane] that leads out of an intersection
     std::vector<std::vector<Insider>> insiders;   // [lane inside an intersection], from the front
-    std::vector<OthersInside> others_inside;      // [lane inside an intersection]
-    std::vector<char> deciding;  // [lane inside an intersection] 1: somebody on it or before it may have to wait
+    // Lanes inside intersections (NetworkPlan::marked): with insiders, with some that stand, and those on which or before which
+    // somebody may have to wait.
+    Marks with_insiders;
+    Marks with_standing;
+    Marks deciding;
     std::vector<std::vector<int>> coming;  // [lane inside an intersection] slots before it that are near
     std::vector<Resting> resting;          // [lane] mesoscale mode
     // [lane] mesoscale mode: the signal group before which its first vehicle rests, so that there is nothing to decide before that is green

@@ -126,7 +126,7 @@ const ExitRoom& look_into_exit(const Model& model, State& state, int exit) {
 
 // The slot of a vehicle from the streets that cross which stands across this way, where it may not be passed; -1: none.
 int stands_across(const Model& model, const State& state, int inside) {
-    if (state.others_inside[at(inside)].standing == 0) return -1;
+    if (!state.with_standing.has_any(state.plan.meets(inside))) return -1;
     const VehicleArrays& v = state.vehicles;
     const std::int64_t patience = model.rules.pass_blocker_ticks;
     for (const Conflict& c : state.plan.conflicts(inside)) {
@@ -143,56 +143,60 @@ int stands_across(const Model& model, const State& state, int inside) {
 
 // One way on from a stop line.
 struct Way {
-    int inside = -1;
-    int standing = -1;  // see ExitRoom
-    int across = -1;    // slot of who stands across it
-    double room_m = 0.0;
+    int inside;
+    int standing;  // see ExitRoom
+    int across;    // slot of who stands across it
+    double room_m;
+    bool clear;  // for all who come
 };
 
-bool all_clear(const Model& model, State& state, std::span<const int> ways) {
-    return std::all_of(ways.begin(), ways.end(), [&](int inside) {
-        const int exit = state.plan.lane(inside).exit;
-        return exit < 0 || !state.plan.lane(inside).keeps_clear ||
-               (look_into_exit(model, state, exit).standing < 0 && stands_across(model, state, inside) < 0);
-    });
-}
-
-// The ways on from a lane.
+// The ways on from a lane, as far as somebody who comes to the stop line takes them.
 class Ways {
 public:
-    Ways(const Model& model, State& state, std::span<const int> lanes) {
-        for (const int inside : lanes) {
-            const int exit = state.plan.lane(inside).exit;
-            if (exit < 0 || !state.plan.lane(inside).keeps_clear || count_ == each_.size()) continue;
-            const ExitRoom& room = look_into_exit(model, state, exit);
-            each_[count_++] = {inside, room.standing, stands_across(model, state, inside), room.room_m};
-        }
-    }
+    Ways(const Model& model, State& state, int vehicles)
+        : model_(model), state_(state), ample_m_(vehicles * state.plan.needs_at_most_m() + kRounding_m) {}
+
+    // nullptr: it is entered whatever is in its exit.
     Way* to(int inside) {
-        for (std::size_t k = 0; k < count_; ++k) {
-            if (each_[k].inside == inside) return &each_[k];
-        }
-        return nullptr;
+        if (last_ != nullptr && last_->inside == inside) return last_;
+        return last_ = find(inside);
     }
 
 private:
+    Way* find(int inside) {
+        for (std::size_t k = 0; k < count_; ++k) {
+            if (each_[k].inside == inside) return &each_[k];
+        }
+        if (inside < 0 || count_ == each_.size()) return nullptr;
+        const LanePlan& plan = state_.plan.lane(inside);
+        if (plan.exit < 0 || !plan.keeps_clear) return nullptr;
+        const ExitRoom& room = look_into_exit(model_, state_, plan.exit);
+        const int across = stands_across(model_, state_, inside);
+        each_[count_] = {inside, room.standing, across, room.room_m, across < 0 && room.room_m >= ample_m_};
+        return &each_[count_++];
+    }
+
+    static constexpr double kRounding_m = 1e-3;
+
+    const Model& model_;
+    State& state_;
+    double ample_m_;  // room for all vehicles of the lane
     std::array<Way, 16> each_;
     std::size_t count_ = 0;
+    Way* last_ = nullptr;  // most go the same way as who is ahead of them
 };
 
 // The first vehicle that finds no room in its exit, or somebody across its way, and can stop comfortably; -1: none.
 int keep_clear(const Model& model, State& state, int index) {
     constexpr double kDecides_m = 80.0;  // before the stop line, at most
-    const std::span<const int> ways_on = state.plan.next(index);
-    if (all_clear(model, state, ways_on)) return -1;
-    Ways ways(model, state, ways_on);
     const VehicleArrays& v = state.vehicles;
     const double line_m = state.plan.lane(index).stop_line_m;
     const LaneBlock& block = state.blocks[at(index)];
+    Ways ways(model, state, block.count);
     for (int slot = block.first; slot < block.stop(); ++slot) {
         if (v.position_m[at(slot)] < line_m - kDecides_m) break;
         Way* const way = ways.to(v.next_lane[at(slot)]);
-        if (way == nullptr) continue;
+        if (way == nullptr || way->clear) continue;
         way->room_m -= needs_m(v, slot);
         if ((way->room_m >= 0.0 && way->across < 0) || v.position_m[at(slot)] > line_m) continue;
         if (!can_stop(model, v, slot, line_m, model.driver.cacc.deceleration_comfort_mps2)) continue;
@@ -226,10 +230,9 @@ void list_coming(const Model& model, State& state, int index) {
         const int next = v.next_lane[at(slot)];
         if (next < 0) continue;
         const LanePlan& way = state.plan.lane(next);
-        if (way.origin != index) continue;
+        if (way.origin != index || way.mark < 0) continue;
         // With priority, and nobody there: only imported networks have vehicles that come too fast to give way any more.
-        const bool alone = state.others_inside[at(next)].lanes == 0;
-        if (!way.yields && alone && (!has_trips || state.plan.conflicts(next).empty())) continue;
+        if (!has_trips && !way.yields && !state.with_insiders.has_any(state.plan.meets(next))) continue;
         double to_area_m = to_end_m + way.first_area_m - model.give_way.margin_m;
         if (!state.plan.waits_inside(next)) {
             const double line_m = state.plan.lane(index).stop_line_m - model.driver.stop.margin_m;
@@ -238,8 +241,8 @@ void list_coming(const Model& model, State& state, int index) {
         const bool far = to_area_m > decides_within_m(model, v.speed_mps[at(slot)]);
         if (far && !(way.yields && v.record[at(slot)].cleared_for == next)) continue;
         state.coming[at(next)].push_back(slot);
-        if (state.deciding[at(next)] == 0) state.plan.fetch_conflicts(next);
-        state.deciding[at(next)] = 1;
+        if (!state.deciding.has(at(way.mark))) state.plan.fetch_conflicts(next);
+        state.deciding.set(at(way.mark));
     }
 }
 

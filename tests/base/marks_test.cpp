@@ -29,5 +29,24 @@ TEST(Marks, AreVisitedInOrderAndStayWhereKept) {
     EXPECT_EQ(visited(marks, 1), (std::vector<std::size_t>{0, 1, 64}));
 }
 
+TEST(Marks, AreFoundClearedAndVisitedByWord) {
+    Marks marks;
+    marks.resize(192);
+    marks.set(3), marks.set(70), marks.set(71), marks.set(191);
+    EXPECT_TRUE(marks.has(70));
+    EXPECT_FALSE(marks.has(6));  // of another word
+    const std::vector<NumbersOfWord> numbers{{0, 1U << 4U}, {1, 1U << 6U}};
+    EXPECT_TRUE(marks.has_any(numbers));  // 70
+    EXPECT_FALSE(marks.has_any(std::span(numbers).first(1)));
+    std::vector<std::size_t> seen;
+    marks.keep_if(1, 2, [&](std::size_t number) {
+        seen.push_back(number);
+        return number == 70;
+    });
+    EXPECT_EQ(seen, (std::vector<std::size_t>{70, 71}));
+    marks.clear_word_of(100);
+    EXPECT_EQ(visited(marks, 1), (std::vector<std::size_t>{3, 191}));
+}
+
 }  // namespace
 }  // namespace stopline
