@@ -116,7 +116,7 @@ void fetch_more(const State& state, Fetching& fetching) {
     }
     const NetworkPart& next = *fetching.next;
     const std::size_t k = fetching.lane++;
-    const std::vector<int>& occupied = next.occupied;  // in the step before
+    const NumberList& occupied = next.occupied;  // in the step before
     if (k < occupied.size()) {
         fetch_ends(state, occupied[k]);
     } else if (k - occupied.size() < next.exits.size()) {

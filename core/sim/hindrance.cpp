@@ -51,16 +51,16 @@ private:
 
     void note_standing(int lane) {
         const LaneBlock& block = state_.blocks[at(lane)];
+        std::fill_n(w_.lane.begin() + block.first, block.count, lane);
         int since = now_;
         for (int slot = block.first; slot < block.stop(); ++slot) {
-            w_.mark[at(slot)] = 0;
-            w_.cause[at(slot)] = Cause::none;
-            w_.lane[at(slot)] = lane;
-            w_.vehicle[at(slot)] = v_.id[at(slot)];
-            if (v_.speed_mps[at(slot)] >= kStands_mps) {
+            if (!stands(slot)) {
                 v_.stands_since[at(slot)] = now_;
                 continue;
             }
+            w_.mark[at(slot)] = 0;
+            w_.cause[at(slot)] = Cause::none;
+            w_.vehicle[at(slot)] = v_.id[at(slot)];
             since = std::min(since, v_.stands_since[at(slot)]);
             w_.standing.push_back(slot);
         }
@@ -71,6 +71,7 @@ private:
     bool stands(int slot) const { return v_.speed_mps[at(slot)] < kStands_mps; }
 
     void set(int slot, int waits_for, Cause edge) {
+        if (waits_for >= 0) w_.vehicle[at(waits_for)] = v_.id[at(waits_for)];
         w_.waits_for[at(slot)] = waits_for;
         w_.edge[at(slot)] = edge;
     }
@@ -129,6 +130,11 @@ private:
         for (const int start : w_.standing) {
             if (w_.mark[at(start)] != 0) continue;
             ++walk;
+            if (const int ahead = w_.waits_for[at(start)]; ahead < 0 || !stands(ahead) || w_.mark[at(ahead)] != 0) {
+                w_.mark[at(start)] = walk;  // settled, who it waits for
+                settle(start);
+                continue;
+            }
             w_.walk.clear();
             int slot = start;
             while (slot >= 0 && stands(slot) && w_.mark[at(slot)] == 0) {
@@ -147,7 +153,7 @@ private:
         if (w_.cause[at(slot)] == Cause::gridlock) return;
         const int ahead = w_.waits_for[at(slot)];
         const Cause edge = w_.edge[at(slot)];
-        const Cause beyond = ahead >= 0 ? w_.cause[at(ahead)] : Cause::none;
+        const Cause beyond = ahead >= 0 && stands(ahead) ? w_.cause[at(ahead)] : Cause::none;
         w_.owner[at(slot)] = slot;
         if (edge == Cause::none && ahead >= 0) w_.owner[at(slot)] = w_.owner[at(ahead)];
         w_.cause[at(slot)] = beyond == Cause::gridlock ? beyond : edge == Cause::none ? beyond : edge;

@@ -79,14 +79,15 @@ struct HindranceLog {
 struct HindranceWatch {
     std::vector<int> waits_for;  // [slot] of who stands: another slot, -1 for nobody; it may crawl
     std::vector<Cause> edge;     // [slot] why; none: follows
-    std::vector<Cause> cause;    // [slot] what its time is lost to
-    std::vector<int> owner;      // [slot] the first of its queue, which the cause holds up
+    std::vector<Cause> cause;    // [slot] of who stands: what its time is lost to
+    std::vector<int> owner;      // [slot] of who stands: the first of its queue, which the cause holds up
     std::vector<int> lane;       // [slot] of all
-    std::vector<int> vehicle;    // [slot] of all: its number, for those who look on: slots change before the next look
-    std::vector<int> mark;       // [slot] number of the walk that came by; 0: none
-    std::vector<int> walk;       // slots
-    std::vector<int> standing;   // slots
-    std::vector<int> open;       // [lane * causes + cause] episode that goes on; -1: none
+    // [slot] of who stands and who it waits for: its number, for those who look on: slots change before the next look.
+    std::vector<int> vehicle;
+    std::vector<int> mark;            // [slot] of who stands: number of the walk that came by; 0: none
+    std::vector<int> walk;            // slots
+    std::vector<int> standing;        // slots
+    std::vector<int> open;            // [lane * causes + cause] episode that goes on; -1: none
     std::vector<int> open_episodes;   // [k] lane * causes + cause
     std::vector<int> open_gridlocks;  // numbers
 };

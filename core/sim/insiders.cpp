@@ -86,21 +86,23 @@ private:
 }  // namespace
 
 void find_occupied_lanes(State& state, NetworkPart& part) {
-    for (std::vector<int>* list : {&part.occupied, &part.awake, &part.awake_before, &part.awake_inside}) list->clear();
+    for (NumberList* list : {&part.occupied, &part.awake, &part.awake_before, &part.awake_inside}) {
+        list->start(part.lanes.size());
+    }
     part.present = 0;
     part.may_be_occupied.keep_if([&](std::size_t place) {
         const int lane = part.lanes[place];
         const int count = state.blocks[at(lane)].count;
         if (count == 0) return false;
         part.present += count;
-        part.occupied.push_back(lane);
+        part.occupied.add(lane);
         int& sleeps = state.sleeps_until_green_of[at(lane)];
         if (sleeps >= 0 && state.lights[at(sleeps)] == Light::green) sleeps = -1;
-        if (sleeps >= 0) return true;
-        part.awake.push_back(lane);
+        const bool awake = sleeps < 0;
         const LanePlan& plan = state.plan.lane(lane);
-        if (plan.signal_group >= 0) part.awake_before.push_back(lane);
-        if (plan.origin >= 0) part.awake_inside.push_back(lane);
+        part.awake.add_if(awake, lane);
+        part.awake_before.add_if(awake && plan.signal_group >= 0, lane);
+        part.awake_inside.add_if(awake && plan.origin >= 0, lane);
         return true;
     });
 }

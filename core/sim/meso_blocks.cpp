@@ -3,6 +3,7 @@
 // Vehicles that stand, one behind the other, are left out: nothing that they react to changes. A lane whose first vehicle rests before a
 // red light sleeps: there is nothing to decide on it.
 #include <algorithm>
+#include <bit>
 
 #include "sim/meso_dynamics.h"
 #include "sim/phases.h"
@@ -61,16 +62,16 @@ constexpr double kRounding_m = 1e-3;
 
 class Collector {
 public:
-    Collector(const Model& model, int size, State& state, NetworkPart& part, int lane)
+    Collector(const Model& model, int shift, State& state, NetworkPart& part, int lane)
         : model_(model),
-          size_(size),
+          shift_(shift),
           state_(state),
           v_(state.vehicles),
           part_(part),
           lane_(lane),
           block_(state.blocks[at(lane)]),
           plan_(state.plan.lane(lane)),
-          stop_slot_(plan_.signal_group < 0 ? -1 : state.stop_slot[at(lane)]),
+          stop_slot_(state.stop_slot[at(lane)]),
           holds_(state.has_holds[at(lane)] != 0 ? state.holds[at(lane)] : kNobodyHeld) {}
 
     void collect() {
@@ -84,7 +85,7 @@ public:
             find_resting(v_, block_, state_.tick, resting);
             return add(first + resting.to, block_.stop());
         }
-        if (is_near_end()) part_.near_end.push_back(lane_);
+        if (is_near_end()) part_.near_end.add(lane_);
         v_.imposed_mps[at(first)] = kAnySpeed_mps;  // if the lane has slept
         adapt();
         if (last_imposed() > first + resting.from) resting.imposed = state_.tick;
@@ -172,14 +173,11 @@ private:
     // Lanes are in the order of their slots.
     void add(int from, int to) {
         if (from == to) return;
-        const int last = part_.blocks.empty() ? -1 : part_.blocks.back();
-        for (int block = std::max(from / size_, last + 1); block <= (to - 1) / size_; ++block) {
-            part_.blocks.push_back(block);
-        }
+        part_.blocks.add_all(std::max(from >> shift_, part_.blocks.last_or(-1) + 1), ((to - 1) >> shift_) + 1);
     }
 
     const Model& model_;
-    int size_;  // slots of a block
+    int shift_;  // slots of a block are a power of two: this one
     State& state_;
     VehicleArrays& v_;
     NetworkPart& part_;
@@ -194,13 +192,14 @@ private:
 
 // What is needed for it is still in the cache when the part has been decided.
 void collect_moves(const Model& model, State& state, NetworkPart& part) {
-    const int size = meso_kernels(model.scalar_kernels).size;
-    part.blocks.clear();
-    part.near_end.clear();
+    constexpr std::size_t kMostAdded = 4;  // blocks of a lane more than it has vehicles: those of others are in them too
+    const int shift = std::countr_zero(static_cast<unsigned>(meso_kernels(model.scalar_kernels).size));
+    part.near_end.start(part.occupied.size());
+    part.blocks.start(static_cast<std::size_t>(part.present) + kMostAdded * part.occupied.size());
     part.told.clear();
     for (const int lane : part.occupied) {
         fetch_on(state, part.fetching);
-        Collector(model, size, state, part, lane).collect();
+        Collector(model, shift, state, part, lane).collect();
     }
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/marks.h"
+#include "base/number_list.h"
 #include "sim/events.h"
 #include "sim/full_group.h"
 #include "sim/hindrance.h"
@@ -60,14 +61,14 @@ struct NetworkPart {
     std::vector<const char*> lines;
     Fetching fetching;
     // In this step.
-    std::vector<int> occupied;       // lanes with vehicles
-    std::vector<int> awake;          // those of them where there is something to decide (State::sleeps_until_green_of)
-    std::vector<int> awake_before;   // the same with a stop line
-    std::vector<int> awake_inside;   // the same inside an intersection
+    NumberList occupied;             // lanes with vehicles
+    NumberList awake;                // those of them where there is something to decide (State::sleeps_until_green_of)
+    NumberList awake_before;         // the same with a stop line
+    NumberList awake_inside;         // the same inside an intersection
     std::vector<int> with_insiders;  // lanes inside with vehicles on them, before or behind
     std::vector<int> holding;        // lanes where vehicles wait to give way or to change lanes
     std::vector<int> adapting;       // lanes where vehicles adapt their speed to those beside
-    std::vector<int> near_end;       // lanes whose first vehicle may reach the end
+    NumberList near_end;             // lanes whose first vehicle may reach the end
     std::vector<int> ended;          // lanes whose first vehicle has reached it
     std::vector<ToldToStart> told;   // mesoscale mode
     std::vector<Passing> passing;
@@ -86,7 +87,7 @@ struct NetworkPart {
     std::array<LaneGroup, 2> groups;  // at work and next
     FullGroupArrays full_group;
     // Mesoscale mode (meso_kernels.h): blocks of slots with vehicles to move, slots on which something is imposed, and MesoMore.
-    std::vector<int> blocks;
+    NumberList blocks;
     std::vector<int> imposed;
     std::vector<double> more;
 };

@@ -79,10 +79,6 @@ std::vector<NetworkPart> make_parts(const Model& model, const State& state, int 
         NetworkPart::kVehiclesTogether + static_cast<int>(longest_m / shortest_vehicle_m(model)) + 2 * kSimdWidth;
     for (NetworkPart& part : parts) {
         part.full_group.resize(model.meso ? 0 : together);
-        for (std::vector<int>* list :
-             {&part.occupied, &part.awake, &part.awake_before, &part.awake_inside, &part.near_end}) {
-            list->reserve(part.lanes.size());
-        }
     }
     return parts;
 }
