@@ -9,8 +9,6 @@ namespace stopline {
 
 namespace {
 
-constexpr double kCloseBehind_m = 15.0;  // who stands further behind has not come up yet, or is about to set out
-constexpr double kSeen_m = 30.0;
 constexpr int kCauses = static_cast<int>(kCauseNames.size());
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
@@ -25,12 +23,17 @@ public:
           now_(static_cast<int>(state.tick)),
           now_s_(model.time_s(state.tick)) {}
 
-    void look() {
-        prepare();
+    void gather() {
+        w_.standing.clear();
+        int since = now_;
         for (const NetworkPart& part : state_.parts) {
-            for (const int lane : part.occupied) note_standing(lane);
+            w_.standing.insert(w_.standing.end(), part.standing.begin(), part.standing.end());
+            since = std::min(since, part.stands_since);
         }
-        for (const int slot : w_.standing) wait(slot);
+        double& longest_s = state_.hindrance.longest_stand_s;
+        longest_s = std::max(longest_s, model_.time_s(now_ - since));
+    }
+    void attribute() {
         resolve();
         count();
         close_episodes();
@@ -38,92 +41,7 @@ public:
     }
 
 private:
-    void prepare() {
-        const auto slots = at(v_.slots);
-        if (w_.mark.size() != slots) {
-            w_.waits_for.resize(slots), w_.edge.resize(slots), w_.cause.resize(slots), w_.owner.resize(slots);
-            w_.lane.resize(slots), w_.vehicle.resize(slots), w_.mark.resize(slots);
-        }
-        // Episodes go on when vehicles get other slots.
-        w_.open.resize(model_.graph.lanes.size() * kCauseNames.size(), -1);
-        w_.standing.clear();
-    }
-
-    void note_standing(int lane) {
-        const LaneBlock& block = state_.blocks[at(lane)];
-        std::fill_n(w_.lane.begin() + block.first, block.count, lane);
-        int since = now_;
-        for (int slot = block.first; slot < block.stop(); ++slot) {
-            if (!stands(slot)) {
-                v_.stands_since[at(slot)] = now_;
-                continue;
-            }
-            w_.mark[at(slot)] = 0;
-            w_.cause[at(slot)] = Cause::none;
-            w_.vehicle[at(slot)] = v_.id[at(slot)];
-            since = std::min(since, v_.stands_since[at(slot)]);
-            w_.standing.push_back(slot);
-        }
-        state_.hindrance.longest_stand_s =
-            std::max(state_.hindrance.longest_stand_s, model_.time_s(state_.tick - since));
-    }
-
     bool stands(int slot) const { return v_.speed_mps[at(slot)] < kStands_mps; }
-
-    void set(int slot, int waits_for, Cause edge) {
-        if (waits_for >= 0) w_.vehicle[at(waits_for)] = v_.id[at(waits_for)];
-        w_.waits_for[at(slot)] = waits_for;
-        w_.edge[at(slot)] = edge;
-    }
-
-    // What one that stands waits for, be it that this one only crawls.
-    void wait(int slot) {
-        const int lane = w_.lane[at(slot)];
-        const Hold* const hold = state_.has_holds[at(lane)] != 0 ? state_.holds[at(lane)].of(slot) : nullptr;
-        if (hold != nullptr) {
-            if (hold->blocker < 0) return set(slot, -1, Cause::wrong_lane);
-            const bool standing = stands(hold->blocker);
-            const bool blocked = !hold->priority && standing;
-            return set(slot, standing ? hold->blocker : -1, blocked ? Cause::junction_blocking : Cause::priority);
-        }
-        if (slot == state_.stop_slot[at(lane)]) {
-            const KeptOut& kept_out = state_.kept_out[at(lane)];
-            if (kept_out.blocker < 0) return set(slot, -1, Cause::signal);
-            return set(slot, kept_out.blocker, kept_out.in_exit ? full_exit(slot) : Cause::junction_blocking);
-        }
-        follow(slot, lane);
-    }
-
-    void follow(int slot, int lane) {
-        const LaneBlock& block = state_.blocks[at(lane)];
-        int ahead = slot - 1;
-        double gap_m = v_.position_m[at(ahead)] - static_cast<double>(v_.length_m[at(ahead)]) - v_.position_m[at(slot)];
-        if (slot == block.first) {
-            const Ahead seen = vehicle_ahead(state_, lane, slot, kSeen_m);
-            ahead = seen.slot;
-            if (ahead >= 0) {
-                gap_m = seen.start_m + v_.position_m[at(ahead)] - static_cast<double>(v_.length_m[at(ahead)]) -
-                        v_.position_m[at(slot)];
-            }
-        }
-        if (ahead < 0 || !stands(ahead) || gap_m > kCloseBehind_m) return set(slot, -1, Cause::none);
-        set(slot, ahead, leaves_intersection(lane, w_.lane[at(ahead)]) ? full_exit(slot) : Cause::none);
-    }
-
-    // The one ahead is behind the intersection, on its way to the next; this one is before or in it.
-    bool leaves_intersection(int lane, int ahead) const {
-        if (lane == ahead) return false;
-        const std::vector<int>& ways = model_.leads_to[at(ahead)];
-        return std::any_of(ways.begin(), ways.end(),
-                           [&](int inside) { return inside == lane || model_.graph.lanes[at(inside)].origin == lane; });
-    }
-
-    Cause full_exit(int slot) const {
-        const int lane = w_.lane[at(slot)];
-        const bool within = model_.graph.lanes[at(lane)].origin >= 0;
-        const Turn turn = model_.graph.lanes[at(within ? lane : v_.next_lane[at(slot)])].turn;
-        return turn == Turn::straight ? Cause::spillback : Cause::turn_blocking;
-    }
 
     void resolve() {
         int walk = 0;
@@ -142,7 +60,7 @@ private:
                 w_.walk.push_back(slot);
                 slot = w_.waits_for[at(slot)];
             }
-            if (slot >= 0 && w_.mark[at(slot)] == walk) note_circle(slot);
+            if (slot >= 0 && stands(slot) && w_.mark[at(slot)] == walk) note_circle(slot);
             std::reverse(w_.walk.begin(), w_.walk.end());
             for (const int back : w_.walk) settle(back);
         }
@@ -249,9 +167,32 @@ private:
 
 }  // namespace
 
+bool looks_for_hindrance(const Model& model, const State& state) {
+    return model.rules.watches() && state.tick % model.rules.watch_ticks == 0;
+}
+
+void prepare_watch(const Model& model, State& state) {
+    HindranceWatch& w = state.watch;
+    const auto slots = at(state.vehicles.slots);
+    if (w.mark.size() != slots) {
+        w.waits_for.resize(slots), w.edge.resize(slots), w.cause.resize(slots), w.owner.resize(slots);
+        w.lane.resize(slots), w.vehicle.resize(slots), w.mark.resize(slots);
+    }
+    // Episodes go on when vehicles get other slots.
+    w.open.resize(model.graph.lanes.size() * kCauseNames.size(), -1);
+}
+
+void attribute_hindrance(const Model& model, State& state) {
+    Watch watch(model, state);
+    watch.gather();
+    watch.attribute();
+}
+
 void watch_hindrance(const Model& model, State& state) {
-    if (!model.rules.watches() || state.tick % model.rules.watch_ticks != 0) return;
-    Watch(model, state).look();
+    prepare_watch(model, state);
+    for (NetworkPart& part : state.parts) note_standing(state, part);
+    for (NetworkPart& part : state.parts) find_waits(model, state, part);
+    attribute_hindrance(model, state);
 }
 
 }  // namespace stopline

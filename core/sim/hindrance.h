@@ -82,12 +82,11 @@ struct HindranceWatch {
     std::vector<Cause> cause;    // [slot] of who stands: what its time is lost to
     std::vector<int> owner;      // [slot] of who stands: the first of its queue, which the cause holds up
     std::vector<int> lane;       // [slot] of all
-    // [slot] of who stands and who it waits for: its number, for those who look on: slots change before the next look.
-    std::vector<int> vehicle;
-    std::vector<int> mark;            // [slot] of who stands: number of the walk that came by; 0: none
-    std::vector<int> walk;            // slots
-    std::vector<int> standing;        // slots
-    std::vector<int> open;            // [lane * causes + cause] episode that goes on; -1: none
+    std::vector<int> vehicle;    // [slot] of all: its number, for those who look on: slots change before the next look
+    std::vector<int> mark;       // [slot] of who stands: number of the walk that came by; 0: none
+    std::vector<int> walk;       // slots
+    std::vector<int> standing;   // slots
+    std::vector<int> open;       // [lane * causes + cause] episode that goes on; -1: none
     std::vector<int> open_episodes;   // [k] lane * causes + cause
     std::vector<int> open_gridlocks;  // numbers
 };

@@ -68,6 +68,8 @@ struct NetworkPart {
     std::vector<int> with_insiders;  // lanes inside with vehicles on them, before or behind
     std::vector<int> holding;        // lanes where vehicles wait to give way or to change lanes
     std::vector<int> adapting;       // lanes where vehicles adapt their speed to those beside
+    NumberList standing;             // slots of vehicles that stand, when hindrance is looked for
+    int stands_since = 0;            // tick since which the first of these has stood
     NumberList near_end;             // lanes whose first vehicle may reach the end
     std::vector<int> ended;          // lanes whose first vehicle has reached it
     std::vector<ToldToStart> told;   // mesoscale mode

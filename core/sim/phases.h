@@ -34,7 +34,14 @@ void watch_detectors(const Model& model, State& state, NetworkPart& part);
 
 // For all parts together, before and after.
 void read_signals(const Model& model, State& state);
-void watch_hindrance(const Model& model, State& state);  // hindrance.h; before anybody moves
+// Hindrance (hindrance.h), in the steps in which it is looked for, before anybody moves: for all, for each part by itself, again for each
+// part when all have been noted, for all.
+bool looks_for_hindrance(const Model& model, const State& state);
+void prepare_watch(const Model& model, State& state);
+void note_standing(State& state, NetworkPart& part);
+void find_waits(const Model& model, State& state, const NetworkPart& part);
+void attribute_hindrance(const Model& model, State& state);
+void watch_hindrance(const Model& model, State& state);  // all of it
 void gather_reports(State& state);                       // what the parts have to tell
 void transfer_vehicles(const Model& model, State& state);
 void form_queues(const Model& model, State& state);  // before the first step

@@ -66,21 +66,40 @@ void Simulation::move(NetworkPart& part) {
     watch_detectors(model_, state_, part);
 }
 
+// By all threads: watch_hindrance().
+void Simulation::share_watch() {
+    const auto each = [&](int thread, auto look) {
+        const Share share = share_of(state_.parts.size(), thread, threads_);
+        for (std::size_t k = share.begin; k < share.end; ++k) look(state_.parts[k]);
+    };
+#pragma omp single
+    prepare_watch(model_, state_);
+#pragma omp for schedule(static, 1)
+    for (int thread = 0; thread < threads_; ++thread) {
+        each(thread, [&](NetworkPart& part) { note_standing(state_, part); });
+    }
+#pragma omp for schedule(static, 1)
+    for (int thread = 0; thread < threads_; ++thread) {
+        each(thread, [&](const NetworkPart& part) { find_waits(model_, state_, part); });
+    }
+#pragma omp single
+    attribute_hindrance(model_, state_);
+}
+
 void Simulation::step() {
     state_.radar = rows_at(model_.radar, state_.tick, state_.vehicles.slots);
     state_.v2v = rows_at(model_.v2v, state_.tick, state_.vehicles.slots);
     read_signals(model_, state_);
     if (threads_ == 1 || state_.present() < share_from_) {
         decide(0, 1);
-        watch_hindrance(model_, state_);
+        if (looks_for_hindrance(model_, state_)) watch_hindrance(model_, state_);
         move(0, 1);
     } else {
 #pragma omp parallel num_threads(threads_)
         {
 #pragma omp for schedule(static, 1)
             for (int thread = 0; thread < threads_; ++thread) decide(thread, threads_);
-#pragma omp single
-            watch_hindrance(model_, state_);
+            if (looks_for_hindrance(model_, state_)) share_watch();
 #pragma omp for schedule(static, 1)
             for (int thread = 0; thread < threads_; ++thread) move(thread, threads_);
         }

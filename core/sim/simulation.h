@@ -55,6 +55,7 @@ private:
     void decide(int thread, int threads);
     void decide(NetworkPart& part);
     void move(int thread, int threads);
+    void share_watch();
     void move(NetworkPart& part);
 
     const Model& model_;

@@ -167,6 +167,23 @@ TEST_F(Hindrance, WhoCrawlsInTheExitOrAcrossTheWayIsWaitedForAsIfItStood) {
     }
 }
 
+// One waits for the exit, whose queue waits for who is across the next intersection: stood there, and crawls in the next look.
+TEST_F(Hindrance, WhoStoodAcrossTheWayAndCrawlsNowIsNotInACircle) {
+    const double m = area_m("c1r0_south_0_straight", "c1r0_west_0_straight");
+    const int blocker = stand("c1r0_south_0_straight", m + 1.0);
+    for (double front_m = 154.0; front_m > 4.0; front_m -= 8.0) {
+        stand("c1r0_west_in_0", front_m, "c1r0_west_0_straight");
+    }
+    stand("c0r0_west_in_0", 154.0, "c0r0_west_0_straight");
+    look();
+    state().vehicles.speed_mps[at(state().blocks[at(lane("c1r0_south_0_straight"))].first)] = 0.3;
+    state().tick += 10;
+    look();
+    EXPECT_TRUE(state().hindrance.gridlocks.empty());
+    ASSERT_EQ(state().hindrance.episodes.size(), 2u);
+    EXPECT_EQ(state().hindrance.episodes[1].blocker, blocker);
+}
+
 // A column that fills the exit moves, but up to a light that is not green: there will be no room.
 TEST_F(Hindrance, WhoMovesInTheExitCountsAsStandingWhileTheLightAtItsEndIsNotGreen) {
     constexpr double kNeeds_m = 5.15 + 2.95;  // a vehicle and its gap at standstill
