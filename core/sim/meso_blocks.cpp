@@ -192,8 +192,8 @@ private:
 
 // What is needed for it is still in the cache when the part has been decided.
 void collect_moves(const Model& model, State& state, NetworkPart& part) {
-    constexpr std::size_t kMostAdded =
-        4;  // blocks of a lane more than it has vehicles: those of others are in them too
+    // Blocks of a lane are as many as its vehicles, and a little more: those of other lanes are in them too.
+    constexpr std::size_t kMostAdded = 4;
     const int shift = std::countr_zero(static_cast<unsigned>(meso_kernels(model.scalar_kernels).size));
     part.near_end.start(part.occupied.size());
     part.blocks.start(static_cast<std::size_t>(part.present) + kMostAdded * part.occupied.size());

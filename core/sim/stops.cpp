@@ -153,6 +153,7 @@ struct Way {
 // The ways on from a lane, as far as somebody who comes to the stop line takes them.
 class Ways {
 public:
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): each_ is written before it is read, and there is one each step and lane
     Ways(const Model& model, State& state, int vehicles)
         : model_(model), state_(state), ample_m_(vehicles * state.plan.needs_at_most_m() + kRounding_m) {}
 
