@@ -55,8 +55,8 @@ private:
     void decide(int thread, int threads);
     void decide(NetworkPart& part);
     void move(int thread, int threads);
-    void share_watch();
     void move(NetworkPart& part);
+    void share_watch();
 
     const Model& model_;
     FullTables tables_;
