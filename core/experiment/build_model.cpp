@@ -164,6 +164,8 @@ void add_rules(const Scenario& scenario, Model& model) {
     model.rules.minds_light_ahead = rules.light_ahead == "on";
     model.rules.teleport_ticks = to_ticks(rules.teleport_cycles * scenario.intersection_cycle_s(), model.step_s);
     model.rules.pass_blocker_ticks = to_ticks(rules.pass_blocker_greens * scenario.longest_green_s(), model.step_s);
+    model.rules.gridlock_ticks = to_ticks(scenario.intersection_cycle_s(), model.step_s);
+    model.rules.long_wait_ticks = 2 * model.rules.gridlock_ticks;
     model.rules.memory_ticks = to_ticks(2.0, model.step_s);
     const bool needs_watch = model.rules.teleport_ticks > 0 || model.rules.pass_blocker_ticks > 0;
     model.rules.watch_ticks = needs_watch ? std::max<std::int64_t>(to_ticks(1.0, model.step_s), 1) : 0;

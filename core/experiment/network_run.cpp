@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <span>
 
 #include "experiment/build_model.h"
 #include "measure/steady_state.h"
@@ -108,6 +109,8 @@ private:
     std::vector<int> present_;  // [second]
 };
 
+constexpr std::size_t kTogether = 5;  // intervals
+
 // Mean over whole intervals from `from_s` on.
 AreaFigures mean_of(const std::vector<NetworkInterval>& series, double from_s) {
     AreaFigures mean;
@@ -129,31 +132,37 @@ AreaFigures mean_of(const std::vector<NetworkInterval>& series, double from_s) {
     return mean;
 }
 
-// Throughput after the warm-up in means of five intervals: the greens of single cycles must not look like a change.
+// Throughput since the network has filled, in means of five intervals: the greens of single cycles must not look like a change.
 std::optional<double> collapse_of(const NetworkFigures& figures) {
-    constexpr std::size_t kTogether = 5;
     std::vector<double> flow;
-    std::vector<double> from_s;
     for (std::size_t k = 0; k + kTogether <= figures.series.size(); k += kTogether) {
-        if (figures.series[k].area.window.from_s < figures.warm_up_s) continue;
         double sum = 0.0;
         for (std::size_t i = 0; i < kTogether; ++i) sum += figures.series[k + i].area.throughput_veh_h();
         flow.push_back(sum / static_cast<double>(kTogether));
-        from_s.push_back(figures.series[k].area.window.from_s);
     }
-    const std::optional<Collapse> collapse = find_collapse(flow, kCollapseShare);
+    const std::size_t filled = first_full(flow);
+    const std::optional<Collapse> collapse = find_collapse(std::span(flow).subspan(filled), kCollapseShare);
     if (!collapse) return std::nullopt;
-    return from_s[collapse->at];
+    return figures.series[(filled + collapse->at) * kTogether].area.window.from_s;
 }
 
-Stability stability_of(const NetworkFigures& figures) {
+// A circle that the rules have not dissolved, and that is still there.
+bool stays(const Gridlock& gridlock, double end_s, double cycle_s) {
+    constexpr double kLasting_cycles = 6.0;  // twice the teleport's three
+    return end_s - gridlock.to_s <= cycle_s && gridlock.to_s - gridlock.from_s >= kLasting_cycles * cycle_s;
+}
+
+Stability stability_of(const NetworkFigures& figures, double interval_s, double end_s, double cycle_s) {
     const auto moved_on = static_cast<double>(figures.hindrance.taken_out);
-    const bool gridlocks = !figures.hindrance.gridlocks.empty();
+    const std::vector<Gridlock>& gridlocks = figures.hindrance.gridlocks;
     if (moved_on >= kSemiStableShare * static_cast<double>(figures.left_network) && moved_on > 0.0) {
         return Stability::unstable;
     }
-    if (figures.collapse_s && gridlocks) return Stability::unstable;
-    return gridlocks || moved_on > 0.0 ? Stability::semi_stable : Stability::stable;
+    const bool after_gridlock = figures.collapse_s && !gridlocks.empty() &&
+                                gridlocks[0].from_s < *figures.collapse_s + static_cast<double>(kTogether) * interval_s;
+    const auto is_lasting = [&](const Gridlock& gridlock) { return stays(gridlock, end_s, cycle_s); };
+    if (after_gridlock || std::any_of(gridlocks.begin(), gridlocks.end(), is_lasting)) return Stability::unstable;
+    return !gridlocks.empty() || moved_on > 0.0 ? Stability::semi_stable : Stability::stable;
 }
 
 void measure(const Scenario& scenario, const Model& model, const State& state, const Sampler& sampler,
@@ -227,7 +236,8 @@ NetworkFigures run_network(const Scenario& scenario, std::size_t population,
     figures.left_network = state.left;
     figures.updates = state.updates;
     figures.state_hash = simulation.state_hash();
-    figures.stability = stability_of(figures);
+    figures.stability = stability_of(figures, scenario.measure.interval_s, model.time_s(state.tick),
+                                     model.time_s(model.rules.gridlock_ticks));
     figures.street = street.trace();
     backlog.look(state);
     figures.backlog = backlog.backlog();

@@ -1,5 +1,6 @@
 #include "measure/steady_state.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -54,6 +55,13 @@ std::size_t warm_up(std::span<const double> values) {
     return cut * kBatch;
 }
 
+std::size_t first_full(std::span<const double> values) {
+    constexpr double kFull = 0.9;
+    const double highest = values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
+    const auto full = std::find_if(values.begin(), values.end(), [&](double v) { return v >= kFull * highest; });
+    return static_cast<std::size_t>(full - values.begin());
+}
+
 std::optional<Collapse> find_collapse(std::span<const double> values, double share) {
     constexpr std::size_t kFewest = 5;  // values on either side
     if (values.size() < 2 * kFewest) return std::nullopt;
@@ -73,6 +81,7 @@ std::optional<Collapse> find_collapse(std::span<const double> values, double sha
         std::sqrt(variance / static_cast<double>(cut) + variance / static_cast<double>(values.size() - cut));
     const double drop = found.before - found.after;
     if (drop < share * found.before || drop <= 3.0 * error) return std::nullopt;
+    if (sums.mean(values.size() - kFewest, values.size()) > (1.0 - share) * found.before) return std::nullopt;
     return found;
 }
 

@@ -12,8 +12,12 @@ namespace stopline {
 // mean of the rest is known best, the smallest variance over the square of the count. A multiple of 5; 0 for short series.
 std::size_t warm_up(std::span<const double> values);
 
-// A drop to another level: the cut that explains most of the variance (least squares, one change), where the mean behind it is lower
-// by `share` of that before or more, and by more than three standard errors. Nothing where there is none.
+// The first value that is 90 % of the highest or more: the rise before it is over.
+std::size_t first_full(std::span<const double> values);
+
+// A drop to another level for good: the cut that explains most of the variance (least squares, one change), where the mean behind it is
+// lower by `share` of that before or more, and by more than three standard errors, and that of the last five values is as low. Nothing
+// where there is none.
 struct Collapse {
     std::size_t at = 0;  // first value of the lower level
     double before = 0.0;

@@ -43,6 +43,17 @@ bool blocked(const State& state, int slot) {
            v.speed_mps[i - 1] < kAlmostStands_mps && gap_m < kCloseBehind_m;
 }
 
+namespace {
+
+// Whether a vehicle is at the same intersection as a lane: what is decided for others may be known in this step, or not yet.
+bool is_decided_with(const State& state, int lane, int slot) {
+    const VehicleRecord& record = state.vehicles.record[at(slot)];
+    const int on = state.plan.route(record.route)[at(record.route_index)];
+    return state.plan.intersection_of(on) == state.plan.intersection_of(lane);
+}
+
+}  // namespace
+
 bool behind_held(const State& state, int lane, const Insider& w) {
     constexpr int kMost = 8;  // vehicles inside, one behind the other
     int slot = w.slot;
@@ -53,7 +64,7 @@ bool behind_held(const State& state, int lane, const Insider& w) {
             slot = vehicle_ahead(state, on, slot, kSeen_m).slot;
             const LaneBlock& inside = state.blocks[at(lane)];
             const bool on_way = slot >= inside.first && slot < inside.stop();
-            if (!on_way) return slot >= 0 && held(state, slot);
+            if (!on_way) return slot >= 0 && is_decided_with(state, lane, slot) && held(state, slot);
             on = lane;
         } else {
             --slot;

@@ -42,6 +42,9 @@ public:
 
 private:
     bool stands(int slot) const { return v_.speed_mps[at(slot)] < kStands_mps; }
+    bool stands_long(int slot) const {
+        return model_.rules.long_wait_ticks > 0 && now_ - v_.stands_since[at(slot)] >= model_.rules.long_wait_ticks;
+    }
 
     void resolve() {
         int walk = 0;
@@ -95,15 +98,26 @@ private:
             found.lanes.push_back(w_.lane[at(member)]);
         }
         std::vector<Gridlock>& all = state_.hindrance.gridlocks;
-        for (const int number : w_.open_gridlocks) {
-            Gridlock& known = all[at(number)];
-            if (known.vehicles[0] != found.vehicles[0]) continue;
-            found.from_s = known.from_s;
-            known = std::move(found);
+        if (const int number = goes_on_from(found); number >= 0) {
+            found.from_s = all[at(number)].from_s;
+            all[at(number)] = std::move(found);
             return;
         }
         w_.open_gridlocks.push_back(static_cast<int>(all.size()));
         all.push_back(std::move(found));
+    }
+
+    // A circle that was there before, and not yet in this look, of which somebody is still in this one; -1: none.
+    int goes_on_from(const Gridlock& found) const {
+        std::vector<int> members = found.vehicles;
+        std::sort(members.begin(), members.end());
+        for (const int number : w_.open_gridlocks) {
+            const Gridlock& known = state_.hindrance.gridlocks[at(number)];
+            if (known.to_s == now_s_) continue;
+            const auto is_member = [&](int id) { return std::binary_search(members.begin(), members.end(), id); };
+            if (std::any_of(known.vehicles.begin(), known.vehicles.end(), is_member)) return number;
+        }
+        return -1;
     }
 
     // Time lost to each cause, in all and in the episode of the lane that it began on.
@@ -113,7 +127,7 @@ private:
         for (const int slot : w_.standing) {
             const Cause cause = w_.cause[at(slot)];
             ++vehicles[static_cast<std::size_t>(cause)];
-            if (cause < Cause::junction_blocking) continue;
+            if (cause < Cause::junction_blocking && !stands_long(slot)) continue;
             HindranceEpisode& episode = episode_of(w_.owner[at(slot)], cause);
             if (episode.to_s < now_s_) {
                 episode.to_s = now_s_;
@@ -152,9 +166,11 @@ private:
         });
     }
 
+    // When it has not been seen for a cycle.
     void close_gridlocks() {
+        const double latest_s = now_s_ - model_.time_s(model_.rules.gridlock_ticks);
         std::erase_if(w_.open_gridlocks,
-                      [&](int number) { return state_.hindrance.gridlocks[at(number)].to_s < now_s_; });
+                      [&](int number) { return state_.hindrance.gridlocks[at(number)].to_s < latest_s; });
     }
 
     const Model& model_;
@@ -179,6 +195,7 @@ void prepare_watch(const Model& model, State& state) {
         w.lane.resize(slots), w.vehicle.resize(slots), w.mark.resize(slots);
     }
     // Episodes go on when vehicles get other slots.
+    w.kept_out.resize(model.graph.lanes.size());
     w.open.resize(model.graph.lanes.size() * kCauseNames.size(), -1);
 }
 

@@ -2,8 +2,9 @@
 // since when. Vehicles are looked at every RulesPlan::watch_ticks; below 0.1 m/s they stand.
 //
 // Who stands waits for one thing: its light, the vehicle ahead, room in its exit, a vehicle in a conflict area that it wants to
-// cross, or one with priority. Following these from vehicle to vehicle ends at a light, at somebody who moves, or in a circle: a
-// gridlock. A vehicle's time is lost to what its own queue waits for:
+// cross, or one with priority. Who was kept out of the intersection while its light was green waits, while that is red, for the same
+// vehicle as well, for as long as this has stood since. Following these from vehicle to vehicle ends at a light, at somebody who moves,
+// or in a circle: a gridlock. A vehicle's time is lost to what its own queue waits for:
 //
 //     signal             its light, or the one that the queue ahead on the same lane waits for
 //     priority           vehicles on the move that come first
@@ -33,7 +34,8 @@ enum class Cause : std::uint8_t {
 inline constexpr std::array<const char*, 8> kCauseNames{"none",          "signal",    "priority", "junction_blocking",
                                                         "turn_blocking", "spillback", "gridlock", "wrong_lane"};
 
-// One lane's traffic is held up for one cause, by one vehicle after another, without a break.
+// One lane's traffic is held up for one cause, by one vehicle after another, without a break. Of signals, priority and none: only
+// by whom has stood for two cycles.
 struct HindranceEpisode {
     Cause cause = Cause::none;
     int lane = -1;          // of the vehicle that is held up first
@@ -47,6 +49,7 @@ struct HindranceEpisode {
     double lost_s = 0.0;
 };
 
+// A circle, from when it was seen first to when it was seen last; it is the same one if somebody is still in it within a cycle.
 struct Gridlock {
     double from_s = 0.0;
     double to_s = 0.0;
@@ -75,6 +78,14 @@ struct HindranceLog {
     double longest_stand_s = 0.0;  // of any vehicle, in one go
 };
 
+// The first vehicle of a lane that was kept out of the intersection when its light was green last, by whom, and where that was.
+struct KeptOutLast {
+    int vehicle = -1;
+    int blocker = -1;
+    int blocker_lane = -1;
+    int seen = 0;  // tick
+};
+
 // Scratch and open records of the watch.
 struct HindranceWatch {
     std::vector<int> waits_for;  // [slot] of who stands: another slot, -1 for nobody; it may crawl
@@ -86,9 +97,10 @@ struct HindranceWatch {
     std::vector<int> mark;       // [slot] of who stands: number of the walk that came by; 0: none
     std::vector<int> walk;       // slots
     std::vector<int> standing;   // slots
-    std::vector<int> open;       // [lane * causes + cause] episode that goes on; -1: none
-    std::vector<int> open_episodes;   // [k] lane * causes + cause
-    std::vector<int> open_gridlocks;  // numbers
+    std::vector<KeptOutLast> kept_out;  // [lane]
+    std::vector<int> open;              // [lane * causes + cause] episode that goes on; -1: none
+    std::vector<int> open_episodes;     // [k] lane * causes + cause
+    std::vector<int> open_gridlocks;    // numbers
 };
 
 }  // namespace stopline

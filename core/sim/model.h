@@ -53,8 +53,10 @@ struct RulesPlan {
     bool minds_light_ahead = false;
     std::int64_t teleport_ticks = 0;
     std::int64_t pass_blocker_ticks = 0;
-    std::int64_t watch_ticks = 0;   // hindrance is looked for this often
-    std::int64_t memory_ticks = 0;  // who may pass a blocker may, until this long after it mattered last
+    std::int64_t watch_ticks = 0;      // hindrance is looked for this often
+    std::int64_t gridlock_ticks = 0;   // a circle that is seen again within this goes on
+    std::int64_t long_wait_ticks = 0;  // who has stood so long is told of in any case
+    std::int64_t memory_ticks = 0;     // who may pass a blocker may, until this long after it mattered last
 
     bool watches() const { return watch_ticks > 0; }
 };

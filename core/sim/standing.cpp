@@ -29,7 +29,10 @@ public:
         }
         if (slot == state_.stop_slot[at(lane)]) {
             const KeptOut& kept_out = state_.kept_out[at(lane)];
-            if (kept_out.blocker < 0) return set(slot, -1, Cause::signal);
+            KeptOutLast& last = w_.kept_out[at(lane)];
+            if (kept_out.blocker < 0) return set(slot, still_stands(last, v_.id[at(slot)]), Cause::signal);
+            last = {v_.id[at(slot)], v_.id[at(kept_out.blocker)], w_.lane[at(kept_out.blocker)],
+                    static_cast<int>(state_.tick)};
             return set(slot, kept_out.blocker, kept_out.in_exit ? full_exit(slot) : Cause::junction_blocking);
         }
         follow(slot, lane);
@@ -59,6 +62,16 @@ private:
         set(slot, ahead, leaves_intersection(lane, w_.lane[at(ahead)]) ? full_exit(slot) : Cause::none);
     }
 
+    // The slot of who kept a vehicle out, if it has stood since; else -1.
+    int still_stands(const KeptOutLast& last, int vehicle) const {
+        if (last.vehicle != vehicle) return -1;
+        const LaneBlock& block = state_.blocks[at(last.blocker_lane)];
+        for (int slot = block.first; slot < block.stop(); ++slot) {
+            if (v_.id[at(slot)] == last.blocker) return v_.stands_since[at(slot)] <= last.seen ? slot : -1;
+        }
+        return -1;
+    }
+
     // The one ahead is behind the intersection, on its way to the next; this one is before or in it.
     bool leaves_intersection(int lane, int ahead) const {
         if (lane == ahead) return false;
@@ -70,8 +83,10 @@ private:
     Cause full_exit(int slot) const {
         const int lane = w_.lane[at(slot)];
         const bool within = model_.graph.lanes[at(lane)].origin >= 0;
-        const Turn turn = model_.graph.lanes[at(within ? lane : v_.next_lane[at(slot)])].turn;
-        return turn == Turn::straight ? Cause::spillback : Cause::turn_blocking;
+        const int way = within ? lane : v_.next_lane[at(slot)];
+        const bool turns =
+            way >= 0 && model_.graph.lanes[at(way)].turn != Turn::straight;  // -1: its lane does not serve its way
+        return turns ? Cause::turn_blocking : Cause::spillback;
     }
 
     const Model& model_;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -46,6 +47,20 @@ TEST(Collapse, IsWhereTheLevelFalls) {
     EXPECT_NEAR(found->before, 100.0, 1.5);
     EXPECT_NEAR(found->after, 80.0, 1.5);
     EXPECT_FALSE(find_collapse(values, 0.3).has_value()) << "a fifth is less than asked for";
+}
+
+TEST(Collapse, IsForGood) {
+    std::vector<double> values(60, 33.0);
+    std::fill(values.begin() + 30, values.begin() + 45, 5.0);
+    EXPECT_FALSE(find_collapse(values, 0.1).has_value());
+    std::fill(values.begin() + 45, values.end(), 5.0);
+    EXPECT_TRUE(find_collapse(values, 0.1).has_value());
+}
+
+TEST(Collapse, IsLookedForOnceTheNetworkHasFilled) {
+    EXPECT_EQ(first_full(std::vector<double>{20.0, 60.0, 91.0, 100.0, 30.0}), 2u);
+    EXPECT_EQ(first_full(std::vector<double>{0.0, 0.0}), 0u);
+    EXPECT_EQ(first_full({}), 0u);
 }
 
 TEST(Collapse, IsNeitherNoiseNorARise) {
