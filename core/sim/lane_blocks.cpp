@@ -2,7 +2,7 @@
 //
 // Full dynamics: blocks that hold a full lane, since kernels write whole batches, beyond a lane's last vehicle. Mesoscale mode: blocks
 // that hold what is there now and a little more, side by side in the order in which lanes are worked on, so that memory is read from
-// end to end. When one of them is full, all are laid out anew; that is rare.
+// end to end. When one of them is full, a neighbour gives it room; where none has any, all are laid out anew, which is rare.
 #include <algorithm>
 
 #include "sim/phases.h"
@@ -30,7 +30,7 @@ void move_up(State& state, LaneBlock& block) {
     block.first = block.begin;
 }
 
-int some_more(int vehicles) { return vehicles + 3 + vehicles / 4; }
+int some_more(int vehicles) { return vehicles + 2 + vehicles / 4; }
 
 // Slots left free before a lane's block: kernels read beyond the last vehicle of the lane before, which may be another thread's.
 int free_before(const NetworkPart& part, int lane) { return lane == part.lanes.front() ? kSimdWidth : 1; }
@@ -110,20 +110,63 @@ void expect_vehicles(State& state, const std::vector<int>& expected) {
 
 namespace {
 
-void make_room_in(State& state, LaneBlock& block) {
-    if (block.stop() < block.end) return;
-    move_up(state, block);
-    if (block.stop() == block.end && !state.vehicles.has_powertrain()) lay_out_anew(state, {});
+constexpr int kNear = 8;  // lanes
+
+// A lane's block goes on by so many slots, with its vehicles. Sleeping lanes know slots: it wakes up.
+void shift(State& state, int lane, int by) {
+    LaneBlock& block = state.blocks[at(lane)];
+    state.vehicles.move(block.first, block.count, block.begin + by);
+    block.begin += by;
+    block.end += by;
+    block.first = block.begin;
+    state.sleeps_until_green_of[at(lane)] = -1;
+}
+
+// Takes half of what the nearest lane of the same part has to spare; false: none that is near has anything.
+bool take_from_neighbours(State& state, int lane) {
+    const ListedLane& listed = state.listed[at(lane)];
+    const std::vector<int>& lanes = state.parts[listed.part].lanes;
+    const auto own = static_cast<int>(listed.place);
+    const auto block = [&](int place) -> LaneBlock& { return state.blocks[at(lanes[at(place)])]; };
+    const auto spare = [&](int place) {
+        if (place < 0 || place >= static_cast<int>(lanes.size())) return 0;
+        return (block(place).end - block(place).begin - block(place).count + 1) / 2;
+    };
+    for (int distance = 1; distance <= kNear; ++distance) {
+        if (const int spared = spare(own + distance); spared > 0) {
+            for (int place = own + distance; place > own; --place) shift(state, lanes[at(place)], spared);
+            block(own + distance).end -= spared;
+            block(own).end += spared;
+            return true;
+        }
+        if (const int spared = spare(own - distance); spared > 0) {
+            shift(state, lanes[at(own - distance)], 0);
+            block(own - distance).end -= spared;
+            for (int place = own - distance + 1; place <= own; ++place) shift(state, lanes[at(place)], -spared);
+            block(own).end += spared;
+            return true;
+        }
+    }
+    return false;
+}
+
+// Whether there is a free slot behind the last vehicle, if need be after moving up.
+bool has_room(State& state, LaneBlock& block) {
+    if (block.stop() == block.end) move_up(state, block);
+    return block.stop() < block.end;
 }
 
 }  // namespace
 
 void make_room(State& state, int lane) {
     state.sleeps_until_green_of[at(lane)] = -1;
-    make_room_in(state, state.blocks[at(lane)]);
+    if (has_room(state, state.blocks[at(lane)]) || state.vehicles.has_powertrain()) return;
+    if (!take_from_neighbours(state, lane)) lay_out_anew(state, {});
 }
 
-void make_room_in_limbo(State& state) { make_room_in(state, state.limbo); }
+void make_room_in_limbo(State& state) {
+    if (!has_room(state, state.limbo) && !state.vehicles.has_powertrain()) lay_out_anew(state, {});
+}
 
 namespace {
 

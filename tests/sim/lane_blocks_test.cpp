@@ -1,0 +1,44 @@
+// Where the vehicles of lanes are in memory, in the mesoscale mode: whatever lanes have given each other, they share no slot.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "experiment/network_run.h"
+#include "scenario/load_scenario.h"
+
+namespace stopline {
+namespace {
+
+void check_blocks(const State& state) {
+    int free_from = 1;
+    for (const NetworkPart& part : state.parts) {
+        for (const int lane : part.lanes) {
+            const LaneBlock& block = state.blocks[static_cast<std::size_t>(lane)];
+            ASSERT_GT(block.begin, free_from) << "no slot for the sentinel of lane " << lane;
+            ASSERT_GE(block.first, block.begin);
+            ASSERT_LE(block.stop(), block.end);
+            for (int slot = free_from; slot < block.end; ++slot) {
+                const bool taken = slot >= block.first && slot < block.stop();
+                ASSERT_EQ(state.vehicles.id[static_cast<std::size_t>(slot)] >= 0, taken) << slot;
+            }
+            free_from = block.end;
+        }
+    }
+    ASSERT_LT(free_from, state.vehicles.slots);
+}
+
+TEST(LaneBlocks, LieOneBehindTheOtherWithoutAVehicleBetween) {
+    for (const std::size_t population : {0u, 2u}) {
+        const Model model =
+            network_model(load_scenario(STOPLINE_SOURCE_DIR "/scenarios/grid.yaml", {"signal.green=20 s"}), population);
+        Simulation simulation(model, 2);
+        for (int second = 1; second <= 400; second += 3) {
+            simulation.run_until(second);
+            check_blocks(simulation.state());
+            if (HasFatalFailure()) return;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace stopline
