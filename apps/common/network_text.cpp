@@ -30,6 +30,16 @@ std::string trips_text(const NetworkReport& report) {
     return "\n" + table.text() + "\nstrayed: at the end of a lane that does not serve their way, and moved on.\n";
 }
 
+std::string waiting_text(const NetworkReport& report) {
+    std::string text;
+    for (const NetworkFigures& f : report.populations) {
+        if (f.waiting == 0) continue;
+        text += fmt::format("{}: {} vehicles have come for which there was no room to enter until the end.\n",
+                            f.population, f.waiting);
+    }
+    return text;
+}
+
 std::string sighting_text(const NetworkFigures& f, const std::vector<std::string>& lanes) {
     const Sighting& seen = f.violations.first;
     if (seen.time_s < 0.0) return "";
@@ -55,14 +65,16 @@ std::string network_text(const NetworkReport& report) {
     for (const NetworkFigures& f : report.populations) {
         const HindranceLog& log = f.hindrance;
         std::string stability = kStabilityNames[static_cast<std::size_t>(f.stability)];
+        const bool measured = f.steady.window.length_s() > 0.0;
         if (f.collapse_s) stability += fmt::format(", less from {:.0f} s on", *f.collapse_s);
         table.row({f.population, number(f.steady.throughput_veh_h(), 0), number(report.improvement_percent(f), 1),
                    number(f.steady.travel_time_s, 1), number(report.time_saved_percent(f), 1),
-                   number(100.0 * f.steady.occupied, 1), number(f.vehicles_present, 0),
-                   share_text(log, Cause::junction_blocking), share_text(log, Cause::turn_blocking),
-                   share_text(log, Cause::spillback), share_text(log, Cause::gridlock),
-                   share_text(log, Cause::wrong_lane), std::to_string(log.gridlocks.size()),
-                   std::to_string(log.taken_out), std::to_string(log.passed_blockers), stability});
+                   measured ? number(100.0 * f.steady.occupied, 1) : "-",
+                   measured ? number(f.vehicles_present, 0) : "-", share_text(log, Cause::junction_blocking),
+                   share_text(log, Cause::turn_blocking), share_text(log, Cause::spillback),
+                   share_text(log, Cause::gridlock), share_text(log, Cause::wrong_lane),
+                   std::to_string(log.gridlocks.size()), std::to_string(log.taken_out),
+                   std::to_string(log.passed_blockers), stability});
         violations += f.violations.none() ? 0 : 1;
         sightings += sighting_text(f, report.lanes);
     }
@@ -73,14 +85,15 @@ std::string network_text(const NetworkReport& report) {
     const std::string notes = fmt::format(
         "{} veh/h: vehicles that leave it; s: their mean time in it; density: share of\n"
         "its lanes' metres; junction, turn, spillback, gridlock, lane: share of the time that vehicles stand, by what holds up\n"
-        "their queue (lane: one that waits to change lanes); moved on, passed: uses of the rules.\n{}\n",
+        "their queue (lane: one that waits to change lanes); moved on, passed: uses of the rules. These, gridlocks and\n"
+        "stability are of the whole run.\n{}\n",
         area, window_text(report));
     const std::string verdict =
         violations == 0
             ? "No overlaps on lanes or in conflict areas but by the rule for blockers, no entries on red, no vehicle "
               "lost.\n"
             : fmt::format("VIOLATIONS in {} runs: see summary.csv.\n{}", violations, sightings);
-    return table.text() + "\n" + notes + (sumo ? trips_text(report) : "") + "\n" + verdict;
+    return table.text() + "\n" + notes + (sumo ? trips_text(report) : waiting_text(report)) + "\n" + verdict;
 }
 
 }  // namespace stopline

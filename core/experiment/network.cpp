@@ -93,6 +93,13 @@ std::string window_text(const NetworkReport& report) {
             " measure.steady asks for {:g} to {:g} s; whole intervals of {:g} s (measure.interval) are measured.",
             asked_s, end_s, measure.interval_s);
     }
+    std::string late;
+    for (const NetworkFigures& f : report.populations) {
+        if (f.steady.window.from_s >= f.warm_up_s) continue;
+        late += fmt::format("{}{} at {:.0f} s", late.empty() ? "" : ", ", f.population, f.warm_up_s);
+    }
+    if (!late.empty())
+        text += "\nThat is before the number of vehicles settles: " + late + " (warm_up_s in summary.csv).";
     return text;
 }
 
@@ -110,7 +117,8 @@ std::string network_csv(const NetworkReport& report) {
         columns.emplace_back(column);
     }
     const bool trips = report.scenario.network.is_sumo();
-    if (trips) columns.insert(columns.end(), {"strayed", "waiting"});
+    if (trips) columns.emplace_back("strayed");
+    columns.emplace_back("waiting");
     CsvWriter csv(columns);
     for (const NetworkFigures& f : report.populations) {
         const HindranceLog& log = f.hindrance;
@@ -142,7 +150,8 @@ std::string network_csv(const NetworkReport& report) {
               std::to_string(v.red_entries), std::to_string(v.forced_red_entries), std::to_string(v.lost_vehicles)}) {
             row.push_back(cell);
         }
-        if (trips) row.insert(row.end(), {std::to_string(f.strayed), std::to_string(f.waiting)});
+        if (trips) row.push_back(std::to_string(f.strayed));
+        row.push_back(std::to_string(f.waiting));
         csv.row(row);
     }
     return csv.text();

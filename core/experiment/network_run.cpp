@@ -8,6 +8,7 @@
 
 #include "experiment/build_model.h"
 #include "measure/steady_state.h"
+#include "sim/phases.h"
 
 namespace stopline {
 
@@ -242,9 +243,7 @@ NetworkFigures run_network(const Scenario& scenario, std::size_t population,
     backlog.look(state);
     figures.backlog = backlog.backlog();
     figures.strayed = state.strayed;
-    for (const std::vector<int>& waiting : state.waiting_trips) {
-        figures.waiting += static_cast<std::int64_t>(waiting.size());
-    }
+    figures.waiting = waiting_outside(model, state);
     if (model.trips_begin < 0)
         figures.inflow = inflow_series(model, state.crossings, scenario.measure.interval_s, model.time_s(state.tick));
     figures.turned = state.turned;

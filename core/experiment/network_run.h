@@ -55,7 +55,7 @@ struct NetworkFigures {
     std::vector<std::array<std::int64_t, kMostTurns>> turned;  // [approach][Turn]
     std::int64_t changes_for_route = 0;
     std::int64_t strayed = 0;  // imported networks: see State::strayed
-    std::int64_t waiting = 0;  // the same: due, but without room to enter until the end
+    std::int64_t waiting = 0;  // they have come, but found no room to enter until the end (waiting_outside)
     std::int64_t changes_for_speed = 0;
     StreetTrace street;  // empty unless measure.time_space asks for it
     bool complete = false;

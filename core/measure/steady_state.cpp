@@ -25,9 +25,11 @@ struct Sums {
     double mean(std::size_t from, std::size_t to) const {
         return (one[to] - one[from]) / static_cast<double>(to - from);
     }
-    // Sum of squared differences from the mean.
+    // Sum of squared differences from the mean; 0 where it is no more than rounding.
     double spread(std::size_t from, std::size_t to) const {
-        return two[to] - two[from] - square(one[to] - one[from]) / static_cast<double>(to - from);
+        constexpr double kRounding = 1e-12;
+        const double sum = two[to] - two[from] - square(one[to] - one[from]) / static_cast<double>(to - from);
+        return sum > kRounding * two[to] ? sum : 0.0;
     }
 };
 

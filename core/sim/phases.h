@@ -46,6 +46,8 @@ void gather_reports(State& state);                       // what the parts have 
 void transfer_vehicles(const Model& model, State& state);
 void form_queues(const Model& model, State& state);  // before the first step
 void insert_vehicles(const Model& model, State& state);
+// Vehicles that have come by now, where they do at a rate or at times of their own, and found no room to enter yet.
+std::int64_t waiting_outside(const Model& model, const State& state);
 void insert_trips(const Model& model, State& state);  // trips.cpp
 void move_blocked_on(const Model& model, State& state);
 void change_lanes(const Model& model, State& state);

@@ -357,14 +357,18 @@ void form_queues(const Model& model, State& state) {
 
 namespace {
 
+// Where vehicles come evenly: the first one comes after this share of the time between two of them.
+double shift_of(const Model& model, int inlet) {
+    return random_uniform(model.seed, static_cast<std::uint64_t>(inlet), 0, Purpose::insertion);
+}
+
 // Not before this does the next vehicle enter.
 double next_entry_s(const Model& model, const State& state, int inlet) {
     if (model.demand.is_saturated(inlet)) return -kFar_s;
     const InletState& entered = state.inlets[at(inlet)];
     const double headway_s = model.demand.headway_at(inlet);
     if (!model.demand.is_even(inlet)) return entered.last_entry_s + headway_s;
-    const double shift = random_uniform(model.seed, static_cast<std::uint64_t>(inlet), 0, Purpose::insertion);
-    return (static_cast<double>(entered.entered) + shift) * headway_s;
+    return (static_cast<double>(entered.entered) + shift_of(model, inlet)) * headway_s;
 }
 
 }  // namespace
@@ -385,6 +389,18 @@ void insert_vehicles(const Model& model, State& state) {
         if (entry.possible) enter(model, state, k, entry);
     }
     if (some_dry) std::erase_if(state.open_inlets, [&](int k) { return is_dry(k) && is_link(k); });
+}
+
+std::int64_t waiting_outside(const Model& model, const State& state) {
+    std::int64_t waiting = 0;
+    for (int k = 0; k < static_cast<int>(model.demand.inlets.size()); ++k) {
+        if (model.demand.is_saturated(k) || !model.demand.is_even(k)) continue;
+        const double come = model.time_s(state.tick) / model.demand.headway_at(k) + 1.0 - shift_of(model, k);
+        const std::int64_t due = std::min(static_cast<std::int64_t>(come), model.demand.inlets[at(k)].vehicles);
+        waiting += std::max<std::int64_t>(due - state.inlets[at(k)].entered, 0);
+    }
+    for (const std::vector<int>& trips : state.waiting_trips) waiting += static_cast<std::int64_t>(trips.size());
+    return waiting;
 }
 
 }  // namespace stopline

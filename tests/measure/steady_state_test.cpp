@@ -33,7 +33,7 @@ TEST(WarmUp, IsWhereARampEnds) {
 
 TEST(WarmUp, IsShortForASteadySeriesAndNoneForAShortOne) {
     EXPECT_LE(warm_up(settling(0, 300)), 150u);
-    EXPECT_EQ(warm_up(std::vector<double>(300, 5.0)), 0u);
+    for (const double value : {5.0, 3.3, 1234.56}) EXPECT_EQ(warm_up(std::vector<double>(334, value)), 0u);
     EXPECT_EQ(warm_up(std::vector<double>{1.0, 2.0, 3.0}), 0u);
     EXPECT_EQ(warm_up({}), 0u);
 }

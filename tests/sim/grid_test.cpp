@@ -175,6 +175,21 @@ TEST_P(OnGrid, SlowTurnsHaveTheirShareBehindEveryIntersection) {
 
 INSTANTIATE_TEST_SUITE_P(Modes, OnGrid, testing::Values("full", "meso"));
 
+// More than the road takes: who has come and is not in the network waits outside.
+TEST(Inflow, EntersOrWaits) {
+    for (const double inflow_veh_h : {300.0, 2000.0}) {
+        const Scenario scenario = load_scenario(
+            STOPLINE_SOURCE_DIR "/scenarios/grid.yaml",
+            {"demand={kind: rate, left: 5 %, right: 10 %, inflow: " + std::to_string(inflow_veh_h) + " veh/h}",
+             "network.grid.columns=2", "network.grid.rows=2", "duration=900 s", "measure.steady=300 s"});
+        const NetworkFigures figures = run_network(scenario, 0);
+        constexpr double kArms = 8.0;
+        constexpr double kLanes = 16.0;  // each of which may have one more or less
+        EXPECT_NEAR(static_cast<double>(figures.entered + figures.waiting), kArms * inflow_veh_h * 0.25, kLanes);
+        EXPECT_EQ(figures.waiting > 100, inflow_veh_h > 1000.0) << figures.waiting;
+    }
+}
+
 TEST(OnGridDemand, RefusesAnArmThatIsNotThere) {
     const Scenario scenario = calibration({"demand.arms=[c0r0_south]"});
     try {
