@@ -4,6 +4,7 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <omp.h>
 
 #include "experiment/csv.h"
 #include "experiment/side_by_side.h"
@@ -53,7 +54,8 @@ NetworkReport run_networks(const Scenario& scenario, const NetworkOptions& optio
     for (const Lane& lane : make_network(scenario.network).lanes) {
         report.lanes.push_back(lane.name);
     }
-    // Threads that are left over share runs.
+    // Threads that are left over share runs, within the threads that have one each.
+    omp_set_max_active_levels(2);
     const int threads_each = std::max(options.threads / static_cast<int>(report.populations.size()), 1);
     run_side_by_side(report.populations.size(), options.threads, options.on_progress,
                      [&](std::size_t k, const std::function<bool(double)>& tell) {

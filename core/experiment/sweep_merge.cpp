@@ -111,6 +111,7 @@ MergedSweep merge_stores(const std::vector<fs::path>& files, const fs::path& fol
     std::error_code ignored;
     MergedSweep merged{name, {}};
     try {
+        fs::remove(beside, ignored);  // of one that was killed
         join(stores, beside);
         merged.table = sweep_results(RunStore::open(beside));
         write_file(results.table, merged.table.csv);

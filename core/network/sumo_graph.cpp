@@ -313,6 +313,26 @@ bool sumo_is_green(char letter) {
     return letter == 'G' || letter == 'g' || letter == 's' || letter == 'o' || letter == 'O';
 }
 
+namespace {
+
+// Of greens that end: phases of one link one after the other, the last and the first of the cycle too. 0: there is none.
+double longest_green_of(const SumoSignal& signal) {
+    const double cycle_s = signal.cycle_s();
+    double longest_s = 0.0;
+    const std::size_t links = signal.phases.empty() ? 0 : signal.phases[0].state.size();
+    for (std::size_t link = 0; link < links; ++link) {
+        double green_s = 0.0;
+        for (std::size_t k = 0; k < 2 * signal.phases.size(); ++k) {
+            const SumoPhase& phase = signal.phases[k % signal.phases.size()];
+            green_s = link < phase.state.size() && sumo_is_green(phase.state[link]) ? green_s + phase.duration_s : 0.0;
+            if (green_s < cycle_s) longest_s = std::max(longest_s, green_s);
+        }
+    }
+    return longest_s;
+}
+
+}  // namespace
+
 double SumoNetwork::longest_cycle_s() const {
     constexpr double kUsual_s = 90.0;
     double longest_s = 0.0;
@@ -323,12 +343,7 @@ double SumoNetwork::longest_cycle_s() const {
 double SumoNetwork::longest_green_s() const {
     constexpr double kUsual_s = 40.0;
     double longest_s = 0.0;
-    for (const SumoSignal& signal : net.signals) {
-        for (const SumoPhase& phase : signal.phases) {
-            const bool green = std::any_of(phase.state.begin(), phase.state.end(), sumo_is_green);
-            if (green && phase.duration_s < signal.cycle_s()) longest_s = std::max(longest_s, phase.duration_s);
-        }
-    }
+    for (const SumoSignal& signal : net.signals) longest_s = std::max(longest_s, longest_green_of(signal));
     return longest_s > 0.0 ? longest_s : kUsual_s;
 }
 

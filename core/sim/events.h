@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <tuple>
 
 namespace stopline {
 
@@ -52,6 +53,10 @@ struct Sighting {
     int lane = -1;
     int vehicle = -1;  // by number
     int other = -1;    // -1: none
+
+    bool is_before(const Sighting& b) const {
+        return std::tie(time_s, lane, vehicle) < std::tie(b.time_s, b.lane, b.vehicle);
+    }
 };
 
 // Counts of what must never happen; checked in every step of every run.
@@ -64,8 +69,9 @@ struct Violations {
     std::int64_t deadlocks = 0;           // runs in which a vehicle was inside an intersection for two cycles
     Sighting first = {};                  // of all but lost vehicles and deadlocks
 
+    // In any order: parts of the network are looked at one by one.
     void see(const Sighting& sighting) {
-        if (first.time_s < 0.0) first = sighting;
+        if (sighting.time_s >= 0.0 && (first.time_s < 0.0 || sighting.is_before(first))) first = sighting;
     }
     void add(const Violations& more) {
         see(more.first);

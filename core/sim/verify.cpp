@@ -22,17 +22,15 @@ std::int64_t overlaps(const VehicleArrays& v, std::span<const LaneStep> lanes) {
 // Of those that overlap, as they are now.
 void see_overlap(const Model& model, const State& state, NetworkPart& part) {
     const VehicleArrays& v = state.vehicles;
-    Sighting seen{model.time_s(state.tick + 1), Sighting::Kind::overlap, -1, -1, -1};
     for (const int lane : part.occupied) {
         const LaneBlock& block = state.blocks[static_cast<std::size_t>(lane)];
         for (int slot = block.first; slot < block.stop(); ++slot) {
             const auto i = static_cast<std::size_t>(slot);
             if (v.position_m[i] <= v.position_m[i - 1] - static_cast<double>(v.length_m[i - 1])) continue;
             const int ahead = slot > block.first ? v.id[i - 1] : v.record[i].predecessor;
-            seen = {seen.time_s, seen.kind, lane, v.id[i], ahead};
+            part.violations.see({model.time_s(state.tick + 1), Sighting::Kind::overlap, lane, v.id[i], ahead});
         }
     }
-    part.violations.see(seen);
 }
 
 void verify(State& state) {

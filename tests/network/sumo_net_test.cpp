@@ -48,6 +48,17 @@ const Conflict* conflict(const LaneGraph& graph, const std::string& of, const st
     return nullptr;
 }
 
+TEST(SumoNetwork, GreensOfALinkGoOnOverPhases) {
+    SumoNetwork made;
+    // The second link is green over three phases and the end of the cycle, the third throughout.
+    made.net.signals.push_back(
+        {"one", "0", 0.0, {{30.0, "GgG"}, {30.0, "rGG"}, {4.0, "ryG"}, {20.0, "rrg"}, {5.0, "rGG"}}, "", true});
+    EXPECT_DOUBLE_EQ(made.longest_cycle_s(), 89.0);
+    EXPECT_DOUBLE_EQ(made.longest_green_s(), 65.0);
+    made.net.signals[0].phases = {{30.0, "G"}};
+    EXPECT_DOUBLE_EQ(made.longest_green_s(), 40.0) << "none ends";
+}
+
 TEST(SumoNetwork, HasTheLanesOfCarsAndTheirNeighbours) {
     const SumoNetwork made = made_of(crossing_net());
     check(made.graph);

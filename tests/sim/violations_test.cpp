@@ -1,0 +1,33 @@
+// What is told of violations does not depend on the order in which parts of the network are looked at.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "sim/events.h"
+
+namespace stopline {
+namespace {
+
+TEST(Violations, TheFirstIsTheEarliestInAnyOrder) {
+    std::vector<Sighting> seen{{2.0, Sighting::Kind::conflict, 7, 3, 4},
+                               {2.0, Sighting::Kind::overlap, 5, 9, 1},
+                               {2.0, Sighting::Kind::overlap, 5, 2, 9},
+                               {2.1, Sighting::Kind::overlap, 1, 1, 2}};
+    std::vector<int> order{0, 1, 2, 3};
+    do {
+        Violations all;
+        for (const int k : order) {
+            Violations part;
+            part.see(seen[static_cast<std::size_t>(k)]);
+            all.add(part);
+            all.add({});
+        }
+        EXPECT_EQ(all.first.time_s, 2.0);
+        EXPECT_EQ(all.first.lane, 5);
+        EXPECT_EQ(all.first.vehicle, 2);
+    } while (std::next_permutation(order.begin(), order.end()));
+}
+
+}  // namespace
+}  // namespace stopline
