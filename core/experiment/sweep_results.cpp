@@ -72,7 +72,7 @@ std::string result_text(const Sweep& sweep, std::size_t point, const std::vector
     for (std::size_t k = 0; k < columns.size(); ++k) values.emplace_back(columns[k], cells[k]);
     values.emplace_back("seed", fmt::format("{}", sweep.seed(point)));
     for (const RunMetric& metric : metrics) {
-        const std::string column = metric.name + (metric.unit.empty() ? "" : "_" + metric.unit);
+        const std::string column = metric.column();
         if (std::find(columns.begin(), columns.end(), column) != columns.end()) {
             throw InputError(fmt::format("the axis '{}' of the sweep {} has the name of a result: rename it", column,
                                          sweep.settings().name));

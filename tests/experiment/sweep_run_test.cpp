@@ -149,10 +149,10 @@ TEST_F(SweepRunTest, StoresOfOtherSweepsAreNotJoined) {
 }
 
 TEST(SweepResults, AnAxisMayNotHaveTheNameOfAResult) {
-    const ShortSweep files("scenario: short.yaml\naxes:\n- {name: updates, path: demand.vehicles, values: [8]}\n");
+    const ShortSweep files("scenario: short.yaml\naxes:\n- {name: measured, path: demand.vehicles, values: [8]}\n");
     const Sweep sweep = files.load();
     EXPECT_TRUE(
-        contains(input_error_of([&] { result_text(sweep, 0, {count_metric("updates", "", 1)}); }), "rename it"));
+        contains(input_error_of([&] { result_text(sweep, 0, {count_metric("measured", "", 1)}); }), "rename it"));
     EXPECT_EQ(count_in("a=1\nupdates=-12\nb=\n", "updates"), -12);
     EXPECT_EQ(count_in("a=1\nb=\n", "b"), 0);
 }
