@@ -179,8 +179,12 @@ std::string totals_text(const SweepTotals& totals) {
     table.row({"overlaps", fmt::format("{}", totals.overlaps)});
     table.row({"entries on red", fmt::format("{}", totals.red_entries)});
     table.row({"lost vehicles", fmt::format("{}", totals.lost_vehicles)});
-    table.row({"deadlocks", fmt::format("{}", totals.deadlocks)});
+    if (totals.deadlocks) table.row({"deadlocks", fmt::format("{}", *totals.deadlocks)});
     table.row({"runs with such violations", fmt::format("{}", totals.runs_with_violations)});
+    if (totals.gridlocks) {
+        table.row({"gridlocks", fmt::format("{}", *totals.gridlocks)});
+        table.row({"vehicles moved on", fmt::format("{}", totals.moved_on)});
+    }
     if (totals.longest_inside_s > 0.0) {
         table.row({"longest way through an intersection", fmt::format("{:.1f} s", totals.longest_inside_s)});
     }
