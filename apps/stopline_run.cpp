@@ -7,6 +7,7 @@
 
 #include <fmt/core.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/input_error.h"
 #include "common/command_line.h"
@@ -130,9 +131,15 @@ void write_results(const RunOptionsOfUser& options, const IntersectionReport& re
     write_tables(options, report.scenario, std::move(files), std::move(hashes), folder);
 }
 
-void print_report(const SingleLight& result) {
+// The title, with what was set: "Grid of 25 intersections, with network.grid.columns=3".
+std::string heading(const Scenario& scenario, const CommonOptions& options) {
+    const std::string& title = scenario.title.empty() ? scenario.name : scenario.title;
+    return options.settings.empty() ? title : fmt::format("{}, with {}", title, fmt::join(options.settings, ", "));
+}
+
+void print_report(const SingleLight& result, const CommonOptions& options) {
     const Scenario& scenario = result.scenario;
-    fmt::print("{}\n", scenario.title.empty() ? scenario.name : scenario.title);
+    fmt::print("{}\n", heading(scenario, options));
     fmt::print("scenario {} ({:016x}), seed {}, vehicle {}, driver {}\n\n", scenario.name, scenario.hash, scenario.seed,
                scenario.vehicle_name, scenario.driver_name);
     fmt::print("{}{}{}\n{}{}", counts_text(result), ideal_text(result), headways_text(result), queue_text(result),
@@ -148,8 +155,8 @@ ExitCode run_as_intersection(const RunOptionsOfUser& options, const Scenario& sc
                                  {threads_or_all(options.common.threads), interval_s,
                                   [&bar](double share) { return bar.update(share); }, run_files.observation()});
     }();
-    fmt::print("{}\nscenario {} ({:016x}), seed {}\n\n{}", scenario.title.empty() ? scenario.name : scenario.title,
-               scenario.name, scenario.hash, scenario.seed, intersection_text(report));
+    fmt::print("{}\nscenario {} ({:016x}), seed {}\n\n{}", heading(scenario, options.common), scenario.name,
+               scenario.hash, scenario.seed, intersection_text(report));
     write_results(options, report, folder);
     fmt::print("{}", run_files.finish());
     if (!options.no_figures) draw_all(intersection_figures(report), folder);
@@ -167,8 +174,8 @@ ExitCode run_as_network(const RunOptionsOfUser& options, const Scenario& scenari
         return run_networks(scenario, {threads_or_all(options.common.threads),
                                        [&bar](double share) { return bar.update(share); }, run_files.observation()});
     }();
-    fmt::print("{}\nscenario {} ({:016x}), seed {}\n\n{}", scenario.title.empty() ? scenario.name : scenario.title,
-               scenario.name, scenario.hash, scenario.seed, network_text(report));
+    fmt::print("{}\nscenario {} ({:016x}), seed {}\n\n{}", heading(scenario, options.common), scenario.name,
+               scenario.hash, scenario.seed, network_text(report));
     StateHashes hashes;
     for (const NetworkFigures& f : report.populations) {
         hashes.emplace_back(f.population, fmt::format("{:016x}", f.state_hash));
@@ -237,7 +244,7 @@ ExitCode run(const RunOptionsOfUser& options) {
         run_options.on_progress = [&bar](double share) { return bar.update(share); };
         return run_single_light(scenario, run_options);
     }();
-    print_report(result);
+    print_report(result, options.common);
     write_results(options, result, interval_s, folder);
     fmt::print("{}", run_files.finish());
     if (!options.no_figures) draw_all(single_light_figures(result, load_targets()), folder);

@@ -179,8 +179,12 @@ std::string totals_text(const SweepTotals& totals) {
     table.row({"overlaps", fmt::format("{}", totals.overlaps)});
     table.row({"entries on red", fmt::format("{}", totals.red_entries)});
     table.row({"lost vehicles", fmt::format("{}", totals.lost_vehicles)});
-    table.row({"deadlocks", fmt::format("{}", totals.deadlocks)});
+    if (totals.deadlocks) table.row({"deadlocks", fmt::format("{}", *totals.deadlocks)});
     table.row({"runs with such violations", fmt::format("{}", totals.runs_with_violations)});
+    if (totals.gridlocks) {
+        table.row({"gridlocks", fmt::format("{}", *totals.gridlocks)});
+        table.row({"vehicles moved on", fmt::format("{}", totals.moved_on)});
+    }
     if (totals.longest_inside_s > 0.0) {
         table.row({"longest way through an intersection", fmt::format("{:.1f} s", totals.longest_inside_s)});
     }
@@ -215,14 +219,14 @@ void print_orders(const Orders& orders) {
 
 // Figures where the sweep went over an intersection's greens and turns, with the paper's Table 1, or over several intersections'
 // greens and offsets.
-void draw_results(const std::string& csv, const std::filesystem::path& file) {
+void draw_results(const Sweep& sweep, const std::string& csv, const std::filesystem::path& file) {
     const CsvTable results = parse_csv(csv, file.string());
     if (has_seeds(results)) {
         const std::string name = file.stem().string() + "_means.csv";
-        write_file(file.parent_path() / name, seed_means_csv(results));
+        write_file(file.parent_path() / name, seed_means_csv(results, sweep.population_column()));
         fmt::print("  {}\n", name);
     }
-    if (is_network_sweep(results)) draw_all(network_sweep_figures(results), file.parent_path());
+    if (is_network_sweep(results)) draw_all(network_sweep_figures(results, sweep.titles()), file.parent_path());
     if (!has_turns(results)) return;
     write_file(file.parent_path() / "table1.csv", table1_csv(results, load_targets()));
     fmt::print("  table1.csv\n");
@@ -242,7 +246,7 @@ ExitCode finish(Work& work, const SweepSession& session, const std::string& by) 
     for (const auto& file : {work.files.table, work.files.provenance, work.files.store}) {
         fmt::print("  {}\n", file.filename().string());
     }
-    draw_results(table.csv, work.files.table);
+    draw_results(work.sweep, table.csv, work.files.table);
     if (work.shard.count > 1) {
         fmt::print("\nNext: when all {} shards are done, stopline-sweep merge --output DIR {}/*.sqlite\n",
                    work.shard.count, work.files.table.parent_path().string());

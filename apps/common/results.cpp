@@ -1,5 +1,6 @@
 #include "common/results.h"
 
+#include <exception>
 #include <optional>
 
 #include <fmt/core.h>
@@ -21,11 +22,21 @@ void draw_all(const std::vector<Figure>& figures, const std::filesystem::path& f
         fmt::print("  no figures: gnuplot is not installed (Debian package gnuplot-nox)\n");
         return;
     }
+    std::exception_ptr first_error;
     for (const Figure& figure : figures) {
         if (interrupted()) throw Interrupted();
-        draw(figure, folder);
-        fmt::print("  {0}.svg, {0}.png\n", figure.name);
+        if (!figure.nothing.empty()) {
+            fmt::print("  no figure {}: {}\n", figure.name, figure.nothing);
+            continue;
+        }
+        try {
+            draw(figure, folder);
+            fmt::print("  {0}.svg, {0}.png\n", figure.name);
+        } catch (const InputError&) {
+            if (!first_error) first_error = std::current_exception();
+        }
     }
+    if (first_error) std::rethrow_exception(first_error);
 }
 
 }  // namespace stopline

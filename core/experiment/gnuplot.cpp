@@ -109,6 +109,7 @@ bool gnuplot_installed() {
 }
 
 std::vector<fs::path> draw(const Figure& figure, const fs::path& folder) {
+    if (!figure.nothing.empty()) throw InputError(fmt::format("cannot draw {}: {}", figure.name, figure.nothing));
     std::vector<fs::path> files{folder / (figure.name + ".svg"), folder / (figure.name + ".png")};
     for (const auto& [name, text] : figure.data) {
         write_file(folder / name, text);

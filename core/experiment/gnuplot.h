@@ -17,6 +17,7 @@ struct Figure {
     // gnuplot commands that draw the figure once. They find set: terminal, output, font, axes without a box, a light grid, and
     // the line types 1..8 as in line_style(). No command may hold a line break inside quotes.
     std::string body;
+    std::string nothing;  // why there is nothing to draw; empty: there is
 };
 
 // The colours of Okabe and Ito (2008), which colour-blind readers can tell apart, without their yellow (too light on white),
@@ -37,7 +38,7 @@ std::string gnuplot_text(const std::string& text);
 bool gnuplot_installed();
 
 // Draws, and returns the files made, figures first. Throws InputError with gnuplot's own words where it fails; data and script
-// are there all the same.
+// are there all the same. So does a figure with nothing to draw.
 std::vector<std::filesystem::path> draw(const Figure& figure, const std::filesystem::path& folder);
 
 }  // namespace stopline

@@ -1,11 +1,74 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
+#include "experiment/interval_points.h"
 #include "experiment/network.h"
+#include "experiment/population_style.h"
 
 namespace stopline {
+
+namespace {
+
+constexpr std::array<const char*, 4> kPanels{"throughput [veh/h]", "travel time [s]", "density [%]", "moved on [veh]"};
+
+// One point of the series.
+struct SeriesPoint {
+    double hours = 0.0;
+    std::array<double, kPanels.size()> values{};  // NaN: nobody left
+};
+
+std::vector<SeriesPoint> points_of(const std::vector<NetworkInterval>& series) {
+    const std::size_t together = intervals_of_a_point(series.size());
+    std::vector<SeriesPoint> points;
+    for (std::size_t i = 0; i + together <= series.size(); i += together) {
+        double left = 0.0;
+        double travel_s = 0.0;
+        double occupied = 0.0;
+        double moved_on = 0.0;
+        for (std::size_t j = i; j < i + together; ++j) {
+            left += series[j].area.left;
+            travel_s += series[j].area.left > 0 ? series[j].area.left * series[j].area.travel_time_s : 0.0;
+            occupied += series[j].area.occupied / static_cast<double>(together);
+            moved_on += static_cast<double>(series[j].taken_out);
+        }
+        const double from_s = series[i].area.window.from_s;
+        const double length_s = static_cast<double>(together) * series[i].area.window.length_s();
+        points.push_back(
+            {(from_s + 0.5 * length_s) / 3600.0,
+             {left * 3600.0 / length_s, left > 0.0 ? travel_s / left : std::numeric_limits<double>::quiet_NaN(),
+              100.0 * occupied, moved_on}});
+    }
+    return points;
+}
+
+std::string number_or_nan(double value, int decimals) {
+    return std::isnan(value) ? "NaN" : fmt::format("{:.{}f}", value, decimals);
+}
+
+std::string data_of(const std::vector<SeriesPoint>& points) {
+    std::string text = "# hours throughput travel_time density moved_on\n";
+    for (const SeriesPoint& point : points) {
+        const auto& [throughput, travel_time, density, moved_on] = point.values;
+        text += fmt::format("{:.4f} {:.1f} {} {:.3f} {:.0f}\n", point.hours, throughput, number_or_nan(travel_time, 2),
+                            density, moved_on);
+    }
+    return text;
+}
+
+// gnuplot finds no range where no value is a number.
+std::string range_of(const std::vector<std::vector<SeriesPoint>>& all, std::size_t panel) {
+    for (const std::vector<SeriesPoint>& points : all) {
+        const auto known = [&](const SeriesPoint& point) { return !std::isnan(point.values[panel]); };
+        if (std::any_of(points.begin(), points.end(), known)) return "[0:*]";
+    }
+    return "[0:1]";
+}
+
+}  // namespace
 
 Figure network_series_figure(const NetworkReport& report) {
     Figure figure;
@@ -13,40 +76,30 @@ Figure network_series_figure(const NetworkReport& report) {
     figure.width_px = 900;
     figure.height_px = 900;
     std::string body = "set multiplot layout 4,1 margins 0.11,0.83,0.07,0.96 spacing 0.03\nset key outside right top\n";
-    const std::array<const char*, 4> labels{"throughput [veh/h]", "travel time [s]", "density [%]", "moved on"};
-    for (std::size_t k = 0; k < report.populations.size(); ++k) {
-        std::string text = "# hours throughput travel_time density moved_on, means of five intervals\n";
-        const std::vector<NetworkInterval>& series = report.populations[k].series;
-        constexpr std::size_t kTogether = 5;
-        for (std::size_t i = 0; i + kTogether <= series.size(); i += kTogether) {
-            double left = 0.0;
-            double travel_s = 0.0;
-            double occupied = 0.0;
-            double moved_on = 0.0;
-            for (std::size_t j = i; j < i + kTogether; ++j) {
-                left += series[j].area.left;
-                travel_s += series[j].area.left > 0 ? series[j].area.left * series[j].area.travel_time_s : 0.0;
-                occupied += series[j].area.occupied / kTogether;
-                moved_on += static_cast<double>(series[j].taken_out);
-            }
-            const double from_s = series[i].area.window.from_s;
-            const double length_s = kTogether * series[i].area.window.length_s();
-            text += fmt::format("{:.4f} {:.1f} {} {:.3f} {:.0f}\n", (from_s + 0.5 * length_s) / 3600.0,
-                                left * 3600.0 / length_s, left > 0.0 ? fmt::format("{:.2f}", travel_s / left) : "NaN",
-                                100.0 * occupied, moved_on);
-        }
-        if (series.size() < kTogether) text += "NaN NaN NaN NaN NaN\n";
-        figure.data.emplace_back(fmt::format("series_{}.dat", k), text);
+    const double interval_s = report.scenario.measure.interval_s;
+    std::size_t intervals = 0;
+    std::size_t drawn = 0;
+    std::vector<std::vector<SeriesPoint>> all;  // [population]
+    for (const NetworkFigures& f : report.populations) {
+        all.push_back(points_of(f.series));
+        figure.data.emplace_back(fmt::format("series_{}.dat", all.size() - 1), data_of(all.back()));
+        intervals = std::max(intervals, f.series.size());
+        drawn = std::max(drawn, all.back().size());
     }
-    for (std::size_t panel = 0; panel < labels.size(); ++panel) {
-        const bool last = panel + 1 == labels.size();
-        body += last ? "set xlabel 'hours'\nset format x '%g'\n" : "unset xlabel\nset format x ''\n";
-        body +=
-            fmt::format("set ylabel '{}'\nset yrange [0:*]\n{}plot ", labels[panel], panel == 0 ? "" : "unset key\n");
+    if (drawn == 0) figure.nothing = no_interval_text(report.scenario);
+    body += fmt::format("set xrange [0:{:g}]\n", report.scenario.duration_s / 3600.0);
+    for (std::size_t panel = 0; panel < kPanels.size(); ++panel) {
+        const bool last = panel + 1 == kPanels.size();
+        body += last ? fmt::format("set xlabel 'time [h]; points: {}{}'\nset format x '%g'\n",
+                                   points_text(intervals, interval_s),
+                                   intervals_of_a_point(intervals) > 1 ? " (moved on: their sum)" : "")
+                     : "unset xlabel\nset format x ''\n";
+        body += fmt::format("set ylabel '{}'\nset yrange {}\n{}plot ", kPanels[panel], range_of(all, panel),
+                            panel == 0 ? "" : "unset key\n");
         for (std::size_t k = 0; k < report.populations.size(); ++k) {
-            const LineStyle style = line_style(k);
-            body += fmt::format("{}'series_{}.dat' using 1:{} with lines lw 2 lc rgb '{}' dt {} title {}",
-                                k == 0 ? "" : ", ", k, panel + 2, style.colour, style.dash,
+            const LineStyle style = style_of(report.scenario, report.populations[k].population);
+            body += fmt::format("{}'series_{}.dat' using 1:{} with {} lw 2 lc rgb '{}' dt {} title {}",
+                                k == 0 ? "" : ", ", k, panel + 2, line_of(drawn), style.colour, style.dash,
                                 gnuplot_text(report.populations[k].population));
         }
         body += "\n";
@@ -71,7 +124,7 @@ std::pair<std::vector<std::string>, std::vector<StreetTrace>> streets_of(const N
 
 Figure street_figure(const NetworkReport& report) {
     const auto [names, traces] = streets_of(report);
-    return time_space_figure(names, traces);
+    return time_space_figure(report.scenario, names, traces);
 }
 
 std::string street_csv(const NetworkReport& report) {
@@ -83,9 +136,13 @@ Figure hindrance_figure(const NetworkReport& report) {
     Figure figure;
     figure.name = "hindrance";
     std::string text = "# population, share of vehicle time that is lost by cause\n";
+    std::array<bool, kCauseNames.size()> any{};  // [cause] whether it holds up anybody
     for (const NetworkFigures& f : report.populations) {
         double all_s = 0.0;
-        for (std::size_t cause = 1; cause < kCauseNames.size(); ++cause) all_s += f.hindrance.lost_s[cause];
+        for (std::size_t cause = 1; cause < kCauseNames.size(); ++cause) {
+            all_s += f.hindrance.lost_s[cause];
+            any[cause] = any[cause] || f.hindrance.lost_s[cause] > 0.0;
+        }
         text += fmt::format("\"{}\"", f.population);
         for (std::size_t cause = 1; cause < kCauseNames.size(); ++cause) {
             text += fmt::format(" {:.3f}", all_s > 0.0 ? 100.0 * f.hindrance.lost_s[cause] / all_s : 0.0);
@@ -93,15 +150,19 @@ Figure hindrance_figure(const NetworkReport& report) {
         text += "\n";
     }
     figure.data.emplace_back("hindrance.dat", text);
+    if (std::none_of(any.begin(), any.end(), [](bool lost) { return lost; })) figure.nothing = "no vehicle stands";
     figure.body =
         "set title 'What standing vehicles wait for'\nset style data histograms\nset style histogram rowstacked\nset style fill "
-        "solid 0.9\nset boxwidth 0.6\nset ylabel 'share of the time that vehicles stand [%]'\nset yrange [0:100]\nset key "
+        "solid 0.9 noborder\nset boxwidth 0.6\nset ylabel 'share of the time that vehicles stand [%]'\nset yrange [0:100]\nset key "
         "outside right\nset xtics scale 0\nplot ";
+    std::string before;
     for (std::size_t cause = 1; cause < kCauseNames.size(); ++cause) {
+        if (!any[cause]) continue;
         std::string label = kCauseNames[cause];
         std::replace(label.begin(), label.end(), '_', ' ');
-        figure.body += fmt::format("{}'hindrance.dat' using {}:xtic(1) lc rgb '{}' title '{}'", cause == 1 ? "" : ", ",
-                                   cause + 1, cause == 1 ? "#bbbbbb" : line_style(cause - 2).colour, label);
+        figure.body += fmt::format("{}'hindrance.dat' using {}:xtic(1) lc rgb '{}' title '{}'", before, cause + 1,
+                                   cause == 1 ? "#bbbbbb" : line_style(cause - 2).colour, label);
+        before = ", ";
     }
     figure.body += "\n";
     return figure;

@@ -47,6 +47,9 @@ struct Plane {
         if (found == sums.end()) return std::nullopt;
         return found->second.first / found->second.second;
     }
+    bool has(const char* metric) const {
+        return std::any_of(sums.begin(), sums.end(), [&](const auto& sum) { return std::get<0>(sum.first) == metric; });
+    }
 };
 
 struct Planes {
@@ -57,19 +60,17 @@ struct Planes {
 };
 
 // What sets a plane apart: the axes but green, offset and population.
-std::string other_axes(const CsvTable& results, const std::vector<std::string>& row) {
+std::string other_axes(const CsvTable& results, const std::vector<std::string>& row, const CellTitles& titles) {
     std::string text;
     for (std::size_t k = 0; k < results.columns.size() && results.columns[k] != "seed"; ++k) {
         const std::string& name = results.columns[k];
         if (name == "point" || name == "green_s" || name == "offset_s" || name == "population") continue;
-        const std::size_t percent = name.rfind("_percent");
-        text += text.empty() ? "" : ", ";
-        text += percent == std::string::npos ? name + " " + row[k] : name.substr(0, percent) + " " + row[k] + " %";
+        text += (text.empty() ? "" : "; ") + titles.at({name, row[k]});
     }
     return text;
 }
 
-Planes planes_of(const CsvTable& results) {
+Planes planes_of(const CsvTable& results, const CellTitles& titles) {
     Planes all;
     const std::size_t green = results.column("green_s");
     const std::size_t offset = results.column("offset_s");
@@ -81,7 +82,7 @@ Planes planes_of(const CsvTable& results) {
         add_new(all.greens_s, green_s);
         add_new(all.offsets_s, offset_s);
         add_new(all.populations, row[population]);
-        const std::string title = other_axes(results, row);
+        const std::string title = other_axes(results, row, titles);
         auto plane =
             std::find_if(all.planes.begin(), all.planes.end(), [&](const Plane& p) { return p.title == title; });
         if (plane == all.planes.end()) plane = all.planes.insert(all.planes.end(), Plane{title, {}, {}});
@@ -140,7 +141,8 @@ Figure plane_figure(const Planes& all, const Plane& plane, std::size_t number) {
                         gain ? fmt::format("{}: better by [%]",
                                            std::string(metric.label).substr(0, std::string(metric.label).find(" [")))
                              : metric.label);
-        body += gain ? "set yrange [*:*]\n" : "set yrange [0:*]\n";
+        // gnuplot finds no range where no value is a number.
+        body += gain ? "set yrange [*:*]\n" : plane.has(metric.column) ? "set yrange [0:*]\n" : "set yrange [0:1]\n";
         body += panel == 2 ? "set key at screen 0.995,0.90 right top width -2\n" : "unset key\n";
         body += "plot ";
         for (std::size_t p = gain ? 1 : 0; p < all.populations.size(); ++p) {
@@ -203,8 +205,8 @@ bool is_network_sweep(const CsvTable& results) {
            has(results, "stability") && !results.rows.empty();
 }
 
-std::vector<Figure> network_sweep_figures(const CsvTable& results) {
-    const Planes all = planes_of(results);
+std::vector<Figure> network_sweep_figures(const CsvTable& results, const CellTitles& titles) {
+    const Planes all = planes_of(results, titles);
     std::vector<Figure> figures;
     for (std::size_t k = 0; k < all.planes.size(); ++k) {
         figures.push_back(plane_figure(all, all.planes[k], k + 1));

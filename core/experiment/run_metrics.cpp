@@ -1,6 +1,7 @@
 #include "experiment/run_metrics.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include <fmt/format.h>
@@ -23,21 +24,6 @@ double sample_interval_s(const Scenario& scenario) {
     return static_cast<double>(ticks) * scenario.tick_s();
 }
 
-// The queue at a single light: what summary.csv of stopline-run holds too.
-std::vector<RunMetric> approach_metrics(const Scenario& scenario, std::size_t population, const RunResult& run,
-                                        double interval_s) {
-    const PopulationSummary summary = summary_of(scenario, population, run, run.trajectory, interval_s);
-    std::vector<RunMetric> metrics;
-    for (std::size_t k = 0; k < summary.passed.size(); ++k) {
-        metrics.push_back(count_metric(fmt::format("passed_{}", k + 1), "veh", summary.passed[k]));
-    }
-    metrics.push_back(number_metric("emptied", "s", summary.emptied_s, 6));
-    metrics.push_back(count_metric("settled", "veh", summary.settled.vehicles));
-    metrics.push_back(number_metric("settled_headway", "s", summary.settled.headway_s, 6));
-    metrics.push_back(number_metric("settled_net_gap", "m", summary.settled.net_gap_m, 6));
-    return metrics;
-}
-
 void add_counts(std::int64_t entered, std::int64_t left, const Violations& violations, std::int64_t updates,
                 std::uint64_t state_hash, std::vector<RunMetric>& metrics) {
     metrics.push_back(count_metric("vehicles_entered", "", entered));
@@ -51,13 +37,33 @@ void add_counts(std::int64_t entered, std::int64_t left, const Violations& viola
     metrics.push_back({"state_hash", "", fmt::format("{:016x}", state_hash)});
 }
 
-std::vector<RunMetric> intersection_metrics(const Scenario& scenario, std::size_t population,
-                                            const std::function<bool()>& keep_going) {
-    constexpr std::int64_t kAsk = 1000;  // steps
-    const IntersectionFigures f = run_intersection(scenario, population, [&](const Simulation& simulation) {
-        return !keep_going || simulation.state().tick % kAsk != 0 || keep_going();
-    });
-    if (!f.complete) return {};
+// The queue at a single light: what summary.csv of stopline-run holds too.
+std::vector<RunMetric> metrics_of(const PopulationSummary& summary, const RunResult& run) {
+    std::vector<RunMetric> metrics;
+    for (std::size_t k = 0; k < summary.passed.size(); ++k) {
+        metrics.push_back(count_metric(fmt::format("passed_{}", k + 1), "veh", summary.passed[k]));
+    }
+    metrics.push_back(number_metric("emptied", "s", summary.emptied_s, 6));
+    metrics.push_back(count_metric("settled", "veh", summary.settled.vehicles));
+    metrics.push_back(number_metric("settled_headway", "s", summary.settled.headway_s, 6));
+    metrics.push_back(number_metric("settled_net_gap", "m", summary.settled.net_gap_m, 6));
+    add_counts(run.vehicles_entered, run.vehicles_left, run.violations, run.updates, run.state_hash, metrics);
+    return metrics;
+}
+
+std::vector<RunMetric> approach_metrics(const Scenario& scenario, std::size_t population,
+                                        const std::function<bool()>& keep_going) {
+    RunOptions options;
+    options.trajectory_interval_s = sample_interval_s(scenario);
+    options.trajectory_from_s = scenario.signal.first_green_s - kLeadIn_s;
+    options.trajectory_until_s = scenario.signal.first_green_s + scenario.signal.green_s + kLeadOut_s;
+    options.on_progress = [&](double) { return !keep_going || keep_going(); };
+    const RunResult run = run_population(scenario, population, options);
+    if (!run.complete) return {};
+    return metrics_of(summary_of(scenario, population, run, run.trajectory, options.trajectory_interval_s), run);
+}
+
+std::vector<RunMetric> metrics_of(const Scenario& scenario, const IntersectionFigures& f) {
     std::vector<RunMetric> metrics;
     metrics.push_back(number_metric("throughput", "veh_h", f.throughput_veh_h, 6));
     for (std::size_t k = 0; k < f.zones.size(); ++k) {
@@ -81,13 +87,16 @@ std::vector<RunMetric> intersection_metrics(const Scenario& scenario, std::size_
     return metrics;
 }
 
-std::vector<RunMetric> network_metrics(const Scenario& scenario, std::size_t population,
-                                       const std::function<bool()>& keep_going) {
-    constexpr std::int64_t kAsk = 200;  // steps
-    const NetworkFigures f = run_network(scenario, population, [&](const Simulation& simulation) {
+std::vector<RunMetric> intersection_metrics(const Scenario& scenario, std::size_t population,
+                                            const std::function<bool()>& keep_going) {
+    constexpr std::int64_t kAsk = 1000;  // steps
+    const IntersectionFigures f = run_intersection(scenario, population, [&](const Simulation& simulation) {
         return !keep_going || simulation.state().tick % kAsk != 0 || keep_going();
     });
-    if (!f.complete) return {};
+    return f.complete ? metrics_of(scenario, f) : std::vector<RunMetric>{};
+}
+
+std::vector<RunMetric> metrics_of(const Scenario& scenario, const NetworkFigures& f) {
     const HindranceLog& log = f.hindrance;
     const double none = std::numeric_limits<double>::quiet_NaN();
     std::vector<RunMetric> metrics;
@@ -126,6 +135,15 @@ std::vector<RunMetric> network_metrics(const Scenario& scenario, std::size_t pop
     return metrics;
 }
 
+std::vector<RunMetric> network_metrics(const Scenario& scenario, std::size_t population,
+                                       const std::function<bool()>& keep_going) {
+    constexpr std::int64_t kAsk = 200;  // steps
+    const NetworkFigures f = run_network(scenario, population, [&](const Simulation& simulation) {
+        return !keep_going || simulation.state().tick % kAsk != 0 || keep_going();
+    });
+    return f.complete ? metrics_of(scenario, f) : std::vector<RunMetric>{};
+}
+
 }  // namespace
 
 RunMetric number_metric(std::string name, std::string unit, double value, int decimals) {
@@ -140,16 +158,45 @@ std::vector<RunMetric> run_metrics(const Scenario& scenario, std::size_t populat
                                    const std::function<bool()>& keep_going) {
     if (scenario.network.has_several()) return network_metrics(scenario, population, keep_going);
     if (scenario.network.kind == "intersection") return intersection_metrics(scenario, population, keep_going);
-    RunOptions options;
-    options.trajectory_interval_s = sample_interval_s(scenario);
-    options.trajectory_from_s = scenario.signal.first_green_s - kLeadIn_s;
-    options.trajectory_until_s = scenario.signal.first_green_s + scenario.signal.green_s + kLeadOut_s;
-    options.on_progress = [&](double) { return !keep_going || keep_going(); };
-    const RunResult run = run_population(scenario, population, options);
-    if (!run.complete) return {};
-    std::vector<RunMetric> metrics = approach_metrics(scenario, population, run, options.trajectory_interval_s);
-    add_counts(run.vehicles_entered, run.vehicles_left, run.violations, run.updates, run.state_hash, metrics);
-    return metrics;
+    return approach_metrics(scenario, population, keep_going);
+}
+
+namespace {
+
+// Figures of no run, with all that the scenario's runs have an entry for.
+NetworkFigures no_network_figures(const Scenario& scenario) {
+    NetworkFigures none;
+    if (scenario.network.is_sumo()) return none;
+    constexpr std::array kAllSides{Side::west, Side::south, Side::east, Side::north};
+    for (const Side from : kAllSides) {
+        for (const Side to : kAllSides) none.ways.push_back({from, to, 0, 0.0});
+    }
+    if (!scenario.network.is_streets()) return none;
+    for (const Approach& approach : make_network(scenario.network).approaches) {
+        none.backlog.approaches.push_back({approach.name, {}});
+    }
+    return none;
+}
+
+std::vector<RunMetric> metrics_of_no_run(const Scenario& scenario) {
+    if (scenario.network.has_several()) return metrics_of(scenario, no_network_figures(scenario));
+    if (scenario.network.kind == "intersection") {
+        IntersectionFigures none;
+        none.zones.resize(scenario.measure.zone_radius_m.size());
+        none.delay_s.resize(scenario.measure.zone_radius_m.size());
+        return metrics_of(scenario, none);
+    }
+    PopulationSummary none;
+    none.passed.resize(scenario.measure.green_s.size());
+    return metrics_of(none, RunResult{});
+}
+
+}  // namespace
+
+std::vector<std::string> result_columns(const Scenario& scenario) {
+    std::vector<std::string> columns;
+    for (const RunMetric& metric : metrics_of_no_run(scenario)) columns.push_back(metric.column());
+    return columns;
 }
 
 }  // namespace stopline

@@ -73,17 +73,14 @@ const Combination& first_of(const std::vector<Combination>& all, const Combinati
 }  // namespace
 
 bool has_seeds(const CsvTable& results) {
-    const auto has = [&](const char* name) {
-        return std::find(results.columns.begin(), results.columns.end(), name) != results.columns.end();
-    };
-    if (!has("seed") || !has("population")) return false;
+    if (std::find(results.columns.begin(), results.columns.end(), "seed") == results.columns.end()) return false;
     const std::vector<Combination> all = combinations_of(results);
     return std::any_of(all.begin(), all.end(), [](const Combination& c) { return c.runs.size() > 1; });
 }
 
-std::string seed_means_csv(const CsvTable& results) {
+std::string seed_means_csv(const CsvTable& results, const std::string& population_column) {
     const std::size_t seed = results.column("seed");
-    const std::size_t population = results.column("population") - 1;
+    const std::size_t population = results.column(population_column) - 1;
     std::vector<std::string> columns(results.columns.begin() + 1,
                                      results.columns.begin() + static_cast<std::ptrdiff_t>(seed));
     for (const char* const name :

@@ -5,28 +5,29 @@
 
 #include <fmt/format.h>
 
+#include "experiment/interval_points.h"
+#include "experiment/population_style.h"
 #include "experiment/street_results.h"
 
 namespace stopline {
 
 namespace {
 
-constexpr std::size_t kTogether = 5;  // intervals of one point
-
-// Inflow from west, east and the streets that cross, in vehicles a minute, means of five intervals.
+// Inflow from west, east and the streets that cross, in vehicles a minute.
 std::string inflow_data(const NetworkFigures& f, double interval_s) {
     std::string text = "# minutes west east crossing\n";
-    for (std::size_t k = 0; k + kTogether <= f.inflow.size(); k += kTogether) {
+    const std::size_t together = intervals_of_a_point(f.inflow.size());
+    for (std::size_t k = 0; k + together <= f.inflow.size(); k += together) {
         std::array<double, 4> sum{};
-        for (std::size_t i = k; i < k + kTogether; ++i) {
+        for (std::size_t i = k; i < k + together; ++i) {
             for (std::size_t side = 0; side < sum.size(); ++side) sum[side] += f.inflow[i][side];
         }
-        const double minutes = kTogether * interval_s / 60.0;
+        const double minutes = static_cast<double>(together) * interval_s / 60.0;
         text +=
             fmt::format("{:.2f} {:.3f} {:.3f} {:.3f}\n", (static_cast<double>(k) * interval_s) / 60.0 + 0.5 * minutes,
                         sum[0] / minutes, sum[2] / minutes, (sum[1] + sum[3]) / minutes);
     }
-    return f.inflow.size() < kTogether ? text + "NaN NaN NaN NaN\n" : text;
+    return text;
 }
 
 std::string map_data(const std::vector<std::vector<double>>& mps, double from_m, double interval_s) {
@@ -39,7 +40,7 @@ std::string map_data(const std::vector<std::vector<double>>& mps, double from_m,
                                 std::isnan(speed_mps) ? "NaN" : fmt::format("{:.1f}", 3.6 * speed_mps));
         }
     }
-    return mps.empty() ? text + "0 0 NaN\n" : text;
+    return text;
 }
 
 }  // namespace
@@ -54,16 +55,23 @@ Figure inflow_figure(const NetworkReport& report) {
         figure.data.emplace_back(fmt::format("inflow_{}.dat", k),
                                  inflow_data(report.populations[k], report.scenario.measure.interval_s));
     }
+    const double interval_s = report.scenario.measure.interval_s;
+    const std::size_t intervals = report.populations.empty() ? 0 : report.populations[0].inflow.size();
+    const std::size_t drawn = intervals / intervals_of_a_point(intervals);
+    if (drawn == 0) figure.nothing = no_interval_text(report.scenario);
+    body += fmt::format("set xrange [0:{:g}]\n", report.scenario.duration_s / 60.0);
     const std::array<const char*, 3> labels{"from the west", "from the east", "from crossing streets"};
     for (std::size_t panel = 0; panel < labels.size(); ++panel) {
         const bool last = panel + 1 == labels.size();
-        body += last ? "set xlabel 'minutes'\nset format x '%g'\n" : "unset xlabel\nset format x ''\n";
+        body += last ? fmt::format("set xlabel 'time [min]; points: {}'\nset format x '%g'\n",
+                                   points_text(intervals, interval_s))
+                     : "unset xlabel\nset format x ''\n";
         body += fmt::format("set ylabel '{} [veh/min]'\nset yrange [0:*]\n{}plot ", labels[panel],
                             panel == 0 ? "" : "unset key\n");
         for (std::size_t k = 0; k < report.populations.size(); ++k) {
-            const LineStyle style = line_style(k);
-            body += fmt::format("{}'inflow_{}.dat' using 1:{} with lines lw 2 lc rgb '{}' dt {} title {}",
-                                k == 0 ? "" : ", ", k, panel + 2, style.colour, style.dash,
+            const LineStyle style = style_of(report.scenario, report.populations[k].population);
+            body += fmt::format("{}'inflow_{}.dat' using 1:{} with {} lw 2 lc rgb '{}' dt {} title {}",
+                                k == 0 ? "" : ", ", k, panel + 2, line_of(drawn), style.colour, style.dash,
                                 gnuplot_text(report.populations[k].population));
         }
         body += "\n";
@@ -90,6 +98,7 @@ Figure backlog_figure(const NetworkReport& report) {
     body += "set palette defined (0 '#440154', 12 '#3b528b', 24 '#21908d', 37 '#5dc963', 50 '#fde725')\n";
     for (std::size_t k = 0; k < rows; ++k) {
         const Backlog& backlog = report.populations[k].backlog;
+        if (backlog.map.eastwards_mps.size() < 2) figure.nothing = "a map needs two whole intervals (measure.interval)";
         figure.data.emplace_back(fmt::format("backlog_{}_east.dat", k),
                                  map_data(backlog.map.eastwards_mps, backlog.map.from_m, backlog.interval_s));
         figure.data.emplace_back(fmt::format("backlog_{}_west.dat", k),

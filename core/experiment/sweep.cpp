@@ -11,8 +11,8 @@
 #include "base/input_error.h"
 #include "experiment/interrupted.h"
 #include "experiment/program_identity.h"
-#include "scenario/field_path.h"
-#include "scenario/fields.h"
+#include "experiment/run_metrics.h"
+#include "scenario/axis_column.h"
 #include "scenario/load_scenario.h"
 #include "scenario/load_sweep.h"
 #include "scenario/nearest_name.h"
@@ -21,36 +21,6 @@
 namespace stopline {
 
 namespace {
-
-// "km/h" as the end of a column's name: kmh; "m/s2": mps2.
-std::string column_suffix(std::string_view unit_text) {
-    if (unit_text.empty()) return {};
-    if (unit_text == "%") return "_percent";
-    if (unit_text == "km/h") return "_kmh";
-    std::string suffix = "_";
-    for (const char c : unit_text) suffix += c == '/' ? std::string("p") : std::string(1, c);
-    return suffix;
-}
-
-// The unit of the numbers of an axis; null where its values are texts, whole numbers or lists.
-const Unit* unit_of(const SweepAxis& axis) {
-    const Field* const field = axis.paths.empty() ? nullptr : find_field(scenario_table(), axis.paths.front()).field;
-    const auto* const number = field == nullptr ? nullptr : std::get_if<NumberField>(&field->kind);
-    return number == nullptr ? nullptr : number->shown;
-}
-
-// "10 s" becomes "10" in a column of seconds. Several fields at once are represented by the first.
-std::string cell_of(const SweepAxis& axis, std::size_t value, const Unit* shown) {
-    const std::string override_text = axis_overrides(axis, value).front();
-    const std::string text = override_text.substr(axis.paths.front().size() + 1);
-    if (shown == nullptr) return text;
-    const double si = parse_quantity(text, *shown).si;
-    const std::string exact = exact_text(si, *shown);
-    const auto space = exact.find(' ');
-    const std::string number = exact.substr(0, space);
-    const std::string written = space == std::string::npos ? "" : exact.substr(space + 1);
-    return written == shown->text ? number : fmt::format("{}", from_si(si, *shown));
-}
 
 std::vector<std::string> names_of_populations(const Scenario& scenario) {
     std::vector<std::string> names;
@@ -67,7 +37,6 @@ void require_populations(const Scenario& scenario, const std::vector<std::string
     }
 }
 
-// A setting for an axis' own field would be overwritten by it, without a word.
 // The same field, or a section and something in it.
 bool overlap(const std::string& a, const std::string& b) {
     const auto holds = [](const std::string& section, const std::string& path) {
@@ -94,6 +63,7 @@ void refuse_axes_within_axes(const SweepSettings& settings) {
     }
 }
 
+// A setting for an axis' own field would be overwritten by it, without a word.
 void refuse_overridden_axes(const SweepSettings& settings, const std::vector<std::string>& overrides) {
     for (const std::string& text : overrides) {
         const std::string path = text.substr(0, text.find('='));
@@ -147,23 +117,20 @@ void Sweep::add_columns() {
             population_column_ = k;
             const bool all = axis.populations == std::vector<std::string>{kAllPopulations};
             column.cells = all ? names_of_populations(base_) : axis.populations;
-            column.shown = column.cells;
+            column.shown = column.titles = column.cells;
             column.name = axis.name;
         } else {
-            const Unit* const shown = unit_of(axis);
-            column.name = axis.name + (shown == nullptr ? "" : column_suffix(shown->text));
+            AxisColumn of_fields = axis_column(axis);
+            column.name = std::move(of_fields.name);
+            column.cells = std::move(of_fields.cells);
+            column.titles = std::move(of_fields.titles);
             column.shown = axis.values;
-            for (std::size_t i = 0; i < axis.values.size(); ++i) column.cells.push_back(cell_of(axis, i, shown));
-        }
-        if (std::set<std::string>(column.cells.begin(), column.cells.end()).size() < column.cells.size()) {
-            throw InputError(
-                fmt::format("the sweep {}: axis '{}' has the same value twice", settings_.name, axis.name));
         }
         columns_.push_back(std::move(column));
     }
     if (population_column_ < columns_.size()) return;
     const std::vector<std::string> all = names_of_populations(base_);
-    columns_.push_back({"population", "population", all, all, 0});
+    columns_.push_back({"population", "population", all, all, all, 0});
 }
 
 void Sweep::load_combinations(std::size_t count, const SweepOptions& options) {
@@ -173,6 +140,7 @@ void Sweep::load_combinations(std::size_t count, const SweepOptions& options) {
     std::atomic<bool> stopped = false;
     std::mutex mutex;
     std::exception_ptr error;
+    std::set<std::string> results;
 #pragma omp parallel for schedule(dynamic) num_threads(std::max(1, options.threads))
     for (std::size_t i = 0; i < count; ++i) {
         if (stopped || i > first_bad) continue;
@@ -181,6 +149,9 @@ void Sweep::load_combinations(std::size_t count, const SweepOptions& options) {
             const Scenario loaded_scenario = load_scenario(settings_.scenario, overrides(i));
             require_populations(loaded_scenario, columns_[population_column_].cells);
             hashes_[i] = loaded_scenario.hash;
+            const std::vector<std::string> columns = result_columns(loaded_scenario);
+            const std::lock_guard lock(mutex);
+            results.insert(columns.begin(), columns.end());
         } catch (const InputError& bad) {
             const std::lock_guard lock(mutex);
             if (i >= first_bad) continue;
@@ -198,6 +169,18 @@ void Sweep::load_combinations(std::size_t count, const SweepOptions& options) {
     }
     if (stopped) throw Interrupted();
     if (error) std::rethrow_exception(error);
+    refuse_names_of(results);
+}
+
+void Sweep::refuse_names_of(std::set<std::string> taken) const {
+    for (const Column& column : columns_) {
+        if (taken.insert(column.name).second) continue;
+        const SweepAxis& axis = settings_.axes[column.axis_index];
+        const std::string as = column.name == axis.name ? "" : fmt::format(" (as '{}')", axis.name);
+        throw InputError(
+            fmt::format("{}: field 'axes[{}].name': the table of results has another column '{}'{}: rename the axis",
+                        axis.place, axis.name, column.name, as));
+    }
 }
 
 std::size_t Sweep::points() const {
@@ -208,6 +191,16 @@ std::vector<std::string> Sweep::columns() const {
     std::vector<std::string> names;
     for (const Column& column : columns_) names.push_back(column.name);
     return names;
+}
+
+CellTitles Sweep::titles() const {
+    CellTitles titles;
+    for (const Column& column : columns_) {
+        for (std::size_t i = 0; i < column.cells.size(); ++i) {
+            titles[{column.name, column.cells[i]}] = fmt::format("{} {}", column.axis, column.titles[i]);
+        }
+    }
+    return titles;
 }
 
 std::vector<std::size_t> Sweep::digits(std::size_t point) const {

@@ -7,6 +7,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +19,9 @@
 namespace stopline {
 
 inline constexpr std::size_t kSweepPointsMax = 10'000'000;
+
+// Words for what stands in the table of results, by column and cell: "turns 5 % / 10 %".
+using CellTitles = std::map<std::pair<std::string, std::string>, std::string>;
 
 struct SweepOptions {
     std::vector<std::string> overrides;  // --set, before the axes
@@ -37,6 +42,9 @@ public:
     // Names of the axes with their units, as columns, and the values of a point in them.
     std::vector<std::string> columns() const;
     std::vector<std::string> cells(std::size_t point) const;
+    // The column of the populations, whatever their axis is called.
+    const std::string& population_column() const { return columns_[population_column_].name; }
+    CellTitles titles() const;
     std::uint64_t seed(std::size_t point) const;
     std::string population(std::size_t point) const;
     std::size_t combination(std::size_t point) const;
@@ -53,16 +61,18 @@ public:
 private:
     struct Column {
         std::string name;
-        std::string axis;                // its name
-        std::vector<std::string> cells;  // [value], as in the table of results
-        std::vector<std::string> shown;  // [value], as the user wrote it
-        std::size_t axis_index = 0;      // in the settings; not used where the values are populations
+        std::string axis;                 // its name
+        std::vector<std::string> cells;   // [value], as in the table of results
+        std::vector<std::string> shown;   // [value], as the user wrote it
+        std::vector<std::string> titles;  // [value], in words
+        std::size_t axis_index = 0;       // in the settings; not used where the values are populations
     };
 
     std::vector<std::size_t> digits(std::size_t point) const;  // [column], index of the value
     std::vector<std::string> overrides(std::size_t combination) const;
     std::string describe_combination(std::size_t combination) const;
     void add_columns();
+    void refuse_names_of(std::set<std::string> taken) const;
     void load_combinations(std::size_t count, const SweepOptions& options);
 
     SweepSettings settings_;

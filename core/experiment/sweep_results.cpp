@@ -50,16 +50,25 @@ void add_to(SweepTotals& totals, const std::string& result) {
     const std::int64_t red_entries = count_in(result, "red_entries");
     const std::int64_t lost_vehicles = count_in(result, "lost_vehicles");
     const std::int64_t deadlocks = count_in(result, "deadlocks");
+    bool inside = false;
+    bool gridlocks = false;
     for_each_value(result, [&](std::string_view name, std::string_view value) {
+        gridlocks = gridlocks || name == "gridlocks";
         if (name != "longest_inside_s") return;
+        inside = true;
         totals.longest_inside_s = std::max(totals.longest_inside_s, std::strtod(std::string(value).c_str(), nullptr));
     });
+    if (gridlocks) {
+        totals.gridlocks = totals.gridlocks.value_or(0) + count_in(result, "gridlocks");
+        totals.moved_on += count_in(result, "moved_on");
+    } else if (inside) {
+        totals.deadlocks = totals.deadlocks.value_or(0) + deadlocks;
+    }
     ++totals.runs;
     totals.updates += count_in(result, "updates");
     totals.overlaps += overlaps;
     totals.red_entries += red_entries;
     totals.lost_vehicles += lost_vehicles;
-    totals.deadlocks += deadlocks;
     if (overlaps != 0 || red_entries != 0 || lost_vehicles != 0 || deadlocks != 0) ++totals.runs_with_violations;
 }
 
@@ -72,7 +81,7 @@ std::string result_text(const Sweep& sweep, std::size_t point, const std::vector
     for (std::size_t k = 0; k < columns.size(); ++k) values.emplace_back(columns[k], cells[k]);
     values.emplace_back("seed", fmt::format("{}", sweep.seed(point)));
     for (const RunMetric& metric : metrics) {
-        const std::string column = metric.name + (metric.unit.empty() ? "" : "_" + metric.unit);
+        const std::string column = metric.column();
         if (std::find(columns.begin(), columns.end(), column) != columns.end()) {
             throw InputError(fmt::format("the axis '{}' of the sweep {} has the name of a result: rename it", column,
                                          sweep.settings().name));

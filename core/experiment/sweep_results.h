@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,8 +32,10 @@ struct SweepTotals {
     std::int64_t red_entries = 0;
     std::int64_t lost_vehicles = 0;
     std::size_t runs_with_violations = 0;
-    std::int64_t deadlocks = 0;
-    double longest_inside_s = 0.0;  // see IntersectionFigures
+    std::optional<std::int64_t> deadlocks;  // of single intersections, where they are looked for
+    std::optional<std::int64_t> gridlocks;  // of several, where vehicles may wait inside for as long as others do
+    std::int64_t moved_on = 0;              // the same
+    double longest_inside_s = 0.0;          // see IntersectionFigures
 };
 
 struct SweepTable {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "experiment/csv.h"
+#include "experiment/population_style.h"
 #include "measure/area.h"
 
 namespace stopline {
@@ -54,6 +55,7 @@ StreetWatch::StreetWatch(const Scenario& scenario, const Model& model) : model_(
         pieces_.push_back({lane, from_m, -1});
         from_m += model.graph.lanes[at(lane)].length_m;
     }
+    trace_.length_m = from_m;
 }
 
 void StreetWatch::look(const State& state) {
@@ -82,11 +84,6 @@ void StreetWatch::look(const State& state) {
 
 namespace {
 
-// The same in all panels.
-std::string colour_of(const std::string& policy) {
-    return line_style(policy.starts_with("CDG") ? 0 : policy.starts_with("CTG") ? 2 : 4).colour;
-}
-
 // A line for each vehicle and each stretch that it drives without leaving the street.
 std::string lines_of(const StreetTrace& trace, int policy) {
     std::map<int, std::vector<const StreetPoint*>> by_vehicle;
@@ -106,13 +103,26 @@ std::string lines_of(const StreetTrace& trace, int policy) {
     return by_vehicle.empty() ? text + "NaN NaN\n" : text;
 }
 
+// Why there is nothing to draw; empty: there is.
+std::string nothing_in(const std::vector<StreetTrace>& traces) {
+    if (std::any_of(traces.begin(), traces.end(),
+                    [](const StreetTrace& trace) { return !trace.points.empty() || !trace.reds.empty(); })) {
+        return "";
+    }
+    if (traces.empty() || !(traces[0].length_m > 0.0)) return "no street leads through the network from the west";
+    return fmt::format("no vehicle and no red light in the last {:g} s (measure.time_space), looked at every {:g} s",
+                       traces[0].to_s - traces[0].from_s, kSample_s);
+}
+
 }  // namespace
 
-Figure time_space_figure(const std::vector<std::string>& populations, const std::vector<StreetTrace>& traces) {
+Figure time_space_figure(const Scenario& scenario, const std::vector<std::string>& populations,
+                         const std::vector<StreetTrace>& traces) {
     Figure figure;
     figure.name = "time_space";
     figure.width_px = 1100;
     figure.height_px = 120 + 330 * static_cast<int>(populations.size());
+    figure.nothing = nothing_in(traces);
     std::string body = fmt::format(
         "set multiplot layout {},1 margins 0.08,0.86,{:.4f},{:.4f} spacing {:.4f}\nset key outside right top\nset ylabel "
         "'distance [m]'\n",
@@ -124,13 +134,14 @@ Figure time_space_figure(const std::vector<std::string>& populations, const std:
             reds += fmt::format("{:.0f} {:.1f}\n{:.0f} {:.1f}\n\n", red.from_s, red.line_m, red.to_s, red.line_m);
         }
         figure.data.emplace_back(fmt::format("time_space_{}_red.dat", k), reds + "NaN NaN\n");
-        body += fmt::format("set title {}\nset xrange [{}:{}]\n{}plot ", gnuplot_text(populations[k]), trace.from_s,
-                            trace.to_s, k + 1 == populations.size() ? "set xlabel 'time [s]'\n" : "set xlabel ' '\n");
+        body += fmt::format("set title {}\nset xrange [{}:{}]\nset yrange [0:{:.0f}]\n{}plot ",
+                            gnuplot_text(populations[k]), trace.from_s, trace.to_s, trace.length_m,
+                            k + 1 == populations.size() ? "set xlabel 'time [s]'\n" : "set xlabel ' '\n");
         for (std::size_t p = 0; p < trace.policies.size(); ++p) {
             const std::string name = fmt::format("time_space_{}_{}.dat", k, p);
             figure.data.emplace_back(name, lines_of(trace, static_cast<int>(p)));
             body += fmt::format("'{}' with lines lw 0.8 dt 1 lc rgb '{}' title {}, ", name,
-                                colour_of(trace.policies[p]), gnuplot_text(trace.policies[p]));
+                                style_of(scenario, trace.policies[p]).colour, gnuplot_text(trace.policies[p]));
         }
         body += fmt::format("'time_space_{}_red.dat' with lines lw 3 dt 1 lc rgb '#000000' title 'red'\n", k);
     }

@@ -32,6 +32,7 @@ struct StreetTrace {
     std::vector<std::string> policies;
     double from_s = 0.0;
     double to_s = 0.0;
+    double length_m = 0.0;  // 0: no such street
 };
 
 // Follows the right lane of the street from west to east, in the middle row of a grid, over the last measure.time_space of the run.
@@ -55,7 +56,8 @@ private:
 };
 
 // A panel for each population.
-Figure time_space_figure(const std::vector<std::string>& populations, const std::vector<StreetTrace>& traces);
+Figure time_space_figure(const Scenario& scenario, const std::vector<std::string>& populations,
+                         const std::vector<StreetTrace>& traces);
 std::string time_space_csv(const std::vector<std::string>& populations, const std::vector<StreetTrace>& traces);
 
 }  // namespace stopline

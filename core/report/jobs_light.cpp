@@ -81,7 +81,9 @@ JobOutput run_intersection_sweep_job(const JobContext& context) {
     writer.conditions_of(runs.sweep);
     writer.command("stopline-sweep scenarios/sweeps/intersection.yaml");
     writer.table("intersection.csv", csv);
-    if (has_seeds(results)) writer.table("intersection_means.csv", seed_means_csv(results));
+    if (has_seeds(results)) {
+        writer.table("intersection_means.csv", seed_means_csv(results, runs.sweep.population_column()));
+    }
     writer.table("table1.csv", table1_csv(results, load_targets()));
     writer.figures(turn_figures(results));
     writer.output.violations = static_cast<std::int64_t>(runs.totals.runs_with_violations);

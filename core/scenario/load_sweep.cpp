@@ -1,9 +1,11 @@
 #include "scenario/load_sweep.h"
 
+#include <map>
 #include <memory>
 #include <utility>
 
 #include "base/input_error.h"
+#include "scenario/axis_column.h"
 #include "scenario/field_path.h"
 #include "scenario/fields.h"
 #include "scenario/file_name.h"
@@ -63,6 +65,21 @@ void check_values(const SweepSettings& sweep, Report& report) {
     }
 }
 
+// Rows of the table of results would not be told apart.
+void check_values_differ(const SweepSettings& sweep, Report& report) {
+    for (const SweepAxis& axis : sweep.axes) {
+        std::map<std::vector<std::string>, std::size_t> seen;
+        for (std::size_t i = 0; i < axis.values.size(); ++i) {
+            const auto [before, fresh] = seen.try_emplace(axis_parts(axis, i), i);
+            if (fresh) continue;
+            const std::string field = "axes[" + axis.name + "].values[" + std::to_string(i) + "]";
+            report.error(report.place_of(field), "field '" + field + "': '" + shortened(axis.values[i]) +
+                                                     "' is the same value as '" +
+                                                     shortened(axis.values[before->second]) + "'");
+        }
+    }
+}
+
 SweepSettings sweep_from(const SourceNode& root) {
     const Source source = *root.place.source;
     Report report;
@@ -71,6 +88,9 @@ SweepSettings sweep_from(const SourceNode& root) {
     report.throw_if_any();
     check_values(sweep, report);
     report.throw_if_any();
+    check_values_differ(sweep, report);
+    report.throw_if_any();
+    for (SweepAxis& axis : sweep.axes) axis.place = to_string(report.place_of("axes[" + axis.name + "].name"));
     if (sweep.name.empty()) sweep.name = name_from_file(source.label, "sweep");
     sweep.scenario = (source.directory / sweep.scenario).lexically_normal().string();
     return sweep;

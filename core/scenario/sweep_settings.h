@@ -12,6 +12,7 @@ struct SweepAxis {
     std::vector<std::string> paths;        // fields that are set together
     std::vector<std::string> values;       // as --set takes them; "a | b" gives each of the paths its own
     std::vector<std::string> populations;  // "all": every one of the scenario
+    std::string place;                     // of its name: file:line:column
 };
 
 struct SweepSettings {

@@ -66,6 +66,16 @@ briefly --set signal.green="1 s" --set measure.cycles=1 --output "$work/brief"
 [ $code -eq 0 ] || fail "a green of a second: exit code $code: $(cat "$work/stderr")"
 [ -e "$work/brief/headways.svg" ] && fail "a figure without data"
 
+# So it is of a network; the others are drawn.
+code=0
+"$run" "$STOPLINE_SOURCE/scenarios/arterial.yaml" --set duration="30 s" --set measure.steady="10 s" \
+    --set measure.time_space="0.5 s" --output "$work/arterial" >"$work/table" 2>"$work/stderr" || code=$?
+[ $code -eq 0 ] || fail "a short run of a network: exit code $code: $(cat "$work/stderr")"
+if command -v gnuplot >"$work/stdout"; then
+    grep -q "no figure series: .* no whole interval of 60 s" "$work/table" || fail "no word on the figure that is left out"
+    [ -s "$work/arterial/hindrance.svg" ] || fail "a figure is missing beside one that is left out"
+fi
+
 touch "$work/file"
 cannot_write "Not a directory" "$work/file/below"
 cannot_write "Not a directory" "$work/file"

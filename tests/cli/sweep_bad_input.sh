@@ -59,6 +59,10 @@ refused_axis "unknown population" '{name: a, populations: [CDG, CGT-Ref]}' "no p
 refused_axis "unknown policy" "{name: a, path: 'policies[CGT].time_gap', values: [1 s]}" "a = 1 s" "no entry [CGT]"
 refused_axis "values that fit no scenario" '{name: a, path: signal.green, values: [20 s, 9 s]}' "with a = 9 s" \
     "measure.green[1]"
+refused_axis "a value in other words" '{name: a, path: signal.green, values: [60 s, 1 min]}' "bad.yaml:3:48" \
+    "'1 min' is the same value as '60 s'"
+refused_axis "the name of a result" '{name: emptied, path: signal.green, values: [15 s]}' "bad.yaml:3:10" \
+    "axes[emptied].name" "'emptied_s'"
 refused_axis "seeds as an axis" '{name: a, path: seed, values: [1, 2]}' "write 'repetitions'"
 
 values='1, 2, 3, 4, 5, 6, 7, 8, 9, 10'

@@ -26,7 +26,7 @@ double number(const CsvTable& table, std::size_t row, const char* column) {
 TEST(SeedMeans, AreStudentsIntervalsAndPairedDifferences) {
     const CsvTable results = parse_csv(kTable, "table");
     ASSERT_TRUE(has_seeds(results));
-    const CsvTable means = parse_csv(seed_means_csv(results), "means");
+    const CsvTable means = parse_csv(seed_means_csv(results, "population"), "means");
     ASSERT_EQ(means.rows.size(), 4u);  // one number a combination; the words and the updates are no metrics
     constexpr double kT = 4.302653;    // t(0.975, 2)
     EXPECT_EQ(means.rows[0][means.column("metric")], "throughput_veh_h");
@@ -44,6 +44,15 @@ TEST(SeedMeans, AreStudentsIntervalsAndPairedDifferences) {
 TEST(SeedMeans, NeedSeveralSeeds) {
     EXPECT_FALSE(has_seeds(parse_csv("point,population,seed,x\n0,A,1,5\n1,B,1,6\n", "table")));
     EXPECT_FALSE(has_seeds(parse_csv("point,x\n0,5\n", "table")));
+}
+
+TEST(SeedMeans, TakeTheAxisOfPopulationsByWhatItIs) {
+    const CsvTable results = parse_csv("point,p,seed,x\n0,A,1,5\n1,A,2,7\n2,B,1,6\n3,B,2,9\n", "table");
+    ASSERT_TRUE(has_seeds(results));
+    const CsvTable means = parse_csv(seed_means_csv(results, "p"), "means");
+    ASSERT_EQ(means.rows.size(), 2u);
+    EXPECT_EQ(means.columns[0], "p");
+    EXPECT_NEAR(number(means, 1, "difference"), 1.5, 1e-9);
 }
 
 }  // namespace

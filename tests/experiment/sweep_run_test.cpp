@@ -149,12 +149,44 @@ TEST_F(SweepRunTest, StoresOfOtherSweepsAreNotJoined) {
 }
 
 TEST(SweepResults, AnAxisMayNotHaveTheNameOfAResult) {
-    const ShortSweep files("scenario: short.yaml\naxes:\n- {name: updates, path: demand.vehicles, values: [8]}\n");
+    const ShortSweep files("scenario: short.yaml\naxes:\n- {name: measured, path: demand.vehicles, values: [8]}\n");
     const Sweep sweep = files.load();
     EXPECT_TRUE(
-        contains(input_error_of([&] { result_text(sweep, 0, {count_metric("updates", "", 1)}); }), "rename it"));
+        contains(input_error_of([&] { result_text(sweep, 0, {count_metric("measured", "", 1)}); }), "rename it"));
     EXPECT_EQ(count_in("a=1\nupdates=-12\nb=\n", "updates"), -12);
     EXPECT_EQ(count_in("a=1\nb=\n", "b"), 0);
+}
+
+SweepTotals totals_with(RunFunction function) {
+    const ShortSweep files;
+    const Sweep sweep = files.load();
+    RunStore store = RunStore::open_or_make(files.folder.path() / "store",
+                                            {"sweep", sweep.key(), "program", sweep.points(), "", "{}\n"});
+    run_points(sweep, points_to_do(sweep, {}, store), store, {1, {}, function});
+    return sweep_results(store).totals;
+}
+
+TEST(SweepTotals, CountDeadlocksWhereTheyAreLookedFor) {
+    const SweepTotals light = totals_with(quick_run);
+    EXPECT_FALSE(light.deadlocks.has_value());
+    EXPECT_FALSE(light.gridlocks.has_value());
+    const SweepTotals intersection =
+        totals_with([](const Scenario&, std::size_t, const std::function<bool()>&) -> std::vector<RunMetric> {
+            return {number_metric("longest_inside", "s", 90.0, 2), count_metric("deadlocks", "", 1)};
+        });
+    EXPECT_EQ(intersection.deadlocks, 24);
+    EXPECT_FALSE(intersection.gridlocks.has_value());
+    EXPECT_EQ(intersection.runs_with_violations, 24U);
+    const SweepTotals network =
+        totals_with([](const Scenario&, std::size_t, const std::function<bool()>&) -> std::vector<RunMetric> {
+            return {count_metric("gridlocks", "", 2), count_metric("moved_on", "", 3),
+                    number_metric("longest_inside", "s", 7107.5, 2), count_metric("deadlocks", "", 0)};
+        });
+    EXPECT_FALSE(network.deadlocks.has_value());
+    EXPECT_EQ(network.gridlocks, 48);
+    EXPECT_EQ(network.moved_on, 72);
+    EXPECT_DOUBLE_EQ(network.longest_inside_s, 7107.5);
+    EXPECT_EQ(network.runs_with_violations, 0U);
 }
 
 TEST(SweepProvenance, HoldsAxesParametersAndNoPath) {

@@ -12,6 +12,8 @@ namespace {
 
 using Cells = std::vector<std::string>;
 
+std::string error_of_sweep(const std::string& rest) { return ShortSweep("scenario: short.yaml\n" + rest).error(); }
+
 TEST(Sweep, HasEveryCombinationOnceTheLastAxisFastest) {
     const Sweep sweep = ShortSweep().load();
     ASSERT_EQ(sweep.points(), 2U * 2U * 3U * 2U);
@@ -57,6 +59,8 @@ axes:
     EXPECT_EQ(sweep.combination(1), 1U);
     EXPECT_EQ(sweep.combination(2), 0U);
     EXPECT_EQ(sweep.population(2), "CDG");
+    EXPECT_EQ(sweep.population_column(), "mix");
+    EXPECT_EQ(ShortSweep().load().population_column(), "population");
 }
 
 TEST(Sweep, AnAxisCanSetSeveralFields) {
@@ -76,6 +80,40 @@ axes:
     const Scenario scenario = sweep.scenario(0);
     EXPECT_DOUBLE_EQ(scenario.populations[1].components[1].share, 0.71);
     EXPECT_EQ(scenario.demand.entry_speed_mps, scenario.network.approach.speed_limit_mps);
+}
+
+TEST(Sweep, ShowsAllFieldsThatAreSetTogetherWhereTheFirstDoesNotTellThemApart) {
+    const Sweep sweep = ShortSweep(R"(
+scenario: short.yaml
+axes:
+- {name: light, path: [signal.yellow, signal.all_red], values: [3 s | 1 s, 3 s | 2 s]}
+- {name: fast, path: [network.approach.speed_limit, demand.entry_speed], values: [30 km/h, 50 km/h | 40 km/h]}
+)")
+                            .load();
+    EXPECT_EQ(sweep.columns(), (Cells{"light", "fast_kmh", "population"}));
+    EXPECT_EQ(sweep.cells(0), (Cells{"3 s / 1 s", "30", "CDG"}));
+    EXPECT_EQ(sweep.cells(sweep.points() - 1), (Cells{"3 s / 2 s", "50", "CTG-Ref"}));
+    const CellTitles titles = sweep.titles();
+    EXPECT_EQ(titles.at({"light", "3 s / 2 s"}), "light 3 s / 2 s");
+    EXPECT_EQ(titles.at({"fast_kmh", "30"}), "fast 30 km/h");
+    EXPECT_EQ(titles.at({"fast_kmh", "50"}), "fast 50 km/h / 40 km/h");
+    EXPECT_EQ(titles.at({"population", "MIX"}), "population MIX");
+}
+
+TEST(Sweep, RefusesAnAxisWithTheNameOfAResult) {
+    const std::string error = error_of_sweep(
+        "axes:\n- {name: emptied, path: signal.green, values: [15 s, 20 s]}\n"
+        "- {name: passed_3_veh, path: vehicle, values: [petrol_eu4_72kw]}\n");
+    EXPECT_TRUE(contains(error,
+                         "sweep.yaml:3:10: field 'axes[emptied].name': the table of results has another column "
+                         "'emptied_s' (as 'emptied'): rename the axis"));
+    EXPECT_TRUE(contains(error_of_sweep("axes:\n- {name: passed_2_veh, path: vehicle, values: [petrol_eu4_72kw]}\n"),
+                         "another column 'passed_2_veh': rename"));
+    EXPECT_EQ(error_of_sweep("axes:\n- {name: passed_3_veh, path: vehicle, values: [petrol_eu4_72kw]}\n"), "")
+        << "the scenario has two counts";
+    EXPECT_TRUE(contains(error_of_sweep("axes:\n- {name: a, path: signal.green, values: [15 s]}\n"
+                                        "- {name: a_s, path: vehicle, values: [petrol_eu4_72kw]}\n"),
+                         "another column 'a_s'"));
 }
 
 TEST(Sweep, KeyFollowsEverythingThatResultsDependOn) {
@@ -99,8 +137,6 @@ TEST(Sweep, NoticesThatItsScenarioChangesWhileItRuns) {
     EXPECT_TRUE(contains(input_error_of([&] { static_cast<void>(sweep.scenario(0)); }), "has changed"));
 }
 
-std::string error_of_sweep(const std::string& rest) { return ShortSweep("scenario: short.yaml\n" + rest).error(); }
-
 TEST(Sweep, NamesTheCombinationThatCannotBeUsed) {
     const std::string error = error_of_sweep(
         "axes:\n- {name: green, path: signal.green, values: [15 s, 5 s]}\n"
@@ -111,8 +147,11 @@ TEST(Sweep, NamesTheCombinationThatCannotBeUsed) {
 
 TEST(Sweep, RefusesWhatCannotBeRun) {
     EXPECT_TRUE(contains(error_of_sweep("axes:\n- {name: p, populations: [CDG, CTG]}\n"), "no population 'CTG'"));
-    EXPECT_TRUE(
-        contains(error_of_sweep("axes:\n- {name: g, path: signal.green, values: [60 s, 1 min]}\n"), "same value"));
+    EXPECT_TRUE(contains(error_of_sweep("axes:\n- {name: g, path: signal.green, values: [60 s, 1 min]}\n"),
+                         "sweep.yaml:3:48: field 'axes[g].values[1]': '1 min' is the same value as '60 s'"));
+    EXPECT_TRUE(contains(error_of_sweep("axes:\n- {name: g, path: [signal.yellow, signal.all_red], values: [3 s | 1 s, "
+                                        "3000 ms | 1000 ms]}\n"),
+                         "'3000 ms | 1000 ms' is the same value as '3 s | 1 s'"));
     EXPECT_TRUE(contains(ShortSweep().error({"signal.green=5 s"}), "'signal.green' is an axis"));
     EXPECT_TRUE(contains(ShortSweep().error({"signal={green: 5 s}"}), "'signal.green' is an axis"));
     EXPECT_TRUE(contains(error_of_sweep("axes:\n- {name: mass, path: vehicle.mass, values: [1 t, 2 t]}\n"
