@@ -317,15 +317,18 @@ namespace {
 
 // Of greens that end: phases of one link one after the other, the last and the first of the cycle too. 0: there is none.
 double longest_green_of(const SumoSignal& signal) {
-    const double cycle_s = signal.cycle_s();
     double longest_s = 0.0;
     const std::size_t links = signal.phases.empty() ? 0 : signal.phases[0].state.size();
     for (std::size_t link = 0; link < links; ++link) {
+        const auto is_green = [&](const SumoPhase& phase) {
+            return link < phase.state.size() && sumo_is_green(phase.state[link]);
+        };
+        if (std::all_of(signal.phases.begin(), signal.phases.end(), is_green)) continue;
         double green_s = 0.0;
         for (std::size_t k = 0; k < 2 * signal.phases.size(); ++k) {
             const SumoPhase& phase = signal.phases[k % signal.phases.size()];
-            green_s = link < phase.state.size() && sumo_is_green(phase.state[link]) ? green_s + phase.duration_s : 0.0;
-            if (green_s < cycle_s) longest_s = std::max(longest_s, green_s);
+            green_s = is_green(phase) ? green_s + phase.duration_s : 0.0;
+            longest_s = std::max(longest_s, green_s);
         }
     }
     return longest_s;
