@@ -48,10 +48,10 @@ double share_of(const Scenario& scenario, const Model& model, const Route& route
     };
     const bool crosses = scenario.demand.cross_turns == "own" && from_south_or_north(graph, route.lanes[0]);
     const double right = crosses ? scenario.demand.cross_right : scenario.demand.right;
-    double left = !possible(Turn::left) ? 0.0 : crosses ? scenario.demand.cross_left : scenario.demand.left;
-    if (!possible(Turn::straight)) left = 1.0 - right;
-    if (own == Turn::left) return left;
-    if (own == Turn::right) return possible(Turn::straight) ? right : 1.0 - left;
+    const double left = !possible(Turn::left) ? 0.0 : crosses ? scenario.demand.cross_left : scenario.demand.left;
+    const double turning = possible(Turn::straight) ? 1.0 : left + right;  // shares are in proportion where all turn
+    if (own == Turn::left) return left / turning;
+    if (own == Turn::right) return right / turning;
     return 1.0 - left - (possible(Turn::right) ? right : 0.0);
 }
 

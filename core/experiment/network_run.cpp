@@ -32,6 +32,14 @@ void watch_trips(Model& model) {
     model.detectors.push_back({-1, 0.0, Detector::Kind::zone, 0, true});
 }
 
+// Vehicles that enter between two intersections are in the area from then on; all others on those lanes came into it before.
+void watch_inner_inlets(Model& model) {
+    for (const DemandPlan::Inlet& inlet : model.demand.inlets) {
+        if (inlet.vehicles == 0 || from_outside(model.graph, inlet.lane)) continue;
+        model.detectors.push_back({inlet.lane, 0.0, Detector::Kind::zone, 0, false});
+    }
+}
+
 // Where vehicles come into the area that is measured, or leave it: on the lanes by which they enter and leave the network. Pockets that
 // lie in it wholly are entered from lanes beside them.
 void watch_area(const Scenario& scenario, Model& model) {
@@ -48,6 +56,7 @@ void watch_area(const Scenario& scenario, Model& model) {
             model.detectors.push_back({lane, road.stop_line_m - outside_m, Detector::Kind::zone, 0, false});
         }
     }
+    watch_inner_inlets(model);
 }
 
 // Of all lanes in the area; an intersection counts once for each lane that leads to it, straight across.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <unordered_map>
+#include <unordered_set>
 
 namespace stopline {
 
@@ -55,7 +56,7 @@ std::vector<AreaFigures> area_series(std::span<const Detector> detectors, std::s
         advance(crossing.time_s);
         if (k == series.size()) break;
         if (!detector.leaves) {
-            since_s[crossing.vehicle] = crossing.time_s;
+            if (!since_s.emplace(crossing.vehicle, crossing.time_s).second) continue;
             ++inside;
             metres += static_cast<double>(crossing.length_m);
             continue;
@@ -88,7 +89,7 @@ std::vector<WayFigures> way_figures(const Model& model, std::span<const Crossing
         if (detector.kind != Detector::Kind::zone) continue;
         const Lane& lane = model.graph.lanes[at(detector.lane)];
         if (!detector.leaves) {
-            entries[crossing.vehicle] = {crossing.time_s, comes_from(lane)};
+            entries.emplace(crossing.vehicle, Entry{crossing.time_s, comes_from(lane)});
             continue;
         }
         const auto entry = entries.find(crossing.vehicle);
@@ -109,9 +110,15 @@ std::vector<WayFigures> way_figures(const Model& model, std::span<const Crossing
 std::vector<std::array<int, 4>> inflow_series(const Model& model, std::span<const Crossing> crossings,
                                               double interval_s, double end_s) {
     std::vector<std::array<int, 4>> series(static_cast<std::size_t>(std::floor(end_s / interval_s + 1e-9)));
+    std::unordered_set<int> inside;  // vehicles
     for (const Crossing& crossing : crossings) {
         const Detector& detector = model.detectors[at(crossing.detector)];
-        if (detector.kind != Detector::Kind::zone || detector.leaves) continue;
+        if (detector.kind != Detector::Kind::zone) continue;
+        if (detector.leaves) {
+            inside.erase(crossing.vehicle);
+            continue;
+        }
+        if (!inside.insert(crossing.vehicle).second) continue;
         const auto window = static_cast<std::size_t>(crossing.time_s / interval_s);
         const Side from = comes_from(model.graph.lanes[at(detector.lane)]);
         if (window < series.size()) ++series[window][static_cast<std::size_t>(from)];

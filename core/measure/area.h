@@ -1,5 +1,5 @@
 // Figures of an area over time, from the fronts that come into it and leave it: throughput, travel time, density (Edie 1963, as
-// measure/zones.h), and the same by the side of entry and exit.
+// measure/zones.h), and the same by the side of entry and exit. A front that comes in while its vehicle is inside changes nothing.
 #pragma once
 
 #include <array>

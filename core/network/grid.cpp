@@ -18,13 +18,9 @@ std::size_t at(int index) { return static_cast<std::size_t>(index); }
 constexpr std::array<const char*, 4> kFrom{"west", "south", "east", "north"};
 constexpr std::array<const char*, 4> kTo{"east", "north", "west", "south"};
 
-bool allows(const IntersectionSettings::LaneMovements& lane, Turn turn) {
-    return lane.movements.find(turn == Turn::left    ? "left"
-                               : turn == Turn::right ? "right"
-                                                     : "straight") != std::string::npos;
-}
-
 const char* name_of(Turn turn) { return turn == Turn::left ? "left" : turn == Turn::right ? "right" : "straight"; }
+
+bool allows(const IntersectionSettings::LaneMovements& lane, Turn turn) { return lane.allows(name_of(turn)); }
 
 Polyline moved(Polyline line, Point by) {
     for (Point& point : line) point = {point.x_m + by.x_m, point.y_m + by.y_m};

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "network/street_settings.h"
@@ -22,6 +23,8 @@ struct ApproachSettings {
 struct IntersectionSettings {
     struct LaneMovements {
         std::string movements;  // of left, straight and right, joined by +
+
+        bool allows(std::string_view movement) const { return movements.find(movement) != std::string::npos; }
     };
     std::vector<LaneMovements> lanes = {};  // of each arm, from the left
     double radius_m = 20.0;                 // centre to stop line

@@ -135,6 +135,25 @@ void complete_field(const Field& field, SourceNode& map, const std::string& path
     }
 }
 
+// The choice at a path of names joined by dots, as the file has it, or by default.
+std::string choice_at(const Table& table, const SourceNode* map, const std::string& path) {
+    const auto dot = path.find('.');
+    const std::string name = path.substr(0, dot);
+    const SourceNode* const value = map == nullptr ? nullptr : map->find(name);
+    const FieldKind& kind = table.find(name)->kind;
+    if (dot != std::string::npos) {
+        return choice_at(std::get<SectionField>(kind).table(), value, path.substr(dot + 1));
+    }
+    return value != nullptr ? value->text : std::get<ChoiceField>(kind).get(table.make_default().get());
+}
+
+// Whether a field exists where choices are as the file has them.
+bool exists(const Table& table, const Field& field, const SourceNode& map) {
+    if (field.only_field.empty()) return true;
+    const std::string choice = choice_at(table, &map, field.only_field);
+    return std::find(field.only_values.begin(), field.only_values.end(), choice) != field.only_values.end();
+}
+
 SourceNode* find_entry(SourceNode& list, const std::string& entry) {
     const ParsedWhole index = parse_whole(entry);
     if (index.problem.empty()) return index.value < list.items.size() ? &list.items[index.value] : nullptr;
@@ -229,8 +248,8 @@ void complete(const Table& table, SourceNode& map, const std::string& path, Repo
         const std::string field_path = join_path(path, field.name);
         complete_field(field, map, field_path, report);
         SourceNode* value = map.find(field.name);
-        if (value == nullptr && std::holds_alternative<SectionField>(field.kind) && field.only_field.empty() &&
-            !field.required) {
+        if (value == nullptr && std::holds_alternative<SectionField>(field.kind) && !field.required &&
+            exists(table, field, map)) {
             SourceNode empty;  // fields inside may have fallbacks
             empty.kind = Kind::map;
             empty.place = map.place;

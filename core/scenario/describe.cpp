@@ -7,6 +7,7 @@
 #include "scenario/load_scenario.h"
 #include "scenario/load_sweep.h"
 #include "scenario/nearest_name.h"
+#include "scenario/report.h"
 #include "scenario/write_fields.h"
 
 namespace stopline {
@@ -26,9 +27,11 @@ struct Block {
     std::vector<Line> lines;
 };
 
+bool is_short(const std::string& fallback) { return fallback.size() <= 20; }
+
 std::string default_text(const Field& field, const void* settings) {
     if (field.required) return "required";
-    if (!field.fallback.empty()) return field.fallback.size() <= 20 ? field.fallback : "see below";
+    if (!field.fallback.empty()) return is_short(field.fallback) ? field.fallback : "see below";
     const std::string text = value_text(field.kind, settings);
     return text.empty() ? "-" : text;
 }
@@ -57,6 +60,19 @@ void add_blocks(const Table& table, const std::string& path, const void* setting
             add_blocks(inner, inner_path + "[]", inner.make_default().get(), blocks);
         }
     }
+}
+
+// What did not fit into the column of defaults.
+std::string long_defaults(const Table& table, const std::string& path) {
+    std::string text;
+    for (const Field& field : table.fields) {
+        const std::string inner_path = join_path(path, field.name);
+        if (!is_short(field.fallback)) text += "Default of " + inner_path + ":\n  " + field.fallback + "\n";
+        if (const auto* const section = std::get_if<SectionField>(&field.kind)) {
+            text += long_defaults(section->table(), inner_path);
+        }
+    }
+    return text;
 }
 
 std::string padded(const std::string& text, std::size_t width) {
@@ -96,10 +112,7 @@ std::string describe_fields() {
         "Fields of a scenario file (YAML). Every quantity carries its unit: 50 km/h, 0.87 s, 2.95 m, 30 %.\n"
         "A field is set on the command line by its path: --set 'signal.green=20 s', --set 'policies[CTG-Ref].time_gap=0.6 s'.\n\n";
     for (const Block& block : blocks) text += block_text(block);
-    for (const Field& field : scenario_table().fields) {
-        if (field.fallback.size() > 20) text += "Default of " + field.name + ":\n  " + field.fallback + "\n";
-    }
-    return text;
+    return text + long_defaults(scenario_table(), "");
 }
 
 std::string describe_sweep_fields() {

@@ -132,13 +132,15 @@ const Table& signal_table() {
                 "cross_green", "s", {0, 7200},
                 "intersections: green time of the streets from south to north; 0 s: as "
                 "green"),
-            number<&SignalSettings::yellow_s>("yellow", "s", {0, 60}, "yellow after green"),
+            number<&SignalSettings::yellow_s>("yellow", "s", {0, 60},
+                                              "yellow after green; where it is shorter than drivers need, who cannot "
+                                              "stop any more goes on on red"),
             number<&SignalSettings::all_red_s>("all_red", "s", {0, 600}, "all approaches red after yellow"),
             number<&SignalSettings::offset_s>("offset", "s", {0, 7200},
                                               "of a grid: green starts later by this for each column to the east and "
                                               "row to the north"),
             number<&SignalSettings::cycle_s>("cycle", "s", {0, 14'400},
-                                             "from one green to the next; 0 s: a single green, then red"),
+                                             "single light: from one green to the next; 0 s: a single green, then red"),
         },
         check_signal);
     return table;
@@ -153,7 +155,8 @@ const Table& demand_table() {
                                           "saturated: inlets never run dry; rate: `inflow` an arm"),
             texts<&DemandSettings::arms>("arms", TextField::Rule::name, {0, 1000},
                                          "where vehicles enter: how the names of lanes to an intersection begin, such "
-                                         "as south or c1r0_south; none: wherever the network begins")
+                                         "as south or c1r0_south, also between two intersections; none: wherever the "
+                                         "network begins")
                 .fallback("[]"),
             whole<&DemandSettings::vehicles>("vehicles", {1, 100'000}, "vehicles a lane").only("kind", {"queue"}),
             number<&DemandSettings::inflow_1ps>("inflow", "veh/h", {1, 100'000},
@@ -164,8 +167,14 @@ const Table& demand_table() {
                                                       "saturated; 0 veh/h: saturated as those")
                 .only("kind", {"saturated"}),
             number<&DemandSettings::entry_speed_mps>("entry_speed", "km/h", {0, 150}, "speed on entering"),
-            number<&DemandSettings::right>("right", "%", {0, 100}, "turning right, on lanes where others go elsewhere"),
-            number<&DemandSettings::left>("left", "%", {0, 100}, "turning left, on lanes where others go elsewhere"),
+            number<&DemandSettings::right>(
+                "right", "%", {0, 100},
+                "turning right, of the vehicles on each lane that leads right and elsewhere, not of all; with left at "
+                "most 100 % of a lane that leads to both sides, and in proportion to left where that does not lead "
+                "straight on"),
+            number<&DemandSettings::left>("left", "%", {0, 100},
+                                          "turning left, likewise of the vehicles on each lane that leads left and "
+                                          "elsewhere"),
             choice<&DemandSettings::cross_turns>("cross_turns", {"alike", "own"},
                                                  "turns from streets from south to north; alike: as right and left"),
             number<&DemandSettings::cross_right>("cross_right", "%", {0, 100}, "turning right from those streets")

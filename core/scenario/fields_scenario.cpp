@@ -9,11 +9,11 @@
 #include "scenario/field_rows.h"
 #include "scenario/fields.h"
 #include "scenario/nearest_name.h"
+#include "scenario/network_checks.h"
+#include "scenario/turn_checks.h"
 
 namespace stopline {
 namespace {
-
-constexpr double kFullStepMax_s = 0.1;  // the powertrain's fastest lags would be lost beyond it
 
 void check_street_steps(const Scenario& scenario, const std::function<void(const std::string&, double)>& whole_steps) {
     for (const StreetIntersection& node : scenario.network.streets.intersections) {
@@ -84,30 +84,6 @@ void check_names(const Scenario& scenario, Checker& check) {
     }
 }
 
-// The largest standstill gap among the policies that some population uses.
-double longest_standstill_gap_m(const Scenario& scenario) {
-    double longest_m = 0.0;
-    for (const GapPolicySettings& policy : scenario.policies) {
-        for (const PopulationSettings& population : scenario.populations) {
-            for (const auto& component : population.components) {
-                if (component.policy == policy.name) longest_m = std::max(longest_m, policy.standstill_gap_m);
-            }
-        }
-    }
-    return longest_m;
-}
-
-void check_queue(const Scenario& scenario, Checker& check) {
-    if (scenario.network.kind != "approach" || scenario.demand.kind != "queue") return;
-    const double place_m = scenario.vehicle.length_m + longest_standstill_gap_m(scenario);
-    const double queue_m = scenario.demand.vehicles * place_m + scenario.driver.stop.margin_m;
-    if (scenario.network.approach.length_m >= queue_m) return;
-    check.error("network.approach.length", "a queue of " + std::to_string(scenario.demand.vehicles) +
-                                               " vehicles a lane is " + short_text(queue_m, unit("m")) +
-                                               " long, longer than the approach of " +
-                                               short_text(scenario.network.approach.length_m, unit("m")));
-}
-
 void check_intersection(const Scenario& scenario, Checker& check) {
     const IntersectionSettings& layout = scenario.network.intersection;
     const double cycle_s = scenario.signal.both_stages_s();
@@ -116,8 +92,6 @@ void check_intersection(const Scenario& scenario, Checker& check) {
         check.error("duration", "not a whole cycle is left to measure after first_green and warmup_cycles: at least " +
                                     short_text(shortest_s, unit("s")));
     }
-    if (scenario.demand.left + scenario.demand.right > 1.0) check.error("demand.left", "left and right exceed 100 %");
-    if (scenario.signal.cycle_s != 0.0) check.error("signal.cycle", "follows from green, yellow and all red here");
     const double reach_m = layout.radius_m + std::min(layout.approach_length_m, layout.exit_length_m);
     for (std::size_t i = 0; i < scenario.measure.zone_radius_m.size(); ++i) {
         const double radius_m = scenario.measure.zone_radius_m[i];
@@ -128,35 +102,10 @@ void check_intersection(const Scenario& scenario, Checker& check) {
     }
 }
 
-// In a pocket that is shorter than a vehicle nobody would find room to change to it.
-void check_pockets(const Scenario& scenario, Checker& check) {
-    const double place_m = scenario.vehicle.length_m + longest_standstill_gap_m(scenario);
-    for (const StreetIntersection& node : scenario.network.streets.intersections) {
-        for (std::size_t a = 0; a < node.arms.size(); ++a) {
-            for (std::size_t k = 0; k < node.arms[a].lanes.size(); ++k) {
-                const double pocket_m = node.arms[a].lanes[k].pocket_m;
-                if (pocket_m == 0.0 || pocket_m >= place_m - 1e-9) continue;
-                check.error("network.streets.intersections[" + node.name + "].arms[" + std::to_string(a) + "].lanes[" +
-                                std::to_string(k) + "].pocket",
-                            "value " + short_text(pocket_m, unit("m")) + " is too short for a vehicle of " +
-                                short_text(scenario.vehicle.length_m, unit("m")) +
-                                " and its standstill gap: at least " + short_text(place_m, unit("m")) +
-                                ", or 0 m for a lane as long as the approach");
-            }
-        }
-    }
-}
-
-// The street's own file says who turns where.
 void check_streets(const Scenario& scenario, Checker& check) {
-    const DemandSettings& demand = scenario.demand;
-    const auto refuse_turns = [&](const std::string& field, bool used) {
-        if (used) check.error("demand." + field, "has no effect on streets: their arms say which share turns");
-    };
-    refuse_turns("right", demand.right != 0.0);
-    refuse_turns("left", demand.left != 0.0);
-    refuse_turns("cross_turns", demand.cross_turns != "alike");
-    if (demand.kind == "rate") check.error("demand.kind", "streets have arms of different width: queue or saturated");
+    if (scenario.demand.kind == "rate") {
+        check.error("demand.kind", "streets have arms of different width: queue or saturated");
+    }
     if (!scenario.measure.green_s.empty()) check.error("measure.green", "is for a single light");
     check_pockets(scenario, check);
 }
@@ -168,12 +117,11 @@ void check_sumo(const Scenario& scenario, Checker& check) {
 
 void check_times(const Scenario& scenario, Checker& check) {
     const SignalSettings& signal = scenario.signal;
-    if (!scenario.is_meso() && scenario.step_s > kFullStepMax_s) {
-        check.error("step", "full dynamics need a step of at most " + short_text(kFullStepMax_s, unit("ms")));
-    }
     if (!scenario.is_meso() && scenario.driver.cacc.v2v_delay_s < scenario.step_s) {
-        check.error("driver.cacc.v2v_delay", "a message cannot arrive before the next step: at least " +
-                                                 short_text(scenario.step_s, unit("ms")));
+        check.error(check.given("step") ? "step" : "driver.cacc.v2v_delay",
+                    "a message cannot arrive before the next step: step, " + short_text(scenario.step_s, unit("ms")) +
+                        ", must be at most driver.cacc.v2v_delay, " +
+                        short_text(scenario.driver.cacc.v2v_delay_s, unit("ms")));
     }
     if (scenario.network.kind == "intersection") return check_intersection(scenario, check);
     if (scenario.duration_s < 1.0) check.error("duration", "must be at least 1 s");
@@ -194,6 +142,14 @@ void check_times(const Scenario& scenario, Checker& check) {
     }
 }
 
+// Two stages make the cycle of an intersection.
+void check_cycle(const Scenario& scenario, Checker& check) {
+    const std::string& kind = scenario.network.kind;
+    if (scenario.signal.cycle_s == 0.0 || (kind != "intersection" && kind != "grid")) return;
+    check.error("signal.cycle", "follows from green, cross_green, yellow and all_red here: " +
+                                    short_text(scenario.signal.both_stages_s(), unit("s")));
+}
+
 void check_cross_inflow(const Scenario& scenario, Checker& check) {
     const std::string& kind = scenario.network.kind;
     if (scenario.demand.cross_inflow_1ps == 0.0 || kind == "intersection" || kind == "grid") return;
@@ -202,10 +158,15 @@ void check_cross_inflow(const Scenario& scenario, Checker& check) {
 
 void check_scenario(const Scenario& scenario, Checker& check) {
     check_cross_inflow(scenario, check);
+    check_turns(scenario, check);
+    check_cycle(scenario, check);
     check_steps(scenario, check);
     check_times(scenario, check);
     check_names(scenario, check);
     check_queue(scenario, check);
+    check_grid_links(scenario, check);
+    check_entries(scenario, check);
+    check_measured_area(scenario, check);
 }
 
 }  // namespace
@@ -249,7 +210,10 @@ const Table& scenario_table() {
             choice<&S::fidelity>(
                 "fidelity", {"full", "meso"},
                 "how vehicles move; full: controller and powertrain; meso: models of the Krauss family"),
-            number<&S::step_s>("step", "s", {0.001, 1}, "time step of full dynamics; the mesoscale mode has its own"),
+            // Beyond 0.1 s the powertrain's fastest lags would be lost.
+            number<&S::step_s>("step", "s", {0.001, 0.1},
+                               "time step of full dynamics, driver.cacc.v2v_delay at most; the mesoscale mode has its "
+                               "own"),
             number<&S::duration_s>("duration", "s", {0, 1'000'000},
                                    "length of a run; 0: intersections, as long as the measured cycles"),
             whole<&S::seed>("seed", {}, "seed of all random numbers"),

@@ -185,12 +185,15 @@ private:
                   double& value) {
         if (!scalar(node, path)) return false;
         const ParsedQuantity parsed = parse_quantity(node.text, shown);
-        if (parsed.problem == "has no unit") {
+        const bool too_large = parsed.si > to_si(range.max, shown);
+        // A share may be a plain number, 0.3 for 30 %; who writes 30 means 30 %.
+        const bool meant_percent = too_large && shown.text == "%" && node.text.find('%') == std::string::npos;
+        if (parsed.problem == "has no unit" || (parsed.problem.empty() && meant_percent)) {
             bad_value(node, path,
                       "has no unit: write e.g. '" + shortened(node.text) + " " + std::string(shown.text) + "'");
         } else if (!parsed.problem.empty()) {
             bad_value(node, path, parsed.problem);
-        } else if (parsed.si < to_si(range.min, shown) || parsed.si > to_si(range.max, shown)) {
+        } else if (too_large || parsed.si < to_si(range.min, shown)) {
             bad_value(node, path, "is out of range");
         } else {
             value = parsed.si;

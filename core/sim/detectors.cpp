@@ -14,8 +14,9 @@ void pass_stop_line(const Model& model, State& state, NetworkPart& part, int lan
     const int next = state.vehicles.next_lane[at(slot)];
     if (state.lights[at(state.plan.light_before(lane, next))] != Light::red) return;
     if (record.trip >= 0 && next < 0) return;  // it does not go into the intersection
-    // Whoever was told to stop was told so because it could.
-    if (state.stop_lines[at(lane)].stopper == state.vehicles.id[at(slot)]) {
+    // Whoever was told to stop was told so because it could, unless barely.
+    const StopLineState& line = state.stop_lines[at(lane)];
+    if (line.stopper == state.vehicles.id[at(slot)] && !line.barely) {
         ++part.violations.red_entries;
         part.violations.see(
             {model.time_s(state.tick + 1), Sighting::Kind::red_entry, lane, state.vehicles.id[at(slot)], -1});

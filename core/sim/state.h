@@ -18,7 +18,8 @@ namespace stopline {
 
 // The stop line at the end of a lane, as its traffic sees it.
 struct StopLineState {
-    int stopper = -1;  // id of the vehicle that stops at the line; those behind follow it
+    int stopper = -1;     // id of the vehicle that stops at the line; those behind follow it
+    bool barely = false;  // it was told so late that it may slide over the line all the same
 };
 
 // An entry lane. The next vehicle's policy and route are drawn once, when it comes up. Or a link.

@@ -24,6 +24,17 @@ bool can_stop(const Model& model, const VehicleArrays& v, int slot, double line_
     return square(speed + now_mps2 * late_s) <= 2.0 * deceleration_mps2 * room_m;
 }
 
+double stops_with_mps2(const Model& model, Light light) {
+    return light == Light::yellow ? model.driver.stop.decision_deceleration_mps2
+                                  : model.driver.cacc.deceleration_emergency_mps2;
+}
+
+// can_stop() leaves out that changing down takes from the braking, by up to a tenth of it in all.
+bool can_barely_stop(const Model& model, const VehicleArrays& v, int slot, double line_m, Light light) {
+    constexpr double kSure = 0.9;
+    return !can_stop(model, v, slot, line_m, kSure * stops_with_mps2(model, light));
+}
+
 int slot_of(const VehicleArrays& v, const LaneBlock& block, int id) {
     for (int slot = block.first; slot < block.stop(); ++slot) {
         if (v.id[at(slot)] == id) return slot;
@@ -34,11 +45,10 @@ int slot_of(const VehicleArrays& v, const LaneBlock& block, int id) {
 // The first vehicle that can stop does. On yellow it is enough to brake as hard as drivers accept; on red all that the
 // brakes give is used.
 int choose_stopper(const Model& model, const State& state, const LaneBlock& block, double line_m, Light light) {
-    const double deceleration = light == Light::yellow ? model.driver.stop.decision_deceleration_mps2
-                                                       : model.driver.cacc.deceleration_emergency_mps2;
+    const double deceleration_mps2 = stops_with_mps2(model, light);
     for (int slot = block.first; slot < block.stop(); ++slot) {
         if (trip_ends(state, slot)) continue;
-        if (can_stop(model, state.vehicles, slot, line_m, deceleration)) return slot;
+        if (can_stop(model, state.vehicles, slot, line_m, deceleration_mps2)) return slot;
     }
     return -1;
 }
@@ -65,9 +75,8 @@ int choose_stopper_by_way(const Model& model, const State& state, int index, con
         const bool hesitates =
             stopped && state.tick < model.signals[at(group)].since(state.tick) + model.hesitation_ticks;
         if (light == Light::green && !hesitates) continue;
-        const double deceleration = light == Light::yellow ? model.driver.stop.decision_deceleration_mps2
-                                                           : model.driver.cacc.deceleration_emergency_mps2;
-        if (stopped || can_stop(model, v, slot, state.plan.lane(index).stop_line_m, deceleration)) return slot;
+        const double line_m = state.plan.lane(index).stop_line_m;
+        if (stopped || can_stop(model, v, slot, line_m, stops_with_mps2(model, light))) return slot;
     }
     return -1;
 }
@@ -207,6 +216,17 @@ int keep_clear(const Model& model, State& state, int index) {
     return -1;
 }
 
+// Who stops at the line for its light from now on.
+void tell_to_stop(const Model& model, const State& state, int index, int slot, StopLineState& line) {
+    const VehicleArrays& v = state.vehicles;
+    const int id = slot < 0 ? -1 : v.id[at(slot)];
+    if (id >= 0 && id != line.stopper) {
+        const Light light = state.lights[at(state.plan.light_before(index, v.next_lane[at(slot)]))];
+        line.barely = can_barely_stop(model, v, slot, state.plan.lane(index).stop_line_m, light);
+    }
+    line.stopper = id;
+}
+
 // It leads what follows it through the next green. One that came to stand a little beyond the line sets out when that lets it. Of one
 // before the line nothing else is changed: its rear may still be in the intersection behind, which another thread looks at.
 void note_stop(State& state, const LanePlan& lane, int slot) {
@@ -265,7 +285,7 @@ void decide_stops(const Model& model, State& state, NetworkPart& part) {
         int stop_slot = -1;
         if (lane.by_way) {
             stop_slot = choose_stopper_by_way(model, state, index, line);
-            line.stopper = stop_slot < 0 ? -1 : state.vehicles.id[at(stop_slot)];
+            tell_to_stop(model, state, index, stop_slot, line);
             if (stop_slot >= 0) {
                 note_stop(state, lane, stop_slot);
             } else if (model.rules.keep_clear) {
@@ -279,7 +299,7 @@ void decide_stops(const Model& model, State& state, NetworkPart& part) {
             if (stop_slot < 0) {
                 stop_slot = choose_stopper(model, state, block, lane.stop_line_m, state.lights[at(lane.signal_group)]);
             }
-            line.stopper = stop_slot < 0 ? -1 : state.vehicles.id[at(stop_slot)];
+            tell_to_stop(model, state, index, stop_slot, line);
             if (stop_slot >= 0) note_stop(state, lane, stop_slot);
         }
         state.stop_slot[at(index)] = stop_slot;

@@ -104,22 +104,31 @@ struct Entry {
     double speed_mps = 0.0;
 };
 
+// Whether somebody is on a way that leads to the lane.
+bool somebody_on_way_to(const Model& model, const State& state, int lane) {
+    const std::vector<int>& ways = model.leads_to[at(lane)];
+    return std::any_of(ways.begin(), ways.end(), [&](int way) { return state.blocks[at(way)].count > 0; });
+}
+
+// Between two intersections its rear is not in the first one.
 Entry entry_of(const Model& model, const State& state, int inlet, int policy) {
     const int lane = model.demand.inlets[at(inlet)].lane;
     const double fastest_mps = std::min(model.demand.entry_speed_mps, model.graph.lanes[at(lane)].limit_mps);
     const LaneBlock& block = state.blocks[at(lane)];
-    if (block.count == 0) return {true, 0.0, fastest_mps};
+    if (somebody_on_way_to(model, state, lane)) return {};
+    const double least_m = model.leads_to[at(lane)].empty() ? 0.0 : model.vehicles[0].length_m;
+    if (block.count == 0) return {true, least_m, fastest_mps};
     const VehicleArrays& v = state.vehicles;
     const std::size_t last = at(block.last());
     const double rear_m = v.position_m[last] - v.length_m[last];
     const double speed_mps = std::min(fastest_mps, v.speed_mps[last]);
     if (model.demand.is_saturated(inlet)) {
         const double position_m = rear_m - desired_gap_m(model, policy, speed_mps);
-        return {position_m >= 0.0, position_m, speed_mps};
+        return {position_m >= least_m, position_m, speed_mps};
     }
     const double headway_s = model.demand.is_even(inlet) ? kEntryHeadway_s : model.demand.entry_headway_s;
     const double room_m = desired_gap_m(model, policy, speed_mps) + speed_mps * headway_s * 0.5;
-    return {rear_m >= room_m, 0.0, speed_mps};
+    return {rear_m - least_m >= room_m, least_m, speed_mps};
 }
 
 // Where it will turn at the next intersection but one, drawn as if it were there. `chose_lane`: it is on a lane from which it gets there.

@@ -35,6 +35,30 @@ TEST(AreaSeries, FollowsFromCrossingsByArithmetic) {
     EXPECT_NEAR(series[1].vehicles, (5.0 + 10.0) / 20.0, 1e-12);
 }
 
+// Detector 3: where others enter on the way of those from the west.
+TEST(AreaSeries, WhoIsInsideDoesNotComeInAgain) {
+    std::vector<Detector> all = detectors();
+    all.push_back({2, 0.0, Detector::Kind::zone, 0, false});
+    const std::vector<Crossing> crossings{crossing(5.0, 1, 0), crossing(10.0, 1, 3), crossing(12.0, 2, 3),
+                                          crossing(15.0, 1, 1), crossing(18.0, 2, 1)};
+    const std::vector<AreaFigures> series = area_series(all, crossings, 20.0, 20.0, 100.0);
+    ASSERT_EQ(series.size(), 1u);
+    EXPECT_EQ(series[0].left, 2);
+    EXPECT_NEAR(series[0].travel_time_s, (10.0 + 6.0) / 2.0, 1e-12);
+    EXPECT_NEAR(series[0].vehicles, (10.0 + 6.0) / 20.0, 1e-12);
+
+    Model model;
+    model.graph.lanes = {{.shape = {{0.0, 0.0}, {50.0, 0.0}}},
+                         {.shape = {{50.0, 0.0}, {90.0, 0.0}}},
+                         {.shape = {{50.0, -30.0}, {50.0, 0.0}}}};
+    model.detectors = all;
+    EXPECT_EQ(inflow_series(model, crossings, 20.0, 20.0)[0], (std::array<int, 4>{1, 1, 0, 0}));
+    for (const WayFigures& way : way_figures(model, crossings, {0.0, 20.0})) {
+        const bool expected = way.to == Side::east && (way.from == Side::west || way.from == Side::south);
+        EXPECT_EQ(way.left, expected ? 1 : 0);
+    }
+}
+
 TEST(WayFigures, AreBySideOfEntryAndExit) {
     Model model;
     model.graph.lanes = {{.shape = {{0.0, 0.0}, {50.0, 0.0}}},

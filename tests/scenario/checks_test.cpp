@@ -75,11 +75,26 @@ TEST(Checks, TimesAreWholeSteps) {
     EXPECT_TRUE(contains(after({"step=7 ms"}), "field 'signal.yellow': 3 s is not a whole number of steps of 7 ms"));
     EXPECT_TRUE(
         contains(after({"measure.green=[5.001 s]"}), "field 'measure.green[0]': 5.001 s is not a whole number"));
-    EXPECT_TRUE(
-        contains(after({"step=200 ms", "driver.cacc.v2v_delay=1 s"}), "full dynamics need a step of at most 100 ms"));
-    EXPECT_TRUE(
-        contains(after({"step=50 ms"}), "field 'driver.cacc.v2v_delay': a message cannot arrive before the next step"));
+}
+
+TEST(Checks, AMessageArrivesInTheNextStepOrLater) {
+    const std::string both =
+        "a message cannot arrive before the next step: step, 50 ms, must be at most driver.cacc.v2v_delay, 20 ms";
+    EXPECT_TRUE(contains(after({"step=50 ms"}), "--set 'step=50 ms': field 'step': " + both));
+    EXPECT_TRUE(contains(after({"driver.cacc.v2v_delay=5 ms"}),
+                         "--set 'driver.cacc.v2v_delay=5 ms': field 'driver.cacc.v2v_delay': a message cannot arrive"));
     EXPECT_EQ(after({"step=50 ms", "driver.cacc.v2v_delay=50 ms"}), "");
+    EXPECT_TRUE(contains(after({"step=200 ms", "driver.cacc.v2v_delay=1 s"}),
+                         "value '200 ms' is out of range (allowed: 0.001 s to 0.1 s)"));
+}
+
+TEST(Checks, ASectionThatIsNotGivenHasItsDefaultsToo) {
+    for (const std::string kind : {"intersection", "grid"}) {
+        const Scenario s = parse_scenario("network: {kind: " + kind + "}\nduration: 600 s\n", "x.yaml");
+        ASSERT_EQ(s.network.intersection.lanes.size(), 2u) << kind;
+        EXPECT_EQ(s.network.intersection.lanes[0].movements, "straight+left");
+        EXPECT_EQ(s.network.intersection.lanes[1].movements, "straight+right");
+    }
 }
 
 TEST(Checks, TheSignalFitsItsCycleAndTheRun) {

@@ -158,6 +158,10 @@ TEST(LoadScenario, MessagesNamePlaceFieldValueAndRemedy) {
     EXPECT_EQ(
         error_of("signal:\n  green: 15\n"),
         "test.yaml:2:10: field 'signal.green': value '15' has no unit: write e.g. '15 s' (allowed: 0.1 s to 7200 s)");
+    EXPECT_EQ(error_of("demand:\n  left: 5\n"),
+              "test.yaml:2:9: field 'demand.left': value '5' has no unit: write e.g. '5 %' (allowed: 0 % to 100 %)");
+    EXPECT_TRUE(contains(error_of("demand:\n  left: 500 %\n"), "value '500 %' is out of range"));
+    EXPECT_TRUE(contains(error_of("demand:\n  left: -1\n"), "value '-1' is out of range"));
     EXPECT_EQ(error_of("signal:\n  green: -15 s\n"),
               "test.yaml:2:10: field 'signal.green': value '-15 s' is out of range (allowed: 0.1 s to 7200 s)");
     EXPECT_EQ(

@@ -103,6 +103,7 @@ TEST(Describe, ListsEveryField) {
     EXPECT_GT(rows, 80u);
     EXPECT_TRUE(contains(list, "  speed_limit  km/h  50 km/h  5 km/h to 150 km/h  "));
     EXPECT_TRUE(contains(list, "policy: CTG-Ref, share: 50 %"));
+    EXPECT_TRUE(contains(list, "Default of network.intersection.lanes:\n  [{movements: straight+left}, "));
 }
 
 }  // namespace

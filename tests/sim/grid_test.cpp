@@ -62,6 +62,41 @@ TEST(Inflow, OfStreetsThatCrossIsTheirOwn) {
     EXPECT_TRUE(state.violations.none());
 }
 
+// Where nobody can go straight on, shares are in proportion to each other.
+TEST(TurnShares, AreScaledWhereAllTurn) {
+    const Scenario scenario =
+        load_scenario(STOPLINE_SOURCE_DIR "/scenarios/intersection.yaml",
+                      {"network.intersection.lanes=[{movements: straight+left+right}, {movements: left+right}]",
+                       "demand.left=60 %", "demand.right=20 %"});
+    const Model model = build_model(scenario, 0);
+    for (const DemandPlan::Inlet& inlet : model.demand.inlets) {
+        const bool all_turn = inlet.routes.size() == 2;
+        for (std::size_t k = 0; k < inlet.routes.size(); ++k) {
+            const Turn turn = model.graph.lanes[at(model.graph.routes[at(inlet.routes[k])].lanes[1])].turn;
+            const double share = turn == Turn::left ? 0.6 : 0.2;
+            EXPECT_NEAR(inlet.shares[k], all_turn ? share / 0.8 : share, 1e-12);
+        }
+    }
+}
+
+// Between two intersections, into the traffic that comes from the first one, nobody enters on top of another; all are measured.
+TEST(Inflow, BetweenTwoIntersectionsFindsItsPlaceAndIsMeasured) {
+    for (const char* const fidelity : {"full", "meso"}) {
+        for (const char* const arms : {"[c0r1_south]", "[c0r0_south, c0r1_south]"}) {
+            Scenario scenario = load_scenario(
+                STOPLINE_SOURCE_DIR "/scenarios/grid.yaml",
+                {"network.grid.columns=2", "network.grid.rows=2", "duration=400 s", "measure.steady=400 s",
+                 std::string("fidelity=") + fidelity, std::string("demand.arms=") + arms});
+            const NetworkFigures figures = run_network(scenario, 0, {}, 1, {});
+            EXPECT_TRUE(figures.violations.none()) << fidelity << arms;
+            EXPECT_GT(figures.left_network, 50) << fidelity << arms;
+            std::int64_t measured = 0;
+            for (const NetworkInterval& interval : figures.series) measured += interval.area.left;
+            EXPECT_GT(measured, figures.left_network / 2) << fidelity << arms;
+        }
+    }
+}
+
 // A left turner that accepted a gap from afar, behind one that waited, must not count on it when that one sets out: here, at 1,917 s,
 // two once were in the same conflict area.
 TEST(Inflow, ThatIsLightIsNeverInTheSameConflictArea) {

@@ -142,5 +142,17 @@ TEST_P(YellowQueue, IsCutWhereTheFirstCanStop) {
     }
 }
 
+// Without yellow some are told to stop who barely can, and slide over the line when a lower gear is engaged: they could do no more.
+TEST(WithoutYellow, NobodyEntersOnRedWhoCouldHaveStopped) {
+    const Scenario scenario =
+        load_scenario(STOPLINE_SOURCE_DIR "/scenarios/intersection.yaml",
+                      {"signal.yellow=0 s", "signal.all_red=0 s", "populations=[CDG]", "measure.baseline=CDG"});
+    const Model model = build_model(scenario, 0);
+    Simulation simulation(model);
+    simulation.run_until(180.0);
+    EXPECT_EQ(simulation.state().violations.red_entries, 0);
+    EXPECT_GT(simulation.state().violations.forced_red_entries, 0);
+}
+
 }  // namespace
 }  // namespace stopline

@@ -1,0 +1,78 @@
+#include "scenario/turn_checks.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scenario/quantity.h"
+
+namespace stopline {
+namespace {
+
+using Lane = IntersectionSettings::LaneMovements;
+
+// The shares of some arms, with their fields.
+struct Shares {
+    std::string left_field;
+    double left = 0.0;
+    std::string right_field;
+    double right = 0.0;
+};
+
+bool leaves_choice(const Lane& lane) { return lane.movements.find('+') != std::string::npos; }
+
+// A share of which no lane takes notice.
+void check_served(const std::vector<Lane>& lanes, const std::string& turn, const std::string& field, double share,
+                  Checker& check) {
+    const auto serves = [&](const Lane& lane) { return leaves_choice(lane) && lane.allows(turn); };
+    if (share == 0.0 || std::any_of(lanes.begin(), lanes.end(), serves)) return;
+    check.error("demand." + field, "value " + short_text(share, unit("%")) +
+                                       " has no effect: network.intersection.lanes has no lane that leads " + turn +
+                                       " and elsewhere");
+}
+
+void check_lane(const Lane& lane, const Shares& shares, Checker& check) {
+    if (!lane.allows("left") || !lane.allows("right")) return;
+    const std::string both = shares.left_field + " and " + shares.right_field;
+    const double sum = shares.left + shares.right;
+    if (sum > 1.0 + 1e-9) {
+        check.error("demand." + shares.left_field, both + " sum to " + short_text(sum, unit("%")) + " on a lane '" +
+                                                       lane.movements + "' (allowed: 100 % at most)");
+    } else if (sum == 0.0 && !lane.allows("straight")) {
+        check.error("demand." + shares.left_field,
+                    both + " are 0 %, but all turn from a lane '" + lane.movements + "': one must be more");
+    }
+}
+
+// Neither roads without turns nor streets, whose own file says who turns where, take notice.
+void refuse_all(const DemandSettings& demand, const std::string& why, Checker& check) {
+    const auto refuse = [&](const std::string& field, bool used) {
+        if (used) check.error("demand." + field, "has no effect on " + why);
+    };
+    refuse("right", demand.right != 0.0);
+    refuse("left", demand.left != 0.0);
+    refuse("cross_turns", demand.cross_turns != "alike");
+}
+
+}  // namespace
+
+void check_turns(const Scenario& scenario, Checker& check) {
+    const DemandSettings& demand = scenario.demand;
+    const NetworkSettings& network = scenario.network;
+    if (network.is_sumo()) return;
+    if (network.is_streets()) return refuse_all(demand, "streets: their arms say which share turns", check);
+    if (network.kind == "approach") return refuse_all(demand, "a straight road", check);
+    std::vector<Shares> all{{"left", demand.left, "right", demand.right}};
+    if (demand.cross_turns == "own") {
+        all.push_back({"cross_left", demand.cross_left, "cross_right", demand.cross_right});
+    }
+    const std::vector<Lane>& lanes = network.intersection.lanes;
+    for (const Shares& shares : all) {
+        check_served(lanes, "left", shares.left_field, shares.left, check);
+        check_served(lanes, "right", shares.right_field, shares.right, check);
+        for (const Lane& lane : lanes) check_lane(lane, shares, check);
+    }
+}
+
+}  // namespace stopline

@@ -1,0 +1,117 @@
+// What does not fit into its network is refused before a run, with the fields that do not fit each other.
+#include <gtest/gtest.h>
+
+#include "scenario/scenario_text.h"
+
+namespace stopline {
+namespace {
+
+std::string of_kind(const std::string& kind, const std::vector<std::string>& overrides) {
+    return error_of("network: {kind: " + kind + "}\nduration: 600 s\n", overrides);
+}
+
+std::string in_grid(std::vector<std::string> overrides) {
+    overrides.insert(overrides.begin(), {"network.grid.columns=3", "network.grid.rows=3"});
+    return of_kind("grid", overrides);
+}
+
+// The default vehicle takes 5.15 m and, in the default populations, up to 6 m of gap; from 50 km/h it stops within 31.4 m.
+TEST(GridLinks, AreLongEnoughForAVehicleAndForStopping) {
+    EXPECT_EQ(in_grid({}), "");
+    EXPECT_TRUE(contains(in_grid({"network.grid.column_spacing=50 m", "network.intersection.radius=30 m"}),
+                         "field 'network.grid.column_spacing': value 50 m leaves -10 m of road between intersections "
+                         "of network.intersection.radius = 30 m: at least 91.4 m with this radius"));
+    EXPECT_TRUE(contains(in_grid({"network.intersection.radius=100 m"}),
+                         "field 'network.grid.row_spacing': value 192.5 m leaves -7.5 m of road"));
+    EXPECT_TRUE(contains(in_grid({"network.intersection.radius=95 m"}),
+                         "value 192.5 m leaves 2.5 m of road between intersections of network.intersection.radius = "
+                         "95 m: at least 221.4 m with this radius, as a vehicle with its gap needs 11.15 m, and "
+                         "31.4 m to stop from 50 km/h at 3.5 m/s2 (driver.stop.decision_deceleration)"));
+    EXPECT_EQ(in_grid({"network.grid.row_spacing=71.4 m"}), "");
+    EXPECT_TRUE(contains(in_grid({"network.grid.row_spacing=71.3 m"}), "network.grid.row_spacing"));
+    const std::vector<std::string> slow{"network.intersection.speed_limit=10 km/h"};
+    EXPECT_EQ(in_grid({slow[0], "network.grid.row_spacing=51.15 m"}), "");
+    EXPECT_TRUE(contains(in_grid({slow[0], "network.grid.row_spacing=51.1 m"}), "at least 51.15 m with this radius"));
+    // No street joins intersections of one row.
+    EXPECT_EQ(in_grid({"network.grid.rows=1", "network.grid.row_spacing=50 m"}), "");
+}
+
+TEST(Entries, WhoEntersCanStopBeforeTheLine) {
+    const std::vector<std::string> fast{"network.intersection.speed_limit=150 km/h", "demand.entry_speed=150 km/h"};
+    EXPECT_TRUE(contains(of_kind("intersection", {fast[0], fast[1], "network.intersection.approach_length=50 m"}),
+                         "field 'network.intersection.approach_length': value 50 m is too short to stop from 150 km/h "
+                         "at 3.5 m/s2 (driver.stop.decision_deceleration) before the line: at least 259.3 m, or a "
+                         "lower demand.entry_speed than 150 km/h"));
+    EXPECT_EQ(of_kind("intersection", {fast[0], fast[1], "network.intersection.approach_length=259.3 m"}), "");
+    // Nobody enters faster than the limit.
+    EXPECT_EQ(of_kind("intersection", {fast[1], "network.intersection.approach_length=50 m"}), "");
+    EXPECT_TRUE(contains(error_of("demand: {vehicles: 1}\n", {"network.approach.length=30 m"}),
+                         "field 'network.approach.length': value 30 m is too short to stop from 50 km/h"));
+    EXPECT_TRUE(contains(error_of("network: {kind: streets, streets: three_lanes}\n",
+                                  {"network.streets.intersections[sophie_charlotte_str].arms[2].length=20 m"}),
+                         "field 'network.streets.intersections[sophie_charlotte_str].arms[2].length': value 20 m"));
+}
+
+TEST(MeasuredArea, EndsWithinTheNetwork) {
+    EXPECT_EQ(in_grid({"measure.outside=100 m"}), "");
+    EXPECT_TRUE(contains(in_grid({"measure.outside=100.1 m"}),
+                         "field 'measure.outside': value 100.1 m lies beyond the end of the network: at most 100 m, "
+                         "network.intersection.exit_length"));
+    EXPECT_TRUE(contains(in_grid({"measure.outside=500 m", "network.intersection.exit_length=600 m"}),
+                         "at most 200 m, network.intersection.approach_length"));
+    const std::string streets = "network: {kind: streets, streets: three_lanes}\n";
+    EXPECT_EQ(error_of(streets, {"measure.outside=100 m"}), "");
+    EXPECT_TRUE(contains(error_of(streets, {"measure.outside=101 m"}),
+                         "at most 100 m, network.streets.intersections[koenigin_elisabeth_str].arms[0].exit_length"));
+    // A single intersection has zones.
+    EXPECT_EQ(of_kind("intersection", {"measure.outside=500 m"}), "");
+}
+
+TEST(Cycle, OfAnIntersectionFollowsFromItsStages) {
+    for (const char* const kind : {"intersection", "grid"}) {
+        EXPECT_TRUE(contains(of_kind(kind, {"signal.cycle=200 s", "signal.cross_green=10 s"}),
+                             "field 'signal.cycle': follows from green, cross_green, yellow and all_red here: 86 s"));
+    }
+}
+
+std::string with_lanes(const std::string& kind, const std::string& lanes, const std::vector<std::string>& overrides) {
+    return error_of("network: {kind: " + kind + ", intersection: {lanes: [" + lanes + "]}}\nduration: 600 s\n",
+                    overrides);
+}
+
+TEST(Turns, OfALaneSumToAHundredPercentAtMost) {
+    for (const char* const kind : {"intersection", "grid"}) {
+        const std::string all = "{movements: straight+left+right}";
+        EXPECT_TRUE(contains(with_lanes(kind, all, {"demand.left=60 %", "demand.right=60 %"}),
+                             "field 'demand.left': left and right sum to 120 % on a lane 'straight+left+right' "
+                             "(allowed: 100 % at most)"));
+        EXPECT_EQ(with_lanes(kind, all, {"demand.left=60 %", "demand.right=40 %"}), "");
+        EXPECT_TRUE(contains(
+            with_lanes(kind, all, {"demand.cross_turns=own", "demand.cross_left=60 %", "demand.cross_right=60 %"}),
+            "field 'demand.cross_left': cross_left and cross_right sum to 120 %"));
+        // Shares are of lanes: none of these has both.
+        EXPECT_EQ(of_kind(kind, {"demand.left=60 %", "demand.right=60 %"}), "");
+    }
+}
+
+TEST(Turns, HaveALaneThatServesThem) {
+    for (const char* const kind : {"intersection", "grid"}) {
+        const std::string two = "{movements: straight}, {movements: straight}";
+        EXPECT_TRUE(contains(with_lanes(kind, two, {"demand.left=50 %"}),
+                             "field 'demand.left': value 50 % has no effect: network.intersection.lanes has no lane "
+                             "that leads left and elsewhere"));
+        const std::string own_lane = "{movements: left}, {movements: straight+right}";
+        EXPECT_TRUE(contains(with_lanes(kind, own_lane, {"demand.left=50 %"}), "has no effect"));
+        EXPECT_EQ(with_lanes(kind, own_lane, {"demand.right=50 %"}), "");
+        EXPECT_TRUE(contains(with_lanes(kind, two, {"demand.cross_turns=own", "demand.cross_right=5 %"}),
+                             "field 'demand.cross_right': value 5 % has no effect"));
+        const std::string no_way_on = "{movements: left+right}";
+        EXPECT_TRUE(contains(with_lanes(kind, no_way_on, {}),
+                             "field 'demand.left': left and right are 0 %, but all turn from a lane 'left+right'"));
+        EXPECT_EQ(with_lanes(kind, no_way_on, {"demand.left=60 %"}), "");
+    }
+    EXPECT_TRUE(contains(error_of("title: x\n", {"demand.right=5 %"}), "has no effect on a straight road"));
+}
+
+}  // namespace
+}  // namespace stopline
