@@ -4,7 +4,6 @@
 #include <limits>
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include "experiment/csv.h"
 #include "experiment/side_by_side.h"
@@ -54,9 +53,8 @@ NetworkReport run_networks(const Scenario& scenario, const NetworkOptions& optio
     for (const Lane& lane : make_network(scenario.network).lanes) {
         report.lanes.push_back(lane.name);
     }
-    // Threads that are left over share runs, within the threads that have one each.
-    omp_set_max_active_levels(2);
-    const int threads_each = std::max(options.threads / static_cast<int>(report.populations.size()), 1);
+    // One run alone is shared by all threads. Several have one each: teams within a team would be formed anew in every step.
+    const int threads_each = report.populations.size() == 1 ? options.threads : 1;
     run_side_by_side(report.populations.size(), options.threads, options.on_progress,
                      [&](std::size_t k, const std::function<bool(double)>& tell) {
                          const auto on_step = [&](const Simulation& simulation) {

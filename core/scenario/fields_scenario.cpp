@@ -36,9 +36,11 @@ void check_steps(const Scenario& scenario, Checker& check) {
     if (scenario.network.is_streets()) return check_street_steps(scenario, whole_steps);
     whole_steps("signal.first_green", scenario.signal.first_green_s);
     whole_steps("signal.green", scenario.signal.green_s);
+    whole_steps("signal.cross_green", scenario.signal.cross_green_s);
     whole_steps("signal.yellow", scenario.signal.yellow_s);
     whole_steps("signal.all_red", scenario.signal.all_red_s);
     whole_steps("signal.cycle", scenario.signal.cycle_s);
+    whole_steps("signal.offset", scenario.signal.offset_s);
     for (std::size_t i = 0; i < scenario.measure.green_s.size(); ++i) {
         whole_steps("measure.green[" + std::to_string(i) + "]", scenario.measure.green_s[i]);
     }

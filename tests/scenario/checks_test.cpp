@@ -72,6 +72,17 @@ TEST(Checks, TimesAreWholeSteps) {
     EXPECT_EQ(after({"step=5 ms"}), "");
     EXPECT_TRUE(contains(after({"signal.green=15.005 s"}),
                          "field 'signal.green': 15.005 s is not a whole number of steps of 10 ms"));
+    // Rounded by itself, one street's cycle would drift from the other's.
+    const std::string grid = STOPLINE_SOURCE_DIR "/scenarios/grid.yaml";
+    for (const std::string field : {"cross_green", "offset"}) {
+        try {
+            static_cast<void>(load_scenario(grid, {"signal." + field + "=10.05 s"}));
+            ADD_FAILURE() << field;
+        } catch (const InputError& error) {
+            EXPECT_TRUE(
+                contains(error.what(), "'signal." + field + "': 10.05 s is not a whole number of steps of 100 ms"));
+        }
+    }
     EXPECT_TRUE(contains(after({"step=7 ms"}), "field 'signal.yellow': 3 s is not a whole number of steps of 7 ms"));
     EXPECT_TRUE(
         contains(after({"measure.green=[5.001 s]"}), "field 'measure.green[0]': 5.001 s is not a whole number"));
