@@ -162,16 +162,15 @@ bool stays(const Gridlock& gridlock, double end_s, double cycle_s) {
     return end_s - gridlock.to_s <= cycle_s && gridlock.to_s - gridlock.from_s >= kLasting_cycles * cycle_s;
 }
 
-Stability stability_of(const NetworkFigures& figures, double interval_s, double end_s, double cycle_s) {
+Stability stability_of(const NetworkFigures& figures, double end_s, double cycle_s) {
     const auto moved_on = static_cast<double>(figures.hindrance.taken_out);
     const std::vector<Gridlock>& gridlocks = figures.hindrance.gridlocks;
     if (moved_on >= kSemiStableShare * static_cast<double>(figures.left_network) && moved_on > 0.0) {
         return Stability::unstable;
     }
-    const bool after_gridlock = figures.collapse_s && !gridlocks.empty() &&
-                                gridlocks[0].from_s < *figures.collapse_s + static_cast<double>(kTogether) * interval_s;
     const auto is_lasting = [&](const Gridlock& gridlock) { return stays(gridlock, end_s, cycle_s); };
-    if (after_gridlock || std::any_of(gridlocks.begin(), gridlocks.end(), is_lasting)) return Stability::unstable;
+    if ((figures.collapse_s && !gridlocks.empty()) || std::any_of(gridlocks.begin(), gridlocks.end(), is_lasting))
+        return Stability::unstable;
     return !gridlocks.empty() || moved_on > 0.0 ? Stability::semi_stable : Stability::stable;
 }
 
@@ -246,8 +245,7 @@ NetworkFigures run_network(const Scenario& scenario, std::size_t population,
     figures.left_network = state.left;
     figures.updates = state.updates;
     figures.state_hash = simulation.state_hash();
-    figures.stability = stability_of(figures, scenario.measure.interval_s, model.time_s(state.tick),
-                                     model.time_s(model.rules.gridlock_ticks));
+    figures.stability = stability_of(figures, model.time_s(state.tick), model.time_s(model.rules.gridlock_ticks));
     figures.street = street.trace();
     backlog.look(state);
     figures.backlog = backlog.backlog();

@@ -17,8 +17,8 @@
 namespace stopline {
 
 // Section VI.D. Stable: no gridlock, nobody was moved on. Semi-stable: gridlocks that dissolve, vehicles moved on are below 1 % of those
-// that left. Unstable: that or more, or throughput falls to a lower level (see NetworkFigures::collapse_s) after gridlocks, or a gridlock
-// of six cycles or more is there at the end.
+// that left. Unstable: that or more, or throughput falls to a lower level for good (see NetworkFigures::collapse_s) where there are gridlocks,
+// or a gridlock of six cycles or more is there at the end.
 enum class Stability : std::uint8_t { stable, semi_stable, unstable };
 inline constexpr std::array<const char*, 3> kStabilityNames{"stable", "semi-stable", "unstable"};
 inline constexpr double kSemiStableShare = 0.01;  // of throughput (Section VI.D)
