@@ -2,8 +2,8 @@
 // since when. Vehicles are looked at every RulesPlan::watch_ticks; below 0.1 m/s they stand.
 //
 // Who stands waits for one thing: its light, the vehicle ahead, room in its exit, a vehicle in a conflict area that it wants to
-// cross, or one with priority. Who was kept out of the intersection while its light was green waits, while that is red, for the same
-// vehicle as well, for as long as this has stood since. Following these from vehicle to vehicle ends at a light, at somebody who moves,
+// cross, or one with priority. At a red light it waits as well for one that stands close ahead in the intersection, or else for the one
+// that kept it out when the light was green last, for as long as this has stood since. Following these from vehicle to vehicle ends at a light, at somebody who moves,
 // or in a circle: a gridlock. A vehicle's time is lost to what its own queue waits for:
 //
 //     signal             its light, or the one that the queue ahead on the same lane waits for
@@ -78,7 +78,7 @@ struct HindranceLog {
     double longest_stand_s = 0.0;  // of any vehicle, in one go
 };
 
-// The first vehicle of a lane that was kept out of the intersection when its light was green last, by whom, and where that was.
+// The first vehicle of a lane that stood when its light was green last, for whom it waited, and where that was.
 struct KeptOutLast {
     int vehicle = -1;
     int blocker = -1;

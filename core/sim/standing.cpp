@@ -17,9 +17,26 @@ class Waits {
 public:
     Waits(const Model& model, State& state) : model_(model), state_(state), v_(state.vehicles), w_(state.watch) {}
 
-    // Be it that who it waits for only crawls.
     void find(int slot) {
         const int lane = w_.lane[at(slot)];
+        look_at(slot, lane);
+        if (slot != state_.stop_slot[at(lane)] && slot != state_.blocks[at(lane)].first) return;
+        KeptOutLast& last = w_.kept_out[at(lane)];
+        int& waits_for = w_.waits_for[at(slot)];
+        if (w_.edge[at(slot)] == Cause::signal) {
+            follow(slot, lane);  // it may stand behind one that is over the line already
+            w_.edge[at(slot)] = Cause::signal;
+            if (waits_for < 0) waits_for = still_stands(last, v_.id[at(slot)]);
+        } else if (waits_for >= 0) {
+            last = {v_.id[at(slot)], v_.id[at(waits_for)], w_.lane[at(waits_for)], static_cast<int>(state_.tick)};
+        }
+    }
+
+private:
+    bool stands(int slot) const { return v_.speed_mps[at(slot)] < kStands_mps; }
+
+    // Be it that who it waits for only crawls.
+    void look_at(int slot, int lane) {
         const Hold* const hold = state_.has_holds[at(lane)] != 0 ? state_.holds[at(lane)].of(slot) : nullptr;
         if (hold != nullptr) {
             if (hold->blocker < 0) return set(slot, -1, Cause::wrong_lane);
@@ -29,17 +46,11 @@ public:
         }
         if (slot == state_.stop_slot[at(lane)]) {
             const KeptOut& kept_out = state_.kept_out[at(lane)];
-            KeptOutLast& last = w_.kept_out[at(lane)];
-            if (kept_out.blocker < 0) return set(slot, still_stands(last, v_.id[at(slot)]), Cause::signal);
-            last = {v_.id[at(slot)], v_.id[at(kept_out.blocker)], w_.lane[at(kept_out.blocker)],
-                    static_cast<int>(state_.tick)};
+            if (kept_out.blocker < 0) return set(slot, -1, Cause::signal);
             return set(slot, kept_out.blocker, kept_out.in_exit ? full_exit(slot) : Cause::junction_blocking);
         }
         follow(slot, lane);
     }
-
-private:
-    bool stands(int slot) const { return v_.speed_mps[at(slot)] < kStands_mps; }
 
     void set(int slot, int waits_for, Cause edge) {
         w_.waits_for[at(slot)] = waits_for;

@@ -163,6 +163,17 @@ TEST_F(Hindrance, AtARedLightWhoWasKeptOutGoesOnWaitingForTheSameVehicle) {
     EXPECT_EQ(lost_s(Cause::spillback), 1.0);
 }
 
+// The light is not all that it waits for.
+TEST_F(Hindrance, AtARedLightWhoStandsCloseBehindOneInTheIntersectionWaitsForThatToo) {
+    stand("c0r0_south_0_straight", 3.0);
+    stand("c0r0_south_in_0", 152.0, "c0r0_south_0_straight");
+    look();
+    const int behind = state().blocks[at(lane("c0r0_south_in_0"))].first;
+    EXPECT_EQ(state().watch.edge[at(behind)], Cause::signal);
+    EXPECT_EQ(state().watch.waits_for[at(behind)], state().blocks[at(lane("c0r0_south_0_straight"))].first);
+    EXPECT_EQ(lost_s(Cause::signal), 1.0);
+}
+
 // A light that is red for hours is no hindrance, but nobody waits for so long untold.
 TEST_F(Hindrance, WhoHasStoodForTwoCyclesIsToldOfWhateverTheCause) {
     const int waits = stand("c0r0_south_in_0", 154.0, "c0r0_south_0_straight");
