@@ -7,7 +7,7 @@
 // or in a circle: a gridlock. A vehicle's time is lost to what its own queue waits for:
 //
 //     signal             its light, or the one that the queue ahead on the same lane waits for
-//     priority           vehicles on the move that come first
+//     priority           vehicles that come first
 //     junction_blocking  a vehicle that stands inside the intersection, across its way (situation 1)
 //     turn_blocking      the first that stands would turn, and its exit is full (situation 2)
 //     spillback          the same of one that would go straight on
