@@ -3,8 +3,8 @@
 //
 // Who stands waits for one thing: its light, the vehicle ahead, room in its exit, a vehicle in a conflict area that it wants to
 // cross, or one with priority. At a red light it waits as well for one that stands close ahead in the intersection, or else for the one
-// that kept it out when the light was green last, for as long as this has stood since. Following these from vehicle to vehicle ends at a light, at somebody who moves,
-// or in a circle: a gridlock. A vehicle's time is lost to what its own queue waits for:
+// that kept it out when the light was green last, for as long as this has stood since. Following these from vehicle to vehicle ends
+// at a light, at somebody who moves, or in a circle: a gridlock. A vehicle's time is lost to what its own queue waits for:
 //
 //     signal             its light, or the one that the queue ahead on the same lane waits for
 //     priority           vehicles that come first

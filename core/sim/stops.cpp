@@ -29,9 +29,11 @@ double stops_with_mps2(const Model& model, Light light) {
                                   : model.driver.cacc.deceleration_emergency_mps2;
 }
 
-// can_stop() leaves out that changing down takes from the braking, by up to a tenth of it in all.
+// Told on red, with all that its brakes give. can_stop() leaves out that changing down takes from that, by up to a tenth in all; on
+// yellow there is more to give, and in the mesoscale mode nobody changes down.
 bool can_barely_stop(const Model& model, const VehicleArrays& v, int slot, double line_m, Light light) {
     constexpr double kSure = 0.9;
+    if (model.meso || light != Light::red) return false;
     return !can_stop(model, v, slot, line_m, kSure * stops_with_mps2(model, light));
 }
 
