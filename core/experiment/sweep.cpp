@@ -134,7 +134,7 @@ void Sweep::add_columns() {
 }
 
 void Sweep::load_combinations(std::size_t count, const SweepOptions& options) {
-    hashes_.resize(count);
+    hashes_.assign(count, 0);
     std::atomic<std::size_t> loaded = 0;
     std::atomic<std::size_t> first_bad = count;
     std::atomic<bool> stopped = false;
@@ -145,7 +145,6 @@ void Sweep::load_combinations(std::size_t count, const SweepOptions& options) {
     for (std::size_t i = 0; i < count; ++i) {
         if (stopped || i > first_bad) continue;
         try {
-            hashes_[i] = 0;
             const Scenario loaded_scenario = load_scenario(settings_.scenario, overrides(i));
             require_populations(loaded_scenario, columns_[population_column_].cells);
             hashes_[i] = loaded_scenario.hash;

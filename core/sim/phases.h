@@ -83,6 +83,8 @@ inline bool has_ended(const State& state, int lane, int slot) {
 
 // When the front passed `line_m` within the last step.
 double passing_time_s(const Model& model, const State& state, int slot, double line_m);
+// Notes that a vehicle goes from one lane to another; -1: it comes from outside or leaves.
+void note_passage(State& state, double time_s, int slot, int from, int to);
 
 // Before the first step: where the vehicles of each lane are in memory.
 void lay_out_blocks(const Model& model, State& state);
@@ -140,6 +142,11 @@ void note_trip(State& state, int detector, int slot, double time_s);
 
 // Gives a vehicle its place in its route.
 void put_on_route(State& state, int slot, int route_index);
+
+// The way of an inlet's k-th vehicle. `chose_lane`: it is on a lane from which it gets there.
+int draw_route(const Model& model, State& state, int inlet, std::int64_t k, bool chose_lane);
+// Where it will turn at the next intersection but one, drawn as if it were there.
+void look_ahead(const Model& model, State& state, int slot, bool chose_lane);
 
 // On a link the vehicle gets its next route.
 void choose_way_on(const Model& model, State& state, int lane, int slot);

@@ -14,7 +14,7 @@
 //     detectors  fronts that passed one                                                    detectors.cpp
 //   all together:
 //     transfer   vehicles that passed the end of their lane                                transfer.cpp
-//     insert     vehicles that enter
+//     insert     vehicles that enter                                                       entering.cpp, trips.cpp
 //     move on    vehicles that have stood at the head of a lane for too long               moving_on.cpp
 //     change     vehicles that change to the lane beside                                   lane_change.cpp
 //     verify     nobody is lost; overlaps                                                  verify.cpp

@@ -18,7 +18,7 @@ Rows rows_at(const DelayLine& line, std::int64_t tick, int slots) {
         const std::int64_t wrapped = present >= age ? present - age : present - age + line.rows;
         return static_cast<std::size_t>(wrapped) * static_cast<std::size_t>(slots);
     };
-    return {row(0), row(1), row(line.steps), row(line.steps + 1), 1.0 - line.share, line.share};
+    return {row(0), row(line.steps), row(line.steps + 1), 1.0 - line.share, line.share};
 }
 
 void Holds::add(const Hold& hold) {

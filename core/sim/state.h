@@ -31,9 +31,9 @@ struct InletState {
 };
 
 // Rows of a delay line at one tick, as offsets into [row][slot] arrays: where the present sample is written and where the
-// delayed ones are read, with their weights; `before` is one tick ago.
+// delayed ones are read, with their weights.
 struct Rows {
-    std::size_t now = 0, before = 0, late = 0, later = 0;
+    std::size_t now = 0, late = 0, later = 0;
     double late_share = 1.0, later_share = 0.0;
 };
 Rows rows_at(const DelayLine& line, std::int64_t tick, int slots);
