@@ -246,11 +246,11 @@ ExitCode finish(Work& work, const SweepSession& session, const std::string& by) 
     for (const auto& file : {work.files.table, work.files.provenance, work.files.store}) {
         fmt::print("  {}\n", file.filename().string());
     }
-    draw_results(work.sweep, table.csv, work.files.table);
-    if (work.shard.count > 1) {
+    if (work.shard.count > 1) {  // figures of some of the runs would mislead
         fmt::print("\nNext: when all {} shards are done, stopline-sweep merge --output DIR {}/*.sqlite\n",
                    work.shard.count, work.files.table.parent_path().string());
     } else {
+        draw_results(work.sweep, table.csv, work.files.table);
         fmt::print("\nNext: the table has a row a run; rows of equal axes differ in their seed.\n");
     }
     return table.totals.runs_with_violations == 0 ? ExitCode::done : ExitCode::check_failed;
@@ -313,6 +313,10 @@ ExitCode merge(const SweepOptionsOfUser& options) {
     for (const auto& file : {files.table, files.provenance, files.store}) {
         fmt::print("  {}\n", file.filename().string());
     }
+    fmt::print(
+        "\nNext: stopline-sweep FILE --output {}, with the options of the shards but --shard, runs nothing again\n"
+        "and adds figures and means.\n",
+        folder.string());
     return merged.table.totals.runs_with_violations == 0 ? ExitCode::done : ExitCode::check_failed;
 }
 

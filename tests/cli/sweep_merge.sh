@@ -4,7 +4,10 @@ set -u
 
 . "$STOPLINE_SOURCE/tests/tools/cli.sh"
 program="$STOPLINE_BIN/stopline-sweep"
-sweep="$STOPLINE_SOURCE/scenarios/sweeps/single_light.yaml"
+sweep="$work/single_light.yaml" # one vehicle and hesitation, six seeds: each shard has some of each combination
+sed -e "s#^scenario: \.\./#scenario: $STOPLINE_SOURCE/scenarios/#" \
+    -e "s/, electric_100kw//" -e "s/, 0.5 s, 1 s//" -e "s/^repetitions: 1/repetitions: 6/" \
+    "$STOPLINE_SOURCE/scenarios/sweeps/single_light.yaml" >"$sweep"
 short=(--set "duration=300 s" --set "demand.vehicles=10")
 
 # refused WHAT PART COMMAND...: exit code 2, PART in the message
@@ -48,5 +51,7 @@ same_results "three shards" "$work/merged"
 refused "merged before" "there is a store" "${merge[@]}" "$(shard 3)" "$(shard 1)" "$(shard 2)"
 "$program" "$sweep" "${short[@]}" --output "$work/merged" >"$work/stdout" || fail "exit code $?"
 grep -q "were done before" "$work/stdout" || fail "the joined store is not complete"
+cmp "$work/whole/single_light_means.csv" "$work/merged/single_light_means.csv" || fail "other means"
+[ -z "$(find "$work/shards" -name '*_means.csv')" ] || fail "a shard has means of its own runs alone"
 
 exit $((failures > 0))
