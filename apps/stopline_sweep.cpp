@@ -188,7 +188,17 @@ std::string totals_text(const SweepTotals& totals) {
     if (totals.longest_inside_s > 0.0) {
         table.row({"longest way through an intersection", fmt::format("{:.1f} s", totals.longest_inside_s)});
     }
-    return table.text();
+    std::string text = table.text();
+    if (totals.unsettled > 0) {
+        text += fmt::format("{} of {} runs are measured from before traffic settles (window_from_s, warm_up_s).\n",
+                            totals.unsettled, totals.runs);
+    }
+    if (totals.with_waiting > 0) {
+        text +=
+            fmt::format("In {} of {} runs vehicles had come, but found no room to enter until the end (waiting_veh).\n",
+                        totals.with_waiting, totals.runs);
+    }
+    return text;
 }
 
 void print_session(const SweepSession& session, const std::string& by) {
@@ -226,7 +236,10 @@ void draw_results(const Sweep& sweep, const std::string& csv, const std::filesys
         write_file(file.parent_path() / name, seed_means_csv(results, sweep.population_column()));
         fmt::print("  {}\n", name);
     }
-    if (is_network_sweep(results)) draw_all(network_sweep_figures(results, sweep.titles()), file.parent_path());
+    const std::string note = network_sweep_note(results, sweep.titles(), sweep.population_column());
+    if (!note.empty()) fmt::print("  {}\n", note);
+    const std::vector<Figure> figures = network_sweep_figures(results, sweep.titles(), sweep.population_column());
+    if (!figures.empty()) draw_all(figures, file.parent_path());
     if (!has_turns(results)) return;
     write_file(file.parent_path() / "table1.csv", table1_csv(results, load_targets()));
     fmt::print("  table1.csv\n");

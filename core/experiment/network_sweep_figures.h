@@ -2,6 +2,7 @@
 // first population (Fig. 17 to 20 of the paper), and where traffic is stable (Fig. 21). Read from the table of results.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "experiment/csv.h"
@@ -13,8 +14,15 @@ namespace stopline {
 // Whether the table has the axes green, offset and population, and the metrics of several intersections.
 bool is_network_sweep(const CsvTable& results);
 
-// Two figures for each combination of the other axes, network_1 and stability_1, ..., with those as their title. Means over seeds; of
-// stabilities the worst.
-std::vector<Figure> network_sweep_figures(const CsvTable& results, const CellTitles& titles);
+// Figures for each combination of the other axes, with those as their title: network_1 (lines), surfaces_1 (maps, where both axes have two
+// values) and stability_1, ... Means over seeds, with the least and the greatest. Where green and offset are no axes, those are drawn over that
+// are numbers, if there are no more than two (network_sweep_planes.h). None for tables of anything but several intersections.
+std::vector<Figure> network_sweep_figures(const CsvTable& results, const CellTitles& titles,
+                                          const std::string& population_column = "population");
+
+// One line for the user of a sweep over several intersections without the axes green and offset: what they must be called, and what is drawn
+// instead. Empty where there is nothing to say.
+std::string network_sweep_note(const CsvTable& results, const CellTitles& titles,
+                               const std::string& population_column = "population");
 
 }  // namespace stopline

@@ -45,6 +45,8 @@ std::map<std::string, std::size_t, std::less<>> columns_of(const RunStore& store
     return index;
 }
 
+double number_of(std::string_view value) { return std::strtod(std::string(value).c_str(), nullptr); }
+
 void add_to(SweepTotals& totals, const std::string& result) {
     const std::int64_t overlaps = count_in(result, "overlaps");
     const std::int64_t red_entries = count_in(result, "red_entries");
@@ -52,12 +54,18 @@ void add_to(SweepTotals& totals, const std::string& result) {
     const std::int64_t deadlocks = count_in(result, "deadlocks");
     bool inside = false;
     bool gridlocks = false;
+    double from_s = 0.0;
+    double warm_up_s = 0.0;
     for_each_value(result, [&](std::string_view name, std::string_view value) {
         gridlocks = gridlocks || name == "gridlocks";
+        if (name == "window_from_s") from_s = number_of(value);
+        if (name == "warm_up_s") warm_up_s = number_of(value);
         if (name != "longest_inside_s") return;
         inside = true;
-        totals.longest_inside_s = std::max(totals.longest_inside_s, std::strtod(std::string(value).c_str(), nullptr));
+        totals.longest_inside_s = std::max(totals.longest_inside_s, number_of(value));
     });
+    totals.unsettled += from_s < warm_up_s ? 1U : 0U;
+    totals.with_waiting += count_in(result, "waiting_veh") > 0 ? 1U : 0U;
     if (gridlocks) {
         totals.gridlocks = totals.gridlocks.value_or(0) + count_in(result, "gridlocks");
         totals.moved_on += count_in(result, "moved_on");

@@ -36,6 +36,8 @@ struct SweepTotals {
     std::optional<std::int64_t> gridlocks;  // of several, where vehicles may wait inside for as long as others do
     std::int64_t moved_on = 0;              // the same
     double longest_inside_s = 0.0;          // see IntersectionFigures
+    std::size_t unsettled = 0;              // runs of several intersections that were measured before traffic settled
+    std::size_t with_waiting = 0;           // runs in which vehicles found no room to enter until the end
 };
 
 struct SweepTable {
