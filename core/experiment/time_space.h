@@ -30,12 +30,16 @@ struct StreetTrace {
     std::vector<StreetPoint> points;  // by time
     std::vector<RedTime> reds;
     std::vector<std::string> policies;
+    std::string lane;  // by which it begins
     double from_s = 0.0;
     double to_s = 0.0;
     double length_m = 0.0;  // 0: no such street
+    bool goes_through =
+        true;  // to where vehicles leave the network; false: all lanes of its inlet end before, and this one ends last
 };
 
-// Follows the right lane of the street from west to east, in the middle row of a grid, over the last measure.time_space of the run.
+// Follows a street from the side measure.time_space_from, in the middle row or column of a grid, over the last measure.time_space of the
+// run: of its inlet's lanes the one furthest right from which one gets straight on through the whole street.
 class StreetWatch {
 public:
     StreetWatch(const Scenario& scenario, const Model& model);

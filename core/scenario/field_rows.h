@@ -29,6 +29,10 @@ struct Row {
         field.only_values = std::move(values);
         return std::move(*this);
     }
+    Row of_rule(std::string rule) && {
+        field.of_a_rule = true;
+        return std::move(*this).only(std::move(rule), {"on"});
+    }
 };
 
 namespace field_rows {

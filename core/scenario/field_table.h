@@ -118,6 +118,9 @@ struct Field {
     // values.
     std::string only_field = {};
     std::vector<std::string> only_values = {};
+    // It belongs to a rule that only_field switches. Where the rule is off it may be given as `off` too, and in a file as anything if it was
+    // an override that switched the rule off: the file need not be changed for that.
+    bool of_a_rule = false;
 };
 
 struct Table {

@@ -191,10 +191,12 @@ const Table& rules_table() {
                 "keep_clear", {"off", "on"},
                 "nobody passes the stop line unless there is room behind the last vehicle that stands "
                 "in the exit"),
-            number<&S::sight_m>("sight", "m", {1, 10'000}, "how far into the exit drivers look for that"),
+            number<&S::sight_m>("sight", "m", {1, 10'000}, "how far into the exit drivers look for that")
+                .of_rule("keep_clear"),
             choice<&S::light_ahead>("light_ahead", {"off", "on"},
                                     "those who move in the exit count as if they stood up to the light at "
-                                    "its end while that is not green"),
+                                    "its end while that is not green")
+                .of_rule("keep_clear"),
             number<&S::teleport_cycles>(
                 "teleport_cycles", "", {0, 1000},
                 "the first vehicle of a lane that has stood for this many cycles is moved on past "

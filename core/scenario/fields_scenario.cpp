@@ -158,6 +158,13 @@ void check_cross_inflow(const Scenario& scenario, Checker& check) {
     check.error("demand.cross_inflow", "is for intersections and grids");
 }
 
+void check_time_space(const Scenario& scenario, Checker& check) {
+    const MeasureSettings& measure = scenario.measure;
+    if (measure.time_space_from == "west" || measure.time_space_s > 0.0) return;
+    check.error("measure.time_space_from",
+                "value " + measure.time_space_from + " has no effect without measure.time_space");
+}
+
 void check_scenario(const Scenario& scenario, Checker& check) {
     check_cross_inflow(scenario, check);
     check_turns(scenario, check);
@@ -169,6 +176,7 @@ void check_scenario(const Scenario& scenario, Checker& check) {
     check_grid_links(scenario, check);
     check_entries(scenario, check);
     check_measured_area(scenario, check);
+    check_time_space(scenario, check);
 }
 
 }  // namespace
@@ -196,8 +204,12 @@ const Table& measure_table() {
                           number<&S::steady_s>("steady", "s", {1, 1'000'000},
                                                "grids: figures are means over this long, to the end of the run"),
                           number<&S::time_space_s>("time_space", "s", {0, 7200},
-                                                   "grids: time-space diagram of the street from west to east in the "
-                                                   "middle row, over this long to the end of the run; 0: none"),
+                                                   "grids: time-space diagram of the middle street from "
+                                                   "time_space_from, over this long to the end of the run; 0: none"),
+                          choice<&S::time_space_from>("time_space_from", {"west", "east", "south", "north"},
+                                                      "side from which that diagram follows a street: from west "
+                                                      "and east the middle row of a grid, from south and north "
+                                                      "its middle column"),
                       });
     return table;
 }

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <memory>
+#include <system_error>
 #include <utility>
 
 #include "base/input_error.h"
@@ -80,19 +81,33 @@ void check_values_differ(const SweepSettings& sweep, Report& report) {
     }
 }
 
+// Here, where the sweep's file, line and field are known; what is wrong inside the file is told with its own lines.
+void check_scenario_file(const SweepSettings& sweep, const std::filesystem::path& file, Report& report) {
+    std::error_code error;
+    const std::filesystem::file_type type = std::filesystem::status(file, error).type();
+    const bool missing = type == std::filesystem::file_type::not_found;
+    if (!missing && type != std::filesystem::file_type::directory) return;
+    report.error(report.place_of("scenario"), "field 'scenario': value '" + shortened(sweep.scenario) + "' leads to " +
+                                                  file.generic_string() +
+                                                  (missing ? ": no such file" : ": is a directory, not a YAML file") +
+                                                  " (relative paths start at the sweep file's folder)");
+}
+
 SweepSettings sweep_from(const SourceNode& root) {
     const Source source = *root.place.source;
     Report report;
     SweepSettings sweep;
     read_fields(sweep_table(), root, "", &sweep, report);
     report.throw_if_any();
+    const std::filesystem::path file = (source.directory / sweep.scenario).lexically_normal();
+    check_scenario_file(sweep, file, report);
     check_values(sweep, report);
     report.throw_if_any();
     check_values_differ(sweep, report);
     report.throw_if_any();
     for (SweepAxis& axis : sweep.axes) axis.place = to_string(report.place_of("axes[" + axis.name + "].name"));
     if (sweep.name.empty()) sweep.name = name_from_file(source.label, "sweep");
-    sweep.scenario = (source.directory / sweep.scenario).lexically_normal().string();
+    sweep.scenario = file.string();
     return sweep;
 }
 

@@ -217,6 +217,14 @@ void report_unknown_keys(const Table& table, const SourceNode& map, const std::s
     }
 }
 
+// What belongs to a rule that is off, and says nothing else (Field::of_a_rule).
+bool rests(const Field& field, const SourceNode& value, const SourceNode& map) {
+    if (!field.of_a_rule) return false;
+    const SourceNode* const rule = map.find(field.only_field);
+    const auto in_file = [](const SourceNode& node) { return node.place.source->has_lines; };
+    return value.text == "off" || (rule != nullptr && in_file(value) && !in_file(*rule));
+}
+
 void report_missing(const Field& field, const SourceNode& map, const std::string& path, Report& report) {
     const std::string unit = unit_text(field.kind);
     report.error(map.place, "field '" + path + "' is missing: " + field.meaning +
@@ -249,7 +257,7 @@ void read_fields(const Table& table, const SourceNode& node, const std::string& 
         const bool exists = applies(table, field, settings);
         const std::size_t errors = report.count();
         if (value != nullptr) report.remember(field_path, value->place);
-        if (value != nullptr && !exists) {
+        if (value != nullptr && !exists && !rests(field, *value, node)) {
             report.error(value->place, "field '" + field_path + "' is used only where " + field.only_field + " is " +
                                            joined(field.only_values, " or "));
         } else if (value != nullptr) {

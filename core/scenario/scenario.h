@@ -26,7 +26,8 @@ struct MeasureSettings {
     double outside_m = 20.0;
     double interval_s = 60.0;
     double steady_s = 18000.0;
-    double time_space_s = 0.0;  // of the end of the run: time-space diagram of one street
+    double time_space_s = 0.0;             // of the end of the run: time-space diagram of one street
+    std::string time_space_from = "west";  // west | east | south | north: the side from which that street is followed
 };
 
 struct Scenario {

@@ -46,7 +46,7 @@ refused_axis() {
 refused_text "empty file" '' "bad.yaml:1:1" "needs a map of fields"
 refused_text "broken YAML" 'axes: [\n' "not valid YAML"
 refused_text "a scenario" 'signal: {green: 5 s}\n' "bad.yaml:1:1" "'signal' is unknown" "field 'scenario' is missing"
-refused_text "no such scenario" 'scenario: none.yaml\n' "none.yaml: no such file"
+refused_text "no such scenario" 'scenario: none.yaml\n' "bad.yaml:1:11" "'scenario'" "none.yaml: no such file"
 refused_text "bad scenario" 'scenario: bad.yaml\n' "field 'scenario' is unknown"
 refused_text "no repetitions" 'scenario: short.yaml\nrepetitions: 0\n' "bad.yaml:2:14" "'repetitions'" "1 to 1000000"
 refused_axis "unknown path" '{name: a, path: signal.gren, values: [5 s]}' "bad.yaml:3:19" "did you mean 'green'"

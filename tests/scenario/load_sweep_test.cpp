@@ -15,12 +15,14 @@ std::string sweep_error(const std::string& text) {
 std::string axis_error(const std::string& axis) { return sweep_error("scenario: a.yaml\naxes:\n- " + axis + "\n"); }
 
 TEST(LoadSweep, ReadsAxesAndRepetitions) {
+    const TemporaryFolder folder;
+    folder.write("a.yaml", "name: a\n");
     const SweepSettings sweep = parse_sweep(
         "scenario: ../a.yaml\naxes:\n- {name: g, path: signal.green, values: [5 s, 10 s]}\n- {name: p, populations: all}\n"
         "repetitions: 6\n",
-        "folder/my sweep.yaml", "folder");
+        "folder/my sweep.yaml", folder.path() / "folder");
     EXPECT_EQ(sweep.name, "my_sweep");
-    EXPECT_EQ(sweep.scenario, "a.yaml");
+    EXPECT_EQ(sweep.scenario, (folder.path() / "a.yaml").string());
     ASSERT_EQ(sweep.axes.size(), 2U);
     EXPECT_EQ(sweep.axes[0].paths, std::vector<std::string>{"signal.green"});
     EXPECT_EQ(sweep.axes[0].values, (std::vector<std::string>{"5 s", "10 s"}));
@@ -59,6 +61,21 @@ TEST(LoadSweep, NamesFieldPlaceAndWhatIsAllowed) {
     EXPECT_TRUE(contains(axis_error("{name: a, path: demand.kind, values: [queue, jam]}"), "value 'jam' is unknown"));
     EXPECT_TRUE(contains(axis_error("{name: a, path: signal.green, values: ['[5 s']}"), "not valid YAML"));
     EXPECT_TRUE(contains(axis_error("{name: a, path: signal.green, values: ['']}"), "needs a single value"));
+}
+
+TEST(LoadSweep, NamesThePlaceOfAScenarioThatIsNotThere) {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("sweep.yaml", "title: x\nscenario: rte.yaml\n").string();
+    EXPECT_EQ(input_error_of([&] { load_sweep(file); }),
+              file + ":2:11: field 'scenario': value 'rte.yaml' leads to " + (folder.path() / "rte.yaml").string() +
+                  ": no such file (relative paths start at the sweep file's folder)");
+    // With all else that is wrong.
+    const std::string both = sweep_error("scenario: none.yaml\naxes:\n- {name: a, path: signal.green, values: [5]}\n");
+    EXPECT_TRUE(contains(both, "test.yaml:1:11: field 'scenario': value 'none.yaml' leads to none.yaml: no such file"));
+    EXPECT_TRUE(contains(both, "test.yaml:3:42: field 'axes[a]: signal.green': value '5' has no unit"));
+    EXPECT_TRUE(contains(sweep_error("scenario: ..\n"), "field 'scenario': value '..' leads to ..: is a directory"));
+    folder.write("rte.yaml", "name: x\n");
+    EXPECT_EQ(input_error_of([&] { load_sweep(file); }), "");
 }
 
 TEST(LoadSweep, ChecksAxesAgainstEachOther) {

@@ -113,5 +113,49 @@ TEST(Turns, HaveALaneThatServesThem) {
     EXPECT_TRUE(contains(error_of("title: x\n", {"demand.right=5 %"}), "has no effect on a straight road"));
 }
 
+std::string with_rules(const std::string& rules, const std::vector<std::string>& overrides = {}) {
+    return error_of("rules: " + rules + "\n", overrides);
+}
+
+TEST(Rules, WhatBelongsToTheNoBlockRuleIsForWhereItIsOn) {
+    EXPECT_TRUE(contains(with_rules("{keep_clear: off, light_ahead: on}"),
+                         "test.yaml:1:39: field 'rules.light_ahead' is used only where keep_clear is on"));
+    EXPECT_TRUE(contains(with_rules("{keep_clear: off, sight: 100 m}"), "'rules.sight' is used only where"));
+    EXPECT_TRUE(contains(with_rules("{light_ahead: on}"), "'rules.light_ahead' is used only where"));
+    EXPECT_TRUE(contains(with_rules("{sight: 300 m}"), "'rules.sight' is used only where"));
+    EXPECT_TRUE(contains(with_rules("{}", {"rules.light_ahead=on"}), "'rules.light_ahead' is used only where"));
+    EXPECT_TRUE(contains(with_rules("{keep_clear: off}", {"rules.sight=9 m"}), "'rules.sight' is used only where"));
+    EXPECT_TRUE(contains(with_rules("{}", {"rules={keep_clear: off, light_ahead: on}"}), "is used only where"));
+    EXPECT_TRUE(contains(with_rules("{sight: off}"), "field 'rules.sight': value 'off' is not a number"));
+    for (const char* const rules :
+         {"{}", "{teleport_cycles: 3}", "{keep_clear: on}", "{keep_clear: on, light_ahead: on}", "{light_ahead: off}",
+          "{keep_clear: on, sight: 100 m, light_ahead: off}", "{keep_clear: off, light_ahead: off}"}) {
+        EXPECT_EQ(with_rules(rules), "") << rules;
+    }
+}
+
+// Its parameters stay in the file, and come back with it.
+TEST(Rules, AreSwitchedOffByAnOverrideAlone) {
+    const std::string all = "{keep_clear: on, sight: 100 m, light_ahead: on}";
+    EXPECT_EQ(with_rules(all, {"rules.keep_clear=off"}), "");
+    EXPECT_TRUE(contains(with_rules(all, {"rules.keep_clear=off", "rules.light_ahead=on"}), "is used only where"));
+    EXPECT_TRUE(contains(with_rules("{keep_clear: on, sight: 0 m}", {"rules.keep_clear=off"}), "is out of range"));
+    for (const char* const keep_clear : {"on", "off"}) {
+        const Scenario scenario =
+            parse_scenario("rules: " + all + "\n", "test.yaml", {std::string("rules.keep_clear=") + keep_clear});
+        const std::string text = canonical_text(scenario);
+        EXPECT_EQ(canonical_text(parse_scenario(text, "test.yaml")), text) << keep_clear;
+        EXPECT_EQ(text.find("light_ahead") != std::string::npos, std::string(keep_clear) == "on");
+    }
+}
+
+TEST(TimeSpace, ASideIsForADiagramThatIsDrawn) {
+    EXPECT_TRUE(contains(in_grid({"measure.time_space_from=south"}),
+                         "field 'measure.time_space_from': value south has no effect without measure.time_space"));
+    EXPECT_EQ(in_grid({"measure.time_space_from=south", "measure.time_space=60 s"}), "");
+    EXPECT_EQ(in_grid({"measure.time_space_from=west"}), "");
+    EXPECT_TRUE(contains(in_grid({"measure.time_space_from=up", "measure.time_space=60 s"}), "'up' is unknown"));
+}
+
 }  // namespace
 }  // namespace stopline
