@@ -134,6 +134,18 @@ double road_m(const Scenario& scenario, const Model& model) {
 
 double cycle_of(const Scenario& scenario) { return scenario.signal.both_stages_s(); }
 
+// From the stop line until wholly on the exit, at the limits of the way.
+double slowest_crossing_s(const Model& model) {
+    double slowest_s = 0.0;
+    for (const Lane& way : model.graph.lanes) {
+        if (way.origin < 0) continue;
+        const Lane& origin = model.graph.lanes[at(way.origin)];
+        const double way_m = origin.length_m - origin.stop_line_m + way.length_m + model.vehicles[0].length_m;
+        slowest_s = std::max(slowest_s, way_m / way.limit_mps);
+    }
+    return slowest_s;
+}
+
 }  // namespace
 
 TimeWindow first_cycle(const Scenario& scenario) {
@@ -182,7 +194,8 @@ IntersectionFigures run_intersection(const Scenario& scenario, std::size_t popul
     figures.gaps_accepted = static_cast<std::int64_t>(state.gaps_accepted.size());
     figures.longest_inside_s = model.time_s(state.longest_inside);
     figures.violations = state.violations;
-    figures.violations.deadlocks = figures.longest_inside_s >= 2.0 * cycle_of(scenario) ? 1 : 0;
+    const double too_long_s = 2.0 * cycle_of(scenario) + slowest_crossing_s(model);
+    figures.violations.deadlocks = figures.longest_inside_s >= too_long_s ? 1 : 0;
     figures.entered = state.entered;
     figures.left_network = state.left;
     figures.updates = state.updates;

@@ -35,7 +35,7 @@ struct IntersectionFigures {
     double straight = 0.0, right = 0.0, left = 0.0;  // shares of those that left the intersection within the window
     std::int64_t gaps_accepted = 0;
     double longest_inside_s =
-        0.0;  // that a vehicle spent between its stop line and wholly on the exit; two cycles: a deadlock
+        0.0;  // that a vehicle spent between its stop line and wholly on the exit; two cycles and what the slowest way takes: a deadlock
     double picture_s = 0.0;  // in the middle of the first green of the last group within the window
     std::vector<DrawnVehicle> picture;
     std::vector<Light> picture_lights;  // [signal group]

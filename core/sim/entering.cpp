@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/arithmetic.h"
 #include "base/random.h"
 #include "sim/phases.h"
 
@@ -36,18 +37,39 @@ bool somebody_on_way_to(const Model& model, const State& state, int lane) {
     return std::any_of(ways.begin(), ways.end(), [&](int way) { return state.blocks[at(way)].count > 0; });
 }
 
+// On a link without vehicles: behind the one beyond it.
+Entry entry_on_empty_link(const Model& model, const State& state, int inlet, int policy, double fastest_mps) {
+    const int lane = model.demand.inlets[at(inlet)].lane;
+    const double front_m = model.vehicles[0].length_m;
+    const double most_mps = std::min(fastest_mps, stops_from_mps(model, lane, front_m));
+    const Ahead ahead =
+        vehicle_ahead(state, lane, front_m, state.inlets[at(inlet)].next_route, 0, model.driver.cacc.radar_range_m);
+    if (ahead.slot < 0) return {true, front_m, most_mps};
+    const VehicleArrays& v = state.vehicles;
+    const double ahead_mps = v.speed_mps[at(ahead.slot)];
+    const double room_m = ahead.start_m + v.position_m[at(ahead.slot)] - v.length_m[at(ahead.slot)] - front_m;
+    const double braking_m =
+        0.5 * std::max(square(most_mps) - square(ahead_mps), 0.0) / model.driver.stop.deceleration_mps2;
+    const bool far = room_m >= desired_gap_m(model, policy, most_mps) + braking_m;
+    const double speed_mps = far ? most_mps : std::min(most_mps, ahead_mps);
+    return {room_m >= desired_gap_m(model, policy, speed_mps), front_m, speed_mps};
+}
+
 // Between two intersections its rear is not in the first one.
 Entry entry_of(const Model& model, const State& state, int inlet, int policy) {
     const int lane = model.demand.inlets[at(inlet)].lane;
     const double fastest_mps = std::min(model.demand.entry_speed_mps, model.graph.lanes[at(lane)].limit_mps);
     const LaneBlock& block = state.blocks[at(lane)];
     if (somebody_on_way_to(model, state, lane)) return {};
-    const double least_m = model.leads_to[at(lane)].empty() ? 0.0 : model.vehicles[0].length_m;
-    if (block.count == 0) return {true, least_m, fastest_mps};
+    const bool link = !model.leads_to[at(lane)].empty();
+    if (block.count == 0 && link) return entry_on_empty_link(model, state, inlet, policy, fastest_mps);
+    if (block.count == 0) return {true, 0.0, fastest_mps};
+    const double least_m = link ? model.vehicles[0].length_m : 0.0;
     const VehicleArrays& v = state.vehicles;
     const std::size_t last = at(block.last());
     const double rear_m = v.position_m[last] - v.length_m[last];
-    const double speed_mps = std::min(fastest_mps, v.speed_mps[last]);
+    const double highest_mps = link ? std::min(fastest_mps, stops_from_mps(model, lane, least_m)) : fastest_mps;
+    const double speed_mps = std::min(highest_mps, v.speed_mps[last]);
     if (model.demand.is_saturated(inlet)) {
         const double position_m = rear_m - desired_gap_m(model, policy, speed_mps);
         return {position_m >= least_m, position_m, speed_mps};

@@ -66,8 +66,8 @@ struct Violations {
     std::int64_t red_entries = 0;         // passed a stop line on red although stopping had been possible
     std::int64_t forced_red_entries = 0;  // passed on red because stopping was not possible (no violation by itself)
     std::int64_t lost_vehicles = 0;       // entered minus left minus present
-    std::int64_t deadlocks = 0;           // runs in which a vehicle was inside an intersection for two cycles
-    Sighting first = {};                  // of all but lost vehicles and deadlocks
+    std::int64_t deadlocks = 0;  // runs in which a vehicle was inside an intersection for too long (intersection_run.h)
+    Sighting first = {};         // of all but lost vehicles and deadlocks
 
     // In any order: parts of the network are looked at one by one.
     void see(const Sighting& sighting) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "base/huge_page_allocator.h"
+#include "base/simd.h"
 
 namespace stopline {
 
@@ -30,12 +31,17 @@ struct FullGroup {
 class FullGroupArrays {
 public:
     void resize(int vehicles);
+    // For more than was foreseen: where vehicles overlap, a lane can hold more than fit one behind the other.
+    void make_room(int vehicles) {
+        if (static_cast<std::size_t>(vehicles) + kSpare > vehicles_) resize(2 * vehicles + static_cast<int>(kSpare));
+    }
     FullGroup streams();
 
 private:
     LargeArray<double> doubles_;
     LargeArray<float> floats_;
     LargeArray<int> ints_;
+    static constexpr std::size_t kSpare = 2 * kSimdWidth;  // batches reach beyond the last vehicle
     std::size_t vehicles_ = 0;
 };
 

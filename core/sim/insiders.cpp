@@ -108,7 +108,6 @@ void find_occupied_lanes(State& state, NetworkPart& part) {
 }
 
 void find_insiders(State& state, NetworkPart& part) {
-    if (part.inside.empty()) return;
     Search search(state, part);
     search.forget();
     // The order makes that each lane's insiders are listed from the front.

@@ -54,6 +54,7 @@ void step_full_groups(const Model& model, const FullTables& tables, State& state
     collect_group(model, state, part, seen, group);
     while (!group.lanes.empty()) {
         collect_group(model, state, part, seen, next);
+        part.full_group.make_room(group.vehicles);
         step_full(model, tables, group, prefetch ? std::span<const int>(next.lines) : std::span<const int>(), state,
                   part);
         std::swap(group, next);

@@ -122,6 +122,7 @@ bool put_back(const Model& model, State& state, int k) {
         if (room_m < 0.0) return false;
         speed_mps = std::min(v.speed_mps[at(last)], 0.5 * room_m);
     }
+    if (v.record[at(waiting)].trip < 0) speed_mps = std::min(speed_mps, stops_from_mps(model, removed.lane, front_m));
     if (somebody_comes(model, state, removed.lane)) return false;
     const int slot = append_slot(state, removed.lane);
     v.copy(waiting, slot);

@@ -172,6 +172,9 @@ struct OnTrip {
 };
 Ahead vehicle_ahead(const State& state, int lane, double position_m, const OnTrip& on_trip, double range_m);
 
+// The highest speed of a vehicle that is put on a lane from which it stops comfortably before the stop line; any, where there is none ahead.
+double stops_from_mps(const Model& model, int lane, double front_m);
+
 // The net gap that a vehicle with this policy keeps at a speed.
 double desired_gap_m(const Model& model, int policy, double speed_mps);
 

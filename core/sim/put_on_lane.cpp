@@ -1,4 +1,6 @@
 // A vehicle is put on a lane, or gets another predecessor there: what it is, sees and keeps.
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "sim/phases.h"
@@ -55,6 +57,13 @@ void follow_anew(State& state, int slot, const LaneBlock& block) {
     v.leads[at(slot)] = 0.0F;
     const double rear_m = v.position_m[at(slot - 1)] - static_cast<double>(v.length_m[at(slot - 1)]);
     v.reset_radar(slot, rear_m - v.position_m[at(slot)], v.speed_mps[at(slot)] - v.speed_mps[at(slot - 1)]);
+}
+
+double stops_from_mps(const Model& model, int lane, double front_m) {
+    const Lane& road = model.graph.lanes[at(lane)];
+    if (road.signal_group < 0 || front_m > road.stop_line_m) return kAnySpeed_mps;
+    const double room_m = std::max(road.stop_line_m - model.driver.stop.margin_m - front_m, 0.0);
+    return std::sqrt(2.0 * model.driver.stop.deceleration_mps2 * room_m);
 }
 
 double desired_gap_m(const Model& model, int policy_number, double speed_mps) {

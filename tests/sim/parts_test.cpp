@@ -68,6 +68,23 @@ TEST(Parts, AnyNumberOfThreadsGivesTheSameRun) {
     }
 }
 
+// Ways that meet no other have parts of their own.
+TEST(Parts, WaysWithoutConflictsAreInTheAccountToo) {
+    const Scenario scenario = parse_scenario(
+        "network: {kind: grid, intersection: {lanes: [{movements: straight+left}, {movements: right}], radius: 40 m, "
+        "turn_speed: 5 m/s}}\n"
+        "demand: {kind: queue, vehicles: 10}\n"
+        "duration: 300 s\n"
+        "measure: {steady: 60 s}\n"
+        "populations: [CTG-HBS]\n",
+        "right_turns.yaml");
+    const Model model = build_model(scenario, 0);
+    Simulation alone(model);
+    Simulation shared(model, 2);
+    expect_same(alone, shared, 200.0, 50.0, "right turns");
+    EXPECT_GT(model.time_s(alone.state().longest_inside), 10.0);
+}
+
 TEST(Parts, InFullDynamicsToo) {
     const Model model = crowded("full", 2);
     Simulation alone(model);
