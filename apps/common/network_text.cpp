@@ -40,6 +40,44 @@ std::string waiting_text(const NetworkReport& report) {
     return text;
 }
 
+std::string breakdown_text(const NetworkFigures& f) {
+    const double since_s = f.collapse_s.value_or(0.0);
+    switch (f.breakdown) {
+        case Breakdown::none:
+            return "";
+        case Breakdown::fall:
+            return fmt::format(", less from {:.0f} s on", since_s);
+        case Breakdown::moved_on:
+            return fmt::format(", 1 % moved on by {:.0f} s", since_s);
+        case Breakdown::gridlock:
+            return fmt::format(", gridlock since {:.0f} s", since_s);
+    }
+    return "";
+}
+
+// What to mind about figures that are there.
+std::string warnings_text(const NetworkReport& report) {
+    constexpr int kFewest = 10;  // find_collapse()
+    std::string text;
+    std::string too_short;
+    for (const NetworkFigures& f : report.populations) {
+        if (leaves_few(f)) {
+            text += fmt::format(
+                "\n{}: travel time is of the few that get out; {:.0f} vehicles, of which {:.0f} leave an hour, are in the "
+                "area for {:.0f} s.",
+                f.population, f.steady.vehicles, f.steady.throughput_veh_h(),
+                f.steady.vehicles * 3600.0 / f.steady.throughput_veh_h());
+        }
+        const bool open = f.stability != Stability::unstable && f.full_cycles < kFewest;
+        if (open) too_short += (too_short.empty() ? "" : ", ") + f.population;
+    }
+    if (!too_short.empty()) {
+        text += fmt::format("\nToo short to see whether throughput falls, less than {} cycles since it has filled: {}.",
+                            kFewest, too_short);
+    }
+    return text;
+}
+
 std::string sighting_text(const NetworkFigures& f, const std::vector<std::string>& lanes) {
     const Sighting& seen = f.violations.first;
     if (seen.time_s < 0.0) return "";
@@ -66,7 +104,7 @@ std::string network_text(const NetworkReport& report) {
         const HindranceLog& log = f.hindrance;
         std::string stability = kStabilityNames[static_cast<std::size_t>(f.stability)];
         const bool measured = f.steady.window.length_s() > 0.0;
-        if (f.collapse_s) stability += fmt::format(", less from {:.0f} s on", *f.collapse_s);
+        stability += breakdown_text(f);
         table.row({f.population, number(f.steady.throughput_veh_h(), 0), number(report.improvement_percent(f), 1),
                    number(f.steady.travel_time_s, 1), number(report.time_saved_percent(f), 1),
                    measured ? number(100.0 * f.steady.occupied, 1) : "-",
@@ -86,8 +124,8 @@ std::string network_text(const NetworkReport& report) {
         "{} veh/h: vehicles that leave it; s: their mean time in it; density: share of\n"
         "its lanes' metres; junction, turn, spillback, gridlock, lane: share of the time that vehicles stand, by what holds up\n"
         "their queue (lane: one that waits to change lanes); moved on, passed: uses of the rules. These, gridlocks and\n"
-        "stability are of the whole run.\n{}\n",
-        area, window_text(report));
+        "stability are of the whole run, queues outside included.\n{}{}\n",
+        area, window_text(report), warnings_text(report));
     const std::string verdict =
         violations == 0
             ? "No overlaps on lanes or in conflict areas but by the rule for blockers, no entries on red, no vehicle "

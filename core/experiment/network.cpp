@@ -26,9 +26,20 @@ const std::string& lane_name(const NetworkReport& report, int lane) {
     return lane < 0 ? kNone : report.lanes.at(static_cast<std::size_t>(lane));
 }
 
+// "" where nothing is measured.
+std::string window_end(const NetworkFigures& figures, double time_s) {
+    return figures.steady.window.length_s() > 0.0 ? fixed(time_s, 0) : "";
+}
+
 std::string number_or_none(int number) { return number < 0 ? "" : std::to_string(number); }
 
 }  // namespace
+
+bool leaves_few(const NetworkFigures& figures) {
+    constexpr double kMuchLonger = 1.5;
+    const AreaFigures& steady = figures.steady;
+    return steady.vehicles * kHour_s > kMuchLonger * steady.throughput_veh_h() * steady.travel_time_s;
+}
 
 double NetworkReport::improvement_percent(const NetworkFigures& figures) const {
     const NetworkFigures* const base = baseline_of(*this);
@@ -39,6 +50,7 @@ double NetworkReport::improvement_percent(const NetworkFigures& figures) const {
 double NetworkReport::time_saved_percent(const NetworkFigures& figures) const {
     const NetworkFigures* const base = baseline_of(*this);
     if (base == nullptr) return std::numeric_limits<double>::quiet_NaN();
+    if (leaves_few(figures) || leaves_few(*base)) return std::numeric_limits<double>::quiet_NaN();
     return 100.0 * (1.0 - figures.steady.travel_time_s / base->steady.travel_time_s);
 }
 
@@ -104,16 +116,30 @@ std::string window_text(const NetworkReport& report) {
 }
 
 std::string network_csv(const NetworkReport& report) {
-    std::vector<std::string> columns{
-        "population",       "throughput_veh_h", "improvement_percent", "travel_time_s", "travel_time_saved_percent",
-        "density_percent",  "vehicles_in_area", "vehicles_present",    "most_present",  "window_from_s",
-        "window_to_s",      "warm_up_s",        "stability",           "collapse_s",    "gridlocks",
-        "first_gridlock_s", "moved_on",         "passed_blockers"};
+    std::vector<std::string> columns{"population",
+                                     "throughput_veh_h",
+                                     "improvement_percent",
+                                     "travel_time_s",
+                                     "travel_time_saved_percent",
+                                     "density_percent",
+                                     "vehicles_in_area",
+                                     "vehicles_present",
+                                     "most_present",
+                                     "window_from_s",
+                                     "window_to_s",
+                                     "warm_up_s",
+                                     "stability",
+                                     "unstable_by",
+                                     "collapse_s",
+                                     "gridlocks",
+                                     "first_gridlock_s",
+                                     "moved_on",
+                                     "passed_blockers"};
     for (std::size_t cause = 1; cause < kCauseNames.size(); ++cause) {
         columns.push_back(fmt::format("lost_{}_h", kCauseNames[cause]));
     }
-    for (const char* const column : {"longest_stand_s", "longest_inside_s", "entered", "left", "overlaps", "conflicts",
-                                     "red_entries", "forced_red_entries", "lost_vehicles"}) {
+    for (const char* const column : {"lost_outside_h", "longest_stand_s", "longest_inside_s", "entered", "left",
+                                     "overlaps", "conflicts", "red_entries", "forced_red_entries", "lost_vehicles"}) {
         columns.emplace_back(column);
     }
     const bool trips = report.scenario.network.is_sumo();
@@ -131,10 +157,11 @@ std::string network_csv(const NetworkReport& report) {
                                      fixed(f.steady.vehicles, 2),
                                      fixed(f.vehicles_present, 2),
                                      std::to_string(f.most_present),
-                                     fixed(f.steady.window.from_s, 0),
-                                     fixed(f.steady.window.to_s, 0),
+                                     window_end(f, f.steady.window.from_s),
+                                     window_end(f, f.steady.window.to_s),
                                      fixed(f.warm_up_s, 0),
                                      kStabilityNames[static_cast<std::size_t>(f.stability)],
+                                     kBreakdownNames[static_cast<std::size_t>(f.breakdown)],
                                      f.collapse_s ? fixed(*f.collapse_s, 0) : "",
                                      std::to_string(log.gridlocks.size()),
                                      log.gridlocks.empty() ? "" : fixed(log.gridlocks[0].from_s, 0),
@@ -145,9 +172,10 @@ std::string network_csv(const NetworkReport& report) {
         }
         const Violations& v = f.violations;
         for (const std::string& cell :
-             {fixed(log.longest_stand_s, 0), fixed(f.longest_inside_s, 1), std::to_string(f.entered),
-              std::to_string(f.left_network), std::to_string(v.overlaps), std::to_string(v.conflicts),
-              std::to_string(v.red_entries), std::to_string(v.forced_red_entries), std::to_string(v.lost_vehicles)}) {
+             {fixed(log.lost_outside_s / kHour_s, 3), fixed(log.longest_stand_s, 0), fixed(f.longest_inside_s, 1),
+              std::to_string(f.entered), std::to_string(f.left_network), std::to_string(v.overlaps),
+              std::to_string(v.conflicts), std::to_string(v.red_entries), std::to_string(v.forced_red_entries),
+              std::to_string(v.lost_vehicles)}) {
             row.push_back(cell);
         }
         if (trips) row.push_back(std::to_string(f.strayed));
@@ -223,7 +251,7 @@ std::string gridlocks_csv(const NetworkReport& report) {
 }
 
 std::string rules_csv(const NetworkReport& report) {
-    static constexpr std::array<const char*, 3> kKinds{"moved_on", "put_back", "passed_blocker"};
+    static constexpr std::array<const char*, 4> kKinds{"moved_on", "put_back", "passed_blocker", "kept_out"};
     CsvWriter csv({"population", "time_s", "rule", "vehicle", "lane", "blocker", "stood_s"});
     for (const NetworkFigures& f : report.populations) {
         for (const RuleUse& use : f.hindrance.rules) {

@@ -15,11 +15,16 @@ struct NetworkReport {
     std::vector<NetworkFigures> populations;  // in the order of the scenario
     std::vector<std::string> lanes;           // names, as events number them
 
-    // Of throughput over the baseline, and of travel time below it, in percent; NaN without one.
+    // Of throughput over the baseline, and of travel time below it, in percent; NaN without one. The latter is NaN too where either
+    // leaves_few().
     double improvement_percent(const NetworkFigures& figures) const;
     double time_saved_percent(const NetworkFigures& figures) const;
     bool no_violations() const;
 };
+
+// Travel times are of those that get out. Where the vehicles in the area, over what leaves it, are there for half as long again or more
+// (Little's law), these are not typical: many do not get out.
+bool leaves_few(const NetworkFigures& figures);
 
 struct NetworkOptions {
     int threads = 1;

@@ -68,6 +68,26 @@ std::string range_of(const std::vector<std::vector<SeriesPoint>>& all, std::size
     return "[0:1]";
 }
 
+// The measured window, and when runs break down.
+std::string marks_of(const NetworkReport& report) {
+    std::string text;
+    if (report.populations.empty()) return text;
+    const TimeWindow& window = report.populations[0].steady.window;
+    if (window.length_s() > 0.0) {
+        text += fmt::format(
+            "set object 1 rectangle from first {:.4f},graph 0 to first {:.4f},graph 1 behind fc rgb '#f2f2f2' fs solid "
+            "noborder\n",
+            window.from_s / 3600.0, window.to_s / 3600.0);
+    }
+    for (const NetworkFigures& f : report.populations) {
+        if (!f.collapse_s) continue;
+        text += fmt::format(
+            "set arrow from first {0:.4f},graph 0 to first {0:.4f},graph 1 nohead lw 1.5 lc rgb '{1}' dt 3\n",
+            *f.collapse_s / 3600.0, style_of(report.scenario, f.population).colour);
+    }
+    return text;
+}
+
 }  // namespace
 
 Figure network_series_figure(const NetworkReport& report) {
@@ -87,13 +107,15 @@ Figure network_series_figure(const NetworkReport& report) {
         drawn = std::max(drawn, all.back().size());
     }
     if (drawn == 0) figure.nothing = no_interval_text(report.scenario);
-    body += fmt::format("set xrange [0:{:g}]\n", report.scenario.duration_s / 3600.0);
+    body += fmt::format("set xrange [0:{:g}]\n", report.scenario.duration_s / 3600.0) + marks_of(report);
     for (std::size_t panel = 0; panel < kPanels.size(); ++panel) {
         const bool last = panel + 1 == kPanels.size();
-        body += last ? fmt::format("set xlabel 'time [h]; points: {}{}'\nset format x '%g'\n",
-                                   points_text(intervals, interval_s),
-                                   intervals_of_a_point(intervals) > 1 ? " (moved on: their sum)" : "")
-                     : "unset xlabel\nset format x ''\n";
+        body +=
+            last ? fmt::format(
+                       "set xlabel 'time [h]; grey: measured; dotted: breaks down; points: {}{}'\nset format x '%g'\n",
+                       points_text(intervals, interval_s),
+                       intervals_of_a_point(intervals) > 1 ? " (moved on: their sum)" : "")
+                 : "unset xlabel\nset format x ''\n";
         body += fmt::format("set ylabel '{}'\nset yrange {}\n{}plot ", kPanels[panel], range_of(all, panel),
                             panel == 0 ? "" : "unset key\n");
         for (std::size_t k = 0; k < report.populations.size(); ++k) {

@@ -46,6 +46,7 @@ void watch_area(const Scenario& scenario, Model& model) {
     if (scenario.network.is_sumo()) return watch_trips(model);
     std::erase_if(model.detectors, [](const Detector& d) { return d.kind != Detector::Kind::stop_line; });
     const double outside_m = scenario.measure.outside_m;
+    model.area_begins_m.assign(model.graph.lanes.size(), 0.0);
     for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {
         const Lane& road = model.graph.lanes[at(lane)];
         if (road.origin >= 0) continue;
@@ -53,7 +54,8 @@ void watch_area(const Scenario& scenario, Model& model) {
         if (road.signal_group < 0) {
             model.detectors.push_back({lane, outside_m, Detector::Kind::zone, 0, true});
         } else if (from_outside(model.graph, lane) && !within) {
-            model.detectors.push_back({lane, road.stop_line_m - outside_m, Detector::Kind::zone, 0, false});
+            model.area_begins_m[at(lane)] = road.stop_line_m - outside_m;
+            model.detectors.push_back({lane, model.area_begins_m[at(lane)], Detector::Kind::zone, 0, false});
         }
     }
     watch_inner_inlets(model);
@@ -107,7 +109,7 @@ public:
             sum += present_[s];
             ++samples;
         }
-        return sum / std::max(samples, 1);
+        return samples > 0 ? sum / samples : std::numeric_limits<double>::quiet_NaN();
     }
 
 private:
@@ -119,9 +121,7 @@ private:
     std::vector<int> present_;  // [second]
 };
 
-constexpr std::size_t kTogether = 5;  // intervals
-
-// Mean over whole intervals from `from_s` on.
+// Mean over whole intervals from `from_s` on; NaN where there is none.
 AreaFigures mean_of(const std::vector<NetworkInterval>& series, double from_s) {
     AreaFigures mean;
     double travel_s = 0.0;
@@ -136,24 +136,11 @@ AreaFigures mean_of(const std::vector<NetworkInterval>& series, double from_s) {
         mean.vehicles += each.area.vehicles;
         mean.occupied += each.area.occupied;
     }
-    mean.vehicles /= std::max(intervals, 1);
-    mean.occupied /= std::max(intervals, 1);
-    mean.travel_time_s = mean.left > 0 ? travel_s / mean.left : std::numeric_limits<double>::quiet_NaN();
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    mean.vehicles = intervals > 0 ? mean.vehicles / intervals : none;
+    mean.occupied = intervals > 0 ? mean.occupied / intervals : none;
+    mean.travel_time_s = mean.left > 0 ? travel_s / mean.left : none;
     return mean;
-}
-
-// Throughput since the network has filled, in means of five intervals: the greens of single cycles must not look like a change.
-std::optional<double> collapse_of(const NetworkFigures& figures) {
-    std::vector<double> flow;
-    for (std::size_t k = 0; k + kTogether <= figures.series.size(); k += kTogether) {
-        double sum = 0.0;
-        for (std::size_t i = 0; i < kTogether; ++i) sum += figures.series[k + i].area.throughput_veh_h();
-        flow.push_back(sum / static_cast<double>(kTogether));
-    }
-    const std::size_t filled = first_full(flow);
-    const std::optional<Collapse> collapse = find_collapse(std::span(flow).subspan(filled), kCollapseShare);
-    if (!collapse) return std::nullopt;
-    return figures.series[(filled + collapse->at) * kTogether].area.window.from_s;
 }
 
 // A circle that the rules have not dissolved, and that is still there.
@@ -162,17 +149,77 @@ bool stays(const Gridlock& gridlock, double end_s, double cycle_s) {
     return end_s - gridlock.to_s <= cycle_s && gridlock.to_s - gridlock.from_s >= kLasting_cycles * cycle_s;
 }
 
-Stability stability_of(const NetworkFigures& figures, double end_s, double cycle_s) {
-    const auto moved_on = static_cast<double>(figures.hindrance.taken_out);
-    const std::vector<Gridlock>& gridlocks = figures.hindrance.gridlocks;
-    if (moved_on >= kSemiStableShare * static_cast<double>(figures.left_network) && moved_on > 0.0) {
-        return Stability::unstable;
+// Whether and when a run breaks down, from what leaves the area in each cycle of the lights: what is chosen for the series has no say.
+class StabilityVerdict {
+public:
+    StabilityVerdict(NetworkFigures& figures, const std::vector<AreaFigures>& cycles, double cycle_s)
+        : figures_(figures), cycles_(cycles), cycle_s_(cycle_s), filled_(filled()) {}
+
+    void pass(double end_s) {
+        figures_.full_cycles = static_cast<int>(cycles_.size() - filled_);
+        const HindranceLog& log = figures_.hindrance;
+        if (const auto fall_s = log.gridlocks.empty() ? std::nullopt : falls_at()) {
+            return unstable(Breakdown::fall, fall_s);
+        }
+        const auto moved_on = static_cast<double>(log.taken_out);
+        if (log.taken_out > 0 && moved_on >= kSemiStableShare * static_cast<double>(figures_.left_network)) {
+            return unstable(Breakdown::moved_on, moves_on_from());
+        }
+        for (const Gridlock& gridlock : log.gridlocks) {
+            if (stays(gridlock, end_s, cycle_s_)) return unstable(Breakdown::gridlock, gridlock.from_s);
+        }
+        const bool semi = !log.gridlocks.empty() || log.taken_out > 0;
+        figures_.stability = semi ? Stability::semi_stable : Stability::stable;
     }
-    const auto is_lasting = [&](const Gridlock& gridlock) { return stays(gridlock, end_s, cycle_s); };
-    if ((figures.collapse_s && !gridlocks.empty()) || std::any_of(gridlocks.begin(), gridlocks.end(), is_lasting))
-        return Stability::unstable;
-    return !gridlocks.empty() || moved_on > 0.0 ? Stability::semi_stable : Stability::stable;
-}
+
+private:
+    void unstable(Breakdown by, std::optional<double> since_s) {
+        figures_.stability = Stability::unstable;
+        figures_.breakdown = by;
+        figures_.collapse_s = since_s;
+    }
+
+    // The first cycle in which it has filled; by means of five, since single ones scatter.
+    std::size_t filled() const {
+        constexpr std::size_t kTogether = 5;
+        std::vector<double> means;
+        for (std::size_t k = 0; k + kTogether <= cycles_.size(); k += kTogether) {
+            double sum = 0.0;
+            for (std::size_t i = 0; i < kTogether; ++i) sum += cycles_[k + i].left;
+            means.push_back(sum / static_cast<double>(kTogether));
+        }
+        return first_full(means) * kTogether;
+    }
+
+    std::optional<double> falls_at() const {
+        std::vector<double> flow;
+        for (const AreaFigures& cycle : cycles_) flow.push_back(cycle.left);
+        const std::optional<Collapse> collapse = find_collapse(std::span(flow).subspan(filled_), kCollapseShare);
+        if (!collapse) return std::nullopt;
+        return cycles_[filled_ + collapse->at].window.from_s;
+    }
+
+    // The end of the last cycle in which the share of those that were moved on was still below the limit.
+    double moves_on_from() const {
+        double since_s = 0.0;
+        double left = 0.0;
+        double moved_on = 0.0;
+        auto use = figures_.hindrance.rules.begin();
+        for (const AreaFigures& cycle : cycles_) {
+            left += cycle.left;
+            for (; use != figures_.hindrance.rules.end() && use->time_s < cycle.window.to_s; ++use) {
+                moved_on += use->kind == RuleUse::Kind::taken_out ? 1.0 : 0.0;
+            }
+            if (moved_on < kSemiStableShare * left) since_s = cycle.window.to_s;
+        }
+        return since_s;
+    }
+
+    NetworkFigures& figures_;
+    const std::vector<AreaFigures>& cycles_;
+    double cycle_s_;
+    std::size_t filled_;
+};
 
 void measure(const Scenario& scenario, const Model& model, const State& state, const Sampler& sampler,
              NetworkFigures& figures) {
@@ -190,7 +237,6 @@ void measure(const Scenario& scenario, const Model& model, const State& state, c
     const double steady_s = end_s - scenario.measure.steady_s;
     figures.steady = mean_of(figures.series, steady_s > 0.0 ? steady_s : figures.warm_up_s);
     if (model.trips_begin < 0) figures.ways = way_figures(model, state.crossings, figures.steady.window);
-    figures.collapse_s = collapse_of(figures);
 }
 
 // From so many vehicles on, whose step takes some tens of microseconds, a second thread is worth it.
@@ -245,7 +291,11 @@ NetworkFigures run_network(const Scenario& scenario, std::size_t population,
     figures.left_network = state.left;
     figures.updates = state.updates;
     figures.state_hash = simulation.state_hash();
-    figures.stability = stability_of(figures, model.time_s(state.tick), model.time_s(model.rules.gridlock_ticks));
+    const double cycle_s = model.time_s(model.rules.gridlock_ticks);
+    const double end_s = model.time_s(state.tick);
+    StabilityVerdict(
+        figures, area_series(model.detectors, state.crossings, cycle_s, end_s, area_lane_m(scenario, model)), cycle_s)
+        .pass(end_s);
     figures.street = street.trace();
     backlog.look(state);
     figures.backlog = backlog.backlog();

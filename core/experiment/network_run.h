@@ -17,10 +17,13 @@
 namespace stopline {
 
 // Section VI.D. Stable: no gridlock, nobody was moved on. Semi-stable: gridlocks that dissolve, vehicles moved on are below 1 % of those
-// that left. Unstable: that or more, or throughput falls to a lower level for good (see NetworkFigures::collapse_s) where there are gridlocks,
-// or a gridlock of six cycles or more is there at the end.
+// that left. Unstable: see Breakdown.
 enum class Stability : std::uint8_t { stable, semi_stable, unstable };
 inline constexpr std::array<const char*, 3> kStabilityNames{"stable", "semi-stable", "unstable"};
+// By what a run is unstable, the first that holds: throughput falls to a lower level for good where there are gridlocks; so many vehicles
+// are moved on; a gridlock of six cycles or more is there at the end.
+enum class Breakdown : std::uint8_t { none, fall, moved_on, gridlock };
+inline constexpr std::array<const char*, 4> kBreakdownNames{"", "fall", "moved_on", "gridlock"};
 inline constexpr double kSemiStableShare = 0.01;  // of throughput (Section VI.D)
 inline constexpr double kCollapseShare =
     0.1;  // throughput that is lost at least (our choice: the paper says "significant")
@@ -39,7 +42,10 @@ struct NetworkFigures {
     std::vector<WayFigures> ways;  // over the same window
     std::vector<NetworkInterval> series;
     Stability stability = Stability::stable;
-    std::optional<double> collapse_s;  // from when on throughput stays on a lower level
+    Breakdown breakdown = Breakdown::none;
+    // Of an unstable run: from when on throughput is lower, 1 % or more of those that have left were moved on, or the gridlock stands.
+    std::optional<double> collapse_s;
+    int full_cycles = 0;  // cycles of the lights from when the network had filled to the end
     HindranceLog hindrance;
     Violations violations;
     double longest_inside_s = 0.0;

@@ -115,8 +115,12 @@ std::vector<RunMetric> metrics_of(const Scenario& scenario, const NetworkFigures
     metrics.push_back(number_metric("vehicles_in_area", "veh", f.steady.vehicles, 6));
     metrics.push_back(number_metric("vehicles_present", "veh", f.vehicles_present, 6));
     metrics.push_back(count_metric("most_present", "veh", f.most_present));
+    const bool measured = f.steady.window.length_s() > 0.0;
+    metrics.push_back(number_metric("window_from", "s", measured ? f.steady.window.from_s : none, 1));
+    metrics.push_back(number_metric("window_to", "s", measured ? f.steady.window.to_s : none, 1));
     metrics.push_back(number_metric("warm_up", "s", f.warm_up_s, 1));
     metrics.push_back({"stability", "", kStabilityNames[static_cast<std::size_t>(f.stability)]});
+    metrics.push_back({"unstable_by", "", kBreakdownNames[static_cast<std::size_t>(f.breakdown)]});
     metrics.push_back(number_metric("collapse", "s", f.collapse_s.value_or(none), 1));
     metrics.push_back(count_metric("gridlocks", "", static_cast<std::int64_t>(log.gridlocks.size())));
     metrics.push_back(number_metric("first_gridlock", "s", log.gridlocks.empty() ? none : log.gridlocks[0].from_s, 1));
@@ -126,6 +130,8 @@ std::vector<RunMetric> metrics_of(const Scenario& scenario, const NetworkFigures
         metrics.push_back(
             number_metric(fmt::format("lost_{}", kCauseNames[cause]), "h", log.lost_s[cause] / 3600.0, 6));
     }
+    metrics.push_back(number_metric("lost_outside", "h", log.lost_outside_s / 3600.0, 6));
+    metrics.push_back(count_metric("waiting", "veh", f.waiting));
     if (scenario.network.is_streets()) {
         for (RunMetric& metric : street_metrics(scenario, f)) metrics.push_back(std::move(metric));
     }

@@ -83,7 +83,8 @@ std::optional<Collapse> find_collapse(std::span<const double> values, double sha
         std::sqrt(variance / static_cast<double>(cut) + variance / static_cast<double>(values.size() - cut));
     const double drop = found.before - found.after;
     if (drop < share * found.before || drop <= 3.0 * error) return std::nullopt;
-    if (sums.mean(values.size() - kFewest, values.size()) > (1.0 - share) * found.before) return std::nullopt;
+    const std::size_t last = std::max(kFewest, values.size() / 10);
+    if (sums.mean(values.size() - last, values.size()) > (1.0 - share) * found.before) return std::nullopt;
     return found;
 }
 

@@ -101,10 +101,15 @@ JobOutput run_berlin_sweep_job(const JobContext& context) { return sweep_job(con
 
 JobOutput run_unstable_job(const JobContext& context) {
     JobWriter writer(context);
-    const Scenario scenario = scenario_named(context, "grid", {"signal.green=20 s"});
+    // Here throughput falls after a time on its level; without offset and with fewer turns queues block each other as soon as they meet.
+    const std::vector<std::string> settings{"signal.green=20 s", "signal.offset=15 s", "demand.left=10 %",
+                                            "demand.right=30 %"};
+    const Scenario scenario = scenario_named(context, "grid", settings);
     const NetworkReport report = network_report(context, scenario);
     writer.conditions_of(scenario);
-    writer.command("stopline-run scenarios/grid.yaml --set 'signal.green=20 s'");
+    std::string command = "stopline-run scenarios/grid.yaml";
+    for (const std::string& setting : settings) command += fmt::format(" --set '{}'", setting);
+    writer.command(command);
     writer.table("summary.csv", network_csv(report));
     writer.table("series.csv", network_series_csv(report));
     writer.figure(network_series_figure(report));

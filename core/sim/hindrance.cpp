@@ -127,6 +127,7 @@ private:
         for (const int slot : w_.standing) {
             const Cause cause = w_.cause[at(slot)];
             ++vehicles[static_cast<std::size_t>(cause)];
+            if (cause != Cause::none && is_outside(slot)) state_.hindrance.lost_outside_s += each_s;
             if (cause < Cause::junction_blocking && !stands_long(slot)) continue;
             HindranceEpisode& episode = episode_of(w_.owner[at(slot)], cause);
             if (episode.to_s < now_s_) {
@@ -139,6 +140,11 @@ private:
         for (std::size_t cause = 0; cause < vehicles.size(); ++cause) {
             state_.hindrance.lost_s[cause] += each_s * vehicles[cause];
         }
+    }
+
+    bool is_outside(int slot) const {
+        const std::vector<double>& begins_m = model_.area_begins_m;
+        return !begins_m.empty() && v_.position_m[at(slot)] < begins_m[at(w_.lane[at(slot)])];
     }
 
     HindranceEpisode& episode_of(int owner, Cause cause) {

@@ -59,12 +59,12 @@ struct Gridlock {
 
 // Use of a rule (driver/hindrance_rules.h).
 struct RuleUse {
-    enum class Kind : std::uint8_t { taken_out, put_back, passed_blocker };
+    enum class Kind : std::uint8_t { taken_out, put_back, passed_blocker, kept_out };
     Kind kind = Kind::taken_out;
     double time_s = 0.0;
     int vehicle = -1;
-    int lane = -1;         // where it was or is put, or inside which intersection it passes the blocker
-    int blocker = -1;      // that it passes
+    int lane = -1;         // where it was or is put, or is kept, or inside which intersection it passes the blocker
+    int blocker = -1;      // that it passes, or that is in its way
     double stood_s = 0.0;  // the vehicle that is taken out, or the blocker
 };
 
@@ -73,6 +73,7 @@ struct HindranceLog {
     std::vector<Gridlock> gridlocks;
     std::vector<RuleUse> rules;
     std::array<double, kCauseNames.size()> lost_s{};  // [cause] vehicle seconds
+    double lost_outside_s = 0.0;                      // of all these but `none`: before the measured area
     std::int64_t taken_out = 0;
     std::int64_t passed_blockers = 0;
     double longest_stand_s = 0.0;  // of any vehicle, in one go

@@ -74,6 +74,7 @@ struct Model {
     DemandPlan demand;
     std::vector<Detector> detectors;
     std::vector<std::string> loop_names;
+    std::vector<double> area_begins_m;  // [lane] where the measured area does, 0 within it; empty: all is measured
     GiveWaySettings give_way;
     LaneChangeSettings lane_change;
     RulesPlan rules;

@@ -20,6 +20,7 @@ namespace stopline {
 struct StopLineState {
     int stopper = -1;     // id of the vehicle that stops at the line; those behind follow it
     bool barely = false;  // it was told so late that it may slide over the line all the same
+    int kept_out = -1;    // id of the vehicle that the no-block rule keeps before the line at green
 };
 
 // An entry lane. The next vehicle's policy and route are drawn once, when it comes up. Or a link.
@@ -167,7 +168,7 @@ struct State {
     std::int64_t entered = 0;
     std::int64_t left = 0;
     std::int64_t updates = 0;  // vehicles times steps, those that rest included
-    // The longest that any vehicle has been inside an intersection, as an Insider, in ticks. Two cycles or more: a deadlock.
+    // The longest that any vehicle has been inside an intersection, as an Insider, in ticks.
     std::int64_t longest_inside = 0;
     int next_id = 0;
 

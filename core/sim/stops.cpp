@@ -29,12 +29,13 @@ double stops_with_mps2(const Model& model, Light light) {
                                   : model.driver.cacc.deceleration_emergency_mps2;
 }
 
-// Told on red, with all that its brakes give. can_stop() leaves out that changing down takes from that, by up to a tenth in all; on
-// yellow there is more to give, and in the mesoscale mode nobody changes down.
+// Told where it takes nearly all that its brakes give. can_stop() leaves out that changing down takes from that, by up to a tenth in all; in the
+// mesoscale mode nobody changes down.
 bool can_barely_stop(const Model& model, const VehicleArrays& v, int slot, double line_m, Light light) {
     constexpr double kSure = 0.9;
-    if (model.meso || light != Light::red) return false;
-    return !can_stop(model, v, slot, line_m, kSure * stops_with_mps2(model, light));
+    const double sure_mps2 = kSure * model.driver.cacc.deceleration_emergency_mps2;
+    if (model.meso || stops_with_mps2(model, light) <= sure_mps2) return false;
+    return !can_stop(model, v, slot, line_m, sure_mps2);
 }
 
 int slot_of(const VehicleArrays& v, const LaneBlock& block, int id) {
@@ -218,6 +219,20 @@ int keep_clear(const Model& model, State& state, int index) {
     return -1;
 }
 
+// Each vehicle that is kept out is told of once, when that begins.
+void note_kept_out(const Model& model, const State& state, NetworkPart& part, int index, int slot,
+                   StopLineState& line) {
+    const VehicleArrays& v = state.vehicles;
+    const int id = slot < 0 ? -1 : v.id[at(slot)];
+    if (id >= 0 && id != line.kept_out && model.rules.watches()) {
+        const int blocker = state.kept_out[at(index)].blocker;
+        const std::int64_t stood = blocker < 0 ? 0 : state.tick - v.stands_since[at(blocker)];
+        part.rules.push_back({RuleUse::Kind::kept_out, model.time_s(state.tick), id, index,
+                              blocker < 0 ? -1 : v.id[at(blocker)], model.time_s(stood)});
+    }
+    line.kept_out = id;
+}
+
 // Who stops at the line for its light from now on.
 void tell_to_stop(const Model& model, const State& state, int index, int slot, StopLineState& line) {
     const VehicleArrays& v = state.vehicles;
@@ -285,17 +300,18 @@ void decide_stops(const Model& model, State& state, NetworkPart& part) {
         StopLineState& line = state.stop_lines[at(index)];
         const LaneBlock& block = state.blocks[at(index)];
         int stop_slot = -1;
+        int kept_slot = -1;
         if (lane.by_way) {
             stop_slot = choose_stopper_by_way(model, state, index, line);
             tell_to_stop(model, state, index, stop_slot, line);
             if (stop_slot >= 0) {
                 note_stop(state, lane, stop_slot);
             } else if (model.rules.keep_clear) {
-                stop_slot = keep_clear(model, state, index);
+                stop_slot = kept_slot = keep_clear(model, state, index);
             }
         } else if (line_is_open(model, state, lane.signal_group, line)) {
             line.stopper = -1;
-            if (model.rules.keep_clear) stop_slot = keep_clear(model, state, index);
+            if (model.rules.keep_clear) stop_slot = kept_slot = keep_clear(model, state, index);
         } else {
             if (line.stopper >= 0) stop_slot = slot_of(state.vehicles, block, line.stopper);
             if (stop_slot < 0) {
@@ -304,6 +320,7 @@ void decide_stops(const Model& model, State& state, NetworkPart& part) {
             tell_to_stop(model, state, index, stop_slot, line);
             if (stop_slot >= 0) note_stop(state, lane, stop_slot);
         }
+        if (kept_slot >= 0 || line.kept_out >= 0) note_kept_out(model, state, part, index, kept_slot, line);
         state.stop_slot[at(index)] = stop_slot;
         list_coming(model, state, index);
     }

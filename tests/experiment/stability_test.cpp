@@ -26,6 +26,9 @@ TEST(Stability, AGridlockRoundABlockIsSeenWhateverLightIsGreen) {
     EXPECT_GE(ring.to_s, 1490.0) << "to the end";
     for (const Gridlock& gridlock : figures.hindrance.gridlocks) EXPECT_GE(gridlock.vehicles.size(), 3u);
     EXPECT_EQ(figures.stability, Stability::unstable);
+    EXPECT_NE(figures.breakdown, Breakdown::none);
+    ASSERT_TRUE(figures.collapse_s.has_value());
+    EXPECT_LE(*figures.collapse_s, ring.from_s + 6.0 * cycle_s);
 }
 
 // Without rules all stand before the flow has settled: there is no level from which it could fall.
@@ -34,6 +37,60 @@ TEST(Stability, ANetworkInWhichNobodyMovesIsUnstable) {
         small_grid({"rules={}", "duration=1500 s", "measure={outside: 20 m, steady: 300 s}"});
     EXPECT_EQ(figures.steady.left, 0);
     EXPECT_EQ(figures.stability, Stability::unstable);
+    EXPECT_TRUE(figures.collapse_s.has_value());
+}
+
+// How finely the series is wanted says nothing about traffic.
+TEST(Stability, TheIntervalOfTheSeriesHasNoSay) {
+    const std::vector<std::string> falls{"rules={keep_clear: on}", "duration=2000 s"};
+    std::vector<NetworkFigures> runs;
+    for (const char* const interval : {"10 s", "60 s", "300 s"}) {
+        std::vector<std::string> settings = falls;
+        settings.push_back(std::string("measure={outside: 20 m, steady: 900 s, interval: ") + interval + "}");
+        runs.push_back(small_grid(settings));
+    }
+    EXPECT_EQ(runs[0].breakdown, Breakdown::fall);
+    EXPECT_LT(runs[0].collapse_s.value_or(1e9), 1500.0);
+    for (const NetworkFigures& run : runs) {
+        EXPECT_EQ(run.stability, runs[0].stability);
+        EXPECT_EQ(run.breakdown, runs[0].breakdown);
+        EXPECT_EQ(run.collapse_s, runs[0].collapse_s);
+    }
+}
+
+TEST(Stability, WhoIsKeptOutIsToldOfOnce) {
+    const std::vector<std::string> short_run{"duration=600 s", "measure={outside: 20 m, steady: 300 s}"};
+    std::vector<std::string> settings = short_run;
+    settings.emplace_back("rules={keep_clear: on}");
+    const NetworkFigures kept = small_grid(settings);
+    ASSERT_FALSE(kept.hindrance.rules.empty());
+    const RuleUse* before = nullptr;
+    for (const RuleUse& use : kept.hindrance.rules) {
+        EXPECT_EQ(use.kind, RuleUse::Kind::kept_out);
+        EXPECT_GE(use.vehicle, 0);
+        EXPECT_GE(use.blocker, 0);
+        EXPECT_NE(use.vehicle, use.blocker);
+        if (before != nullptr && before->vehicle == use.vehicle && before->lane == use.lane) {
+            EXPECT_GT(use.time_s - before->time_s, 0.15) << "not in every step";
+        }
+        before = &use;
+    }
+    settings.back() = "rules={}";
+    EXPECT_TRUE(small_grid(settings).hindrance.rules.empty());
+}
+
+TEST(Stability, TimeLostOutsideTheAreaIsKnown) {
+    const auto run = [](const char* outside) {
+        return small_grid({"duration=900 s", std::string("measure={steady: 300 s, outside: ") + outside + "}"});
+    };
+    const NetworkFigures narrow = run("20 m");
+    const NetworkFigures wide = run("90 m");
+    EXPECT_EQ(narrow.hindrance.lost_s, wide.hindrance.lost_s);
+    double all_s = 0.0;
+    for (std::size_t cause = 1; cause < kCauseNames.size(); ++cause) all_s += narrow.hindrance.lost_s[cause];
+    EXPECT_LT(narrow.hindrance.lost_outside_s, all_s);
+    EXPECT_LT(wide.hindrance.lost_outside_s, 0.8 * narrow.hindrance.lost_outside_s);
+    EXPECT_GT(wide.hindrance.lost_outside_s, 0.0) << "queues reach back further";
 }
 
 TEST(Stability, ARunWithoutHindranceIsStable) {
