@@ -34,7 +34,10 @@ void ProgressBar::clear() {
 bool ProgressBar::update(double share) { return update(share, label_, std::nullopt); }
 
 bool ProgressBar::update(double share, const std::string& label, std::optional<double> left_s) {
+    constexpr double kMuchLess = 0.5;
     const Clock::time_point now = Clock::now();
+    if (share < last_share_ - kMuchLess) begin_ = now;  // the next work: what came before says nothing of it
+    last_share_ = share;
     const double elapsed_s = std::chrono::duration<double>(now - begin_).count();
     const double since_s = std::chrono::duration<double>(now - last_shown_).count();
     if (elapsed_s >= kSilent_s && since_s >= (terminal_ ? kRedraw_s : kPlainLine_s)) {

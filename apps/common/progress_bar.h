@@ -30,6 +30,7 @@ private:
     bool terminal_;
     Clock::time_point begin_;
     Clock::time_point last_shown_;
+    double last_share_ = 0.0;
     bool on_screen_ = false;
 };
 
