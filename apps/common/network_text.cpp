@@ -63,7 +63,7 @@ std::string warnings_text(const NetworkReport& report) {
     for (const NetworkFigures& f : report.populations) {
         if (leaves_few(f)) {
             text += fmt::format(
-                "\n{}: travel time is of the few that get out; {:.0f} vehicles, of which {:.0f} leave an hour, are in the "
+                "\n{}: travel time is of those that got out; {:.0f} vehicles, of which {:.0f} leave an hour, are in the "
                 "area for {:.0f} s.",
                 f.population, f.steady.vehicles, f.steady.throughput_veh_h(),
                 f.steady.vehicles * 3600.0 / f.steady.throughput_veh_h());
