@@ -17,7 +17,7 @@ NetworkFigures figures_of(const std::string& text) { return run_network(parse_sc
 // Who has turned right stands just beyond the end of a link of 19 m.
 TEST(PutOnLane, ALinkIsEnteredBehindWhoStandsBeyondIt) {
     const NetworkFigures figures = figures_of(
-        "duration: 200 s\n"
+        "duration: 300 s\n"
         "network: {kind: grid, intersection: {lanes: [{movements: straight}, {movements: right}]}, grid: {rows: 2, "
         "row_spacing: 59.1 m}}\n"
         "demand: {kind: saturated, arms: [c0r0_north]}\n"
