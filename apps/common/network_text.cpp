@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/text_table.h"
+#include "measure/steady_state.h"
 
 namespace stopline {
 
@@ -57,7 +58,7 @@ std::string breakdown_text(const NetworkFigures& f) {
 
 // What to mind about figures that are there.
 std::string warnings_text(const NetworkReport& report) {
-    constexpr int kFewest = 10;  // find_collapse()
+    constexpr int kFewest = static_cast<int>(kCollapseNeeds);
     std::string text;
     std::string too_short;
     for (const NetworkFigures& f : report.populations) {

@@ -65,8 +65,8 @@ std::size_t first_full(std::span<const double> values) {
 }
 
 std::optional<Collapse> find_collapse(std::span<const double> values, double share) {
-    constexpr std::size_t kFewest = 5;  // values on either side
-    if (values.size() < 2 * kFewest) return std::nullopt;
+    constexpr std::size_t kFewest = kCollapseNeeds / 2;  // values on either side
+    if (values.size() < kCollapseNeeds) return std::nullopt;
     const Sums sums(values);
     double least = std::numeric_limits<double>::infinity();
     std::size_t cut = kFewest;

@@ -17,7 +17,8 @@ std::size_t first_full(std::span<const double> values);
 
 // A drop to another level for good: the cut that explains most of the variance (least squares, one change), where the mean behind it is
 // lower by `share` of that before or more, and by more than three standard errors, and that of the last tenth (five values at least) is as
-// low. Nothing where there is none, and for less than ten values.
+// low. Nothing where there is none, and for less than kCollapseNeeds values.
+inline constexpr std::size_t kCollapseNeeds = 10;
 struct Collapse {
     std::size_t at = 0;  // first value of the lower level
     double before = 0.0;
