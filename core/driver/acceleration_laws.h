@@ -101,6 +101,25 @@ STOPLINE_INLINE R stopping_distance_m(const DriverTablesOf<Number>& d, const R& 
     return speed_mps * (speed_mps * (0.5 / d.stop.deceleration_mps2) + kLandingTime_s);
 }
 
+// Stopping behind the place of rest of a predecessor that will stop: one as slow as this, and braking at least like this (or
+// standing and not about to start). 1e3 (no limit): it goes on.
+inline constexpr double kObstacle_mps = 5.0;
+inline constexpr double kObstacleBraking_mps2 = 0.2;
+
+template <class R, class Number>
+STOPLINE_INLINE R stop_behind_acceleration(const DriverTablesOf<Number>& d, const R& speed_mps,
+                                           const R& standstill_gap_m, const PredecessorView<R>& p) {
+    const R speed_p = greater(speed_mps - p.closing_mps, 0.0);
+    const R stopping_p =
+        STOPLINE_FLAG(R, p.request_mps2 <= splat<R>(0.0) - lesser(speed_p, 1.0) * kObstacleBraking_mps2) *
+        STOPLINE_FLAG(R, speed_p < kObstacle_mps);
+    const R none = splat<R>(1e3);
+    if (!any(stopping_p)) return none;
+    const R behind_m =
+        p.gap_m - d.cacc.radar_delay_s * p.closing_mps - standstill_gap_m + stopping_distance_m(d, speed_p);
+    return choose(stopping_p, stop_acceleration(d, speed_mps, behind_m), none);
+}
+
 // Fig. 4: the constant request u that makes the own acceleration meet the predicted one of the predecessor, in the least
 // squares sense at three times within [start, end], limited to what is allowed. With first-order lags
 //     a_p(t + th) = u_p + (a_p - u_p) exp(-(th + delay) / tau_p),   a(t + th) = u + (a - u) exp(-th / tau),
@@ -204,6 +223,15 @@ STOPLINE_INLINE R keep_room_acceleration(const CaccSettingsOf<Number>& c, const 
     const R along = (speed_p * lesser(p.acceleration_mps2, 0.0) - b * p.closing_mps) / safe_mps;
     const R answer = greater(along + kSpeedGain_1ps * (safe_mps - speed_mps), 0.0 - b);
     return choose(faster, answer, none);
+}
+
+// One on the own way that is not followed, since one that goes another way drives in between: it must not be hit when that one is gone.
+// Large (no limit) while there is nothing to fear. `growth_m`: as for keep_room_acceleration.
+inline double mind_acceleration(const DriverTables& d, double speed_mps, double standstill_gap_m, double growth_m,
+                                const PredecessorView<double>& p) {
+    const double not_hit_mps2 =
+        lesser(emergency_acceleration(d.cacc, speed_mps, p), keep_room_acceleration(d.cacc, speed_mps, growth_m, p));
+    return lesser(not_hit_mps2, stop_behind_acceleration(d, speed_mps, standstill_gap_m, p));
 }
 
 }  // namespace stopline

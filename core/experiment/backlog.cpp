@@ -66,7 +66,7 @@ void BacklogWatch::see(const State& state, int lane) {
         const double position_m = v.position_m[at(slot)];
         all_[at(road.approach)].add(speed_mps);
         if (position_m + from_m < third_m) upstream_[at(road.approach)].add(speed_mps);
-        const Place place = place_at(road.shape, position_m + road.shape_start_m);
+        const Pose place = place_at(road.shape, position_m + road.shape_start_m);
         if (std::abs(place.cosine) < kHeadsAlong) continue;
         const double stretch = (place.point.x_m - backlog_.map.from_m) / SpeedMap::kStretch_m;
         std::vector<Sum>& sums = place.cosine > 0.0 ? eastwards_ : westwards_;

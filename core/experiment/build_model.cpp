@@ -75,20 +75,6 @@ bool enters(const DemandSettings& demand, const std::string& lane) {
     return demand.arms.empty() || std::any_of(demand.arms.begin(), demand.arms.end(), begins);
 }
 
-// Throws InputError for an arm that the network does not have.
-void check_arms(const DemandSettings& demand, const LaneGraph& graph) {
-    std::vector<std::string> lanes;
-    for (const int entry : graph.entries) lanes.push_back(graph.lanes[at(entry)].name);
-    for (const int link : graph.links) lanes.push_back(graph.lanes[at(link)].name);
-    for (const std::string& arm : demand.arms) {
-        const auto begins = [&](const std::string& lane) { return lane.starts_with(arm + "_"); };
-        if (std::any_of(lanes.begin(), lanes.end(), begins)) continue;
-        throw InputError(
-            fmt::format("demand.arms: no lane to an intersection has a name that begins with '{}'; there are {}", arm,
-                        fmt::join(lanes, ", ")));
-    }
-}
-
 void add_demand(const Scenario& scenario, Model& model) {
     if (scenario.network.is_sumo()) return add_sumo_trips(scenario, model.demand);
     model.demand.entry_speed_mps = scenario.demand.entry_speed_mps;
@@ -100,7 +86,6 @@ void add_demand(const Scenario& scenario, Model& model) {
     const std::int64_t vehicles =
         scenario.demand.kind == "queue" ? scenario.demand.vehicles : std::numeric_limits<std::int64_t>::max();
     const LaneGraph& graph = model.graph;
-    check_arms(scenario.demand, graph);
     if (scenario.network.is_streets()) model.demand.inlets = street_inlets(graph);
     if (scenario.demand.kind == "rate") {
         const IntersectionSettings& layout = scenario.network.intersection;

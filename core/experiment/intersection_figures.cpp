@@ -24,7 +24,7 @@ std::string stop_lines_data(const LaneGraph& graph, double half_width_m) {
     std::string text = "# x_m y_m dx_m dy_m signal_group\n";
     for (const Lane& lane : graph.lanes) {
         if (lane.signal_group < 0) continue;
-        const Place place = place_at(lane.shape, lane.stop_line_m);
+        const Pose place = place_at(lane.shape, lane.stop_line_m);
         const double x_m = place.point.x_m + half_width_m * place.sine;
         const double y_m = place.point.y_m - half_width_m * place.cosine;
         text += fmt::format("{:.3f} {:.3f} {:.3f} {:.3f} {}\n", x_m, y_m, -2.0 * half_width_m * place.sine,

@@ -27,7 +27,7 @@ std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 // A point of a lane: along it from its stop line, and to its right.
 Point beside(const Lane& lane, double ahead_m, double right_m) {
-    const Place place = place_at(lane.shape, length_m(lane.shape) + ahead_m);
+    const Pose place = place_at(lane.shape, length_m(lane.shape) + ahead_m);
     return {place.point.x_m + right_m * place.sine, place.point.y_m - right_m * place.cosine};
 }
 

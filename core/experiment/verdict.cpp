@@ -53,12 +53,12 @@ Answer range_answer(double low, double high) {
 
 Answer claim_answer(bool holds, std::string text) { return {0.0, 0.0, holds, std::move(text)}; }
 
-std::optional<Range> parse_range(const std::string& value) {
+std::optional<TargetRange> parse_range(const std::string& value) {
     const std::size_t dots = value.find("..");
     const std::optional<double> low = parse_number(value.substr(0, dots));
     const std::optional<double> high = dots == std::string::npos ? low : parse_number(value.substr(dots + 2));
     if (!low || !high || *low > *high) return std::nullopt;
-    return Range{*low, *high};
+    return TargetRange{*low, *high};
 }
 
 Verdict judge(const Target& target, const std::optional<Answer>& answer) {
@@ -66,7 +66,7 @@ Verdict judge(const Target& target, const std::optional<Answer>& answer) {
     if (answer->holds) return *answer->holds ? Verdict::inside : Verdict::miss;
     if (target.kind == "claim") refuse(target, "a claim needs an answer that holds or does not");
     if (target.tolerance.empty() && target.tolerance_kind != "max") return Verdict::open;
-    const std::optional<Range> paper = parse_range(target.value);
+    const std::optional<TargetRange> paper = parse_range(target.value);
     if (!paper) refuse(target, fmt::format("value '{}' is neither a number nor a range", target.value));
     const std::optional<double> tolerance = target.tolerance.empty() ? 0.0 : parse_number(target.tolerance);
     if (!tolerance || *tolerance < 0.0) refuse(target, fmt::format("tolerance '{}' is no number", target.tolerance));

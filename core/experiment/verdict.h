@@ -27,11 +27,11 @@ Answer range_answer(double low, double high);
 Answer claim_answer(bool holds, std::string text);
 
 // What a row demands of a number: low = high where the paper gives one number.
-struct Range {
+struct TargetRange {
     double low = 0.0;
     double high = 0.0;
 };
-std::optional<Range> parse_range(const std::string& value);  // "17", "20..45"
+std::optional<TargetRange> parse_range(const std::string& value);  // "17", "20..45"
 
 // NaN is a miss: it was measured, and there was nothing to find. Throws InputError where the row cannot be understood (a value
 // that is no number, an unknown kind of tolerance).

@@ -15,12 +15,12 @@ using Polyline = std::vector<Point>;
 double length_m(const Polyline& line);
 
 // The point at a distance along the line, continued straight beyond its ends, and the direction there.
-struct Place {
+struct Pose {
     Point point;
     double cosine = 1.0;
     double sine = 0.0;
 };
-Place place_at(const Polyline& line, double distance_m);
+Pose place_at(const Polyline& line, double distance_m);
 
 // Smallest distance of a point to the line.
 double distance_m(const Polyline& line, const Point& point);

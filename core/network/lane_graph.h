@@ -83,7 +83,7 @@ struct LaneGraph {
 };
 
 // The point of a lane's shape at a distance from where the shape begins, counted as the lane counts.
-inline Place place_along(const Lane& lane, double distance_m) {
+inline Pose place_along(const Lane& lane, double distance_m) {
     return place_at(lane.shape, distance_m * lane.shape_scale);
 }
 

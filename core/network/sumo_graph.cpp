@@ -123,7 +123,7 @@ private:
         const Polyline& before = edge(c.from).lanes[at(c.from_lane)].shape;
         if (way.shape.empty()) way.shape = {before.back(), edge(c.to).lanes[at(c.to_lane)].shape.front()};
         if (way.shape.size() < 2 || length_m(way.shape) < kShortest_m) {
-            const Place end = place_at(before, length_m(before));
+            const Pose end = place_at(before, length_m(before));
             way.shape = {end.point, {end.point.x_m + kShortest_m * end.cosine, end.point.y_m + kShortest_m * end.sine}};
         }
     }
@@ -216,7 +216,7 @@ private:
             Lane& way = lanes()[at(one)];
             if (way.length_m >= parted_m || !turns_round(way)) continue;
             const double ahead_m = std::min(0.5 * (parted_m - way.length_m), kFurthest_m);
-            const Place from = end_of(lanes()[at(way.origin)]);
+            const Pose from = end_of(lanes()[at(way.origin)]);
             Polyline wide{way.shape.front()};
             for (const Point& p : way.shape) {
                 wide.push_back({p.x_m + ahead_m * from.cosine, p.y_m + ahead_m * from.sine});
@@ -227,11 +227,11 @@ private:
         }
     }
 
-    static Place end_of(const Lane& lane) { return place_at(lane.shape, length_m(lane.shape)); }
+    static Pose end_of(const Lane& lane) { return place_at(lane.shape, length_m(lane.shape)); }
 
     bool turns_round(const Lane& way) {
-        const Place from = end_of(lanes()[at(way.origin)]);
-        const Place to = place_at(lanes()[at(way.next[0])].shape, 0.0);
+        const Pose from = end_of(lanes()[at(way.origin)]);
+        const Pose to = place_at(lanes()[at(way.next[0])].shape, 0.0);
         return from.cosine * to.cosine + from.sine * to.sine < -0.9;
     }
 

@@ -37,7 +37,7 @@ public:
 private:
     void add(const State& state, int lane, std::size_t slot) {
         const VehicleArrays& v = state.vehicles;
-        const Place place = vehicle_place(model_, state, lane, slot);
+        const Pose place = vehicle_place(model_, state, lane, slot);
         const double north_deg = 90.0 - std::atan2(place.sine, place.cosine) * 180.0 / std::numbers::pi;
         xml_.add(
             "        <vehicle id=\"{}\" x=\"{:.2f}\" y=\"{:.2f}\" angle=\"{:.2f}\" type=\"{}\" speed=\"{:.2f}\" "

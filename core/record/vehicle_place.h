@@ -9,7 +9,7 @@
 namespace stopline {
 
 // Behind its stop line it is on its own path already, which shares that stretch with others.
-inline Place vehicle_place(const Model& model, const State& state, int lane, std::size_t slot) {
+inline Pose vehicle_place(const Model& model, const State& state, int lane, std::size_t slot) {
     const Lane& road = model.graph.lanes[static_cast<std::size_t>(lane)];
     const double position_m = state.vehicles.position_m[slot];
     const int next = state.vehicles.next_lane[slot];

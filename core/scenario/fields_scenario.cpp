@@ -114,7 +114,6 @@ void check_streets(const Scenario& scenario, Checker& check) {
 
 void check_sumo(const Scenario& scenario, Checker& check) {
     if (!scenario.measure.green_s.empty()) check.error("measure.green", "is for a single light");
-    if (scenario.measure.time_space_s > 0.0) check.error("measure.time_space", "is for grids and streets");
 }
 
 void check_times(const Scenario& scenario, Checker& check) {
@@ -160,6 +159,9 @@ void check_cross_inflow(const Scenario& scenario, Checker& check) {
 
 void check_time_space(const Scenario& scenario, Checker& check) {
     const MeasureSettings& measure = scenario.measure;
+    if (measure.time_space_s > 0.0 && (scenario.network.is_sumo() || !scenario.network.has_several())) {
+        return check.error("measure.time_space", "is for grids and streets");
+    }
     if (measure.time_space_from == "west" || measure.time_space_s > 0.0) return;
     check.error("measure.time_space_from",
                 "value " + measure.time_space_from + " has no effect without measure.time_space");
@@ -175,6 +177,7 @@ void check_scenario(const Scenario& scenario, Checker& check) {
     check_queue(scenario, check);
     check_grid_links(scenario, check);
     check_entries(scenario, check);
+    check_arms(scenario, check);
     check_measured_area(scenario, check);
     check_time_space(scenario, check);
 }

@@ -5,7 +5,9 @@
 #include <string>
 
 #include "base/arithmetic.h"
+#include "network/arm_names.h"
 #include "network/outer_arms.h"
+#include "scenario/nearest_name.h"
 #include "scenario/quantity.h"
 
 namespace stopline {
@@ -101,6 +103,24 @@ void check_entries(const Scenario& scenario, Checker& check) {
                                           stopping_text(scenario, speed_mps) + " before the line: at least " +
                                           metres(needs_m) + ", or a lower demand.entry_speed than " +
                                           short_text(scenario.demand.entry_speed_mps, unit("km/h")));
+    }
+}
+
+void check_arms(const Scenario& scenario, Checker& check) {
+    constexpr std::size_t kListed = 12;
+    if (scenario.demand.arms.empty() || scenario.network.is_sumo()) return;
+    const std::vector<std::string> known = arm_names(scenario.network);
+    for (std::size_t k = 0; k < scenario.demand.arms.size(); ++k) {
+        const std::string& arm = scenario.demand.arms[k];
+        const auto begins = [&](const std::string& name) { return (name + "_in_").starts_with(arm + "_"); };
+        if (std::any_of(known.begin(), known.end(), begins)) continue;
+        const std::string nearest = nearest_name(arm, known);
+        const std::size_t more = known.size() - std::min(known.size(), kListed);
+        const std::vector<std::string> listed(known.begin(), known.end() - static_cast<std::ptrdiff_t>(more));
+        check.error("demand.arms[" + std::to_string(k) + "]",
+                    "no lane to an intersection has a name that begins with '" + shortened(arm) + "_'" +
+                        (nearest.empty() ? "; known: " : "; did you mean '" + nearest + "'? Known: ") + joined(listed) +
+                        (more > 0 ? " and " + std::to_string(more) + " more" : ""));
     }
 }
 

@@ -21,10 +21,6 @@ constexpr double kStart_mps2 = 0.01;
 constexpr double kHold_mps2 = -0.3;
 // A speed as small as this is what rounding leaves of standstill.
 constexpr double kRest_mps = 1e-6;
-// A predecessor as slow as this, and braking at least like this (or standing and not about to start), will stop: its place
-// of rest is something to stop behind.
-constexpr double kObstacle_mps = 5.0;
-constexpr double kBraking_mps2 = 0.2;
 constexpr double kNothing_mps2 = 1e3;  // an answer that never wins
 
 // One sample of a delay line, between two rows where the delay is no multiple of the step.
@@ -180,15 +176,7 @@ STOPLINE_INLINE void plan_at(const DriverTablesOf<float>& d, const FullGroup& g,
     const R growth_m = greater(get(g.desired_gap) - get(g.standstill_gap), 0.0);
     const R emergency = lesser(emergency_acceleration(c, speed, p), keep_room_acceleration(c, speed, growth_m, p));
     // Stop behind a standing predecessor; where else it must stop, `imposed` says.
-    const R speed_p = greater(speed - p.closing_mps, 0.0);
-    const R stopping_p = STOPLINE_FLAG(R, p.request_mps2 <= splat<R>(0.0) - lesser(speed_p, 1.0) * kBraking_mps2) *
-                         STOPLINE_FLAG(R, speed_p < kObstacle_mps);
-    R behind = nothing;
-    if (any(stopping_p)) {
-        const R behind_m =
-            p.gap_m - c.radar_delay_s * p.closing_mps - get(g.standstill_gap) + stopping_distance_m(d, speed_p);
-        behind = choose(stopping_p, stop_acceleration(d, speed, behind_m), nothing);
-    }
+    const R behind = stop_behind_acceleration(d, speed, get(g.standstill_gap), p);
 
     // The smallest answer wins. A platoon leader becomes a follower when following asks for less than driving freely.
     const R leads = get(g.leads) * STOPLINE_FLAG(R, follow > as_leader);

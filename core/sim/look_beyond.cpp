@@ -87,13 +87,24 @@ Ahead ahead_on_trip(const State& state, int lane, double position_m, const OnTri
     }
 }
 
+// The last vehicle on the lanes of a route from the index-th one on, the start of which is `start_m` from that of the vehicle's own lane.
+STOPLINE_INLINE Ahead last_on(const State& state, std::span<const int> route, std::size_t index, double start_m,
+                              double position_m, double range_m) {
+    for (std::size_t k = index; k < route.size(); ++k) {
+        if (start_m - position_m > range_m) break;
+        const LaneBlock& block = state.blocks[at(route[k])];
+        if (block.count > 0) return {block.last(), start_m};
+        start_m += state.plan.lane(route[k]).length_m;
+    }
+    return {};
+}
+
 // On the route. Once a lane and step: inlined.
 STOPLINE_INLINE Ahead ahead_on_route(const State& state, int lane, double position_m, int route_number, int index,
                                      double range_m) {
     const VehicleArrays& v = state.vehicles;
     const LanePlan& here = state.plan.lane(lane);
-    double start_m = here.length_m;
-    if (!here.branches && start_m - position_m > range_m) return {};
+    if (!here.branches && here.length_m - position_m > range_m) return {};
     Ahead beside;
     double beside_rear_m = kFar_m;
     const std::span<const int> route = state.plan.route(route_number);
@@ -108,14 +119,10 @@ STOPLINE_INLINE Ahead ahead_on_route(const State& state, int lane, double positi
         beside = {parting.last().slot, parting.last().start_m - origin_m};
         beside_rear_m = parting.rear_m() - origin_m;
     }
-    for (std::size_t k = at(index) + 1; k < route.size(); ++k) {
-        if (start_m - position_m > range_m) break;
-        const LaneBlock& block = state.blocks[at(route[k])];
-        if (block.count > 0) {
-            const double rear_m = start_m + v.position_m[at(block.last())] - v.length_m[at(block.last())];
-            return rear_m <= beside_rear_m ? Ahead{block.last(), start_m} : beside;
-        }
-        start_m += state.plan.lane(route[k]).length_m;
+    const Ahead own = last_on(state, route, at(index) + 1, here.length_m, position_m, range_m);
+    if (own.slot >= 0) {
+        const double rear_m = own.start_m + v.position_m[at(own.slot)] - v.length_m[at(own.slot)];
+        return rear_m <= beside_rear_m ? own : beside;
     }
     return beside;
 }
@@ -140,6 +147,12 @@ Ahead vehicle_ahead(const State& state, int lane, double position_m, const OnTri
     return ahead_on_trip(state, lane, position_m, on_trip, range_m);
 }
 
+Ahead last_on_way(const State& state, int lane, int slot, double range_m) {
+    const VehicleRecord& record = state.vehicles.record[at(slot)];
+    return last_on(state, state.plan.route(record.route), at(record.route_index) + 1, state.plan.lane(lane).length_m,
+                   state.vehicles.position_m[at(slot)], range_m);
+}
+
 Ahead vehicle_ahead(const State& state, int lane, double position_m, int route, int index, double range_m) {
     return ahead_on_route(state, lane, position_m, route, index, range_m);
 }
@@ -160,10 +173,6 @@ void hear(State& state, std::size_t sentinel, std::size_t ahead, bool seen) {
 
 }  // namespace
 
-namespace {
-
-// Whether the rear of the vehicle ahead is still on a way that joins that of this one further on. Whether they touch before is a matter of
-// conflict areas (right_of_way.cpp).
 bool comes_by_another_way(const State& state, int lane, int slot, int ahead) {
     const VehicleArrays& v = state.vehicles;
     const VehicleRecord& other = v.record[at(ahead)];
@@ -177,8 +186,6 @@ bool comes_by_another_way(const State& state, int lane, int slot, int ahead) {
     if (other.came_from >= 0) rear_m += state.plan.lane(other.came_from).length_m;
     return rear_m < 0.0 && other.came_by >= 0 && !is_own(other.came_by);
 }
-
-}  // namespace
 
 void look_beyond_lanes(const Model& model, State& state, NetworkPart& part) {
     constexpr double kNothing_m = 1e6;

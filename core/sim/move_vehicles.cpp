@@ -12,7 +12,8 @@ namespace {
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
-void add_lane(const Model& model, const State& state, int lane, LaneGroup& group) {
+// `minding`: those of the part that have not been met yet.
+void add_lane(const Model& model, const State& state, int lane, std::span<const Minding>& minding, LaneGroup& group) {
     const VehicleArrays& v = state.vehicles;
     const LaneBlock& block = state.blocks[at(lane)];
     const LanePlan& plan = state.plan.lane(lane);
@@ -26,6 +27,9 @@ void add_lane(const Model& model, const State& state, int lane, LaneGroup& group
     }
     const Holds& holds = state.holds[at(lane)];
     for (int k = 0; k < holds.count; ++k) stop_at(holds.each[at(k)].slot, holds.each[at(k)].place_m);
+    for (; !minding.empty() && block.has(minding.front().slot); minding = minding.subspan(1)) {
+        group.imposed.push_back({group.vehicles + minding.front().slot - block.first, minding.front().asks_mps2});
+    }
     for (const Adapting& adapting : state.adapting[at(lane)]) {
         constexpr double kWithin_s = 1.0;
         const double asks_mps2 = (adapting.most_mps - v.speed_mps[at(adapting.slot)]) / kWithin_s;
@@ -39,10 +43,11 @@ void add_lane(const Model& model, const State& state, int lane, LaneGroup& group
 }
 
 // The lanes from the k-th occupied one on that make up a group.
-void collect_group(const Model& model, const State& state, const NetworkPart& part, std::size_t& k, LaneGroup& group) {
+void collect_group(const Model& model, const State& state, const NetworkPart& part, std::size_t& k,
+                   std::span<const Minding>& minding, LaneGroup& group) {
     group.clear();
     for (; k < part.occupied.size() && group.vehicles < NetworkPart::kVehiclesTogether; ++k) {
-        add_lane(model, state, part.occupied[k], group);
+        add_lane(model, state, part.occupied[k], minding, group);
     }
 }
 
@@ -51,9 +56,10 @@ void step_full_groups(const Model& model, const FullTables& tables, State& state
     LaneGroup& next = part.groups[1];
     const bool prefetch = state.outgrows_cache();
     std::size_t seen = 0;
-    collect_group(model, state, part, seen, group);
+    std::span<const Minding> minding = part.minding;
+    collect_group(model, state, part, seen, minding, group);
     while (!group.lanes.empty()) {
-        collect_group(model, state, part, seen, next);
+        collect_group(model, state, part, seen, minding, next);
         part.full_group.make_room(group.vehicles);
         step_full(model, tables, group, prefetch ? std::span<const int>(next.lines) : std::span<const int>(), state,
                   part);

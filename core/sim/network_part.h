@@ -47,6 +47,12 @@ struct ToldToStart {
     float mps2;
 };
 
+// What a vehicle of full dynamics does about one that it does not follow.
+struct Minding {
+    int slot;
+    double asks_mps2;
+};
+
 struct NetworkPart {
     std::vector<int> lanes;      // by intersection
     std::vector<int> inside;     // those of them inside an intersection that meet others
@@ -66,6 +72,7 @@ struct NetworkPart {
     NumberList awake_before;         // the same with a stop line
     NumberList awake_inside;         // the same inside an intersection
     std::vector<int> with_insiders;  // lanes inside with vehicles on them, before or behind
+    std::vector<Minding> minding;    // full dynamics: in the order of slots of each lane, lanes as they are awake
     std::vector<int> holding;        // lanes where vehicles wait to give way or to change lanes
     std::vector<int> adapting;       // lanes where vehicles adapt their speed to those beside
     NumberList standing;             // slots of vehicles that stand, when hindrance is looked for

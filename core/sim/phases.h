@@ -21,6 +21,7 @@ inline void fetch_on(const State& state, Fetching& fetching) {
 void list_lines(const Model& model, State& state, NetworkPart& part);  // what there is to fetch
 void find_occupied_lanes(State& state, NetworkPart& part);
 void look_beyond_lanes(const Model& model, State& state, NetworkPart& part);
+void look_past_others(const Model& model, const State& state, NetworkPart& part);  // full dynamics
 void find_insiders(State& state, NetworkPart& part);
 void decide_stops(const Model& model, State& state, NetworkPart& part);
 void give_way(const Model& model, State& state, NetworkPart& part);
@@ -171,6 +172,11 @@ struct OnTrip {
     int leg = 0;
 };
 Ahead vehicle_ahead(const State& state, int lane, double position_m, const OnTrip& on_trip, double range_m);
+// The last vehicle on the lanes of its route beyond its own, whoever is beside them.
+Ahead last_on_way(const State& state, int lane, int slot, double range_m);
+// Whether the rear of the vehicle ahead is still on a way that joins that of this one further on. Whether they touch before is a matter of
+// conflict areas (right_of_way.cpp).
+bool comes_by_another_way(const State& state, int lane, int slot, int ahead);
 
 // The highest speed of a vehicle that is put on a lane from which it stops comfortably before the stop line; any, where there is none ahead.
 double stops_from_mps(const Model& model, int lane, double front_m);

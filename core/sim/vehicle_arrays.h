@@ -24,6 +24,7 @@ struct LaneBlock {
 
     int last() const { return first + count - 1; }
     int stop() const { return first + count; }
+    bool has(int slot) const { return slot >= first && slot < stop(); }
 };
 
 // What one vehicle is about, in one line of the cache.

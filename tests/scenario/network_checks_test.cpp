@@ -149,6 +149,30 @@ TEST(Rules, AreSwitchedOffByAnOverrideAlone) {
     }
 }
 
+TEST(DemandArms, AreThoseOfTheNetwork) {
+    EXPECT_EQ(in_grid({"demand.arms=[c0r0_west, c1r1_south_in, c2r2]"}), "");
+    const std::string known =
+        "Known: c0r0_west, c0r0_south, c1r0_south, c2r0_south, c2r0_east, c0r1_west, c2r1_east, c0r2_west, "
+        "c0r2_north, c1r2_north, c2r2_east, c2r2_north and 24 more";
+    EXPECT_TRUE(
+        contains(in_grid({"demand.arms=[c0r0_west, c0r0_wst]"}),
+                 "field 'demand.arms[1]': no lane to an intersection has a name that begins with 'c0r0_wst_'; did "
+                 "you mean 'c0r0_west'? " +
+                     known));
+    EXPECT_TRUE(contains(in_grid({"demand.arms=[c9]"}), "begins with 'c9_'; known: c0r0_west"));
+    EXPECT_TRUE(
+        contains(of_kind("intersection", {"demand.arms=[up]"}), "begins with 'up_'; known: west, south, east, north"));
+    EXPECT_TRUE(contains(error_of("network: {kind: streets, streets: three_lanes}\n", {"demand.arms=[suarezstr_up]"}),
+                         "field 'demand.arms[0]': no lane"));
+}
+
+TEST(TimeSpace, IsForGridsAndStreets) {
+    for (const char* const kind : {"approach", "intersection"}) {
+        EXPECT_TRUE(contains(of_kind(kind, {"measure.time_space=60 s"}),
+                             "field 'measure.time_space': is for grids and streets"));
+    }
+}
+
 TEST(TimeSpace, ASideIsForADiagramThatIsDrawn) {
     EXPECT_TRUE(contains(in_grid({"measure.time_space_from=south"}),
                          "field 'measure.time_space_from': value south has no effect without measure.time_space"));

@@ -47,7 +47,7 @@ TEST(PlainNetwork, HasEachLaneOutsideIntersectionsOnceFromTheRight) {
             const Lane& lane = model.graph.lanes[at(edge.lanes[i])];
             if (i == 0) continue;
             // The one before lies to the right: seen along the lane, a cross product below zero.
-            const Place here = place_at(lane.shape, 1.0);
+            const Pose here = place_at(lane.shape, 1.0);
             const Point there = place_at(model.graph.lanes[at(edge.lanes[i - 1])].shape, 1.0).point;
             EXPECT_LT(here.cosine * (there.y_m - here.point.y_m) - here.sine * (there.x_m - here.point.x_m), -1.0);
         }

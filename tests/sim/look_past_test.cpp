@@ -1,0 +1,33 @@
+// Full dynamics: behind one that goes another way, a vehicle minds who stands on its own.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "experiment/network_run.h"
+#include "scenario/load_scenario.h"
+
+namespace stopline {
+namespace {
+
+// Right turns are so fast that nobody brakes for them, and full at their ends: the next light is 20 m away.
+TEST(LookPast, WhoFollowsOneThatTurnsStopsBehindWhoStandsOnItsOwnWay) {
+    for (const char* const turn_speed : {"9 m/s", "12 m/s", "50 km/h"}) {
+        const std::string text =
+            "duration: 300 s\n"
+            "network: {kind: grid, intersection: {turn_speed: " +
+            std::string(turn_speed) +
+            "}, grid: {rows: 2, row_spacing: 81.27 m}}\n"
+            "demand: {kind: saturated, right: 20 %}\n"
+            "populations: [SWITCH-1, SWITCH-2, CDG]\n";
+        const Scenario scenario = parse_scenario(text, "test.yaml");
+        for (std::size_t population = 0; population < 3; ++population) {
+            const NetworkFigures figures = run_network(scenario, population);
+            EXPECT_GT(figures.left_network, 100) << turn_speed << population;
+            EXPECT_EQ(figures.violations.overlaps, 0) << turn_speed << population;
+            EXPECT_TRUE(figures.violations.none()) << turn_speed << population;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace stopline
