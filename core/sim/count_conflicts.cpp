@@ -11,7 +11,7 @@ namespace {
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 // Whether one of two vehicles in the same area passes the other by the rule for blockers; notes when it begins to.
-bool passes(const Model& model, State& state, NetworkPart& part, int one, int two, int lane) {
+bool passes(const Model& model, State& state, NetworkPart& part, int one, int lane, int two, int other) {
     const std::pair<int, int> pair = std::minmax(state.vehicles.id[at(one)], state.vehicles.id[at(two)]);
     for (Passing& known : part.passing) {
         if (std::pair<int, int>(std::minmax(known.vehicle, known.blocker)) != pair) continue;
@@ -19,8 +19,9 @@ bool passes(const Model& model, State& state, NetworkPart& part, int one, int tw
         if (known.begun) return true;
         known.begun = true;
         ++part.passed_blockers;
-        part.rules.push_back({RuleUse::Kind::passed_blocker, model.time_s(state.tick), known.vehicle, lane,
-                              known.blocker, model.time_s(known.stood)});
+        part.rules.push_back({RuleUse::Kind::passed_blocker, model.time_s(state.tick), known.vehicle,
+                              known.vehicle == state.vehicles.id[at(one)] ? lane : other, known.blocker,
+                              model.time_s(known.stood)});
         return true;
     }
     return false;
@@ -33,7 +34,7 @@ std::int64_t pairs_in(const Model& model, State& state, NetworkPart& part, int l
         if (w.front_m <= c.from_m || w.rear_m >= c.to_m) continue;
         for (const Insider& x : state.insiders[at(c.other)]) {
             if (x.front_m <= c.other_from_m || x.rear_m >= c.other_to_m) continue;
-            if (passes(model, state, part, w.slot, x.slot, lane)) continue;
+            if (passes(model, state, part, w.slot, lane, x.slot, c.other)) continue;
             const auto& id = state.vehicles.id;
             part.violations.see(
                 {model.time_s(state.tick), Sighting::Kind::conflict, lane, id[at(w.slot)], id[at(x.slot)]});

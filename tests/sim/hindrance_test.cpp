@@ -318,6 +318,41 @@ class SlowRules : public testing::TestWithParam<Run> {};
 INSTANTIATE_TEST_SUITE_P(Modes, SlowRules, testing::Values(Run{"meso", 1200.0}, Run{"full", 400.0}),
                          [](const auto& run) { return std::string(run.param.fidelity); });
 
+// Whether its way leads over a lane now: its front or its rear is there, or the front will be next.
+bool is_on(const State& state, int vehicle, int lane) {
+    for (std::size_t k = 0; k < state.blocks.size(); ++k) {
+        for (int slot = state.blocks[k].first; slot < state.blocks[k].stop(); ++slot) {
+            const auto i = static_cast<std::size_t>(slot);
+            if (state.vehicles.id[i] != vehicle) continue;
+            const VehicleRecord& record = state.vehicles.record[i];
+            return static_cast<int>(k) == lane || state.vehicles.next_lane[i] == lane || record.came_from == lane ||
+                   record.came_by == lane;
+        }
+    }
+    return false;
+}
+
+TEST(PassedBlocker, IsToldOfOnTheWayOfWhoPasses) {
+    const Model model =
+        network_model(load_scenario(STOPLINE_SOURCE_DIR "/scenarios/grid.yaml",
+                                    {"signal.green=20 s", "demand.left=10 %", "demand.right=30 %", "rules.sight=30 m",
+                                     "network.grid.columns=3", "network.grid.rows=3"}),
+                      2);
+    Simulation simulation(model);
+    std::size_t seen = 0;
+    int passed = 0;
+    for (double time_s = 0.0; time_s < 900.0; time_s += model.step_s) {
+        simulation.step();
+        const std::vector<RuleUse>& rules = simulation.state().hindrance.rules;
+        for (; seen < rules.size(); ++seen) {
+            if (rules[seen].kind != RuleUse::Kind::passed_blocker) continue;
+            ++passed;
+            EXPECT_TRUE(is_on(simulation.state(), rules[seen].vehicle, rules[seen].lane)) << rules[seen].time_s;
+        }
+    }
+    EXPECT_GT(passed, 20);
+}
+
 // What holds of every use of a rule, and of the vehicles, on a grid that gridlocks.
 TEST_P(SlowRules, AreUsedAsTheySay) {
     const Scenario scenario =
