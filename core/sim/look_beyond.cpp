@@ -99,9 +99,9 @@ STOPLINE_INLINE Ahead last_on(const State& state, std::span<const int> route, st
     return {};
 }
 
-// On the route. Once a lane and step: inlined.
+// On the route. `hidden`: the last vehicle on its lanes where one that goes another way is nearer. Once a lane and step: inlined.
 STOPLINE_INLINE Ahead ahead_on_route(const State& state, int lane, double position_m, int route_number, int index,
-                                     double range_m) {
+                                     double range_m, Ahead* hidden = nullptr) {
     const VehicleArrays& v = state.vehicles;
     const LanePlan& here = state.plan.lane(lane);
     if (!here.branches && here.length_m - position_m > range_m) return {};
@@ -122,23 +122,32 @@ STOPLINE_INLINE Ahead ahead_on_route(const State& state, int lane, double positi
     const Ahead own = last_on(state, route, at(index) + 1, here.length_m, position_m, range_m);
     if (own.slot >= 0) {
         const double rear_m = own.start_m + v.position_m[at(own.slot)] - v.length_m[at(own.slot)];
-        return rear_m <= beside_rear_m ? own : beside;
+        if (rear_m <= beside_rear_m) return own;
+        if (hidden != nullptr && own.slot != beside.slot) *hidden = own;
     }
     return beside;
 }
 
 }  // namespace
 
-Ahead vehicle_ahead(const State& state, int lane, int slot, double range_m) {
+namespace {
+
+STOPLINE_INLINE Ahead ahead_of(const State& state, int lane, int slot, double range_m, Ahead* hidden = nullptr) {
     if (state.vehicles.next_lane[at(slot)] < 0) {  // it leaves, or waits for a gap: it sees who still reaches back
         return Parting(state, lane).last();
     }
     const VehicleRecord& record = state.vehicles.record[at(slot)];
     const double position_m = state.vehicles.position_m[at(slot)];
-    const Ahead seen = ahead_on_route(state, lane, position_m, record.route, record.route_index, range_m);
+    const Ahead seen = ahead_on_route(state, lane, position_m, record.route, record.route_index, range_m, hidden);
     if (seen.slot >= 0 || record.trip < 0) return seen;
     const OnTrip on_trip{record.route, record.route_index, record.trip, record.leg};
     return ahead_on_trip(state, lane, position_m, on_trip, range_m);
+}
+
+}  // namespace
+
+Ahead vehicle_ahead(const State& state, int lane, int slot, double range_m) {
+    return ahead_of(state, lane, slot, range_m);
 }
 
 Ahead vehicle_ahead(const State& state, int lane, double position_m, const OnTrip& on_trip, double range_m) {
@@ -191,11 +200,13 @@ void look_beyond_lanes(const Model& model, State& state, NetworkPart& part) {
     constexpr double kNothing_m = 1e6;
     constexpr double kTouch_m = 1e-4;  // against rounding
     VehicleArrays& v = state.vehicles;
+    part.minding.clear();
     for (const int lane : part.awake) {
         fetch_on(state, part.fetching);
         const int head = state.blocks[at(lane)].first;
         const std::size_t sentinel = at(head - 1);
-        const Ahead ahead = vehicle_ahead(state, lane, head, model.driver.cacc.radar_range_m);
+        Ahead hidden;
+        const Ahead ahead = ahead_of(state, lane, head, model.driver.cacc.radar_range_m, &hidden);
         const bool seen = ahead.slot >= 0;
         const std::size_t other = at(seen ? ahead.slot : head);
         v.position_m[sentinel] = seen ? ahead.start_m + v.position_m[other] : kNothing_m;
@@ -212,7 +223,10 @@ void look_beyond_lanes(const Model& model, State& state, NetworkPart& part) {
             ++part.violations.overlaps;
             part.violations.see({model.time_s(state.tick), Sighting::Kind::overlap, lane, v.id[at(head)], v.id[other]});
         }
-        if (v.has_powertrain()) hear(state, sentinel, other, seen);
+        if (v.has_powertrain()) {
+            hear(state, sentinel, other, seen);
+            look_past(model, state, lane, hidden, part);
+        }
         const int id = seen ? v.id[other] : -1;
         if (v.record[at(head)].predecessor == id) continue;
         // A new target: its first radar measurement stands for the past too.

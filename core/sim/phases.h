@@ -21,7 +21,6 @@ inline void fetch_on(const State& state, Fetching& fetching) {
 void list_lines(const Model& model, State& state, NetworkPart& part);  // what there is to fetch
 void find_occupied_lanes(State& state, NetworkPart& part);
 void look_beyond_lanes(const Model& model, State& state, NetworkPart& part);
-void look_past_others(const Model& model, const State& state, NetworkPart& part);  // full dynamics
 void find_insiders(State& state, NetworkPart& part);
 void decide_stops(const Model& model, State& state, NetworkPart& part);
 void give_way(const Model& model, State& state, NetworkPart& part);
@@ -172,6 +171,9 @@ struct OnTrip {
     int leg = 0;
 };
 Ahead vehicle_ahead(const State& state, int lane, double position_m, const OnTrip& on_trip, double range_m);
+// Full dynamics: who minds whom that it does not follow, on one lane. `hidden`: who is on the way of its first vehicle, behind one that goes
+// another way; -1: nobody.
+void look_past(const Model& model, const State& state, int lane, const Ahead& hidden, NetworkPart& part);
 // The last vehicle on the lanes of its route beyond its own, whoever is beside them.
 Ahead last_on_way(const State& state, int lane, int slot, double range_m);
 // Whether the rear of the vehicle ahead is still on a way that joins that of this one further on. Whether they touch before is a matter of

@@ -47,7 +47,6 @@ void Simulation::decide(int thread, int threads) {
 void Simulation::decide(NetworkPart& part) {
     find_occupied_lanes(state_, part);
     look_beyond_lanes(model_, state_, part);
-    if (!model_.meso) look_past_others(model_, state_, part);
     find_insiders(state_, part);
     decide_stops(model_, state_, part);
     give_way(model_, state_, part);

@@ -1,8 +1,7 @@
 // One run: a Model (constant) and a State (all that changes), advanced a step at a time. The step is a list of named phases:
 //
 //   each part of the network by itself:
-//     heads      what the first vehicle of each lane sees beyond it; overlaps with that    look_beyond.cpp
-//     past       whom full dynamics minds beyond one that goes another way                 look_past.cpp
+//     heads      what the first vehicle of each lane sees beyond it; overlaps with that    look_beyond.cpp, look_past.cpp
 //     inside     who is on the way through an intersection                                 insiders.cpp
 //     stops      who stops at which line, at red or since there is no room beyond it       stops.cpp
 //     give way   who waits before which conflict area                                      right_of_way.cpp
