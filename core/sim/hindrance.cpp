@@ -78,6 +78,7 @@ private:
         w_.owner[at(slot)] = slot;
         if (edge == Cause::none && ahead >= 0) w_.owner[at(slot)] = w_.owner[at(ahead)];
         w_.cause[at(slot)] = beyond == Cause::gridlock ? beyond : edge == Cause::none ? beyond : edge;
+        if (w_.cause[at(slot)] == Cause::none) w_.cause[at(slot)] = Cause::start;
     }
 
     void note_circle(int start) {
@@ -127,8 +128,8 @@ private:
         for (const int slot : w_.standing) {
             const Cause cause = w_.cause[at(slot)];
             ++vehicles[static_cast<std::size_t>(cause)];
-            if (cause != Cause::none && is_outside(slot)) state_.hindrance.lost_outside_s += each_s;
-            if (cause < Cause::junction_blocking && !stands_long(slot)) continue;
+            if (is_outside(slot)) state_.hindrance.lost_outside_s += each_s;
+            if (!hinders(cause) && !stands_long(slot)) continue;
             HindranceEpisode& episode = episode_of(w_.owner[at(slot)], cause);
             if (episode.to_s < now_s_) {
                 episode.to_s = now_s_;

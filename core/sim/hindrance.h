@@ -13,6 +13,7 @@
 //     spillback          the same of one that would go straight on
 //     gridlock           any of these, where it leads into a circle (situation 3)
 //     wrong_lane         the first that stands waits for a gap in the lane beside, from which its route goes on
+//     start              nothing any more: the one ahead drives already, or crawls up to its queue, and its own start is still to come
 #pragma once
 
 #include <array>
@@ -29,12 +30,17 @@ enum class Cause : std::uint8_t {
     turn_blocking,
     spillback,
     gridlock,
-    wrong_lane
+    wrong_lane,
+    start
 };
-inline constexpr std::array<const char*, 8> kCauseNames{"none",          "signal",    "priority", "junction_blocking",
-                                                        "turn_blocking", "spillback", "gridlock", "wrong_lane"};
+// `none`: of vehicles that drive.
+inline constexpr std::array<const char*, 9> kCauseNames{
+    "none", "signal", "priority", "junction_blocking", "turn_blocking", "spillback", "gridlock", "wrong_lane", "start"};
 
-// One lane's traffic is held up for one cause, by one vehicle after another, without a break. Of signals, priority and none: only
+// Whether one vehicle stands in another's way; the rest is what lights and queues cost in any case.
+inline bool hinders(Cause cause) { return cause >= Cause::junction_blocking && cause != Cause::start; }
+
+// One lane's traffic is held up for one cause, by one vehicle after another, without a break. Of signals, priority and starts: only
 // by whom has stood for two cycles.
 struct HindranceEpisode {
     Cause cause = Cause::none;
@@ -73,7 +79,7 @@ struct HindranceLog {
     std::vector<Gridlock> gridlocks;
     std::vector<RuleUse> rules;
     std::array<double, kCauseNames.size()> lost_s{};  // [cause] vehicle seconds
-    double lost_outside_s = 0.0;                      // of all these but `none`: before the measured area
+    double lost_outside_s = 0.0;                      // of all these: before the measured area
     std::int64_t taken_out = 0;
     std::int64_t passed_blockers = 0;
     double longest_stand_s = 0.0;  // of any vehicle, in one go

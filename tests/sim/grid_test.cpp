@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "base/input_error.h"
 #include "experiment/build_model.h"
 #include "experiment/network_run.h"
 #include "scenario/load_scenario.h"
@@ -222,16 +221,6 @@ TEST(Inflow, EntersOrWaits) {
         constexpr double kLanes = 16.0;  // each of which may have one more or less
         EXPECT_NEAR(static_cast<double>(figures.entered + figures.waiting), kArms * inflow_veh_h * 0.25, kLanes);
         EXPECT_EQ(figures.waiting > 100, inflow_veh_h > 1000.0) << figures.waiting;
-    }
-}
-
-TEST(OnGridDemand, RefusesAnArmThatIsNotThere) {
-    const Scenario scenario = calibration({"demand.arms=[c0r0_south]"});
-    try {
-        static_cast<void>(build_model(scenario, 0));
-        FAIL();
-    } catch (const InputError& error) {
-        EXPECT_NE(std::string(error.what()).find("c1r0_south_in_0"), std::string::npos) << error.what();
     }
 }
 

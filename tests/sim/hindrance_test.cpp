@@ -412,15 +412,17 @@ TEST(SlowHindranceAccount, HasEverySecondThatAVehicleStands) {
     const auto& lost = simulation.state().hindrance.lost_s;
     EXPECT_NEAR(std::accumulate(lost.begin(), lost.end(), 0.0), stood_s, 1e-6);
     EXPECT_GT(lost[static_cast<std::size_t>(Cause::signal)], 0.5 * stood_s);
+    EXPECT_EQ(lost[static_cast<std::size_t>(Cause::none)], 0.0);
+    EXPECT_GT(lost[static_cast<std::size_t>(Cause::start)], 0.0);
     double episodes_s = 0.0;
     for (const HindranceEpisode& e : simulation.state().hindrance.episodes) {
-        if (e.cause >= Cause::junction_blocking) episodes_s += e.lost_s;
+        if (hinders(e.cause)) episodes_s += e.lost_s;
         EXPECT_GE(e.to_s, e.from_s);
         EXPECT_GE(e.lost_s, e.most);
     }
     double hindered_s = 0.0;
-    for (std::size_t cause = static_cast<std::size_t>(Cause::junction_blocking); cause < lost.size(); ++cause) {
-        hindered_s += lost[cause];
+    for (std::size_t cause = 0; cause < lost.size(); ++cause) {
+        if (hinders(static_cast<Cause>(cause))) hindered_s += lost[cause];
     }
     EXPECT_NEAR(episodes_s, hindered_s, 1e-6);
 }

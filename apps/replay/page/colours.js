@@ -7,6 +7,7 @@ const SPEED_COLOURS = ['#00224e', '#213b6e', '#4c556c', '#6c6e72', '#8e8978', '#
 const FASTEST_MPS = 14;
 const CAUSES = {
     none: ['#8fa2b3', 'drives, or has just stopped'],
+    start: ['#f0e442', 'its own start: the one ahead drives'],
     signal: ['#4d565e', 'a light, or the queue before it'],
     priority: ['#56b4e9', 'vehicles with priority'],
     junction_blocking: ['#d55e00', 'a vehicle across its way'],
