@@ -23,8 +23,10 @@ double seconds_of(const char* option, const std::string& text) {
     return time.si;
 }
 
-double whole_steps(const char* option, const std::string& text, const Scenario& scenario) {
+// `used`: something is written at this interval; defaults fit not all steps.
+double whole_steps(const char* option, const std::string& text, const Scenario& scenario, bool used) {
     const double time_s = seconds_of(option, text);
+    if (!used) return time_s;
     const double steps = time_s / scenario.tick_s();
     if (steps < 0.5 || std::abs(steps - std::round(steps)) > 1e-6) {
         throw InputError(fmt::format("{}: '{}' is not a whole number of steps of {}", option, text,
@@ -35,12 +37,17 @@ double whole_steps(const char* option, const std::string& text, const Scenario& 
 
 RecordingWindow window_of(const RunFilesOptions& options, const Scenario& scenario) {
     RecordingWindow window;
-    window.interval_s = whole_steps("--record-interval", options.interval, scenario);
+    const bool frames = !options.record.empty() || !options.fcd.empty();
+    window.interval_s = whole_steps("--record-interval", options.interval, scenario, frames);
     window.from_s = seconds_of("--record-from", options.from);
     if (!options.until.empty()) window.until_s = seconds_of("--record-until", options.until);
     if (window.until_s <= window.from_s) {
         throw InputError(
             fmt::format("--record-until: '{}' is not after --record-from '{}'", options.until, options.from));
+    }
+    if (scenario.duration_s > 0.0 && window.from_s > scenario.duration_s) {
+        throw InputError(fmt::format("--record-from: '{}' is after the end of the run: at most duration, {}",
+                                     options.from, short_text(scenario.duration_s, unit("s"))));
     }
     return window;
 }
@@ -110,7 +117,7 @@ RunFiles::RunFiles(const RunFilesOptions& options, const Scenario& scenario, con
     add(options.tripinfo, [](const std::filesystem::path& file, std::size_t, const Model& model) {
         return make_tripinfo_writer(file, model);
     });
-    const double loop_s = whole_steps("--e1-interval", options.loop_interval, scenario);
+    const double loop_s = whole_steps("--e1-interval", options.loop_interval, scenario, !options.loops.empty());
     add(options.loops, [loop_s](const std::filesystem::path& file, std::size_t, const Model& model) {
         return make_loop_writer(file, loop_s, model);
     });

@@ -80,7 +80,9 @@ LineStyle line_style(std::size_t index) {
                                                    {"#000000", 1, 14},
                                                    {"#D55E00", 2, 6},
                                                    {"#7F7F7F", 4, 8}}};
-    return kStyles[index % kStyles.size()];
+    LineStyle style = kStyles[index % kStyles.size()];
+    if (index >= kStyles.size()) style.dash = style.dash == 1 ? 3 : 5;  // the same colours again, dotted
+    return style;
 }
 
 std::string ordered_colour(std::size_t index, std::size_t count) {

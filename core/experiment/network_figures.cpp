@@ -68,6 +68,16 @@ std::string range_of(const std::vector<std::vector<SeriesPoint>>& all, std::size
     return "[0:1]";
 }
 
+// Whose window is grey, where there are others.
+std::string window_of(const NetworkReport& report) {
+    const auto& all = report.populations;
+    const auto other = [&](const NetworkFigures& f) {
+        return f.steady.window.from_s != all.front().steady.window.from_s ||
+               f.steady.window.to_s != all.front().steady.window.to_s;
+    };
+    return std::any_of(all.begin(), all.end(), other) ? " with " + all.front().population : "";
+}
+
 // The measured window, and when runs break down.
 std::string marks_of(const NetworkReport& report) {
     std::string text;
@@ -91,6 +101,7 @@ std::string marks_of(const NetworkReport& report) {
 }  // namespace
 
 Figure network_series_figure(const NetworkReport& report) {
+    constexpr std::size_t kNamedBeside = 9;  // a panel: the others beside the next ones
     Figure figure;
     figure.name = "series";
     figure.width_px = 900;
@@ -110,19 +121,18 @@ Figure network_series_figure(const NetworkReport& report) {
     body += fmt::format("set xrange [0:{:g}]\n", report.scenario.duration_s / 3600.0) + marks_of(report);
     for (std::size_t panel = 0; panel < kPanels.size(); ++panel) {
         const bool last = panel + 1 == kPanels.size();
-        body +=
-            last ? fmt::format(
-                       "set xlabel 'time [h]; grey: measured; dotted: breaks down; points: {}{}'\nset format x '%g'\n",
-                       points_text(intervals, interval_s),
-                       intervals_of_a_point(intervals) > 1 ? " (moved on: their sum)" : "")
-                 : "unset xlabel\nset format x ''\n";
-        body += fmt::format("set ylabel '{}'\nset yrange {}\n{}plot ", kPanels[panel], range_of(all, panel),
-                            panel == 0 ? "" : "unset key\n");
+        const std::string label = fmt::format("time [h]; grey: measured{}; dotted: breaks down; points: {}{}",
+                                              window_of(report), points_text(intervals, interval_s),
+                                              intervals_of_a_point(intervals) > 1 ? " (moved on: their sum)" : "");
+        body += last ? fmt::format("set xlabel {}\nset format x '%g'\n", gnuplot_text(label))
+                     : "unset xlabel\nset format x ''\n";
+        body += fmt::format("set ylabel '{}'\nset yrange {}\nplot ", kPanels[panel], range_of(all, panel));
         for (std::size_t k = 0; k < report.populations.size(); ++k) {
             const LineStyle style = style_of(report.scenario, report.populations[k].population);
-            body += fmt::format("{}'series_{}.dat' using 1:{} with {} lw 2 lc rgb '{}' dt {} title {}",
-                                k == 0 ? "" : ", ", k, panel + 2, line_of(drawn), style.colour, style.dash,
-                                gnuplot_text(report.populations[k].population));
+            const bool named_here = std::min(k / kNamedBeside, kPanels.size() - 1) == panel;
+            body += fmt::format("{}'series_{}.dat' using 1:{} with {} lw 2 lc rgb '{}' dt {} {}", k == 0 ? "" : ", ", k,
+                                panel + 2, line_of(drawn), style.colour, style.dash,
+                                named_here ? "title " + gnuplot_text(report.populations[k].population) : "notitle");
         }
         body += "\n";
     }
@@ -180,10 +190,12 @@ Figure hindrance_figure(const NetworkReport& report) {
     std::string before;
     for (std::size_t cause = 1; cause < kCauseNames.size(); ++cause) {
         if (!any[cause]) continue;
+        const bool is_start = static_cast<Cause>(cause) == Cause::start;
+        const std::string colour = cause == 1 ? "#bbbbbb" : is_start ? "#777777" : line_style(cause - 2).colour;
         std::string label = kCauseNames[cause];
         std::replace(label.begin(), label.end(), '_', ' ');
-        figure.body += fmt::format("{}'hindrance.dat' using {}:xtic(1) lc rgb '{}' title '{}'", before, cause + 1,
-                                   cause == 1 ? "#bbbbbb" : line_style(cause - 2).colour, label);
+        figure.body +=
+            fmt::format("{}'hindrance.dat' using {}:xtic(1) lc rgb '{}' title '{}'", before, cause + 1, colour, label);
         before = ", ";
     }
     figure.body += "\n";

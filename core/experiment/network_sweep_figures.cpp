@@ -59,7 +59,10 @@ std::string network_sweep_note(const CsvTable& results, const CellTitles& titles
     const std::optional<SweepPlanes> all = sweep_planes(results, titles, population_column);
     std::string instead;
     if (all) {
-        instead = "; drawn over " + all->across.column + (all->lines.there() ? " and " + all->lines.column : "");
+        instead = "; drawn over " + all->across.column + (all->lines.there() ? " and " + all->lines.column : "") +
+                  (all->planes.size() > 1 ? ", for each combination of the others" : "");
+    } else if (axes.size() > 2) {
+        instead = fmt::format("; over the first two axes of numbers they would be more than {}", kMostPlanes);
     }
     return fmt::format("No figures over green and offset: they need axes whose columns are {} and {} (here: {}){}{}{}",
                        kGreenColumn, kOffsetColumn, axes.empty() ? "none" : fmt::format("{}", fmt::join(axes, ", ")),

@@ -146,7 +146,8 @@ Figure sweep_lines_figure(const SweepPlanes& all, const SweepPlane& plane, std::
     Figure figure;
     figure.name = fmt::format("network_{}", number);
     figure.width_px = 1300;
-    figure.height_px = 760;
+    const bool compares = all.populations.size() > 1;
+    figure.height_px = compares ? 760 : 410;
     const std::string file = figure.name + ".dat";
     figure.data.emplace_back(file, data_of(all, plane));
     const std::string title = all.title(plane, "means of {} seeds, whiskers from the least to the greatest of them");
@@ -155,11 +156,14 @@ Figure sweep_lines_figure(const SweepPlanes& all, const SweepPlane& plane, std::
     const std::vector<KeyEntry> key = key_of(all);
     const double right = 1.0 - key_width_px(key) / figure.width_px;
     std::string body = fmt::format(
-        "set multiplot layout 2,3{} margins 0.075,{:.4f},0.08,{} spacing 0.065,0.10\nset xlabel {}\nset xrange [{:g}:{:g}]\n"
+        "set multiplot layout {},3{} margins 0.075,{:.4f},{},{} spacing 0.065,0.10\nset xlabel {}\nset xrange [{:g}:{:g}]\n"
         "set xtics {}\nset bars 0.5\n",
-        title.empty() ? "" : " title " + gnuplot_text(title), right, title.empty() ? "0.97" : "0.94",
+        compares ? 2 : 1, title.empty() ? "" : " title " + gnuplot_text(title), right, compares ? "0.08" : "0.15",
+        title.empty() ? "0.97"
+        : compares    ? "0.94"
+                      : "0.89",
         gnuplot_text(all.across.label()), values.front() - beside, values.back() + beside, ticks_of(values));
-    for (std::size_t panel = 0; panel < 2 * kMetrics; ++panel) {
+    for (std::size_t panel = 0; panel < (compares ? 2 : 1) * kMetrics; ++panel) {
         const bool change = panel >= kMetrics;
         const std::size_t metric = panel % kMetrics;
         const SweepMetric& of = kSweepMetrics[metric];

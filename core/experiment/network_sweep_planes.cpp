@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -92,12 +93,29 @@ std::vector<DrawnAxis> drawn_axes(const CsvTable& results, const CellTitles& tit
     std::vector<DrawnAxis> varied = paper.size() == 2 && !std::all_of(paper.begin(), paper.end(), single) ? paper : all;
     std::erase_if(varied, single);
     if (varied.empty() && paper.size() == 2) return {paper.front()};
-    if (varied.size() > 2) return {};
+    if (varied.size() > 2) varied.resize(2);  // for each value of the others a figure
     // As in the paper: over green, a line an offset.
     if (varied.size() == 2 && (varied[0].column == kOffsetColumn || varied[1].column == kGreenColumn)) {
         std::swap(varied[0], varied[1]);
     }
     return varied;
+}
+
+bool is_of_paper(const SweepPlanes& all) {
+    return all.across.column == kGreenColumn && all.lines.column == kOffsetColumn;
+}
+
+// How many combinations of the axes there are that are not drawn over.
+std::size_t planes_of(const CsvTable& results, const SweepPlanes& all, const std::string& population_column) {
+    std::set<std::vector<std::string>> combinations;
+    for (const std::vector<std::string>& row : results.rows) {
+        std::vector<std::string> cells;
+        for (const std::string& column : axis_columns(results, population_column)) {
+            if (column != all.across.column && column != all.lines.column) cells.push_back(row[results.column(column)]);
+        }
+        combinations.insert(cells);
+    }
+    return combinations.size();
 }
 
 std::string title_of(const CsvTable& results, const std::vector<std::string>& row, const SweepPlanes& planes,
@@ -208,6 +226,7 @@ std::optional<SweepPlanes> sweep_planes(const CsvTable& results, const CellTitle
     SweepPlanes all;
     all.across = axes.front();
     if (axes.size() == 2) all.lines = axes.back();
+    if (planes_of(results, all, population_column) > kMostPlanes && !is_of_paper(all)) return std::nullopt;
     std::vector<std::string> seeds;
     for (const std::vector<std::string>& row : results.rows) {
         const std::string& population = row[results.column(population_column)];

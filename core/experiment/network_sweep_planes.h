@@ -1,8 +1,8 @@
 // The table of results of a sweep over several intersections, as its figures take it: one plane for each combination of the axes that are
 // not drawn over, in it a value for each place on the drawn axes, population and seed.
 //
-// Drawn over are green (across) and offset (a line each), as in the paper, where both are axes and one of them has two values; else the one or
-// two axes of numbers that there are. An axis of one value is not drawn over: it stands in the title.
+// Drawn over are green (across) and offset (a line each), as in the paper, where both are axes and one of them has two values; else the first
+// one or two axes of numbers. An axis of one value is not drawn over: it stands in the title.
 #pragma once
 
 #include <array>
@@ -106,7 +106,10 @@ bool has_network_metrics(const CsvTable& results, const std::string& population_
 // Columns of the axes but that of the populations.
 std::vector<std::string> axis_columns(const CsvTable& results, const std::string& population_column);
 
-// Nothing where there is no axis of numbers to draw over, or more than two of them.
+// Of other axes than green and offset no more are drawn.
+inline constexpr std::size_t kMostPlanes = 24;
+
+// Nothing where there is no axis of numbers to draw over, or there would be too many planes.
 std::optional<SweepPlanes> sweep_planes(const CsvTable& results, const CellTitles& titles,
                                         const std::string& population_column);
 

@@ -23,15 +23,30 @@ void check_street_steps(const Scenario& scenario, const std::function<void(const
     }
 }
 
+bool is_whole(double number) { return std::abs(number - std::round(number)) <= 1e-6; }
+
+// Of grids, streets and imported networks: every second it is counted who is there and who stands, and series are made of that.
+void check_seconds(const Scenario& scenario, Checker& check) {
+    if (!is_whole(1.0 / scenario.tick_s())) {
+        check.error(scenario.is_meso() ? "meso.step" : "step",
+                    "vehicles are counted every second, which is not a whole number of steps of " +
+                        short_text(scenario.tick_s(), unit("ms")));
+    }
+    if (!is_whole(scenario.measure.interval_s)) {
+        check.error("measure.interval", "value " + short_text(scenario.measure.interval_s, unit("s")) +
+                                            " is not a whole number of seconds, as often as vehicles are counted");
+    }
+}
+
 // Time is a count of steps: what the signal does happens between two of them.
 void check_steps(const Scenario& scenario, Checker& check) {
     const auto whole_steps = [&](const std::string& field, double time_s) {
-        const double steps = time_s / scenario.tick_s();
-        if (std::abs(steps - std::round(steps)) <= 1e-6) return;
+        if (is_whole(time_s / scenario.tick_s())) return;
         check.error(field, short_text(time_s, unit("s")) + " is not a whole number of steps of " +
                                short_text(scenario.tick_s(), unit("ms")));
     };
     whole_steps("duration", scenario.duration_s);
+    if (scenario.network.has_several()) check_seconds(scenario, check);
     if (scenario.network.is_sumo()) return;  // its programmes are rounded to steps
     if (scenario.network.is_streets()) return check_street_steps(scenario, whole_steps);
     whole_steps("signal.first_green", scenario.signal.first_green_s);
@@ -186,34 +201,34 @@ void check_scenario(const Scenario& scenario, Checker& check) {
 
 const Table& measure_table() {
     using S = MeasureSettings;
-    static const Table table =
-        make_table<S>("what is reported",
-                      {
-                          numbers<&S::green_s>("green", "s", {0.1, 7200}, {0, 1000},
-                                               "green times at which the passed vehicles are counted", true),
-                          text<&S::baseline>("baseline", TextField::Rule::name,
-                                             "population that improvements refer to; absent: none"),
-                          whole<&S::warmup_cycles>("warmup_cycles", {0, 1000},
-                                                   "intersections: signal cycles before the measured time"),
-                          whole<&S::cycles>("cycles", {1, 100'000}, "intersections: measured signal cycles"),
-                          numbers<&S::zone_radius_m>("zones", "m", {1, 20'000}, {0, 10},
-                                                     "intersections: radii within which travel time and density "
-                                                     "are measured; the first is the one that is reported",
-                                                     false),
-                          number<&S::outside_m>("outside", "m", {0, 10'000},
-                                                "grids: measured is what lies within this distance of the outer "
-                                                "intersections' stop lines"),
-                          number<&S::interval_s>("interval", "s", {1, 86'400}, "grids: step of the time series"),
-                          number<&S::steady_s>("steady", "s", {1, 1'000'000},
-                                               "grids: figures are means over this long, to the end of the run"),
-                          number<&S::time_space_s>("time_space", "s", {0, 7200},
-                                                   "grids: time-space diagram of the middle street from "
-                                                   "time_space_from, over this long to the end of the run; 0: none"),
-                          choice<&S::time_space_from>("time_space_from", {"west", "east", "south", "north"},
-                                                      "side from which that diagram follows a street: from west "
-                                                      "and east the middle row of a grid, from south and north "
-                                                      "its middle column"),
-                      });
+    static const Table table = make_table<S>(
+        "what is reported",
+        {
+            numbers<&S::green_s>("green", "s", {0.1, 7200}, {0, 1000},
+                                 "green times at which the passed vehicles are counted", true),
+            text<&S::baseline>("baseline", TextField::Rule::name,
+                               "population that improvements refer to; absent: none"),
+            whole<&S::warmup_cycles>("warmup_cycles", {0, 1000},
+                                     "intersections: signal cycles before the measured time"),
+            whole<&S::cycles>("cycles", {1, 100'000}, "intersections: measured signal cycles"),
+            numbers<&S::zone_radius_m>("zones", "m", {1, 20'000}, {0, 10},
+                                       "intersections: radii within which travel time and density "
+                                       "are measured; the first is the one that is reported",
+                                       false),
+            number<&S::outside_m>("outside", "m", {0, 10'000},
+                                  "grids: measured is what lies within this distance of the outer "
+                                  "intersections' stop lines"),
+            number<&S::interval_s>("interval", "s", {1, 86'400}, "grids: step of the time series, in whole seconds"),
+            number<&S::steady_s>("steady", "s", {1, 1'000'000},
+                                 "grids: figures are means over this long, to the end of the run"),
+            number<&S::time_space_s>("time_space", "s", {0, 7200},
+                                     "grids: time-space diagram of the middle street from "
+                                     "time_space_from, over this long to the end of the run; 0: none"),
+            choice<&S::time_space_from>("time_space_from", {"west", "east", "south", "north"},
+                                        "side from which that diagram follows a street: from west "
+                                        "and east the middle row of a grid, from south and north "
+                                        "its middle column"),
+        });
     return table;
 }
 

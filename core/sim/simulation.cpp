@@ -1,6 +1,7 @@
 #include "sim/simulation.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include "base/state_hash.h"
 #include "sim/phases.h"
@@ -87,10 +88,19 @@ void Simulation::share_watch() {
 }
 
 void Simulation::step() {
+    if (threads_ == 1 || state_.present() < share_from_) return step(false);
+    if (shares_always_) return step(true);
+    const int vehicles = state_.present();
+    const auto begin = std::chrono::steady_clock::now();
+    step(sharing_.shares());
+    sharing_.made(std::chrono::steady_clock::now() - begin, vehicles);
+}
+
+void Simulation::step(bool shared) {
     state_.radar = rows_at(model_.radar, state_.tick, state_.vehicles.slots);
     state_.v2v = rows_at(model_.v2v, state_.tick, state_.vehicles.slots);
     read_signals(model_, state_);
-    if (threads_ == 1 || state_.present() < share_from_) {
+    if (!shared) {
         decide(0, 1);
         if (looks_for_hindrance(model_, state_)) watch_hindrance(model_, state_);
         move(0, 1);

@@ -27,6 +27,7 @@
 
 #include "sim/full_dynamics.h"
 #include "sim/model.h"
+#include "sim/sharing.h"
 #include "sim/state.h"
 
 namespace stopline {
@@ -37,9 +38,12 @@ public:
     // `threads`: that share the lanes of this run.
     explicit Simulation(const Model& model, int threads = 1);
 
-    // They share a step only while at least so many vehicles are there (at first: always); nothing else depends on it. Threads wait for each
-    // other several times a step, which costs more than they save where there is little to do, and far more where other work runs.
-    void share_from(int vehicles) { share_from_ = vehicles; }
+    // From now on they share a step only while at least so many vehicles are there and that is faster (sharing.h), not always; nothing else
+    // depends on it. Threads wait for each other several times a step, which costs more than they save where there is little to do.
+    void share_from(int vehicles) {
+        share_from_ = vehicles;
+        shares_always_ = false;
+    }
 
     void step();
     void run_until(double time_s);
@@ -52,6 +56,7 @@ public:
     std::uint64_t state_hash() const;
 
 private:
+    void step(bool shared);
     void decide(int thread, int threads);
     void decide(NetworkPart& part);
     void move(int thread, int threads);
@@ -63,6 +68,8 @@ private:
     State state_;
     int threads_;
     int share_from_ = 0;
+    bool shares_always_ = true;
+    Sharing sharing_;
 };
 
 }  // namespace stopline

@@ -36,6 +36,7 @@ cmp "$work/a.CDG.html" "$work/again.html" || fail "the page is not the same each
 
 refused "'5 ms' is not a whole number of steps" "$run" "${grid[@]}" --record "$work/c.rec" --record-interval "5 ms"
 refused "--record-from: value '3'" "$run" "${grid[@]}" --record "$work/c.rec" --record-from 3
+refused "is after the end of the run: at most duration" "$run" "${grid[@]}" --record "$work/c.rec" --record-from "1 h"
 refused "is not after --record-from" "$run" "${grid[@]}" --record "$work/c.rec" --record-from "9 s" --record-until "8 s"
 refused "cannot make the folder" "$run" "${grid[@]}" --record "$work/a.CDG.rec/x.rec"
 refused "none.rec: cannot read: No such file" "$replay" "$work/none.rec"

@@ -229,7 +229,7 @@ TEST(NetworkSweepFigures, AreDrawnOverAnotherAxisOfNumbersWithAWordOnIt) {
     EXPECT_EQ(
         network_sweep_note(results, titles),
         "No figures over green and offset: they need axes whose columns are green_s and offset_s (here: spacing_m, "
-        "rule); drawn over spacing_m");
+        "rule); drawn over spacing_m, for each combination of the others");
 }
 
 TEST(NetworkSweepFigures, AreDrawnOverTwoOtherAxesWithTheOffsetAsLines) {
@@ -244,11 +244,15 @@ TEST(NetworkSweepFigures, AreDrawnOverTwoOtherAxesWithTheOffsetAsLines) {
 }
 
 TEST(NetworkSweepFigures, SayWhyThereAreNone) {
-    const CsvTable three = table_of("a,b,c", {"1,1,1", "2,2,2"});
-    EXPECT_TRUE(network_sweep_figures(three, {}).empty());
+    std::vector<std::string> many;
+    for (int k = 0; k < 25; ++k) many.push_back("1,1," + std::to_string(k));
+    EXPECT_EQ(network_sweep_figures(table_of("a,b,c", {"1,1,1", "2,2,2"}), {}).size(), 6U) << "a and b, for each c";
+    many.insert(many.end(), {"2,1,1", "1,2,1"});
+    EXPECT_TRUE(network_sweep_figures(table_of("a,b,c", many), {}).empty());
     EXPECT_EQ(
-        network_sweep_note(three, {}),
-        "No figures over green and offset: they need axes whose columns are green_s and offset_s (here: a, b, c)");
+        network_sweep_note(table_of("a,b,c", many), {}),
+        "No figures over green and offset: they need axes whose columns are green_s and offset_s (here: a, b, c); over the "
+        "first two axes of numbers they would be more than 24");
     EXPECT_EQ(network_sweep_note(table_of("green_s,offset_s", {"5,0"}), {}), "");
     EXPECT_EQ(network_sweep_note(parse_csv("green_s,population,seed,passed\n5,A,1,2\n", "one light"), {}), "");
 }
@@ -256,7 +260,9 @@ TEST(NetworkSweepFigures, SayWhyThereAreNone) {
 TEST(NetworkSweepFigures, SayWhatToDoWithAnAxisOfSeveralFields) {
     const CsvTable results = table_of("green,offset_s", {"30 s / 14 s,0", "30 s / 10 s,5"});
     const std::string note = network_sweep_note(results, {});
-    EXPECT_TRUE(contains(note, "(here: green, offset_s); drawn over offset_s; the column 'green' holds all fields"));
+    EXPECT_TRUE(contains(
+        note,
+        "(here: green, offset_s); drawn over offset_s, for each combination of the others; the column 'green' holds all fields"));
     EXPECT_TRUE(contains(note, "('30 s / 14 s')"));
     EXPECT_TRUE(contains(note, "give each field an axis of its own, or put first one that does"));
 }

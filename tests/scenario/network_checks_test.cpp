@@ -166,6 +166,19 @@ TEST(DemandArms, AreThoseOfTheNetwork) {
                          "field 'demand.arms[0]': no lane"));
 }
 
+TEST(Seconds, AreWholeNumbersOfStepsAndIntervalsOfSeconds) {
+    EXPECT_TRUE(contains(in_grid({"measure.interval=7.5 s"}),
+                         "field 'measure.interval': value 7.5 s is not a whole number of seconds"));
+    const std::vector<std::string> even{"signal={first_green: 2.4 s, green: 20 s, yellow: 4 s, all_red: 4 s}"};
+    const std::string meso = "meso={base: passages, step: ";
+    EXPECT_TRUE(
+        contains(in_grid({"fidelity=meso", meso + "0.4 s}", even[0]}),
+                 "field 'meso.step': vehicles are counted every second, which is not a whole number of steps of "
+                 "400 ms"));
+    EXPECT_EQ(in_grid({"fidelity=meso", meso + "0.2 s}", even[0]}), "");
+    EXPECT_EQ(of_kind("intersection", {"fidelity=meso", meso + "0.4 s}", even[0]}), "") << "no series";
+}
+
 TEST(TimeSpace, IsForGridsAndStreets) {
     for (const char* const kind : {"approach", "intersection"}) {
         EXPECT_TRUE(contains(of_kind(kind, {"measure.time_space=60 s"}),
