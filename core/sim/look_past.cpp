@@ -1,5 +1,5 @@
-// Full dynamics: a vehicle follows who is nearest ahead of it. Where ways part, that one may go another way, and hide one that stands or
-// crawls on its own: that one is minded too, or it would come too late into view.
+// Full dynamics: a vehicle follows who is nearest ahead of it. Where ways part, or a trip ends, that one may go another way, and hide one that
+// stands or crawls on its own: that one is minded too, or it would come too late into view.
 #include <algorithm>
 #include <array>
 
@@ -36,11 +36,12 @@ void mind(const Model& model, const State& state, int lane, int slot, const Ahea
 
 // Of the vehicles behind the first one on a lane, those that are the first for another way than its.
 void look_past_followers(const Model& model, const State& state, int lane, NetworkPart& part) {
-    constexpr double kLooks_m = 60.0;  // from its end: of 50 km/h and a comfortable stop, with some to spare
+    constexpr double kLooks_m = 60.0;  // from its end, at least: of 50 km/h and a comfortable stop, with some to spare
     constexpr std::size_t kWays = 8;
     const VehicleArrays& v = state.vehicles;
     const LaneBlock& block = state.blocks[at(lane)];
-    const double from_m = state.plan.lane(lane).length_m - kLooks_m;
+    const LanePlan& plan = state.plan.lane(lane);
+    const double from_m = plan.length_m - std::max(kLooks_m, stopping_distance_m(model.driver, plan.limit_mps));
     const std::size_t ways = std::min(state.plan.next(lane).size(), kWays);
     int before = v.next_lane[at(block.first)];
     std::array<int, kWays> met{before};
@@ -64,7 +65,8 @@ void look_past(const Model& model, const State& state, int lane, const Ahead& hi
     const int first = state.blocks[at(lane)].first;
     if (hidden.slot >= 0) mind(model, state, lane, first, hidden, part);
     // Nobody passes who stands at the head.
-    if (state.plan.lane(lane).branches && state.vehicles.speed_mps[at(first)] > 0.0) {
+    const bool parts = state.plan.lane(lane).branches || !model.demand.trips.empty();
+    if (parts && state.vehicles.speed_mps[at(first)] > 0.0) {
         look_past_followers(model, state, lane, part);
     }
 }

@@ -5,4 +5,6 @@
 # installed.
 set -u
 
-python3 "$STOPLINE_SOURCE/tests/sumo/import_nets.py" "$STOPLINE_BIN"
+for fidelity in meso full; do
+    python3 "$STOPLINE_SOURCE/tests/sumo/import_nets.py" "$STOPLINE_BIN" --fidelity "$fidelity" || exit
+done
