@@ -48,9 +48,13 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
     return nearest;
 }
 
-std::string known_names(std::string_view name, const std::vector<std::string>& candidates) {
+std::string known_names(std::string_view name, const std::vector<std::string>& candidates, std::size_t most) {
     const std::string nearest = nearest_name(name, candidates);
-    const std::string list = candidates.empty() ? "none" : joined(candidates);
+    const std::size_t listed = std::min(candidates.size(), most);
+    std::string list = candidates.empty()
+                           ? "none"
+                           : joined({candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(listed)});
+    if (listed < candidates.size()) list += " and " + std::to_string(candidates.size() - listed) + " more";
     return (nearest.empty() ? "; known: " : "; did you mean '" + nearest + "'? Known: ") + list;
 }
 

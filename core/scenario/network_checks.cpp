@@ -114,13 +114,9 @@ void check_arms(const Scenario& scenario, Checker& check) {
         const std::string& arm = scenario.demand.arms[k];
         const auto begins = [&](const std::string& name) { return (name + "_in_").starts_with(arm + "_"); };
         if (std::any_of(known.begin(), known.end(), begins)) continue;
-        const std::string nearest = nearest_name(arm, known);
-        const std::size_t more = known.size() - std::min(known.size(), kListed);
-        const std::vector<std::string> listed(known.begin(), known.end() - static_cast<std::ptrdiff_t>(more));
         check.error("demand.arms[" + std::to_string(k) + "]",
                     "no lane to an intersection has a name that begins with '" + shortened(arm) + "_'" +
-                        (nearest.empty() ? "; known: " : "; did you mean '" + nearest + "'? Known: ") + joined(listed) +
-                        (more > 0 ? " and " + std::to_string(more) + " more" : ""));
+                        known_names(arm, known, kListed));
     }
 }
 

@@ -1,12 +1,11 @@
 // Whether several threads share a step: while that is faster than one alone. Where other work runs beside them, or fewer processors are to be had
-// than there seem to be, threads that wait for each other without sleep take hundreds of times as long. Results are the same either way.
+// than there seem to be, threads that wait for each other without sleep take many times as long. Results are the same either way.
 //
 // Some steps are made either way and timed, and the faster way is kept. It is tried again after a time that a trial cannot have cost more
 // than a small part of.
 #pragma once
 
 #include <chrono>
-#include <cstdint>
 
 namespace stopline {
 

@@ -9,7 +9,7 @@
 namespace stopline {
 namespace {
 
-// Right turns are so fast that nobody brakes for them, and full at their ends: the next light is 20 m away.
+// Right turns are so fast that nobody brakes for them, and full at their ends: the next light is 40 m away.
 TEST(LookPast, WhoFollowsOneThatTurnsStopsBehindWhoStandsOnItsOwnWay) {
     for (const char* const turn_speed : {"9 m/s", "12 m/s", "50 km/h"}) {
         const std::string text =
