@@ -148,21 +148,29 @@ STOPLINE_INLINE R predictive_feedforward(const CaccSettingsOf<Number>& c, const 
 }
 
 // Following: answer of the spacing controller. `desired_gap_m` and `slope_s` come from the gap law at the own speed;
-// `request_mps2` is the request of the last step, the state of the filter 1 / H.
+// `request_mps2` is the request of the last step, the state of the filter 1 / H. That filter delays braking, for which a time gap leaves room.
+// Where the gap that the policy wants grows by less room than what stands here (`growth_m`, beyond the gap at standstill), and the predecessor
+// brakes harder than this (our choice: harder than for anything but a stop), braking is as with a constant distance.
+inline constexpr double kRoomToFilter_s = 0.3;
+inline constexpr double kHardBraking_mps2 = 2.0;
+
 template <class R, class Number>
-STOPLINE_INLINE R follow_acceleration(const CaccSettingsOf<Number>& c, const R& acceleration_mps2, const R& lag_s,
-                                      const R& rate_1ps, const R& request_mps2, const R& desired_gap_m,
-                                      const R& slope_s, const PredecessorView<R>& p, double dt) {
+STOPLINE_INLINE R follow_acceleration(const CaccSettingsOf<Number>& c, const R& speed_mps, const R& acceleration_mps2,
+                                      const R& lag_s, const R& rate_1ps, const R& request_mps2, const R& desired_gap_m,
+                                      const R& growth_m, const R& slope_s, const PredecessorView<R>& p, double dt) {
     const R error_m = p.gap_m - desired_gap_m;
     const R error_rate_mps = -p.closing_mps - slope_s * acceleration_mps2;
     const R feedback = c.feedback_kp_1ps2 * error_m + c.feedback_kd_1ps * error_rate_mps;
     const R time_gap_ff = p.acceleration_mps2 + lag_s * p.rate_1ps * (p.request_mps2 - p.acceleration_mps2);
     const R filtered = request_mps2 + (feedback + time_gap_ff - request_mps2) * lag_share(dt, slope_s);
     const R constant = STOPLINE_FLAG(R, slope_s <= 0.0);
+    const R narrow = STOPLINE_FLAG(R, growth_m < kRoomToFilter_s * speed_mps) *
+                     STOPLINE_FLAG(R, p.request_mps2 < -kHardBraking_mps2);
     R answer = filtered;
-    if (any(constant)) {
-        const R distance = feedback + predictive_feedforward(c, acceleration_mps2, rate_1ps, p);
-        answer = choose(constant, distance, filtered);
+    if (any(greater(constant, narrow))) {
+        const R distance = c.feedback_kp_1ps2 * error_m - c.feedback_kd_1ps * p.closing_mps +
+                           predictive_feedforward(c, acceleration_mps2, rate_1ps, p);
+        answer = choose(constant, distance, choose(narrow, lesser(distance, filtered), filtered));
     }
     return limited(answer, -c.deceleration_comfort_mps2, c.acceleration_max_mps2);
 }
@@ -202,9 +210,11 @@ STOPLINE_INLINE R emergency_acceleration(const CaccSettingsOf<Number>& c, const 
 // distance at all speeds hears of braking in time by its feedforward; a time gap delays that as well (H = 1 + h s), so that a vehicle
 // nearer than its policy wants would use up its room: such a policy keeps the reserve at its own speed too, up to half of what the gap
 // that it wants exceeds that at standstill by (`growth_m`; 0 for a constant distance). With all of it SWITCH-2 would brake in each
-// start, where gaps grow later than speeds.
+// start, where gaps grow later than speeds. Just above the speed from which its gap grows that is next to nothing: there it keeps
+// kLeastReserve_s (our choice; with 0.25 s the starts of Section III would be slower).
 inline constexpr double kBrakeReserve_s = 0.3;
 inline constexpr double kReservedGrowth = 0.5;
+inline constexpr double kLeastReserve_s = 0.15;
 
 template <class R, class Number>
 STOPLINE_INLINE R keep_room_acceleration(const CaccSettingsOf<Number>& c, const R& speed_mps, const R& growth_m,
@@ -212,7 +222,8 @@ STOPLINE_INLINE R keep_room_acceleration(const CaccSettingsOf<Number>& c, const 
     constexpr double kSpeedGain_1ps = 2.0;  // our choice: slower than the brake answers
     const double b = c.deceleration_emergency_mps2;
     const R late_m = (c.radar_delay_s + kBrakeReserve_s) * greater(p.closing_mps, 0.0);
-    const R reserve_m = lesser(kBrakeReserve_s * speed_mps, kReservedGrowth * growth_m);
+    const R reserve_m = greater(lesser(kBrakeReserve_s * speed_mps, kReservedGrowth * growth_m),
+                                kLeastReserve_s * speed_mps * STOPLINE_FLAG(R, growth_m > 0.0));
     const R room_m = greater(p.gap_m - late_m - reserve_m - c.emergency_gap_m, 0.05);
     const R speed_p = greater(speed_mps - p.closing_mps, 0.0);
     const R safe_squared = square(speed_p) + 2.0 * b * room_m;

@@ -21,9 +21,8 @@ bool held(const State& state, int slot) {
     return v.record[at(slot)].held_at >= state.tick - 1 && v.speed_mps[at(slot)] < kAlmostStands_mps;
 }
 
-bool held_before(const Model& model, const State& state, int slot, double area_m) {
-    return held(state, slot) &&
-           (model.demand.trips.empty() || state.vehicles.record[at(slot)].held_m <= static_cast<float>(area_m));
+bool held_before(const State& state, int slot, double area_m) {
+    return held(state, slot) && state.vehicles.record[at(slot)].held_m <= static_cast<float>(area_m);
 }
 
 double earliest_s(double distance_m, double speed_mps, double acceleration_mps2, double limit_mps) {
@@ -138,7 +137,7 @@ Arrival next_arrival(const Model& model, const State& state, const Conflict& con
     Arrival soonest;
     for (const Insider& w : state.insiders[at(conflict.other)]) {
         if (w.front_m >= conflict.other_from_m) continue;
-        if (held_before(model, state, w.slot, conflict.other_from_m) || w.slot == stopping ||
+        if (held_before(state, w.slot, conflict.other_from_m) || w.slot == stopping ||
             behind_held(state, conflict.other, w)) {
             return soonest;
         }

@@ -172,11 +172,14 @@ STOPLINE_INLINE void plan_at(const DriverTablesOf<float>& d, const FullGroup& g,
         slow_down = slow_down_acceleration(d, speed, end_speed, get(g.to_turn));
     }
     // Follow.
-    const R follow = follow_acceleration(c, acceleration, lag, rate, before, get(g.desired_gap), get(g.slope), p, dt);
-    const R growth_m = greater(get(g.desired_gap) - get(g.standstill_gap), 0.0);
+    const R standstill_gap = get(g.standstill_gap);
+    const R desired_gap = get(g.desired_gap);
+    const R growth_m = greater(desired_gap - standstill_gap, 0.0);
+    const R follow =
+        follow_acceleration(c, speed, acceleration, lag, rate, before, desired_gap, growth_m, get(g.slope), p, dt);
     const R emergency = lesser(emergency_acceleration(c, speed, p), keep_room_acceleration(c, speed, growth_m, p));
     // Stop behind a standing predecessor; where else it must stop, `imposed` says.
-    const R behind = stop_behind_acceleration(d, speed, get(g.standstill_gap), p);
+    const R behind = stop_behind_acceleration(d, speed, standstill_gap, p);
 
     // The smallest answer wins. A platoon leader becomes a follower when following asks for less than driving freely.
     const R leads = get(g.leads) * STOPLINE_FLAG(R, follow > as_leader);

@@ -83,7 +83,7 @@ int keeps_out(const Model& model, State& state, NetworkPart& part, int lane, con
         if (conflict.yields || w.slot == stopping) continue;
         if (conflict.other_yields) {
             const bool comes = state.vehicles.record[at(w.slot)].cleared_for == conflict.other &&
-                               !held_before(model, state, w.slot, conflict.other_from_m);
+                               !held_before(state, w.slot, conflict.other_from_m);
             if (comes) return w.slot;
             continue;
         }
@@ -218,9 +218,8 @@ Wait waiting_place(const Model& model, State& state, NetworkPart& part, int lane
     if (at_line && line_m - v.front_m > ahead_m) return {};
     const bool waits = v.stands || arrays.record[at(v.slot)].held_at >= state.tick - 1;
     const double braking_m = 0.5 * square(speed) / model.driver.cacc.deceleration_emergency_mps2;
-    const bool has_trips = !model.demand.trips.empty();
-    const bool sets_out = waits && has_trips;
-    if (!others && !has_trips && (decided || !state.plan.lane(lane).yields)) return {};
+    const bool minds_late = waits || !model.demand.trips.empty();
+    if (!others && !minds_late && (decided || !state.plan.lane(lane).yields)) return {};
     for (const Conflict& conflict : state.plan.conflicts(lane)) {
         const double hold_m = conflict.from_m - margin_m;
         if (v.front_m > conflict.from_m) continue;
@@ -228,9 +227,9 @@ Wait waiting_place(const Model& model, State& state, NetworkPart& part, int lane
         if (far && !at_line) break;
         const bool empty = !others || state.insiders[at(conflict.other)].empty();
         int blocker = empty ? -1 : keeps_out(model, state, part, lane, conflict, v);
-        if (blocker < 0 && has_trips && conflict.other_yields && conflict.from_m - v.front_m >= braking_m) {
+        if (blocker < 0 && minds_late && conflict.other_yields && conflict.from_m - v.front_m >= braking_m) {
             const int comes = cannot_stop(model, state, conflict);
-            if (comes >= 0 && (sets_out || still_there(model, state, lane, conflict, v, comes))) blocker = comes;
+            if (comes >= 0 && (waits || still_there(model, state, lane, conflict, v, comes))) blocker = comes;
         }
         const bool matters = !far || no_light || (blocker >= 0 && arrays.speed_mps[at(blocker)] < kAlmostStands_mps);
         if (blocker >= 0 && matters) return {std::min(hold_m, line_m), blocker, false};

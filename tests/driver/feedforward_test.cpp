@@ -102,7 +102,7 @@ double largest_error_m(double tau_p, double tau, double kp, double kd) {
         const double t = k * kStep_s;
         const double u_p = std::sin(0.9 * t) + (t > 15.0 && t < 18.0 ? 0.8 : -0.2);
         const PredecessorView<double> p{10.0 + error_m, closing, a_p, u_p, 1.0 / tau_p};
-        u = follow_acceleration<double>(c, a, tau, 1.0 / tau, u, 10.0, kTimeGap_s, p, kStep_s);
+        u = follow_acceleration<double>(c, 8.0, a, tau, 1.0 / tau, u, 10.0, 7.0, kTimeGap_s, p, kStep_s);
         const double a_before = a;
         const double closing_before = closing;
         const double a_p_before = a_p;

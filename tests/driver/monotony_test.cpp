@@ -2,8 +2,10 @@
 // finite in every state, however extreme.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "driver/acceleration_laws.h"
@@ -51,7 +53,8 @@ TEST(Follow, IsMonotoneForEveryPolicy) {
                 for (const double a_p : kAccelerations) {
                     const auto answer = [&](double gap, double closing) {
                         const PredecessorView<double> p{gap, closing, a_p, 0.5 * a_p, 4.0};
-                        return follow_acceleration<double>(cacc, a, 0.2, 5.0, a, gap_m, slope_s, p, 0.01);
+                        return follow_acceleration<double>(cacc, v, a, 0.2, 5.0, a, gap_m,
+                                                           gap_m - policy.standstill_gap_m, slope_s, p, 0.01);
                     };
                     expect_monotone(answer, policy.name);
                 }
@@ -62,20 +65,20 @@ TEST(Follow, IsMonotoneForEveryPolicy) {
 
 TEST(Follow, IsNothingInEquilibrium) {
     const CaccSettings cacc = shipped().cacc;
-    for (const double slope : {0.0, 0.87}) {
+    for (const auto& [slope, growth] : {std::pair{0.0, 0.0}, {0.87, 8.7}, {0.87, 1.0}}) {
         const PredecessorView<double> p{7.0, 0.0, 0.0, 0.0, 4.0};
-        EXPECT_EQ(follow_acceleration<double>(cacc, 0.0, 0.2, 5.0, 0.0, 7.0, slope, p, 0.01), 0.0);
+        EXPECT_EQ(follow_acceleration<double>(cacc, 10.0, 0.0, 0.2, 5.0, 0.0, 7.0, growth, slope, p, 0.01), 0.0);
     }
 }
 
 TEST(Follow, KeepsToComfort) {
     const CaccSettings cacc = shipped().cacc;
-    for (const double slope : {0.0, 0.87}) {
+    for (const auto& [slope, growth] : {std::pair{0.0, 0.0}, {0.87, 8.7}, {0.87, 1.0}}) {
         const PredecessorView<double> far{1e6, -20.0, 2.0, 2.5, 4.0};
         const PredecessorView<double> near{-10.0, 20.0, -7.0, -7.0, 4.0};
-        EXPECT_LE(follow_acceleration<double>(cacc, 0.0, 0.2, 5.0, 0.0, 7.0, slope, far, 0.01),
+        EXPECT_LE(follow_acceleration<double>(cacc, 10.0, 0.0, 0.2, 5.0, 0.0, 7.0, growth, slope, far, 0.01),
                   cacc.acceleration_max_mps2);
-        EXPECT_GE(follow_acceleration<double>(cacc, 0.0, 0.2, 5.0, 0.0, 7.0, slope, near, 0.01),
+        EXPECT_GE(follow_acceleration<double>(cacc, 10.0, 0.0, 0.2, 5.0, 0.0, 7.0, growth, slope, near, 0.01),
                   -cacc.deceleration_comfort_mps2);
     }
 }
@@ -175,8 +178,9 @@ TEST(KeepRoom, BeginsWhereBrakingAlikeWouldJustBeEnough) {
             const double room_m = (v * v - v_p * v_p) / (2.0 * b);
             if (room_m < 0.1) continue;  // less than 0.05 m does not count as less
             for (const double growth_m : {0.0, 1.0, 12.0}) {
+                const double least_m = growth_m > 0.0 ? kLeastReserve_s * v : 0.0;
                 const double reserve_m = (c.radar_delay_s + kBrakeReserve_s) * closing +
-                                         std::min(kBrakeReserve_s * v, kReservedGrowth * growth_m);
+                                         std::max(std::min(kBrakeReserve_s * v, kReservedGrowth * growth_m), least_m);
                 const double just_m = room_m + reserve_m + c.emergency_gap_m;
                 const auto answer = [&](double gap_m) {
                     return keep_room_acceleration<double>(c, v, growth_m, {gap_m, closing, 1.0, 1.0, 4.0});
@@ -204,6 +208,19 @@ TEST(Stop, IsMonotoneInDistanceAndSpeed) {
     }
 }
 
+// One that goes faster and faster, 2.95 m behind, when its predecessor is told to brake with all it has.
+TEST(Follow, HardBrakingIsNotFilteredWhereTheGapGrowsLittle) {
+    const CaccSettings cacc = shipped().cacc;
+    const auto answer = [&](double growth_m, double slope_s, double request_mps2) {
+        const PredecessorView<double> p{2.95, 0.0, 0.0, request_mps2, 4.0};
+        return follow_acceleration<double>(cacc, 9.0, 1.0, 0.2, 5.0, 1.0, 2.95 + growth_m, growth_m, slope_s, p, 0.01);
+    };
+    EXPECT_EQ(answer(0.5, 0.87, -7.0), -cacc.deceleration_comfort_mps2) << "SWITCH-1 just above 30 km/h";
+    EXPECT_GT(answer(0.5, 0.87, -1.9), 0.9) << "not hard";
+    EXPECT_GT(answer(7.8, 0.87, -7.0), 0.8) << "a time gap leaves room";
+    EXPECT_EQ(answer(0.0, 0.0, -7.0), -cacc.deceleration_comfort_mps2) << "a constant distance";
+}
+
 TEST(EveryAnswer, IsFinite) {
     const DriverTables d = shipped();
     for (const double v : kSpeeds) {
@@ -216,8 +233,8 @@ TEST(EveryAnswer, IsFinite) {
                 for (const double rate : {0.1, 5.0, 1000.0}) {
                     for (const double slope : {0.0, 1e-12, 0.87}) {
                         const PredecessorView<double> p{gap, closing, -7.0, 2.5, rate};
-                        const double follow =
-                            follow_acceleration<double>(d.cacc, 1.0, 1.0 / rate, rate, -1.0, 3.0, slope, p, 0.01);
+                        const double follow = follow_acceleration<double>(d.cacc, v, 1.0, 1.0 / rate, rate, -1.0, 3.0,
+                                                                          1.0, slope, p, 0.01);
                         ASSERT_TRUE(std::isfinite(follow)) << gap << ' ' << closing << ' ' << rate << ' ' << slope;
                         ASSERT_TRUE(std::isfinite(emergency_acceleration(d.cacc, v, p)));
                         ASSERT_TRUE(std::isfinite(keep_room_acceleration(d.cacc, v, slope * v, p)));
