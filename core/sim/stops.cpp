@@ -199,6 +199,19 @@ private:
     Way* last_ = nullptr;  // most go the same way as who is ahead of them
 };
 
+// Whether a vehicle that is kept out of an intersection can stop comfortably. Who has not begun to brake for the line, since drivers begin late
+// (`stop.deceleration`), must be taken to be able to; in the mesoscale mode, where no brake lags, nearly up to the line.
+bool can_be_kept_out(const Model& model, const VehicleArrays& v, int slot, double line_m) {
+    constexpr double kHarder = 1.4;  // than braking begins with: what the brake's lag takes
+    const CaccSettings& cacc = model.driver.cacc;
+    const double later_mps2 = std::min(kHarder * model.driver.stop.deceleration_mps2, cacc.deceleration_emergency_mps2);
+    if (later_mps2 <= cacc.deceleration_comfort_mps2) {
+        return can_stop(model, v, slot, line_m, cacc.deceleration_comfort_mps2);
+    }
+    if (!model.meso) return can_stop(model, v, slot, line_m, later_mps2);
+    return square(v.speed_mps[at(slot)]) <= 2.0 * later_mps2 * (line_m - v.position_m[at(slot)]);
+}
+
 // The first vehicle that finds no room in its exit, or somebody across its way, and can stop comfortably; -1: none.
 int keep_clear(const Model& model, State& state, int index) {
     constexpr double kDecides_m = 80.0;  // before the stop line, at most
@@ -212,7 +225,7 @@ int keep_clear(const Model& model, State& state, int index) {
         if (way == nullptr || way->clear) continue;
         way->room_m -= needs_m(v, slot);
         if ((way->room_m >= 0.0 && way->across < 0) || v.position_m[at(slot)] > line_m) continue;
-        if (!can_stop(model, v, slot, line_m, model.driver.cacc.deceleration_comfort_mps2)) continue;
+        if (!can_be_kept_out(model, v, slot, line_m)) continue;
         state.kept_out[at(index)] = way->across >= 0 ? KeptOut{way->across, false} : KeptOut{way->standing, true};
         return slot;
     }

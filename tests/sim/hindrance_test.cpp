@@ -458,5 +458,24 @@ TEST(SlowKeepClear, MindsTheLightAtTheEndOfTheExit) {
     EXPECT_LT(blocked_s[1], 0.2 * blocked_s[0]);
 }
 
+// Drivers who begin to brake for lines late are told in time too, in both fidelities.
+TEST(SlowKeepClear, HoldsWhereDriversBrakeLate) {
+    for (const char* fidelity : {"fidelity=meso", "fidelity=full"}) {
+        for (const char* stop : {"driver.stop.deceleration=2.5 m/s2", "driver.stop.deceleration=4.7 m/s2"}) {
+            const Scenario grid =
+                load_scenario(STOPLINE_SOURCE_DIR "/scenarios/grid.yaml",
+                              {fidelity, stop, "network.grid.columns=3", "network.grid.rows=3", "demand.left=0 %",
+                               "demand.right=0 %", "signal.green=20 s", "signal.offset=15 s"});
+            const Model model = network_model(grid, 2);
+            Simulation simulation(model);
+            simulation.run_until(600.0);
+            const State& state = simulation.state();
+            EXPECT_TRUE(state.violations.none());
+            EXPECT_LT(state.hindrance.lost_s[static_cast<std::size_t>(Cause::junction_blocking)], 200.0)
+                << fidelity << ' ' << stop;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace stopline
