@@ -11,8 +11,7 @@ inline constexpr double kAlmostStands_mps = 1.0;  // or slower
 // Stands and waits for others itself: it will not come before they have gone, and they may be waiting for who asks.
 bool held(const State& state, int slot);
 
-// The same, before an area: one may wait for others beyond the beginning of
-// an area, and go into it until there.
+// The same, before an area: one may wait for others beyond the beginning of an area, and go into it until there.
 bool held_before(const State& state, int slot, double area_m);
 
 // Stands right behind a vehicle that stands: it will not come, nor will those behind it.

@@ -1,5 +1,5 @@
 // Full dynamics: junctions that are blocked for long, since drivers do not keep them clear, and fast turns. In each of these runs two vehicles
-// once met; at random such runs are rare (some in a thousand).
+// once met. Found among random ones.
 #include <gtest/gtest.h>
 
 #include <string>
