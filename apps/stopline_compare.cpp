@@ -88,13 +88,14 @@ void print(const Comparison& comparison) {
                    in_paper});
     }
     fmt::print("{}", table.text());
-    fmt::print("\n{}\n",
-               comparison.imported
-                   ? "wait_outside_s: from the planned departure to entering, of trips that ended. "
-                     "waiting_at_end_veh: found no room to enter until\nthe end. moved_on_veh, of the whole run: "
-                     "SUMO's teleports; ours by a rule, or from a lane that does not serve their way."
-                   : "wait_outside_s: how much later than in our run the same vehicles find room to enter in "
-                     "SUMO; no check.");
+    fmt::print("\n{}\n", comparison.imported
+                             ? "wait_outside_s: from the planned departure to entering, of trips that ended. "
+                               "waiting_at_end_veh: found no room to enter until\nthe end."
+                             : "wait_outside_s: how much later than in our run the same vehicles find room to enter in "
+                               "SUMO; no check.");
+    fmt::print(
+        "moved_on_veh, of the whole run: SUMO's teleports; ours by a rule, or from a lane that does not serve their "
+        "way.\n");
     if (!comparison.imported) {
         fmt::print(
             "SUMO gets the vehicles that entered our run, no more: in the long run it cannot pass more than ours does, however "

@@ -149,8 +149,8 @@ STOPLINE_INLINE R predictive_feedforward(const CaccSettingsOf<Number>& c, const 
 
 // Following: answer of the spacing controller. `desired_gap_m` and `slope_s` come from the gap law at the own speed;
 // `request_mps2` is the request of the last step, the state of the filter 1 / H. That filter delays braking, for which a time gap leaves room.
-// Where the gap that the policy wants grows by less room than what stands here (`growth_m`, beyond the gap at standstill), and the predecessor
-// brakes harder than this (our choice: harder than for anything but a stop), braking is as with a constant distance.
+// Where less room than what stands here is wanted beyond the gap at standstill (`growth_m`), or is there, and the predecessor brakes harder than
+// this (our choice: harder than for anything but a stop), braking is as with a constant distance.
 inline constexpr double kRoomToFilter_s = 0.3;
 inline constexpr double kHardBraking_mps2 = 2.0;
 
@@ -164,8 +164,9 @@ STOPLINE_INLINE R follow_acceleration(const CaccSettingsOf<Number>& c, const R& 
     const R time_gap_ff = p.acceleration_mps2 + lag_s * p.rate_1ps * (p.request_mps2 - p.acceleration_mps2);
     const R filtered = request_mps2 + (feedback + time_gap_ff - request_mps2) * lag_share(dt, slope_s);
     const R constant = STOPLINE_FLAG(R, slope_s <= 0.0);
-    const R narrow = STOPLINE_FLAG(R, growth_m < kRoomToFilter_s * speed_mps) *
-                     STOPLINE_FLAG(R, p.request_mps2 < -kHardBraking_mps2);
+    const R room_m = growth_m + lesser(error_m, 0.0);
+    const R narrow =
+        STOPLINE_FLAG(R, room_m < kRoomToFilter_s * speed_mps) * STOPLINE_FLAG(R, p.request_mps2 < -kHardBraking_mps2);
     R answer = filtered;
     if (any(greater(constant, narrow))) {
         const R distance = c.feedback_kp_1ps2 * error_m - c.feedback_kd_1ps * p.closing_mps +

@@ -99,8 +99,8 @@ void look_upstream(const Model& model, const State& state, const Upstream& here,
     const Turn turn = model.graph.lanes[at(here.way)].turn;
     const auto see = [&](int slot, double distance_m, double limit_mps) {
         if (v.speed_mps[at(slot)] < kAlmostStands_mps || distance_m > horizon_s * limit_mps) return;
-        const VehicleRecord& record = v.record[at(slot)];
-        if (here.depth == 0 && record.turn_after != turn) return;
+        const Turn after = v.record[at(slot)].turn_after;
+        if (here.depth == 0 && after != Turn::none && after != turn) return;
         soonest.earlier(earliest_s(distance_m, v.speed_mps[at(slot)], model.give_way.approach_mps2, limit_mps), slot);
     };
     for (const int inside : model.leads_to[at(here.lane)]) {
@@ -154,10 +154,8 @@ Arrival next_arrival(const Model& model, const State& state, const Conflict& con
         soonest.earlier(earliest_s(distance_m, v.speed_mps[at(slot)], a, other.limit_mps), slot);
         return soonest;
     }
-    if (!model.demand.trips.empty()) {
-        look_upstream(model, state, {other.origin, conflict.other, origin.length_m + conflict.other_from_m, 0},
-                      horizon_s, soonest);
-    }
+    look_upstream(model, state, {other.origin, conflict.other, origin.length_m + conflict.other_from_m, 0}, horizon_s,
+                  soonest);
     return soonest;
 }
 

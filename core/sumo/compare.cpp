@@ -147,9 +147,10 @@ std::vector<ComparedMetric> Comparison::metrics() const {
             std::fill(values->begin(), values->end(), std::nan(""));
         }
     }
-    if (!imported) return metrics;
-    metrics.push_back(
-        {"waiting_at_end_veh", column(*this, true, &RunSummary::waiting), column(*this, false, &RunSummary::waiting)});
+    if (imported) {
+        metrics.push_back({"waiting_at_end_veh", column(*this, true, &RunSummary::waiting),
+                           column(*this, false, &RunSummary::waiting)});
+    }
     metrics.push_back({"moved_on_veh", {}, {}});
     for (const ComparedRun& run : runs) {
         metrics.back().ours.push_back(static_cast<double>(run.ours.moved_on));

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <set>
 
-#include "record/xml_file.h"
 #include "sumo/imported_vehicles.h"
+#include "sumo/inputs.h"
 
 namespace stopline {
 
@@ -48,7 +48,6 @@ void write_loops(const std::filesystem::path& file, const StopLineNames& lines) 
     xml.finish();
 }
 
-// Whoever blocks or stands for long is treated as our rules say.
 void write_configuration(const std::filesystem::path& file, const Model& model, const SumoNetwork& network,
                          double duration_s) {
     XmlFile xml(file, "sumoConfiguration", "sumoConfiguration.xsd");
@@ -58,12 +57,7 @@ void write_configuration(const std::filesystem::path& file, const Model& model, 
         xml_escaped(network.net.file.generic_string()));
     xml.add("    <time>\n        <begin value=\"0\"/>\n        <end value=\"{:.1f}\"/>\n", duration_s);
     xml.add("        <step-length value=\"{:g}\"/>\n    </time>\n", model.step_s);
-    const RulesPlan& rules = model.rules;
-    xml.add("    <processing>\n        <time-to-teleport value=\"{:g}\"/>\n",
-            rules.teleport_ticks > 0 ? model.time_s(rules.teleport_ticks) : -1.0);
-    xml.add("        <ignore-junction-blocker value=\"{:g}\"/>\n",
-            rules.pass_blocker_ticks > 0 ? model.time_s(rules.pass_blocker_ticks) : -1.0);
-    xml.add("        <collision.action value=\"warn\"/>\n    </processing>\n");
+    write_sumo_rules(xml, model);
     xml.finish();
 }
 

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "record/xml_file.h"
-
 namespace stopline {
 
 namespace {
@@ -171,7 +169,7 @@ void write_detectors(const std::filesystem::path& file, const Model& model, cons
     xml.finish();
 }
 
-void write_configuration(const std::filesystem::path& file, double duration_s) {
+void write_configuration(const std::filesystem::path& file, const Model& model, double duration_s) {
     constexpr double kStep_s = 0.1;  // that of the mesoscale mode
     XmlFile xml(file, "sumoConfiguration", "sumoConfiguration.xsd");
     xml.add(
@@ -179,10 +177,7 @@ void write_configuration(const std::filesystem::path& file, double duration_s) {
         "        <additional-files value=\"detectors.add.xml\"/>\n    </input>\n");
     xml.add("    <time>\n        <begin value=\"0\"/>\n        <end value=\"{:.1f}\"/>\n", duration_s);
     xml.add("        <step-length value=\"{:.1f}\"/>\n    </time>\n", kStep_s);
-    // Nobody disappears, as with us unless the rules say so.
-    xml.add(
-        "    <processing>\n        <time-to-teleport value=\"-1\"/>\n        <collision.action value=\"warn\"/>\n"
-        "    </processing>\n");
+    write_sumo_rules(xml, model);
     xml.finish();
 }
 
@@ -195,7 +190,16 @@ void write_sumo_inputs(const std::filesystem::path& folder, const Model& model, 
     write_connections(folder / "connections.con.xml", model.graph, network);
     write_lights(folder / "lights.tll.xml", model, network, duration_s);
     write_detectors(folder / "detectors.add.xml", model, network);
-    write_configuration(folder / "run.sumocfg", duration_s);
+    write_configuration(folder / "run.sumocfg", model, duration_s);
+}
+
+void write_sumo_rules(XmlFile& xml, const Model& model) {
+    const RulesPlan& rules = model.rules;
+    xml.add("    <processing>\n        <time-to-teleport value=\"{:g}\"/>\n",
+            rules.teleport_ticks > 0 ? model.time_s(rules.teleport_ticks) : -1.0);
+    xml.add("        <ignore-junction-blocker value=\"{:g}\"/>\n",
+            rules.pass_blocker_ticks > 0 ? model.time_s(rules.pass_blocker_ticks) : -1.0);
+    xml.add("        <collision.action value=\"warn\"/>\n    </processing>\n");
 }
 
 }  // namespace stopline

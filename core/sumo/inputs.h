@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "record/run_writer.h"
+#include "record/xml_file.h"
 #include "sumo/edges.h"
 
 namespace stopline {
@@ -15,6 +16,9 @@ namespace stopline {
 // Network, lights over `duration_s`, detectors, configuration. Throws InputError where a file cannot be written.
 void write_sumo_inputs(const std::filesystem::path& folder, const Model& model, const PlainNetwork& network,
                        double duration_s);
+
+// Whoever blocks or stands for long is treated in SUMO as our rules say: its teleport and its passing of junction blockers.
+void write_sumo_rules(XmlFile& xml, const Model& model);
 
 // Every vehicle of a run: its number, when, where and how fast it entered, the edges of its way, and the parameters of its
 // policy's mesoscale model. Keeps references until it has finished.

@@ -208,16 +208,18 @@ TEST(Stop, IsMonotoneInDistanceAndSpeed) {
     }
 }
 
-// One that goes faster and faster, 2.95 m behind, when its predecessor is told to brake with all it has.
-TEST(Follow, HardBrakingIsNotFilteredWhereTheGapGrowsLittle) {
+// One that goes faster and faster when its predecessor is told to brake with all it has.
+TEST(Follow, HardBrakingIsNotFilteredWhereThereIsLittleRoom) {
     const CaccSettings cacc = shipped().cacc;
-    const auto answer = [&](double growth_m, double slope_s, double request_mps2) {
-        const PredecessorView<double> p{2.95, 0.0, 0.0, request_mps2, 4.0};
+    const auto answer = [&](double growth_m, double slope_s, double request_mps2, double room_m = 0.0) {
+        const PredecessorView<double> p{2.95 + room_m, 0.0, 0.0, request_mps2, 4.0};
         return follow_acceleration<double>(cacc, 9.0, 1.0, 0.2, 5.0, 1.0, 2.95 + growth_m, growth_m, slope_s, p, 0.01);
     };
     EXPECT_EQ(answer(0.5, 0.87, -7.0), -cacc.deceleration_comfort_mps2) << "SWITCH-1 just above 30 km/h";
     EXPECT_GT(answer(0.5, 0.87, -1.9), 0.9) << "not hard";
-    EXPECT_GT(answer(7.8, 0.87, -7.0), 0.8) << "a time gap leaves room";
+    EXPECT_EQ(answer(7.8, 3.3, -7.0), -cacc.deceleration_comfort_mps2) << "a gap that grows fast, and is not there yet";
+    EXPECT_GT(answer(7.8, 0.87, -7.0, 7.8), 0.8) << "a time gap leaves room";
+    EXPECT_GT(answer(7.8, 0.87, -7.0, 5.0), 0.7) << "part of it does, too";
     EXPECT_EQ(answer(0.0, 0.0, -7.0), -cacc.deceleration_comfort_mps2) << "a constant distance";
 }
 

@@ -1,5 +1,5 @@
-// Full dynamics: junctions that are blocked for long, since drivers do not keep them clear, and fast turns. In each of these runs two vehicles
-// once met. Found among random ones.
+// Junctions that are blocked for long, since drivers do not keep them clear, or that are near each other, and fast turns. In each of these runs
+// two vehicles once met. Found among random ones.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -32,6 +32,35 @@ demand: {kind: saturated, right: 20 %}
 rules: {teleport_cycles: 3, pass_blocker_greens: 2}
 driver: {base: startup_kit, stop: {decision_deceleration: 7 m/s2}}
 populations: [SWITCH-1]
+)");
+}
+
+// The same where the gap that it wants grows so fast with speed that it is far from being there.
+TEST(CrowdedJunctions, NobodyReliesOnAGapThatIsNotThereYet) {
+    expect_nobody_meets(R"(
+duration: 172 s
+step: 10 ms
+seed: 41035
+network:
+  kind: grid
+  intersection:
+    lanes: [{movements: straight+left}, {movements: straight}, {movements: straight+right}]
+    radius: 25 m
+    speed_limit: 80 km/h
+    turn_speed: 12.08 m/s
+  grid: {rows: 3, columns: 2, row_spacing: 186.08 m, column_spacing: 142.07 m}
+signal: {green: 20 s, yellow: 4 s}
+demand: {kind: saturated, right: 50 %, left: 50 %, order: random}
+rules: {teleport_cycles: 3}
+vehicle: diesel_eu4_103kw
+driver:
+  base: startup_kit
+  stop: {decision_deceleration: 7 m/s2}
+  give_way: {critical_gap: 6 s}
+  free_drive: {hesitation: 0.5 s}
+policies:
+- {name: STEEP, law: switch_distance, standstill_gap: 2 m, switch_speed: 25 km/h, reference_speed: 50 km/h, reference_gap: 25 m}
+populations: [STEEP]
 )");
 }
 
@@ -71,6 +100,34 @@ driver: {base: startup_kit, stop: {decision_deceleration: 7 m/s2}}
 policies:
 - {name: S-SHORT, law: switch_time_gap, standstill_gap: 2.95 m, time_gap: 0.4 s, switch_speed: 36 km/h}
 populations: [S-SHORT]
+)");
+}
+
+// Streets so short that one with priority comes within the critical gap from beyond the intersection before. It was not seen.
+TEST(CrowdedJunctions, GapsAreLookedForBeyondShortStreets) {
+    expect_nobody_meets(R"(
+fidelity: meso
+duration: 300 s
+step: 10 ms
+seed: 3019
+network:
+  kind: grid
+  intersection:
+    lanes: [{movements: straight+left+right}, {movements: straight+right}]
+    radius: 15 m
+    speed_limit: 70 km/h
+    turn_speed: 12.23 m/s
+  grid: {rows: 3, columns: 3, row_spacing: 77.67 m, column_spacing: 80.32 m}
+signal: {green: 30 s}
+demand: {kind: rate, inflow: 1500 veh/h, right: 20 %, left: 5 %, order: random}
+rules: {teleport_cycles: 3, pass_blocker_greens: 2}
+vehicle: {base: petrol_eu4_72kw, length: 12 m}
+driver:
+  base: startup_kit
+  stop: {decision_deceleration: 5 m/s2}
+  give_way: {critical_gap: 5 s}
+  free_drive: {hesitation: 0 s}
+populations: [{name: MIXED, pattern: random, components: [{policy: SWITCH-1, share: 50 %}, {policy: SWITCH-2, share: 50 %}]}]
 )");
 }
 

@@ -40,6 +40,20 @@ TEST(Export, WritesAllFilesAndNothingElse) {
                                         "nodes.nod.xml", "run.sumocfg", "vehicles.rou.xml"}));
 }
 
+TEST(Export, GivesSumoTheScenariosRules) {
+    const TemporaryFolder folder;
+    const auto configuration = [&](const std::string& rules) {
+        export_to_sumo(small_grid("rules=" + rules), 0, folder.path(), {});
+        return read_file(folder.path() / "run.sumocfg");
+    };
+    const std::string none = configuration("{teleport_cycles: 0, pass_blocker_greens: 0}");
+    EXPECT_NE(none.find("<time-to-teleport value=\"-1\"/>"), std::string::npos);
+    EXPECT_NE(none.find("<ignore-junction-blocker value=\"-1\"/>"), std::string::npos);
+    const std::string both = configuration("{teleport_cycles: 3, pass_blocker_greens: 2}");
+    EXPECT_NE(both.find("<time-to-teleport value=\"138\"/>"), std::string::npos) << both;
+    EXPECT_NE(both.find("<ignore-junction-blocker value=\"30\"/>"), std::string::npos) << both;
+}
+
 TEST(Export, LeavesNothingWhereItIsInterrupted) {
     const TemporaryFolder folder;
     const auto stop = [](double share) { return share < 0.3; };
