@@ -38,6 +38,11 @@ double stopping_m(const Model& model, double speed_mps) {
     return 0.5 * square(speed_mps) / model.driver.stop.deceleration_mps2;
 }
 
+// The same with what the brake's lag takes in full dynamics: who is nearer than this cannot be relied on to stop.
+double sure_stopping_m(const Model& model, double speed_mps) {
+    return model.meso ? stopping_m(model, speed_mps) : stopping_distance_m(model.driver, speed_mps);
+}
+
 struct Candidate {
     int slot;
     double front_m;  // along the lane inside
@@ -267,7 +272,7 @@ void decide(const Model& model, State& state, NetworkPart& part, int lane) {
                 const double to_area_m = c.from_m - model.give_way.margin_m - candidate.front_m;
                 if (c.yields && c.from_m >= candidate.front_m) room_m = std::min(room_m, to_area_m);
             }
-            const bool stops = stopping_m(model, v.speed_mps[at(candidate.slot)]) <= room_m;
+            const bool stops = sure_stopping_m(model, v.speed_mps[at(candidate.slot)]) <= room_m;
             if (candidate.stands || stops) state.vehicles.record[at(candidate.slot)].cleared_for = -1;
         }
         return found;

@@ -103,6 +103,34 @@ populations: [S-SHORT]
 )");
 }
 
+// A left turner that has set out loses its gap to somebody inside. It had only just room to stop, and its brakes lag.
+TEST(CrowdedJunctions, WhoMayStopTooLateKeepsItsGap) {
+    expect_nobody_meets(R"(
+duration: 456 s
+step: 5 ms
+seed: 44417
+network:
+  kind: grid
+  intersection:
+    lanes: [{movements: straight+left}, {movements: straight+right}]
+    radius: 12 m
+    turn_speed: 12.96 m/s
+  grid: {rows: 2, columns: 3, row_spacing: 63.88 m, column_spacing: 166.1 m}
+signal: {green: 8 s, yellow: 4 s, all_red: 2 s, offset: 5 s}
+demand: {kind: saturated, right: 5 %, left: 50 %}
+rules: {pass_blocker_greens: 2}
+vehicle: {base: petrol_eu4_72kw, length: 12 m}
+driver:
+  base: startup_kit
+  stop: {decision_deceleration: 3.5 m/s2}
+  give_way: {critical_gap: 3 s}
+  free_drive: {hesitation: 0 s}
+policies:
+- {name: SHORT, law: constant_time, standstill_gap: 2 m, time_gap: 0.3 s}
+populations: [{name: MIXED, pattern: random, components: [{policy: SHORT, share: 50 %}, {policy: SWITCH-2, share: 50 %}]}]
+)");
+}
+
 // Streets so short that one with priority comes within the critical gap from beyond the intersection before. It was not seen.
 TEST(CrowdedJunctions, GapsAreLookedForBeyondShortStreets) {
     expect_nobody_meets(R"(
