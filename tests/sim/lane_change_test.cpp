@@ -92,10 +92,11 @@ class DenseLaneChanging : public testing::TestWithParam<Case> {};
 
 // Nobody goes back for speed to the lane that it has left in the half minute before.
 void expect_nobody_goes_to_and_fro(const std::vector<LaneChange>& changes) {
+    constexpr double kHalfMinute_s = 30.0 - 1e-6;  // times are rounded
     std::map<int, LaneChange> last;
     for (const LaneChange& change : changes) {
         const auto before = last.find(change.vehicle);
-        if (before != last.end() && !change.for_route && change.time_s - before->second.time_s < 30.0) {
+        if (before != last.end() && !change.for_route && change.time_s - before->second.time_s < kHalfMinute_s) {
             EXPECT_NE(change.to_lane, before->second.from_lane)
                 << "vehicle " << change.vehicle << " at " << change.time_s;
         }
