@@ -99,8 +99,9 @@ void look_upstream(const Model& model, const State& state, const Upstream& here,
     const Turn turn = model.graph.lanes[at(here.way)].turn;
     const auto see = [&](int slot, double distance_m, double limit_mps) {
         if (v.speed_mps[at(slot)] < kAlmostStands_mps || distance_m > horizon_s * limit_mps) return;
-        const Turn after = v.record[at(slot)].turn_after;
-        if (here.depth == 0 && after != Turn::none && after != turn) return;
+        const VehicleRecord& record = v.record[at(slot)];
+        const bool unknown = record.trip < 0 && record.turn_after == Turn::none;
+        if (here.depth == 0 && !unknown && record.turn_after != turn) return;
         soonest.earlier(earliest_s(distance_m, v.speed_mps[at(slot)], model.give_way.approach_mps2, limit_mps), slot);
     };
     for (const int inside : model.leads_to[at(here.lane)]) {

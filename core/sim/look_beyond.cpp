@@ -99,6 +99,13 @@ STOPLINE_INLINE Ahead last_on(const State& state, std::span<const int> route, st
     return {};
 }
 
+// `own` has come to a lane of the route from another one, and its rear is not on the route yet: what stands here before that is nearer.
+bool is_before_merging(const State& state, std::span<const int> route, const Ahead& own, const Ahead& beside) {
+    if (beside.slot < 0) return false;
+    const int came_from = state.vehicles.record[at(own.slot)].came_from;
+    return came_from >= 0 && std::find(route.begin(), route.end(), came_from) == route.end();
+}
+
 // On the route. `hidden`: the last vehicle on its lanes where one that goes another way is nearer. Once a lane and step: inlined.
 STOPLINE_INLINE Ahead ahead_on_route(const State& state, int lane, double position_m, int route_number, int index,
                                      double range_m, Ahead* hidden = nullptr) {
@@ -121,7 +128,8 @@ STOPLINE_INLINE Ahead ahead_on_route(const State& state, int lane, double positi
     }
     const Ahead own = last_on(state, route, at(index) + 1, here.length_m, position_m, range_m);
     if (own.slot >= 0) {
-        const double rear_m = own.start_m + v.position_m[at(own.slot)] - v.length_m[at(own.slot)];
+        double rear_m = own.start_m + v.position_m[at(own.slot)] - v.length_m[at(own.slot)];
+        if (rear_m < own.start_m && is_before_merging(state, route, own, beside)) rear_m = own.start_m;
         if (rear_m <= beside_rear_m) return own;
         if (hidden != nullptr && own.slot != beside.slot) *hidden = own;
     }

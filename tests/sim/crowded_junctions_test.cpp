@@ -131,6 +131,36 @@ populations: [{name: MIXED, pattern: random, components: [{policy: SHORT, share:
 )");
 }
 
+// Somebody stands with its rear before the place where ways part, and one from another arm turns into the exit: for a moment only that one was
+// seen, each time, and the vehicle before the line crept nearer.
+TEST(CrowdedJunctions, WhoTurnsIntoTheExitDoesNotHideWhoStands) {
+    expect_nobody_meets(R"(
+duration: 382 s
+step: 10 ms
+seed: 46705
+network:
+  kind: grid
+  intersection:
+    lanes: [{movements: straight+left}, {movements: straight+right}]
+    radius: 15 m
+    speed_limit: 30 km/h
+    turn_speed: 8.23 m/s
+  grid: {rows: 3, columns: 2, row_spacing: 209.66 m, column_spacing: 109.55 m}
+signal: {green: 30 s, offset: 10 s}
+demand: {kind: saturated, right: 20 %, left: 50 %}
+rules: {pass_blocker_greens: 2}
+vehicle: {base: petrol_eu4_72kw, length: 12 m}
+driver:
+  base: startup_kit
+  stop: {decision_deceleration: 5 m/s2}
+  give_way: {critical_gap: 3 s}
+  free_drive: {hesitation: 0.5 s}
+policies:
+- {name: STEEP, law: switch_distance, standstill_gap: 2 m, switch_speed: 25 km/h, reference_speed: 50 km/h, reference_gap: 25 m}
+populations: [STEEP]
+)");
+}
+
 // Streets so short that one with priority comes within the critical gap from beyond the intersection before. It was not seen.
 TEST(CrowdedJunctions, GapsAreLookedForBeyondShortStreets) {
     expect_nobody_meets(R"(
