@@ -100,6 +100,7 @@ void look_upstream(const Model& model, const State& state, const Upstream& here,
     const auto see = [&](int slot, double distance_m, double limit_mps) {
         if (v.speed_mps[at(slot)] < kAlmostStands_mps || distance_m > horizon_s * limit_mps) return;
         const VehicleRecord& record = v.record[at(slot)];
+        // Who draws its turn on the approach may come; a trip without a turn after this one does not.
         const bool unknown = record.trip < 0 && record.turn_after == Turn::none;
         if (here.depth == 0 && !unknown && record.turn_after != turn) return;
         soonest.earlier(earliest_s(distance_m, v.speed_mps[at(slot)], model.give_way.approach_mps2, limit_mps), slot);
