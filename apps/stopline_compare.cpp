@@ -1,24 +1,25 @@
-// stopline-compare: the mesoscale mode beside SUMO, on the same inputs.
+// stopline-compare: runs SUMO and the mesoscale mode on the same inputs and compares the results.
 #include <cmath>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "base/input_error.h"
+#include "base/io/output.h"
 #include "common/command_line.h"
+#include "common/examples.h"
 #include "common/program.h"
 #include "common/progress_bar.h"
 #include "common/results.h"
 #include "common/text_table.h"
-#include "experiment/output.h"
-#include "sumo/compare.h"
-#include "sumo/export.h"
+#include "sumo_export/compare.h"
+#include "sumo_export/export.h"
 
 namespace {
 
 using namespace stopline;
 
-struct CompareOptionsOfUser {
+struct CompareCliOptions {
     CommonOptions common;
     std::string file;
     std::string population;
@@ -26,32 +27,36 @@ struct CompareOptionsOfUser {
     bool no_figures = false;
 };
 
-void declare(CLI::App& app, CompareOptionsOfUser& options) {
-    add_version_option(app);
-    app.add_option("SCENARIO", options.file, "Scenario file")->required();
-    app.add_option("--population", options.population, "Whose vehicles (default: CTG-Ref, or the first)")
-        ->type_name("NAME");
-    app.add_option("--repetitions", options.repetitions, "Runs of both, with as many seeds")
-        ->capture_default_str()
-        ->check(CLI::Range(1, 1000));
-    app.add_flag("--no-figures", options.no_figures, "Draw no figures");
-    app.add_option("--seed", options.common.seed, "First seed instead of the scenario's");
-    app.add_option("--output", options.common.output, "Folder for results (default: out/NAME_sumo)")->type_name("DIR");
+void declare(Options& app, CompareCliOptions& options) {
+    app.add("SCENARIO", options.file, "Scenario file").required();
+    app.add("--population", options.population, "Population to compare (default: CTG-Ref, or the first one)")
+        .type_name("NAME");
+    app.add("--repetitions", options.repetitions, "Number of runs of each program, each with its own seed")
+        .show_default()
+        .range(1, 1000);
+    app.add_flag("--no-figures", options.no_figures, "Do not draw figures");
+    app.add("--seed", options.common.seed, "Seed of the first run (default: the scenario's)");
+    app.add("--output", options.common.output, "Folder for the results (default: out/NAME_sumo)")
+        .type_name("DIR");
     add_set_option(app, options.common);
     app.footer(
-        std::string(
-            "\nBoth get the same network, lights and vehicles: those that entered in our run, when and where they did; "
-            "on imported\nnetworks those of the route files, when they are planned to depart, and the ways that the "
-            "import took for them.\n\nExamples:\n"
-            "  stopline-compare scenarios/intersection.yaml\n"
-            "  stopline-compare scenarios/grid.yaml --set 'duration=900 s' --set 'measure.steady=600 s'\n\n"
-            "Like with like, without what is ours alone (the project's README says what and why):\n"
-            "  stopline-compare scenarios/intersection.yaml --set meso=table2 --set 'driver.free_drive.hesitation=0 s' \\\n"
-            "      --set 'driver.stop.deceleration=4.7 m/s2' --set 'driver.stop.decision_deceleration=5.3 m/s2'\n\n") +
+        runnable("\nBoth programs get the same network, signals and vehicles: the vehicles that entered our run, at\n"
+                 "the same times and places. On imported networks they get the vehicles of the route files, with\n"
+                 "planned departures and routes.\n\n"
+                 "Examples:\n"
+                 "  stopline-compare scenarios/intersection.yaml\n"
+                 "  stopline-compare scenarios/grid.yaml --set 'duration=900 s' --set 'measure.window=600 s'\n\n"
+                 "With the same driver behaviour in both programs, as far as SUMO has it:\n"
+                 "  stopline-compare scenarios/intersection.yaml --set meso=table2 \\\n"
+                 "      --set 'driver.free_drive.hesitation=0 s' --set 'driver.stop.deceleration=4.7 m/s2' \\\n"
+                 "      --set 'driver.stop.decision_deceleration=5.3 m/s2'\n\n"
+                 "Next: watch SUMO's run\n"
+                 "  sumo-gui -c out/intersection_sumo/seed_1/run.sumocfg\n\n") +
         kExitCodesText);
 }
 
-std::size_t chosen(const CompareOptionsOfUser& options, const Scenario& scenario) {
+// Returns the index of the population to run: the named one, else CTG-Ref, else the first.
+std::size_t chosen_population(const CompareCliOptions& options, const Scenario& scenario) {
     if (!options.population.empty()) return population_index(scenario, options.population);
     for (std::size_t k = 0; k < scenario.populations.size(); ++k) {
         if (scenario.populations[k].name == "CTG-Ref") return k;
@@ -61,10 +66,11 @@ std::size_t chosen(const CompareOptionsOfUser& options, const Scenario& scenario
 
 std::string number(double value) { return std::isnan(value) ? "-" : fmt::format("{:.2f}", value); }
 
-std::string band_cells(const ComparedMetric& metric, Band band, std::string& inside) {
-    const std::size_t needed = band == Band::paper ? 3 : 2;
+// Returns the confidence band of SUMO's mean as text. Sets `inside` to yes, no or "-": our mean lies in the band.
+std::string band_text(const ComparedMetric& metric, Band band, std::string& inside) {
+    const std::size_t min_runs = band == Band::paper ? 3 : 2;
     inside = "-";
-    if (metric.of_sumo_alone || metric.sumo.size() < needed || std::isnan(mean_of(metric.sumo))) return "-";
+    if (metric.sumo_only || metric.sumo.size() < min_runs || std::isnan(mean_of(metric.sumo))) return "-";
     const Interval interval = metric.band(band);
     if (interval.high - interval.low < 1e-6 * std::fabs(interval.high)) return "no spread";
     inside = interval.contains(mean_of(metric.ours)) ? "yes" : "no";
@@ -76,58 +82,62 @@ void print(const Comparison& comparison) {
     fmt::print("{}, {} seed{}, from {:g} to {:g} s\n\n", comparison.population, seeds, seeds == 1 ? "" : "s",
                comparison.from_s, comparison.to_s);
     TextTable table;
-    table.row({"", "Stopline", "SUMO", "difference", "band student", "inside", "band paper", "inside"});
+    table.add_row({"", "Stopline", "SUMO", "difference", "Student band", "inside", "paper band", "inside"});
     for (const ComparedMetric& metric : comparison.metrics()) {
         std::string in_student;
         std::string in_paper;
-        const std::string student = band_cells(metric, Band::student, in_student);
-        const std::string paper = band_cells(metric, Band::paper, in_paper);
+        const std::string student = band_text(metric, Band::student, in_student);
+        const std::string paper = band_text(metric, Band::paper, in_paper);
         const double percent = metric.difference_percent();
-        table.row({metric.name, metric.of_sumo_alone ? "-" : number(mean_of(metric.ours)), number(mean_of(metric.sumo)),
-                   std::isfinite(percent) ? fmt::format("{:+.1f} %", percent) : "-", student, in_student, paper,
-                   in_paper});
+        table.add_row({metric.name, metric.sumo_only ? "-" : number(mean_of(metric.ours)), number(mean_of(metric.sumo)),
+                       std::isfinite(percent) ? fmt::format("{:+.1f} %", percent) : "-", student, in_student, paper,
+                       in_paper});
     }
     fmt::print("{}", table.text());
-    fmt::print("\n{}\n", comparison.imported
-                             ? "wait_outside_s: from the planned departure to entering, of trips that ended. "
-                               "waiting_at_end_veh: found no room to enter until\nthe end."
-                             : "wait_outside_s: how much later than in our run the same vehicles find room to enter in "
-                               "SUMO; no check.");
     fmt::print(
-        "moved_on_veh, of the whole run: SUMO's teleports; ours by a rule, or from a lane that does not serve their "
-        "way.\n");
+        "\ninside: our mean lies in the 95 % confidence band of SUMO's mean (Student's t, or the paper's formula).\n");
+    if (comparison.imported) {
+        fmt::print(
+            "departure_delay_s: from the planned departure to the insertion, for trips that ended.\n"
+            "backlog: vehicles that found no room to enter before the run ended.\n");
+    } else {
+        fmt::print("departure_delay_s: later insertion of the same vehicles in SUMO than in our run; not compared.\n");
+    }
+    fmt::print("teleported: vehicles of the whole run. In our runs they were blocked too long or missed their turn.\n");
     if (!comparison.imported) {
         fmt::print(
-            "SUMO gets the vehicles that entered our run, no more: in the long run it cannot pass more than ours does, however "
-            "much more\nit could. Then its travel times are shorter.\n");
+            "SUMO gets only the vehicles that entered our run, so its throughput cannot exceed ours in the long run.\n"
+            "If SUMO could carry more traffic, it shows shorter travel times instead.\n");
     }
     double ours_s = 0.0;
     double sumo_s = 0.0;
     for (const ComparedRun& run : comparison.runs) {
-        ours_s += run.ours_took_s;
-        sumo_s += run.sumo_took_s;
+        ours_s += run.ours_wall_s;
+        sumo_s += run.sumo_wall_s;
     }
-    fmt::print("By the clock: our runs {:.1f} s, SUMO's {:.1f} s (the whole program, with its files; one thread).\n",
+    fmt::print("Wall-clock time: our runs {:.1f} s, SUMO {:.1f} s (the whole program with its files; one thread).\n",
                ours_s, sumo_s);
     if (!comparison.note.empty()) fmt::print("\n{}\n", comparison.note);
 }
 
-// Without these settings drivers differ from SUMO's by design, and the table says no nearly everywhere.
-void print_what_differs(const Scenario& scenario) {
+// Prints the settings that make our drivers behave like SUMO's, unless the scenario has them. Without these settings
+// most metrics lie outside the bands, by design.
+void print_settings_like_sumo(const Scenario& scenario) {
     std::string settings;
-    const auto unlike = [&](bool differs, const char* setting) {
-        if (differs) settings += fmt::format(" --set '{}'", setting);
+    const auto add_if = [&](bool is_missing, const char* setting) {
+        if (is_missing) settings += fmt::format(" \\\n      --set '{}'", setting);
     };
-    const auto apart = [](double value, double other) { return std::fabs(value - other) > 1e-9; };
-    unlike(scenario.meso.name != "table2", "meso=table2");
-    unlike(apart(scenario.driver.free_drive.hesitation_s, 0.0), "driver.free_drive.hesitation=0 s");
-    unlike(apart(scenario.driver.stop.deceleration_mps2, 4.7), "driver.stop.deceleration=4.7 m/s2");
-    unlike(apart(scenario.driver.stop.decision_deceleration_mps2, 5.3), "driver.stop.decision_deceleration=5.3 m/s2");
+    const auto differ = [](double value, double other) { return std::fabs(value - other) > 1e-9; };
+    add_if(scenario.meso.name != "table2", "meso=table2");
+    add_if(differ(scenario.driver.free_drive.hesitation_s, 0.0), "driver.free_drive.hesitation=0 s");
+    add_if(differ(scenario.driver.stop.deceleration_mps2, 4.7), "driver.stop.deceleration=4.7 m/s2");
+    add_if(differ(scenario.driver.stop.decision_deceleration_mps2, 5.3), "driver.stop.decision_deceleration=5.3 m/s2");
     if (settings.empty()) return;
-    fmt::print("\nOur drivers differ from SUMO's by design. Like with like (the README says why):{}\n", settings);
+    fmt::print("\nOur drivers differ from SUMO's by design. Options for the same behaviour in both programs:{}\n",
+               settings);
 }
 
-ExitCode run(const CompareOptionsOfUser& options) {
+ExitCode run(const CompareCliOptions& options) {
     CommonOptions common = options.common;
     set_mesoscale("stopline-compare", common);
     const Scenario scenario = load_with_options(options.file, common);
@@ -137,13 +147,14 @@ ExitCode run(const CompareOptionsOfUser& options) {
         CompareOptions compare;
         compare.repetitions = options.repetitions;
         compare.on_progress = [&bar](double share) { return bar.update(share); };
-        return compare_with_sumo(scenario, chosen(options, scenario), folder, compare);
+        return compare_with_sumo(scenario, chosen_population(options, scenario), folder, compare);
     }();
     print(comparison);
-    print_what_differs(scenario);
+    print_settings_like_sumo(scenario);
     std::int64_t violations = 0;
-    for (const ComparedRun& one : comparison.runs) violations += one.overlaps;
-    if (violations > 0) fmt::print("\nVIOLATIONS in our runs: {}\n", violations);
+    for (const ComparedRun& run : comparison.runs) violations += run.violations;
+    if (violations > 0)
+        fmt::print("\nVIOLATIONS in our runs (overlaps, entries on red, lost vehicles): {}\n", violations);
     fmt::print("\nWritten to {}\n", folder);
     for (const auto& [name, text] : {std::pair{"comparison.csv", comparison_csv(comparison)},
                                      std::pair{"stop_lines.csv", stop_lines_csv(comparison)}}) {
@@ -151,10 +162,12 @@ ExitCode run(const CompareOptionsOfUser& options) {
         fmt::print("  {}\n", name);
     }
     if (!options.no_figures) {
-        draw_all(comparison_figures(comparison, scenario.title.empty() ? scenario.name : scenario.title), folder);
+        draw_figures(comparison_figures(comparison, scenario.title.empty() ? scenario.name : scenario.title), folder);
     }
-    fmt::print("\nNext: the inputs of both are in {}/seed_N; sumo-gui -c {}/seed_{}/run.sumocfg shows SUMO's run.\n",
-               folder, folder, comparison.runs.front().seed);
+    const std::filesystem::path first_run =
+        std::filesystem::path(folder) / fmt::format("seed_{}", comparison.runs.front().seed);
+    fmt::print("\nNext: watch SUMO's run (the inputs of each run are in {}/seed_N)\n  sumo-gui -c {}\n", folder,
+               shell_word((first_run / "run.sumocfg").string()));
     return violations > 0 ? ExitCode::check_failed : ExitCode::done;
 }
 
@@ -162,11 +175,11 @@ ExitCode run(const CompareOptionsOfUser& options) {
 
 int main(int argc, char** argv) {
     return run_program("stopline-compare", [&] {
-        CLI::App app("Runs SUMO and the mesoscale mode on the same inputs and compares what comes out.",
+        Options app("Runs SUMO and the mesoscale mode on the same inputs and compares the results.",
                      "stopline-compare");
-        CompareOptionsOfUser options;
+        CompareCliOptions options;
         declare(app, options);
-        const std::optional<ExitCode> end = parse_command_line(app, argc, argv);
+        const std::optional<ExitCode> end = app.parse(argc, argv);
         return end ? *end : run(options);
     });
 }

@@ -1,4 +1,4 @@
-// stopline-export: a scenario as input of SUMO.
+// stopline-export: writes a scenario as input files of SUMO.
 #include <cstdlib>
 #include <filesystem>
 #include <string>
@@ -7,39 +7,41 @@
 
 #include "base/input_error.h"
 #include "common/command_line.h"
+#include "common/examples.h"
 #include "common/program.h"
 #include "common/progress_bar.h"
-#include "sumo/export.h"
+#include "sumo_export/export.h"
 
 namespace {
 
 using namespace stopline;
 
-struct ExportOptionsOfUser {
+struct ExportCliOptions {
     CommonOptions common;
     std::string file;
     std::string folder;
     std::string population;
 };
 
-void declare(CLI::App& app, ExportOptionsOfUser& options) {
-    add_version_option(app);
-    app.add_option("SCENARIO", options.file, "Scenario file")->required();
-    app.add_option("--sumo", options.folder, "Folder for SUMO's files; made if need be")->required()->type_name("DIR");
-    app.add_option("--population", options.population, "Whose vehicles (default: the first of the scenario)")
-        ->type_name("NAME");
-    app.add_option("--seed", options.common.seed, "Seed instead of the scenario's");
+void declare(Options& app, ExportCliOptions& options) {
+    app.add("SCENARIO", options.file, "Scenario file").required();
+    app.add("--sumo", options.folder, "Folder for SUMO's files (created if missing)")
+        .required()
+        .type_name("DIR");
+    app.add("--population", options.population, "Population to export (default: the first of the scenario)")
+        .type_name("NAME");
+    app.add("--seed", options.common.seed, "Seed of all random numbers (default: the scenario's)");
     add_set_option(app, options.common);
     app.footer(
-        std::string("\nThe scenario is run in the mesoscale mode: its vehicles, as they entered, are those of the "
-                    "export.\n\nExamples:\n"
-                    "  stopline-export --sumo out/sumo scenarios/grid.yaml --population CTG-Ref --set "
-                    "'duration=600 s'\n"
-                    "  sumo -c out/sumo/run.sumocfg --tripinfo-output trips.xml\n\n") +
+        runnable("\nRuns the scenario in the mesoscale mode and exports the vehicles as they entered that run.\n\n"
+                 "Examples:\n"
+                 "  stopline-export --sumo out/sumo scenarios/grid.yaml --population CTG-Ref --set 'duration=600 s'\n\n"
+                 "Next: run SUMO\n"
+                 "  sumo -c out/sumo/run.sumocfg --tripinfo-output trips.xml\n\n") +
         kExitCodesText);
 }
 
-ExitCode run(const ExportOptionsOfUser& options) {
+ExitCode run(const ExportCliOptions& options) {
     CommonOptions common = options.common;
     set_mesoscale("stopline-export", common);
     const Scenario scenario = load_with_options(options.file, common);
@@ -49,13 +51,14 @@ ExitCode run(const ExportOptionsOfUser& options) {
         return export_to_sumo(scenario, population, options.folder, [&bar](double share) { return bar.update(share); });
     }();
     fmt::print("Written to {}: {}, {}\n", options.folder, scenario.populations[population].name, vehicles);
-    const std::string command = netconvert_command(options.folder);
-    if (!has_sumo()) {
-        fmt::print("\nNext: install SUMO (pip install eclipse-sumo), then\n  {}\n  sumo -c {}\n", command,
-                   shell_word((std::filesystem::path(options.folder) / "run.sumocfg").string()));
-        return ExitCode::done;
+    const std::string sumo_command =
+        "sumo -c " + shell_word((std::filesystem::path(options.folder) / "run.sumocfg").string());
+    if (has_sumo()) {
+        fmt::print("\nNext: run SUMO\n  {}\n", sumo_command);
+    } else {
+        fmt::print("\nNext: install SUMO and run it\n  pip install eclipse-sumo\n  {}\n  {}\n",
+                   netconvert_command(options.folder), sumo_command);
     }
-    fmt::print("\nNext: sumo -c {}\n", shell_word((std::filesystem::path(options.folder) / "run.sumocfg").string()));
     return ExitCode::done;
 }
 
@@ -63,11 +66,12 @@ ExitCode run(const ExportOptionsOfUser& options) {
 
 int main(int argc, char** argv) {
     return run_program("stopline-export", [&] {
-        CLI::App app("Writes a scenario as input of SUMO: network, lights, detectors, vehicles, configuration.",
-                     "stopline-export");
-        ExportOptionsOfUser options;
+        Options app(
+            "Writes a scenario as input files of SUMO: network, signals, detectors, vehicles and configuration.",
+            "stopline-export");
+        ExportCliOptions options;
         declare(app, options);
-        const std::optional<ExitCode> end = parse_command_line(app, argc, argv);
+        const std::optional<ExitCode> end = app.parse(argc, argv);
         return end ? *end : run(options);
     });
 }

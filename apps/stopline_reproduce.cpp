@@ -1,4 +1,4 @@
-// stopline-reproduce: the whole paper from one command, and one page that says how well it was met.
+// stopline-reproduce: repeats all experiments of the paper and writes a report that compares the results with it.
 #include <filesystem>
 #include <string>
 
@@ -8,57 +8,60 @@
 
 #include "base/input_error.h"
 #include "common/command_line.h"
+#include "common/examples.h"
 #include "common/program.h"
 #include "common/progress_bar.h"
-#include "report/report.h"
-#include "report/reproduce.h"
+#include "paper/report/report.h"
+#include "paper/report/reproduce.h"
 #include "scenario/load_scenario.h"
 
 namespace {
 
 using namespace stopline;
 
-struct ReproduceOptionsOfUser {
+struct ReproduceCliOptions {
     std::string section = "all";
     std::string output;
     int threads = 0;
     bool quick = false;
 };
 
-void declare(CLI::App& app, ReproduceOptionsOfUser& options) {
-    app.add_option("--section", options.section,
-                   fmt::format("Section of the paper: {} (default: all)", fmt::join(known_sections(), ", ")))
-        ->type_name("S");
+void declare(Options& app, ReproduceCliOptions& options) {
+    app.add(
+           "--section", options.section,
+           fmt::format("Section of the paper to reproduce: {} (default: all)", fmt::join(known_sections(), ", ")))
+        .type_name("S");
     app.add_flag(
         "--quick", options.quick,
-        "A first look within minutes: fewer combinations, shorter runs (data/paper/quick.csv); marked as reduced");
-    app.add_option("--output", options.output, "Folder of the report (default: out/paper; --quick: out/paper_quick)")
-        ->type_name("DIR");
-    app.add_option("--threads", options.threads, "Threads to use (default: all); results do not depend on it")
-        ->check(CLI::Range(1, 1024))
-        ->type_name("N");
-    add_version_option(app);
+        "First look within minutes: fewer combinations and shorter runs, marked as reduced (data/paper/quick.csv)");
+    app.add("--output", options.output,
+                   "Folder for the report (default: out/paper; with --quick: out/paper_quick)")
+        .type_name("DIR");
+    app.add("--threads", options.threads,
+                   "Number of threads (default: all processors). Results do not depend on it")
+        .range(1, 1024)
+        .type_name("N");
     app.footer(
-        std::string(
-            "\nWhat is finished is kept in the folder of the report. Started again after an interrupt, a kill or a power cut,\n"
-            "the same command runs what is missing and writes the same bytes.\n\n"
+        runnable(
+            "\nFinished experiments are kept in the folder of the report. After an interruption, the same command\n"
+            "continues with the missing ones; the final report is the same.\n\n"
             "Examples:\n"
             "  stopline-reproduce --quick\n"
             "  stopline-reproduce\n"
             "  stopline-reproduce --section IV --output out/section_iv\n\n"
-            "Next: open index.html of that folder in a browser; it needs no network.\n\n") +
+            "Next: open index.html in the folder of the report with a browser. It needs no network.\n\n") +
         kExitCodesText);
 }
 
-std::string command_of(const ReproduceOptionsOfUser& options) {
+std::string command_of(const ReproduceCliOptions& options) {
     return fmt::format("stopline-reproduce{}{}", options.section == "all" ? "" : " --section " + options.section,
                        options.quick ? " --quick" : "");
 }
 
-std::vector<JobEnd> run_with_progress(ReproduceOptions options) {
+std::vector<JobResult> run_with_progress(ReproduceOptions options) {
     ProgressBar bar("");
     options.on_progress = [&bar](const ReproduceProgress& progress) {
-        return bar.update(progress.share, progress.doing, progress.left_s);
+        return bar.update(progress.share, progress.job, progress.remaining_s);
     };
     options.on_message = [&bar](const std::string& line) {
         bar.clear();
@@ -68,28 +71,29 @@ std::vector<JobEnd> run_with_progress(ReproduceOptions options) {
     return run_jobs(options);
 }
 
-ExitCode run(const ReproduceOptionsOfUser& user) {
+ExitCode run(const ReproduceCliOptions& user) {
     ReproduceOptions options;
     options.section = user.section;
     if (user.quick) options.reductions = Reductions::load(data_directory() / "paper" / "quick.csv");
     options.folder = !user.output.empty() ? user.output : user.quick ? "out/paper_quick" : "out/paper";
-    options.threads = threads_or_all(user.threads);
-    const std::vector<JobEnd> jobs = run_with_progress(options);
+    options.threads = thread_count(user.threads);
+    const std::vector<JobResult> jobs = run_with_progress(options);
     const ReportContent content = write_report(options, jobs, command_of(user));
     const Scorecard& scorecard = content.scorecard;
-    fmt::print("\n{}{} rows of the paper: {} inside their tolerance, {} outside, {} open\n",
+    fmt::print("\n{}{} rows of the paper: {} within tolerance, {} outside, {} open\n",
                content.reduced() ? "REDUCED: " : "", scorecard.rows.size(), scorecard.count(Verdict::inside),
                scorecard.count(Verdict::miss), scorecard.count(Verdict::open));
     fmt::print("\nWritten to {}\n  index.html\n  figures/  SVG and PNG\n  tables/   CSV\n", options.folder.string());
-    fmt::print("\nNext: open this page in a browser\n  file://{}\n",
+    fmt::print("\nNext: open the report in a browser\n  file://{}\n",
                std::filesystem::absolute(options.folder / "index.html").lexically_normal().string());
     for (const std::string& problem : content.problems) fmt::print(stderr, "stopline-reproduce: failed: {}\n", problem);
-    if (!content.problems.empty()) fmt::print(stderr, "The same command tries again what failed.\n");
+    if (!content.problems.empty()) fmt::print(stderr, "Repeat the command to try the failed parts again.\n");
     double violations = 0.0;
-    for (const JobEnd& end : jobs) violations += static_cast<double>(end.output.violations);
+    for (const JobResult& end : jobs) violations += static_cast<double>(end.output.violations);
     if (violations > 0.0) {
-        fmt::print(stderr,
-                   "stopline-reproduce: overlaps, entries on red or lost vehicles in the runs behind the report\n");
+        fmt::print(
+            stderr,
+            "stopline-reproduce: VIOLATIONS (overlaps, entries on red or lost vehicles) in the runs of the report\n");
     }
     return content.problems.empty() && violations == 0.0 ? ExitCode::done : ExitCode::check_failed;
 }
@@ -98,12 +102,11 @@ ExitCode run(const ReproduceOptionsOfUser& user) {
 
 int main(int argc, char** argv) {
     return run_program("stopline-reproduce", [&] {
-        CLI::App app(
-            "Runs what is missing of the whole paper and writes a report: the scorecard, every figure, all tables.",
-            "stopline-reproduce");
-        ReproduceOptionsOfUser options;
+        Options app("Repeats the experiments of the paper and writes a report with scorecard, figures and tables.",
+                     "stopline-reproduce");
+        ReproduceCliOptions options;
         declare(app, options);
-        const std::optional<ExitCode> end = parse_command_line(app, argc, argv);
+        const std::optional<ExitCode> end = app.parse(argc, argv);
         return end ? *end : run(options);
     });
 }

@@ -1,4 +1,4 @@
-// stopline-run: runs the populations of one scenario and writes tables, CSV files and figures.
+// stopline-run: runs one scenario, once for each population, and writes tables, CSV files and figures.
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -10,57 +10,75 @@
 #include <fmt/ranges.h>
 
 #include "base/input_error.h"
+#include "base/io/output.h"
 #include "common/command_line.h"
+#include "common/examples.h"
 #include "common/intersection_text.h"
 #include "common/network_text.h"
 #include "common/program.h"
 #include "common/progress_bar.h"
 #include "common/results.h"
 #include "common/single_light_text.h"
-#include "experiment/intersection_figures.h"
-#include "experiment/output.h"
-#include "experiment/provenance.h"
-#include "experiment/single_light.h"
-#include "experiment/single_light_csv.h"
-#include "experiment/single_light_figures.h"
-#include "experiment/street_map.h"
-#include "experiment/street_results.h"
+#include "figures/intersection_figures.h"
+#include "figures/network_figures.h"
+#include "figures/single_light_figures.h"
+#include "figures/street_figures.h"
+#include "figures/street_map.h"
+#include "figures/time_space_figure.h"
 #include "run/run_files.h"
+#include "runs/network/street_results.h"
+#include "runs/provenance.h"
+#include "runs/single_light/single_light.h"
+#include "runs/single_light/single_light_csv.h"
+#include "runs/tables/column_aliases.h"
+#include "runs/tables/column_docs.h"
 #include "scenario/import_sumo.h"
 #include "scenario/load_scenario.h"
-#include "scenario/quantity.h"
+#include "scenario/schema/quantity.h"
 
 namespace {
 
 using namespace stopline;
 
-struct RunOptionsOfUser {
+struct RunCliOptions {
     CommonOptions common;
     RunFilesOptions files;
     std::string file;
-    std::string interval = "0.1 s";
+    std::string interval = "0.1 s";  // of --trajectories
     bool trajectories = false;
+    bool old_column_names = false;
     bool no_figures = false;
     bool describe = false;
+    bool describe_markdown = false;
+    bool describe_columns = false;
     bool schema = false;
     bool list = false;
 };
 
-void declare(CLI::App& app, RunOptionsOfUser& options) {
-    app.add_option("FILE", options.file, "Scenario file (YAML), such as scenarios/single_light.yaml");
-    add_common_options(app, options.common, "Folder for the results (default: out/NAME of the scenario)");
+void declare(Options& app, RunCliOptions& options) {
+    app.add("FILE", options.file, runnable("Scenario file (YAML), such as scenarios/single_light.yaml"));
+    add_common_options(app, options.common, "Folder for the results (default: out/ and the name of the scenario)");
     add_set_option(app, options.common);
-    app.add_flag("--trajectories", options.trajectories,
-                 "Write trajectories.csv too: from 5 s before the green to 25 s after it; intersections: of the first "
-                 "measured cycle; grids: of all of the run, or --record-from and --record-until");
-    app.add_option("--interval", options.interval, "Time between its samples (default: 0.1 s)")->type_name("TIME");
+    app.add_flag(
+        "--trajectories", options.trajectories,
+        "Also write trajectories.csv. Single light: from 5 s before the green to 25 s after it. Single intersection: "
+        "the first measured cycle. Networks: the whole run, or --record-from to --record-until");
+    app.add("--interval", options.interval, "With --trajectories: time between samples (default: 0.1 s)")
+        .type_name("TIME");
     add_run_files_options(app, options.files);
-    app.add_flag("--no-figures", options.no_figures, "Draw no figures");
+    app.add_flag("--old-column-names", options.old_column_names,
+                 "Write tables with the column and file names of the last release (removed in the next release)");
+    app.add_flag("--no-figures", options.no_figures, "Do not draw figures");
     app.add_flag("--describe", options.describe, "List all fields of scenario files and exit");
+    app.add_flag("--describe-markdown", options.describe_markdown,
+                 "Print all fields of scenario and sweep files as Markdown (scenarios/FIELDS.md) and exit");
+    app.add_flag("--describe-columns", options.describe_columns,
+                 "Print all columns of result tables as Markdown (scenarios/COLUMNS.md) and exit");
     app.add_flag("--schema", options.schema, "Print the JSON schema of scenario files, for editors, and exit");
-    app.add_flag("--list", options.list, "List populations, policies, laws, vehicles and drivers, and exit");
+    app.add_flag("--list", options.list,
+                 "List spacing policies and laws, populations, vehicles, drivers and streets, and exit");
     app.footer(
-        std::string(
+        runnable(
             "\nExamples:\n"
             "  stopline-run scenarios/single_light.yaml\n"
             "  stopline-run scenarios/intersection.yaml --set 'demand.left=15 %'\n"
@@ -69,11 +87,13 @@ void declare(CLI::App& app, RunOptionsOfUser& options) {
             "  stopline-run scenarios/grid.yaml --set 'duration=600 s' --record out/grid.rec\n"
             "  stopline-run scenarios/intersection.yaml --fcd out/fcd.xml --tripinfo out/trips.xml --e1 out/loops.xml\n"
             "  stopline-run scenarios/first_steps.yaml --set vehicle=electric_100kw --output out/electric\n"
-            "  stopline-run --list scenarios/single_light.yaml\n\n") +
+            "  stopline-run --list scenarios/single_light.yaml\n\n"
+            "Next: open the figures in the output folder. To watch a recorded run in a browser:\n"
+            "  stopline-replay out/grid.CDG.rec\n\n") +
         kExitCodesText);
 }
 
-double trajectory_interval_s(const RunOptionsOfUser& options, const Scenario& scenario) {
+double trajectory_interval_s(const RunCliOptions& options, const Scenario& scenario) {
     if (!options.trajectories) return 0.0;
     const ParsedQuantity interval = parse_quantity(options.interval, unit("s"));
     if (!interval.problem.empty()) {
@@ -81,23 +101,31 @@ double trajectory_interval_s(const RunOptionsOfUser& options, const Scenario& sc
     }
     const double steps = interval.si / scenario.tick_s();
     if (steps < 0.5 || std::abs(steps - std::round(steps)) > 1e-6) {
-        throw InputError(fmt::format("--interval: '{}' is not a whole number of steps of {}", options.interval,
-                                     short_text(scenario.tick_s(), unit("ms"))));
+        throw InputError(fmt::format("--interval: '{}' is not a whole number of steps of {}; give a multiple of it",
+                                     options.interval, short_text(scenario.tick_s(), unit("ms"))));
     }
     return interval.si;
 }
 
 using NamedText = std::pair<std::string, std::string>;
 
-using StateHashes = std::vector<std::pair<std::string, std::string>>;
+using StateHashes = std::vector<std::pair<std::string, std::string>>;  // population and hash
 
-// Tables, and beside them how they came about.
-void write_tables(const RunOptionsOfUser& options, const Scenario& scenario, std::vector<NamedText> files,
+// Writes the tables and their provenance.
+void write_tables(const RunCliOptions& options, const Scenario& scenario, std::vector<NamedText> files,
                   StateHashes state_hashes, const std::filesystem::path& folder) {
     Provenance provenance;
     provenance.command = command_text("stopline-run", options.file, options.common);
     if (options.trajectories) provenance.command += " --trajectories --interval " + shell_word(options.interval);
-    for (const NamedText& file : files) provenance.files.push_back(file.first);
+    if (options.old_column_names) provenance.command += " --old-column-names";
+    const ColumnNames names = options.old_column_names ? ColumnNames::old : ColumnNames::current;
+    for (auto& [name, text] : files) {
+        const std::string table = table_group(scenario.network) + "/" + name;
+        ResultFile file = result_file(table, std::move(name), std::move(text), names);
+        name = std::move(file.name);
+        text = std::move(file.text);
+        provenance.files.push_back(name);
+    }
     provenance.state_hashes = std::move(state_hashes);
     files.emplace_back(scenario.name + ".provenance.json", provenance_json(scenario, provenance));
     fmt::print("\nWritten to {}\n", folder.string());
@@ -107,7 +135,7 @@ void write_tables(const RunOptionsOfUser& options, const Scenario& scenario, std
     }
 }
 
-void write_results(const RunOptionsOfUser& options, const SingleLight& result, double interval_s,
+void write_results(const RunCliOptions& options, const SingleLightReport& result, double interval_s,
                    const std::filesystem::path& folder) {
     std::vector<NamedText> files{{"summary.csv", summary_csv(result)},
                                  {"improvement.csv", improvement_csv(result)},
@@ -120,24 +148,24 @@ void write_results(const RunOptionsOfUser& options, const SingleLight& result, d
     write_tables(options, result.scenario, std::move(files), std::move(hashes), folder);
 }
 
-void write_results(const RunOptionsOfUser& options, const IntersectionReport& report,
+void write_results(const RunCliOptions& options, const IntersectionReport& report,
                    const std::filesystem::path& folder) {
     std::vector<NamedText> files{{"summary.csv", intersection_csv(report)}, {"headways.csv", headways_csv(report)}};
     if (options.trajectories) files.emplace_back("trajectories.csv", intersection_trajectories_csv(report));
     StateHashes hashes;
-    for (const IntersectionFigures& f : report.populations) {
+    for (const IntersectionResult& f : report.populations) {
         hashes.emplace_back(f.population, fmt::format("{:016x}", f.state_hash));
     }
     write_tables(options, report.scenario, std::move(files), std::move(hashes), folder);
 }
 
-// The title, with what was set: "Grid of 25 intersections, with network.grid.columns=3".
+// Returns the title and the settings: "Grid of 25 intersections, with network.grid.columns=3".
 std::string heading(const Scenario& scenario, const CommonOptions& options) {
     const std::string& title = scenario.title.empty() ? scenario.name : scenario.title;
     return options.settings.empty() ? title : fmt::format("{}, with {}", title, fmt::join(options.settings, ", "));
 }
 
-void print_report(const SingleLight& result, const CommonOptions& options) {
+void print_report(const SingleLightReport& result, const CommonOptions& options) {
     const Scenario& scenario = result.scenario;
     fmt::print("{}\n", heading(scenario, options));
     fmt::print("scenario {} ({:016x}), seed {}, vehicle {}, driver {}\n\n", scenario.name, scenario.hash, scenario.seed,
@@ -146,44 +174,48 @@ void print_report(const SingleLight& result, const CommonOptions& options) {
                violations_text(result));
 }
 
-// A signalised intersection: a table, files, figures.
-ExitCode run_as_intersection(const RunOptionsOfUser& options, const Scenario& scenario, double interval_s,
+// Runs a single intersection and writes its results.
+ExitCode run_as_intersection(const RunCliOptions& options, const Scenario& scenario, double interval_s,
                              const std::filesystem::path& folder, RunFiles& run_files) {
     const IntersectionReport report = [&] {
         ProgressBar bar(fmt::format("{} runs", scenario.populations.size()));
         return run_intersections(scenario,
-                                 {threads_or_all(options.common.threads), interval_s,
+                                 {thread_count(options.common.threads), interval_s,
                                   [&bar](double share) { return bar.update(share); }, run_files.observation()});
     }();
     fmt::print("{}\nscenario {} ({:016x}), seed {}\n\n{}", heading(scenario, options.common), scenario.name,
                scenario.hash, scenario.seed, intersection_text(report));
     write_results(options, report, folder);
     fmt::print("{}", run_files.finish());
-    if (!options.no_figures) draw_all(intersection_figures(report), folder);
-    fmt::print(
-        "\nNext: other greens and turns with --set 'signal.green=10 s' --set 'demand.left=30 %', all permutations with\n"
-        "stopline-sweep scenarios/sweeps/intersection.yaml, the paper's numbers beside ours with stopline-scorecard.\n");
+    if (!options.no_figures) draw_figures(intersection_figures(report), folder);
+    fmt::print("{}", runnable("\nNext:\n"
+                              "  other greens and turns: add --set 'signal.green=10 s' --set 'demand.left=30 %'\n"
+                              "  all combinations: stopline-sweep scenarios/sweeps/intersection.yaml\n"
+                              "  comparison with the paper: stopline-scorecard\n"));
     return report.no_violations() ? ExitCode::done : ExitCode::check_failed;
 }
 
-// Several intersections: the same, with what they do to each other.
-ExitCode run_as_network(const RunOptionsOfUser& options, const Scenario& scenario, const std::filesystem::path& folder,
+// Runs a network (grid, streets or imported) and writes its results.
+ExitCode run_as_network(const RunCliOptions& options, const Scenario& scenario, const std::filesystem::path& folder,
                         RunFiles& run_files) {
     const NetworkReport report = [&] {
         ProgressBar bar(fmt::format("{} runs", scenario.populations.size()));
-        return run_networks(scenario, {threads_or_all(options.common.threads),
+        return run_networks(scenario, {thread_count(options.common.threads),
                                        [&bar](double share) { return bar.update(share); }, run_files.observation()});
     }();
     fmt::print("{}\nscenario {} ({:016x}), seed {}\n\n{}", heading(scenario, options.common), scenario.name,
                scenario.hash, scenario.seed, network_text(report));
     StateHashes hashes;
-    for (const NetworkFigures& f : report.populations) {
+    for (const NetworkResult& f : report.populations) {
         hashes.emplace_back(f.population, fmt::format("{:016x}", f.state_hash));
     }
-    std::vector<NamedText> tables{{"summary.csv", network_csv(report)},     {"series.csv", network_series_csv(report)},
-                                  {"ways.csv", network_ways_csv(report)},   {"hindrance.csv", hindrance_csv(report)},
-                                  {"gridlocks.csv", gridlocks_csv(report)}, {"rules.csv", rules_csv(report)}};
-    std::vector<Figure> figures{network_series_figure(report), hindrance_figure(report)};
+    std::vector<NamedText> tables{{"summary.csv", network_csv(report)},
+                                  {"series.csv", network_series_csv(report)},
+                                  {"origin_destination.csv", origin_destination_csv(report)},
+                                  {"delays.csv", delays_csv(report)},
+                                  {"gridlocks.csv", gridlocks_csv(report)},
+                                  {"rules.csv", rules_csv(report)}};
+    std::vector<Figure> figures{network_series_figure(report), delay_causes_figure(report)};
     if (scenario.network.is_streets()) {
         tables.emplace_back("inflow.csv", inflow_csv(report));
         tables.emplace_back("approaches.csv", approaches_csv(report));
@@ -193,29 +225,35 @@ ExitCode run_as_network(const RunOptionsOfUser& options, const Scenario& scenari
         }
     }
     if (scenario.measure.time_space_s > 0.0) {
-        tables.emplace_back("time_space.csv", street_csv(report));
-        figures.push_back(street_figure(report));
+        tables.emplace_back("time_space.csv", street_time_space_csv(report));
+        figures.push_back(time_space_figure(report));
     }
     write_tables(options, scenario, std::move(tables), std::move(hashes), folder);
     fmt::print("{}", run_files.finish());
-    if (!options.no_figures) draw_all(figures, folder);
-    fmt::print(
-        "\nNext: hindrance.csv says who was held up by whom, where and since when; {}, all of them with stopline-sweep.\n",
-        scenario.network.is_sumo() ? "another fidelity with --set fidelity=full"
+    if (!options.no_figures) draw_figures(figures, folder);
+    const char* const variation =
+        scenario.network.is_sumo() ? "another fidelity: add --set fidelity=full"
         : scenario.network.is_streets()
-            ? "other lanes with --set network.streets=four_lanes,\nother offsets with --set "
-              "'network.streets.intersections[NAME].offset=10 s'"
-            : "other greens, offsets and turns with --set\n'signal.green=10 s' --set 'signal.offset=15 s' --set "
-              "'demand.left=5 %'");
+            ? "other lanes: add --set network.streets=four_lanes"
+            : "other greens, offsets and turns: add --set 'signal.green=10 s' --set 'signal.offset=15 s' "
+              "--set 'demand.left=5 %'";
+    fmt::print(
+        "\nNext:\n"
+        "  delays.csv lists each delay: its cause, lane, time, and the vehicle that caused it\n"
+        "  {}\n"
+        "  many variations at once: {} --help\n",
+        variation, program_command("stopline-sweep"));
     return report.no_violations() ? ExitCode::done : ExitCode::check_failed;
 }
 
-ExitCode run(const RunOptionsOfUser& options) {
+ExitCode run(const RunCliOptions& options) {
     if (options.describe) return fmt::print("{}", describe_fields()), ExitCode::done;
+    if (options.describe_markdown) return fmt::print("{}", fields_markdown()), ExitCode::done;
+    if (options.describe_columns) return fmt::print("{}", columns_markdown()), ExitCode::done;
     if (options.schema) return fmt::print("{}", json_schema()), ExitCode::done;
     if (options.list) return fmt::print("{}", list_text(options.file, options.common)), ExitCode::done;
     if (options.file.empty()) {
-        throw InputError("no scenario file given; try: stopline-run scenarios/single_light.yaml (or --help)");
+        throw InputError(runnable("no scenario file given; try: stopline-run scenarios/single_light.yaml (or --help)"));
     }
     const Scenario scenario = load_with_options(options.file, options.common);
     for (const std::string& line : sumo_warnings(scenario)) fmt::print(stderr, "not read: {}\n", line);
@@ -224,8 +262,10 @@ ExitCode run(const RunOptionsOfUser& options) {
     }
     const double interval_s = trajectory_interval_s(options, scenario);
     const std::filesystem::path folder = options.common.output.empty() ? "out/" + scenario.name : options.common.output;
+    if (options.old_column_names) print_warnings({kOldNamesWarning});
     RunFilesOptions files = options.files;
-    if (options.trajectories && scenario.network.has_several()) {
+    files.column_names = options.old_column_names ? ColumnNames::old : ColumnNames::current;
+    if (options.trajectories && scenario.network.has_several_intersections()) {
         files.trajectories = (folder / "trajectories.csv").string();
         files.trajectory_interval_s = interval_s;
     }
@@ -234,12 +274,12 @@ ExitCode run(const RunOptionsOfUser& options) {
     if (scenario.network.kind == "intersection") {
         return run_as_intersection(options, scenario, interval_s, folder, run_files);
     }
-    if (scenario.network.has_several()) return run_as_network(options, scenario, folder, run_files);
+    if (scenario.network.has_several_intersections()) return run_as_network(options, scenario, folder, run_files);
     SingleLightOptions run_options;
-    run_options.threads = threads_or_all(options.common.threads);
+    run_options.threads = thread_count(options.common.threads);
     run_options.trajectory_interval_s = interval_s;
     run_options.observation = run_files.observation();
-    const SingleLight result = [&] {
+    const SingleLightReport result = [&] {
         ProgressBar bar(fmt::format("{} runs", scenario.populations.size()));
         run_options.on_progress = [&bar](double share) { return bar.update(share); };
         return run_single_light(scenario, run_options);
@@ -247,10 +287,11 @@ ExitCode run(const RunOptionsOfUser& options) {
     print_report(result, options.common);
     write_results(options, result, interval_s, folder);
     fmt::print("{}", run_files.finish());
-    if (!options.no_figures) draw_all(single_light_figures(result, load_targets()), folder);
-    fmt::print(
-        "\nNext: another policy or vehicle with --set (stopline-run --list, --describe), every vehicle's path with\n"
-        "--trajectories, the paper's numbers beside ours with stopline-scorecard.\n");
+    if (!options.no_figures) draw_figures(single_light_figures(result, load_targets()), folder);
+    fmt::print("{}", runnable("\nNext:\n"
+                              "  another vehicle: add --set vehicle=electric_100kw (all names: stopline-run --list)\n"
+                              "  positions of all vehicles over time: add --trajectories\n"
+                              "  comparison with the paper: stopline-scorecard\n"));
     return result.no_violations() ? ExitCode::done : ExitCode::check_failed;
 }
 
@@ -258,11 +299,11 @@ ExitCode run(const RunOptionsOfUser& options) {
 
 int main(int argc, char** argv) {
     return run_program("stopline-run", [&] {
-        CLI::App app("Runs a scenario: one run for each of its populations, then tables, CSV files and figures.",
+        Options app("Runs a scenario, once for each of its populations, and writes tables, CSV files and figures.",
                      "stopline-run");
-        RunOptionsOfUser options;
+        RunCliOptions options;
         declare(app, options);
-        const std::optional<ExitCode> end = parse_command_line(app, argc, argv);
+        const std::optional<ExitCode> end = app.parse(argc, argv);
         return end ? *end : run(options);
     });
 }

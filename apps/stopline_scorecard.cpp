@@ -1,58 +1,68 @@
-// stopline-scorecard: our numbers beside those of the paper.
+// stopline-scorecard: compares our results with the numbers of the paper.
 #include <string>
 
 #include <fmt/core.h>
 #include <fmt/format.h>
 
+#include "base/io/output.h"
 #include "common/command_line.h"
+#include "common/examples.h"
 #include "common/program.h"
 #include "common/progress_bar.h"
 #include "common/results.h"
 #include "common/text_table.h"
-#include "experiment/output.h"
-#include "experiment/provenance.h"
-#include "experiment/scorecard.h"
+#include "paper/results_page.h"
+#include "paper/scorecard.h"
+#include "runs/provenance.h"
+#include "scenario/load_scenario.h"
 
 namespace {
 
 using namespace stopline;
 
-struct ScorecardOptionsOfUser {
+struct ScorecardCliOptions {
     CommonOptions common;
     std::string section;
+    std::string markdown;
     bool csv = false;
     bool strict = false;
 };
 
-void declare(CLI::App& app, ScorecardOptionsOfUser& options) {
-    app.add_option("--section", options.section, "Rows of this section of the paper and below, such as III or III.E")
-        ->type_name("S");
-    app.add_flag("--csv", options.csv, "Print CSV instead of the table");
-    app.add_flag("--strict", options.strict, "End with exit code 1 where a row misses its tolerance");
+void declare(Options& app, ScorecardCliOptions& options) {
+    app.add("--section", options.section,
+                   "Only rows of this section of the paper and its subsections, such as III or III.E")
+        .type_name("S");
+    app.add_flag("--csv", options.csv, "Print CSV instead of a table");
+    app.add("--markdown", options.markdown,
+                   "Also write the results page to this file: one table per section, causes of deviations, findings")
+        .type_name("FILE");
+    app.add_flag("--strict", options.strict, "Exit with code 1 if a row is outside its tolerance");
     add_common_options(app, options.common, "Folder for scorecard.csv and the measurements (default: out/scorecard)");
-    app.footer(std::string("\nExamples:\n"
-                           "  stopline-scorecard --section III\n"
-                           "  stopline-scorecard --csv > scorecard.csv\n\n"
-                           "What was measured before is used again where scenario and program are the same.\n\n") +
+    app.footer(runnable("\nExamples:\n"
+                        "  stopline-scorecard --section III\n"
+                        "  stopline-scorecard --csv > scorecard.csv\n"
+                        "  stopline-scorecard --markdown data/paper/RESULTS.md\n\n"
+                        "Stored measurements are used again if scenario and program are unchanged.\n\n"
+                        "Next: the printed commands repeat the runs of a section with tables and figures.\n\n") +
                kExitCodesText);
 }
 
 std::string table_text(const Scorecard& scorecard) {
     TextTable table("llllrrlrl");
-    table.row({"row", "section", "quantity", "condition", "paper", "ours", "unit", "tolerance", "verdict"});
+    table.add_row({"row", "section", "quantity", "condition", "paper", "ours", "unit", "tolerance", "verdict"});
     for (const ScoredRow& row : scorecard.rows) {
         const bool claim = row.target.kind == "claim";
         const bool open = row.verdict == Verdict::open;
         std::string ours = row.ours.empty() ? "-" : row.ours;
         if (claim && !open) ours = row.verdict == Verdict::inside ? "holds" : "fails";
-        table.row({row.target.id, row.target.section, row.target.quantity, row.target.condition,
-                   claim ? "claim" : row.target.value, ours, claim ? "" : row.target.unit, tolerance_text(row.target),
-                   to_string(row.verdict)});
+        table.add_row({row.target.id, row.target.section, row.target.quantity, row.target.condition,
+                       claim ? "claim" : row.target.value, ours, claim ? "" : row.target.unit,
+                       tolerance_text(row.target), to_string(row.verdict)});
     }
     return table.text("");
 }
 
-// The words of claims that were judged, and why rows miss.
+// Returns the claims of the paper with our findings, and the reason of each miss.
 std::string remarks_text(const Scorecard& scorecard) {
     constexpr std::size_t kWidth = 110;
     std::string text;
@@ -60,35 +70,43 @@ std::string remarks_text(const Scorecard& scorecard) {
         if (row.verdict == Verdict::open) continue;
         if (row.target.kind == "claim") {
             text +=
-                wrapped(fmt::format("{}  paper: {}; ours: {}", row.target.id, row.target.value, row.ours), kWidth, 5);
+                wrap_text(fmt::format("{}  paper: {}; ours: {}", row.target.id, row.target.value, row.ours), kWidth, 5);
         }
         if (row.verdict == Verdict::miss) {
-            text += wrapped(fmt::format("{}  misses: {}", row.target.id, row.reason), kWidth, 5);
+            text += wrap_text(fmt::format("{}  misses: {}", row.target.id, row.explanation), kWidth, 5);
         }
     }
     return text.empty() ? "" : "\n" + text;
 }
 
-Scorecard score(const ScorecardOptionsOfUser& options, const std::filesystem::path& folder) {
+Scorecard score(const ScorecardCliOptions& options, const std::filesystem::path& folder) {
     ScorecardOptions scorecard;
     scorecard.section = options.section;
     scorecard.folder = folder;
     if (options.common.seed) scorecard.settings = {fmt::format("seed={}", *options.common.seed)};
-    scorecard.threads = threads_or_all(options.common.threads);
+    scorecard.threads = thread_count(options.common.threads);
     ProgressBar bar("measuring");
     scorecard.on_progress = [&bar](double share) { return bar.update(share); };
     scorecard.on_message = [](const std::string& message) { fmt::print(stderr, "{}\n", message); };
     return make_scorecard(scorecard);
 }
 
-std::string command_of(const ScorecardOptionsOfUser& options) {
+std::string command_of(const ScorecardCliOptions& options) {
     std::string command = "stopline-scorecard";
     if (!options.section.empty()) command += fmt::format(" --section '{}'", options.section);
     if (options.common.seed) command += fmt::format(" --seed {}", *options.common.seed);
     return command;
 }
 
-ExitCode run(const ScorecardOptionsOfUser& options) {
+// The findings cover all sections, so a page of one section does not include them.
+void write_results_page(const ScorecardCliOptions& options, const Scorecard& scorecard) {
+    const std::filesystem::path findings = data_directory() / "paper" / "FINDINGS.md";
+    const bool append = options.section.empty() && std::filesystem::exists(findings);
+    const std::string command = fmt::format("{} --markdown {}", command_of(options), options.markdown);
+    write_file(options.markdown, results_markdown(scorecard, command, append ? read_file(findings) : ""));
+}
+
+ExitCode run(const ScorecardCliOptions& options) {
     const std::filesystem::path folder = options.common.output.empty() ? "out/scorecard" : options.common.output;
     prepare_folder(folder);
     const Scorecard scorecard = score(options, folder);
@@ -97,7 +115,8 @@ ExitCode run(const ScorecardOptionsOfUser& options) {
     const std::string provenance =
         table_provenance_json(command_of(options), "scorecard.csv", scorecard.scenario_hashes);
     write_file(folder / "scorecard.provenance.json", provenance);
-    if (!options.csv) draw_all(scorecard.figures, folder);
+    if (!options.markdown.empty()) write_results_page(options, scorecard);
+    if (!options.csv) draw_figures(scorecard.figures, folder);
     const int misses = scorecard.count(Verdict::miss);
     if (options.csv) {
         fmt::print("{}", csv);
@@ -105,12 +124,12 @@ ExitCode run(const ScorecardOptionsOfUser& options) {
         fmt::print("{}{}\n", table_text(scorecard), remarks_text(scorecard));
         fmt::print("{} inside, {} miss, {} open\n", scorecard.count(Verdict::inside), misses,
                    scorecard.count(Verdict::open));
-        fmt::print("\nNext: the table as CSV in {}; the runs behind it with tables and figures:\n{}\n",
-                   (folder / "scorecard.csv").string(), fmt::join(commands_behind(scorecard.rows), "\n"));
+        fmt::print("\nThe table is also in {}.\nNext: repeat the runs of these rows with tables and figures\n  {}\n",
+                   (folder / "scorecard.csv").string(),
+                   runnable(fmt::format("{}", fmt::join(commands_behind(scorecard.rows), "\n  "))));
     }
     if (scorecard.violations > 0.0) {
-        fmt::print(stderr,
-                   "{:.0f} violations (overlaps, entries on red, lost vehicles) in the runs behind this table\n",
+        fmt::print(stderr, "VIOLATIONS in the runs of this table (overlaps, entries on red, lost vehicles): {:.0f}\n",
                    scorecard.violations);
         return ExitCode::check_failed;
     }
@@ -121,10 +140,11 @@ ExitCode run(const ScorecardOptionsOfUser& options) {
 
 int main(int argc, char** argv) {
     return run_program("stopline-scorecard", [&] {
-        CLI::App app("Puts our numbers beside those of the paper, row by row, and judges each.", "stopline-scorecard");
-        ScorecardOptionsOfUser options;
+        Options app("Compares our results with the numbers of the paper, row by row, and judges each.",
+                     "stopline-scorecard");
+        ScorecardCliOptions options;
         declare(app, options);
-        const std::optional<ExitCode> end = parse_command_line(app, argc, argv);
+        const std::optional<ExitCode> end = app.parse(argc, argv);
         return end ? *end : run(options);
     });
 }

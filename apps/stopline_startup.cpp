@@ -1,4 +1,5 @@
-// stopline-startup: the simulated start of a platoon leader beside measured starts, and the fit of its driver (Section III.B).
+// stopline-startup: compares the simulated start of a platoon leader with measured starts, and can fit its driver to
+// them (Section III.B of the paper).
 #include <filesystem>
 #include <string>
 
@@ -6,25 +7,27 @@
 #include <fmt/format.h>
 
 #include "base/input_error.h"
+#include "base/io/output.h"
+#include "base/nearest_name.h"
 #include "base/units.h"
+#include "calibration/startup.h"
+#include "calibration/startup_report.h"
 #include "common/command_line.h"
+#include "common/examples.h"
 #include "common/program.h"
 #include "common/progress_bar.h"
-#include "experiment/output.h"
-#include "experiment/provenance.h"
-#include "experiment/run_populations.h"
-#include "experiment/startup.h"
-#include "experiment/startup_report.h"
+#include "figures/studies/startup_figure.h"
+#include "runs/provenance.h"
+#include "runs/run_populations.h"
 #include "scenario/load_scenario.h"
-#include "scenario/nearest_name.h"
 
 namespace stopline {
 
 namespace {
 
-constexpr const char* kMeasured = "startup/kit_curve_leader50.csv";
+constexpr const char* kMeasuredStarts = "startup/kit_curve_leader50.csv";
 
-struct Options {
+struct StartupCliOptions {
     CommonOptions common;
     std::string file;
     std::string measured;
@@ -33,66 +36,72 @@ struct Options {
     bool no_figures = false;
 };
 
-void declare(CLI::App& app, Options& options) {
-    app.add_option("FILE", options.file,
-                   "Scenario whose vehicle and driver start (default: scenarios/single_light.yaml)");
-    app.add_option(
+void declare(Options& app, StartupCliOptions& options) {
+    app.add("FILE", options.file,
+                   "Scenario that gives the vehicle and the driver (default: scenarios/single_light.yaml)");
+    app.add(
         "--measured", options.measured,
-        std::string("Measured starts: CSV with columns t_s, mean_kmh and, if known, ci95_of_mean, p2.5, p97.5, n "
-                    "(default: data/") +
-            kMeasured + ")");
+        std::string(
+            "Measured starts: CSV with columns t_s and mean_kmh, and optionally ci95_of_mean, p2.5, p97.5 and n "
+            "(default: data/") +
+            kMeasuredStarts + ")");
     app.add_flag("--fit", options.fit,
-                 "Fit the driver's acceleration profile and gain to the mean of the measured starts");
-    app.add_option("--write", options.write, "With --fit: write the driver to this file (data/drivers/NAME.yaml)");
-    app.add_flag("--no-figures", options.no_figures, "Draw no figure");
+                 "Fit the acceleration profile and the speed gain of the driver to the mean of the measured starts");
+    app.add("--write", options.write, "With --fit: write the fitted driver to this file (YAML)")
+        .type_name("FILE");
+    app.add_flag("--no-figures", options.no_figures, "Do not draw figures");
     add_common_options(app, options.common, "Folder for the results (default: out/startup)");
     add_set_option(app, options.common);
-    app.footer(std::string("\nExamples:\n"
-                           "  stopline-startup\n"
-                           "  stopline-startup --set vehicle=electric_100kw --output out/startup_electric\n"
-                           "  stopline-startup --fit --write data/drivers/startup_kit.yaml\n\n") +
+    app.footer(runnable("\nExamples:\n"
+                        "  stopline-startup\n"
+                        "  stopline-startup --set vehicle=electric_100kw --output out/startup_electric\n"
+                        "  stopline-startup --fit --write out/driver.yaml\n\n"
+                        "Next: use the fitted driver in a run\n"
+                        "  stopline-run scenarios/single_light.yaml --set driver=\"$PWD/out/driver.yaml\"\n\n") +
                kExitCodesText);
 }
 
-std::filesystem::path measured_file(const Options& options) {
-    return options.measured.empty() ? data_directory() / kMeasured : std::filesystem::path(options.measured);
+std::filesystem::path measured_file(const StartupCliOptions& options) {
+    return options.measured.empty() ? data_directory() / kMeasuredStarts : std::filesystem::path(options.measured);
 }
 
-void fit_driver(const Options& options, const StartupCurve& curve, Scenario& scenario) {
+void fit_driver(const StartupCliOptions& options, const StartupCurve& curve, Scenario& scenario) {
     StartupFit fit;
     {
         ProgressBar bar("fit");
-        constexpr double kUsual = 2000.0;  // evaluations that the fit takes as a rule
-        fit = fit_startup(scenario, curve,
-                          [&bar](int evaluations) { return bar.update(std::min(0.99, evaluations / kUsual)); });
+        constexpr double kTypicalEvaluations = 2000.0;
+        fit = fit_startup(scenario, curve, [&bar](int evaluations) {
+            return bar.update(std::min(0.99, evaluations / kTypicalEvaluations));
+        });
     }
-    fmt::print("fitted in {} evaluations: deviation from the mean curve {:.2f} -> {:.2f} km/h (root mean square)\n\n",
-               fit.evaluations, fit.rms_before_mps * kKmhPerMps, fit.rms_after_mps * kKmhPerMps);
+    fmt::print(
+        "Fit: {} evaluations; root mean square deviation from the mean curve {:.2f} km/h before, {:.2f} km/h after\n\n",
+        fit.evaluations, fit.rms_before_mps * kKmhPerMps, fit.rms_after_mps * kKmhPerMps);
     scenario.driver = fit.driver;
     scenario.driver_name = "fitted";
     if (options.write.empty()) return;
     const std::string comment = fmt::format(
-        "How vehicles are driven. Free driving (profile and speed_gain) is fitted by `stopline-startup --fit` so that the\n"
-        "simulated start of {} follows the mean of {}; nothing else is fitted.\n"
-        "Controller gains: Ploeg et al. 2011, reference [31] of the paper; radar delay: its Section III.D; comfort limits: ISO\n"
-        "15622. The V2V delay is not in the paper; string stability depends on it.\n"
-        "Our choice: jerk_up and jerk_down: the command has no steps, yet reaches a comfort limit in 0.42 s (up) and 0.14 s\n"
-        "(down, less than the lag of the brake). catch_up_factor: 2.5 km/h at 50 km/h close a gap and hardly exceed the limit.\n"
-        "emergency_threshold: a little below deceleration_comfort, so that an emergency begins before comfortable braking is used\n"
-        "up. emergency_gap: room that is left behind an emergency.",
+        "Parameters of the driver. `stopline-startup --fit` has fitted free driving (profile and speed_gain), so that\n"
+        "the simulated start of {} follows the mean of {}. Nothing else is fitted.\n"
+        "Sources: controller gains: Ploeg et al. 2011, reference [31] of the paper; radar delay: Section III.D of the\n"
+        "paper; comfort limits: ISO 15622. The paper does not give the V2V delay; string stability depends on it.\n"
+        "Our choices: jerk_up and jerk_down make the command continuous: it reaches a comfort limit in 0.42 s (up) and\n"
+        "0.14 s (down, less than the lag of the brake). catch_up_factor: 2.5 km/h at 50 km/h close a gap and hardly\n"
+        "exceed the limit. emergency_threshold: slightly below deceleration_comfort, so that emergency braking begins\n"
+        "before comfortable braking is exhausted. emergency_gap: net gap that remains after emergency braking.",
         scenario.vehicle_name,
-        options.measured.empty() ? kMeasured : shortened(measured_file(options).filename().string()));
+        options.measured.empty() ? kMeasuredStarts : shortened(measured_file(options).filename().string()));
     write_file(options.write, driver_yaml(scenario.driver, comment));
-    fmt::print("driver written to {}\n\n", options.write);
+    fmt::print("Driver written to {}\n\n", options.write);
 }
 
-std::string command_of(const Options& options) {
+std::string command_of(const StartupCliOptions& options) {
     std::string command = command_text("stopline-startup", options.file, options.common);
     if (!options.measured.empty()) command += " --measured " + shell_word(options.measured);
     return command + (options.fit ? " --fit" : "");
 }
 
-void write_results(const Options& options, const Scenario& scenario, const StartupReport& report) {
+void write_results(const StartupCliOptions& options, const Scenario& scenario, const StartupReport& report) {
     const std::filesystem::path folder = options.common.output.empty() ? "out/startup" : options.common.output;
     const Figure figure = startup_figure(report);
     Provenance provenance;
@@ -108,24 +117,28 @@ void write_results(const Options& options, const Scenario& scenario, const Start
     fmt::print("  startup.provenance.json\n");
     if (options.no_figures) return;
     if (!gnuplot_installed()) {
-        fmt::print("  no figure: gnuplot is not installed (Debian package gnuplot-nox)\n");
+        fmt::print("  no figure: gnuplot is not installed (apt-get install gnuplot-nox)\n");
         return;
     }
     draw(figure, folder);
     fmt::print("  startup.svg, startup.png\n");
 }
 
-ExitCode run(const Options& options) {
-    if (!options.write.empty() && !options.fit) throw InputError("--write needs --fit");
-    const std::filesystem::path usual = (data_directory() / "../scenarios/single_light.yaml").lexically_normal();
-    Scenario scenario = load_with_options(options.file.empty() ? usual.string() : options.file, options.common);
+ExitCode run(const StartupCliOptions& options) {
+    if (!options.write.empty() && !options.fit) throw InputError("--write needs --fit; add --fit to fit a driver");
+    if (!options.write.empty()) prepare_folder(std::filesystem::absolute(options.write).parent_path());
+    const std::filesystem::path default_scenario =
+        (data_directory() / "../scenarios/single_light.yaml").lexically_normal();
+    Scenario scenario =
+        load_with_options(options.file.empty() ? default_scenario.string() : options.file, options.common);
     const StartupCurve curve = load_startup_curve(measured_file(options));
     if (options.fit) fit_driver(options, curve, scenario);
     const StartupReport report = report_startup(scenario, curve);
-    fmt::print("start of {} with driver {} against {}\n\n{}", report.vehicle, report.driver,
+    fmt::print("Start of vehicle {} with driver {}, compared with {}\n\n{}", report.vehicle, report.driver,
                measured_file(options).filename().string(), startup_text(report));
     write_results(options, scenario, report);
-    fmt::print("\nNext: stopline-run scenarios/single_light.yaml for what this start means at a light.\n");
+    fmt::print(
+        "{}", runnable("\nNext: see the effect of the start at a light\n  stopline-run scenarios/single_light.yaml\n"));
     return ExitCode::done;
 }
 
@@ -133,11 +146,11 @@ ExitCode run(const Options& options) {
 
 int startup_main(int argc, const char* const* argv) {
     return run_program("stopline-startup", [&] {
-        CLI::App app("The simulated start of a platoon leader beside measured starts at traffic lights.",
+        Options app("Compares the simulated start of a platoon leader with measured starts at traffic lights.",
                      "stopline-startup");
-        Options options;
+        StartupCliOptions options;
         declare(app, options);
-        const std::optional<ExitCode> end = parse_command_line(app, argc, argv);
+        const std::optional<ExitCode> end = app.parse(argc, argv);
         return end ? *end : run(options);
     });
 }

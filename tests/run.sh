@@ -1,20 +1,21 @@
 #!/usr/bin/env bash
-# Everything that must hold, from a bare Debian 12: installs what is missing (as root or through sudo), builds, and runs
-#   1. the fast tests under the address, undefined-behaviour and thread sanitizers,
-#   2. the whole ctest suite on the release build, which also compares it with an unoptimised build.
+# Builds the project and runs its tests, from a bare Debian 12. Missing packages are installed as root or through sudo.
 # Stops at the first failure.
-#   tests/run.sh [--quick]           --quick leaves out 1.
+#   tests/run.sh           builds the release version and runs its tests and the checks of the sources
+#   tests/run.sh --all     adds the slow tests and the fast tests under the address, undefined-behaviour and thread
+#                          sanitizers, and compares the release version with an unoptimised one
+# Three environment variables hold regular expressions for ctest and limit what runs under the sanitizers:
 # STOPLINE_ASAN_LABELS (default: unit|threads|cli), STOPLINE_TSAN_LABELS (default: threads) and STOPLINE_SANITIZER_EXCLUDE
-# (default: Slow), regular expressions for ctest, choose the tests that run under the sanitizers; scripts labelled slow never do.
+# (default: Slow). Scripts with the label slow never run under a sanitizer.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-quick=no
+all=no
 case "${1:-}" in
     "") ;;
-    --quick) quick=yes ;;
+    --all) all=yes ;;
     *)
-        echo "usage: tests/run.sh [--quick]" >&2
+        echo "usage: tests/run.sh [--all]" >&2
         exit 2
         ;;
 esac
@@ -28,7 +29,7 @@ trap 'echo "tests/run.sh: stopped at: $current_step" >&2' ERR
 
 jobs="$(nproc)"
 
-# build PRESET TESTS TARGET...: TESTS, ON or OFF, says whether there are targets for tests
+# build PRESET TESTS TARGET...: TESTS is ON or OFF and says whether the tests are configured too
 build() {
     local preset="$1" tests="$2"
     shift 2
@@ -36,7 +37,7 @@ build() {
     cmake --build --preset "$preset" --target "$@" -j "$jobs"
 }
 
-# run_fast_tests PRESET LABELS [COMMAND...]: the tests fit for a sanitizer, started through COMMAND
+# run_fast_tests PRESET LABELS [COMMAND...]: runs the tests fit for a sanitizer; COMMAND is put before ctest
 run_fast_tests() {
     local preset="$1" labels="$2"
     shift 2
@@ -45,39 +46,45 @@ run_fast_tests() {
 }
 
 step "Packages: installing what is missing"
-bash apps/install_packages.sh quickstart tests
+sections=(quickstart tests)
+if [[ $all == yes ]]; then sections+=(sanitizers); fi
+bash apps/install_packages.sh "${sections[@]}"
 bash tests/tools/install_clang_tidy.sh
 
 step "Release: building programs and tests"
 build release ON all
 
+if [[ $all == no ]]; then
+    step "Release: tests and checks of the sources, without the slow ones"
+    ctest --preset release -j "$jobs" --label-exclude slow --exclude-regex Slow --no-tests=error
+    printf '\n=== Passed (%d s). Slow tests and sanitizers: tests/run.sh --all\n' "$SECONDS"
+    exit 0
+fi
+
 step "Debug: building the programs"
 build debug OFF stopline_programs
 
-if [[ $quick == no ]]; then
-    step "Address and undefined-behaviour sanitizers: building"
-    build asan-ubsan ON all
-    step "Address and undefined-behaviour sanitizers: fast tests"
-    export ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1
-    export UBSAN_OPTIONS=print_stacktrace=1
-    run_fast_tests asan-ubsan "${STOPLINE_ASAN_LABELS:-unit|threads|cli}"
-
-    step "Thread sanitizer: building"
-    build tsan ON stopline_programs stopline_threaded_tests
-    step "Thread sanitizer: fast tests"
-    # Archer is the plug-in through which clang's OpenMP runtime tells the thread sanitizer of its barriers and joins. The
-    # runtime itself, like all libraries of the system, was not built with the sanitizer, so what happens inside it is not
-    # looked at: that is what ignore_noninstrumented_modules is for.
-    export OMP_TOOL_LIBRARIES=/usr/lib/llvm-14/lib/libarcher.so
-    export TSAN_OPTIONS=ignore_noninstrumented_modules=1
-    # The sanitizer of clang 14 does not know the address layout that newer kernels randomise to.
-    fixed_addresses=()
-    if setarch --addr-no-randomize true 2>/dev/null; then
-        fixed_addresses=(setarch --addr-no-randomize)
-    fi
-    run_fast_tests tsan "${STOPLINE_TSAN_LABELS:-threads}" "${fixed_addresses[@]}"
-    unset OMP_TOOL_LIBRARIES
-fi
-
-step "Release: the whole suite"
+step "Release: all tests and checks of the sources"
 STOPLINE_DEBUG_BIN="$PWD/build/debug/bin" ctest --preset release -j "$jobs" --no-tests=error
+
+step "Address and undefined-behaviour sanitizers: building"
+build asan-ubsan ON all
+step "Address and undefined-behaviour sanitizers: fast tests"
+export ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1
+export UBSAN_OPTIONS=print_stacktrace=1
+run_fast_tests asan-ubsan "${STOPLINE_ASAN_LABELS:-unit|threads|cli}"
+
+step "Thread sanitizer: building"
+build tsan ON stopline_programs stopline_threaded_tests
+step "Thread sanitizer: fast tests"
+# Archer is the plug-in through which clang's OpenMP runtime informs the thread sanitizer. The runtime itself was not built
+# with the sanitizer, so ignore_noninstrumented_modules leaves it out.
+export OMP_TOOL_LIBRARIES=/usr/lib/llvm-14/lib/libarcher.so
+export TSAN_OPTIONS=ignore_noninstrumented_modules=1
+# The sanitizer of clang 14 does not know the address layout that newer kernels randomise to.
+fixed_addresses=()
+if setarch --addr-no-randomize true 2>/dev/null; then
+    fixed_addresses=(setarch --addr-no-randomize)
+fi
+run_fast_tests tsan "${STOPLINE_TSAN_LABELS:-threads}" "${fixed_addresses[@]}"
+printf '\n=== Passed (%d s)\n' "$SECONDS"

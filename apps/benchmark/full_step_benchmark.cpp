@@ -10,36 +10,36 @@
 #include <benchmark/benchmark.h>
 
 #include "common/program.h"
-#include "experiment/build_model.h"
+#include "scenario/build_model.h"
 #include "scenario/load_scenario.h"
-#include "sim/simulation.h"
+#include "sim/step/simulation.h"
 
 namespace stopline {
 
 namespace {
 
-constexpr int kQueue = 80;          // vehicles a lane
-constexpr double kGreen_s = 120.0;  // all queues have formed by then
+constexpr int kVehiclesPerLane = 80;
+constexpr double kGreen_s = 120.0;  // start of green; all queues have formed by then
 constexpr double kHeadway_s = 0.9;
-constexpr double kDriving_s = 10.0;  // from the start of green to the measurement: all vehicles of the platoons drive
+constexpr double kDriving_s = 10.0;  // from the start of green to the measurement; by then all vehicles move
 constexpr int kWarmUpSteps = 10;
-constexpr int kSteps = 100;  // measured, 1 s; in it no vehicle leaves the network
+constexpr int kSteps = 100;  // measured steps, 1 s; no vehicle leaves the network during them
 
 Model queue_model(int vehicles) {
     Scenario scenario = load_scenario(data_directory() / "../scenarios/single_light.yaml");
-    scenario.network.approach.lanes = std::max(1, vehicles / kQueue);
+    scenario.network.approach.lanes = std::max(1, vehicles / kVehiclesPerLane);
     scenario.network.approach.length_m = 800.0;
     scenario.network.approach.exit_length_m = 2000.0;
-    scenario.demand.vehicles = std::min(vehicles, kQueue);
+    scenario.demand.vehicles = std::min(vehicles, kVehiclesPerLane);
     scenario.signal.first_green_s = kGreen_s;
     Model model = build_model(scenario, 0);
     model.demand.entry_headway_s = kHeadway_s;
     return model;
 }
 
-// A model and a simulation of it whose platoons drive; made once for each number of vehicles.
-struct Driving {
-    explicit Driving(int vehicles, bool scalar) : model(queue_model(vehicles)), simulation(model) {
+// A simulation of moving platoons. It is built once for each number of vehicles.
+struct DrivingPlatoons {
+    explicit DrivingPlatoons(int vehicles, bool scalar) : model(queue_model(vehicles)), simulation(model) {
         simulation.run_until(kGreen_s + kDriving_s);
         model.scalar_kernels = scalar;
     }
@@ -47,26 +47,27 @@ struct Driving {
     Simulation simulation;
 };
 
-const Driving& driving(int vehicles, bool scalar) {
-    static std::map<std::pair<int, bool>, std::unique_ptr<Driving>> made;
-    std::unique_ptr<Driving>& one = made[{vehicles, scalar}];
-    if (!one) one = std::make_unique<Driving>(vehicles, scalar);
-    return *one;
+const DrivingPlatoons& driving_platoons(int vehicles, bool scalar) {
+    static std::map<std::pair<int, bool>, std::unique_ptr<DrivingPlatoons>> by_size;
+    std::unique_ptr<DrivingPlatoons>& platoons = by_size[{vehicles, scalar}];
+    if (!platoons) platoons = std::make_unique<DrivingPlatoons>(vehicles, scalar);
+    return *platoons;
 }
 
-// One iteration is the same second of simulated time for every number of vehicles; the copy and the first steps are not timed.
+// Measures the same second of simulated time in every iteration. Copying the simulation and the warm-up steps are not
+// timed.
 void full_dynamics(benchmark::State& state, bool scalar) {
-    const Driving& begin = driving(static_cast<int>(state.range(0)), scalar);
+    const DrivingPlatoons& initial = driving_platoons(static_cast<int>(state.range(0)), scalar);
     std::int64_t updates = 0;
     for (auto iteration : state) {
         if (interrupted()) return state.SkipWithError("interrupted");
-        Simulation simulation = begin.simulation;
+        Simulation simulation = initial.simulation;
         for (int step = 0; step < kWarmUpSteps; ++step) simulation.step();
-        const std::int64_t before = simulation.state().updates;
+        const std::int64_t updates_before = simulation.state().records.updates;
         const auto start = std::chrono::steady_clock::now();
         for (int step = 0; step < kSteps; ++step) simulation.step();
         state.SetIterationTime(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-        updates += simulation.state().updates - before;
+        updates += simulation.state().records.updates - updates_before;
     }
     set_cost(state, updates);
 }

@@ -9,28 +9,28 @@
 
 #include <benchmark/benchmark.h>
 
-#include "base/simd.h"
+#include "base/simd/simd.h"
 #include "benchmark/full_step_benchmark.h"
 #include "common/program.h"
-#include "experiment/build_model.h"
+#include "scenario/build_model.h"
 #include "scenario/load_scenario.h"
-#include "sim/meso_dynamics.h"
-#include "sim/simulation.h"
-#include "sim/vehicle_arrays.h"
+#include "sim/mesoscale/meso_dynamics.h"
+#include "sim/state/vehicles/vehicle_arrays.h"
+#include "sim/step/simulation.h"
 
 namespace stopline {
 
 namespace {
 
-constexpr int kPasses = 1600;      // over all followers, an iteration
-constexpr int kSteps = 1000;       // of the intersection: 100 s, about two cycles
-constexpr double kFilled_s = 100;  // by then the arms are full
+constexpr int kPasses = 1600;      // passes over all followers in one iteration
+constexpr int kSteps = 1000;       // steps of the intersection, 100 s, about two cycles
+constexpr double kWarmUp_s = 100;  // by then all legs are full
 
 Model intersection_model() {
     return build_model(load_scenario(data_directory() / "../scenarios/intersection.yaml", {"fidelity=meso"}), 0);
 }
 
-// Vehicles that follow one another, and the kernel's step of them, over and over.
+// A platoon whose step the benchmarks repeat.
 struct Platoon {
     explicit Platoon(const Model& model, const MesoKernels& kernels) : step(meso_step(model, 0)) {
         v.grow(kSimdWidth + kFollowers);
@@ -69,7 +69,7 @@ void repeat(benchmark::State& state, Platoon& platoon, Pass pass) {
     set_cost(state, updates);
 }
 
-void moving(benchmark::State& state, bool scalar) {
+void kernel_step(benchmark::State& state, bool scalar) {
     const Model model = intersection_model();
     const MesoKernels& kernels = meso_kernels(scalar);
     Platoon platoon(model, kernels);
@@ -79,7 +79,7 @@ void moving(benchmark::State& state, bool scalar) {
     });
 }
 
-// The car-following equation alone: speeds of the next step from gaps and speeds of this one.
+// Measures the car-following equation alone: the speeds of the next step from gaps and speeds of this step.
 void following(benchmark::State& state, bool scalar) {
     const Model model = intersection_model();
     const MesoKernels& kernels = meso_kernels(scalar);
@@ -99,17 +99,17 @@ void following(benchmark::State& state, bool scalar) {
 
 void intersection(benchmark::State& state) {
     const Model model = intersection_model();
-    Simulation begin(model);
-    begin.run_until(kFilled_s);
+    Simulation initial(model);
+    initial.run_until(kWarmUp_s);
     std::int64_t updates = 0;
     for (auto iteration : state) {
         if (interrupted()) return state.SkipWithError("interrupted");
-        Simulation simulation = begin;
-        const std::int64_t before = simulation.state().updates;
+        Simulation simulation = initial;
+        const std::int64_t updates_before = simulation.state().records.updates;
         const auto start = std::chrono::steady_clock::now();
         for (int k = 0; k < kSteps; ++k) simulation.step();
         state.SetIterationTime(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-        updates += simulation.state().updates - before;
+        updates += simulation.state().records.updates - updates_before;
     }
     set_cost(state, updates);
 }
@@ -127,12 +127,12 @@ void add(const std::string& name, void (*measure)(benchmark::State&, bool), bool
 
 std::string following_name(const std::string& kernels) { return "meso_following_1600_passes/" + kernels; }
 
-std::string moving_name(const std::string& kernels) { return "meso_moving_1600_passes/" + kernels; }
+std::string kernel_name(const std::string& kernels) { return "meso_kernel_1600_passes/" + kernels; }
 
 void add_meso_benchmarks() {
     for (const char* const kernels : {kBatch, kScalar}) {
         add(following_name(kernels), following, std::string(kernels) == kScalar);
-        add(moving_name(kernels), moving, std::string(kernels) == kScalar);
+        add(kernel_name(kernels), kernel_step, std::string(kernels) == kScalar);
     }
     benchmark::RegisterBenchmark(kMesoStep, intersection)
         ->Unit(benchmark::kMicrosecond)

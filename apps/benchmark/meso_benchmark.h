@@ -1,16 +1,16 @@
-// Cost of the mesoscale mode: the bare car-following equation, the kernel that also looks ahead, keeps to limits and moves vehicles, and
-// the whole step at the reference intersection.
+// Benchmarks of the mesoscale mode: the car-following equation alone, the kernel of a step, and the whole step at the
+// reference intersection. The kernel also looks ahead, keeps speed limits and moves the vehicles.
 #pragma once
 
 #include <string>
 
 namespace stopline {
 
-// Names without the number of vehicles.
+// These functions return the names of benchmarks without the number of vehicles.
 std::string following_name(const std::string& kernels);
-std::string moving_name(const std::string& kernels);
+std::string kernel_name(const std::string& kernels);
 inline constexpr const char* kMesoStep = "meso_intersection_1000_steps";
-inline constexpr int kFollowers = 512;  // the first-level cache holds these
+inline constexpr int kFollowers = 512;  // fits into the first-level cache
 
 void add_meso_benchmarks();
 

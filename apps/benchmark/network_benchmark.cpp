@@ -15,17 +15,18 @@
 
 #include "benchmark/full_step_benchmark.h"
 #include "common/program.h"
-#include "experiment/network_run.h"
+#include "runs/network/network_run.h"
 #include "scenario/load_scenario.h"
 
 namespace stopline {
 
 namespace {
 
-constexpr double kFilled_s = 600.0;    // by then as many leave the grid as enter it
-constexpr double kMeasured_s = 120.0;  // two signal cycles and more
-constexpr double kCycle_s = 46.0;  // large grids: all lights change at once, so less would show one part of the cycle
-constexpr int kQueued = 12;        // vehicles on each lane between two intersections
+constexpr double kWarmUp_s = 600.0;    // by then the grid is in steady state
+constexpr double kMeasured_s = 120.0;  // more than two signal cycles
+constexpr double kSignalCycle_s =
+    46.0;                            // large grids: all signals change together, so only whole cycles are comparable
+constexpr int kQueuedVehicles = 12;  // queued vehicles on each lane between two intersections
 
 Scenario grid_scenario(int side) {
     return load_scenario(data_directory() / "../scenarios/grid.yaml",
@@ -34,70 +35,71 @@ Scenario grid_scenario(int side) {
 
 double resident_bytes() {
     std::ifstream file("/proc/self/statm");
-    double all_pages = 0.0;
+    double total_pages = 0.0;
     double resident_pages = 0.0;
-    file >> all_pages >> resident_pages;
+    file >> total_pages >> resident_pages;
     return resident_pages * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
-void run_for(benchmark::State& state, Simulation& simulation, double duration_s) {
+void measure(benchmark::State& state, Simulation& simulation, double duration_s) {
     std::int64_t updates = 0;
     for (auto iteration : state) {
         if (interrupted()) return state.SkipWithError("interrupted");
-        const std::int64_t before = simulation.state().updates;
+        const std::int64_t updates_before = simulation.state().records.updates;
         const auto start = std::chrono::steady_clock::now();
         simulation.run_until(simulation.time_s() + duration_s);
         state.SetIterationTime(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-        updates += simulation.state().updates - before;
+        updates += simulation.state().records.updates - updates_before;
     }
     set_cost(state, updates);
     state.counters[kVehiclesCounter] = simulation.state().present();
-    if (!simulation.state().violations.none()) state.SkipWithError("vehicles overlap, enter on red or are lost");
+    if (!simulation.state().records.violations.none())
+        state.SkipWithError("vehicles overlap, enter on red or are lost");
 }
 
-// Repetitions go on where the one before ended: filling costs more than measuring.
-struct Kept {
+// A run that all repetitions of a benchmark continue, because filling the network takes longer than the measurement.
+struct KeptRun {
     std::unique_ptr<Model> model;
     std::unique_ptr<Simulation> simulation;
     double bytes = 0.0;
 };
-Kept& kept(const std::string& name) {
-    static std::map<std::string, Kept> all;
-    if (!all.contains(name)) all.clear();  // the next benchmark: memory of the last one is needed
-    return all[name];
+KeptRun& kept_run(const std::string& name) {
+    static std::map<std::string, KeptRun> runs;
+    if (!runs.contains(name)) runs.clear();  // free the memory of the benchmark before
+    return runs[name];
 }
 
 void grid(benchmark::State& state, int population) {
-    Kept& run = kept(grid_name(kGridPopulations[static_cast<std::size_t>(population)]));
+    KeptRun& run = kept_run(grid_name(kGridPopulations[static_cast<std::size_t>(population)]));
     if (!run.model) {
         run.model = std::make_unique<Model>(network_model(grid_scenario(5), static_cast<std::size_t>(population)));
         run.simulation = std::make_unique<Simulation>(*run.model);
-        run.simulation->run_until(kFilled_s);
+        run.simulation->run_until(kWarmUp_s);
     }
-    run_for(state, *run.simulation, kMeasured_s);
+    measure(state, *run.simulation, kMeasured_s);
 }
 
-// Queues on all roads, as after a while in a saturated network.
+// Returns a grid with queues on all roads, as in a saturated network.
 Model queued_model(int side) {
     Model model = network_model(grid_scenario(side), 0);
-    model.demand.queued = true;
+    model.demand.starts_queued = true;
     for (DemandPlan::Inlet& inlet : model.demand.inlets) {
         const std::vector<int>& entries = model.graph.entries;
-        if (!std::binary_search(entries.begin(), entries.end(), inlet.lane)) inlet.vehicles = kQueued;
+        if (!std::binary_search(entries.begin(), entries.end(), inlet.lane)) inlet.vehicles = kQueuedVehicles;
     }
     return model;
 }
 
 void large_grid(benchmark::State& state, int side, int threads) {
-    Kept& run = kept(large_grid_name(side, threads));
+    KeptRun& run = kept_run(large_grid_name(side, threads));
     if (!run.model) {
         run.model = std::make_unique<Model>(queued_model(side));
-        const double before = resident_bytes();
+        const double before_bytes = resident_bytes();
         run.simulation = std::make_unique<Simulation>(*run.model, threads);
         run.simulation->run_until(40.0);
-        run.bytes = resident_bytes() - before;
+        run.bytes = resident_bytes() - before_bytes;
     }
-    run_for(state, *run.simulation, kCycle_s);
+    measure(state, *run.simulation, kSignalCycle_s);
     state.counters[kBytesCounter] = run.bytes / run.simulation->state().present();
 }
 
@@ -119,7 +121,7 @@ void add_network_benchmarks() {
     }
     for (const int side : kGridSides) {
         configure(benchmark::RegisterBenchmark(large_grid_name(side, 1).c_str(), large_grid, side, 1));
-        if (side != kSharedSide) continue;
+        if (side != kTwoThreadSide) continue;
         configure(benchmark::RegisterBenchmark(large_grid_name(side, 2).c_str(), large_grid, side, 2));
     }
 }

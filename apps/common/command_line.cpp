@@ -2,32 +2,27 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "base/version.h"
+#include "common/examples.h"
 #include "scenario/load_scenario.h"
-#include "scenario/quantity.h"
-#include "sim/model.h"  // the registry of spacing laws
+#include "scenario/schema/quantity.h"
+#include "sim/state/model.h"  // the registry of spacing laws
 
 namespace stopline {
 
 std::string shell_word(const std::string& text) {
-    constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,+%@";
-    if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
+    constexpr const char* kSafe = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,+%@";
+    if (!text.empty() && text.find_first_not_of(kSafe) == std::string::npos) return text;
     std::string word = "'";
     for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
     return word + "'";
 }
 
 namespace {
-
-std::uint64_t seed_from(const std::string& text) {
-    const ParsedWhole seed = parse_whole(text);
-    if (!seed.problem.empty()) throw CLI::ValidationError("--seed", fmt::format("value '{}' {}", text, seed.problem));
-    return seed.value;
-}
 
 std::string shares_text(const PopulationSettings& population) {
     std::vector<std::string> parts;
@@ -44,54 +39,43 @@ void append_names(std::string& text, const std::string& heading, const std::stri
 
 }  // namespace
 
-void add_version_option(CLI::App& app) {
-    app.get_formatter()->column_width(34);
-    app.set_version_flag("--version", std::string("stopline ") + version(), "Print the version and exit");
+void add_common_options(Options& app, CommonOptions& options, const std::string& output_help) {
+    app.add("--threads", options.threads,
+                   "Number of threads (default: all processors). Results do not depend on it")
+        .range(1, 1024)
+        .type_name("N");
+    app.add("--seed", options.seed, "Seed of all random numbers (default: the scenario's)").type_name("S");
+    app.add("--output", options.output, output_help).type_name("DIR");
 }
 
-void add_common_options(CLI::App& app, CommonOptions& options, const std::string& output_help) {
-    add_version_option(app);
-    app.add_option("--threads", options.threads, "Threads to use (default: all); results do not depend on it")
-        ->check(CLI::Range(1, 1024))
-        ->type_name("N");
-    // As text: CLI11 takes -1 and numbers that are too large for whole numbers.
-    app.add_option_function<std::string>(
-           "--seed", [&options](const std::string& text) { options.seed = seed_from(text); },
-           "Seed of all random numbers, instead of the scenario's")
-        ->type_name("S");
-    app.add_option("--output", options.output, output_help)->type_name("DIR");
+void add_set_option(Options& app, CommonOptions& options) {
+    app.add("--set", options.settings,
+                   runnable("Set a field of the scenario, such as 'signal.green=20 s' (repeatable). "
+                            "stopline-run --describe lists all fields"))
+        .type_name("PATH=VALUE")
+        .one_value_each();
 }
 
-void add_set_option(CLI::App& app, CommonOptions& options) {
-    app.add_option("--set", options.settings, "Set a field of the scenario (repeatable); --describe lists all fields")
-        ->type_name("PATH=VALUE")
-        ->allow_extra_args(false);
-}
-
-std::optional<ExitCode> parse_command_line(CLI::App& app, int argc, const char* const* argv) {
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::Success& success) {
-        app.exit(success);  // prints the help or the version
-        return ExitCode::done;
-    } catch (const CLI::ParseError& error) {
-        fmt::print(stderr, "{}: {}\nTry {} --help\n", app.get_name(), error.what(), app.get_name());
-        return ExitCode::bad_input;
+void print_warnings(const std::vector<std::string>& warnings) {
+    static std::set<std::string> printed;
+    for (const std::string& warning : warnings) {
+        if (printed.insert(warning).second) fmt::print(stderr, "warning: {}\n", warning);
     }
-    return std::nullopt;
 }
 
 Scenario load_with_options(const std::string& file, const CommonOptions& options) {
     std::vector<std::string> settings = options.settings;
     if (options.seed) settings.push_back(fmt::format("seed={}", *options.seed));
-    return load_scenario(file, settings);
+    Scenario scenario = load_scenario(file, settings);
+    print_warnings(scenario.warnings);
+    return scenario;
 }
 
 void set_mesoscale(const char* program, CommonOptions& options) {
     const std::string mesoscale = "fidelity=meso";
     for (const std::string& setting : options.settings) {
         if (!setting.starts_with("fidelity=") || setting == mesoscale) continue;
-        fmt::print(stderr, "{}: '{}' is not used: this program runs the mesoscale mode\n", program, setting);
+        fmt::print(stderr, "{}: '{}' is not used: this program runs the mesoscale mode only\n", program, setting);
     }
     options.settings.push_back(mesoscale);
 }
@@ -105,24 +89,24 @@ std::string command_text(const std::string& program, const std::string& file, co
 }
 
 std::string list_text(const std::string& file, const CommonOptions& options) {
-    const bool given = !file.empty();
-    const Scenario scenario = given ? load_with_options(file, options) : Scenario{};
-    std::string text = given ? fmt::format("Spacing policies that {} can use\n", file)
-                             : "Spacing policies of data/policies/paper.yaml (a scenario can add its own)\n";
-    for (const GapPolicySettings& policy : given ? scenario.policies : load_policies()) {
-        text += fmt::format("  {:<14} {:<18} {:.4g} m at rest, {:.4g} m at 50 km/h\n", policy.name, policy.law,
+    const bool has_file = !file.empty();
+    const Scenario scenario = has_file ? load_with_options(file, options) : Scenario{};
+    std::string text = has_file ? fmt::format("Spacing policies that {} can use\n", file)
+                                : "Spacing policies (data/policies/paper.yaml); a scenario can define more\n";
+    for (const GapPolicySettings& policy : has_file ? scenario.policies : load_policies()) {
+        text += fmt::format("  {:<14} {:<18} net gap {:.4g} m at rest, {:.4g} m at 50 km/h\n", policy.name, policy.law,
                             equilibrium_gap_m(policy, 0.0), equilibrium_gap_m(policy, 50.0 / 3.6));
     }
-    text += "\nSpacing laws, for own policies\n";
+    text += "\nSpacing laws, for policies of your own\n";
     for (const GapLaw& law : gap_laws()) text += fmt::format("  {:<18} {}\n", law.name, law.meaning);
-    if (given) {
-        text += fmt::format("\nPopulations of {}, one run each\n", file);
+    if (has_file) {
+        text += fmt::format("\nPopulations of {}, with one run each\n", file);
         for (const PopulationSettings& population : scenario.populations) {
             text += fmt::format("  {:<14} {}\n", population.name, shares_text(population));
         }
     } else {
-        text +=
-            "\nPopulations: every policy is one by its name; a scenario can mix several (see scenarios/single_light.yaml)\n";
+        text += "\nPopulations: each policy is also the name of a population of its vehicles alone.\n";
+        text += runnable("A scenario can define mixed populations, see scenarios/single_light.yaml\n");
     }
     append_names(text, "Vehicles (data/vehicles)", "vehicles");
     append_names(text, "Drivers (data/drivers)", "drivers");

@@ -1,4 +1,4 @@
-// The command line that all programs share, on top of CLI11.
+// Command-line options that all programs share.
 #pragma once
 
 #include <cstdint>
@@ -7,46 +7,43 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 
-#include "common/program.h"
+#include "common/options.h"
 #include "scenario/scenario.h"
 
 namespace stopline {
 
 struct CommonOptions {
-    int threads = 0;  // 0: all of the machine
+    int threads = 0;  // 0: all processors
     std::optional<std::uint64_t> seed;
     std::string output;
 
-    std::vector<std::string> settings;  // --set, of programs that run a scenario
+    std::vector<std::string> settings;  // values of --set
 };
 
-// --help, --version.
-void add_version_option(CLI::App& app);
+// Adds --threads, --seed and --output.
+void add_common_options(Options& app, CommonOptions& options, const std::string& output_help);
 
-// --help, --version, --threads, --seed, --output.
-void add_common_options(CLI::App& app, CommonOptions& options, const std::string& output_help);
+// Adds --set, which can be repeated.
+void add_set_option(Options& app, CommonOptions& options);
 
-// --set, repeatable.
-void add_set_option(CLI::App& app, CommonOptions& options);
+// Prints each warning once per program run on standard error, with "warning: " before it.
+void print_warnings(const std::vector<std::string>& warnings);
 
-// Parses. The exit code where the program is to end now: after --help and --version, or with a message after wrong usage.
-std::optional<ExitCode> parse_command_line(CLI::App& app, int argc, const char* const* argv);
-
-// The scenario with --set and --seed applied.
+// Loads the scenario, applies --set and --seed, and prints the warnings of loading. Throws InputError.
 Scenario load_with_options(const std::string& file, const CommonOptions& options);
 
-// For programs that run nothing else: says on standard error which --set is not used for that.
+// Adds the setting fidelity=meso. Warns on standard error if --set asks for another fidelity.
 void set_mesoscale(const char* program, CommonOptions& options);
 
-// Quoted as a shell needs it.
+// Returns `text` quoted for a shell.
 std::string shell_word(const std::string& text);
 
-// The command that makes the results again: --threads and --output do not belong to it, since they change nothing in them.
+// Returns the command that reproduces the results. It omits --threads and --output, which do not affect them.
 std::string command_text(const std::string& program, const std::string& file, const CommonOptions& options);
 
-// What can be named in a scenario: policies, laws, vehicles, drivers, streets, and the populations of `file` unless it is empty.
+// Returns the names that a scenario can use: policies, spacing laws, vehicles, drivers and streets.
+// If `file` is not empty, its policies and populations are listed as well.
 std::string list_text(const std::string& file, const CommonOptions& options);
 
 }  // namespace stopline

@@ -10,39 +10,48 @@ namespace stopline {
 std::string intersection_text(const IntersectionReport& report) {
     const Scenario& scenario = report.scenario;
     TextTable table;
-    std::vector<std::string> head{"", "veh/h", "gain %"};
-    for (const double radius_m : scenario.measure.zone_radius_m) head.push_back(fmt::format("s in {:g} m", radius_m));
-    for (const char* const column : {"density %", "present", "veh/green", "saturation veh/h", "lost s", "queue veh"}) {
-        head.emplace_back(column);
+    std::vector<std::string> head{"", "throughput", "gain"};
+    std::vector<std::string> units{"population", "veh/h", "%"};
+    for (const double radius_m : scenario.measure.zone_radius_m) {
+        head.push_back(fmt::format("time in {:g} m", radius_m));
+        units.emplace_back("s");
     }
-    table.row(head);
-    std::int64_t violations = 0;
-    for (const IntersectionFigures& f : report.populations) {
+    head.insert(head.end(), {"density", "vehicles", "per green", "saturation", "lost time", "queue"});
+    units.insert(units.end(), {"%", "veh", "veh", "veh/h", "s", "veh"});
+    table.add_row(head);
+    table.add_row(units);
+    std::int64_t runs_with_violations = 0;
+    for (const IntersectionResult& f : report.populations) {
         const double gain = report.improvement_percent(f);
         std::vector<std::string> row{f.population, fmt::format("{:.0f}", f.throughput_veh_h),
                                      gain == gain ? fmt::format("{:.0f}", gain) : "-"};
-        for (const ZoneFigures& zone : f.zones) row.push_back(fmt::format("{:.1f}", zone.travel_time_s));
-        const bool known = !std::isnan(f.discharge.lost_time_s);  // greens of more than four vehicles
+        for (const ZoneResult& zone : f.zones) row.push_back(fmt::format("{:.1f}", zone.travel_time_s));
+        const bool has_saturation =
+            !std::isnan(f.discharge.startup_lost_time_s);  // needs greens with more than four vehicles
         for (const std::string& cell :
              {fmt::format("{:.1f}", 100.0 * f.occupied), fmt::format("{:.0f}", f.vehicles_present),
               fmt::format("{:.2f}", f.discharge.vehicles_per_green),
-              known ? fmt::format("{:.0f}", f.discharge.saturation_flow_veh_h) : "-",
-              known ? fmt::format("{:.1f}", f.discharge.lost_time_s) : "-", fmt::format("{:.1f}", f.queue_veh)}) {
+              has_saturation ? fmt::format("{:.0f}", f.discharge.saturation_flow_veh_h) : "-",
+              has_saturation ? fmt::format("{:.1f}", f.discharge.startup_lost_time_s) : "-",
+              fmt::format("{:.1f}", f.queue_veh)}) {
             row.push_back(cell);
         }
-        table.row(row);
-        violations += f.violations.none() ? 0 : 1;
+        table.add_row(row);
+        runs_with_violations += f.violations.none() ? 0 : 1;
     }
     const TimeWindow window = measured_window(scenario);
     const std::string notes = fmt::format(
-        "veh/h: fronts that leave the intersection; s in R m: mean time from R before to R behind its centre; density: share\n"
-        "of all road metres; veh/green: a lane and green, those on yellow included; saturation: from the fifth vehicle on;\n"
-        "queue: standing when green begins, mean of the lanes. Measured from {:.0f} to {:.0f} s, {} cycles.\n",
+        "throughput: vehicles that leave the intersection; time in R m: mean travel time from R before its\n"
+        "centre to R behind it; density: share of the lane length that vehicles occupy; vehicles: mean number\n"
+        "on all lanes; per green: vehicles that pass a stop line per lane in one green and its yellow;\n"
+        "saturation: flow from the fifth vehicle of a queue on; lost time: start-up lost time of the first four;\n"
+        "queue: stopped vehicles per lane when its green starts.\n"
+        "Measured from {:.0f} to {:.0f} s ({} cycles).\n",
         window.from_s, window.to_s, report.populations.empty() ? 0 : report.populations[0].discharge.greens);
     const std::string verdict =
-        violations == 0
-            ? "No overlaps on lanes or in conflict areas, no entries on red, no deadlock, no vehicle lost.\n"
-            : fmt::format("VIOLATIONS in {} runs: see summary.csv.\n", violations);
+        runs_with_violations == 0
+            ? "No overlaps on lanes or in conflict areas, no entries on red, no deadlocks, no lost vehicles.\n"
+            : fmt::format("VIOLATIONS in {} runs: summary.csv has the counts of each.\n", runs_with_violations);
     return table.text() + "\n" + notes + "\n" + verdict;
 }
 

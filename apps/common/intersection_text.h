@@ -1,9 +1,9 @@
-// Tables of an intersection's runs for the terminal.
+// Result tables of a single intersection for the terminal.
 #pragma once
 
 #include <string>
 
-#include "experiment/intersection.h"
+#include "runs/intersection/intersection.h"
 
 namespace stopline {
 

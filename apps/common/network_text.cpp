@@ -14,125 +14,158 @@ std::string number(double value, int decimals) {
     return std::isnan(value) ? "-" : fmt::format("{:.{}f}", value, decimals);
 }
 
-std::string share_text(const HindranceLog& log, Cause cause) {
-    double all_s = 0.0;
-    for (std::size_t k = 1; k < kCauseNames.size(); ++k) all_s += log.lost_s[k];
-    const double lost_s = log.lost_s[static_cast<std::size_t>(cause)];
-    return number(all_s > 0.0 ? 100.0 * lost_s / all_s : 0.0, 1);
+// Returns the share of one cause in the delay of all causes, in percent.
+std::string share_text(const DelayLog& log, DelayCause cause) {
+    double total_s = 0.0;
+    for (std::size_t k = 1; k < kDelayCauseNames.size(); ++k) total_s += log.delay_s[k];  // 0 is DelayCause::none
+    const double delay_s = log.delay_s[static_cast<std::size_t>(cause)];
+    return number(total_s > 0.0 ? 100.0 * delay_s / total_s : 0.0, 1);
 }
 
 std::string trips_text(const NetworkReport& report) {
     TextTable table;
-    table.row({"trips", "entered", "arrived", "on the way", "no room to enter", "strayed"});
-    for (const NetworkFigures& f : report.populations) {
-        table.row({f.population, std::to_string(f.entered), std::to_string(f.left_network),
-                   std::to_string(f.entered - f.left_network), std::to_string(f.waiting), std::to_string(f.strayed)});
+    table.add_row({"trips", "entered", "arrived", "en route", "backlog", "missed turns"});
+    for (const NetworkResult& f : report.populations) {
+        table.add_row({f.population, std::to_string(f.entered), std::to_string(f.exited),
+                       std::to_string(f.entered - f.exited), std::to_string(f.backlog),
+                       std::to_string(f.missed_turns)});
     }
-    return "\n" + table.text() + "\nstrayed: at the end of a lane that does not serve their way, and moved on.\n";
+    return "\n" + table.text() +
+           "backlog: vehicles that found no room to enter before the run ended.\n"
+           "missed turns: vehicles that reached the stop line in a wrong lane and were teleported.\n";
 }
 
-std::string waiting_text(const NetworkReport& report) {
+std::string backlog_text(const NetworkReport& report) {
     std::string text;
-    for (const NetworkFigures& f : report.populations) {
-        if (f.waiting == 0) continue;
-        text += fmt::format("{}: {} vehicles have come for which there was no room to enter until the end.\n",
-                            f.population, f.waiting);
+    for (const NetworkResult& f : report.populations) {
+        if (f.backlog == 0) continue;
+        text += fmt::format("{}: a backlog of {} vehicles found no room to enter before the run ended.\n", f.population,
+                            f.backlog);
     }
     return text;
 }
 
-std::string breakdown_text(const NetworkFigures& f) {
+std::string breakdown_text(const NetworkResult& f) {
     const double since_s = f.collapse_s.value_or(0.0);
-    switch (f.breakdown) {
-        case Breakdown::none:
+    switch (f.unstable_by) {
+        case InstabilityCause::none:
             return "";
-        case Breakdown::fall:
-            return fmt::format(", less from {:.0f} s on", since_s);
-        case Breakdown::moved_on:
-            return fmt::format(", 1 % moved on by {:.0f} s", since_s);
-        case Breakdown::gridlock:
+        case InstabilityCause::throughput_drop:
+            return fmt::format(", throughput drops at {:.0f} s", since_s);
+        case InstabilityCause::teleported:
+            return fmt::format(", 1 % teleported by {:.0f} s", since_s);
+        case InstabilityCause::gridlock:
             return fmt::format(", gridlock since {:.0f} s", since_s);
     }
     return "";
 }
 
-// What to mind about figures that are there.
+// Returns warnings about results that need care: unusual travel times, and runs too short to judge stability.
 std::string warnings_text(const NetworkReport& report) {
-    constexpr int kFewest = static_cast<int>(kCollapseNeeds);
+    constexpr int kMinCycles = static_cast<int>(kMinCollapseValues);
     std::string text;
     std::string too_short;
-    for (const NetworkFigures& f : report.populations) {
-        if (leaves_few(f)) {
+    for (const NetworkResult& f : report.populations) {
+        if (is_travel_time_biased(f)) {
             text += fmt::format(
-                "\n{}: travel time is of those that got out; {:.0f} vehicles, of which {:.0f} leave an hour, are in the "
-                "area for {:.0f} s.",
-                f.population, f.steady.vehicles, f.steady.throughput_veh_h(),
-                f.steady.vehicles * 3600.0 / f.steady.throughput_veh_h());
+                "\n{}: the travel time covers only vehicles that left the area. {:.0f} vehicles are in it and {:.0f}\n"
+                "leave per hour, so a vehicle stays {:.0f} s on average.",
+                f.population, f.measured.vehicles, f.measured.throughput_veh_h(),
+                f.measured.vehicles * 3600.0 / f.measured.throughput_veh_h());
         }
-        const bool open = f.stability != Stability::unstable && f.full_cycles < kFewest;
-        if (open) too_short += (too_short.empty() ? "" : ", ") + f.population;
+        const bool undecided = f.stability != Stability::unstable && f.full_cycles < kMinCycles;
+        if (undecided) too_short += (too_short.empty() ? "" : ", ") + f.population;
     }
     if (!too_short.empty()) {
-        text += fmt::format("\nToo short to see whether throughput falls, less than {} cycles since it has filled: {}.",
-                            kFewest, too_short);
+        text += fmt::format(
+            "\nThe run is too short to detect a drop of throughput: fewer than {} signal cycles after the\n"
+            "network filled ({}). Increase 'duration'.",
+            kMinCycles, too_short);
     }
     return text;
 }
 
-std::string sighting_text(const NetworkFigures& f, const std::vector<std::string>& lanes) {
-    const Sighting& seen = f.violations.first;
-    if (seen.time_s < 0.0) return "";
-    const std::string lane = seen.lane < 0 ? "" : fmt::format(" on {}", lanes[static_cast<std::size_t>(seen.lane)]);
-    std::string what = fmt::format("vehicle {} enters on red{}", seen.vehicle, lane);
-    if (seen.kind == Sighting::Kind::overlap)
-        what = fmt::format("vehicle {}{} reaches into vehicle {}", seen.vehicle, lane, seen.other);
-    if (seen.kind == Sighting::Kind::conflict)
-        what = fmt::format("vehicle {}{} is in a conflict area with vehicle {}", seen.vehicle, lane, seen.other);
+std::string first_violation_text(const NetworkResult& f, const std::vector<std::string>& lanes) {
+    const Violation& first = f.violations.first;
+    if (first.time_s < 0.0) return "";
+    const std::string lane = first.lane < 0 ? "" : fmt::format(" on {}", lanes[static_cast<std::size_t>(first.lane)]);
+    std::string what = fmt::format("vehicle {} enters on red{}", first.vehicle, lane);
+    if (first.kind == Violation::Kind::overlap)
+        what = fmt::format("vehicle {}{} overlaps vehicle {}", first.vehicle, lane, first.other);
+    if (first.kind == Violation::Kind::conflict)
+        what = fmt::format("vehicle {}{} is in the same conflict area as vehicle {}", first.vehicle, lane, first.other);
     return fmt::format(
-        "First of {}: at {:.1f} s {}. Look at it: --record FILE, stopline-replay, PAGE#t={:.0f}&vehicle={}\n",
-        f.population, seen.time_s, what, seen.time_s, seen.vehicle);
+        "First violation of {}: at {:.1f} s {}.\n"
+        "To see it: run again with --record FILE, make a page with stopline-replay, open PAGE#t={:.0f}&vehicle={}\n",
+        f.population, first.time_s, what, first.time_s, first.vehicle);
+}
+
+// Returns the table of the traffic in the measured area.
+std::string traffic_text(const NetworkReport& report) {
+    TextTable table;
+    table.add_row({"", "throughput", "gain", "travel time", "time saved", "density", "vehicles", "stability"});
+    table.add_row({"population", "veh/h", "%", "s", "%", "%", "veh", ""});
+    for (const NetworkResult& f : report.populations) {
+        const bool measured = f.measured.window.length_s() > 0.0;
+        table.add_row({f.population, number(f.measured.throughput_veh_h(), 0), number(report.improvement_percent(f), 1),
+                       number(f.measured.travel_time_s, 1), number(report.time_saved_percent(f), 1),
+                       measured ? number(100.0 * f.measured.occupied, 1) : "-",
+                       measured ? number(f.vehicles_present, 0) : "-",
+                       kStabilityNames[static_cast<std::size_t>(f.stability)] + breakdown_text(f)});
+    }
+    return table.text();
+}
+
+// Returns the table of delay causes, gridlocks and uses of the rules.
+std::string congestion_text(const NetworkReport& report) {
+    TextTable table;
+    table.add_row({"", "junction", "turn", "", "", "wrong", "|", "", "", "passed"});
+    table.add_row({"population", "blocking", "blocking", "spillback", "gridlock", "lane", "|", "gridlocks",
+                   "teleported", "blockers"});
+    for (const NetworkResult& f : report.populations) {
+        const DelayLog& log = f.delays;
+        table.add_row({f.population, share_text(log, DelayCause::junction_blocking),
+                       share_text(log, DelayCause::turn_blocking), share_text(log, DelayCause::spillback),
+                       share_text(log, DelayCause::gridlock), share_text(log, DelayCause::wrong_lane), "|",
+                       std::to_string(log.gridlocks.size()), std::to_string(log.teleported),
+                       std::to_string(log.passed_blockers)});
+    }
+    return "Share of the delay by cause [%] | gridlocks and uses of the rules\n" + table.text();
 }
 
 }  // namespace
 
 std::string network_text(const NetworkReport& report) {
-    TextTable table;
-    table.row({"", "veh/h", "gain %", "s", "saved %", "density %", "present", "junction %", "turn %", "spillback %",
-               "gridlock %", "lane %", "gridlocks", "moved on", "passed", "stability"});
-    std::int64_t violations = 0;
-    std::string sightings;
-    for (const NetworkFigures& f : report.populations) {
-        const HindranceLog& log = f.hindrance;
-        std::string stability = kStabilityNames[static_cast<std::size_t>(f.stability)];
-        const bool measured = f.steady.window.length_s() > 0.0;
-        stability += breakdown_text(f);
-        table.row({f.population, number(f.steady.throughput_veh_h(), 0), number(report.improvement_percent(f), 1),
-                   number(f.steady.travel_time_s, 1), number(report.time_saved_percent(f), 1),
-                   measured ? number(100.0 * f.steady.occupied, 1) : "-",
-                   measured ? number(f.vehicles_present, 0) : "-", share_text(log, Cause::junction_blocking),
-                   share_text(log, Cause::turn_blocking), share_text(log, Cause::spillback),
-                   share_text(log, Cause::gridlock), share_text(log, Cause::wrong_lane),
-                   std::to_string(log.gridlocks.size()), std::to_string(log.taken_out),
-                   std::to_string(log.passed_blockers), stability});
-        violations += f.violations.none() ? 0 : 1;
-        sightings += sighting_text(f, report.lanes);
-    }
     const bool sumo = report.scenario.network.is_sumo();
-    const std::string area =
-        sumo ? "Area: the whole network."
-             : fmt::format("Area: up to {:g} m outside the outer stop lines.", report.scenario.measure.outside_m);
-    const std::string notes = fmt::format(
-        "{} veh/h: vehicles that leave it; s: their mean time in it; density: share of\n"
-        "its lanes' metres; junction, turn, spillback, gridlock, lane: share of the time that vehicles stand, by what holds up\n"
-        "their queue (lane: one that waits to change lanes); moved on, passed: uses of the rules. These, gridlocks and\n"
-        "stability are of the whole run, queues outside included.\n{}{}\n",
+    const std::string area = sumo ? "whole network"
+                                  : fmt::format("up to {:g} m upstream and downstream of the outer stop lines",
+                                                report.scenario.measure.area_margin_m);
+    const std::string traffic_notes = fmt::format(
+        "Measured area: {}.\n"
+        "throughput: vehicles that leave the area; gain, time saved: compared with the baseline;\n"
+        "travel time: mean of the vehicles that leave the area; density: share of its lane length that\n"
+        "vehicles occupy; vehicles: mean number in the whole network, queues upstream of the area included;\n"
+        "stability: of the whole run.\n{}{}\n",
         area, window_text(report), warnings_text(report));
+    const std::string congestion_notes =
+        "Both cover the whole run and the whole network. Delay is the time that vehicles are stopped.\n"
+        "The rest of it is due to signals, yielding and queue discharge (summary.csv).\n"
+        "wrong lane: the first vehicle of the queue waits for a gap to change lanes;\n"
+        "passed blockers: vehicles that passed one that blocked the intersection, by rules.pass_blocker_greens.\n";
+    std::int64_t runs_with_violations = 0;
+    std::string first_violations;
+    for (const NetworkResult& f : report.populations) {
+        runs_with_violations += f.violations.none() ? 0 : 1;
+        first_violations += first_violation_text(f, report.lanes);
+    }
     const std::string verdict =
-        violations == 0
-            ? "No overlaps on lanes or in conflict areas but by the rule for blockers, no entries on red, no vehicle "
-              "lost.\n"
-            : fmt::format("VIOLATIONS in {} runs: see summary.csv.\n{}", violations, sightings);
-    return table.text() + "\n" + notes + (sumo ? trips_text(report) : waiting_text(report)) + "\n" + verdict;
+        runs_with_violations == 0
+            ? "No overlaps on lanes or in conflict areas (passed blockers excepted), no entries on red, "
+              "no lost vehicles.\n"
+            : fmt::format("VIOLATIONS in {} runs: summary.csv has the counts of each.\n{}", runs_with_violations,
+                          first_violations);
+    return traffic_text(report) + "\n" + traffic_notes + "\n" + congestion_text(report) + "\n" + congestion_notes +
+           (sumo ? trips_text(report) : backlog_text(report)) + "\n" + verdict;
 }
 
 }  // namespace stopline

@@ -1,12 +1,12 @@
+// Result tables of a network (grid, streets or imported from SUMO) for the terminal.
 #pragma once
 
 #include <string>
 
-#include "experiment/network.h"
+#include "runs/network/network.h"
 
 namespace stopline {
 
-// The table that a user reads after a run of several intersections.
 std::string network_text(const NetworkReport& report);
 
 }  // namespace stopline

@@ -15,52 +15,52 @@ namespace stopline {
 
 namespace {
 
-// A signal handler can reach nothing but a global of this type.
-volatile std::sig_atomic_t interrupt_seen = 0;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+// Globals, because a signal handler can access nothing else.
+volatile std::sig_atomic_t interrupt_received = 0;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+volatile std::sig_atomic_t interrupt_time_s = 0;    // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 
-volatile std::sig_atomic_t interrupt_second = 0;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
-
-std::sig_atomic_t monotonic_second() {
+std::sig_atomic_t monotonic_time_s() {
     timespec now{};
     clock_gettime(CLOCK_MONOTONIC, &now);
     return static_cast<std::sig_atomic_t>(now.tv_sec);
 }
 
-// A second Ctrl-C ends the program at once. Wrappers such as timeout(1) send one interrupt twice, to the program and to its
-// group: what comes within the same or the next second is still the first.
+// The first Ctrl-C asks the program to stop; another one kills it. Wrappers such as timeout(1) send each interrupt
+// twice, so a repetition within two seconds is ignored.
 extern "C" void on_interrupt(int signal) {
-    const std::sig_atomic_t now = monotonic_second();
-    if (interrupt_seen == 0) {
-        interrupt_seen = 1;
-        interrupt_second = now;
-    } else if (now - interrupt_second > 1) {
+    const std::sig_atomic_t now = monotonic_time_s();
+    if (interrupt_received == 0) {
+        interrupt_received = 1;
+        interrupt_time_s = now;
+    } else if (now - interrupt_time_s > 1) {
         std::signal(signal, SIG_DFL);
         std::raise(signal);
     }
 }
 
-ExitCode say_interrupted(const std::string& name) {
-    fmt::print(stderr, "{}: interrupted; no file is half written\n", name);
+ExitCode report_interrupt(const std::string& name) {
+    fmt::print(stderr, "{}: interrupted; all files on disk are complete\n", name);
     return ExitCode::interrupted;
 }
 
-ExitCode guarded(const std::string& name, const std::function<ExitCode()>& body) {
+// Runs `body` and prints exceptions as messages.
+ExitCode run_guarded(const std::string& name, const std::function<ExitCode()>& body) {
     try {
         return body();
     } catch (const InputError& error) {
-        // A child that got the same Ctrl-C has not failed.
-        if (interrupted()) return say_interrupted(name);
+        // Child processes such as gnuplot get the same Ctrl-C. Their failure is not an error of the user.
+        if (interrupted()) return report_interrupt(name);
         fmt::print(stderr, "{}: {}\n", name, error.what());
         return ExitCode::bad_input;
     } catch (const Interrupted&) {
-        return say_interrupted(name);
+        return report_interrupt(name);
     } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "{}: out of memory\n", name);
+        fmt::print(stderr, "{}: out of memory; try fewer threads (--threads) or a shorter run\n", name);
     } catch (const std::system_error& error) {
-        if (std::ferror(stdout) != 0) return ExitCode::bad_input;  // run_program says so
-        fmt::print(stderr, "{}: internal error: {}\n", name, error.what());
+        if (std::ferror(stdout) != 0) return ExitCode::bad_input;  // run_program prints the message
+        fmt::print(stderr, "{}: internal error (a bug in this program): {}\n", name, error.what());
     } catch (const std::exception& error) {
-        fmt::print(stderr, "{}: internal error: {}\n", name, error.what());
+        fmt::print(stderr, "{}: internal error (a bug in this program): {}\n", name, error.what());
     }
     return ExitCode::check_failed;
 }
@@ -69,8 +69,8 @@ ExitCode guarded(const std::string& name, const std::function<ExitCode()>& body)
 
 int run_program(const std::string& name, const std::function<ExitCode()>& body) {
     std::signal(SIGINT, on_interrupt);
-    std::signal(SIGXFSZ, SIG_IGN);  // writing beyond a limit on file sizes shall be an error, not the end
-    const ExitCode code = guarded(name, body);
+    std::signal(SIGXFSZ, SIG_IGN);  // exceeding a file size limit is an error of the write, not a crash
+    const ExitCode code = run_guarded(name, body);
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
         fmt::print(stderr, "{}: cannot write to standard output\n", name);
         if (code == ExitCode::done) return static_cast<int>(ExitCode::bad_input);
@@ -78,8 +78,8 @@ int run_program(const std::string& name, const std::function<ExitCode()>& body) 
     return static_cast<int>(code);
 }
 
-bool interrupted() { return interrupt_seen != 0; }
+bool interrupted() { return interrupt_received != 0; }
 
-int threads_or_all(int threads) { return threads > 0 ? threads : omp_get_max_threads(); }
+int thread_count(int requested) { return requested > 0 ? requested : omp_get_max_threads(); }
 
 }  // namespace stopline

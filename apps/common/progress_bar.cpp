@@ -15,14 +15,14 @@ namespace stopline {
 
 namespace {
 
-constexpr double kSilent_s = 2.0;
-constexpr double kRedraw_s = 0.1;
-constexpr double kPlainLine_s = 10.0;
+constexpr double kQuietTime_s = 2.0;
+constexpr double kRedrawInterval_s = 0.1;
+constexpr double kPlainLineInterval_s = 10.0;
 
 }  // namespace
 
 ProgressBar::ProgressBar(std::string label)
-    : label_(std::move(label)), terminal_(::isatty(STDERR_FILENO) == 1), begin_(Clock::now()), last_shown_(begin_) {}
+    : label_(std::move(label)), is_terminal_(::isatty(STDERR_FILENO) == 1), begin_(Clock::now()), last_shown_(begin_) {}
 
 ProgressBar::~ProgressBar() { clear(); }
 
@@ -33,23 +33,24 @@ void ProgressBar::clear() {
 
 bool ProgressBar::update(double share) { return update(share, label_, std::nullopt); }
 
-bool ProgressBar::update(double share, const std::string& label, std::optional<double> left_s) {
-    constexpr double kMuchLess = 0.5;
+bool ProgressBar::update(double share, const std::string& label, std::optional<double> remaining_s) {
     const Clock::time_point now = Clock::now();
-    if (share < last_share_ - kMuchLess) begin_ = now;  // the next work: what came before says nothing of it
+    // A large drop of the share means that a new task has begun: its remaining time is estimated afresh.
+    constexpr double kNewTaskDrop = 0.5;
+    if (share < last_share_ - kNewTaskDrop) begin_ = now;
     last_share_ = share;
     const double elapsed_s = std::chrono::duration<double>(now - begin_).count();
-    const double since_s = std::chrono::duration<double>(now - last_shown_).count();
-    if (elapsed_s >= kSilent_s && since_s >= (terminal_ ? kRedraw_s : kPlainLine_s)) {
-        const std::string text =
-            left_s ? progress_text_with(label, share, *left_s) : progress_text(label, share, elapsed_s);
-        if (terminal_) {
+    const double since_shown_s = std::chrono::duration<double>(now - last_shown_).count();
+    if (elapsed_s >= kQuietTime_s && since_shown_s >= (is_terminal_ ? kRedrawInterval_s : kPlainLineInterval_s)) {
+        const std::string text = remaining_s ? progress_text_with_remaining(label, share, *remaining_s)
+                                             : progress_text(label, share, elapsed_s);
+        if (is_terminal_) {
             fmt::print(stderr, "\r{}\033[K", text);
             std::fflush(stderr);
         } else {
             fmt::print(stderr, "{}\n", text);
         }
-        on_screen_ = terminal_;
+        on_screen_ = is_terminal_;
         last_shown_ = now;
     }
     return !interrupted();
@@ -57,13 +58,14 @@ bool ProgressBar::update(double share, const std::string& label, std::optional<d
 
 namespace {
 
-std::string bar_text(const std::string& label, double share, const std::string& left) {
-    constexpr int kCells = 30;
+std::string bar_text(const std::string& label, double share, const std::string& remaining) {
+    constexpr int kBarCells = 30;
     const double done = std::clamp(share, 0.0, 1.0);
-    const int filled = static_cast<int>(std::floor(done * kCells));
+    const int filled = static_cast<int>(std::floor(done * kBarCells));
     std::string bar(static_cast<std::size_t>(filled), '#');
-    bar.resize(kCells, '.');
-    return fmt::format("{} [{}] {:3.0f} %{}{}", label, bar, std::floor(100.0 * done), left.empty() ? "" : ", ", left);
+    bar.resize(kBarCells, '.');
+    return fmt::format("{} [{}] {:3.0f} %{}{}", label, bar, std::floor(100.0 * done), remaining.empty() ? "" : ", ",
+                       remaining);
 }
 
 }  // namespace
@@ -73,8 +75,8 @@ std::string progress_text(const std::string& label, double share, double elapsed
     return bar_text(label, share, done > 0.0 ? duration_text(elapsed_s * (1.0 - done) / done) + " left" : "");
 }
 
-std::string progress_text_with(const std::string& label, double share, double left_s) {
-    return bar_text(label, share, duration_text(left_s) + " left");
+std::string progress_text_with_remaining(const std::string& label, double share, double remaining_s) {
+    return bar_text(label, share, duration_text(remaining_s) + " left");
 }
 
 std::string duration_text(double seconds) {

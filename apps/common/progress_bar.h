@@ -1,5 +1,5 @@
-// Progress of long work on one line of standard error: a bar with share and time left, redrawn in place on a terminal; else
-// a plain line every ten seconds. Work of less than two seconds shows nothing.
+// Progress of long work on standard error, with share and remaining time. On a terminal it is one line that is redrawn;
+// otherwise a plain line appears every ten seconds. Work of less than two seconds shows nothing.
 #pragma once
 
 #include <chrono>
@@ -17,29 +17,31 @@ public:
     ProgressBar& operator=(ProgressBar&&) = delete;
     ~ProgressBar();  // clears the line
 
-    // To be called by one thread at a time. False where the user has pressed Ctrl-C, so that it fits on_progress of the runs.
+    // Shows the share done (0..1). Returns false after Ctrl-C, as the on_progress callbacks require.
+    // Only one thread at a time may call it.
     bool update(double share);
-    // The same with another label, and the time left where the caller knows it better than by the share.
-    bool update(double share, const std::string& label, std::optional<double> left_s);
-    void clear();  // the line, for other words; the next update draws it again
+    // The same with another label. `remaining_s` replaces the estimate from the share.
+    bool update(double share, const std::string& label, std::optional<double> remaining_s);
+    // Removes the line so that other text can be printed. The next update draws it again.
+    void clear();
 
 private:
     using Clock = std::chrono::steady_clock;
 
     std::string label_;
-    bool terminal_;
+    bool is_terminal_;
     Clock::time_point begin_;
     Clock::time_point last_shown_;
     double last_share_ = 0.0;
     bool on_screen_ = false;
 };
 
-// "label [#####.....]  42 %, 12 s left"
+// Returns "label [#####.....]  42 %, 12 s left". The remaining time is estimated from share and elapsed time.
 std::string progress_text(const std::string& label, double share, double elapsed_s);
-// The same where the time left is known.
-std::string progress_text_with(const std::string& label, double share, double left_s);
+// Returns the same text for a known remaining time.
+std::string progress_text_with_remaining(const std::string& label, double share, double remaining_s);
 
-// "8 s", "2 min 05 s", "1 h 02 min"
+// Returns "8 s", "2 min 05 s" or "1 h 02 min".
 std::string duration_text(double seconds);
 
 }  // namespace stopline

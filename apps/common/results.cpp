@@ -7,19 +7,21 @@
 
 #include "base/input_error.h"
 #include "common/program.h"
-#include "experiment/program_identity.h"
+#include "runs/program_identity.h"
 
 namespace stopline {
 
-std::string identity_of_program() {
+std::string required_program_identity() {
     const std::optional<std::string> identity = program_identity();
-    if (!identity) throw InputError("cannot read this program's own file, so that stored runs could not be told apart");
+    if (!identity)
+        throw InputError(
+            "this program cannot read its own file, which identifies stored runs; make the file readable (chmod +r)");
     return *identity;
 }
 
-void draw_all(const std::vector<Figure>& figures, const std::filesystem::path& folder) {
+void draw_figures(const std::vector<Figure>& figures, const std::filesystem::path& folder) {
     if (!gnuplot_installed()) {
-        fmt::print("  no figures: gnuplot is not installed (Debian package gnuplot-nox)\n");
+        fmt::print("  no figures: gnuplot is not installed (apt-get install gnuplot-nox)\n");
         return;
     }
     std::exception_ptr first_error;

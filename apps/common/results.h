@@ -1,19 +1,19 @@
-// What programs that keep or draw results share.
+// Helpers of programs that store results or draw figures.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "experiment/gnuplot.h"
+#include "figures/gnuplot.h"
 
 namespace stopline {
 
-// program_identity(), for stores. Throws InputError where the program cannot be read.
-std::string identity_of_program();
+// Returns program_identity(). Throws InputError if the program cannot read its own file.
+std::string required_program_identity();
 
-// Draws them as SVG and PNG, naming each; says so where gnuplot is missing, and why a figure with nothing to draw is left out. One that
-// cannot be drawn costs only itself: the first such error is thrown behind the others. Throws Interrupted.
-void draw_all(const std::vector<Figure>& figures, const std::filesystem::path& folder);
+// Draws the figures as SVG and PNG into `folder` and prints their names. Prints why a figure is left out.
+// A figure that fails does not stop the others: the first error is thrown at the end. Throws Interrupted after Ctrl-C.
+void draw_figures(const std::vector<Figure>& figures, const std::filesystem::path& folder);
 
 }  // namespace stopline

@@ -5,19 +5,19 @@
 
 namespace stopline {
 
-void TextTable::row(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
+void TextTable::add_row(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
 
 std::string TextTable::text(const std::string& indent) const {
     std::vector<std::size_t> widths;
     for (const std::vector<std::string>& cells : rows_) {
         widths.resize(std::max(widths.size(), cells.size()));
-        for (std::size_t k = 0; k < cells.size(); ++k) widths[k] = std::max(widths[k], characters(cells[k]));
+        for (std::size_t k = 0; k < cells.size(); ++k) widths[k] = std::max(widths[k], character_count(cells[k]));
     }
     std::string text;
     for (const std::vector<std::string>& cells : rows_) {
         std::string line = indent;
         for (std::size_t k = 0; k < cells.size(); ++k) {
-            const std::string padding(widths[k] - characters(cells[k]), ' ');
+            const std::string padding(widths[k] - character_count(cells[k]), ' ');
             const bool left = alignment_[std::min(k, alignment_.size() - 1)] == 'l';
             line += (k == 0 ? "" : "  ") + (left ? cells[k] + padding : padding + cells[k]);
         }
@@ -27,14 +27,14 @@ std::string TextTable::text(const std::string& indent) const {
     return text;
 }
 
-std::string wrapped(const std::string& text, std::size_t width, std::size_t indent) {
+std::string wrap_text(const std::string& text, std::size_t width, std::size_t indent) {
     std::string lines;
     std::string line;
     std::size_t begin = 0;
     while (begin < text.size()) {
         const std::size_t end = std::min(text.find(' ', begin), text.size());
         const std::string word = text.substr(begin, end - begin);
-        if (!line.empty() && characters(line) + 1 + characters(word) > width) {
+        if (!line.empty() && character_count(line) + 1 + character_count(word) > width) {
             lines += line + '\n';
             line = std::string(indent, ' ') + word;
         } else {
@@ -45,7 +45,7 @@ std::string wrapped(const std::string& text, std::size_t width, std::size_t inde
     return lines + line + '\n';
 }
 
-std::size_t characters(const std::string& text) {
+std::size_t character_count(const std::string& text) {
     return static_cast<std::size_t>(std::count_if(
         text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }

@@ -1,4 +1,4 @@
-// Aligned columns for the terminal.
+// A table of aligned columns for the terminal, and text wrapped to a width.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@ namespace stopline {
 
 class TextTable {
 public:
-    // One letter a column, l (left) or r (right); columns beyond it are like the last. The default suits a table of numbers.
+    // `alignment` has one letter per column, l (left) or r (right). Its last letter is for all further columns.
     explicit TextTable(std::string alignment = "lr") : alignment_(std::move(alignment)) {}
 
-    void row(std::vector<std::string> cells);
-    // Lines that end in a line break; two spaces between columns, each as wide as its widest cell.
+    void add_row(std::vector<std::string> cells);
+    // Returns one line per row. A column is as wide as its widest cell; two spaces separate columns.
     std::string text(const std::string& indent = "  ") const;
 
 private:
@@ -21,10 +21,11 @@ private:
     std::vector<std::vector<std::string>> rows_;
 };
 
-// Lines of at most `width` characters, broken at spaces, all but the first indented; ends in a line break.
-std::string wrapped(const std::string& text, std::size_t width, std::size_t indent);
+// Returns `text` broken at spaces into lines of at most `width` characters.
+// `indent` spaces begin each line but the first.
+std::string wrap_text(const std::string& text, std::size_t width, std::size_t indent);
 
-// Characters, not bytes, of UTF-8 text.
-std::size_t characters(const std::string& text);
+// Returns the number of characters, not bytes, of UTF-8 text.
+std::size_t character_count(const std::string& text);
 
 }  // namespace stopline

@@ -1,4 +1,5 @@
-# Writes a header with the page's files as string literals: cmake -DFOLDER=... -DOUTPUT=... -P embed.cmake
+# Writes a C++ header that contains the files of the page as string literals.
+# Usage: cmake -DFOLDER=... -DOUTPUT=... -P embed.cmake
 file(GLOB files ${FOLDER}/*)
 set(text "// Made from apps/replay/page by apps/replay/embed.cmake.\n#pragma once\n\n")
 foreach(file ${files})

@@ -1,4 +1,4 @@
-// Bytes as a browser can unpack them from the text of a page: zlib, then base64.
+// Compression in a format that browsers can decompress.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace stopline {
 
-std::string deflated(std::string_view bytes);
-std::string base64(std::string_view bytes);
+// Returns the bytes compressed by zlib.
+std::string compress_zlib(std::string_view bytes);
 
 }  // namespace stopline

@@ -1,4 +1,5 @@
-// A recording as one HTML page that needs nothing else: the files of apps/replay/page with the sections of the recording.
+// Builds one HTML page from a recording. The page contains the files of apps/replay/page and sections of the
+// recording, and needs no network.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +8,7 @@
 #include <limits>
 #include <string>
 
-#include "record/recording_reader.h"
+#include "record/recording/recording_reader.h"
 
 namespace stopline {
 
@@ -19,14 +20,14 @@ struct ReplayWindow {
 struct ReplayPage {
     std::string html;
     std::int64_t frames = 0;
-    double from_s = 0.0;
-    double to_s = 0.0;
-    std::uint32_t most_present = 0;
+    double from_s = 0.0;            // time of the first frame
+    double to_s = 0.0;              // time of the last frame
+    std::uint32_t max_present = 0;  // maximum number of vehicles in the network
 };
 
-// Reads to the end and checks every frame. Whole sections, about a minute each, that have a frame within the window are taken.
-// Throws InputError where the recording is damaged, or the page would be too large for a browser. `on_frames` gets the frames
-// read and returns false to stop: throws Interrupted.
+// Reads the whole recording and checks every frame. The page gets all sections that have a frame within the window.
+// `on_frames` gets the number of frames read and returns false to stop; then the function throws Interrupted. Throws
+// InputError if the recording is damaged or the page would be too large for a browser.
 ReplayPage make_replay_page(RecordingReader& reader, const ReplayWindow& window,
                             const std::function<bool(std::int64_t)>& on_frames);
 

@@ -5,64 +5,68 @@
 #include <fmt/format.h>
 
 #include "base/input_error.h"
+#include "base/io/output.h"
 #include "common/command_line.h"
-#include "experiment/output.h"
-#include "record/recorder.h"
+#include "common/examples.h"
+#include "record/recording/recorder.h"
 #include "record/sumo_files.h"
 #include "record/trajectory_writer.h"
-#include "scenario/quantity.h"
+#include "scenario/schema/quantity.h"
 
 namespace stopline {
 
 namespace {
 
-double seconds_of(const char* option, const std::string& text) {
+double parse_time_s(const char* option, const std::string& text) {
     const ParsedQuantity time = parse_quantity(text, unit("s"));
     if (!time.problem.empty()) throw InputError(fmt::format("{}: value '{}' {}", option, text, time.problem));
-    if (time.si < 0.0) throw InputError(fmt::format("{}: value '{}' is below 0 s", option, text));
+    if (time.si < 0.0) throw InputError(fmt::format("{}: value '{}' is below 0 s; give 0 s or more", option, text));
     return time.si;
 }
 
-// `used`: something is written at this interval; defaults fit not all steps.
-double whole_steps(const char* option, const std::string& text, const Scenario& scenario, bool used) {
-    const double time_s = seconds_of(option, text);
-    if (!used) return time_s;
+// Parses an interval, which must be a whole number of simulation steps. If no file uses the interval (`is_used` false),
+// that is not checked, because the default interval does not fit every step.
+double parse_interval_s(const char* option, const std::string& text, const Scenario& scenario, bool is_used) {
+    const double time_s = parse_time_s(option, text);
+    if (!is_used) return time_s;
     const double steps = time_s / scenario.tick_s();
     if (steps < 0.5 || std::abs(steps - std::round(steps)) > 1e-6) {
-        throw InputError(fmt::format("{}: '{}' is not a whole number of steps of {}", option, text,
-                                     short_text(scenario.tick_s(), unit("ms"))));
+        throw InputError(fmt::format("{}: '{}' is not a whole number of steps of {}; give a multiple of it", option,
+                                     text, short_text(scenario.tick_s(), unit("ms"))));
     }
     return time_s;
 }
 
 RecordingWindow window_of(const RunFilesOptions& options, const Scenario& scenario) {
     RecordingWindow window;
-    const bool frames = !options.record.empty() || !options.fcd.empty();
-    window.interval_s = whole_steps("--record-interval", options.interval, scenario, frames);
-    window.from_s = seconds_of("--record-from", options.from);
-    if (!options.until.empty()) window.until_s = seconds_of("--record-until", options.until);
+    const bool has_frames = !options.record.empty() || !options.fcd.empty();
+    window.interval_s = parse_interval_s("--record-interval", options.interval, scenario, has_frames);
+    window.from_s = parse_time_s("--record-from", options.from);
+    if (!options.until.empty()) window.until_s = parse_time_s("--record-until", options.until);
     if (window.until_s <= window.from_s) {
-        throw InputError(
-            fmt::format("--record-until: '{}' is not after --record-from '{}'", options.until, options.from));
+        throw InputError(fmt::format("--record-until: '{}' is not after --record-from '{}'; give a later time",
+                                     options.until, options.from));
     }
     if (scenario.duration_s > 0.0 && window.from_s > scenario.duration_s) {
-        throw InputError(fmt::format("--record-from: '{}' is after the end of the run: at most duration, {}",
+        throw InputError(fmt::format("--record-from: '{}' is after the end of the run; give at most the duration, {}",
                                      options.from, short_text(scenario.duration_s, unit("s"))));
     }
     return window;
 }
 
-// NAME.ext, or NAME.POPULATION.ext where there are several.
-std::filesystem::path file_of(const std::filesystem::path& file, const Scenario& scenario, std::size_t population) {
+// Returns the path of one population's file: NAME.ext, or NAME.POPULATION.ext if there are several populations.
+std::filesystem::path population_file(const std::filesystem::path& file, const Scenario& scenario,
+                                      std::size_t population) {
     if (scenario.populations.size() == 1) return file;
     const std::string name =
         fmt::format("{}.{}{}", file.stem().string(), scenario.populations[population].name, file.extension().string());
     return file.parent_path() / name;
 }
 
-void check_folder_of(const std::string& file) {
+// Makes the folder of `file` before the runs, so that a wrong path is found at once.
+void prepare_folder_of(const std::string& file) {
     const std::filesystem::path path(file);
-    if (path.filename().empty()) throw InputError(fmt::format("'{}' is not the name of a file", file));
+    if (path.filename().empty()) throw InputError(fmt::format("'{}' is a folder; add the name of a file to it", file));
     prepare_folder(path.has_parent_path() ? path.parent_path() : ".");
 }
 
@@ -72,10 +76,10 @@ public:
                     const Model& model)
         : recorder_(file, window, origin, model) {}
 
-    void look(const State& state) override { recorder_.look(state); }
+    void observe(const State& state) override { recorder_.observe(state); }
     std::string finish() override {
         const RecordingSize size = recorder_.finish();
-        return fmt::format("{} frames, {} vehicle states, {:.2f} MB, {:.2f} bytes a vehicle and frame", size.frames,
+        return fmt::format("{} frames, {} vehicle states, {:.2f} MB, {:.2f} bytes per vehicle and frame", size.frames,
                            size.vehicle_states, static_cast<double>(size.bytes) * 1e-6, size.bytes_per_state());
     }
 
@@ -85,30 +89,30 @@ private:
 
 }  // namespace
 
-void add_run_files_options(CLI::App& app, RunFilesOptions& options) {
+void add_run_files_options(Options& app, RunFilesOptions& options) {
     const auto file = [&](const char* name, std::string& value, const char* help) {
-        app.add_option(name, value, help)->type_name("FILE");
+        app.add(name, value, help).type_name("FILE");
     };
     const auto time = [&](const char* name, std::string& value, const char* help) {
-        app.add_option(name, value, help)->type_name("TIME");
+        app.add(name, value, help).type_name("TIME");
     };
     file(
         "--record", options.record,
-        "Record every vehicle and light, for stopline-replay; with several populations, here and below, one file each: "
+        "Record all vehicles and signals for stopline-replay. Several populations write one file each, here and below: "
         "NAME.POPULATION.EXT");
-    file("--fcd", options.fcd, "Write every vehicle's path as SUMO's floating car data (XML)");
-    time("--record-interval", options.interval, "Time between frames of both (default: 1 s)");
-    time("--record-from", options.from, "Write both from this time on (default: 0 s)");
-    time("--record-until", options.until, "Write both up to this time (default: the end)");
-    file("--tripinfo", options.tripinfo, "Write finished trips as SUMO does (XML)");
-    file("--e1", options.loops, "Write the detectors as SUMO's induction loops (XML)");
-    time("--e1-interval", options.loop_interval, "Time that a row of them is about (default: 60 s)");
+    file("--fcd", options.fcd, "Write the positions of all vehicles as SUMO floating car data (XML)");
+    time("--record-interval", options.interval, "With --record or --fcd: time between frames (default: 1 s)");
+    time("--record-from", options.from, "With --record or --fcd: time of the first frame (default: 0 s)");
+    time("--record-until", options.until, "With --record or --fcd: time of the last frame (default: end of the run)");
+    file("--tripinfo", options.tripinfo, "Write finished trips as SUMO tripinfo (XML)");
+    file("--e1", options.loops, "Write the counts of the detectors as SUMO induction loops (XML)");
+    time("--e1-interval", options.loop_interval, "With --e1: counting interval (default: 60 s)");
 }
 
 RunFiles::RunFiles(const RunFilesOptions& options, const Scenario& scenario, const std::string& command)
-    : scenario_(scenario), window_(window_of(options, scenario)), runs_(scenario.populations.size()) {
-    const auto add = [&](const std::string& file, auto make) {
-        if (!file.empty()) kinds_.push_back({file, make});
+    : scenario_(scenario), window_(window_of(options, scenario)), open_files_(scenario.populations.size()) {
+    const auto add = [&](const std::string& file, auto make_writer) {
+        if (!file.empty()) kinds_.push_back({file, make_writer});
     };
     if (!options.record.empty()) add_recording(options, scenario, command);
     add(options.fcd, [this](const std::filesystem::path& file, std::size_t, const Model& model) {
@@ -117,27 +121,29 @@ RunFiles::RunFiles(const RunFilesOptions& options, const Scenario& scenario, con
     add(options.tripinfo, [](const std::filesystem::path& file, std::size_t, const Model& model) {
         return make_tripinfo_writer(file, model);
     });
-    const double loop_s = whole_steps("--e1-interval", options.loop_interval, scenario, !options.loops.empty());
+    const double loop_s = parse_interval_s("--e1-interval", options.loop_interval, scenario, !options.loops.empty());
     add(options.loops, [loop_s](const std::filesystem::path& file, std::size_t, const Model& model) {
         return make_loop_writer(file, loop_s, model);
     });
     needs_detectors_ = !options.loops.empty();
     RecordingWindow trajectories = window_;
     trajectories.interval_s = options.trajectory_interval_s;
+    const std::string header =
+        result_file("network/trajectories.csv", "", kTrajectoryHeader, options.column_names).text;
     add(options.trajectories,
-        [this, trajectories](const std::filesystem::path& file, std::size_t k, const Model& model) {
-            return make_trajectory_writer(file, trajectories, scenario_.populations[k].name, model);
+        [this, trajectories, header](const std::filesystem::path& file, std::size_t k, const Model& model) {
+            return make_trajectory_writer(file, trajectories, scenario_.populations[k].name, model, header);
         });
-    for (const Kind& kind : kinds_) check_folder_of(kind.file);
+    for (const FileKind& kind : kinds_) prepare_folder_of(kind.path);
 }
 
 void RunFiles::add_recording(const RunFilesOptions& options, const Scenario& scenario, const std::string& command) {
-    std::string again = command + " --record FILE --record-interval " + shell_word(options.interval);
-    if (window_.from_s > 0.0) again += " --record-from " + shell_word(options.from);
-    if (!options.until.empty()) again += " --record-until " + shell_word(options.until);
+    std::string record_command = command + " --record FILE --record-interval " + shell_word(options.interval);
+    if (window_.from_s > 0.0) record_command += " --record-from " + shell_word(options.from);
+    if (!options.until.empty()) record_command += " --record-until " + shell_word(options.until);
     const NetworkSettings& network = scenario.network;
     constexpr double kApproachLaneWidth_m = 3.5;
-    RunOrigin origin{again,
+    RunOrigin origin{record_command,
                      scenario.name,
                      scenario.title,
                      fmt::format("{:016x}", scenario.hash),
@@ -146,13 +152,13 @@ void RunFiles::add_recording(const RunFilesOptions& options, const Scenario& sce
                      network.is_streets()          ? network.streets.lane_width_m
                      : network.has_intersections() ? network.intersection.lane_width_m
                                                    : kApproachLaneWidth_m};
-    const auto make = [this, origin](const std::filesystem::path& file, std::size_t k, const Model& model) {
-        RunOrigin own = origin;
-        own.population = scenario_.populations[k].name;
-        return std::make_unique<RecordingWriter>(file, window_, own, model);
+    const auto make_writer = [this, origin](const std::filesystem::path& file, std::size_t k, const Model& model) {
+        RunOrigin population_origin = origin;
+        population_origin.population = scenario_.populations[k].name;
+        return std::make_unique<RecordingWriter>(file, window_, population_origin, model);
     };
-    kinds_.push_back({options.record, make});
-    records_ = true;
+    kinds_.push_back({options.record, make_writer});
+    has_recording_ = true;
 }
 
 Observation RunFiles::observation() {
@@ -167,26 +173,27 @@ Observation RunFiles::observation() {
 }
 
 void RunFiles::look(std::size_t population, const Simulation& simulation) {
-    std::vector<Writing>& run = runs_[population];
-    if (run.empty()) {
-        for (const Kind& kind : kinds_) {
-            const std::filesystem::path file = file_of(kind.file, scenario_, population);
-            run.push_back({file, kind.make(file, population, simulation.model())});
+    std::vector<OpenFile>& files = open_files_[population];
+    if (files.empty()) {
+        for (const FileKind& kind : kinds_) {
+            const std::filesystem::path path = population_file(kind.path, scenario_, population);
+            files.push_back({path, kind.make_writer(path, population, simulation.model())});
         }
     }
-    for (const Writing& writing : run) writing.writer->look(simulation.state());
+    for (const OpenFile& file : files) file.writer->observe(simulation.state());
 }
 
 std::string RunFiles::finish() {
     if (kinds_.empty()) return "";
-    std::string text = "\nWritten while they ran\n";
-    for (const std::vector<Writing>& run : runs_) {
-        for (const Writing& writing : run) {
-            text += fmt::format("  {}: {}\n", writing.file.string(), writing.writer->finish());
+    std::string text = "\nWritten during the runs\n";
+    for (const std::vector<OpenFile>& files : open_files_) {
+        for (const OpenFile& file : files) {
+            text += fmt::format("  {}: {}\n", file.path.string(), file.writer->finish());
         }
     }
-    if (!records_) return text;
-    return text + fmt::format("See it: stopline-replay {}\n", shell_word(runs_.front().front().file.string()));
+    if (!has_recording_) return text;
+    return text + fmt::format("To see the first run: {} {}\n", program_command("stopline-replay"),
+                              shell_word(open_files_.front().front().path.string()));
 }
 
 }  // namespace stopline

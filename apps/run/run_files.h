@@ -1,5 +1,5 @@
-// What stopline-run writes while the simulation runs, one file a population each: recordings for stopline-replay, tables for SUMO's
-// tools, and trajectories of grids.
+// Files that stopline-run writes while the simulation runs, one per population: recordings for stopline-replay,
+// tables for SUMO's tools, and trajectories of networks.
 #pragma once
 
 #include <cstddef>
@@ -9,60 +9,63 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 
-#include "experiment/observation.h"
-#include "record/frame_clock.h"
+#include "common/options.h"
+#include "record/recording/frame_clock.h"
 #include "record/run_writer.h"
+#include "runs/observation.h"
+#include "runs/tables/column_aliases.h"
 #include "scenario/scenario.h"
 
 namespace stopline {
 
 struct RunFilesOptions {
-    // Files; empty: none.
+    // Paths of the files. An empty path turns a file off.
     std::string record;
     std::string fcd;
     std::string tripinfo;
     std::string loops;
-    std::string trajectories;  // of a grid
+    std::string trajectories;  // only of networks
+    // Times of --record and --fcd.
     std::string interval = "1 s";
     std::string from = "0 s";
-    std::string until;  // empty: to the end
-    std::string loop_interval = "60 s";
+    std::string until;                   // empty: end of the run
+    std::string loop_interval = "60 s";  // of --e1
     double trajectory_interval_s = 0.1;
+    ColumnNames column_names = ColumnNames::current;  // of the trajectories
 };
 
-void add_run_files_options(CLI::App& app, RunFilesOptions& options);
+void add_run_files_options(Options& app, RunFilesOptions& options);
 
 class RunFiles {
 public:
-    // `command` makes the run again. Throws InputError with the option that cannot be used.
+    // `command` reproduces the run. Throws InputError that names the wrong option.
     RunFiles(const RunFilesOptions& options, const Scenario& scenario, const std::string& command);
 
-    // To be given to the runs; refers to this.
+    // Returns the observer to pass to the runs. It must not outlive this object.
     Observation observation();
-    // After the runs: puts all files in their places. What was written, for the user; empty where nothing was asked for.
+    // Completes all files after the runs. Returns a text for the user that lists them; empty if there are none.
     std::string finish();
 
 private:
-    struct Writing {
-        std::filesystem::path file;
+    struct OpenFile {
+        std::filesystem::path path;
         std::unique_ptr<RunWriter> writer;
     };
-    // Of one kind of file: its name, and what writes it for a population.
-    struct Kind {
-        std::string file;
-        std::function<std::unique_ptr<RunWriter>(const std::filesystem::path&, std::size_t, const Model&)> make;
+    struct FileKind {
+        std::string path;  // as the user gave it
+        // Creates the writer of one population's file.
+        std::function<std::unique_ptr<RunWriter>(const std::filesystem::path&, std::size_t, const Model&)> make_writer;
     };
     void add_recording(const RunFilesOptions& options, const Scenario& scenario, const std::string& command);
     void look(std::size_t population, const Simulation& simulation);
 
     const Scenario& scenario_;
     RecordingWindow window_;
-    std::vector<Kind> kinds_;
-    std::vector<std::vector<Writing>> runs_;  // [population]
+    std::vector<FileKind> kinds_;
+    std::vector<std::vector<OpenFile>> open_files_;  // [population][kind]
     bool needs_detectors_ = false;
-    bool records_ = false;
+    bool has_recording_ = false;
 };
 
 }  // namespace stopline

@@ -13,8 +13,8 @@
 #include <fmt/format.h>
 
 #include "base/input_error.h"
-#include "experiment/interrupted.h"
-#include "experiment/program_identity.h"
+#include "runs/interrupted.h"
+#include "runs/program_identity.h"
 
 #ifdef STOPLINE_MPI
 #include <mpi.h>
@@ -26,11 +26,12 @@ namespace stopline {
 
 namespace {
 
-// From a worker: ready, alive (while it runs), done, failed (that run), broken (all of it), bye. From rank 0: run, stop.
+// Message types. A worker sends ready, alive (during a run), done, failed (this run), broken (no run can work) and bye.
+// Rank 0 sends run and stop.
 enum Tag : int { ready, alive, done, failed, broken, bye, run, stop };
 
 using Clock = std::chrono::steady_clock;
-constexpr std::chrono::seconds kAliveEvery{1};
+constexpr std::chrono::seconds kAlivePeriod{1};
 
 struct Message {
     int rank = 0;
@@ -59,14 +60,14 @@ Message receive(int from) {
     return message;
 }
 
-bool is_waiting(int from, int tag) {
-    int waiting = 0;
-    MPI_Iprobe(from, tag, MPI_COMM_WORLD, &waiting, MPI_STATUS_IGNORE);
-    return waiting != 0;
+bool has_message(int from, int tag) {
+    int found = 0;
+    MPI_Iprobe(from, tag, MPI_COMM_WORLD, &found, MPI_STATUS_IGNORE);
+    return found != 0;
 }
 
-// mpirun and srun tell in the environment that a program is one of several. MPI is not started without them: it takes time,
-// and where it is not set up it ends the program.
+// Returns true if mpirun or srun started this program; both set environment variables. Otherwise MPI is not started:
+// starting it takes time, and aborts the program on machines where MPI is not set up.
 bool started_by_launcher() {
     constexpr std::array kVariables{"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "PMI_SIZE"};
     return std::any_of(kVariables.begin(), kVariables.end(), [](const char* name) {
@@ -74,7 +75,7 @@ bool started_by_launcher() {
     });
 }
 
-// Rank 0 while the others work.
+// Rank 0: assigns points to the workers and stores their results.
 class Server {
 public:
     Server(int ranks, const std::vector<std::size_t>& points, RunStore& store, std::function<bool(double)> on_progress,
@@ -89,27 +90,33 @@ public:
 
     SweepSession serve() {
         while (count(State::gone) + count(State::lost) < workers_.size()) {
-            if (is_waiting(MPI_ANY_SOURCE, MPI_ANY_TAG)) {
-                take(receive(MPI_ANY_SOURCE));
+            if (has_message(MPI_ANY_SOURCE, MPI_ANY_TAG)) {
+                handle_message(receive(MPI_ANY_SOURCE));
             } else {
-                // Waiting in MPI would keep a processor busy that a worker could use.
+                // A blocking MPI call would spin on a processor that a worker could use.
                 std::this_thread::sleep_for(std::chrono::milliseconds(1));
                 if (!recorder_.keep_going()) stopping_ = true;
-                look_for_dead();
+                detect_lost_workers();
             }
-            hand_out();
+            assign_points();
         }
         if (error_) std::rethrow_exception(error_);
         if (recorder_.stopped()) throw Interrupted();
         if (!points_left()) return recorder_.session();
-        throw InputError("all ranks that run have died; what they finished is stored, the same command continues");
+        throw InputError("all worker ranks have died; finished runs are stored, repeat the command to continue");
     }
 
     std::size_t lost() const { return count(State::lost); }
 
 private:
-    // waiting: for an answer; busy: with its point; told: to stop; gone: has left; lost: has been silent for too long.
-    enum class State { starting, waiting, busy, told, gone, lost };
+    enum class State {
+        starting,   // nothing received yet
+        waiting,    // expects a point
+        busy,       // runs its point
+        dismissed,  // was sent the stop message
+        gone,       // has said bye
+        lost        // was silent for too long
+    };
     struct Worker {
         State state = State::starting;
         std::size_t point = 0;
@@ -121,14 +128,14 @@ private:
                                                       [&](const Worker& worker) { return worker.state == state; }));
     }
 
-    bool points_left() const { return next_ < points_.size() || !returned_.empty(); }
+    bool points_left() const { return next_ < points_.size() || !reassigned_.empty(); }
 
-    void take(const Message& message) {
+    void handle_message(const Message& message) {
         Worker& worker = workers_[static_cast<std::size_t>(message.rank)];
         worker.last_contact = Clock::now();
         if (message.tag == alive) return;
-        // The run of a rank that was taken for dead has been handed out again.
-        const bool expected = worker.state == State::busy || worker.state == State::told;
+        // A result of a lost worker is ignored: its point has been assigned to another one.
+        const bool expected = worker.state == State::busy || worker.state == State::dismissed;
         worker.state = message.tag == bye ? State::gone : State::waiting;
         if (error_ || !expected || message.tag == ready || message.tag == bye) return;
         try {
@@ -141,19 +148,19 @@ private:
         stopping_ = stopping_ || error_ || recorder_.stopped();
     }
 
-    // Answers who waits. A worker without work stays for as long as others run: one of them may die.
-    void hand_out() {
+    // Answers the waiting workers. Idle workers stay while others are busy, because a busy one may die.
+    void assign_points() {
         const bool finished = !points_left() && count(State::busy) == 0;
         for (std::size_t rank = 1; rank < workers_.size(); ++rank) {
             Worker& worker = workers_[rank];
             const bool stops = stopping_ ? worker.state == State::waiting || worker.state == State::busy
                                          : finished && worker.state == State::waiting;
             if (stops) {
-                worker.state = State::told;
+                worker.state = State::dismissed;
                 send(static_cast<int>(rank), stop);
             } else if (!stopping_ && worker.state == State::waiting && points_left()) {
                 worker.state = State::busy;
-                worker.point = take_point();
+                worker.point = next_point();
                 send(static_cast<int>(rank), run, worker.point);
             } else {
                 continue;
@@ -162,19 +169,20 @@ private:
         }
     }
 
-    std::size_t take_point() {
-        if (returned_.empty()) return points_[next_++];
-        const std::size_t point = returned_.back();
-        returned_.pop_back();
+    std::size_t next_point() {
+        if (reassigned_.empty()) return points_[next_++];
+        const std::size_t point = reassigned_.back();
+        reassigned_.pop_back();
         return point;
     }
 
-    void look_for_dead() {
+    void detect_lost_workers() {
         const Clock::time_point now = Clock::now();
         for (Worker& worker : workers_) {
-            if (worker.state != State::starting && worker.state != State::busy && worker.state != State::told) continue;
+            if (worker.state != State::starting && worker.state != State::busy && worker.state != State::dismissed)
+                continue;
             if (std::chrono::duration<double>(now - worker.last_contact).count() < silence_max_s_) continue;
-            if (worker.state == State::busy) returned_.push_back(worker.point);
+            if (worker.state == State::busy) reassigned_.push_back(worker.point);
             worker.state = State::lost;
         }
     }
@@ -182,23 +190,23 @@ private:
     const std::vector<std::size_t>& points_;
     SweepRecorder recorder_;
     double silence_max_s_;
-    std::vector<Worker> workers_;        // [rank]
-    std::size_t next_ = 0;               // of points_
-    std::vector<std::size_t> returned_;  // points of ranks that were lost
+    std::vector<Worker> workers_;          // [rank]
+    std::size_t next_ = 0;                 // index into points_
+    std::vector<std::size_t> reassigned_;  // points of lost workers
     bool stopping_ = false;
     std::exception_ptr error_;
 };
 
-// What a worker's run calls now and then: tells rank 0 that the worker lives, and whether to go on.
+// Called regularly during a worker's run. Sends sign-of-life messages to rank 0 and checks for its stop message.
 class Heartbeat {
 public:
     bool keep_going() {
         const Clock::time_point now = Clock::now();
-        if (now - last_ >= kAliveEvery) {
+        if (now - last_ >= kAlivePeriod) {
             send(0, alive);
             last_ = now;
         }
-        return !is_waiting(0, stop);
+        return !has_message(0, stop);
     }
 
 private:
@@ -220,7 +228,7 @@ Ranks::~Ranks() {
     if (started_) MPI_Finalize();
 }
 
-bool Ranks::agree(const std::string& key) const {
+bool Ranks::agree_on(const std::string& key) const {
     if (count_ == 1) return !key.empty();
     const std::uint64_t own = key.empty() ? 0 : hash_of(key);
     std::vector<std::uint64_t> all(static_cast<std::size_t>(count_));
@@ -228,9 +236,9 @@ bool Ranks::agree(const std::string& key) const {
     const auto other = std::find_if(all.begin(), all.end(), [&](std::uint64_t hash) { return hash != all.front(); });
     if (other == all.end() || all.front() == 0) return own != 0 && all.front() != 0;
     if (rank_ != 0) return false;
-    throw InputError(
-        fmt::format("rank {} sees another sweep or program than rank 0, or none: are the files the same there?",
-                    other - all.begin()));
+    throw InputError(fmt::format(
+        "rank {} has another sweep or program than rank 0, or cannot read it; make the files the same on all machines",
+        other - all.begin()));
 }
 
 SweepSession Ranks::serve(const std::vector<std::size_t>& points, RunStore& store,
@@ -257,7 +265,7 @@ void Ranks::work(const Sweep& sweep) const {
     for (Message message = receive(0); message.tag == run; message = receive(0)) {
         try {
             const PointResult result = runner.run(message.point, [&heartbeat] { return heartbeat.keep_going(); });
-            if (result.state == PointResult::State::interrupted) continue;  // rank 0's stop is what comes next
+            if (result.state == PointResult::State::interrupted) continue;  // the next message is the stop of rank 0
             send(0, result.state == PointResult::State::done ? done : failed, message.point, result.text);
         } catch (const std::exception& error) {
             send(0, broken, message.point, error.what());
@@ -271,11 +279,11 @@ void Ranks::work(const Sweep& sweep) const {
 Ranks::Ranks() = default;
 Ranks::~Ranks() = default;
 
-bool Ranks::agree(const std::string& key) const { return !key.empty(); }
+bool Ranks::agree_on(const std::string& key) const { return !key.empty(); }
 
 SweepSession Ranks::serve(const std::vector<std::size_t>& /*points*/, RunStore& /*store*/,
                           const std::function<bool(double)>& /*on_progress*/, double /*silence_max_s*/) {
-    throw std::logic_error("one rank has nobody to serve");
+    throw std::logic_error("a single rank has no workers");
 }
 
 void Ranks::work(const Sweep& /*sweep*/) const {}

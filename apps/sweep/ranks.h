@@ -1,9 +1,9 @@
-// A sweep over the ranks of `mpirun -n R stopline-sweep FILE`: rank 0 owns the store and hands out points one at a time, the
-// others run them. In a build without MPI, and in a program that mpirun has not started, there is one rank.
+// A sweep over the ranks of `mpirun -n R stopline-sweep FILE`. Rank 0 owns the store and assigns points one at a time;
+// the other ranks, the workers, run them. Without MPI or mpirun there is one rank.
 //
-// Rank 0 computes nothing: it would answer late, and the others would wait. Where a rank dies, plain mpirun ends the job; all
-// finished runs are in the store, and the same command continues. Under `mpirun --enable-recovery` the others go on: a rank
-// that has been silent for too long counts as dead, and its run is handed out again.
+// Rank 0 runs no point itself, because workers would have to wait for its answers. If a worker dies, plain mpirun ends
+// the job; finished runs are stored and the same command continues. Under `mpirun --enable-recovery` the other workers
+// go on: a worker that is silent for too long counts as dead, and its point is assigned again.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "experiment/sweep_run.h"
+#include "sweeps/sweep_run.h"
 
 namespace stopline {
 
@@ -27,18 +27,19 @@ public:
     int rank() const { return rank_; }
     int count() const { return count_; }
 
-    // All ranks say what they are about to run ("": nothing, an error). True where all agree; rank 0 throws InputError where
-    // it is another that does not.
-    bool agree(const std::string& key) const;
+    // Compares `key` over all ranks. An empty key means that this rank has met an error. Returns true if all keys are
+    // equal and not empty. Otherwise rank 0 throws InputError, unless its own key is empty.
+    bool agree_on(const std::string& key) const;
 
-    // Rank 0: as run_points, by the other ranks.
+    // On rank 0: does what run_points does, through the workers.
     SweepSession serve(const std::vector<std::size_t>& points, RunStore& store,
                        const std::function<bool(double)>& on_progress, double silence_max_s);
-    // The other ranks: runs what rank 0 hands out, until it has no more.
+    // On a worker: runs the points that rank 0 assigns, until its stop message.
     void work(const Sweep& sweep) const;
 
-    // Ranks that have died. MPI cannot end in order without them: to be called last, with the exit code of the program.
+    // Returns the number of workers that have died.
     int lost() const { return lost_; }
+    // Ends the program if workers have died, because MPI cannot shut down in order without them. Call it last.
     void leave(int exit_code) const;
 
 private:

@@ -1,4 +1,4 @@
-// The one exception type for bad input: what the user wrote cannot be used. Programs catch it, print it and exit with 2.
+// The exception for unusable user input. Programs catch it, print its message and exit with status 2.
 #pragma once
 
 #include <stdexcept>

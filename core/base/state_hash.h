@@ -1,4 +1,4 @@
-// A 64-bit hash over the bits of a simulation's state. Two runs that agree to the last bit have equal hashes.
+// A 64-bit hash over the bits of a simulation's state. Two runs with identical states have equal hashes.
 #pragma once
 
 #include <bit>
@@ -18,7 +18,7 @@ public:
     std::uint64_t value() const { return value_; }
 
 private:
-    std::uint64_t value_ = 0x5354'4f50'4c49'4e45ULL;
+    std::uint64_t value_ = 0x5354'4f50'4c49'4e45ULL;  // "STOPLINE" in ASCII
 };
 
 }  // namespace stopline

@@ -1,5 +1,5 @@
-// Unit conversions. Inside Stopline every quantity is in SI units; other units exist only at the boundary
-// (scenario files, tables, figures) and are converted once, here.
+// Unit conversions and physical constants. Inside Stopline every quantity is in SI units. Scenario files, tables and
+// figures also use other units, which are converted once, on reading or writing.
 #pragma once
 
 namespace stopline {

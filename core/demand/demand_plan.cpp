@@ -12,7 +12,7 @@ namespace stopline {
 
 namespace {
 
-// Index of the component that a number in [0, 1) falls into.
+// Returns the index of the component that a number in [0, 1) falls into.
 std::size_t pick(std::span<const double> shares, double number) {
     std::size_t k = 0;
     double upper = shares[0];
@@ -20,23 +20,24 @@ std::size_t pick(std::span<const double> shares, double number) {
     return k;
 }
 
-// The component that is furthest behind its share after k vehicles: shares hold in every stretch of the sequence, and equal
-// shares alternate, the first component first.
-std::size_t next_behind(std::span<const double> shares, std::int64_t n, std::vector<double>& given) {
+// Returns the component that is furthest behind its share after n vehicles, and counts it in `drawn`. The shares then
+// hold in every part of the sequence. Equal shares alternate, beginning with the first component.
+std::size_t draw_most_behind(std::span<const double> shares, std::int64_t n, std::vector<double>& drawn) {
     std::size_t chosen = 0;
     for (std::size_t c = 1; c < shares.size(); ++c) {
-        const double behind = shares[c] * static_cast<double>(n + 1) - given[c];
-        const double best = shares[chosen] * static_cast<double>(n + 1) - given[chosen];
-        if (behind > best + 1e-9) chosen = c;
+        const double behind = shares[c] * static_cast<double>(n + 1) - drawn[c];
+        const double most_behind = shares[chosen] * static_cast<double>(n + 1) - drawn[chosen];
+        if (behind > most_behind + 1e-9) chosen = c;
     }
-    given[chosen] += 1.0;
+    drawn[chosen] += 1.0;
     return chosen;
 }
 
-std::size_t most_behind(std::span<const double> shares, std::int64_t k) {
-    std::vector<double> given(shares.size(), 0.0);
+// Returns the component of the k-th vehicle in the alternating pattern.
+std::size_t alternating_component(std::span<const double> shares, std::int64_t k) {
+    std::vector<double> drawn(shares.size(), 0.0);
     std::size_t chosen = 0;
-    for (std::int64_t n = 0; n <= k; ++n) chosen = next_behind(shares, n, given);
+    for (std::int64_t n = 0; n <= k; ++n) chosen = draw_most_behind(shares, n, drawn);
     return chosen;
 }
 
@@ -44,8 +45,8 @@ std::uint64_t vehicle_key(int inlet, std::int64_t k) {
     return (static_cast<std::uint64_t>(inlet) << 40) + static_cast<std::uint64_t>(k);
 }
 
-// A number in [0, 1) for the k-th vehicle of an inlet. Of every 20 vehicles in a row one falls into each twentieth, in random
-// order: shares hold in short runs too, with the randomness that shares of a twentieth leave.
+// Returns a number in [0, 1) for the k-th vehicle of an inlet. In each block of 20 vehicles one number falls into each
+// twentieth of the interval, in random order. The shares therefore also hold in short runs, to within a twentieth.
 double balanced_number(std::uint64_t seed, int inlet, std::int64_t k, Purpose purpose) {
     constexpr std::int64_t kBlock = 20;
     const std::int64_t first = k / kBlock * kBlock;
@@ -55,15 +56,15 @@ double balanced_number(std::uint64_t seed, int inlet, std::int64_t k, Purpose pu
         const std::uint64_t bits = random_bits(seed, vehicle_key(inlet, other), 1, purpose);
         rank += bits < own || (bits == own && other < k) ? 1 : 0;
     }
-    const double within = random_uniform(seed, vehicle_key(inlet, first), 2, purpose);
-    return (rank + within) / static_cast<double>(kBlock);
+    const double fraction = random_uniform(seed, vehicle_key(inlet, first), 2, purpose);
+    return (rank + fraction) / static_cast<double>(kBlock);
 }
 
-// Index of the component that the k-th vehicle of an inlet gets.
+// Returns the index of the component of the k-th vehicle of an inlet.
 std::size_t draw(DemandPlan::Pattern pattern, std::span<const double> shares, std::uint64_t seed, int inlet,
                  std::int64_t k, Purpose purpose) {
     using Pattern = DemandPlan::Pattern;
-    if (pattern == Pattern::alternating) return most_behind(shares, k);
+    if (pattern == Pattern::alternating) return alternating_component(shares, k);
     if (pattern == Pattern::balanced) return pick(shares, balanced_number(seed, inlet, k, purpose));
     return pick(shares, random_uniform(seed, vehicle_key(inlet, k), 0, purpose));
 }
@@ -72,16 +73,16 @@ std::size_t draw(DemandPlan::Pattern pattern, std::span<const double> shares, st
 
 void DemandPlan::draw_trip_policies() {
     trip_policies.clear();
-    std::unordered_map<int, std::int64_t> entered;  // by approach
-    std::unordered_map<int, std::vector<double>> given;
+    std::unordered_map<int, std::int64_t> drawn_trips;  // by approach
+    std::unordered_map<int, std::vector<double>> drawn_components;
     for (const Trip& trip : trips) {
-        const std::int64_t k = entered[trip.approach]++;
+        const std::int64_t k = drawn_trips[trip.approach]++;
         if (pattern != Pattern::alternating || policies.size() == 1) {
             trip_policies.push_back(policy_of(trip.approach, k));
             continue;
         }
-        std::vector<double>& so_far = given.try_emplace(trip.approach, policies.size(), 0.0).first->second;
-        const std::size_t chosen = next_behind(policy_shares, k, so_far);
+        std::vector<double>& drawn = drawn_components.try_emplace(trip.approach, policies.size(), 0.0).first->second;
+        const std::size_t chosen = draw_most_behind(policy_shares, k, drawn);
         trip_policies.push_back(policies[chosen]);
     }
 }
@@ -97,28 +98,28 @@ int DemandPlan::route_of(int inlet, std::int64_t k) const {
     return in.routes[draw(route_pattern, in.shares, seed, inlet, k, Purpose::turn)];
 }
 
-int DemandPlan::route_on_lane(int inlet, std::int64_t k) const {
+int DemandPlan::route_for_chosen_lane(int inlet, std::int64_t k) const {
     const Inlet& in = inlets[static_cast<std::size_t>(inlet)];
     if (in.lane_shares.empty()) return route_of(inlet, k);
     return in.routes[draw(route_pattern, in.lane_shares, seed, inlet, k, Purpose::turn)];
 }
 
-int DemandPlan::route_that_is_due(int inlet, std::int64_t k, std::span<const std::int64_t> drawn, std::int64_t all,
-                                  bool chose_lane) const {
+int DemandPlan::balancing_route(int inlet, std::int64_t k, std::span<const std::int64_t> drawn_per_route,
+                                std::int64_t total_drawn, bool chose_lane) const {
     const Inlet& in = inlets[static_cast<std::size_t>(inlet)];
     const std::vector<double>& own = chose_lane && !in.lane_shares.empty() ? in.lane_shares : in.shares;
-    std::array<double, kMostTurns> due{};
-    const std::span<double> shares(due.data(), own.size());
-    std::copy(own.begin(), own.end(), shares.begin());
+    std::array<double, kMaxTurns> storage{};
+    const std::span<double> weights(storage.data(), own.size());
+    std::copy(own.begin(), own.end(), weights.begin());
     double sum = 0.0;
-    for (std::size_t c = 0; c < shares.size(); ++c) {
-        const double behind =
-            (in.approach_shares[c] * static_cast<double>(all) - static_cast<double>(drawn[c])) / kPatience;
-        shares[c] = behind >= 0.0 ? shares[c] * (1.0 + behind) : shares[c] / (1.0 - behind);
-        sum += shares[c];
+    for (std::size_t c = 0; c < weights.size(); ++c) {
+        const double expected = in.approach_shares[c] * static_cast<double>(total_drawn);
+        const double behind = (expected - static_cast<double>(drawn_per_route[c])) / kBalanceVehicles;
+        weights[c] = behind >= 0.0 ? weights[c] * (1.0 + behind) : weights[c] / (1.0 - behind);
+        sum += weights[c];
     }
-    for (double& share : shares) share /= sum;
-    return in.routes[draw(route_pattern, shares, seed, inlet, k, Purpose::turn)];
+    for (double& weight : weights) weight /= sum;
+    return in.routes[draw(route_pattern, weights, seed, inlet, k, Purpose::turn)];
 }
 
 }  // namespace stopline

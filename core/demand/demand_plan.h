@@ -1,5 +1,5 @@
-// Who enters where: for each entry lane how many vehicles, and for each of them its policy, vehicle type and route. Drawn
-// from keyed random numbers, so that different policies meet the same sequence.
+// The plan of the traffic: the vehicles that enter on each lane, with their spacing policies and routes. All draws use
+// keyed random numbers, so runs with different spacing policies have the same sequence of routes.
 #pragma once
 
 #include <cstdint>
@@ -13,87 +13,101 @@
 
 namespace stopline {
 
-// A vehicle that enters at a time of its own and follows a way of its own. Cold data.
+// A vehicle of an imported network, with its own departure time and path. The departure settings are those of SUMO.
 struct Trip {
     double depart_s = 0.0;
-    int approach = -1;   // where it enters: on the lanes of this approach
-    int first_turn = 0;  // in DemandPlan::trip_turns
-    int turns = 0;       // of the trip, one at the end of each of its edges but for the last
+    int approach = -1;   // the vehicle enters on the lanes of this approach
+    int first_turn = 0;  // index of its first turn in DemandPlan::trip_turns
+    int turn_count = 0;  // one turn at the end of each edge except the last
     float length_m = 0.0F;
-    enum class Where : std::uint8_t { lane, rightmost, free, random, best } where = Where::rightmost;
-    enum class Fast : std::uint8_t { given, limit, as_last, random } fast = Fast::given;
-    // base: its rear at the start of the lane; last: as near behind the last vehicle as its gap allows; random: drawn once;
-    // free: drawn until there is room.
-    enum class Along : std::uint8_t { base, given, last, random, free } along = Along::base;
-    int lane = 0;            // where that is given, counted from the left
-    float speed_mps = 0.0F;  // where that is given
-    float front_m = 0.0F;    // where that is given, from the start of the lane
+    enum class DepartLane : std::uint8_t { given, rightmost, free, random, best };
+    enum class DepartSpeed : std::uint8_t { given, limit, last, random };  // last: speed of the vehicle ahead
+    // base: the rear is at the start of the lane. last: as close behind the last vehicle as the desired gap allows.
+    // random: drawn once. free: drawn again until there is room.
+    enum class DepartPosition : std::uint8_t { base, given, last, random, free };
+    DepartLane depart_lane = DepartLane::rightmost;
+    DepartSpeed depart_speed = DepartSpeed::given;
+    DepartPosition depart_position = DepartPosition::base;
+    int lane = 0;            // for DepartLane::given: counted from the left
+    float speed_mps = 0.0F;  // for DepartSpeed::given
+    float front_m = 0.0F;    // for DepartPosition::given: front position from the start of the lane
 };
 
 struct DemandPlan {
-    // A lane where vehicles get a route: an entry, or a link between intersections, where they get their next.
+    // A lane where vehicles get a route. On an entry lane they enter the network; on a link lane they get their next
+    // route.
     struct Inlet {
         int lane = 0;
-        std::int64_t vehicles = 0;   // that enter the network here in all; mostly 0 on links
-        std::vector<int> routes;     // candidate routes, and ...
-        std::vector<double> shares;  // ... their shares, summing to 1
-        // The same of vehicles that chose the lane for where they go: such that all lanes of the approach are as full; empty: as `shares`.
+        std::int64_t vehicles = 0;   // number of vehicles that enter the network here; usually 0 on links
+        std::vector<int> routes;     // candidate routes
+        std::vector<double> shares;  // [index in routes] shares, which sum to 1
+        // The shares for a vehicle that chose this lane to suit its turn. They load all lanes of the approach equally.
+        // Empty: use `shares`.
         std::vector<double> lane_shares = {};
-        // Those of the approach as a whole, for the same routes, which hold whatever its lanes let through; empty: not asked for.
+        // The shares over all lanes of the approach. The draws keep to them even if some lanes discharge more vehicles
+        // than others. Empty: no such correction.
         std::vector<double> approach_shares = {};
-        double headway_s = 0.0;  // vehicles arrive evenly here, though all other inlets are saturated; 0: as the others
+        double headway_s = 0.0;  // > 0: vehicles arrive here at this constant headway although the demand is saturated
     };
     std::vector<Inlet> inlets;  // entries, then links
     double entry_speed_mps = 0.0;
-    double entry_headway_s = 2.0;  // at least, between two fronts at the entry; on average, ...
-    bool evenly = false;           // ... where vehicles arrive evenly and wait outside while there is no room
-    // Inlets never run dry: each vehicle enters as part of an endless platoon, in the gap of its policy and with the speed of
-    // the vehicle ahead.
+    double entry_headway_s = 2.0;  // minimum headway at an entry; with evenly_spaced: headway of the arrivals
+    bool evenly_spaced = false;    // vehicles arrive at a constant headway and form a backlog if there is no room
+    // The backlog of every inlet is endless. A vehicle enters at the gap of its policy behind the vehicle ahead, with
+    // the speed of that vehicle, as part of an endless platoon.
     bool saturated = false;
     bool is_saturated(int inlet) const { return saturated && inlets[static_cast<std::size_t>(inlet)].headway_s == 0.0; }
-    bool is_even(int inlet) const { return evenly || inlets[static_cast<std::size_t>(inlet)].headway_s > 0.0; }
-    double headway_at(int inlet) const {
+    bool is_evenly_spaced(int inlet) const {
+        return evenly_spaced || inlets[static_cast<std::size_t>(inlet)].headway_s > 0.0;
+    }
+    double inlet_headway_s(int inlet) const {
         const double own_s = inlets[static_cast<std::size_t>(inlet)].headway_s;
         return own_s > 0.0 ? own_s : entry_headway_s;
     }
-    bool queued = false;  // a queue stands from the stop line to the entry when the run begins
+    bool starts_queued = false;  // the run begins with a queue from every stop line back to the entry
 
-    // Policy of the k-th vehicle of an inlet: component shares, and how they are arranged.
+    // The order of the drawn components. balanced: the shares hold in each block of 20 vehicles of an inlet.
     enum class Pattern { alternating, random, balanced };
     Pattern pattern = Pattern::alternating;
-    std::vector<int> policies;
-    std::vector<double> policy_shares;
+    std::vector<int> policies;          // [component] index of its spacing policy
+    std::vector<double> policy_shares;  // [component] share; the shares sum to 1
     Pattern route_pattern = Pattern::random;
     std::uint64_t seed = 1;
-    std::vector<Trip> trips;                                     // by time of departure, then in the order of the input
-    std::vector<Turn> trip_turns;                                // of all trips, one after the other
-    std::shared_ptr<const std::vector<std::string>> trip_names;  // [trip]; null: they have none
-    std::vector<int> trip_policies;                              // [trip]
-    double shortest_trip_m = 1e9;                                // of their vehicles
+    std::vector<Trip> trips;                                     // by departure time, then in the order of the input
+    std::vector<Turn> trip_turns;                                // turns of all trips, one trip after the other
+    std::shared_ptr<const std::vector<std::string>> trip_names;  // [trip]; null: no names
+    std::vector<int> trip_policies;                              // [trip] spacing policy
+    double shortest_trip_m = 1e9;                                // length of the shortest vehicle of all trips
 
-    // At the end of the leg-th edge of a trip; none: it ends there.
-    Turn turn_of_trip(int trip, int leg) const {
+    // Returns the turn at the end of an edge of a trip, or Turn::none on its last edge. Edges are counted from 0.
+    Turn turn_of_trip(int trip, int edge) const {
         const Trip& own = trips[static_cast<std::size_t>(trip)];
-        return leg < own.turns ? trip_turns[static_cast<std::size_t>(own.first_turn + leg)] : Turn::none;
+        return edge < own.turn_count ? trip_turns[static_cast<std::size_t>(own.first_turn + edge)] : Turn::none;
     }
-    // Draws the policies of all trips: those that enter at one approach are counted as an inlet's.
+    // Draws the policies of all trips. The trips that enter at one approach are drawn like the vehicles of one inlet.
     void draw_trip_policies();
 
-    // The k-th vehicle (from 0) of inlet `i`.
+    // Returns the spacing policy of the k-th vehicle of an inlet, counted from 0.
     int policy_of(int inlet, std::int64_t k) const;
+    // Returns the route of the k-th vehicle of an inlet, drawn from `shares`.
     int route_of(int inlet, std::int64_t k) const;
-    // The same for one that chose its lane.
-    int route_on_lane(int inlet, std::int64_t k) const;
-    // The same where approach_shares are asked for: `drawn` [route] is how often each turn was drawn before, `all` how often any, on all lanes of the approach. Shares are
-    // multiplied by 1 + d / kPatience for a route that is d vehicles behind its share, and divided likewise for one ahead.
-    static constexpr double kPatience = 4.0;
-    int route_that_is_due(int inlet, std::int64_t k, std::span<const std::int64_t> drawn, std::int64_t all,
-                          bool chose_lane) const;
+    // Returns the route of the k-th vehicle of an inlet, drawn from `lane_shares`.
+    int route_for_chosen_lane(int inlet, std::int64_t k) const;
+    // Returns the route of the k-th vehicle of an inlet that has approach_shares. The weights of the routes begin with
+    // lane_shares if the vehicle chose its lane, else with shares. A route that is d vehicles behind its share gets its
+    // weight multiplied by 1 + d / kBalanceVehicles. For a route that is ahead, the weight is divided likewise.
+    // `drawn_per_route` counts the earlier draws of each route's turn on all lanes of the approach, and `total_drawn`
+    // counts those of all turns.
+    static constexpr double kBalanceVehicles = 4.0;
+    int balancing_route(int inlet, std::int64_t k, std::span<const std::int64_t> drawn_per_route,
+                        std::int64_t total_drawn, bool chose_lane) const;
 };
 
-// Of all entries of streets, then of all links, with routes and shares, and no vehicle. Vehicles that enter the network turn from a lane
-// as turns_by_lane() says; what a pocket allows counts for the lane beside it. On links they turn as those of the approach as a whole.
-// A route begins on the inlet's own lane where that allows the turn, else on the nearest one of the approach that does.
+// Returns the inlets of streets: all entries, then all links. They have routes and shares, but no vehicles yet.
+//
+// On an entry lane the shares are those of turns_by_lane(), where the movements of a pocket count for the lane beside
+// it. On a link lane they are those of the approach. A route begins on the inlet's lane if that allows the turn, else
+// on the nearest lane of the approach that does.
 std::vector<DemandPlan::Inlet> street_inlets(const LaneGraph& graph);
 
 }  // namespace stopline

@@ -1,4 +1,4 @@
-// What a user says of the traffic that enters. SI units.
+// The user's settings of the traffic that enters the network. SI units.
 #pragma once
 
 #include <memory>
@@ -7,29 +7,30 @@
 
 namespace stopline {
 
-struct SumoTraffic;  // sumo_routes.h
+struct SumoTraffic;  // sumo_import/sumo_routes.h
 
 struct DemandSettings {
-    // queue: `vehicles` a lane enter as soon as there is room, then none; saturated: inlets never run dry; rate: `inflow_1ps`
-    // vehicles arrive an arm, shared by its lanes, and wait outside where there is no room
+    // - queue: `vehicles` per lane enter as soon as there is room, then no more.
+    // - saturated: the backlog of every entry lane is endless.
+    // - rate: `inflow_1ps` vehicles per second arrive on each leg, spread over its lanes. They form a backlog if there
+    //   is no room.
     std::string kind = "queue";
     int vehicles = 60;
     double inflow_1ps = 600.0 / 3600.0;
-    // The same of streets from south to north, where the others are saturated; 0: saturated too.
+    // Only for saturated demand: inflow of the legs in the south and north. 0: they are saturated as well.
     double cross_inflow_1ps = 0.0;
-    std::vector<std::string> arms = {};  // where vehicles enter: how names of lanes begin; none: all entries
+    std::vector<std::string> approaches = {};  // prefixes of lane names where vehicles enter; empty: all entries
     double entry_speed_mps = 50.0 / 3.6;
-    // Of the vehicles on lanes from which one can turn and go straight on.
-    double right = 0.0;
-    double left = 0.0;
-    // The same of streets from south to north, where they are not alike.
-    std::string cross_turns = "alike";  // alike | own
-    double cross_right = 0.0;
-    double cross_left = 0.0;
-    std::string order = "balanced";  // of the turns: balanced | random
-    // empty: an empty network; queued: the approaches are full of standing vehicles
-    std::string start = "empty";
-    std::shared_ptr<const SumoTraffic> sumo = {};  // of an imported network, in place of all else
+    // Turn shares, 0 .. 1, of the vehicles on each lane that allows this turn and another movement.
+    double right_share = 0.0;
+    double left_share = 0.0;
+    // The same for the legs in the south and north, if they have shares of their own.
+    std::string cross_turns = "same";  // same | separate
+    double cross_right_share = 0.0;
+    double cross_left_share = 0.0;
+    std::string order = "balanced";                // order of the turns: balanced | random
+    std::string start = "empty";                   // empty | queued: approaches full of stopped vehicles
+    std::shared_ptr<const SumoTraffic> sumo = {};  // traffic of an imported network; it replaces all other fields
 };
 
 }  // namespace stopline

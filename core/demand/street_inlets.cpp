@@ -1,8 +1,10 @@
+// The inlets of streets, with routes and shares.
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdlib>
 
+#include "base/containers/index.h"
 #include "demand/demand_plan.h"
 #include "demand/turn_shares.h"
 
@@ -12,14 +14,13 @@ namespace {
 
 constexpr std::array<Turn, 3> kTurns{Turn::straight, Turn::right, Turn::left};  // in the order of TurnShares
 
-constexpr double kNobody = 1e-12;  // a share
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
+constexpr double kMinShare = 1e-12;  // a smaller share counts as none
 
 TurnShares shares_of(const Approach& approach) {
-    return {1.0 - approach.right - approach.left, approach.right, approach.left};
+    return {1.0 - approach.right_share - approach.left_share, approach.right_share, approach.left_share};
 }
 
+// The routes by approach lane and turn.
 class Routes {
 public:
     explicit Routes(const LaneGraph& graph) : graph_(graph), of_(graph.lanes.size(), {-1, -1, -1}) {
@@ -31,9 +32,10 @@ public:
         }
     }
 
+    // Returns the route with the turn that begins on the lane, or -1.
     int on(int lane, std::size_t turn) const { return of_[at(lane)][turn]; }
 
-    // -1: no lane of the approach allows it.
+    // Returns the route with the turn on the nearest lane of the approach that allows it, or -1 if no lane does.
     int nearest(int lane, std::size_t turn) const {
         const std::vector<int>& lanes = graph_.approaches[at(graph_.lanes[at(lane)].approach)].lanes;
         const auto own = static_cast<int>(std::find(lanes.begin(), lanes.end(), lane) - lanes.begin());
@@ -47,34 +49,39 @@ public:
 
 private:
     const LaneGraph& graph_;
-    std::vector<std::array<int, 3>> of_;  // [lane][turn] route that begins there
+    std::vector<std::array<int, 3>> of_;  // [lane][turn] route that begins on the lane; -1: none
 };
 
-DemandPlan::Inlet inlet_of(const Routes& routes, int lane, const TurnShares& shares, const TurnShares& all) {
+DemandPlan::Inlet inlet_of(const Routes& routes, int lane, const TurnShares& shares,
+                           const TurnShares& approach_shares) {
     DemandPlan::Inlet inlet{lane, 0, {}, {}};
     for (std::size_t turn = 0; turn < shares.size(); ++turn) {
-        if (shares[turn] <= kNobody) continue;
+        if (shares[turn] <= kMinShare) continue;
         inlet.routes.push_back(routes.nearest(lane, turn));
         inlet.shares.push_back(shares[turn]);
-        inlet.approach_shares.push_back(all[turn]);
+        inlet.approach_shares.push_back(approach_shares[turn]);
     }
     return inlet;
 }
 
-// Shares of the lanes of an approach by which vehicles come to it, which lie side by side; pockets beside them count with the nearest.
-std::vector<TurnShares> lane_shares(const std::vector<int>& fed, const Routes& routes, const Approach& approach) {
-    const auto enters = [&](int lane) { return std::find(fed.begin(), fed.end(), lane) != fed.end(); };
+// Returns the turn shares of those lanes of an approach that are in `inlet_lanes`. These lanes are adjacent; the
+// movements of a pocket count for the nearest of them.
+std::vector<TurnShares> lane_shares(const std::vector<int>& inlet_lanes, const Routes& routes,
+                                    const Approach& approach) {
+    const auto is_inlet = [&](int lane) {
+        return std::find(inlet_lanes.begin(), inlet_lanes.end(), lane) != inlet_lanes.end();
+    };
     std::vector<TurnsAllowed> allowed;
-    TurnsAllowed of_pockets{};
+    TurnsAllowed left_pockets{};
     for (const int lane : approach.lanes) {
         TurnsAllowed own{};
         for (std::size_t turn = 0; turn < own.size(); ++turn) own[turn] = routes.on(lane, turn) >= 0;
-        if (enters(lane)) allowed.push_back(own);
-        TurnsAllowed& beside = allowed.empty() ? of_pockets : allowed.back();
-        for (std::size_t turn = 0; turn < own.size(); ++turn) beside[turn] = beside[turn] || own[turn];
+        if (is_inlet(lane)) allowed.push_back(own);
+        TurnsAllowed& target = allowed.empty() ? left_pockets : allowed.back();
+        for (std::size_t turn = 0; turn < own.size(); ++turn) target[turn] = target[turn] || own[turn];
     }
-    for (std::size_t turn = 0; turn < of_pockets.size(); ++turn) {
-        allowed.front()[turn] = allowed.front()[turn] || of_pockets[turn];
+    for (std::size_t turn = 0; turn < left_pockets.size(); ++turn) {
+        allowed.front()[turn] = allowed.front()[turn] || left_pockets[turn];
     }
     return turns_by_lane(allowed, shares_of(approach));
 }
@@ -84,10 +91,11 @@ std::vector<TurnShares> lane_shares(const std::vector<int>& fed, const Routes& r
 std::vector<DemandPlan::Inlet> street_inlets(const LaneGraph& graph) {
     const Routes routes(graph);
     std::vector<DemandPlan::Inlet> inlets;
-    // Calls add(lane, its shares, the approach's) for lanes that are in the order of their approaches.
+    // Calls add(lane, shares of the lane, shares of its approach) for each lane. Lanes of one approach must be
+    // consecutive.
     const auto for_each = [&](const std::vector<int>& lanes, auto add) {
         std::vector<TurnShares> shares;
-        int approach = -1;  // whose lanes these are
+        int approach = -1;
         std::size_t next = 0;
         for (const int lane : lanes) {
             if (graph.lanes[at(lane)].approach != approach) {
@@ -98,13 +106,13 @@ std::vector<DemandPlan::Inlet> street_inlets(const LaneGraph& graph) {
             add(lane, shares[next++], shares_of(graph.approaches[at(approach)]));
         }
     };
-    for_each(graph.entries, [&](int lane, const TurnShares& own, const TurnShares& all) {
-        inlets.push_back(inlet_of(routes, lane, own, all));
+    for_each(graph.entries, [&](int lane, const TurnShares& of_lane, const TurnShares& of_approach) {
+        inlets.push_back(inlet_of(routes, lane, of_lane, of_approach));
     });
-    for_each(graph.links, [&](int lane, const TurnShares& own, const TurnShares& all) {
-        inlets.push_back(inlet_of(routes, lane, all, all));
-        for (std::size_t turn = 0; turn < all.size(); ++turn) {
-            if (all[turn] > kNobody) inlets.back().lane_shares.push_back(own[turn]);
+    for_each(graph.links, [&](int lane, const TurnShares& of_lane, const TurnShares& of_approach) {
+        inlets.push_back(inlet_of(routes, lane, of_approach, of_approach));
+        for (std::size_t turn = 0; turn < of_approach.size(); ++turn) {
+            if (of_approach[turn] > kMinShare) inlets.back().lane_shares.push_back(of_lane[turn]);
         }
     });
     return inlets;

@@ -11,7 +11,7 @@ namespace {
 
 double sum_of(const TurnShares& row) { return std::accumulate(row.begin(), row.end(), 0.0); }
 
-// The largest change of a row or column.
+// Scales all rows, then all columns to their target sums. Returns the largest deviation of a sum before scaling.
 double fit_once(std::vector<TurnShares>& matrix, const TurnShares& shares) {
     const double row = 1.0 / static_cast<double>(matrix.size());
     double change = 0.0;
@@ -34,15 +34,15 @@ double fit_once(std::vector<TurnShares>& matrix, const TurnShares& shares) {
 }  // namespace
 
 std::vector<TurnShares> turns_by_lane(const std::vector<TurnsAllowed>& allowed, const TurnShares& shares) {
-    constexpr int kRounds = 10'000;
-    constexpr double kExact = 1e-13;
+    constexpr int kMaxRounds = 10'000;
+    constexpr double kTolerance = 1e-13;
     std::vector<TurnShares> matrix(allowed.size());
     for (std::size_t lane = 0; lane < allowed.size(); ++lane) {
         for (std::size_t turn = 0; turn < shares.size(); ++turn) {
             matrix[lane][turn] = allowed[lane][turn] && shares[turn] > 0.0 ? 1.0 : 0.0;
         }
     }
-    for (int round = 0; round < kRounds && fit_once(matrix, shares) > kExact; ++round) continue;
+    for (int round = 0; round < kMaxRounds && fit_once(matrix, shares) > kTolerance; ++round) continue;
     for (TurnShares& lane : matrix) {
         const double sum = sum_of(lane);
         if (sum <= 0.0) lane = shares;

@@ -1,5 +1,5 @@
-// Which share of the vehicles on each lane of an approach turns where, so that all lanes are as full as each other and the turns of the
-// approach as a whole have their shares.
+// Distribution of the turn shares of an approach over its lanes. All lanes carry the same traffic, and together they
+// have the shares of the approach.
 #pragma once
 
 #include <array>
@@ -10,11 +10,14 @@ namespace stopline {
 using TurnShares = std::array<double, 3>;  // straight, right, left
 using TurnsAllowed = std::array<bool, 3>;
 
-// Shares of each lane's own vehicles, from the left. Found by iterative proportional fitting (Deming and Stephan, 1940) of the matrix
-// lane x turn, whose rows are to sum to 1/n and whose columns to `shares`, from equal entries where a lane allows a turn. Where no such
-// matrix exists each lane has the turns that it allows in the proportions of the fit, and the approach as a whole turns a little
-// differently. On a lane that allows no turn that has a share vehicles have the approach's shares, and must change lanes. Every turn with a
-// share must be allowed on some lane.
+// Returns the turn shares of the vehicles on each lane, from the left. `shares` are those of the approach; each turn
+// with a share must be allowed on at least one lane.
+//
+// The method is iterative proportional fitting (Deming and Stephan, 1940) of a matrix over lanes and turns. Each of the
+// n rows shall sum to 1/n, and each column to the share of its turn. The fit starts from equal entries for all allowed
+// turns. If no such matrix exists, the rows of the fit are scaled to 1, and the shares of the approach are met only
+// roughly. A lane that allows none of the turns with a share gets the shares of the approach: its vehicles must change
+// lanes.
 std::vector<TurnShares> turns_by_lane(const std::vector<TurnsAllowed>& allowed, const TurnShares& shares);
 
 }  // namespace stopline

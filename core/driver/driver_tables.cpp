@@ -1,3 +1,4 @@
+// Compiles the settings of the driver into the tables of the kernels.
 #include <algorithm>
 
 #include "base/input_error.h"
@@ -8,7 +9,7 @@ namespace stopline {
 DriverTables compile_driver(const DriverSettings& settings) {
     const FreeDriveSettings& free = settings.free_drive;
     if (free.speed_mps.empty() || free.speed_mps.size() != free.acceleration_mps2.size()) {
-        throw InputError("driver: the acceleration profile needs one acceleration per speed");
+        throw InputError("driver: the acceleration profile needs at least one speed, and one acceleration per speed");
     }
     DriverTables t;
     t.cacc = settings.cacc;

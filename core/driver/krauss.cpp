@@ -4,7 +4,6 @@
 
 namespace stopline {
 
-// In each bin the acceleration at the nearest of the settings' speeds.
 LeaderProfile leader_profile(const MesoSettings& settings) {
     LeaderProfile profile;
     const std::vector<double>& speeds = settings.leader_profile_mps;
@@ -21,15 +20,15 @@ LeaderProfile leader_profile(const MesoSettings& settings) {
     return profile;
 }
 
-Krauss krauss_of(const MesoSettings& settings, const GapPolicySettings& policy) {
+Krauss make_krauss_model(const MesoSettings& settings, const GapPolicySettings& policy) {
     const bool time_gap = policy.law == "constant_time";
     const KraussSettings& s = time_gap ? settings.constant_time : settings.constant_distance;
     Krauss k;
     k.acceleration_mps2 = s.acceleration_mps2;
-    k.until_mps = s.acceleration_until_mps;
+    k.constant_power_speed_mps = s.constant_power_speed_mps;
     k.transient_gap_s2 = s.transient_gap_s2;
-    k.catch_up = s.catch_up;
-    k.tracking = s.tracking;
+    k.catch_up_factor = s.catch_up_factor;
+    k.gap_tracking = s.gap_tracking;
     k.anticipation_s = s.anticipation_s;
     k.deceleration_mps2 = s.deceleration_mps2;
     k.reaction_s = s.reaction_s;
@@ -40,7 +39,7 @@ Krauss krauss_of(const MesoSettings& settings, const GapPolicySettings& policy) 
     } else {
         k.constant_distance = true;
         k.band_m = settings.band_m;
-        k.below_band = settings.below_band;
+        k.below_band_speed_share = settings.below_band_speed_share;
     }
     return k;
 }

@@ -1,159 +1,175 @@
-// Car following of the mesoscale mode: the speed of the next step from the state at the beginning of this one.
+// Car following of the mesoscale mode: computes the speed of the next step from the state at the start of the step.
 //
-// Krauss (1998, "Microscopic modeling of traffic flow", chapter 5), with the safe speed solved for the gap as SUMO uses it:
+// For policies with a time gap this is the model of Krauss (1998, "Microscopic modeling of traffic flow", chapter 5).
+// Its safe speed is solved for the gap s as in SUMO, with v_l the speed of the leader:
 //
 //   v_safe = -b tau + sqrt(b^2 tau^2 + v_l^2 + 2 b (s - s_0))
 //
-// and the paper's variant for constant distance, equation (1) with the lost plus sign restored: as above with s_0 + s_t in
-// place of s_0 where s > s_0; v_l for s_0 - s_t < s <= s_0; d v_l below. It jumps at s_0, as printed. Both stand still at
-// s_0 (+ s_t) and follow at speed v in the gap s_0 (+ s_t) + tau v.
+// All other policies use equation (1) of the paper, with its missing plus sign restored:
+//
+//   s > s_0               v_safe as above, with s_0 + s_t in place of s_0
+//   s_0 - s_t < s <= s_0  v_safe = v_l
+//   s <= s_0 - s_t        v_safe = d v_l
+//
+// As printed, equation (1) jumps at s_0. In equilibrium at speed v the gap is s_0 (+ s_t) + tau v in both models.
 //
 //   v' = min(v_safe, v + a(v) dt, cap),  v <- max(0, v' - sigma dt xi min(v', a 1 s)),  x <- x + v dt
 //
-// Where the predecessor accelerates with a_l, v_l + T a_l stands for v_l (T: anticipation; 0 in the paper's models). Models with a time
-// gap can track it: see tracked (not in the paper's).
+// Here xi is uniform in [0, 1). Slow vehicles dawdle less, so that dawdling never prevents a start (as in SUMO). Below
+// 1 cm/s v' is set to 0. Switching policies (SWITCH) raise s_0 by the gap that they add at the current speed.
 //
-// Below 1 cm/s v' is 0. a(v) = a min(1, v_p / v): constant power beyond the speed v_p. The paper's models have none (v_p beyond all limits). xi is
-// uniform in [0, 1); slow vehicles dawdle less, so that nobody is kept from starting (as in SUMO). Policies with a gap
-// that grows above a switching speed (SWITCH) are the variant with s_0 raised by what the policy adds at the own speed.
+// The following extensions are off in the models of the paper:
+//   constant power   a(v) = a min(1, v_p / v); in the paper v_p is above all speed limits
+//   anticipation     behind a leader that accelerates with a_l, v_l + T a_l replaces v_l
+//   transient gap    s_0 grows with a_l
+//   gap tracking     see track_time_gap()
+//   catching up      a larger a close behind the leader
 #pragma once
 
 #include <array>
 #include <cmath>
 #include <utility>
 
-#include "base/arithmetic.h"
-#include "base/simd.h"
+#include "base/simd/arithmetic.h"
+#include "base/simd/simd.h"
+#include "base/speed_thresholds.h"
 #include "driver/driver_settings.h"
 
 namespace stopline {
 
-// One policy, ready for use. SI units.
+// The model of one spacing policy, ready for use. SI units.
 struct Krauss {
-    double acceleration_mps2 = 0.0;  // a
-    double until_mps = 1e9;          // v_p
-    double transient_gap_s2 = 0.0;   // times the predecessor's acceleration, where it accelerates: added to the gap
-    double catch_up = 1.0;           // times the acceleration, close behind a predecessor
-    double tracking = 0.0;           // of the time gap, 0 .. 1: see tracked
-    double anticipation_s = 0.0;     // the predecessor is seen as fast as it will be then, if it goes on accelerating
-    double deceleration_mps2 = 0.0;  // b
-    double reaction_s = 0.0;         // tau
-    double standstill_gap_m = 0.0;   // s_0
-    double dawdling = 0.0;           // sigma, 0 .. 1
-    bool constant_distance = false;  // equation (1); else Krauss
-    double band_m = 0.0;             // s_t; 0 with Krauss
-    double below_band = 1.0;         // d
+    double acceleration_mps2 = 0.0;         // a
+    double constant_power_speed_mps = 1e9;  // v_p
+    double transient_gap_s2 = 0.0;          // extra gap per acceleration of the leader; no effect if it brakes
+    double catch_up_factor = 1.0;           // factor on the acceleration close behind the leader
+    double gap_tracking = 0.0;              // 0 .. 1, see track_time_gap()
+    double anticipation_s = 0.0;            // T
+    double deceleration_mps2 = 0.0;         // b
+    double reaction_s = 0.0;                // tau
+    double standstill_gap_m = 0.0;          // s_0
+    double dawdling = 0.0;                  // sigma, 0 .. 1
+    bool constant_distance = false;         // true: equation (1); false: Krauss
+    double band_m = 0.0;                    // s_t; 0 for Krauss
+    double below_band_speed_share = 1.0;    // d
 
     double equilibrium_gap_m(double speed_mps) const { return standstill_gap_m + band_m + reaction_s * speed_mps; }
 };
 
-// The same for several vehicles side by side, each with the parameters of its policy; names as above.
+// The parameters of several vehicles, which may have different policies. Names as in Krauss.
 template <class R>
-struct KraussSideBySide {
-    R acceleration_mps2, until_mps, transient_gap_s2, catch_up, tracking, anticipation_s, deceleration_mps2, reaction_s;
-    R standstill_gap_m, dawdling;
+struct KraussPerVehicle {
+    R acceleration_mps2, constant_power_speed_mps, transient_gap_s2, catch_up_factor, gap_tracking, anticipation_s;
+    R deceleration_mps2, reaction_s, standstill_gap_m, dawdling;
     decltype(std::declval<R>() < std::declval<R>()) constant_distance;
-    R band_m, below_band;
+    R band_m, below_band_speed_share;
 };
 
-// The equations, for plain numbers or several vehicles at a time (base/simd.h). Model: Krauss or KraussSideBySide.
+// The functions below compute one vehicle or several at a time (base/simd/simd.h). `Model` is Krauss or
+// KraussPerVehicle.
 
-// The highest speed from which braking with b [m/s2] after the time tau [s] stops `gap_m` behind where a predecessor, braking alike from
-// `ahead_mps`, would.
+// Returns the highest speed from which a vehicle can stop behind its leader. Both brake with b [m/s2], the vehicle
+// after the time tau [s]. `gap_m` is the part of the net gap that may be used up.
 template <class R, class Parameter>
-STOPLINE_INLINE R braking_speed_mps(const Parameter& b, const Parameter& tau, const R& gap_m, const R& ahead_mps) {
+STOPLINE_INLINE R braking_speed_mps(const Parameter& b, const Parameter& tau, const R& gap_m,
+                                    const R& leader_speed_mps) {
     const auto bt = b * tau;
-    const R square = bt * bt + ahead_mps * ahead_mps + 2.0 * b * gap_m;
-    return square_root(greater(square, R(0.0))) - bt;
+    const R square = bt * bt + leader_speed_mps * leader_speed_mps + 2.0 * b * gap_m;
+    return square_root(max_of(square, R(0.0))) - bt;
 }
 
-// v_safe for a net gap; `more_m`: by how much the policy raises the gap at the own speed.
+// Returns v_safe for a net gap. `extra_gap_m` is the gap that the policy adds to s_0 at the current speed.
 template <class R, class Model>
-STOPLINE_INLINE R safe_speed_mps(const Model& k, const R& gap_m, const R& ahead_mps, const R& more_m) {
-    const R beyond_m = gap_m - k.standstill_gap_m - more_m;
-    const R braking = braking_speed_mps(k.deceleration_mps2, k.reaction_s, R(beyond_m - k.band_m), ahead_mps);
-    const R close = select(beyond_m > -k.band_m, ahead_mps, R(k.below_band * ahead_mps));
-    return select(k.constant_distance, select(beyond_m <= 0.0, close, braking), braking);
+STOPLINE_INLINE R safe_speed_mps(const Model& k, const R& gap_m, const R& leader_speed_mps, const R& extra_gap_m) {
+    const R spare_gap_m = gap_m - k.standstill_gap_m - extra_gap_m;
+    const R braking = braking_speed_mps(k.deceleration_mps2, k.reaction_s, R(spare_gap_m - k.band_m), leader_speed_mps);
+    const R close = select(spare_gap_m > -k.band_m, leader_speed_mps, R(k.below_band_speed_share * leader_speed_mps));
+    return select(k.constant_distance, select(spare_gap_m <= 0.0, close, braking), braking);
 }
 
-// Slower than a centimetre a second is standing: following would close the last of a gap ever more slowly and never end.
+// Returns 0 for speeds below 1 cm/s. Otherwise a follower would close its gap ever more slowly and never come to rest.
 template <class R>
-STOPLINE_INLINE R at_rest(const R& speed_mps) {
-    constexpr double kRest_mps = 0.01;
-    return select(speed_mps < kRest_mps, R(0.0), speed_mps);
+STOPLINE_INLINE R snap_to_standstill(const R& speed_mps) {
+    return select(speed_mps < kMesoStopSpeed_mps, R(0.0), speed_mps);
 }
 
-// What a vehicle's speed depends on.
+// The state from which the next speed of a vehicle is computed.
 template <class R>
 struct KraussInputOf {
     R speed_mps;
-    R gap_m;
-    R ahead_mps;   // speed of the predecessor
-    R ahead_mps2;  // its acceleration in the last step; 0 where it brakes
-    R more_m;      // see safe_speed_mps
-    R cap_mps;     // the limit, or what a stop line allows
+    R gap_m;  // net gap
+    R leader_speed_mps;
+    R leader_acceleration_mps2;  // in the last step; 0 if the leader brakes
+    R extra_gap_m;               // see safe_speed_mps()
+    R speed_cap_mps;             // highest speed that the speed limit and the stop line allow
 };
 using KraussInput = KraussInputOf<double>;
 
-// v_safe lets a vehicle come nearer than its time gap while the predecessor draws away, since that would need longer to stop. Who
-// tracks the gap is no faster than (s - s_0) / tau: with tracking < 1 a share of the way from v_safe down to that.
+// Returns v_safe, reduced so that the vehicle keeps its time gap. v_safe allows a shorter gap while the leader is
+// faster, because a faster leader needs longer to stop. Full tracking limits the speed to (s - s_0) / tau. With partial
+// tracking the speed lies between that limit and v_safe.
 template <class R, class Model>
-STOPLINE_INLINE R tracked(const Model& k, const KraussInputOf<R>& in, const R& more_m, const R& safe_mps) {
-    const R keeps_mps = (in.gap_m - k.standstill_gap_m - more_m) * (1.0 / greater(R(k.reaction_s), R(0.05)));
-    const R less_mps = k.tracking * greater(safe_mps - keeps_mps, R(0.0));
-    return select(k.constant_distance, safe_mps, R(safe_mps - less_mps));
+STOPLINE_INLINE R track_time_gap(const Model& k, const KraussInputOf<R>& in, const R& extra_gap_m, const R& safe_mps) {
+    const R time_gap_mps = (in.gap_m - k.standstill_gap_m - extra_gap_m) * (1.0 / max_of(R(k.reaction_s), R(0.05)));
+    const R reduction_mps = k.gap_tracking * max_of(safe_mps - time_gap_mps, R(0.0));
+    return select(k.constant_distance, safe_mps, R(safe_mps - reduction_mps));
 }
 
-// Whether the model's power is ever the limit: the same for all vehicles of a loop, and a division each that is spared.
-inline bool has_power_limit(const Krauss& k) { return k.until_mps < 100.0; }
+// Returns true if constant power can limit the acceleration. If it cannot, the kernels save a division per vehicle.
+inline bool has_power_limit(const Krauss& k) { return k.constant_power_speed_mps < 100.0; }
 
-// v_safe with regard to what the predecessor is about to do.
+// Returns v_safe for the anticipated speed of the leader.
 template <class R, class Model>
-STOPLINE_INLINE R foreseen_safe_mps(const Model& k, const KraussInputOf<R>& in, const R& more_m) {
-    return safe_speed_mps(k, in.gap_m, R(in.ahead_mps + k.anticipation_s * in.ahead_mps2), more_m);
+STOPLINE_INLINE R anticipated_safe_speed_mps(const Model& k, const KraussInputOf<R>& in, const R& extra_gap_m) {
+    return safe_speed_mps(k, in.gap_m, R(in.leader_speed_mps + k.anticipation_s * in.leader_acceleration_mps2),
+                          extra_gap_m);
 }
+// The same, with the transient gap added.
 template <class R, class Model>
-STOPLINE_INLINE R foreseen_safe_mps(const Model& k, const KraussInputOf<R>& in) {
-    return foreseen_safe_mps(k, in, R(in.more_m + k.transient_gap_s2 * in.ahead_mps2));
+STOPLINE_INLINE R anticipated_safe_speed_mps(const Model& k, const KraussInputOf<R>& in) {
+    return anticipated_safe_speed_mps(k, in, R(in.extra_gap_m + k.transient_gap_s2 * in.leader_acceleration_mps2));
 }
 
-// `safe_mps`: foreseen_safe_mps. `random`: in [0, 1). `power_limit`: see has_power_limit.
-// `lowest_mps`: nobody brakes to less but to avoid touching; Krauss's models ask for no such braking unless somebody changed lanes.
+// Returns the speed of the next step. `safe_mps` is the result of anticipated_safe_speed_mps(), `random` is uniform in
+// [0, 1), and `power_limit` is the result of has_power_limit(). Braking does not go below `lowest_mps` except to avoid
+// contact. The limit matters only after lane changes; otherwise the models do not demand such hard braking.
 template <bool power_limit, class R, class Model>
 STOPLINE_INLINE R speed_after_mps(const Model& k, const KraussInputOf<R>& in, const R& safe_mps, const R& random,
                                   double dt, const R& lowest_mps = R(0.0)) {
-    const R more_m = in.more_m + k.transient_gap_s2 * in.ahead_mps2;
-    const R safe = tracked(k, in, more_m, safe_mps);
+    const R extra_gap_m = in.extra_gap_m + k.transient_gap_s2 * in.leader_acceleration_mps2;
+    const R safe = track_time_gap(k, in, extra_gap_m, safe_mps);
     R acceleration = k.acceleration_mps2;
     if constexpr (power_limit)
-        acceleration = acceleration * lesser(R(1.0), R(k.until_mps / greater(in.speed_mps, R(1e-3))));
-    constexpr double kClose_m = 2.0;
+        acceleration = acceleration * min_of(R(1.0), R(k.constant_power_speed_mps / max_of(in.speed_mps, R(1e-3))));
+    constexpr double kCatchUp_m = 2.0;  // catching up applies within this distance of the equilibrium gap
     const R equilibrium_m = k.standstill_gap_m + k.band_m + k.reaction_s * in.speed_mps;
-    const R more = select(in.gap_m - in.more_m < equilibrium_m + kClose_m, R(k.catch_up), R(1.0));
-    const R faster = in.speed_mps + acceleration * more * dt;
-    // Models with anticipation or short gaps can ask for too little braking when a predecessor stops more suddenly than it would by
-    // itself (at a conflict area): nobody drives further than to where the rear ahead was.
-    const R touch = greater(in.gap_m, R(0.0)) * (1.0 / dt);
-    const R wanted = at_rest(lesser(lesser(greater(lesser(safe, faster), lowest_mps), touch), in.cap_mps));
+    const R factor = select(in.gap_m - in.extra_gap_m < equilibrium_m + kCatchUp_m, R(k.catch_up_factor), R(1.0));
+    const R accelerated = in.speed_mps + acceleration * factor * dt;
+    // The vehicle drives at most to the present rear of its leader. Models with anticipation or short gaps can brake
+    // too little if the leader stops harder than the model expects, as before a conflict area.
+    const R contact = max_of(in.gap_m, R(0.0)) * (1.0 / dt);
+    const R desired =
+        snap_to_standstill(min_of(min_of(max_of(min_of(safe, accelerated), lowest_mps), contact), in.speed_cap_mps));
     constexpr double kSlow_s = 1.0;  // vehicles slower than a x 1 s dawdle in proportion to their speed
-    return wanted - k.dawdling * dt * random * lesser(wanted, R(k.acceleration_mps2 * kSlow_s));
+    return desired - k.dawdling * dt * random * min_of(desired, R(k.acceleration_mps2 * kSlow_s));
 }
 
-// Acceleration of platoon leaders over speed, constant in bins from 0 on and beyond the last.
+// The acceleration of platoon leaders as a function of speed. It is constant within each bin and beyond the last bin.
 struct LeaderProfile {
     static constexpr int kBins = 64;
-    double bins_per_mps = 0.0;  // 0: none
+    double bins_per_mps = 0.0;  // 0: no profile
     std::array<double, kBins> acceleration_mps2{};
 };
+// Returns the profile of the settings. Each bin takes the acceleration of the nearest speed.
 LeaderProfile leader_profile(const MesoSettings& settings);
 
-// For one vehicle.
+// Returns the next speed of one vehicle.
 inline double next_speed_mps(const Krauss& k, const KraussInput& in, double random, double dt) {
-    return speed_after_mps<true>(k, in, foreseen_safe_mps(k, in), random, dt);
+    return speed_after_mps<true>(k, in, anticipated_safe_speed_mps(k, in), random, dt);
 }
 
-// The model of a spacing policy: one with a time gap is a Krauss model, any other the variant with constant distance; what the
-// policy's time and standstill gaps differ from those that the settings were calibrated with is added.
-Krauss krauss_of(const MesoSettings& settings, const GapPolicySettings& policy);
+// Makes the model of a spacing policy: Krauss for a constant time gap, equation (1) for all other laws. If the time gap
+// or the standstill gap of the policy differs from the calibrated one, tau or s_0 changes by the difference.
+Krauss make_krauss_model(const MesoSettings& settings, const GapPolicySettings& policy);
 
 }  // namespace stopline

@@ -1,9 +1,11 @@
-// Figures of an area over time, from the fronts that come into it and leave it: throughput, travel time, density (Edie 1963, as
-// measure/zones.h), and the same by the side of entry and exit. A front that comes in while its vehicle is inside changes nothing.
+// Throughput, travel time and density of an area over time, from the fronts that enter and leave it (Edie 1963, see
+// measure/zones.h). Throughput and travel time are also measured by side of entry and exit. An entry of a vehicle that
+// is already inside is ignored.
 #pragma once
 
 #include <array>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "measure/zones.h"
@@ -14,37 +16,45 @@ namespace stopline {
 enum class Side : int { west = 0, south = 1, east = 2, north = 3 };
 inline constexpr std::array<const char*, 4> kSideNames{"west", "south", "east", "north"};
 
-// Where a straight lane's traffic comes from, and where it goes to.
+// Returns the side of that name, which must be one of kSideNames.
+Side side_named(std::string_view name);
+
+// Return the side that the traffic of a straight lane comes from, and the side that it goes to.
 Side comes_from(const Lane& lane);
 Side goes_to(const Lane& lane);
 
-struct AreaFigures {
+struct AreaResult {
     TimeWindow window;
-    int left = 0;                // vehicles that left within the window
-    double travel_time_s = 0.0;  // their mean; NaN: none
-    double vehicles = 0.0;       // mean number in the area
-    double occupied = 0.0;       // share of the lanes' metres, 0 .. 1
+    int exited = 0;              // vehicles that left the area within the window
+    double travel_time_s = 0.0;  // mean of these vehicles; NaN: none
+    double vehicles = 0.0;       // mean number of vehicles in the area
+    double occupied = 0.0;       // share of the lane length that vehicles cover, 0 .. 1
 
-    double throughput_veh_h() const { return left * 3600.0 / window.length_s(); }
+    double throughput_veh_h() const { return exited * 3600.0 / window.length_s(); }
 };
 
-struct WayFigures {
+struct OriginDestinationResult {
     Side from = Side::west;
     Side to = Side::west;
-    int left = 0;
-    double travel_time_s = 0.0;
+    int exited = 0;              // vehicles that left the area within the window
+    double travel_time_s = 0.0;  // mean of these vehicles; NaN: none
 };
 
-// Consecutive windows of `interval_s` from 0 to `end_s`, the last one whole. `lane_m`: length of all lanes in the area. Crossings in
-// the order of time.
-std::vector<AreaFigures> area_series(std::span<const Detector> detectors, std::span<const Crossing> crossings,
-                                     double interval_s, double end_s, double lane_m);
+// In the functions below, crossings must be in order of time. Only detectors of the kind `zone` count.
 
-// [window][Side] vehicles that came into the area.
-std::vector<std::array<int, 4>> inflow_series(const Model& model, std::span<const Crossing> crossings,
-                                              double interval_s, double end_s);
+// Measures consecutive windows of `interval_s` from 0 to `end_s`. An incomplete last window is omitted. `lane_m` is the
+// length of all lanes in the area.
+std::vector<AreaResult> area_series(std::span<const Detector> detectors, std::span<const Crossing> crossings,
+                                    double interval_s, double end_s, double lane_m);
 
-// Sixteen, by side of entry and exit.
-std::vector<WayFigures> way_figures(const Model& model, std::span<const Crossing> crossings, const TimeWindow& window);
+// Counts the vehicles that entered the area, by window and side: [window][Side]. Windows as in area_series().
+std::vector<std::array<int, 4>> inflow_series(const LaneGraph& graph, std::span<const Detector> detectors,
+                                              std::span<const Crossing> crossings, double interval_s, double end_s);
+
+// Returns the results of all 16 pairs of sides.
+std::vector<OriginDestinationResult> origin_destination_results(const LaneGraph& graph,
+                                                                std::span<const Detector> detectors,
+                                                                std::span<const Crossing> crossings,
+                                                                const TimeWindow& window);
 
 }  // namespace stopline

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <boost/math/distributions/students_t.hpp>
 
-#include "base/arithmetic.h"
 #include "base/input_error.h"
+#include "base/simd/arithmetic.h"
 
 namespace stopline {
 
@@ -20,7 +20,9 @@ double sample_deviation(std::span<const double> values) {
     return std::sqrt(sum / static_cast<double>(values.size() - 1));
 }
 
-double quantile(double share, double freedom) { return boost::math::quantile(boost::math::students_t(freedom), share); }
+double quantile(double probability, double degrees_of_freedom) {
+    return boost::math::quantile(boost::math::students_t(degrees_of_freedom), probability);
+}
 
 }  // namespace
 
@@ -31,17 +33,17 @@ double mean_of(std::span<const double> values) {
 }
 
 Interval confidence_interval(std::span<const double> values, Band band) {
-    const std::size_t least = band == Band::paper ? 3 : 2;
-    if (values.size() < least) {
+    const std::size_t min_runs = band == Band::paper ? 3 : 2;
+    if (values.size() < min_runs) {
         throw InputError(
-            fmt::format("a confidence band needs at least {} runs (repetitions), not {}", least, values.size()));
+            fmt::format("a confidence interval needs at least {} runs (repetitions), not {}", min_runs, values.size()));
     }
     const auto n = static_cast<double>(values.size());
     const double factor =
         band == Band::paper ? quantile(0.95, n) / std::sqrt(0.5 * n - 1.0) : quantile(0.975, n - 1.0) / std::sqrt(n);
     const double mean = mean_of(values);
-    const double half = factor * sample_deviation(values);
-    return {mean - half, mean + half};
+    const double half_width = factor * sample_deviation(values);
+    return {mean - half_width, mean + half_width};
 }
 
 }  // namespace stopline

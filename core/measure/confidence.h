@@ -1,10 +1,10 @@
-// Confidence bands of a mean from a few runs, at 95 %.
+// Confidence intervals of 95 % for a mean of a few runs.
 //
-//   student   mean -+ t(0.975, n - 1) s / sqrt(n): the two-sided interval of the textbooks
-//   paper     mean -+ t(0.95, n) s / sqrt(n / 2 - 1): equation (2) of the paper as printed, with nu = n runs; for six runs
-//             1.31 times as wide
+//   student   mean -+ t(0.975, n - 1) s / sqrt(n): the usual two-sided interval
+//   paper     mean -+ t(0.95, n) s / sqrt(n / 2 - 1): equation (2) of the paper as printed, with nu = n. For six runs
+//             it is 1.31 times as wide as the student interval.
 //
-// n runs, s their sample standard deviation, t(p, nu) the quantile of Student's distribution (MATLAB's tinv).
+// Here n is the number of runs, s their sample standard deviation, and t(p, nu) the quantile of Student's distribution.
 #pragma once
 
 #include <span>
@@ -19,9 +19,10 @@ struct Interval {
     bool contains(double value) const { return value >= low && value <= high; }
 };
 
+// Returns the mean of at least one value.
 double mean_of(std::span<const double> values);
 
-// Needs two values or more (student), three or more (paper); throws InputError for fewer.
+// Returns the confidence interval of the mean. Throws InputError for fewer than two values (student) or three (paper).
 Interval confidence_interval(std::span<const double> values, Band band);
 
 }  // namespace stopline

@@ -9,7 +9,7 @@ namespace stopline {
 
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
@@ -30,12 +30,12 @@ double Counter::interpolated(double time_s) const {
 }
 
 double improvement_percent(double passed, double baseline) {
-    return baseline > 0.0 ? 100.0 * (passed / baseline - 1.0) : kNone;
+    return baseline > 0.0 ? 100.0 * (passed / baseline - 1.0) : kNan;
 }
 
 double mean_improvement_percent(const Counter& counter, const Counter& baseline, double from_s, double to_s) {
     constexpr double kStep_s = 0.05;
-    if (!(to_s > from_s) || !(baseline.interpolated(from_s) > 0.0)) return kNone;
+    if (!(to_s > from_s) || !(baseline.interpolated(from_s) > 0.0)) return kNan;
     const auto steps = static_cast<int>(std::ceil((to_s - from_s) / kStep_s));
     double sum = 0.0;
     for (int k = 0; k < steps; ++k) {

@@ -1,5 +1,5 @@
-// A vehicle counter at a line: how many fronts have passed by a time, and what two counters say of each other. Counts are
-// whole vehicles, and one vehicle is the resolution of an experiment with one queue.
+// A vehicle counter at a line, and the comparison of two counters. A counter gives the number of fronts that have
+// passed up to a time. The resolution of an experiment with one queue is one vehicle.
 #pragma once
 
 #include <vector>
@@ -8,14 +8,14 @@ namespace stopline {
 
 class Counter {
 public:
-    // Times at which fronts pass, in seconds from the moment that counting starts; in any order.
+    // Takes the times at which fronts pass, in s from the start of counting and in any order.
     explicit Counter(std::vector<double> times_s);
 
-    // Vehicles that have passed at `time_s`, the one that passes just then included.
+    // Returns the number of vehicles that have passed up to and including `time_s`.
     int passed(double time_s) const;
 
-    // The same as a line instead of steps: k at the k-th passage, growing evenly between two passages (from 0 at time 0).
-    // Tells two policies with equal counts apart. It stays at the last count after the last passage.
+    // Returns the count interpolated between passages. It is k at the k-th passage, grows linearly in between (from 0
+    // at time 0) and is constant after the last passage. It distinguishes policies with equal whole counts.
     double interpolated(double time_s) const;
 
     int total() const { return static_cast<int>(times_s_.size()); }
@@ -25,12 +25,12 @@ private:
     std::vector<double> times_s_;
 };
 
-// By how much `passed` is more than `baseline`, in percent; NaN for a baseline of zero.
+// Returns the increase of `passed` over `baseline` in percent, or NaN if the baseline is not positive.
 double improvement_percent(double passed, double baseline);
 
-// The improvement of one counter over another as a function of time (Fig. 6), averaged over the time from `from_s` to `to_s`.
-// Of interpolated counts: rounding both down to whole vehicles would raise the ratio. NaN where the interval is empty or the
-// baseline has nothing at its beginning.
+// Returns the improvement of a counter over the baseline in percent, averaged over the time from `from_s` to `to_s`
+// (Fig. 6). It uses interpolated counts, because rounding both down to whole vehicles would increase the ratio. Returns
+// NaN if the interval is empty or the baseline is 0 at its start.
 double mean_improvement_percent(const Counter& counter, const Counter& baseline, double from_s, double to_s);
 
 }  // namespace stopline

@@ -9,7 +9,7 @@ namespace stopline {
 
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 bool is_stop_line(const LaneGraph& graph, int lane) {
     return lane >= 0 && graph.lanes[static_cast<std::size_t>(lane)].signal_group >= 0;
@@ -24,7 +24,7 @@ std::vector<LinePassage> line_passages(const LaneGraph& graph, const std::vector
         const double time_s = passage.time_s - green_start_s;
         if (!is_stop_line(graph, passage.from_lane) || time_s < 0.0) continue;
         at_line.push_back(
-            {time_s, passage.from_lane, 1, passage.vehicle, passage.policy, double{passage.speed_mps}, kNone});
+            {time_s, passage.from_lane, 1, passage.vehicle, passage.policy, double{passage.speed_mps}, kNan});
     }
     std::stable_sort(at_line.begin(), at_line.end(), [](const LinePassage& a, const LinePassage& b) {
         return a.lane != b.lane ? a.lane < b.lane : a.time_s < b.time_s;
@@ -44,7 +44,7 @@ std::vector<LinePassage> within_green(const std::vector<LinePassage>& passages, 
     return early;
 }
 
-LateFlow late_flow(const std::vector<LinePassage>& passages, int positions) {
+LastPositionsFlow last_positions_flow(const std::vector<LinePassage>& passages, int positions) {
     std::vector<double> headways_s;
     std::vector<double> speeds_mps;
     for (std::size_t k = 0; k < passages.size(); ++k) {
@@ -58,7 +58,7 @@ LateFlow late_flow(const std::vector<LinePassage>& passages, int positions) {
 }
 
 double mean(std::span<const double> values) {
-    if (values.empty()) return kNone;
+    if (values.empty()) return kNan;
     double sum = 0.0;
     for (const double value : values) sum += value;
     return sum / static_cast<double>(values.size());

@@ -1,41 +1,41 @@
-// Passages of stop lines: queue positions and the headways between them.
+// Passages of stop lines, with queue positions and headways.
 #pragma once
 
 #include <span>
 #include <vector>
 
 #include "network/lane_graph.h"
-#include "sim/events.h"
+#include "sim/state/events.h"
 
 namespace stopline {
 
-// A front at a stop line.
+// The passage of a front over a stop line.
 struct LinePassage {
     double time_s = 0.0;  // since the start of green
-    int lane = 0;         // whose end the line is
-    int position = 1;     // in the queue of its lane
+    int lane = 0;         // lane with the stop line
+    int position = 1;     // position in the queue of the lane, from 1
     int vehicle = 0;
     int policy = 0;
     double speed_mps = 0.0;
-    double headway_s = 0.0;  // since the front before it on the same lane; NaN for the first
+    double headway_s = 0.0;  // since the passage before on the same lane; NaN for the first one
 };
 
-// All passages of stop lines, lane by lane, in the order of passing. Passages before the start of green are left out.
+// Returns the passages of stop lines from the start of green on, lane by lane and in order of time.
 std::vector<LinePassage> line_passages(const LaneGraph& graph, const std::vector<Passage>& passages,
                                        double green_start_s);
 
-// The passages within the green time.
+// Returns the passages within the green time.
 std::vector<LinePassage> within_green(const std::vector<LinePassage>& passages, double green_s);
 
-// What the end of the queue does at the line: mean over the last `positions` passages of each lane.
-struct LateFlow {
-    int vehicles = 0;        // that the means are over
-    double headway_s = 0.0;  // NaN without vehicles
+// The flow at the end of the queue: means over the last `positions` passages of each lane.
+struct LastPositionsFlow {
+    int vehicles = 0;        // number of passages in the means
+    double headway_s = 0.0;  // NaN if there are no passages
     double speed_mps = 0.0;
 };
-LateFlow late_flow(const std::vector<LinePassage>& passages, int positions);
+LastPositionsFlow last_positions_flow(const std::vector<LinePassage>& passages, int positions);
 
-// Mean of the values; NaN of none.
+// Returns the mean of the values, or NaN if there are none.
 double mean(std::span<const double> values);
 
 }  // namespace stopline

@@ -5,31 +5,32 @@
 #include <limits>
 #include <vector>
 
-#include "base/arithmetic.h"
+#include "base/simd/arithmetic.h"
 
 namespace stopline {
 
 namespace {
 
-// Sums of values and squares from the beginning.
+// Cumulative sums of the values and of their squares.
 struct Sums {
-    std::vector<double> one{0.0};
-    std::vector<double> two{0.0};
+    std::vector<double> values{0.0};
+    std::vector<double> squares{0.0};
 
-    explicit Sums(std::span<const double> values) {
-        for (const double value : values) {
-            one.push_back(one.back() + value);
-            two.push_back(two.back() + square(value));
+    explicit Sums(std::span<const double> series) {
+        for (const double value : series) {
+            values.push_back(values.back() + value);
+            squares.push_back(squares.back() + square(value));
         }
     }
     double mean(std::size_t from, std::size_t to) const {
-        return (one[to] - one[from]) / static_cast<double>(to - from);
+        return (values[to] - values[from]) / static_cast<double>(to - from);
     }
-    // Sum of squared differences from the mean; 0 where it is no more than rounding.
-    double spread(std::size_t from, std::size_t to) const {
+    // Returns the sum of squared deviations from the mean, or 0 if it is only a rounding error.
+    double squared_deviations(std::size_t from, std::size_t to) const {
         constexpr double kRounding = 1e-12;
-        const double sum = two[to] - two[from] - square(one[to] - one[from]) / static_cast<double>(to - from);
-        return sum > kRounding * two[to] ? sum : 0.0;
+        const double sum =
+            squares[to] - squares[from] - square(values[to] - values[from]) / static_cast<double>(to - from);
+        return sum > kRounding * squares[to] ? sum : 0.0;
     }
 };
 
@@ -44,47 +45,47 @@ std::size_t warm_up(std::span<const double> values) {
         means.push_back(sum / static_cast<double>(kBatch));
     }
     const Sums sums(means);
-    double best = std::numeric_limits<double>::infinity();
+    double lowest_score = std::numeric_limits<double>::infinity();
     std::size_t cut = 0;
     for (std::size_t k = 0; 2 * k < means.size(); ++k) {
         const auto rest = static_cast<double>(means.size() - k);
-        const double score = sums.spread(k, means.size()) / square(rest);
-        if (score < best) {
-            best = score;
+        const double score = sums.squared_deviations(k, means.size()) / square(rest);
+        if (score < lowest_score) {
+            lowest_score = score;
             cut = k;
         }
     }
     return cut * kBatch;
 }
 
-std::size_t first_full(std::span<const double> values) {
-    constexpr double kFull = 0.9;
+std::size_t rise_end(std::span<const double> values) {
+    constexpr double kRisenShare = 0.9;
     const double highest = values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
-    const auto full = std::find_if(values.begin(), values.end(), [&](double v) { return v >= kFull * highest; });
-    return static_cast<std::size_t>(full - values.begin());
+    const auto risen = std::find_if(values.begin(), values.end(), [&](double v) { return v >= kRisenShare * highest; });
+    return static_cast<std::size_t>(risen - values.begin());
 }
 
 std::optional<Collapse> find_collapse(std::span<const double> values, double share) {
-    constexpr std::size_t kFewest = kCollapseNeeds / 2;  // values on either side
-    if (values.size() < kCollapseNeeds) return std::nullopt;
+    constexpr std::size_t kMinSide = kMinCollapseValues / 2;  // values on each side of the cut
+    if (values.size() < kMinCollapseValues) return std::nullopt;
     const Sums sums(values);
-    double least = std::numeric_limits<double>::infinity();
-    std::size_t cut = kFewest;
-    for (std::size_t k = kFewest; k + kFewest <= values.size(); ++k) {
-        const double unexplained = sums.spread(0, k) + sums.spread(k, values.size());
-        if (unexplained < least) {
-            least = unexplained;
+    double smallest = std::numeric_limits<double>::infinity();
+    std::size_t cut = kMinSide;
+    for (std::size_t k = kMinSide; k + kMinSide <= values.size(); ++k) {
+        const double deviations = sums.squared_deviations(0, k) + sums.squared_deviations(k, values.size());
+        if (deviations < smallest) {
+            smallest = deviations;
             cut = k;
         }
     }
     const Collapse found{cut, sums.mean(0, cut), sums.mean(cut, values.size())};
-    const double variance = least / static_cast<double>(values.size() - 2);
+    const double variance = smallest / static_cast<double>(values.size() - 2);
     const double error =
         std::sqrt(variance / static_cast<double>(cut) + variance / static_cast<double>(values.size() - cut));
     const double drop = found.before - found.after;
     if (drop < share * found.before || drop <= 3.0 * error) return std::nullopt;
-    const std::size_t last = std::max(kFewest, values.size() / 10);
-    if (sums.mean(values.size() - last, values.size()) > (1.0 - share) * found.before) return std::nullopt;
+    const std::size_t last_tenth = std::max(kMinSide, values.size() / 10);
+    if (sums.mean(values.size() - last_tenth, values.size()) > (1.0 - share) * found.before) return std::nullopt;
     return found;
 }
 

@@ -1,4 +1,4 @@
-// When a series has settled, and whether it breaks down later.
+// Detection of the warm-up and of a later collapse in a time series.
 #pragma once
 
 #include <cstddef>
@@ -7,23 +7,28 @@
 
 namespace stopline {
 
-// Values to leave out at the beginning: the marginal standard error rule with means of five (MSER-5: White 1997, Simulation 69(6);
-// White, Cobb and Spratt 2000, Winter Simulation Conference). Of all cuts within the first half it takes the one after which the
-// mean of the rest is known best, the smallest variance over the square of the count. A multiple of 5; 0 for short series.
+// Returns the number of values at the beginning that belong to the warm-up: a multiple of 5, and 0 for short series.
+//
+// The method is the marginal standard error rule with means of five values (MSER-5: White 1997, Simulation 69(6);
+// White, Cobb and Spratt 2000, Winter Simulation Conference). It tries all cuts within the first half. For each cut it
+// divides the sum of squared deviations of the remaining values by the square of their count. The smallest ratio wins,
+// because the mean of the remaining values is then estimated best.
 std::size_t warm_up(std::span<const double> values);
 
-// The first value that is 90 % of the highest or more: the rise before it is over.
-std::size_t first_full(std::span<const double> values);
+// Returns the index of the first value that is at least 90 % of the highest value: the end of the initial rise.
+std::size_t rise_end(std::span<const double> values);
 
-// A drop to another level for good: the cut that explains most of the variance (least squares, one change), where the mean behind it is
-// lower by `share` of that before or more, and by more than three standard errors, and that of the last tenth (five values at least) is as
-// low. Nothing where there is none, and for less than kCollapseNeeds values.
-inline constexpr std::size_t kCollapseNeeds = 10;
+// A permanent drop of the level of a series.
 struct Collapse {
-    std::size_t at = 0;  // first value of the lower level
-    double before = 0.0;
-    double after = 0.0;
+    std::size_t index = 0;  // first value of the lower level
+    double before = 0.0;    // mean before the drop
+    double after = 0.0;     // mean after the drop
 };
+inline constexpr std::size_t kMinCollapseValues = 10;
+
+// Finds a collapse: the cut of the series into two levels with the smallest squared deviations. The mean must drop by
+// at least `share`, and by more than three standard errors. The mean of the last tenth (at least five values) must be
+// as low. Returns nothing if there is no collapse, or for fewer than kMinCollapseValues values.
 std::optional<Collapse> find_collapse(std::span<const double> values, double share);
 
 }  // namespace stopline

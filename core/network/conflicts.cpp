@@ -5,38 +5,38 @@
 #include <cstddef>
 #include <optional>
 
+#include "base/containers/index.h"
+
 namespace stopline {
 
 namespace {
 
 constexpr double kSample_m = 0.25;
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 struct Stretch {
     double from_m;
     double to_m;
 };
 
-// The part of line `a` that is nearer to `b` than the clearance. Along the line the distance changes by no more than what one has gone,
-// so that samples far from `b` can be left out.
+// Returns the part of `a` that is closer to `b` than the clearance. Over a step along `a` the distance to `b` changes
+// by at most the length of the step. A sample that is far from `b` therefore allows skipping the following samples.
 std::optional<Stretch> near_part(const Polyline& a, const Polyline& b, double clearance_m) {
     const double end_m = length_m(a);
     const int samples = static_cast<int>(std::ceil(end_m / kSample_m));
-    const auto place_m = [&](int k) { return std::min(k * kSample_m, end_m); };
-    const auto too_far_m = [&](int k) { return distance_m(b, place_at(a, place_m(k)).point) - clearance_m; };
-    // The next sample in a direction that is near.
+    const auto position_m = [&](int k) { return std::min(k * kSample_m, end_m); };
+    const auto excess_m = [&](int k) { return distance_m(b, pose_at(a, position_m(k)).point) - clearance_m; };
+    // Returns the next sample from k on that is closer than the clearance, in the direction +1 or -1.
     const auto search = [&](int k, int direction) {
         while (k >= 0 && k <= samples) {
-            const double far_m = too_far_m(k);
-            if (!(far_m >= 0.0)) break;
-            k += direction * std::max(static_cast<int>(far_m / kSample_m), 1);
+            const double too_far_m = excess_m(k);
+            if (!(too_far_m >= 0.0)) break;
+            k += direction * std::max(static_cast<int>(too_far_m / kSample_m), 1);
         }
         return k;
     };
     const int first = search(0, 1);
     if (first > samples) return std::nullopt;
-    return Stretch{place_m(first), place_m(search(samples, -1))};
+    return Stretch{position_m(first), position_m(search(samples, -1))};
 }
 
 struct Box {
@@ -53,6 +53,7 @@ Box box_of(const Polyline& line) {
     return box;
 }
 
+// Returns true if the boxes are further apart than the clearance, in x or in y.
 bool apart(const Box& a, const Box& b, double clearance_m) {
     const auto beyond = [&](const Box& one, const Box& other) {
         return one.low.x_m > other.high.x_m + clearance_m || one.low.y_m > other.high.y_m + clearance_m;
@@ -60,18 +61,19 @@ bool apart(const Box& a, const Box& b, double clearance_m) {
     return beyond(a, b) || beyond(b, a);
 }
 
-// Areas on both, from the starts of the lanes.
+// Returns the conflict area with positions from the starts of the lanes. `other` and the yielding flags are not set.
 std::optional<Conflict> areas_of(const Lane& one, const Lane& two, double clearance_m) {
     const auto on_one = near_part(one.shape, two.shape, clearance_m);
     const auto on_two = on_one ? near_part(two.shape, one.shape, clearance_m) : std::nullopt;
     if (!on_one || !on_two) return std::nullopt;
-    const auto along = [](const Lane& lane, double on_shape_m) {
-        return on_shape_m / lane.shape_scale - lane.shape_start_m;
+    const auto position_m = [](const Lane& lane, double along_shape_m) {
+        return along_shape_m / lane.shape_scale - lane.shape_start_m;
     };
-    return Conflict{-1, along(one, on_one->from_m), along(one, on_one->to_m), along(two, on_two->from_m),
-                    along(two, on_two->to_m)};
+    return Conflict{-1, position_m(one, on_one->from_m), position_m(one, on_one->to_m), position_m(two, on_two->from_m),
+                    position_m(two, on_two->to_m)};
 }
 
+// Returns the rank of the movement; a higher rank yields to a lower one.
 int rank(Turn turn) { return turn == Turn::left ? 2 : turn == Turn::right ? 1 : 0; }
 
 }  // namespace
@@ -79,7 +81,7 @@ int rank(Turn turn) { return turn == Turn::left ? 2 : turn == Turn::right ? 1 : 
 double shared_stretch_m(const Polyline& a, const Polyline& b, double clearance_m) {
     const double end_m = std::min(length_m(a), length_m(b));
     double s = 0.0;
-    while (s < end_m && distance_m(b, place_at(a, s).point) < clearance_m) s += kSample_m;
+    while (s < end_m && distance_m(b, pose_at(a, s).point) < clearance_m) s += kSample_m;
     return s;
 }
 
@@ -102,9 +104,9 @@ void find_conflicts(LaneGraph& graph, double clearance_m, int first, int stop) {
             if (two.origin == one.origin || apart(boxes[at(i - first)], boxes[at(k - first)], clearance_m)) continue;
             const std::optional<Conflict> c = areas_of(one, two, clearance_m);
             if (!c) continue;
-            const bool together = stage(one) == stage(two);
-            const bool one_yields = together && rank(one.turn) > rank(two.turn);
-            const bool two_yields = together && rank(two.turn) > rank(one.turn);
+            const bool same_stage = stage(one) == stage(two);
+            const bool one_yields = same_stage && rank(one.turn) > rank(two.turn);
+            const bool two_yields = same_stage && rank(two.turn) > rank(one.turn);
             graph.conflicts[at(i)].push_back(
                 {k, c->from_m, c->to_m, c->other_from_m, c->other_to_m, one_yields, two_yields});
             graph.conflicts[at(k)].push_back(

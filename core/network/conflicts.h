@@ -1,4 +1,4 @@
-// Conflict areas between lanes inside intersections, from their geometry alone.
+// Conflict areas of connections, computed from their geometry.
 #pragma once
 
 #include <optional>
@@ -7,15 +7,18 @@
 
 namespace stopline {
 
-// The distance along two paths that leave the same point from which on their vehicles are clear of each other.
+// Returns the distance from the common start of two diverging paths to the point where `a` is `clearance_m` away from
+// `b`.
 double shared_stretch_m(const Polyline& a, const Polyline& b, double clearance_m);
 
-// Where bodies on two lanes inside intersections can touch, as areas of `one`; `yields` are left for the caller. None: nowhere.
+// Returns the conflict area of two connections, seen from `one`, or nothing if vehicles on them cannot touch. The
+// caller sets `other`, `yields` and `other_yields`.
 std::optional<Conflict> conflict_of(const Lane& one, const Lane& two, double clearance_m);
 
-// Adds to graph.conflicts, which must have a place for each lane: the pairs of lanes from `first` on and before `stop`, all with an
-// origin, whose centre lines come nearer to each other than `clearance_m`, except pairs with the same origin, which follow each other. Of two movements in the
-// same stage of the signals the one that turns gives way: left to right and straight, right to straight.
+// Adds the conflicts of the connections [first, stop) to graph.conflicts, which must have one entry per lane. Two
+// connections conflict if their centre lines come closer than `clearance_m`. Connections of one approach lane do not
+// conflict, because their vehicles follow each other. If both movements have green in the same stage, a left turn
+// yields to right turns and to straight traffic, and a right turn yields to straight traffic.
 void find_conflicts(LaneGraph& graph, double clearance_m, int first, int stop);
 
 }  // namespace stopline

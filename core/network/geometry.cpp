@@ -16,19 +16,19 @@ double length_m(const Polyline& line) {
     return sum_m;
 }
 
-Pose place_at(const Polyline& line, double distance_m) {
-    double left_m = distance_m;
+Pose pose_at(const Polyline& line, double distance_m) {
+    double remaining_m = distance_m;
     for (std::size_t k = 1; k < line.size(); ++k) {
         const double dx = line[k].x_m - line[k - 1].x_m;
         const double dy = line[k].y_m - line[k - 1].y_m;
         const double segment_m = std::hypot(dx, dy);
-        if (left_m <= segment_m || k + 1 == line.size()) {
+        if (remaining_m <= segment_m || k + 1 == line.size()) {
             const Pose place{{}, dx / segment_m, dy / segment_m};
-            return {{line[k - 1].x_m + place.cosine * left_m, line[k - 1].y_m + place.sine * left_m},
+            return {{line[k - 1].x_m + place.cosine * remaining_m, line[k - 1].y_m + place.sine * remaining_m},
                     place.cosine,
                     place.sine};
         }
-        left_m -= segment_m;
+        remaining_m -= segment_m;
     }
     return {line.empty() ? Point{} : line.front()};
 }

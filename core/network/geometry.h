@@ -1,4 +1,4 @@
-// Centre lines of lanes in the plane. Metres; angles in quarter turns counter-clockwise.
+// Plane geometry of centre lines. Lengths are in metres, rotations in quarter turns counter-clockwise.
 #pragma once
 
 #include <vector>
@@ -14,21 +14,25 @@ using Polyline = std::vector<Point>;
 
 double length_m(const Polyline& line);
 
-// The point at a distance along the line, continued straight beyond its ends, and the direction there.
+// A point and a direction.
 struct Pose {
     Point point;
     double cosine = 1.0;
     double sine = 0.0;
 };
-Pose place_at(const Polyline& line, double distance_m);
 
-// Smallest distance of a point to the line.
+// Returns the point at a distance along the line and the direction of the line there. Beyond its ends the line is
+// continued straight.
+Pose pose_at(const Polyline& line, double distance_m);
+
+// Returns the smallest distance between the point and the line.
 double distance_m(const Polyline& line, const Point& point);
 
-// A quarter turn from `from`, heading along +x, to `to`, heading along +y (dy > 0) or -y: a circle where both legs are
-// equal, an ellipse else.
+// Returns a quarter turn from `from` to `to`. It starts in direction +x and ends in direction +y if `to` has the larger
+// y, else in direction -y. The curve is a quarter of an ellipse, or of a circle if the distances in x and y are equal.
 Polyline quarter_turn(const Point& from, const Point& to);
 
+// Returns the line rotated about the origin.
 Polyline rotated(const Polyline& line, int quarter_turns);
 
 }  // namespace stopline

@@ -39,13 +39,14 @@ LaneGraph make_approach(const ApproachSettings& s) {
 }
 
 const std::vector<Conflict>& LaneGraph::conflicts_of(int lane) const {
-    static const std::vector<Conflict> kNone;
-    return conflicts.empty() ? kNone : conflicts[static_cast<std::size_t>(lane)];
+    static const std::vector<Conflict> kNoConflicts;
+    return conflicts.empty() ? kNoConflicts : conflicts[static_cast<std::size_t>(lane)];
 }
 
 namespace {
 
-// Lanes of an approach lie beside each other in its order, and end together at their stop lines.
+// Throws InputError unless the lanes of the approach are neighbours in its order and have their stop lines side by
+// side.
 void check_approach(const LaneGraph& graph, int index) {
     const Approach& approach = graph.approaches[static_cast<std::size_t>(index)];
     const auto count = static_cast<int>(graph.lanes.size());
@@ -54,23 +55,27 @@ void check_approach(const LaneGraph& graph, int index) {
     for (std::size_t k = 0; k < approach.lanes.size(); ++k) {
         const int number = approach.lanes[k];
         if (number < 0 || number >= count) {
-            throw InputError(fmt::format("approach '{}' names a lane that does not exist", approach.name));
+            throw InputError(fmt::format("approach '{}' has lane {}, which does not exist", approach.name, number));
         }
         const Lane& lane = graph.lanes[static_cast<std::size_t>(number)];
-        if (k == 0) end_m = lane.begin_m + lane.stop_line_m;
+        if (k == 0) end_m = lane.start_offset_m + lane.stop_line_m;
         const bool last = k + 1 == approach.lanes.size();
         if (lane.approach != index || lane.left != left || lane.right != (last ? -1 : approach.lanes[k + 1])) {
-            throw InputError(
-                fmt::format("approach '{}': lane '{}' does not know its neighbours", approach.name, lane.name));
+            throw InputError(fmt::format("approach '{}': the neighbours of lane '{}' are not those of its approach",
+                                         approach.name, lane.name));
         }
-        if (!(lane.begin_m >= 0.0) || std::abs(lane.begin_m + lane.stop_line_m - end_m) > 1e-6) {
-            throw InputError(fmt::format("approach '{}': lane '{}' does not end at the stop line of the others",
+        if (!(lane.start_offset_m >= 0.0) || std::abs(lane.start_offset_m + lane.stop_line_m - end_m) > 1e-6) {
+            throw InputError(fmt::format("approach '{}': the stop line of lane '{}' is not beside the others",
                                          approach.name, lane.name));
         }
         left = number;
     }
-    const bool shares = approach.right >= 0.0 && approach.left >= 0.0 && approach.right + approach.left <= 1.0 + 1e-9;
-    if (!shares) throw InputError(fmt::format("approach '{}': shares of turns are not usable", approach.name));
+    const bool shares = approach.right_share >= 0.0 && approach.left_share >= 0.0 &&
+                        approach.right_share + approach.left_share <= 1.0 + 1e-9;
+    if (!shares) {
+        throw InputError(
+            fmt::format("approach '{}': turn shares must be at least 0 and sum to at most 1", approach.name));
+    }
 }
 
 void check_approaches(const LaneGraph& graph) {
@@ -84,12 +89,12 @@ void check_approaches(const LaneGraph& graph) {
         const std::vector<int> none;
         const std::vector<int>& lanes = known ? graph.approaches[static_cast<std::size_t>(lane.approach)].lanes : none;
         if (std::find(lanes.begin(), lanes.end(), number) == lanes.end()) {
-            throw InputError(fmt::format("lane '{}' is not one of its approach", lane.name));
+            throw InputError(fmt::format("lane '{}' is not among the lanes of its approach", lane.name));
         }
     }
     const auto groups = static_cast<std::size_t>(graph.signal_groups);
     if (!graph.stage_of.empty() && graph.stage_of.size() != groups) {
-        throw InputError("every signal group needs a stage, or none");
+        throw InputError("either every signal group has a stage, or none");
     }
 }
 
@@ -100,24 +105,26 @@ void check(const LaneGraph& graph) {
     const auto known = [lanes](int lane) { return lane >= 0 && lane < lanes; };
     std::vector<bool> is_link(graph.lanes.size(), false);
     for (const int link : graph.links) {
-        if (!known(link)) throw InputError("a link is a lane that does not exist");
+        if (!known(link)) throw InputError(fmt::format("link lane {} does not exist", link));
         is_link[static_cast<std::size_t>(link)] = true;
     }
     for (const Lane& lane : graph.lanes) {
         const bool sound = lane.length_m > 0.0 && lane.limit_mps > 0.0 && lane.signal_group < graph.signal_groups &&
                            lane.stop_line_m <= lane.length_m && std::all_of(lane.next.begin(), lane.next.end(), known);
-        if (!sound)
-            throw InputError(fmt::format("lane '{}': length, limit, signal or next lane is not usable", lane.name));
+        if (!sound) {
+            throw InputError(fmt::format(
+                "lane '{}': the length, speed limit, signal group, stop line or a successor is invalid", lane.name));
+        }
     }
     for (const Route& route : graph.routes) {
         if (route.lanes.empty()) throw InputError(fmt::format("route '{}' is empty", route.name));
         if (!std::all_of(route.lanes.begin(), route.lanes.end(), known)) {
-            throw InputError(fmt::format("route '{}' names a lane that does not exist", route.name));
+            throw InputError(fmt::format("route '{}' has a lane that does not exist", route.name));
         }
         const int last = route.lanes.back();
-        const bool goes_on = is_link[static_cast<std::size_t>(last)];
-        if (!graph.lanes[static_cast<std::size_t>(last)].next.empty() && !goes_on) {
-            throw InputError(fmt::format("route '{}' ends on a lane that leads on", route.name));
+        const bool ends_on_link = is_link[static_cast<std::size_t>(last)];
+        if (!graph.lanes[static_cast<std::size_t>(last)].next.empty() && !ends_on_link) {
+            throw InputError(fmt::format("route '{}' ends on a lane that has successors and is no link", route.name));
         }
         for (std::size_t k = 1; k < route.lanes.size(); ++k) {
             const Lane& from = graph.lanes[static_cast<std::size_t>(route.lanes[k - 1])];

@@ -1,5 +1,10 @@
-// The network as the engine sees it: lanes, the lanes that follow each, and routes over them. Generators and importers build
-// it; it is constant afterwards. A lane with a signal group has a stop line.
+// The network for the simulation: lanes, their successors, routes and conflict areas. A generator or importer builds
+// the lane graph, and it is constant afterwards.
+//
+// There are three kinds of lanes. An approach lane leads to a stop line. It ends where its movements diverge, which may
+// be beyond the stop line. A connection leads through an intersection, from one approach lane to one exit lane. An exit
+// lane leads away from an intersection. A link lane is an exit lane of one intersection and an approach lane of the
+// next one.
 #pragma once
 
 #include <cstdint>
@@ -11,116 +16,112 @@
 
 namespace stopline {
 
-// What a lane inside an intersection does. From an edge of an imported network there can be more ways than these: the further ones
-// are numbered on.
+// The movement of a connection. An approach of an imported network can have more than three movements; the further ones
+// have the values from left + 1 up to kMaxTurns - 1.
 enum class Turn : std::uint8_t { none, straight, right, left };
-inline constexpr int kMostTurns = 12;  // `none` included
+inline constexpr int kMaxTurns = 12;  // number of values, `none` included
 
 struct Lane {
     std::string name = {};
     double length_m = 0.0;
     double limit_mps = 0.0;
     double gradient = 0.0;       // rise over run, positive uphill in driving direction
-    int signal_group = -1;       // of its stop line; -1: no stop line
-    std::vector<int> next = {};  // lanes that can follow; none: vehicles leave the network here
-    Polyline shape = {};         // centre line, from shape_start_m before the lane's start
-    double stop_line_m = 0.0;    // from the lane's start; behind it the lane may go on, shared by its movements
-    double shape_start_m = 0.0;  // length of `shape` that belongs to the lane before: the shared stretch
-    double shape_scale = 1.0;    // metres of `shape` to one of the lane, where they differ: of imported networks
-    double clear_m = 0.0;    // of a lane inside an intersection: rears beyond it are clear of the origin's other ways
-    Turn turn = Turn::none;  // of a lane inside an intersection
-    int origin = -1;         // of such a lane: the entry lane that leads to it
-    int left = -1;           // lane beside it to which one may change, up to the stop line; -1: none
+    int signal_group = -1;       // signal group of the stop line; -1: no stop line
+    std::vector<int> next = {};  // successor lanes; empty: vehicles leave the network at the end
+    Polyline shape = {};         // centre line; it begins shape_start_m before the start of the lane
+    double stop_line_m = 0.0;    // position of the stop line
+    double shape_start_m = 0.0;  // connection: length of `shape` that lies on the approach lane, beyond its stop line
+    double shape_scale = 1.0;    // metres of `shape` per metre of the lane; 1 except in imported networks
+    double diverge_end_m = 0.0;  // connection: a rear beyond it is clear of the approach lane's other connections
+    Turn turn = Turn::none;      // connection: its movement; else none
+    int origin = -1;             // connection: the approach lane that leads to it
+    int left = -1;               // adjacent lane for lane changes before the stop line; -1: none
     int right = -1;
-    double begin_m = 0.0;  // where it begins, from where the longest lanes of its approach do: pockets
-    int approach = -1;     // the one that it belongs to
-    // Of a lane inside an intersection, if its movement has a light of its own; -1: that of the stop line.
-    int light = -1;
-    // Of such a lane: whoever gives way waits before the place where ways meet, not before the stop line.
-    bool waits_inside = true;
-    bool keeps_clear = true;  // of such a lane: nobody enters it without room in the exit (HindranceRules)
+    double start_offset_m = 0.0;     // distance from the start of the approach's longest lane; > 0 for a turn pocket
+    int approach = -1;               // index of its approach; -1: none
+    int movement_signal_group = -1;  // connection: signal group of its movement; -1: that of the stop line
+    bool waits_inside = true;  // connection: yielding vehicles wait before the conflict area; false: at the stop line
+    bool keep_clear = true;    // connection: the keep-clear rule applies (TrafficRules)
 };
 
-// Where the bodies of vehicles on two lanes inside an intersection can touch. All distances along the lanes, of points of
-// their centre lines: a lane's vehicle is in the area from when its front is beyond `from_m` until its rear is beyond `to_m`.
+// A conflict area: the part of two connections where vehicles can touch. The bounds are positions on the centre lines.
+// A vehicle occupies the area while its front is beyond `from_m` and its rear is not beyond `to_m`.
 struct Conflict {
-    int other = -1;
-    double from_m = 0.0;  // on this lane; below 0: on the stretch that its origin shares among movements
+    int other = -1;       // the other connection
+    double from_m = 0.0;  // on this connection; below 0: on the approach lane, beyond its stop line
     double to_m = 0.0;
-    double other_from_m = 0.0;
+    double other_from_m = 0.0;  // on the other connection
     double other_to_m = 0.0;
-    bool yields = false;        // this lane gives way to the other
-    bool other_yields = false;  // the other gives way to this one
+    bool yields = false;        // this connection gives way to the other
+    bool other_yields = false;  // the other connection gives way to this one
 };
 
-// A sequence of lanes from an entry to an exit, or to a lane where other routes begin: there a vehicle gets its next one.
+// A sequence of lanes. It begins on an entry lane or a link lane, and ends at the end of the network or on the next
+// link lane, where the vehicle gets its next route.
 struct Route {
     std::string name;
     std::vector<int> lanes;
 };
 
-// Lanes side by side that lead to an intersection from one side. Vehicles may change between them, and draw which way to turn from
-// the shares of the approach.
+// Adjacent lanes that lead to an intersection from one side. Vehicles change lanes within an approach, and its turn
+// ratios apply to all of its lanes together.
 struct Approach {
     std::string name;
-    std::vector<int> lanes;  // from the left
-    double right = 0.0;      // shares of the turns, the rest goes straight on
-    double left = 0.0;
+    std::vector<int> lanes;    // from the left
+    double right_share = 0.0;  // share of right turns, 0 .. 1
+    double left_share = 0.0;   // share of left turns, 0 .. 1; the rest goes straight on
 };
 
 struct LaneGraph {
     std::vector<Lane> lanes;
     std::vector<Route> routes;
-    std::vector<Approach> approaches;  // none where nobody changes lanes
-    std::vector<int> entries;          // lanes where vehicles enter
+    std::vector<Approach> approaches;  // empty in a network without lane changes
+    std::vector<int> entries;          // lanes where vehicles enter the network
     std::vector<int> links;            // lanes from one intersection to the next; routes start at entries and links
     int signal_groups = 0;
-    std::vector<int>
-        stage_of;  // [signal group] groups of one stage have green together: turns give way; empty: each its own
-    std::vector<std::vector<Conflict>> conflicts;  // [lane], in the order of from_m; empty where no lane has any
+    // [signal group] stage. Groups of one stage have green together. Empty: each group is a stage of its own.
+    std::vector<int> stage_of;
+    std::vector<std::vector<Conflict>> conflicts;  // [lane] in the order of from_m; empty if no lane has conflicts
 
     const std::vector<Conflict>& conflicts_of(int lane) const;
 };
 
-// The point of a lane's shape at a distance from where the shape begins, counted as the lane counts.
-inline Pose place_along(const Lane& lane, double distance_m) {
-    return place_at(lane.shape, distance_m * lane.shape_scale);
+// Returns the pose at a distance from the start of the lane's shape. The distance is in metres of the lane, not of the
+// shape.
+inline Pose pose_along(const Lane& lane, double distance_m) {
+    return pose_at(lane.shape, distance_m * lane.shape_scale);
 }
 
-// Straight lanes side by side, each with a stop line (signal group 0) and the road behind it. Entry lane k is lane 2 k, its
-// continuation lane 2 k + 1, its route k.
+// Builds a straight road of adjacent lanes without lane changes. All stop lines have signal group 0. Entry lane k is
+// lane 2 k, its exit lane is lane 2 k + 1, and its route has index k.
 LaneGraph make_approach(const ApproachSettings& settings);
 
-// Four arms that meet at a right angle, each with the same lanes; arms 0 .. 3 are those that traffic comes from in the west,
-// south, east and north. Signal group 0 is west and east, group 1 south and north. Entry lanes end where their movements part,
-// lanes inside lead from there to the exit lanes, which begin at `radius_m` from the centre.
+// Builds an intersection of four equal legs at right angles. Legs 0 .. 3 lie in the west, south, east and north. Signal
+// group 0 serves the traffic from west and east, group 1 that from south and north. Entry lanes end where their
+// movements diverge. Connections lead from there to the exit lanes, which begin `radius_m` from the centre.
 LaneGraph make_intersection(const IntersectionSettings& settings);
 
-// The same at every crossing of a grid: signal groups 2 n and 2 n + 1 at intersection n, counted row by row from the south-west.
-// Lanes between two intersections are exits of one and approaches of the other. Names of lanes begin with column and row, such as
-// c1r0_south_in_0; those of a single intersection do not.
+// Builds the same intersection at every node of a grid. Intersections are numbered row by row from the south-west.
+// Intersection n has the signal groups 2 n and 2 n + 1. Names of lanes begin with column and row, such as
+// c1r0_south_in_0, except in a grid of one intersection.
 LaneGraph make_grid(const GridSettings& grid, const IntersectionSettings& settings);
 
-// Column and row of intersection n.
-struct GridPlace {
+// Column and row of an intersection. grid_positions() returns those of all intersections, by number.
+struct GridPosition {
     int column;
     int row;
 };
-std::vector<GridPlace> grid_places(const GridSettings& grid);
+std::vector<GridPosition> grid_positions(const GridSettings& grid);
 
-// Intersections as the user describes them, each with three signal groups: 3 n is the major street of intersection n, 3 n + 1 its
-// lanes that only turn left and have a green of their own, 3 n + 2 the minor street; the first two are one stage. Names of lanes
-// begin with that of the intersection: suarezstr_west_in_0, counted from the left, pockets included; suarezstr_east_out_0. Exits
-// that lead to another intersection are its lanes and have their names. Throws InputError where the streets have a problem
-// (street_checks.h).
+// Builds the streets that the user describes. Intersection n has three signal groups: 3 n for the major street, 3 n + 1
+// for its left-turn lanes with a protected green, 3 n + 2 for the minor street. The first two form one stage.
+//
+// A lane name begins with the name of its intersection, such as suarezstr_west_in_0 or suarezstr_east_out_0. Lanes are
+// counted from the left, turn pockets included. An exit lane to another intersection is an approach lane there and has
+// that name. Throws InputError if street_problems() finds a problem (street_checks.h).
 LaneGraph make_streets(const StreetSettings& streets);
 
-// That of the kind that is chosen.
-LaneGraph make_network(const NetworkSettings& network);
-// Of the intersection that a lane with a stop line leads to.
-double radius_beyond_m(const NetworkSettings& network, const Lane& lane);
-
-// Throws InputError where lanes, routes or signal groups do not fit together.
+// Throws InputError if lanes, approaches, routes or signal groups are inconsistent.
 void check(const LaneGraph& graph);
 
 }  // namespace stopline

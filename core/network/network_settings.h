@@ -1,4 +1,4 @@
-// What a user says of the network: the parameters of a generator. SI units.
+// The user's settings of the network: the parameters of the generators, or the files of an imported network. SI units.
 #pragma once
 
 #include <memory>
@@ -10,44 +10,45 @@
 
 namespace stopline {
 
-// One straight approach with a stop line, and the road behind it.
+// One straight road with a stop line.
 struct ApproachSettings {
     int lanes = 1;
-    double length_m = 700.0;       // entry to stop line
-    double exit_length_m = 700.0;  // stop line to the end of the network
+    double length_m = 700.0;       // from the entry to the stop line
+    double exit_length_m = 700.0;  // from the stop line to the end of the network
     double speed_limit_mps = 50.0 / 3.6;
-    double gradient = 0.0;  // rise over run, positive uphill
+    double gradient = 0.0;  // rise over run, positive uphill in driving direction
 };
 
-// Four arms at right angles, all alike.
+// An intersection of four equal legs at right angles.
 struct IntersectionSettings {
     struct LaneMovements {
-        std::string movements;  // of left, straight and right, joined by +
+        std::string movements;  // one or more of left, straight and right, joined by '+'
 
         bool allows(std::string_view movement) const { return movements.find(movement) != std::string::npos; }
     };
-    std::vector<LaneMovements> lanes = {};  // of each arm, from the left
-    double radius_m = 20.0;                 // centre to stop line
-    double approach_length_m = 200.0;       // entry of the network to stop line
-    double exit_length_m = 100.0;           // to the end of the network
+    std::vector<LaneMovements> lanes = {};  // approach lanes of each leg, from the left
+    double radius_m = 20.0;                 // from the centre to the stop line
+    double approach_length_m = 200.0;       // from the entry of the network to the stop line
+    double exit_length_m = 100.0;           // from the intersection to the end of the network
     double lane_width_m = 3.5;
     double speed_limit_mps = 50.0 / 3.6;
-    double turn_speed_mps = 7.0;  // 2.5 m/s2 lateral on a radius of 20 m (Section IV.A)
-    double clearance_m = 2.0;     // between centre lines below which vehicles touch: a car's width and a little more
+    double turn_speed_mps = 7.0;  // lateral acceleration of 2.5 m/s2 on a radius of 20 m (Section IV.A)
+    double clearance_m =
+        2.0;  // vehicles touch where their centre lines are closer than this; a bit above a car's width
 };
 
-// Intersections, all alike, where `columns` streets from south to north cross `rows` streets from west to east.
+// A grid of equal intersections, where `columns` streets from south to north cross `rows` streets from west to east.
 struct GridSettings {
     int columns = 1;
     int rows = 1;
-    double column_spacing_m = 276.5;  // between the centres of neighbours (Section VI)
+    double column_spacing_m = 276.5;  // between the centres of neighbouring intersections (Section VI)
     double row_spacing_m = 192.5;
-    std::string shape = "rectangle";  // without_corners: three by three are then one and its four neighbours
+    std::string shape = "rectangle";  // rectangle | without_corners: no intersections in the four corners
 
     bool has_corners() const { return shape == "rectangle"; }
 };
 
-struct SumoNetwork;  // sumo_graph.h
+struct SumoNetwork;  // sumo_import/sumo_graph.h
 
 struct NetworkSettings {
     std::string kind = "approach";
@@ -55,7 +56,7 @@ struct NetworkSettings {
     IntersectionSettings intersection;
     GridSettings grid;
     StreetSettings streets;
-    // Of the kind `sumo`: files as the user names them, and what they hold.
+    // For the kind `sumo`: the paths of the files as the user wrote them, and the network that was read from them.
     std::string net = {};
     std::vector<std::string> routes = {};
     std::vector<std::string> additional = {};
@@ -63,7 +64,7 @@ struct NetworkSettings {
 
     bool is_streets() const { return kind == "streets"; }
     bool is_sumo() const { return kind == "sumo"; }
-    bool has_several() const { return kind == "grid" || is_streets() || is_sumo(); }
+    bool has_several_intersections() const { return kind == "grid" || is_streets() || is_sumo(); }
     bool has_intersections() const { return kind != "approach"; }
 };
 

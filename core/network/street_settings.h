@@ -1,4 +1,4 @@
-// Streets that a user describes: intersections with positions, lanes, programmes. SI units.
+// The user's description of streets: intersections with positions, lanes and signal programmes. SI units.
 #pragma once
 
 #include <algorithm>
@@ -9,25 +9,24 @@
 namespace stopline {
 
 struct StreetLane {
-    std::string movements;  // of left, straight and right, joined by +
-    double pocket_m = 0.0;  // from where it begins to the stop line; 0: as long as the approach
+    std::string movements;  // one or more of left, straight and right, joined by '+'
+    double pocket_m = 0.0;  // length of a turn pocket, to the stop line; 0: the lane is as long as the approach
 };
 
-// What an intersection has on one side: lanes that lead to it, and lanes that lead away on the same side.
-struct StreetArm {
-    std::string from = "west";  // the side that its traffic comes from: west, south, east or north
-    std::vector<StreetLane> lanes = {};
-    int exits = 0;
+// One side of an intersection: the approach lanes and the exit lanes there.
+struct StreetLeg {
+    std::string from = "west";           // west, south, east or north: the side where its traffic comes from
+    std::vector<StreetLane> lanes = {};  // approach lanes, from the left
+    int exits = 0;                       // number of exit lanes
     double speed_limit_mps = 50.0 / 3.6;
-    double right = 0.0;  // shares of the turns, the rest goes straight on
-    double left = 0.0;
-    // Where the arm leads to the border of the network: how far before the stop line its lanes begin, and how far behind the
-    // intersection its exits end.
-    double length_m = 300.0;
-    double exit_length_m = 100.0;
+    double right_share = 0.0;  // share of right turns, 0 .. 1
+    double left_share = 0.0;   // share of left turns, 0 .. 1; the rest goes straight on
+    // Only for a leg that leads to the border of the network:
+    double length_m = 300.0;       // from the border to the stop line
+    double exit_length_m = 100.0;  // from the intersection to the border
 };
 
-// The seven steps of Table 3; major is the street from west to east.
+// The signal programme in seven steps of Table 3. The major street is the one from west to east.
 struct SevenSteps {
     double major_green_s = 24.0;
     double major_yellow_s = 3.0;
@@ -50,23 +49,23 @@ struct SevenSteps {
 
 struct StreetIntersection {
     std::string name;
-    double x_m = 0.0;  // of the centre, to the east
-    double y_m = 0.0;  // to the north
-    double radius_m = 20.0;
-    std::vector<StreetArm> arms = {};
+    double x_m = 0.0;        // centre, to the east
+    double y_m = 0.0;        // centre, to the north
+    double radius_m = 20.0;  // from the centre to the stop lines
+    std::vector<StreetLeg> legs = {};
     SevenSteps programme;
-    double offset_s = 0.0;  // the green of the major street begins then, and a cycle before, ...
+    double offset_s = 0.0;  // start of the green of the major street, in every cycle
 };
 
-// Arms of two intersections on one line that face each other are the ends of one road; there the exits of the one are the lanes to
-// the other.
+// Two legs of different intersections that face each other on one line are the ends of one road. The exit lanes of the
+// one intersection are then approach lanes of the other.
 struct StreetSettings {
     std::string name;
-    double median_m = 0.0;        // between the two directions of streets from west to east
-    double minor_median_m = 0.0;  // and from south to north
+    double median_m = 0.0;        // width between the two directions of streets from west to east
+    double minor_median_m = 0.0;  // the same for streets from south to north
     double lane_width_m = 3.5;
     double turn_speed_mps = 7.0;
-    double clearance_m = 2.0;  // between centre lines below which vehicles touch
+    double clearance_m = 2.0;  // vehicles touch where their centre lines are closer than this
     std::vector<StreetIntersection> intersections = {};
 
     double longest_green_s() const {

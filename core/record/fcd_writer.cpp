@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/io/escape.h"
 #include "record/sumo_files.h"
 #include "record/vehicle_name.h"
 #include "record/vehicle_place.h"
@@ -15,15 +16,16 @@ public:
     FcdWriter(const std::filesystem::path& file, const RecordingWindow& window, const Model& model)
         : model_(model), clock_(window, model.step_s), xml_(file, "fcd-export", "fcd_file.xsd") {
         for (const Lane& lane : model.graph.lanes) lanes_.push_back(sumo_lane_name(lane));
-        for (const CompiledPolicy& policy : model.policies) policies_.push_back(xml_escaped(policy.settings.name));
+        for (const CompiledPolicy& policy : model.policies) policies_.push_back(escape_xml(policy.settings.name));
     }
 
-    void look(const State& state) override {
+    void observe(const State& state) override {
         if (!clock_.is_due(state.tick)) return;
         xml_.add("    <timestep time=\"{:.2f}\">\n", model_.time_s(state.tick));
         for (int lane = 0; lane < static_cast<int>(state.blocks.size()); ++lane) {
             const LaneBlock& block = state.blocks[static_cast<std::size_t>(lane)];
-            for (int slot = block.first; slot < block.stop(); ++slot) add(state, lane, static_cast<std::size_t>(slot));
+            for (int slot = block.first; slot < block.past_last(); ++slot)
+                add(state, lane, static_cast<std::size_t>(slot));
         }
         xml_.add("    </timestep>\n");
         ++frames_;
@@ -37,7 +39,7 @@ public:
 private:
     void add(const State& state, int lane, std::size_t slot) {
         const VehicleArrays& v = state.vehicles;
-        const Pose place = vehicle_place(model_, state, lane, slot);
+        const Pose place = front_pose(model_, state, lane, slot);
         const double north_deg = 90.0 - std::atan2(place.sine, place.cosine) * 180.0 / std::numbers::pi;
         xml_.add(
             "        <vehicle id=\"{}\" x=\"{:.2f}\" y=\"{:.2f}\" angle=\"{:.2f}\" type=\"{}\" speed=\"{:.2f}\" "

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "base/io/escape.h"
 #include "record/sumo_files.h"
 #include "record/xml_file.h"
 
@@ -29,63 +30,65 @@ class LoopWriter : public RunWriter {
 public:
     LoopWriter(const std::filesystem::path& file, double interval_s, const Model& model)
         : model_(model),
-          every_(std::max<std::int64_t>(to_ticks(interval_s, model.step_s), 1)),
+          interval_ticks_(std::max<std::int64_t>(to_ticks(interval_s, model.step_s), 1)),
           xml_(file, "detector", "det_e1_file.xsd"),
           loops_(model.detectors.size()) {
-        for (const Detector& detector : model.detectors) names_.push_back(xml_escaped(name_of_loop(detector)));
+        for (const Detector& detector : model.detectors) names_.push_back(escape_xml(name_of_loop(detector)));
     }
 
-    void look(const State& state) override {
-        for (; crossing_ < state.crossings.size(); ++crossing_) note(state.crossings[crossing_]);
-        if (state.tick == begin_) return;
+    void observe(const State& state) override {
+        for (; next_crossing_ < state.records.crossings.size(); ++next_crossing_)
+            add_crossing(state.records.crossings[next_crossing_]);
+        if (state.tick == interval_begin_) return;
         for (std::size_t k = 0; k < loops_.size(); ++k) {
-            if (!names_[k].empty()) loops_[k].occupied += is_covered(state, k) ? 1 : 0;
+            if (!names_[k].empty()) loops_[k].occupied_steps += is_covered(state, k) ? 1 : 0;
         }
-        if ((state.tick - begin_) % every_ == 0) write_interval(state.tick);
-        last_ = state.tick;
+        if ((state.tick - interval_begin_) % interval_ticks_ == 0) write_interval(state.tick);
+        last_tick_ = state.tick;
     }
 
     std::string finish() override {
-        if (last_ > begin_) write_interval(last_);
+        if (last_tick_ > interval_begin_) write_interval(last_tick_);
         xml_.finish();
-        const auto placed = std::count_if(names_.begin(), names_.end(), [](auto& name) { return !name.empty(); });
-        return fmt::format("{} loops, {} rows", placed, rows_);
+        const auto loops = std::count_if(names_.begin(), names_.end(), [](auto& name) { return !name.empty(); });
+        return fmt::format("{} loops, {} rows", loops, rows_);
     }
 
 private:
     struct Loop {
-        int passed = 0;
-        double speeds_mps = 0.0;
-        double slownesses_spm = 0.0;
-        double lengths_m = 0.0;
-        std::int64_t occupied = 0;  // steps
+        int passages = 0;
+        double sum_of_speeds_mps = 0.0;
+        double sum_of_inverse_speeds_spm = 0.0;
+        double sum_of_lengths_m = 0.0;
+        std::int64_t occupied_steps = 0;
     };
 
     std::string name_of_loop(const Detector& detector) const {
         if (detector.loop >= 0) return model_.loop_names[static_cast<std::size_t>(detector.loop)];
-        if (detector.lane < 0) return {};  // trips begin or end there: that is no place
+        if (detector.lane < 0) return {};  // it counts entries or exits of the network and has no position
         const std::string zone = detector.zone >= 0 ? std::to_string(detector.zone) : "";
         return fmt::format("{}_{}{}", model_.graph.lanes[static_cast<std::size_t>(detector.lane)].name,
                            name_of(detector.kind), zone);
     }
 
-    void note(const Crossing& crossing) {
-        constexpr double kSlowest_mps = 0.01;
+    void add_crossing(const Crossing& crossing) {
+        constexpr double kMinSpeed_mps = 0.01;
         Loop& loop = loops_[static_cast<std::size_t>(crossing.detector)];
-        const double speed_mps = std::max(static_cast<double>(crossing.speed_mps), kSlowest_mps);
-        ++loop.passed;
-        loop.speeds_mps += speed_mps;
-        loop.slownesses_spm += 1.0 / speed_mps;
-        loop.lengths_m += static_cast<double>(crossing.length_m);
+        const double speed_mps = std::max(static_cast<double>(crossing.speed_mps), kMinSpeed_mps);
+        ++loop.passages;
+        loop.sum_of_speeds_mps += speed_mps;
+        loop.sum_of_inverse_speeds_spm += 1.0 / speed_mps;
+        loop.sum_of_lengths_m += static_cast<double>(crossing.length_m);
     }
 
-    // Front beyond it and rear before it: on its lane, or with the front on one that follows.
+    // Returns true if a vehicle covers the detector: its front is beyond it, on this lane or the next, and its rear
+    // before it.
     bool is_covered(const State& state, std::size_t detector) const {
         const VehicleArrays& v = state.vehicles;
         const double line_m = model_.detectors[detector].position_m;
         const auto lane = static_cast<std::size_t>(model_.detectors[detector].lane);
         const LaneBlock& block = state.blocks[lane];
-        for (int slot = block.first; slot < block.stop(); ++slot) {
+        for (int slot = block.first; slot < block.past_last(); ++slot) {
             const auto i = static_cast<std::size_t>(slot);
             if (v.position_m[i] < line_m) break;
             if (v.position_m[i] - static_cast<double>(v.length_m[i]) < line_m) return true;
@@ -101,35 +104,37 @@ private:
     }
 
     void write_interval(std::int64_t tick) {
-        const auto steps = static_cast<double>(tick - begin_);
-        const double from_s = model_.time_s(begin_);
+        const auto steps = static_cast<double>(tick - interval_begin_);
+        const double from_s = model_.time_s(interval_begin_);
         const double to_s = model_.time_s(tick);
         for (std::size_t k = 0; k < loops_.size(); ++k) {
             if (names_[k].empty()) continue;
             const Loop& loop = loops_[k];
-            const double passed = loop.passed;
-            const bool any = loop.passed > 0;
+            const double passages = loop.passages;
+            const bool has_passages = loop.passages > 0;
             xml_.add(
                 "    <interval begin=\"{:.2f}\" end=\"{:.2f}\" id=\"{}\" nVehContrib=\"{}\" flow=\"{:.2f}\" "
                 "occupancy=\"{:.2f}\" speed=\"{:.2f}\" harmonicMeanSpeed=\"{:.2f}\" length=\"{:.2f}\" "
                 "nVehEntered=\"{}\"/>\n",
-                from_s, to_s, names_[k], loop.passed, passed * kHour_s / (to_s - from_s),
-                100.0 * static_cast<double>(loop.occupied) / steps, any ? loop.speeds_mps / passed : -1.0,
-                any ? passed / loop.slownesses_spm : -1.0, any ? loop.lengths_m / passed : -1.0, loop.passed);
+                from_s, to_s, names_[k], loop.passages, passages * kHour_s / (to_s - from_s),
+                100.0 * static_cast<double>(loop.occupied_steps) / steps,
+                has_passages ? loop.sum_of_speeds_mps / passages : -1.0,
+                has_passages ? passages / loop.sum_of_inverse_speeds_spm : -1.0,
+                has_passages ? loop.sum_of_lengths_m / passages : -1.0, loop.passages);
             ++rows_;
         }
         std::fill(loops_.begin(), loops_.end(), Loop{});
-        begin_ = tick;
+        interval_begin_ = tick;
     }
 
     const Model& model_;
-    std::int64_t every_;
+    std::int64_t interval_ticks_;
     XmlFile xml_;
     std::vector<Loop> loops_;  // [detector]
     std::vector<std::string> names_;
-    std::size_t crossing_ = 0;  // the first that was not looked at
-    std::int64_t begin_ = 0;    // of the interval
-    std::int64_t last_ = 0;
+    std::size_t next_crossing_ = 0;    // index of the first crossing that was not added
+    std::int64_t interval_begin_ = 0;  // tick
+    std::int64_t last_tick_ = 0;
     std::int64_t rows_ = 0;
 };
 

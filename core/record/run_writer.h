@@ -1,9 +1,9 @@
-// A file that is written while a run goes on, from what can be seen of it between two steps.
+// Interface for files that are written during a run, from the state between two steps.
 #pragma once
 
 #include <string>
 
-#include "sim/state.h"
+#include "sim/state/state.h"
 
 namespace stopline {
 
@@ -16,9 +16,9 @@ public:
     RunWriter& operator=(RunWriter&&) = delete;
     virtual ~RunWriter() = default;
 
-    // Before each step, and once after the last.
-    virtual void look(const State& state) = 0;
-    // Puts the file in its place. What it holds, for the user. The model is not needed any more.
+    // Records the state. Call it before each step, and once after the last step.
+    virtual void observe(const State& state) = 0;
+    // Completes the file and returns a summary of its contents for the user. The model may be destroyed afterwards.
     virtual std::string finish() = 0;
 };
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "base/replaced_file.h"
+#include "base/io/replaced_file.h"
 #include "record/vehicle_place.h"
 
 namespace stopline {
@@ -12,17 +12,18 @@ namespace {
 class TrajectoryWriter : public RunWriter {
 public:
     TrajectoryWriter(const std::filesystem::path& file, const RecordingWindow& window, std::string population,
-                     const Model& model)
+                     const Model& model, const std::string& header)
         : model_(model), clock_(window, model.step_s), population_(std::move(population)), file_(file) {
-        file_.write("population,time_s,vehicle,policy,lane,place_m,x_m,y_m,speed_mps,acceleration_mps2\n");
+        file_.write(header);
     }
 
-    void look(const State& state) override {
+    void observe(const State& state) override {
         if (!clock_.is_due(state.tick)) return;
         text_.clear();
         for (int lane = 0; lane < static_cast<int>(state.blocks.size()); ++lane) {
             const LaneBlock& block = state.blocks[static_cast<std::size_t>(lane)];
-            for (int slot = block.first; slot < block.stop(); ++slot) add(state, lane, static_cast<std::size_t>(slot));
+            for (int slot = block.first; slot < block.past_last(); ++slot)
+                add(state, lane, static_cast<std::size_t>(slot));
         }
         file_.write(text_);
     }
@@ -35,7 +36,7 @@ public:
 private:
     void add(const State& state, int lane, std::size_t slot) {
         const VehicleArrays& v = state.vehicles;
-        const Point front = vehicle_place(model_, state, lane, slot).point;
+        const Point front = front_pose(model_, state, lane, slot).point;
         fmt::format_to(std::back_inserter(text_), "{},{:.3f},{},{},{},{:.3f},{:.3f},{:.3f},{:.4f},{:.4f}\n",
                        population_, model_.time_s(state.tick), v.id[slot],
                        model_.policies[static_cast<std::size_t>(v.policy[slot])].settings.name,
@@ -55,8 +56,9 @@ private:
 }  // namespace
 
 std::unique_ptr<RunWriter> make_trajectory_writer(const std::filesystem::path& file, const RecordingWindow& window,
-                                                  const std::string& population, const Model& model) {
-    return std::make_unique<TrajectoryWriter>(file, window, population, model);
+                                                  const std::string& population, const Model& model,
+                                                  const std::string& header) {
+    return std::make_unique<TrajectoryWriter>(file, window, population, model, header);
 }
 
 }  // namespace stopline

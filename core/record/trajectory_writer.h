@@ -1,18 +1,22 @@
-// Every vehicle at every frame as CSV, for runs of which too many rows come for a table in memory.
+// Writer for trajectories as CSV. It writes during the run, because a long run has too many rows for a table in memory.
 #pragma once
 
 #include <filesystem>
 #include <memory>
 #include <string>
 
-#include "record/frame_clock.h"
+#include "record/recording/frame_clock.h"
 #include "record/run_writer.h"
 
 namespace stopline {
 
-// Columns: population, time_s, vehicle, policy, lane, place_m (of the front, from the lane's start), x_m, y_m, speed_mps,
-// acceleration_mps2. Names may hold no comma, quote or line break.
+inline constexpr const char* kTrajectoryHeader =
+    "population,time_s,vehicle,policy,lane,position_m,x_m,y_m,speed_mps,acceleration_mps2\n";
+
+// Returns a writer for one row per vehicle and frame. `header` is the first line of the file: kTrajectoryHeader, or the
+// same columns under other names. Names of the run must not contain commas, quotes or line breaks.
 std::unique_ptr<RunWriter> make_trajectory_writer(const std::filesystem::path& file, const RecordingWindow& window,
-                                                  const std::string& population, const Model& model);
+                                                  const std::string& population, const Model& model,
+                                                  const std::string& header = kTrajectoryHeader);
 
 }  // namespace stopline

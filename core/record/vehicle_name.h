@@ -1,13 +1,14 @@
-// What a vehicle is called in tables: as its trip, where that has a name, else by its number.
+// Names of vehicles in result files.
 #pragma once
 
 #include <string>
 
-#include "sim/model.h"
+#include "sim/state/model.h"
 
 namespace stopline {
 
-// Ready for the value of an attribute.
+// Returns the name of the vehicle's trip, or the number of the vehicle if its trip has no name. The name is escaped
+// for XML.
 std::string vehicle_name(const Model& model, int trip, int vehicle);
 
 }  // namespace stopline

@@ -1,4 +1,4 @@
-// XML as SUMO writes it, in pieces: a file of any length takes no memory.
+// Writer for XML files in SUMO's formats. It writes in blocks, so the memory does not grow with the file.
 #pragma once
 
 #include <filesystem>
@@ -8,32 +8,31 @@
 
 #include <fmt/format.h>
 
-#include "base/replaced_file.h"
+#include "base/io/replaced_file.h"
 #include "network/lane_graph.h"
 
 namespace stopline {
 
-// As the value of an attribute.
-std::string xml_escaped(std::string_view text);
-
-// The lane's name as SUMO has it: edge and index, with a colon in front inside an intersection.
+// Returns the name of a lane in SUMO's style, escaped for XML: edge and index, with a colon in front for connections.
 std::string sumo_lane_name(const Lane& lane);
 
 class XmlFile {
 public:
-    // Writes the head, and the root element with the schema that SUMO's tools check it against.
+    // Begins the file with the XML declaration and the root element. `schema` is the file name of SUMO's schema.
     XmlFile(const std::filesystem::path& file, std::string root, std::string_view schema);
 
+    // Appends formatted text. The caller escapes attribute values with escape_xml().
     template <class... Arguments>
     void add(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
         fmt::format_to(std::back_inserter(text_), format, std::forward<Arguments>(arguments)...);
-        if (text_.size() > kTogether) flush();
+        if (text_.size() > kBlockBytes) flush();
     }
+    // Closes the root element and puts the file in its place. Throws InputError if the file cannot be written.
     void finish();
     const std::filesystem::path& path() const { return file_.path(); }
 
 private:
-    static constexpr std::size_t kTogether = 1U << 20U;
+    static constexpr std::size_t kBlockBytes = 1U << 20U;
     void flush();
 
     ReplacedFile file_;

@@ -5,30 +5,31 @@
 #include <utility>
 
 #include "base/input_error.h"
+#include "base/nearest_name.h"
 #include "scenario/data_files.h"
-#include "scenario/field_path.h"
-#include "scenario/nearest_name.h"
-#include "scenario/yaml_source.h"
+#include "scenario/schema/field_path.h"
+#include "scenario/schema/old_names.h"
+#include "scenario/yaml/yaml_source.h"
 
 namespace stopline {
 namespace {
 
-constexpr int kBasesMax = 8;  // files that build on each other
+constexpr int kBasesMax = 8;  // longest chain of files that name each other as base
 
 using Kind = SourceNode::Kind;
 
-// Own values over those of the base: maps of fields field by field, everything else whole.
+// Puts own values over those of the base. Sections are merged field by field; any other value is replaced as a whole.
 void merge(const Table& table, SourceNode& base, SourceNode own) {
     for (std::size_t i = 0; i < own.keys.size(); ++i) {
-        SourceNode* const old = base.find(own.keys[i].text);
+        SourceNode* const base_value = base.find(own.keys[i].text);
         const Field* const field = table.find(own.keys[i].text);
         const SectionField* const section = field == nullptr ? nullptr : std::get_if<SectionField>(&field->kind);
-        if (old == nullptr) {
+        if (base_value == nullptr) {
             base.add(std::move(own.keys[i]), std::move(own.items[i]));
-        } else if (section != nullptr && old->kind == Kind::map && own.items[i].kind == Kind::map) {
-            merge(section->table(), *old, std::move(own.items[i]));
+        } else if (section != nullptr && base_value->kind == Kind::map && own.items[i].kind == Kind::map) {
+            merge(section->table(), *base_value, std::move(own.items[i]));
         } else {
-            *old = std::move(own.items[i]);
+            *base_value = std::move(own.items[i]);
         }
     }
 }
@@ -51,6 +52,7 @@ SourceNode scalar_at(const Place& place, std::string text) {
     return node;
 }
 
+// `bases`: number of files already read in this chain.
 void resolve(const Table& table, const std::string& folder, SourceNode& node, const std::string& path, int bases,
              Report& report) {
     const SourceNode* const inner = node.kind == Kind::map ? node.find("base") : nullptr;
@@ -60,8 +62,8 @@ void resolve(const Table& table, const std::string& folder, SourceNode& node, co
     node = SourceNode{};
     node.kind = Kind::broken;
     if (bases >= kBasesMax) {
-        report.error(reference.place,
-                     "field '" + path + "': more than " + std::to_string(kBasesMax) + " files name each other as base");
+        report.error(reference.place, "field '" + path + "': the chain of base files is longer than " +
+                                          std::to_string(kBasesMax) + " files");
         return;
     }
     DataFile file = read_data_file(folder, reference, path, report);
@@ -71,6 +73,7 @@ void resolve(const Table& table, const std::string& folder, SourceNode& node, co
         }
         return;
     }
+    replace_old_names(table, file.tree, path, report);
     if (table.find("name") != nullptr && file.tree.find("name") == nullptr) {
         file.tree.add({"name", reference.place}, scalar_at(reference.place, file.stem));
     }
@@ -81,7 +84,8 @@ void resolve(const Table& table, const std::string& folder, SourceNode& node, co
 
 const SourceNode* name_of(const SourceNode& item) { return item.kind == Kind::map ? item.find("name") : nullptr; }
 
-// The list of a library file "folder/name", in which entries of the same name are replaced and to which others are added.
+// Merges a list into the list of a library file "folder/name": replaces entries with the same name and appends the
+// others.
 void merge_library_list(const Field& field, const std::string& library, SourceNode& list, Report& report) {
     if (list.kind != Kind::list) return;
     const auto slash = library.find('/');
@@ -93,11 +97,13 @@ void merge_library_list(const Field& field, const std::string& library, SourceNo
         return;
     }
     if (known == nullptr || known->kind != Kind::list || file.tree.keys.size() != 1) {
-        report.error(file.tree.place, "needs '" + field.name + "' with a list, and nothing else");
+        report.error(file.tree.place, "needs the field '" + field.name + "' with a list, and no other field");
         list.kind = Kind::broken;
         return;
     }
-    std::vector<bool> own_entry(known->items.size(), false);  // so that a name given twice stays twice, and is reported
+    replace_old_names(field, *known, field.name, report);
+    std::vector<bool> own_entry(known->items.size(),
+                                false);  // keeps a name that the scenario gives twice, to report it
     for (SourceNode& own : list.items) {
         const SourceNode* const name = name_of(own);
         std::size_t i = 0;
@@ -115,6 +121,7 @@ void merge_library_list(const Field& field, const std::string& library, SourceNo
     list.items = std::move(known->items);
 }
 
+// Completes the value of one field, but nothing inside it.
 void complete_field(const Field& field, SourceNode& map, const std::string& path, Report& report) {
     SourceNode* value = map.find(field.name);
     const auto* const section = std::get_if<SectionField>(&field.kind);
@@ -135,7 +142,7 @@ void complete_field(const Field& field, SourceNode& map, const std::string& path
     }
 }
 
-// The choice at a path of names joined by dots, as the file has it, or by default.
+// Returns the choice at a path of names joined by dots: the value in the file, or the default.
 std::string choice_at(const Table& table, const SourceNode* map, const std::string& path) {
     const auto dot = path.find('.');
     const std::string name = path.substr(0, dot);
@@ -147,13 +154,15 @@ std::string choice_at(const Table& table, const SourceNode* map, const std::stri
     return value != nullptr ? value->text : std::get<ChoiceField>(kind).get(table.make_default().get());
 }
 
-// Whether a field exists where choices are as the file has them.
+// Returns true if the field exists with the choices of this file, see Field::condition_field.
 bool exists(const Table& table, const Field& field, const SourceNode& map) {
-    if (field.only_field.empty()) return true;
-    const std::string choice = choice_at(table, &map, field.only_field);
-    return std::find(field.only_values.begin(), field.only_values.end(), choice) != field.only_values.end();
+    if (field.condition_field.empty()) return true;
+    const std::string choice = choice_at(table, &map, field.condition_field);
+    return std::find(field.condition_values.begin(), field.condition_values.end(), choice) !=
+           field.condition_values.end();
 }
 
+// Finds a list entry by index or by name; null if there is none.
 SourceNode* find_entry(SourceNode& list, const std::string& entry) {
     const ParsedWhole index = parse_whole(entry);
     if (index.problem.empty()) return index.value < list.items.size() ? &list.items[index.value] : nullptr;
@@ -172,7 +181,7 @@ std::string entries_text(const SourceNode& list) {
            (names.empty() ? "" : " (" + joined(names) + ")");
 }
 
-// Puts the value where the steps lead to.
+// Puts a value at the place that the steps of a path lead to.
 class Setter {
 public:
     Setter(SourceNode value, Report& report) : value_(std::move(value)), report_(report) {}
@@ -182,12 +191,13 @@ public:
         const PathStep& step = steps[i];
         const std::string here = join_path(path, step.name);
         const Field* const field = table.find(step.name);
-        if (field == nullptr) return error(here, "is unknown" + known_names(step.name, table.names()));
+        if (field == nullptr) return error(here, "is unknown" + known_names_hint(step.name, table.names()));
         const bool last = i + 1 == steps.size();
         if (last && step.entries.empty()) {
-            SourceNode* const old = map.find(step.name);
-            if (old != nullptr) {
-                *old = std::move(value_);
+            replace_old_names(*field, value_, here, report_);
+            SourceNode* const present = map.find(step.name);
+            if (present != nullptr) {
+                *present = std::move(value_);
             } else {
                 map.add({step.name, value_.place}, std::move(value_));
             }
@@ -218,11 +228,12 @@ private:
         }
         SourceNode* const entry = find_entry(*list, wanted);
         if (entry == nullptr) return error(path, "has no entry [" + shortened(wanted) + "]; it " + entries_text(*list));
+        const auto* const items = std::get_if<ListField>(&field.kind);
         if (last) {
+            if (items != nullptr) replace_old_names(items->table(), value_, path + "[" + wanted + "]", report_);
             *entry = std::move(value_);
             return;
         }
-        const auto* const items = std::get_if<ListField>(&field.kind);
         if (items == nullptr || entry->kind != Kind::map) return error(path, "has no fields in its entries");
         set(items->table(), *entry, steps, i + 1, path + "[" + wanted + "]");
     }
@@ -250,7 +261,7 @@ void complete(const Table& table, SourceNode& map, const std::string& path, Repo
         SourceNode* value = map.find(field.name);
         if (value == nullptr && std::holds_alternative<SectionField>(field.kind) && !field.required &&
             exists(table, field, map)) {
-            SourceNode empty;  // fields inside may have fallbacks
+            SourceNode empty;  // fields inside may have default texts
             empty.kind = Kind::map;
             empty.place = map.place;
             value = &map.add({field.name, map.place}, std::move(empty));
@@ -275,9 +286,12 @@ void apply_override(const Table& table, SourceNode& root, const std::string& tex
         report.error(place, "needs the form path=value, for instance signal.green=20 s");
         return;
     }
+    const std::string written = text.substr(0, equals);
+    const std::string path = current_path(table, written);
+    if (path != written) report.warn(place, old_name_warning(shortened(written), shortened(path)));
     try {
         SourceNode value = parse_yaml(std::string_view(text).substr(equals + 1), source);
-        Setter(std::move(value), report).set(table, root, path_steps(text.substr(0, equals)), 0, "");
+        Setter(std::move(value), report).set(table, root, path_steps(path), 0, "");
     } catch (const YamlError& error) {
         report.error(place, error.message());
     }

@@ -1,23 +1,24 @@
-// Completes the tree of a scenario before it is read: defaults that are written as text, files that are named, entries
-// written as a single word, and overrides from the command line. What comes out says everything a file could say, so the
-// reader knows one form only and checks inherited and own values alike.
+// Completes the tree of a scenario before it is read. Inserts default texts, named data files, single-word list entries
+// and overrides. The reader then meets one complete form, and checks inherited and own values alike.
 #pragma once
 
 #include <filesystem>
 #include <string>
 
-#include "scenario/field_table.h"
+#include "scenario/schema/field_table.h"
 
 namespace stopline {
 
-// Applies `path=value` (see load_scenario.h) to the map `root`. Parts of the tree that the path enters are completed, so
-// that an override reaches into a vehicle that the file only names.
+// Applies an override `path=value` (see load_scenario.h) to the map `root`. Completes each section on the path first,
+// so that an override also reaches fields of a vehicle that the file gives by name only.
 void apply_override(const Table& table, SourceNode& root, const std::string& text,
                     const std::filesystem::path& directory, Report& report);
 
+// Completes a map and everything inside it.
 void complete(const Table& table, SourceNode& map, const std::string& path, Report& report);
 
-// Completes a tree that may be a file's name or have a `base` in a folder of the data directory.
+// Replaces the name of a data file by the content of that file. Merges a map with the data file that its `base` names.
+// `folder` is a folder of the data directory.
 void resolve_base(const Table& table, const std::string& folder, SourceNode& node, const std::string& path,
                   Report& report);
 

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "base/input_error.h"
+#include "base/nearest_name.h"
 #include "scenario/load_scenario.h"
-#include "scenario/nearest_name.h"
-#include "scenario/yaml_source.h"
+#include "scenario/yaml/yaml_source.h"
 
 #ifndef STOPLINE_SOURCE_DATA_DIR
 #define STOPLINE_SOURCE_DATA_DIR "data"
@@ -16,7 +16,7 @@
 namespace stopline {
 namespace {
 
-constexpr std::size_t kReferenceMax = 1000;  // characters; longer texts are neither names nor paths
+constexpr std::size_t kReferenceMax = 1000;  // characters; a longer text is neither a name nor a path
 
 bool is_path(const std::string& reference) {
     return reference.find('/') != std::string::npos || reference.ends_with(".yaml");
@@ -25,7 +25,7 @@ bool is_path(const std::string& reference) {
 }  // namespace
 
 std::filesystem::path data_directory() {
-    // Read at start-up and between runs, never while another thread changes the environment.
+    // No thread changes the environment, so reading it is safe.
     const char* const chosen = std::getenv("STOPLINE_DATA");  // NOLINT(concurrency-mt-unsafe)
     return chosen != nullptr && *chosen != '\0' ? chosen : STOPLINE_SOURCE_DATA_DIR;
 }
@@ -46,7 +46,7 @@ DataFile read_data_file(const std::string& folder, const SourceNode& reference, 
     file.tree.kind = SourceNode::Kind::broken;
     if (reference.kind != SourceNode::Kind::scalar || reference.text.empty() || reference.text.size() > kReferenceMax) {
         report.error(reference.place, "field '" + field + "': needs the name of a file in " + folder +
-                                          known_names("", data_names(folder)));
+                                          known_names_hint("", data_names(folder)));
         return file;
     }
     std::filesystem::path path;
@@ -57,7 +57,7 @@ DataFile read_data_file(const std::string& folder, const SourceNode& reference, 
         if (std::find(known.begin(), known.end(), reference.text) == known.end()) {
             report.error(reference.place, "field '" + field + "': there is no '" + shortened(reference.text) + "' in " +
                                               (data_directory() / folder).generic_string() +
-                                              known_names(reference.text, known));
+                                              known_names_hint(reference.text, known));
             return file;
         }
         path = data_directory() / folder / (reference.text + ".yaml");

@@ -1,20 +1,21 @@
-// Finds the files that a scenario refers to by name: vehicles, drivers, policies. See load_scenario.h for the rules.
+// Finds data files that a scenario names: vehicles, drivers, policies and others. load_scenario.h describes the names.
 #pragma once
 
 #include <filesystem>
 #include <string>
 
-#include "scenario/report.h"
-#include "scenario/source_node.h"
+#include "scenario/schema/report.h"
+#include "scenario/yaml/source_node.h"
 
 namespace stopline {
 
-// Reads the file that `reference` (a scalar) names in a folder of the data directory, or the file at that path. On failure
-// the error is reported and the result is broken. `stem` is the file's name without extension.
 struct DataFile {
     SourceNode tree;
-    std::string stem;
+    std::string stem;  // file name without extension
 };
+
+// Reads the file that the scalar `reference` names: a file in a folder of the data directory, or a path. `field` is the
+// path of the field in messages. On failure it reports an error and returns a broken tree.
 DataFile read_data_file(const std::string& folder, const SourceNode& reference, const std::string& field,
                         Report& report);
 

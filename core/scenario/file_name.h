@@ -1,4 +1,4 @@
-// Names after files, for scenarios and sweeps that give themselves none.
+// Default names of scenarios and sweeps, made from their file names.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,8 @@
 
 namespace stopline {
 
-// The file's name without extension, what cannot stand in a name replaced; `otherwise` where nothing is left.
+// Returns the file name without extension, with '_' for each character that a name may not have. Returns `otherwise` if
+// the file name is empty.
 inline std::string name_from_file(const std::string& label, const std::string& otherwise) {
     std::string name;
     for (const char c : std::filesystem::path(label).stem().string().substr(0, 64)) {

@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
-#include "demand/sumo_routes.h"
-#include "network/sumo_graph.h"
-#include "network/sumo_net.h"
-#include "network/sumo_xml.h"
+#include "sumo_import/sumo_graph.h"
+#include "sumo_import/sumo_net.h"
+#include "sumo_import/sumo_routes.h"
+#include "sumo_import/sumo_xml.h"
 
 namespace stopline {
 
@@ -42,13 +42,13 @@ void import_sumo(Scenario& scenario, const std::filesystem::path& directory) {
         additional.push_back(directory / file);
         read_sumo_additional(additional.back(), net);
     }
-    const auto made =
+    const auto sumo_network =
         std::make_shared<SumoNetwork>(make_sumo_network(std::move(net), network.intersection.clearance_m));
-    network.sumo = made;
+    network.sumo = sumo_network;
     std::vector<std::filesystem::path> routes;
     for (const std::string& file : network.routes) routes.push_back(directory / file);
     scenario.demand.sumo = std::make_shared<SumoTraffic>(
-        read_sumo_routes({additional, routes}, *made, scenario.duration_s, scenario.seed));
+        read_sumo_routes({additional, routes}, *sumo_network, scenario.duration_s, scenario.seed));
 }
 
 void add_sumo_trips(const Scenario& scenario, DemandPlan& plan) {
@@ -56,7 +56,7 @@ void add_sumo_trips(const Scenario& scenario, DemandPlan& plan) {
     plan.trips = traffic.trips;
     plan.trip_turns = traffic.turns;
     plan.trip_names = {scenario.demand.sumo, &traffic.ids};
-    plan.shortest_trip_m = traffic.shortest_m();
+    plan.shortest_trip_m = traffic.shortest_vehicle_m();
     plan.seed = scenario.seed;
     plan.draw_trip_policies();
 }
@@ -82,17 +82,17 @@ std::vector<std::string> sumo_warnings(const Scenario& scenario) {
 
 std::vector<FieldProblem> sumo_demand_problems(const Scenario& scenario) {
     if (!scenario.demand.sumo || scenario.demand.sumo->elements > 0) return {};
-    return {{"network.routes", "there is no vehicle, trip or flow in the files of 'routes' and 'additional'"}};
+    return {{"network.routes", "the files of 'routes' and 'additional' have no vehicle, trip or flow"}};
 }
 
 std::string sumo_demand_warning(const Scenario& scenario) {
     if (!scenario.demand.sumo || !scenario.demand.sumo->trips.empty()) return "";
-    if (const std::optional<double> later_s = scenario.demand.sumo->later_s) {
+    if (const std::optional<double> first_late_departure_s = scenario.demand.sumo->first_late_departure_s) {
         return fmt::format(
-            "nobody departs: the run ends at {:g} s ('duration'), and the first vehicle of the routes departs at {:g} s",
-            scenario.duration_s, *later_s);
+            "no vehicle departs: the run ends at {:g} s (duration), but the first vehicle departs at {:g} s",
+            scenario.duration_s, *first_late_departure_s);
     }
-    return "nobody departs: none of the vehicles of the routes drives here, or their flows are of 0 vehicles";
+    return "no vehicle departs: no vehicle has a route in this network, or the flows have 0 vehicles";
 }
 
 std::uint64_t sumo_files_hash(const Scenario& scenario) {
@@ -102,13 +102,14 @@ std::uint64_t sumo_files_hash(const Scenario& scenario) {
 
 double Scenario::intersection_cycle_s() const {
     if (network.is_sumo()) return network.sumo->longest_cycle_s();
-    return network.is_streets() ? network.streets.intersections.front().programme.cycle_s() : signal.both_stages_s();
+    return network.is_streets() ? network.streets.intersections.front().programme.cycle_s()
+                                : signal.intersection_cycle_s();
 }
 
 double Scenario::longest_green_s() const {
     if (network.is_sumo()) return network.sumo->longest_green_s();
     return network.is_streets() ? network.streets.longest_green_s()
-                                : std::max(signal.green_of_s(0), signal.green_of_s(1));
+                                : std::max(signal.group_green_s(0), signal.group_green_s(1));
 }
 
 }  // namespace stopline

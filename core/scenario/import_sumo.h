@@ -1,4 +1,4 @@
-// SUMO's files of a scenario, read when it is loaded.
+// Reads the SUMO files of a scenario when the scenario is loaded.
 #pragma once
 
 #include <cstdint>
@@ -13,19 +13,20 @@ namespace stopline {
 
 struct DemandPlan;
 
-// A field of the scenario and what is wrong with it.
+// The path of a scenario field, and the error in it.
 using FieldProblem = std::pair<std::string, std::string>;
 
-// Files that are not there or cannot be read to an end. `directory`: where relative paths start.
+// Returns an entry for each SUMO file that does not exist or cannot be read. Relative paths start at `directory`.
 std::vector<FieldProblem> sumo_file_problems(const Scenario& scenario, const std::filesystem::path& directory);
 
-// Does nothing where the network is not of the kind `sumo`. Throws InputError with file and line.
+// Reads network, additional and route files into the scenario. Does nothing for other network kinds. Throws InputError
+// with file and line.
 void import_sumo(Scenario& scenario, const std::filesystem::path& directory);
 
-// The trips of those files, with the policies that the plan's population gives them.
+// Adds the imported trips to the demand plan, and draws their policies from the population of the plan.
 void add_sumo_trips(const Scenario& scenario, DemandPlan& plan);
 
-// The induction loops of those files, on lanes of the graph.
+// An imported induction loop on a lane of the graph.
 struct SumoLoopPlace {
     std::string name;
     int lane = -1;
@@ -33,15 +34,15 @@ struct SumoLoopPlace {
 };
 std::vector<SumoLoopPlace> sumo_loops(const Scenario& scenario);
 
-// What those files have that is not read, a line each: "city.net.xml:12: ...".
+// Returns one line per ignored part of the files: "city.net.xml:12: ...".
 std::vector<std::string> sumo_warnings(const Scenario& scenario);
 
-// Routes that hold nobody at all.
+// Returns an error if the files have no vehicle, trip or flow.
 std::vector<FieldProblem> sumo_demand_problems(const Scenario& scenario);
-// Where nobody departs within the run: why. Empty: somebody does.
+// Returns the reason why no vehicle departs within the run, or "" if one departs.
 std::string sumo_demand_warning(const Scenario& scenario);
 
-// Of their contents; 0: there are none.
+// Returns the hash of the contents of all files, or 0 for other network kinds.
 std::uint64_t sumo_files_hash(const Scenario& scenario);
 
 }  // namespace stopline

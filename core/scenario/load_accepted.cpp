@@ -1,10 +1,10 @@
 #include "scenario/load_accepted.h"
 
-#include "scenario/field_rows.h"
-#include "scenario/fields.h"
-#include "scenario/read_fields.h"
-#include "scenario/report.h"
-#include "scenario/yaml_source.h"
+#include "scenario/schema/field_rows.h"
+#include "scenario/schema/fields.h"
+#include "scenario/schema/read_fields.h"
+#include "scenario/schema/report.h"
+#include "scenario/yaml/yaml_source.h"
 
 namespace stopline {
 namespace {
@@ -12,12 +12,12 @@ namespace {
 const Table& difference_table() {
     using S = AcceptedDifference;
     static const Table table = make_table<S>(
-        "a detector of a permutation",
+        "a detector in a permutation",
         {
             text<&S::permutation>("permutation", TextField::Rule::title, "values of the axes, as in the report")
                 .required(),
-            text<&S::detector>("detector", TextField::Rule::title, "name, as in the report").required(),
-            text<&S::reason>("reason", TextField::Rule::title, "why its differences are accepted").required(),
+            text<&S::detector>("detector", TextField::Rule::title, "name of the detector, as in the report").required(),
+            text<&S::reason>("reason", TextField::Rule::title, "reason why the differences are accepted").required(),
         });
     return table;
 }
@@ -27,7 +27,7 @@ const Table& difference_table() {
 const Table& accepted_table() {
     static const Table table = make_table<AcceptedFile>(
         "accepted differences", {list<&AcceptedFile::accepted>("accepted", difference_table, {1, 10'000},
-                                                               "detectors of permutations that count as valid")});
+                                                               "detectors whose differences count as valid")});
     return table;
 }
 

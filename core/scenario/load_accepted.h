@@ -1,5 +1,5 @@
-// Differences between full dynamics and the mesoscale mode that someone has looked at and accepts: the paper's subjective
-// criterion (Section V.B). Read through the same tables of fields as scenarios.
+// Loads the file of accepted differences between full dynamics and the mesoscale mode. A user has reviewed and accepted
+// them, which is the paper's subjective criterion (Section V.B).
 //
 //     accepted:
 //     - permutation: green = 15 s, offset = 0 s, population = CDG

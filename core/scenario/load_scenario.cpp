@@ -1,34 +1,53 @@
 #include "scenario/load_scenario.h"
 
+#include <map>
 #include <memory>
 #include <utility>
 
 #include "base/input_error.h"
+#include "base/nearest_name.h"
 #include "scenario/compose.h"
-#include "scenario/fields.h"
 #include "scenario/file_name.h"
 #include "scenario/import_sumo.h"
-#include "scenario/nearest_name.h"
-#include "scenario/read_fields.h"
-#include "scenario/report.h"
-#include "scenario/write_fields.h"
-#include "scenario/yaml_source.h"
+#include "scenario/schema/field_path.h"
+#include "scenario/schema/fields.h"
+#include "scenario/schema/old_names.h"
+#include "scenario/schema/read_fields.h"
+#include "scenario/schema/report.h"
+#include "scenario/schema/write_fields.h"
+#include "scenario/yaml/yaml_source.h"
 
 namespace stopline {
 namespace {
 
 void require_map(const SourceNode& root) {
     if (root.kind == SourceNode::Kind::map) return;
-    const std::string what = root.kind == SourceNode::Kind::empty ? "is empty; it" : "has no fields; it";
-    throw InputError(to_string(root.place) + ": the file " + what +
+    const std::string problem = root.kind == SourceNode::Kind::empty ? "is empty; it" : "has no fields; it";
+    throw InputError(to_string(root.place) + ": the file " + problem +
                      " needs 'field: value' lines (fields: " + joined(scenario_table().names()) + ")");
+}
+
+// Applies the overrides from left to right. Reports an error if a field is set by its old and by its new name.
+void apply_overrides(SourceNode& root, const std::vector<std::string>& overrides,
+                     const std::filesystem::path& directory, Report& report) {
+    std::map<std::string, std::string> written_paths;  // by current path
+    for (const std::string& text : overrides) {
+        apply_override(scenario_table(), root, text, directory, report);
+        const std::string written = text.substr(0, text.find('='));
+        const std::string current = current_path(scenario_table(), written);
+        const std::string& first = written_paths.try_emplace(current, written).first->second;
+        if (first == written) continue;
+        const Place place{std::make_shared<Source>(Source{"--set '" + shortened(text) + "'", directory, false})};
+        report.error(place, both_names_error(first == current ? written : first, current));
+    }
 }
 
 Scenario scenario_from(SourceNode root, const std::vector<std::string>& overrides) {
     require_map(root);
     const Source source = *root.place.source;
     Report report;
-    for (const std::string& text : overrides) apply_override(scenario_table(), root, text, source.directory, report);
+    replace_old_names(scenario_table(), root, "", report);
+    apply_overrides(root, overrides, source.directory, report);
     complete(scenario_table(), root, "", report);
     if (root.find("name") == nullptr) {
         SourceNode name;
@@ -42,23 +61,24 @@ Scenario scenario_from(SourceNode root, const std::vector<std::string>& override
     report.throw_if_any();
     scenario.vehicle_name = scenario.vehicle.name;
     scenario.driver_name = scenario.driver.name;
-    const auto refuse = [&](const std::vector<FieldProblem>& problems) {
+    const auto throw_if_any = [&](const std::vector<FieldProblem>& problems) {
         for (const auto& [field, problem] : problems) {
             report.error(report.place_of(field), "field '" + field + "': " + problem);
         }
         report.throw_if_any();
     };
-    refuse(sumo_file_problems(scenario, source.directory));
+    throw_if_any(sumo_file_problems(scenario, source.directory));
     import_sumo(scenario, source.directory);
-    refuse(sumo_demand_problems(scenario));
+    throw_if_any(sumo_demand_problems(scenario));
     scenario.hash = scenario_hash(scenario);
+    scenario.warnings = report.warnings();
     return scenario;
 }
 
-// A data file by name or path, read with its table.
+// Loads a data file by name or path.
 template <class S>
 S load_data(const Table& table, const std::string& folder, const std::string& name_or_path,
-            const std::filesystem::path& directory) {
+            const std::filesystem::path& directory, std::vector<std::string>* warnings) {
     SourceNode node;
     node.kind = SourceNode::Kind::scalar;
     node.text = name_or_path;
@@ -69,10 +89,13 @@ S load_data(const Table& table, const std::string& folder, const std::string& na
     S settings;
     read_fields(table, node, "", &settings, report);
     report.throw_if_any();
+    if (warnings != nullptr) {
+        for (std::string& line : report.warnings()) warnings->push_back(std::move(line));
+    }
     return settings;
 }
 
-// Lines of text as lines of comment.
+// Returns the text with "# " before each line.
 std::string as_comment(const std::string& text) {
     std::string lines;
     std::size_t begin = 0;
@@ -95,20 +118,24 @@ Scenario parse_scenario(std::string_view text, const std::string& label, const s
     return scenario_from(parse_yaml(text, std::make_shared<Source>(Source{label, directory})), overrides);
 }
 
-PowertrainSettings load_vehicle(const std::string& name_or_path, const std::filesystem::path& directory) {
-    return load_data<PowertrainSettings>(vehicle_table(), "vehicles", name_or_path, directory);
+PowertrainSettings load_vehicle(const std::string& name_or_path, const std::filesystem::path& directory,
+                                std::vector<std::string>* warnings) {
+    return load_data<PowertrainSettings>(vehicle_table(), "vehicles", name_or_path, directory, warnings);
 }
 
-DriverSettings load_driver(const std::string& name_or_path, const std::filesystem::path& directory) {
-    return load_data<DriverSettings>(driver_table(), "drivers", name_or_path, directory);
+DriverSettings load_driver(const std::string& name_or_path, const std::filesystem::path& directory,
+                           std::vector<std::string>* warnings) {
+    return load_data<DriverSettings>(driver_table(), "drivers", name_or_path, directory, warnings);
 }
 
-std::vector<GapPolicySettings> load_policies(const std::string& name_or_path, const std::filesystem::path& directory) {
-    return load_data<PolicyFile>(policy_file_table(), "policies", name_or_path, directory).policies;
+std::vector<GapPolicySettings> load_policies(const std::string& name_or_path, const std::filesystem::path& directory,
+                                             std::vector<std::string>* warnings) {
+    return load_data<PolicyFile>(policy_file_table(), "policies", name_or_path, directory, warnings).policies;
 }
 
-MesoSettings load_meso(const std::string& name_or_path, const std::filesystem::path& directory) {
-    return load_data<MesoSettings>(meso_table(), "meso", name_or_path, directory);
+MesoSettings load_meso(const std::string& name_or_path, const std::filesystem::path& directory,
+                       std::vector<std::string>* warnings) {
+    return load_data<MesoSettings>(meso_table(), "meso", name_or_path, directory, warnings);
 }
 
 std::string driver_yaml(const DriverSettings& driver, const std::string& comment) {

@@ -1,9 +1,9 @@
-// From YAML files to settings in SI units, checked and complete; whatever cannot be used is refused with an InputError.
+// Loads YAML files into settings: complete, checked and in SI units. Throws InputError for any bad input.
 //
-// One table of fields (field_table.h, rows in fields_*.cpp) drives parsing, error messages, the list of fields, the JSON
-// schema and the canonical text. A new parameter is one row bound to a struct member.
+// One table of fields (schema/field_table.h, rows in schema/fields_*.cpp) drives parsing, error messages, the list of
+// fields, the JSON schema and the canonical text. A new parameter is one row, bound to a struct member.
 //
-// The text of an InputError has one line an error, up to twenty:
+// The text of an InputError has one line per error, at most 20 lines:
 //     file:line:column: field 'signal.green': value '15' has no unit: write e.g. '15 s' (allowed: 0.1 s to 7200 s)
 #pragma once
 
@@ -17,47 +17,57 @@
 
 namespace stopline {
 
-// Loads a scenario. An override is `path=value` with the value as it stands in a file, applied from left to right:
+// Loads a scenario. An override is `path=value`, with the value written as in a file. Overrides apply from left to
+// right:
 //     signal.green=20 s    vehicle=diesel_eu4_103kw    vehicle.mass=1.4 t    measure.green=[5 s, 10 s]
 //     populations[0].components[1].share=25 %    policies[CTG-Ref].time_gap=0.6 s
+// Scenario::warnings lists old names of fields that the files or the overrides use.
 Scenario load_scenario(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
-// The same from text; `label` stands for the file in messages, `directory` is where relative paths in it start.
+// Loads a scenario from text. `label` stands for the file in messages. Relative paths in the text start at `directory`.
 Scenario parse_scenario(std::string_view text, const std::string& label, const std::vector<std::string>& overrides = {},
                         const std::filesystem::path& directory = ".");
 
-// Data files. A plain name is looked up in the data directory (vehicles/NAME.yaml, ...); a text with a '/' or ending in
-// .yaml is a path, relative to `directory`.
-PowertrainSettings load_vehicle(const std::string& name_or_path, const std::filesystem::path& directory = ".");
-DriverSettings load_driver(const std::string& name_or_path, const std::filesystem::path& directory = ".");
+// Load a data file. A plain name is looked up in the data directory, such as vehicles/NAME.yaml. A text with a '/' or
+// with the ending .yaml is a path, relative to `directory`. Old names of fields are added to `warnings`, one line each.
+PowertrainSettings load_vehicle(const std::string& name_or_path, const std::filesystem::path& directory = ".",
+                                std::vector<std::string>* warnings = nullptr);
+DriverSettings load_driver(const std::string& name_or_path, const std::filesystem::path& directory = ".",
+                           std::vector<std::string>* warnings = nullptr);
 std::vector<GapPolicySettings> load_policies(const std::string& name_or_path = "paper",
-                                             const std::filesystem::path& directory = ".");
+                                             const std::filesystem::path& directory = ".",
+                                             std::vector<std::string>* warnings = nullptr);
+MesoSettings load_meso(const std::string& name_or_path, const std::filesystem::path& directory = ".",
+                       std::vector<std::string>* warnings = nullptr);
 
-// Environment variable STOPLINE_DATA if set, else the data folder of the source tree this library was built from.
+// Returns the environment variable STOPLINE_DATA, or the data folder of the source tree if the variable is not set.
 std::filesystem::path data_directory();
 
-// The names that can be used: file stems in a folder of the data directory ("vehicles", "drivers", "policies"), sorted.
+// Returns the sorted names of the files in a folder of the data directory, such as "vehicles", without extension.
 std::vector<std::string> data_names(const std::string& folder);
 
-// A driver file with `comment` (may have several lines) on top. load_driver reads the same numbers back, bit for bit.
-std::string driver_yaml(const DriverSettings& driver, const std::string& comment);
-
-// In data/meso: what stopline-calibrate found for our full dynamics; judged in Section V, used in Sections VI and VII.
+// The file in data/meso with the parameters that stopline-calibrate fitted to full dynamics. Section V judges it;
+// Sections VI and VII use it.
 inline constexpr const char* kCalibratedMeso = "passages";
 
-// The same for a file of parameters of the mesoscale mode.
-MesoSettings load_meso(const std::string& name_or_path, const std::filesystem::path& directory = ".");
+// Return the text of a data file that begins with `comment`, which may have several lines. Loading the text gives the
+// same numbers, bit for bit.
+std::string driver_yaml(const DriverSettings& driver, const std::string& comment);
 std::string meso_yaml(const MesoSettings& meso, const std::string& comment);
 
-// Every field with full precision, vehicle, driver and policies included. It is itself a scenario file: loading it gives
-// the same scenario. `Scenario::hash` is its 64-bit FNV-1a hash.
+// Returns every field with full precision, including vehicle, driver and policies. The text is a scenario file itself
+// and loads as the same scenario.
 std::string canonical_text(const Scenario& scenario);
+// Returns the 64-bit FNV-1a hash of the canonical text, combined with the hash of imported SUMO files.
 std::uint64_t scenario_hash(const Scenario& scenario);
 
-// All fields as a table for people: path, unit, range, default, meaning.
+// Returns the list of all fields of a scenario file for a terminal: name, unit, default, range and meaning.
 std::string describe_fields();
 
-// JSON schema (draft 07) of a scenario file, for editors.
+// Returns scenarios/FIELDS.md: all fields of scenario and sweep files.
+std::string fields_markdown();
+
+// Returns the JSON schema (draft 07) of a scenario file, for editors.
 std::string json_schema();
 
 }  // namespace stopline

@@ -1,4 +1,4 @@
-// A scenario as loaded from YAML: everything an experiment needs, in SI units, checked and complete. Plain data.
+// A scenario as loaded from YAML: complete, checked and in SI units. Plain data.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 #include "demand/demand_settings.h"
 #include "driver/driver_settings.h"
-#include "driver/hindrance_rules.h"
+#include "driver/traffic_rules.h"
 #include "network/network_settings.h"
 #include "signals/signal_settings.h"
 #include "vehicle/powertrain_settings.h"
@@ -15,27 +15,26 @@
 namespace stopline {
 
 struct MeasureSettings {
-    std::vector<double> green_s;  // green times at which the passed vehicles are reported
-    std::string baseline;         // population that improvements refer to
-    // Intersections: cycles before and in the measured time, and the zones in which time and density are taken.
-    int warmup_cycles = 1;
-    int cycles = 5;
-    std::vector<double> zone_radius_m = {};
-    // Grids: what lies within this distance of the outer intersections' stop lines is measured; series are taken in steps of
-    // `interval_s`; figures are means over the last `steady_s` of the run.
-    double outside_m = 20.0;
-    double interval_s = 60.0;
-    double steady_s = 18000.0;
-    double time_space_s = 0.0;             // of the end of the run: time-space diagram of one street
-    std::string time_space_from = "west";  // west | east | south | north: the side from which that street is followed
+    std::vector<double> green_s;  // single light: times after the start of green at which passed vehicles are counted
+    std::string baseline;         // reference population for improvements; empty: none
+    // Single intersection.
+    int warmup_cycles = 1;                   // signal cycles before the measurement
+    int cycles = 5;                          // measured signal cycles
+    std::vector<double> zone_radius_m = {};  // radii for travel time and density
+    // Networks of several intersections.
+    double area_margin_m = 20.0;           // distance of the measured area's boundary from the outer intersections
+    double interval_s = 60.0;              // interval of the time series
+    double window_s = 18000.0;             // length of the measuring window at the end of the run
+    double time_space_s = 0.0;             // length of the time-space diagram at the end of the run; 0: none
+    std::string time_space_side = "west";  // side from which the diagram follows a street: west | east | south | north
 };
 
 struct Scenario {
     std::string name;
     std::string title;
     std::string fidelity = "full";  // full | meso
-    double step_s = 0.01;           // of full dynamics; the mesoscale mode has its own
-    double duration_s = 200.0;      // 0: as long as the measured cycles take
+    double step_s = 0.01;           // full dynamics only, the mesoscale mode uses meso.step_s
+    double duration_s = 200.0;      // 0: the time that the measured cycles take
     std::uint64_t seed = 1;
     NetworkSettings network;
     SignalSettings signal;
@@ -44,16 +43,17 @@ struct Scenario {
     std::string driver_name;   // file stem in data/drivers
     PowertrainSettings vehicle;
     DriverSettings driver;
-    HindranceRules rules;
+    TrafficRules rules;
     MesoSettings meso;
-    std::vector<GapPolicySettings> policies;      // all named policies that may be used
-    std::vector<PopulationSettings> populations;  // one run each
+    std::vector<GapPolicySettings> policies;      // all policies that a population may name
+    std::vector<PopulationSettings> populations;  // each makes one run
     MeasureSettings measure;
-    std::uint64_t hash = 0;  // of the canonical text of all fields; goes into provenance
+    std::uint64_t hash = 0;                  // of the canonical text, see scenario_hash()
+    std::vector<std::string> warnings = {};  // of loading, one line each, such as old names of fields
 
     bool is_meso() const { return fidelity == "meso"; }
     double tick_s() const { return is_meso() ? meso.step_s : step_s; }
-    // The same at all intersections; of an imported network the longest.
+    // Returns the cycle of all intersections; for an imported network, the longest cycle.
     double intersection_cycle_s() const;
     double longest_green_s() const;
 };

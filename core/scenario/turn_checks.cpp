@@ -5,14 +5,14 @@
 #include <utility>
 #include <vector>
 
-#include "scenario/quantity.h"
+#include "scenario/schema/quantity.h"
 
 namespace stopline {
 namespace {
 
 using Lane = IntersectionSettings::LaneMovements;
 
-// The shares of some arms, with their fields.
+// Turn shares of a group of approaches, with the names of their fields.
 struct Shares {
     std::string left_field;
     double left = 0.0;
@@ -20,16 +20,16 @@ struct Shares {
     double right = 0.0;
 };
 
-bool leaves_choice(const Lane& lane) { return lane.movements.find('+') != std::string::npos; }
+bool allows_several(const Lane& lane) { return lane.movements.find('+') != std::string::npos; }
 
-// A share of which no lane takes notice.
+// Reports an error for a share that no lane uses.
 void check_served(const std::vector<Lane>& lanes, const std::string& turn, const std::string& field, double share,
                   Checker& check) {
-    const auto serves = [&](const Lane& lane) { return leaves_choice(lane) && lane.allows(turn); };
+    const auto serves = [&](const Lane& lane) { return allows_several(lane) && lane.allows(turn); };
     if (share == 0.0 || std::any_of(lanes.begin(), lanes.end(), serves)) return;
     check.error("demand." + field, "value " + short_text(share, unit("%")) +
-                                       " has no effect: network.intersection.lanes has no lane that leads " + turn +
-                                       " and elsewhere");
+                                       " has no effect: network.intersection.lanes has no lane that allows " + turn +
+                                       " and another movement");
 }
 
 void check_lane(const Lane& lane, const Shares& shares, Checker& check) {
@@ -38,21 +38,21 @@ void check_lane(const Lane& lane, const Shares& shares, Checker& check) {
     const double sum = shares.left + shares.right;
     if (sum > 1.0 + 1e-9) {
         check.error("demand." + shares.left_field, both + " sum to " + short_text(sum, unit("%")) + " on a lane '" +
-                                                       lane.movements + "' (allowed: 100 % at most)");
+                                                       lane.movements + "' (allowed: at most 100 %)");
     } else if (sum == 0.0 && !lane.allows("straight")) {
-        check.error("demand." + shares.left_field,
-                    both + " are 0 %, but all turn from a lane '" + lane.movements + "': one must be more");
+        check.error("demand." + shares.left_field, both + " are 0 %, but all vehicles turn on a lane '" +
+                                                       lane.movements + "': one of them must be above 0 %");
     }
 }
 
-// Neither roads without turns nor streets, whose own file says who turns where, take notice.
-void refuse_all(const DemandSettings& demand, const std::string& why, Checker& check) {
+// Reports an error for each turn share of a network that has no turns or that has its own turn shares.
+void refuse_all(const DemandSettings& demand, const std::string& network, Checker& check) {
     const auto refuse = [&](const std::string& field, bool used) {
-        if (used) check.error("demand." + field, "has no effect on " + why);
+        if (used) check.error("demand." + field, "has no effect on " + network);
     };
-    refuse("right", demand.right != 0.0);
-    refuse("left", demand.left != 0.0);
-    refuse("cross_turns", demand.cross_turns != "alike");
+    refuse("right", demand.right_share != 0.0);
+    refuse("left", demand.left_share != 0.0);
+    refuse("cross_turns", demand.cross_turns != "same");
 }
 
 }  // namespace
@@ -61,11 +61,11 @@ void check_turns(const Scenario& scenario, Checker& check) {
     const DemandSettings& demand = scenario.demand;
     const NetworkSettings& network = scenario.network;
     if (network.is_sumo()) return;
-    if (network.is_streets()) return refuse_all(demand, "streets: their arms say which share turns", check);
+    if (network.is_streets()) return refuse_all(demand, "streets, which have turn shares for each leg", check);
     if (network.kind == "approach") return refuse_all(demand, "a straight road", check);
-    std::vector<Shares> all{{"left", demand.left, "right", demand.right}};
-    if (demand.cross_turns == "own") {
-        all.push_back({"cross_left", demand.cross_left, "cross_right", demand.cross_right});
+    std::vector<Shares> all{{"left", demand.left_share, "right", demand.right_share}};
+    if (demand.cross_turns == "separate") {
+        all.push_back({"cross_left", demand.cross_left_share, "cross_right", demand.cross_right_share});
     }
     const std::vector<Lane>& lanes = network.intersection.lanes;
     for (const Shares& shares : all) {

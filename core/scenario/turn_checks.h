@@ -1,8 +1,8 @@
-// Whether the lanes of a network serve the shares of turns that the demand asks for.
+// Checks that the lanes of a network allow the turns of the demand.
 #pragma once
 
-#include "scenario/report.h"
 #include "scenario/scenario.h"
+#include "scenario/schema/report.h"
 
 namespace stopline {
 

@@ -14,37 +14,43 @@ std::int64_t to_ticks(double seconds, double step_s) { return std::llround(secon
 GroupProgramme::GroupProgramme(std::vector<Stage> stages, std::int64_t offset_ticks, bool repeats)
     : stages_(std::move(stages)), offset_(offset_ticks), repeats_(repeats) {
     for (const Stage& stage : stages_) {
-        if (stage.ticks <= 0) throw InputError("signal programme: every stage must last at least one step");
+        if (stage.ticks <= 0) throw InputError("signal programme: every stage must last at least one time step");
         cycle_ += stage.ticks;
     }
     if (stages_.empty()) throw InputError("signal programme: at least one stage is needed");
 }
 
-GroupProgramme::Place GroupProgramme::place(std::int64_t tick) const {
-    std::int64_t begin = offset_ + (tick - offset_) / cycle_ * cycle_;
+GroupProgramme::StageStart GroupProgramme::stage_at(std::int64_t tick) const {
+    std::int64_t start = offset_ + (tick - offset_) / cycle_ * cycle_;
     std::size_t stage = 0;
-    while (tick >= begin + stages_[stage].ticks) begin += stages_[stage++].ticks;
-    return {stage, begin};
+    while (tick >= start + stages_[stage].ticks) start += stages_[stage++].ticks;
+    return {stage, start};
 }
 
 Light GroupProgramme::light(std::int64_t tick) const {
     if (tick < offset_) return Light::red;
     if (!repeats_ && tick >= offset_ + cycle_) return Light::red;
-    return stages_[place(tick).stage].light;
+    return stages_[stage_at(tick).stage].light;
 }
 
-std::int64_t GroupProgramme::since(std::int64_t tick) const {
+std::int64_t GroupProgramme::light_start_tick(std::int64_t tick) const {
     if (tick < offset_) return 0;
     if (!repeats_ && tick >= offset_ + cycle_) return offset_ + cycle_;
-    return place(tick).begin;
+    return stage_at(tick).tick;
+}
+
+std::int64_t GroupProgramme::last_green_start_tick(std::int64_t tick) const {
+    while (tick >= 0 && light(tick) != Light::green) tick = light_start_tick(tick) - 1;
+    return tick < 0 ? -1 : light_start_tick(tick);
 }
 
 GroupProgramme make_single_light(const SignalSettings& s, double step_s) {
     const bool repeats = s.cycle_s > 0.0;
     const double red_s = repeats ? s.cycle_s - s.green_s - s.yellow_s : s.all_red_s;
     if (red_s < 0.0 || (repeats && red_s < s.all_red_s)) {
-        throw InputError(fmt::format("signal: a cycle of {} s is shorter than green {} s, yellow {} s and all red {} s",
-                                     s.cycle_s, s.green_s, s.yellow_s, s.all_red_s));
+        throw InputError(
+            fmt::format("signal: the cycle of {} s is shorter than green {} s, yellow {} s and all red {} s", s.cycle_s,
+                        s.green_s, s.yellow_s, s.all_red_s));
     }
     std::vector<Stage> stages{{to_ticks(s.green_s, step_s), Light::green}};
     if (s.yellow_s > 0.0) stages.push_back({to_ticks(s.yellow_s, step_s), Light::yellow});
@@ -52,18 +58,18 @@ GroupProgramme make_single_light(const SignalSettings& s, double step_s) {
     return {std::move(stages), to_ticks(s.first_green_s, step_s), repeats};
 }
 
-std::vector<GroupProgramme> make_stages(const SignalSettings& settings, int groups, double step_s) {
+std::vector<GroupProgramme> make_stage_programmes(const SignalSettings& settings, int groups, double step_s) {
     double cycle_s = 0.0;
     for (int group = 0; group < groups; ++group) cycle_s += settings.stage_s(group);
     std::vector<GroupProgramme> programmes;
     double begin_s = settings.first_green_s;
     for (int group = 0; group < groups; ++group) {
-        SignalSettings own = settings;
-        own.first_green_s = begin_s;
-        own.green_s = settings.green_of_s(group);
-        own.cycle_s = cycle_s;
+        SignalSettings group_settings = settings;
+        group_settings.first_green_s = begin_s;
+        group_settings.green_s = settings.group_green_s(group);
+        group_settings.cycle_s = cycle_s;
         begin_s += settings.stage_s(group);
-        programmes.push_back(make_single_light(own, step_s));
+        programmes.push_back(make_single_light(group_settings, step_s));
     }
     return programmes;
 }

@@ -1,3 +1,4 @@
+// The signal programmes of streets, in the seven steps of Table 3.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -14,7 +15,8 @@ namespace {
 constexpr std::size_t kSteps = 7;
 using Lights = std::array<Light, kSteps>;
 
-// Steps of no length are left out, steps of the same light one after the other are one.
+// Makes the programme of one signal group. Steps of zero length are omitted, and consecutive steps with the same light
+// are merged.
 GroupProgramme programme_of(const std::array<std::int64_t, kSteps>& ticks, const Lights& lights, std::int64_t offset) {
     std::vector<Stage> stages;
     std::int64_t cycle = 0;
@@ -27,8 +29,9 @@ GroupProgramme programme_of(const std::array<std::int64_t, kSteps>& ticks, const
             stages.push_back({ticks[k], lights[k]});
         }
     }
-    if (cycle <= 0) throw InputError("signal programme: the seven steps have no length");
-    // A light that begins and ends with red is turned so that it begins with something else, and its red is one stage.
+    if (cycle <= 0) throw InputError("signal programme: the seven steps must sum to more than 0 s");
+    // If the first and the last stage have the same light, they form one stage: the programme then starts one stage
+    // later.
     if (stages.size() > 1 && stages.front().light == stages.back().light) {
         offset += stages.front().ticks;
         stages.back().ticks += stages.front().ticks;
@@ -52,8 +55,8 @@ std::array<GroupProgramme, 3> make_seven_steps(const SevenSteps& steps, double o
 std::vector<GroupProgramme> make_street_signals(const StreetSettings& streets, double step_s) {
     std::vector<GroupProgramme> programmes;
     for (const StreetIntersection& node : streets.intersections) {
-        for (GroupProgramme& one : make_seven_steps(node.programme, node.offset_s, step_s)) {
-            programmes.push_back(std::move(one));
+        for (GroupProgramme& programme : make_seven_steps(node.programme, node.offset_s, step_s)) {
+            programmes.push_back(std::move(programme));
         }
     }
     return programmes;

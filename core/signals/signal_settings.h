@@ -1,21 +1,21 @@
-// What a user says of a fixed-time signal: red first (lead-in), then cycles of green, yellow and red. SI units.
+// The user's settings of a fixed-time signal: an initial red, then cycles of green, yellow and red. SI units.
 #pragma once
 
 namespace stopline {
 
 struct SignalSettings {
-    double first_green_s = 120.0;  // red until then (the queue forms); later cycles repeat from here
+    double first_green_s = 120.0;  // start of the first green; the signal is red before, while the queue forms
     double green_s = 60.0;
     double yellow_s = 3.0;
     double all_red_s = 5.0;
-    double cross_green_s = 0.0;  // of the streets from south to north; 0: as the others
-    double offset_s = 0.0;       // of a grid: greens start later by this from one intersection to the next
-    double cycle_s = 0.0;        // 0: a single green, red for the rest of the run
+    double cross_green_s = 0.0;  // green of the streets from south to north; 0: green_s
+    double offset_s = 0.0;       // grid: delay of the green from one intersection to the next
+    double cycle_s = 0.0;        // only for a single signal; 0: one green, then red for the rest of the run
 
-    // Intersections: streets from west to east are group 0, those from south to north group 1.
-    double green_of_s(int group) const { return group % 2 == 1 && cross_green_s > 0.0 ? cross_green_s : green_s; }
-    double stage_s(int group) const { return green_of_s(group) + yellow_s + all_red_s; }
-    double both_stages_s() const { return stage_s(0) + stage_s(1); }  // the cycle of an intersection
+    // Intersections and grids: even groups serve the streets from west to east, odd groups those from south to north.
+    double group_green_s(int group) const { return group % 2 == 1 && cross_green_s > 0.0 ? cross_green_s : green_s; }
+    double stage_s(int group) const { return group_green_s(group) + yellow_s + all_red_s; }
+    double intersection_cycle_s() const { return stage_s(0) + stage_s(1); }
 };
 
 }  // namespace stopline

@@ -13,23 +13,25 @@ namespace stopline {
 
 namespace {
 
-void require(bool holds, const PowertrainSettings& settings, const char* what) {
-    if (!holds) throw InputError(fmt::format("vehicle '{}': {}", settings.name, what));
+void require(bool condition, const PowertrainSettings& settings, const char* message) {
+    if (!condition) throw InputError(fmt::format("vehicle '{}': {}", settings.name, message));
 }
 
 void check(const PowertrainSettings& s) {
     require(!s.gear_ratio.empty(), s, "at least one gear ratio is needed");
-    require(s.gear_ratio.size() <= static_cast<std::size_t>(PowertrainTables::kMaxGears), s, "at most 8 gears");
+    require(s.gear_ratio.size() <= static_cast<std::size_t>(PowertrainTables::kMaxGears), s,
+            "at most 8 gears are allowed");
     require(s.rotating_mass_factor.size() == s.gear_ratio.size(), s, "one rotating mass factor per gear is needed");
     require(s.lag_gear_factor.size() == s.gear_ratio.size(), s, "one lag factor per gear is needed");
-    require(!s.full_load.x.empty() && s.full_load.x.size() == s.full_load.y.size(), s, "full-load curve is incomplete");
-    require(s.drag_torque.x.size() == s.drag_torque.y.size(), s, "drag-torque curve is incomplete");
+    require(!s.full_load.x.empty() && s.full_load.x.size() == s.full_load.y.size(), s,
+            "the full-load curve is incomplete");
+    require(s.drag_torque.x.size() == s.drag_torque.y.size(), s, "the drag-torque curve is incomplete");
     require(s.lag_drive_s.size() == s.lag_rpm.size() * s.lag_torque_share.size() && !s.lag_drive_s.empty(), s,
-            "lag map needs one value per engine speed and torque share");
-    require(s.limiter_rpm > s.idle_rpm, s, "limiter must lie above idle");
+            "the lag map needs one value per engine speed and torque share");
+    require(s.limiter_rpm > s.idle_rpm, s, "the limiter speed must be above the idle speed");
 }
 
-// Bilinear interpolation of the lag map, constant beyond its edges.
+// Returns the bilinear interpolation of the lag map, constant beyond its edges.
 double lag_at(const PowertrainSettings& s, double rpm, double share) {
     const auto columns = s.lag_torque_share.size();
     SampledCurve over_rpm{s.lag_rpm, {}};
@@ -52,7 +54,7 @@ double interpolate(const SampledCurve& curve, double x) {
     return curve.y[k - 1] + share * (curve.y[k] - curve.y[k - 1]);
 }
 
-int gear_for(const PowertrainTables& t, double speed_mps) {
+int cruising_gear(const PowertrainTables& t, double speed_mps) {
     int gear = static_cast<int>(t.gears) - 1;
     while (gear > 0 && speed_mps * t.rpm_per_mps[static_cast<std::size_t>(gear)] < 1.1 * t.shift_down_rpm) --gear;
     return gear;
@@ -87,12 +89,12 @@ PowertrainTables compile_powertrain(const PowertrainSettings& s) {
     }
     t.gears = static_cast<double>(s.gear_ratio.size());
     for (std::size_t g = 0; g < static_cast<std::size_t>(PowertrainTables::kMaxGears); ++g) {
-        const std::size_t used = std::min(g, s.gear_ratio.size() - 1);
-        const double ratio = s.gear_ratio[used] * s.final_drive;
+        const std::size_t gear = std::min(g, s.gear_ratio.size() - 1);  // entries beyond repeat the highest gear
+        const double ratio = s.gear_ratio[gear] * s.final_drive;
         t.rpm_per_mps[g] = ratio / radius_m / kRadpsPerRpm;
         t.mps_per_rpm[g] = 1.0 / t.rpm_per_mps[g];
-        t.rotating_mass[g] = s.rotating_mass_factor[used];
-        t.lag_factor[g] = s.lag_gear_factor[used];
+        t.rotating_mass[g] = s.rotating_mass_factor[gear];
+        t.lag_factor[g] = s.lag_gear_factor[gear];
     }
     t.torque_nodes_per_rpm = (PowertrainTables::kTorqueNodes - 1) / s.limiter_rpm;
     for (std::size_t node = 0; node < t.full_load_Nm.size(); ++node) {

@@ -1,5 +1,6 @@
-// A vehicle model compiled for the step function: constants combined, curves resampled to uniform grids, so that a look-up
-// is one multiplication and no search. Built once from `PowertrainSettings`; constant afterwards; shared by all runs.
+// A vehicle model compiled for the step function. Constants are combined, and curves are resampled to uniform grids, so
+// that a look-up needs no search. The tables are made once from `PowertrainSettings`, are constant and shared by all
+// runs.
 #pragma once
 
 #include <array>
@@ -8,11 +9,11 @@
 
 namespace stopline {
 
-// Over double for closed forms and set-up, over float for the kernels (base/narrowed.h).
+// `Number` is double for set-up and closed-form results, and float for the kernels (base/simd/narrowed.h).
 template <class Number>
 struct PowertrainTablesOf {
     static constexpr int kMaxGears = 8;
-    // Uniform grids over engine speed, from 0 to the limiter
+    // Sizes of uniform grids over engine speed, from 0 to the limiter
     static constexpr int kTorqueNodes = 32;
     static constexpr int kLagNodes = 16;
 
@@ -24,7 +25,7 @@ struct PowertrainTablesOf {
     Number inverse_mass_1pkg = 0.0;
     Number friction_mps2 = 0.0;  // mu g, driving and braking
     Number idle_rpm = 0.0;
-    Number launch_rpm = 0.0;  // 0: no clutch (electric)
+    Number launch_rpm = 0.0;  // 0: no clutch (electric car)
     Number limiter_rpm = 0.0;
     Number shift_up_part_rpm = 0.0;
     Number shift_up_full_rpm = 0.0;
@@ -32,36 +33,38 @@ struct PowertrainTablesOf {
     Number torque_interruption_s = 0.0;
     Number minimum_gear_time_s = 0.0;
     Number brake_lag_s = 0.0;
-    Number rotating_mass_open = 1.0;  // rotating-mass factor with the clutch open: the wheels' share
+    Number rotating_mass_open = 1.0;  // rotating-mass factor with open clutch: wheels only
     Number efficiency = 1.0;
     Number gears = 1;
-    // The clutch is open below 3/4 of launch (first gear) or idle speed and closed from there on, linear between:
-    // closed = rpm x factor - offset, within 0 .. 1. Without a clutch the factor is 0 and the offset -1.
+    // The clutch is open below 3/4 of a reference speed and closed from the reference speed on. The reference speed is
+    // the launch speed in first gear and the idle speed in other gears. The degree of closing is rpm x factor - offset,
+    // limited to 0 .. 1. Without a clutch the factor is 0 and the offset is -1.
     Number closing_launch_1prpm = 0.0;
     Number closing_idle_1prpm = 0.0;
     Number closing_offset = -1.0;
 
-    std::array<Number, kMaxGears> rpm_per_mps{};    // engine speed over vehicle speed, per gear
-    std::array<Number, kMaxGears> mps_per_rpm{};    // its inverse
-    std::array<Number, kMaxGears> rotating_mass{};  // effective over real mass, per gear
+    std::array<Number, kMaxGears> rpm_per_mps{};    // engine speed over vehicle speed
+    std::array<Number, kMaxGears> mps_per_rpm{};    // the inverse
+    std::array<Number, kMaxGears> rotating_mass{};  // effective over real mass
     std::array<Number, kMaxGears> lag_factor{};
 
     Number torque_nodes_per_rpm = 0.0;
     std::array<Number, kTorqueNodes> full_load_Nm{};
     std::array<Number, kTorqueNodes> drag_Nm{};  // <= 0
     Number lag_nodes_per_rpm = 0.0;
-    std::array<Number, kLagNodes> lag_unloaded_s{};  // at no torque ...
-    std::array<Number, kLagNodes> lag_loaded_s{};    // ... and at full load
+    std::array<Number, kLagNodes> lag_unloaded_s{};  // time constant of the torque at no load
+    std::array<Number, kLagNodes> lag_loaded_s{};    // time constant of the torque at full load
 };
 using PowertrainTables = PowertrainTablesOf<double>;
 
-// Throws InputError where the settings are not usable (gears missing, more than kMaxGears, curves empty).
+// Compiles the settings. Throws InputError if they are unusable, such as without gears or with an empty curve.
 PowertrainTables compile_powertrain(const PowertrainSettings& settings);
 
-// The gear that a vehicle cruising at this speed is in: the highest that keeps the engine above the downshift speed.
-int gear_for(const PowertrainTables& tables, double speed_mps);
+// Returns the gear of a vehicle that cruises at this speed, 0 for first gear: the highest gear that keeps the engine
+// safely above the downshift speed.
+int cruising_gear(const PowertrainTables& tables, double speed_mps);
 
-// Linear interpolation of a sampled curve, constant beyond its ends.
+// Returns the linear interpolation of a sampled curve, constant beyond its ends.
 double interpolate(const SampledCurve& curve, double x);
 
 }  // namespace stopline

@@ -1,6 +1,6 @@
-// Every helper of simd.h and arithmetic.h over Batch against itself over Single, lane by lane, to the bit. Included by one
-// test file for each batch width, which defines STOPLINE_BATCH_WIDTH first: widths beyond the machine's registers are split
-// by the compiler and must give the same bits too.
+// Checks that every helper of simd.h and arithmetic.h gives the same bits for a Batch as for single numbers. One test file
+// for each batch width defines STOPLINE_BATCH_WIDTH and includes this file. The compiler splits batches that are wider than
+// the machine's registers; their bits must not differ either.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,13 +12,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/arithmetic.h"
+#include "base/simd/arithmetic.h"
 #include "base/random.h"
 
 namespace stopline {
 namespace {
 
-// Zeros of both signs, subnormals, the thresholds of the helpers, and 4000 numbers of all sizes.
+// Returns zeros of both signs, subnormals, thresholds of the helpers, and random numbers of many magnitudes.
 std::vector<float> numbers() {
     std::vector<float> values{0.0F,      -0.0F,  1.0F,   -1.0F, 0.5F,   1e-12F, -1e-12F,
                               9.99e-13F, 1e-45F, 2e-40F, 50.0F, 49.99F, 800.0F, 1e6F};
@@ -33,37 +33,37 @@ std::vector<float> numbers() {
 std::uint32_t bits(float value) { return std::bit_cast<std::uint32_t>(value); }
 std::uint32_t bits(const Single& value) { return bits(value.v); }
 
-// Applies f, generic over the number type, to batches and to single numbers. Unaligned: kernels load so too.
+// Expects the same bits from `f` for batches and for single numbers. The loads are unaligned, as in the kernels.
 template <class Function>
-void expect_same_bits(const char* what, Function f) {
+void expect_same_bits(const char* expression, Function f) {
     const std::vector<float> x = numbers();
     const std::size_t half = x.size() / 2;
     for (std::size_t k = 0; k + kBatchWidth <= half; k += 1) {
         std::array<float, kBatchWidth> result{};
         const auto a_batch = load<Batch>(x.data() + k);
         const auto b_batch = load<Batch>(x.data() + half + k);
-        Batch answer{};
-        f(a_batch, b_batch, answer);
-        store(result.data(), answer);
+        Batch batch_result{};
+        f(a_batch, b_batch, batch_result);
+        store(result.data(), batch_result);
         for (std::size_t lane = 0; lane < kBatchWidth; ++lane) {
             const Single a(x[k + lane]);
             const Single b(x[half + k + lane]);
             Single expected = 0.0;
             f(a, b, expected);
-            ASSERT_EQ(bits(result[lane]), bits(expected)) << what << ": a = " << a.v << ", b = " << b.v;
+            ASSERT_EQ(bits(result[lane]), bits(expected)) << expression << ": a = " << a.v << ", b = " << b.v;
         }
     }
 }
 
-// The expression over a and b of number type R. It is written to a reference because wide vectors cannot be returned by
-// a function that is not inlined.
+// Checks an expression of two numbers a and b of type R. The lambda writes to a reference because a function that is not
+// inlined cannot return wide vectors.
 #define STOPLINE_CHECK(text, ...) \
     expect_same_bits(             \
         text, []<class R>([[maybe_unused]] const R& a, [[maybe_unused]] const R& b, R& out) { out = __VA_ARGS__; })
 
 void check_batch_arithmetic() {
     STOPLINE_CHECK("sum", a + b);
-    STOPLINE_CHECK("product and sum: no contraction", a * b + a);
+    STOPLINE_CHECK("product and sum without contraction", a * b + a);
     STOPLINE_CHECK("quotient", a / (b * b + 1.0));
     STOPLINE_CHECK("splat", splat<R>(0.1) + a);
     STOPLINE_CHECK("negation", -a);
@@ -72,38 +72,38 @@ void check_batch_arithmetic() {
     STOPLINE_CHECK("select >=", select(a >= b, a, b));
     STOPLINE_CHECK("flag", STOPLINE_FLAG(R, a > b));
     STOPLINE_CHECK("choose", choose(STOPLINE_FLAG(R, a <= b), a, b));
-    STOPLINE_CHECK("lesser", lesser(a, b));
-    STOPLINE_CHECK("lesser number", lesser(a, 0.25));
-    STOPLINE_CHECK("greater", greater(a, b));
-    STOPLINE_CHECK("greater number", greater(a, 0.25));
-    STOPLINE_CHECK("limited", limited(a, -0.5, 0.5));
+    STOPLINE_CHECK("min_of", min_of(a, b));
+    STOPLINE_CHECK("min_of number", min_of(a, 0.25));
+    STOPLINE_CHECK("max_of", max_of(a, b));
+    STOPLINE_CHECK("max_of number", max_of(a, 0.25));
+    STOPLINE_CHECK("clamped", clamped(a, -0.5, 0.5));
     STOPLINE_CHECK("square", square(a));
     STOPLINE_CHECK("square_root", square_root(a * a + 0.1));
-    STOPLINE_CHECK("without_tiny", without_tiny(a));
-    STOPLINE_CHECK("exp_minus", exp_minus<R>(square(a)));
+    STOPLINE_CHECK("flush_tiny", flush_tiny(a));
+    STOPLINE_CHECK("exp_negative", exp_negative<R>(square(a)));
     STOPLINE_CHECK("lag_share", lag_share<R>(0.01, square(a) + 0.001));
-    STOPLINE_CHECK("whole", whole(limited(square(a), 0.0, 2e9)));
+    STOPLINE_CHECK("truncated", truncated(clamped(square(a), 0.0, 2e9)));
 }
 
-// A table whose entries all differ, looked up at every place and between all of them.
+// Checks look-ups in a table of distinct entries, at its nodes and between them.
 template <std::size_t kEntries>
 void check_batch_tables() {
     std::array<float, kEntries> table{};
     for (std::size_t k = 0; k < kEntries; ++k) table[k] = std::sin(static_cast<float>(k)) + 0.1F;
     for (float from = 0.0F; from < static_cast<float>(kEntries) + 3.0F; from += 0.125F) {
         std::array<float, kBatchWidth> found{};
-        std::array<float, kBatchWidth> between{};
-        std::array<float, kBatchWidth> places{};
+        std::array<float, kBatchWidth> interpolated{};
+        std::array<float, kBatchWidth> positions{};
         for (std::size_t lane = 0; lane < kBatchWidth; ++lane) {
-            places[lane] = std::fmod(from + 2.71F * static_cast<float>(lane), static_cast<float>(kEntries) + 3.0F);
+            positions[lane] = std::fmod(from + 2.71F * static_cast<float>(lane), static_cast<float>(kEntries) + 3.0F);
         }
-        const auto place = load<Batch>(places.data());
-        store(found.data(), look_up(table, whole(lesser(place, kEntries - 1.0))));
-        store(between.data(), on_grid(table, place));
+        const auto position = load<Batch>(positions.data());
+        store(found.data(), look_up(table, truncated(min_of(position, kEntries - 1.0))));
+        store(interpolated.data(), interpolate_on_grid(table, position));
         for (std::size_t lane = 0; lane < kBatchWidth; ++lane) {
-            const auto n = static_cast<std::size_t>(std::min(static_cast<double>(places[lane]), kEntries - 1.0));
-            EXPECT_EQ(found[lane], table[n]) << places[lane];
-            EXPECT_EQ(bits(between[lane]), bits(on_grid(table, Single(places[lane])))) << places[lane];
+            const auto n = static_cast<std::size_t>(std::min(static_cast<double>(positions[lane]), kEntries - 1.0));
+            EXPECT_EQ(found[lane], table[n]) << positions[lane];
+            EXPECT_EQ(bits(interpolated[lane]), bits(interpolate_on_grid(table, Single(positions[lane])))) << positions[lane];
         }
     }
 }
@@ -126,17 +126,17 @@ void check_batch_loads_and_stores() {
         const auto from_float = stored(load<Batch>(floats.data() + k));
         const auto from_double = stored(load<Batch>(doubles.data() + k));
         const auto from_int = stored(load<Batch>(integers.data() + k));
-        const auto between = stored(load_difference<Batch>(doubles.data() + k + 1, doubles.data() + k));
-        const auto to_end = stored(load_difference<Batch>(4e6, doubles.data() + k));
+        const auto difference = stored(load_difference<Batch>(doubles.data() + k + 1, doubles.data() + k));
+        const auto to_constant = stored(load_difference<Batch>(4e6, doubles.data() + k));
         const auto count = stored(counting_from<Batch>(static_cast<int>(k) - 3));
         for (std::size_t lane = 0; lane < kBatchWidth; ++lane) {
             const std::size_t n = k + lane;
             EXPECT_EQ(from_float[lane], floats[n]);
             EXPECT_EQ(from_double[lane], static_cast<float>(doubles[n]));
             EXPECT_EQ(from_int[lane], static_cast<float>(integers[n]));
-            EXPECT_EQ(between[lane], static_cast<float>(doubles[n + 1] - doubles[n]));
-            EXPECT_EQ(between[lane], load_difference<Single>(&doubles[n + 1], &doubles[n]).v);
-            EXPECT_EQ(to_end[lane], load_difference<Single>(4e6, &doubles[n]).v);
+            EXPECT_EQ(difference[lane], static_cast<float>(doubles[n + 1] - doubles[n]));
+            EXPECT_EQ(difference[lane], load_difference<Single>(&doubles[n + 1], &doubles[n]).v);
+            EXPECT_EQ(to_constant[lane], load_difference<Single>(4e6, &doubles[n]).v);
             EXPECT_EQ(count[lane], static_cast<float>(n) - 3.0F);
         }
     }

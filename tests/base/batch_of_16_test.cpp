@@ -4,14 +4,14 @@
 namespace stopline {
 namespace {
 
-TEST(BatchOf16, ComputesTheBitsOfSingle) { check_batch_arithmetic(); }
-TEST(BatchOf16, LoadsAndStoresAsSingleDoes) { check_batch_loads_and_stores(); }
-TEST(BatchOf16, LooksUpAsSingleDoes) {
+TEST(BatchOf16, MatchesSingleInArithmetic) { check_batch_arithmetic(); }
+TEST(BatchOf16, MatchesSingleInLoadsAndStores) { check_batch_loads_and_stores(); }
+TEST(BatchOf16, MatchesSingleInTableLookups) {
     check_batch_tables<8>();
     check_batch_tables<16>();
     check_batch_tables<32>();
 }
-TEST(BatchOf16, SeesWhetherAFlagIsSet) { check_any(); }
+TEST(BatchOf16, DetectsEachSetFlag) { check_any(); }
 
 }  // namespace
 }  // namespace stopline

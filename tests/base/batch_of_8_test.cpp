@@ -4,14 +4,14 @@
 namespace stopline {
 namespace {
 
-TEST(BatchOf8, ComputesTheBitsOfSingle) { check_batch_arithmetic(); }
-TEST(BatchOf8, LoadsAndStoresAsSingleDoes) { check_batch_loads_and_stores(); }
-TEST(BatchOf8, LooksUpAsSingleDoes) {
+TEST(BatchOf8, MatchesSingleInArithmetic) { check_batch_arithmetic(); }
+TEST(BatchOf8, MatchesSingleInLoadsAndStores) { check_batch_loads_and_stores(); }
+TEST(BatchOf8, MatchesSingleInTableLookups) {
     check_batch_tables<8>();
     check_batch_tables<16>();
     check_batch_tables<32>();
 }
-TEST(BatchOf8, SeesWhetherAFlagIsSet) { check_any(); }
+TEST(BatchOf8, DetectsEachSetFlag) { check_any(); }
 
 }  // namespace
 }  // namespace stopline

@@ -1,4 +1,4 @@
-// Keyed random numbers: uniform, independent of their neighbours in every part of the key, the same at compile time.
+// Tests of keyed random numbers: uniform, independent along every part of the key, and equal at compile time and run time.
 #include "base/random.h"
 
 #include <gtest/gtest.h>
@@ -15,22 +15,22 @@ namespace {
 
 constexpr int kDraws = 200'000;
 
-// The part of the key that counts up while the others stay.
-enum class Along { seed, vehicle, tick };
+// The part of the key that varies. The other parts stay constant.
+enum class KeyPart { seed, vehicle, tick };
 
-double draw(Along along, std::uint64_t k, Purpose purpose = Purpose::dawdle) {
-    switch (along) {
-        case Along::seed:
+double draw(KeyPart part, std::uint64_t k, Purpose purpose = Purpose::dawdle) {
+    switch (part) {
+        case KeyPart::seed:
             return random_uniform(k, 17, 4000, purpose);
-        case Along::vehicle:
+        case KeyPart::vehicle:
             return random_uniform(1, k, 4000, purpose);
-        case Along::tick:
+        case KeyPart::tick:
             return random_uniform(1, 17, k, purpose);
     }
     return -1.0;
 }
 
-// Pearson's statistic of the numbers over equal cells. Its mean is cells - 1, its variance 2 (cells - 1).
+// Returns Pearson's chi-square statistic over equal cells. Its mean is cells - 1 and its variance 2 (cells - 1).
 double chi_square(const std::vector<int>& counts) {
     double total = 0.0;
     for (const int count : counts) total += count;
@@ -40,16 +40,16 @@ double chi_square(const std::vector<int>& counts) {
     return sum;
 }
 
-// Five standard deviations: the keys are fixed, so a sound generator passes always, and any structure fails by far.
-void expect_uniform(const std::vector<int>& counts, const char* what) {
-    const double freedom = static_cast<double>(counts.size()) - 1.0;
-    EXPECT_NEAR(chi_square(counts), freedom, 5.0 * std::sqrt(2.0 * freedom)) << what;
+// Allows five standard deviations. The keys are fixed, so the result repeats; any structure exceeds the limit by far.
+void expect_uniform(const std::vector<int>& counts, const char* subject) {
+    const double degrees_of_freedom = static_cast<double>(counts.size()) - 1.0;
+    EXPECT_NEAR(chi_square(counts), degrees_of_freedom, 5.0 * std::sqrt(2.0 * degrees_of_freedom)) << subject;
 }
 
-class RandomAlong : public testing::TestWithParam<Along> {};
-INSTANTIATE_TEST_SUITE_P(EveryPartOfTheKey, RandomAlong, testing::Values(Along::seed, Along::vehicle, Along::tick));
+class RandomAlongKeyPart : public testing::TestWithParam<KeyPart> {};
+INSTANTIATE_TEST_SUITE_P(EveryPartOfTheKey, RandomAlongKeyPart, testing::Values(KeyPart::seed, KeyPart::vehicle, KeyPart::tick));
 
-TEST_P(RandomAlong, IsUniform) {
+TEST_P(RandomAlongKeyPart, IsUniform) {
     std::vector<int> counts(256, 0);
     for (int k = 0; k < kDraws; ++k) {
         const double u = draw(GetParam(), static_cast<std::uint64_t>(k));
@@ -60,18 +60,18 @@ TEST_P(RandomAlong, IsUniform) {
     expect_uniform(counts, "one number");
 }
 
-TEST_P(RandomAlong, PairsOfNeighboursFillTheSquare) {
+TEST_P(RandomAlongKeyPart, NeighbouringPairsAreUniform) {
     std::vector<int> counts(1024, 0);
-    double before = draw(GetParam(), 0);
+    double previous = draw(GetParam(), 0);
     for (int k = 1; k < kDraws; ++k) {
         const double u = draw(GetParam(), static_cast<std::uint64_t>(k));
-        ++counts[static_cast<std::size_t>(u * 32.0) * 32 + static_cast<std::size_t>(before * 32.0)];
-        before = u;
+        ++counts[static_cast<std::size_t>(u * 32.0) * 32 + static_cast<std::size_t>(previous * 32.0)];
+        previous = u;
     }
     expect_uniform(counts, "pairs");
 }
 
-TEST_P(RandomAlong, IsNotCorrelatedWithThePast) {
+TEST_P(RandomAlongKeyPart, IsNotAutocorrelated) {
     for (const int lag : {1, 2, 3, 4, 8, 64, 100}) {
         double sum = 0.0;
         for (int k = lag; k < kDraws; ++k) {
@@ -83,12 +83,12 @@ TEST_P(RandomAlong, IsNotCorrelatedWithThePast) {
     }
 }
 
-TEST_P(RandomAlong, EveryBitIsFair) {
+TEST_P(RandomAlongKeyPart, EveryBitIsFair) {
     std::array<int, 64> ones{};
     for (int k = 0; k < kDraws; ++k) {
         const auto n = static_cast<std::uint64_t>(k);
-        const std::uint64_t bits = GetParam() == Along::seed      ? random_bits(n, 3, 5, Purpose::turn)
-                                   : GetParam() == Along::vehicle ? random_bits(3, n, 5, Purpose::turn)
+        const std::uint64_t bits = GetParam() == KeyPart::seed      ? random_bits(n, 3, 5, Purpose::turn)
+                                   : GetParam() == KeyPart::vehicle ? random_bits(3, n, 5, Purpose::turn)
                                                                   : random_bits(3, 5, n, Purpose::turn);
         for (std::size_t bit = 0; bit < 64; ++bit) ones[bit] += static_cast<int>(bits >> bit & 1U);
     }
@@ -97,7 +97,7 @@ TEST_P(RandomAlong, EveryBitIsFair) {
     }
 }
 
-// One changed bit anywhere in the key changes half of the result's bits.
+// One changed bit of the key changes half of the result's bits on average.
 TEST(Random, OneBitOfTheKeyChangesHalfTheResult) {
     double changed = 0.0;
     int cases = 0;
@@ -114,34 +114,34 @@ TEST(Random, OneBitOfTheKeyChangesHalfTheResult) {
     EXPECT_NEAR(changed / cases, 32.0, 5.0 * 4.0 / std::sqrt(cases));
 }
 
-// Small keys are those that occur: none may give what another one gives, and no part may stand in for another.
+// Runs use small keys. Distinct keys must give distinct results, also if two parts of the key are swapped.
 TEST(Random, SmallKeysDoNotCollide) {
-    std::set<std::uint64_t> seen;
+    std::set<std::uint64_t> results;
     std::size_t drawn = 0;
     for (const Purpose purpose : {Purpose::policy, Purpose::turn, Purpose::dawdle, Purpose::insertion}) {
         for (std::uint64_t seed = 0; seed < 12; ++seed) {
             for (std::uint64_t vehicle = 0; vehicle < 12; ++vehicle) {
                 for (std::uint64_t tick = 0; tick < 12; ++tick, ++drawn) {
-                    seen.insert(random_bits(seed, vehicle, tick, purpose));
+                    results.insert(random_bits(seed, vehicle, tick, purpose));
                 }
             }
         }
     }
-    EXPECT_EQ(seen.size(), drawn);
+    EXPECT_EQ(results.size(), drawn);
 }
 
 TEST(Random, PurposesAreIndependent) {
     double sum = 0.0;
     for (int k = 0; k < kDraws; ++k) {
         const auto vehicle = static_cast<std::uint64_t>(k);
-        sum += (draw(Along::vehicle, vehicle, Purpose::policy) - 0.5) *
-               (draw(Along::vehicle, vehicle, Purpose::turn) - 0.5);
+        sum += (draw(KeyPart::vehicle, vehicle, Purpose::policy) - 0.5) *
+               (draw(KeyPart::vehicle, vehicle, Purpose::turn) - 0.5);
     }
     EXPECT_LT(std::fabs(12.0 * sum / kDraws), 5.0 / std::sqrt(kDraws));
 }
 
-// Integer arithmetic only: the compiler and the machine agree, on every machine. The first word of SplitMix64 seeded with 0
-// is published with the algorithm.
+// The generator uses integer arithmetic only, so every compiler and machine gives the same numbers. mix64(0) is the
+// published first word of SplitMix64 with seed 0.
 constexpr std::uint64_t kAtCompileTime = random_bits(42, 7, 100, Purpose::vehicle_type);
 static_assert(mix64(0) == 0xe220a8397b1dcdafULL);
 static_assert(random_uniform(42, 7, 100, Purpose::vehicle_type) < 1.0);

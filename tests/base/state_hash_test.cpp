@@ -1,4 +1,4 @@
-// The state hash tells apart whatever differs in one bit, in order, or in what is left out.
+// Tests of the state hash: it changes with any bit, with the order and with a missing value.
 #include "base/state_hash.h"
 
 #include <gtest/gtest.h>
@@ -18,27 +18,27 @@ std::uint64_t hash_of(const std::vector<double>& numbers) {
 
 const std::vector<double> kNumbers{0.0, 1.0, 13.888888888888889, -3.5, 1e-12, 700.0};
 
-TEST(StateHash, SeesTheLastBitOfEveryNumber) {
-    std::set<std::uint64_t> seen{hash_of(kNumbers)};
+TEST(StateHash, DependsOnTheLastBitOfEveryNumber) {
+    std::set<std::uint64_t> hashes{hash_of(kNumbers)};
     for (std::size_t k = 0; k < kNumbers.size(); ++k) {
         std::vector<double> changed = kNumbers;
         changed[k] = std::nextafter(changed[k], 1e300);
-        seen.insert(hash_of(changed));
+        hashes.insert(hash_of(changed));
     }
-    EXPECT_EQ(seen.size(), kNumbers.size() + 1);
+    EXPECT_EQ(hashes.size(), kNumbers.size() + 1);
 }
 
-TEST(StateHash, SeesTheOrder) {
-    std::set<std::uint64_t> seen{hash_of(kNumbers)};
+TEST(StateHash, DependsOnTheOrder) {
+    std::set<std::uint64_t> hashes{hash_of(kNumbers)};
     for (std::size_t k = 1; k < kNumbers.size(); ++k) {
         std::vector<double> swapped = kNumbers;
         std::swap(swapped[k - 1], swapped[k]);
-        seen.insert(hash_of(swapped));
+        hashes.insert(hash_of(swapped));
     }
-    EXPECT_EQ(seen.size(), kNumbers.size());
+    EXPECT_EQ(hashes.size(), kNumbers.size());
 }
 
-TEST(StateHash, SeesTheSignOfZeroAndAMissingZero) {
+TEST(StateHash, DependsOnTheSignOfZeroAndOnMissingZeros) {
     EXPECT_NE(hash_of({0.0}), hash_of({-0.0}));
     EXPECT_NE(hash_of({0.0}), hash_of({}));
     EXPECT_NE(hash_of({0.0}), hash_of({0.0, 0.0}));

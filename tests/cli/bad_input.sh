@@ -73,7 +73,7 @@ refused "100 MB of garbage" "garbage.yaml" "100.0 MB" -- "$work/garbage.yaml"
 head -c 1000000 "$work/garbage.yaml" >"$work/small_garbage.yaml"
 refused "1 MB of garbage" "small_garbage.yaml" -- "$work/small_garbage.yaml"
 
-refused "shorter than a cycle" "'duration'" "not a whole cycle" -- \
+refused "shorter than a cycle" "'duration'" "no whole cycle" -- \
     "$STOPLINE_SOURCE/scenarios/intersection.yaml" --set 'duration=10 s'
 
 refused "directory" "is a directory" -- "$work"

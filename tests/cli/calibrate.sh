@@ -34,6 +34,10 @@ for file in fitted.yaml permutations.csv differences.csv misses.csv fit_history.
     [ -s "$work/whole/$file" ] || fail "no $file"
 done
 
+for file in permutations differences misses fit_history; do
+    expect_documented "$work/whole/$file.csv" "calibrate/$file.csv"
+done
+
 # Killed in the middle of the fit.
 "$program" "$work/timing.yaml" --step I --starts 1 --evaluations-apart 30 --evaluations 30 --output "$work/killed" \
     >/dev/null 2>&1 &
@@ -51,6 +55,7 @@ done
 "$program" --step II --metrics-sweep "$work/metrics.yaml" --parameters "$work/whole/fitted.yaml" --output "$work/two" \
     >"$work/stdout" 2>"$work/stderr" || fail "step II: exit code $?: $(cat "$work/stderr")"
 grep -q "throughput_veh_h" "$work/stdout" || fail "no bands in: $(cat "$work/stdout")"
+expect_documented "$work/two/bands_calibrated.csv" calibrate/bands_NAME.csv
 [ "$(wc -l <"$work/two/bands_calibrated.csv")" -eq 7 ] || fail "not 2 permutations and 3 metrics"
 
 # refused PART OPTION...: exit code 2, PART in the message

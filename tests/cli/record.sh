@@ -6,7 +6,7 @@ set -u
 run="$STOPLINE_BIN/stopline-run"
 replay="$STOPLINE_BIN/stopline-replay"
 grid=("$STOPLINE_SOURCE/scenarios/grid.yaml" --set network.grid.columns=2 --set network.grid.rows=2 --set "duration=120 s"
-    --set "measure.steady=60 s" --no-figures --output "$work/out")
+    --set "measure.window=60 s" --no-figures --output "$work/out")
 
 # refused PART COMMAND...: exit code 2, PART in the message, nothing on standard output
 refused() {
@@ -19,7 +19,7 @@ refused() {
 }
 
 "$run" "${grid[@]}" --threads 2 --record "$work/a.rec" >"$work/table" || fail "exit code $?"
-grep -qF "bytes a vehicle and frame" "$work/table" || fail "no size a vehicle and frame: $(cat "$work/table")"
+grep -qF "bytes per vehicle and frame" "$work/table" || fail "no size per vehicle and frame: $(cat "$work/table")"
 "$run" "${grid[@]}" --threads 1 --record "$work/b.rec" >"$work/table" || fail "exit code $?"
 for population in CDG MIX CTG-Ref; do
     cmp "$work/a.$population.rec" "$work/b.$population.rec" || fail "$population: other bytes with one thread"
@@ -36,16 +36,16 @@ cmp "$work/a.CDG.html" "$work/again.html" || fail "the page is not the same each
 
 refused "'5 ms' is not a whole number of steps" "$run" "${grid[@]}" --record "$work/c.rec" --record-interval "5 ms"
 refused "--record-from: value '3'" "$run" "${grid[@]}" --record "$work/c.rec" --record-from 3
-refused "is after the end of the run: at most duration" "$run" "${grid[@]}" --record "$work/c.rec" --record-from "1 h"
+refused "is after the end of the run; give at most the duration" "$run" "${grid[@]}" --record "$work/c.rec" --record-from "1 h"
 refused "is not after --record-from" "$run" "${grid[@]}" --record "$work/c.rec" --record-from "9 s" --record-until "8 s"
-refused "cannot make the folder" "$run" "${grid[@]}" --record "$work/a.CDG.rec/x.rec"
-refused "none.rec: cannot read: No such file" "$replay" "$work/none.rec"
+refused "cannot create the folder" "$run" "${grid[@]}" --record "$work/a.CDG.rec/x.rec"
+refused "none.rec: the file cannot be read: No such file" "$replay" "$work/none.rec"
 refused "not written by stopline-run --record" "$replay" "$STOPLINE_SOURCE/README.md"
 refused "Is a directory" "$replay" "$work"
 head -c 3000 "$work/a.CDG.rec" >"$work/short.rec"
-refused "short.rec: not a recording that can be read: it ends too early" "$replay" "$work/short.rec"
+refused "short.rec: the file is not a readable recording: the file ends too early" "$replay" "$work/short.rec"
 head -c 20000 "$work/a.CDG.rec" >"$work/longer.rec"
-refused "longer.rec: damaged after" "$replay" "$work/longer.rec"
+refused "longer.rec: the recording is damaged after" "$replay" "$work/longer.rec"
 refused "no frame from 9000" "$replay" "$work/a.CDG.rec" --from "9000 s"
 [ -e "$work/short.html" ] && fail "a page of half a recording"
 [ -e /dev/full ] && refused "No space left on device" "$replay" "$work/a.CDG.rec" --output /dev/full

@@ -8,7 +8,7 @@ set -u
     --set measure.cycles=2 --set 'demand.left=15 %' --set 'demand.right=30 %' --no-figures --trajectories --interval "1 s" --record "$work/crossing.rec" \
     --output "$work/crossing" >"$work/stdout" || fail "intersection: exit code $?"
 "$STOPLINE_BIN/stopline-run" "$STOPLINE_SOURCE/scenarios/grid.yaml" --set 'populations=[CDG]' --set measure.baseline=CDG \
-    --set network.grid.columns=7 --set network.grid.rows=7 --set 'duration=320 s' --set 'measure.steady=100 s' \
+    --set network.grid.columns=7 --set network.grid.rows=7 --set 'duration=320 s' --set 'measure.window=100 s' \
     --record-from "250 s" --threads 1 --record "$work/large.rec" --no-figures --output "$work/large" >"$work/stdout" ||
     fail "grid: exit code $?"
 for name in crossing large; do

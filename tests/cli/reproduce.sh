@@ -101,12 +101,12 @@ refused() {
 }
 search=$PATH
 touch "$work/file"
-refused "unknown section" "known are: III, IV, V, VI, VII, all" --section VIII --output "$work/none"
+refused "unknown section" "allowed: III, IV, V, VI, VII, all" --section VIII --output "$work/none"
 [ -e "$work/none" ] && fail "a folder for a section that there is not"
-refused "no folder" "cannot make the folder" --section III --output "$work/file/sub"
+refused "no folder" "cannot create the folder" --section III --output "$work/file/sub"
 refused "no threads" "--threads" --threads 0
 search=/nowhere
-refused "no gnuplot" "gnuplot is not installed" --section III --output "$work/no_gnuplot"
+refused "no gnuplot" "install the Debian package gnuplot-nox" --section III --output "$work/no_gnuplot"
 
 # A job that fails costs only itself: the rest is there, the page says what is missing, and the exit code is 1.
 mkdir "$work/project"
@@ -115,8 +115,8 @@ echo "t_s,mean_kmh" >"$work/project/data/startup/kit_curve_leader50.csv"
 code=0
 STOPLINE_DATA="$work/project/data" report "$work/failed" >"$work/stdout" 2>"$work/stderr" || code=$?
 [ $code -eq 1 ] || fail "a failing job: exit code $code: $(cat "$work/stderr")"
-grep -q "failed: start of a leader" "$work/stderr" || fail "a failing job is not said: $(cat "$work/stderr")"
-grep -q "Not here: the runs failed" "$work/failed/index.html" || fail "the page hides what failed"
+grep -q "failed: start of a platoon leader" "$work/stderr" || fail "a failing job is not said: $(cat "$work/stderr")"
+grep -q "Missing: the runs failed" "$work/failed/index.html" || fail "the page hides what failed"
 [ -s "$work/failed/figures/fig05_counters.svg" ] || fail "one failing job takes others with it"
 [ -e "$work/failed/figures/fig02_startup.svg" ] && fail "a figure of a job that failed"
 

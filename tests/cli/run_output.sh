@@ -27,14 +27,14 @@ expect_header() {
 expect_header passages.csv "population,lane,position,vehicle,policy,time_s,headway_s,speed_mps"
 expect_header improvement.csv "population,green_s,passed_veh,baseline,baseline_passed_veh,improvement_percent"
 expect_header trajectories.csv \
-    "population,time_s,vehicle,policy,lane,place_m,speed_mps,acceleration_mps2,request_mps2,net_gap_m,gear"
+    "population,time_s,vehicle,policy,lane,position_m,speed_mps,acceleration_mps2,request_mps2,net_gap_m,gear"
 "$run" "$STOPLINE_SOURCE/scenarios/intersection.yaml" --set 'populations=[CDG]' --set measure.baseline=CDG \
     --set measure.cycles=1 --no-figures --trajectories --interval "1 s" --output "$work/crossing" >"$work/table" ||
     fail "intersection: exit code $?"
-[ "$(head -n 1 "$work/crossing/trajectories.csv")" = "population,time_s,vehicle,policy,lane,place_m,x_m,y_m,speed_mps,\
+[ "$(head -n 1 "$work/crossing/trajectories.csv")" = "population,time_s,vehicle,policy,lane,position_m,x_m,y_m,speed_mps,\
 acceleration_mps2,request_mps2,net_gap_m,gear" ] || fail "intersection: $(head -n 1 "$work/crossing/trajectories.csv")"
 [ "$(wc -l <"$work/crossing/trajectories.csv")" -gt 5000 ] || fail "intersection: few rows of trajectories"
-head -n 1 "$work/out/summary.csv" | grep -q "settled_headway_s,policy_headway_s" || fail "summary.csv has no headways"
+head -n 1 "$work/out/summary.csv" | grep -q "steady_headway_s,policy_headway_s" || fail "summary.csv has no headways"
 provenance="$work/out/first_steps.provenance.json"
 for part in '"scenario_hash"' '"version"' '"seed": 1' '"command"' '"state_hashes"' 'vehicles: 10' 'trajectories.csv' \
     "--trajectories --interval '0.5 s'"; do
@@ -68,18 +68,18 @@ briefly --set signal.green="1 s" --set measure.cycles=1 --output "$work/brief"
 
 # So it is of a network; the others are drawn.
 code=0
-"$run" "$STOPLINE_SOURCE/scenarios/arterial.yaml" --set duration="30 s" --set measure.steady="10 s" \
+"$run" "$STOPLINE_SOURCE/scenarios/arterial.yaml" --set duration="30 s" --set measure.window="10 s" \
     --set measure.time_space="0.5 s" --output "$work/arterial" >"$work/table" 2>"$work/stderr" || code=$?
 [ $code -eq 0 ] || fail "a short run of a network: exit code $code: $(cat "$work/stderr")"
 if command -v gnuplot >"$work/stdout"; then
     grep -q "no figure series: .* no whole interval of 60 s" "$work/table" || fail "no word on the figure that is left out"
-    [ -s "$work/arterial/hindrance.svg" ] || fail "a figure is missing beside one that is left out"
+    [ -s "$work/arterial/delay_causes.svg" ] || fail "a figure is missing beside one that is left out"
 fi
 
 touch "$work/file"
 cannot_write "Not a directory" "$work/file/below"
 cannot_write "Not a directory" "$work/file"
-[ -d /proc/self ] && cannot_write "cannot make the folder" /proc/stopline
+[ -d /proc/self ] && cannot_write "cannot create the folder" /proc/stopline
 if [ "$(id -u)" -ne 0 ]; then
     mkdir "$work/closed"
     chmod a-w "$work/closed"

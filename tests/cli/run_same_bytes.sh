@@ -32,15 +32,15 @@ results "$work/other" "$STOPLINE_BIN" 1 first_steps "${short[@]}" --set "policie
 diff -q "$work/one/passages.csv" "$work/other/passages.csv" >/dev/null && fail "another scenario gives the same passages"
 
 # Several intersections, with all that is written of hindrance.
-small=(--set "network.grid.columns=3" --set "duration=600 s" --set "measure.steady=300 s" --no-figures)
+small=(--set "network.grid.columns=3" --set "duration=600 s" --set "measure.window=300 s" --no-figures)
 "$STOPLINE_BIN/stopline-run" "$STOPLINE_SOURCE/scenarios/arterial.yaml" --threads 1 --output "$work/street" "${small[@]}" \
     >"$work/table" || fail "arterial: exit code $?"
-for part in "gridlock %" "moved on" "stability" "No overlaps" "hindrance.csv"; do
+for part in "gridlock" "teleported" "stability" "No overlaps" "delays.csv"; do
     grep -qF -- "$part" "$work/table" || fail "arterial: no '$part' in the report"
 done
 [ "$(wc -l <"$work/street/series.csv")" -eq 31 ] || fail "arterial: series.csv has not ten rows for each of three populations"
-head -n 1 "$work/street/hindrance.csv" | grep -q "^population,cause,lane,vehicle,blocker,blocker_lane,from_s,to_s," ||
-    fail "arterial: hindrance.csv begins with $(head -n 1 "$work/street/hindrance.csv")"
+head -n 1 "$work/street/delays.csv" | grep -q "^population,cause,lane,vehicle,blocker,blocker_lane,from_s,to_s," ||
+    fail "arterial: delays.csv begins with $(head -n 1 "$work/street/delays.csv")"
 "$STOPLINE_BIN/stopline-run" "$STOPLINE_SOURCE/scenarios/arterial.yaml" --threads 2 --output "$work/street_two" \
     "${small[@]}" >/dev/null || fail "arterial on two threads: exit code $?"
 same "an arterial on 1 and 2 threads" "$work/street" "$work/street_two"

@@ -64,6 +64,28 @@ if [ -e /dev/full ]; then
     [ $code -eq 2 ] || fail "stopline-benchmark on a full disk: exit code $code"
 fi
 
+# examples_exist FOLDER COMMAND: run in FOLDER, the help of COMMAND names programs and scenarios that exist from there.
+examples_exist() {
+    local folder=$1 command=$2 word
+    (cd "$folder" && "$command" --help) | grep -E '^  (mpirun -n [0-9]+ )?([^ ]*/)?stopline-[a-z]+( |$)' |
+        tr ' ' '\n' >"$work/words"
+    grep -qE '(^|/)stopline-[a-z]+$' "$work/words" || fail "$command: no command in its examples"
+    while read -r word; do
+        (cd "$folder" && command -v "$word") >"$work/stdout" || fail "$command in $folder: cannot run '$word' of its help"
+    done < <(grep -E '(^|/)stopline-[a-z]+$' "$work/words")
+    while read -r word; do
+        [ -f "$folder/$word" ] || [ -f "$word" ] || fail "$command in $folder: no file '$word' of its help"
+    done < <(grep -E '^(/.*/)?scenarios/.*\.yaml$' "$work/words")
+}
+for program in "$STOPLINE_BIN"/stopline-*; do
+    examples_exist "$STOPLINE_SOURCE" "$program"
+    examples_exist "$work" "$program"
+    examples_exist "$STOPLINE_BIN" "./$(basename "$program")"
+done
+PATH="$STOPLINE_BIN:$PATH" examples_exist "$work" stopline-run
+grep -qx "stopline-run" "$work/words" || fail "the help has a path though the program is on the PATH"
+says "  ./stopline-run " -- env -C "$STOPLINE_BIN" ./stopline-run --help
+
 refuses "no scenario file given" -- "$run"
 refuses "none.yaml" -- "$run" none.yaml
 refuses "two.yaml" -- "$run" "$scenario" two.yaml

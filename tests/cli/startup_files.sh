@@ -21,7 +21,7 @@ refused() {
 
 head='t_s,mean_kmh\n'
 refused "starts.csv:3: column 't_s': value '-5'" "${head}0,0\n-5,3\n"
-refused "starts.csv:4: column 't_s': value '1' does not rise" "${head}0,0\n1,3\n1,4\n"
+refused "starts.csv:4: column 't_s': value '1' must be greater than the time before it" "${head}0,0\n1,3\n1,4\n"
 refused "starts.csv:2: column 't_s': value '0.5' must be 0" "${head}0.5,0\n1,3\n"
 refused "starts.csv:3: column 't_s': value '1e7' is out of range (allowed: 0 to 600)" "${head}0,0\n1e7,3\n"
 refused "starts.csv:3: column 'mean_kmh': value 'nan'" "${head}0,0\n1,nan\n"
@@ -31,7 +31,7 @@ refused "starts.csv:3: column 'mean_kmh': value ''" "${head}0,0\n1,\n"
 refused "starts.csv:3: 1 fields" "${head}0,0\n1\n"
 refused "at least two rows" "${head}0,0\n"
 refused "is empty" ""
-refused "needed are t_s and mean_kmh" "time,speed\n0,0\n1,3\n"
+refused "required columns: t_s, mean_kmh" "time,speed\n0,0\n1,3\n"
 refused "'p97.5'" "t_s,mean_kmh,p2.5\n0,0,0\n1,3,2\n"
 refused "starts.csv:2: byte 0x1B" "${head}\033[31m,0\n1,3\n"
 refused "starts.csv:1: byte 0xFF" '\0377\0376'

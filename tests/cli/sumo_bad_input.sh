@@ -54,21 +54,21 @@ for file in net rou add; do
     scenario
     printf '<?xml version="1.0"?>\n<!DOCTYPE x [<!ENTITY a "b">]>\n%s' "$(cat "$work/$file.xml")" >"$work/whole"
     mv "$work/whole" "$work/$file.xml"
-    refused "$file: DOCTYPE" "$work/$file.xml:2: has a DOCTYPE"
+    refused "$file: DOCTYPE" "$work/$file.xml:2: the file has a DOCTYPE"
     scenario
     {
         cat "$work/$file.xml"
         head -c 20000 /dev/urandom | od -A n -t x1
     } | gzip >"$work/whole"
     head -c 5000 "$work/whole" >"$work/$file.xml"
-    refused "$file: cut off" ": is damaged or cut off here (gzip)"
+    refused "$file: cut off" ": the gzip data are damaged or end too early here"
     says "$file: cut off" "$work/$file.xml:"
     scenario
     sed -i '1s/>/ a="1" a="2">/' "$work/$file.xml"
     refused "$file: attribute twice" "$work/$file.xml:1: element '"
     scenario
     sed -i '1s/>/ a="\&unknown;">/' "$work/$file.xml"
-    refused "$file: unknown entity" "'&unknown' is no entity"
+    refused "$file: unknown entity" "'&unknown' is not an XML entity"
     scenario
     rm "$work/$file.xml"
     refused "$file: missing" "$work/$file.xml: there is no such file"
@@ -76,16 +76,16 @@ done
 scenario ./none.xml
 refused "missing net" "$work/s.yaml:5:8: field 'network.net': "
 scenario "" /dev/zero
-refused "device as routes" "$work/s.yaml:6:12: field 'network.routes[0]': /dev/zero: is not a file that can be read to an end"
+refused "device as routes" "$work/s.yaml:6:12: field 'network.routes[0]': /dev/zero: this is a device or a pipe; a regular file is needed"
 scenario "" "" .
 refused "folder as additional" "$work/s.yaml:7:16: field 'network.additional[0]': "
 
 scenario
 echo '<routes><vType id="t"/></routes>' >"$work/rou.xml"
-refused "no vehicle" "$work/s.yaml:6:11: field 'network.routes': there is no vehicle, trip or flow"
+refused "no vehicle" "$work/s.yaml:6:11: field 'network.routes': the files of 'routes' and 'additional' have no vehicle, trip or flow"
 scenario
 sed -i 's/depart="0"/depart="60"/' "$work/rou.xml"
 ended "nobody departs" 0
-says "nobody departs" "warning: nobody departs: the run ends at 60 s ('duration'), and the first vehicle of the routes departs at 60 s"
+says "nobody departs" "warning: no vehicle departs: the run ends at 60 s (duration), but the first vehicle departs at 60 s"
 
 exit $((failures > 0))

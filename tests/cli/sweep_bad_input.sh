@@ -61,8 +61,8 @@ refused_axis "values that fit no scenario" '{name: a, path: signal.green, values
     "measure.green[1]"
 refused_axis "a value in other words" '{name: a, path: signal.green, values: [60 s, 1 min]}' "bad.yaml:3:48" \
     "'1 min' is the same value as '60 s'"
-refused_axis "the name of a result" '{name: emptied, path: signal.green, values: [15 s]}' "bad.yaml:3:10" \
-    "axes[emptied].name" "'emptied_s'"
+refused_axis "the name of a result" '{name: queue_emptied, path: signal.green, values: [15 s]}' "bad.yaml:3:10" \
+    "axes[queue_emptied].name" "'queue_emptied_s'"
 refused_axis "seeds as an axis" '{name: a, path: seed, values: [1, 2]}' "write 'repetitions'"
 
 values='1, 2, 3, 4, 5, 6, 7, 8, 9, 10'
@@ -76,9 +76,9 @@ for i in "${!fields[@]}"; do
 done
 refused_text "10^12 permutations" "$axes" "more than 10000000 runs"
 
-refused "shard 5/4" "'5/4' is no shard" -- "$good" --shard 5/4
-refused "shard 0/4" "'0/4' is no shard" -- "$good" --shard 0/4
-refused "shard of words" "is no shard" -- "$good" --shard one
+refused "shard 5/4" "'5/4' must be K/N" -- "$good" --shard 5/4
+refused "shard 0/4" "'0/4' must be K/N" -- "$good" --shard 0/4
+refused "shard of words" "must be K/N" -- "$good" --shard one
 refused "a directory" "is a directory" -- "$work"
 refused "no such file" "no such file" -- "$work/none.yaml"
 refused "a set axis" "'vehicle' is an axis of the sweep" -- "$good" --set vehicle=electric_100kw

@@ -141,7 +141,7 @@ refused "no store" "not a store" "$program" "$work/other.yaml" --output "$work/t
 # Two programs at once.
 start "$work/busy" --threads 1 --set "duration=20000 s"
 wait_for [ -s "$work/busy/sweep.sqlite-wal" ] || fail "no store"
-refused "a store in use" "another program works with this store" sweep "$work/busy" --set "duration=20000 s"
+refused "a store in use" "another program has this store open" sweep "$work/busy" --set "duration=20000 s"
 kill -KILL $pid
 wait $pid 2>/dev/null
 

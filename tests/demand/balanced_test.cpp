@@ -1,4 +1,4 @@
-// Balanced draws: random order, shares that hold in every 20 vehicles.
+// Tests of balanced draws: the order is random, but every 20 vehicles have the given shares.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,38 +29,38 @@ TEST(BalancedDraw, KeepsTheSharesInEveryTwentyVehicles) {
         const DemandPlan plan = plan_of(shares);
         std::vector<double> total(shares.size(), 0.0);
         for (std::int64_t block = 0; block < 200; ++block) {
-            std::vector<double> given(shares.size(), 0.0);
+            std::vector<double> drawn(shares.size(), 0.0);
             for (std::int64_t k = 20 * block; k < 20 * (block + 1); ++k) {
-                given[static_cast<std::size_t>(plan.route_of(0, k))] += 1.0;
+                drawn[static_cast<std::size_t>(plan.route_of(0, k))] += 1.0;
             }
             for (std::size_t c = 0; c < shares.size(); ++c) {
-                ASSERT_LE(std::fabs(given[c] - 20.0 * shares[c]), 1.0 + 1e-9) << "block " << block;
-                total[c] += given[c];
+                ASSERT_LE(std::fabs(drawn[c] - 20.0 * shares[c]), 1.0 + 1e-9) << "block " << block;
+                total[c] += drawn[c];
             }
         }
         for (std::size_t c = 0; c < shares.size(); ++c) EXPECT_NEAR(total[c] / 4000.0, shares[c], 0.005);
     }
 }
 
-TEST(BalancedDraw, OrderIsRandom) {
+TEST(BalancedDraw, HasARandomOrder) {
     const DemandPlan plan = plan_of({0.5, 0.5});
     int changes = 0;
     for (std::int64_t k = 1; k < 4000; ++k) changes += plan.route_of(0, k) != plan.route_of(0, k - 1) ? 1 : 0;
     EXPECT_NEAR(changes, 2100, 150) << "alternating would give 4000";
 }
 
-TEST(BalancedDraw, InletsSeedsTurnsAndPoliciesDiffer) {
-    const DemandPlan one = plan_of({0.5, 0.5});
-    const DemandPlan two = plan_of({0.5, 0.5}, 2);
-    int inlets = 0;
-    int seeds = 0;
-    int purposes = 0;
+TEST(BalancedDraw, DiffersBetweenInletsSeedsAndPurposes) {
+    const DemandPlan first = plan_of({0.5, 0.5});
+    const DemandPlan second = plan_of({0.5, 0.5}, 2);
+    int equal_inlets = 0;
+    int equal_seeds = 0;
+    int equal_purposes = 0;
     for (std::int64_t k = 0; k < 2000; ++k) {
-        inlets += one.route_of(0, k) == one.route_of(1, k) ? 1 : 0;
-        seeds += one.route_of(0, k) == two.route_of(0, k) ? 1 : 0;
-        purposes += one.route_of(0, k) == one.policy_of(0, k) ? 1 : 0;
+        equal_inlets += first.route_of(0, k) == first.route_of(1, k) ? 1 : 0;
+        equal_seeds += first.route_of(0, k) == second.route_of(0, k) ? 1 : 0;
+        equal_purposes += first.route_of(0, k) == first.policy_of(0, k) ? 1 : 0;
     }
-    for (const int equal : {inlets, seeds, purposes}) EXPECT_NEAR(equal, 1000, 150);
+    for (const int count : {equal_inlets, equal_seeds, equal_purposes}) EXPECT_NEAR(count, 1000, 150);
 }
 
 }  // namespace

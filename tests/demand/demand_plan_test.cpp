@@ -1,4 +1,4 @@
-// Who enters: shares of policies and routes, and that they depend on the vehicle alone.
+// Tests of the demand plan: shares of policies and routes. A draw depends only on the seed, the inlet and the vehicle number.
 #include "demand/demand_plan.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ DemandPlan mix(DemandPlan::Pattern pattern, std::vector<double> shares) {
     return plan;
 }
 
-TEST(AlternatingMix, OfTwoHalvesBeginsWithTheFirst) {
+TEST(AlternatingMix, OfTwoHalvesStartsWithTheFirst) {
     const DemandPlan plan = mix(DemandPlan::Pattern::alternating, {0.5, 0.5});
     for (std::int64_t k = 0; k < 200; ++k) EXPECT_EQ(plan.policy_of(0, k), k % 2) << k;
 }
@@ -34,12 +34,12 @@ TEST(AlternatingMix, KeepsTheSharesInEveryPrefix) {
                                               {0.2, 0.3, 0.5},
                                               {1.0, 0.0}}) {
         const DemandPlan plan = mix(DemandPlan::Pattern::alternating, shares);
-        std::vector<double> given(shares.size(), 0.0);
+        std::vector<double> drawn(shares.size(), 0.0);
         for (std::int64_t k = 0; k < 300; ++k) {
-            given[static_cast<std::size_t>(plan.policy_of(0, k))] += 1.0;
+            drawn[static_cast<std::size_t>(plan.policy_of(0, k))] += 1.0;
             for (std::size_t c = 0; c < shares.size(); ++c) {
-                const double due = shares[c] * static_cast<double>(k + 1);
-                ASSERT_LT(std::fabs(given[c] - due), 1.0 + 1e-9) << "after " << k + 1 << " vehicles, component " << c;
+                const double expected = shares[c] * static_cast<double>(k + 1);
+                ASSERT_LT(std::fabs(drawn[c] - expected), 1.0 + 1e-9) << "after " << k + 1 << " vehicles, component " << c;
             }
         }
     }
@@ -48,16 +48,16 @@ TEST(AlternatingMix, KeepsTheSharesInEveryPrefix) {
 TEST(RandomMix, RealisesTheSharesWithinSamplingError) {
     for (const std::vector<double>& shares : {std::vector{0.5, 0.5}, {0.05, 0.95}, {0.2, 0.3, 0.5}}) {
         const DemandPlan plan = mix(DemandPlan::Pattern::random, shares);
-        std::vector<double> given(shares.size(), 0.0);
-        for (std::int64_t k = 0; k < kVehicles; ++k) given[static_cast<std::size_t>(plan.policy_of(0, k))] += 1.0;
+        std::vector<double> drawn(shares.size(), 0.0);
+        for (std::int64_t k = 0; k < kVehicles; ++k) drawn[static_cast<std::size_t>(plan.policy_of(0, k))] += 1.0;
         for (std::size_t c = 0; c < shares.size(); ++c) {
             const double deviation = std::sqrt(kVehicles * shares[c] * (1.0 - shares[c]));
-            EXPECT_NEAR(given[c], kVehicles * shares[c], 4.0 * deviation) << c;
+            EXPECT_NEAR(drawn[c], kVehicles * shares[c], 4.0 * deviation) << c;
         }
     }
 }
 
-// Runs of equals must be those of independent draws: n / 2 changes for two halves.
+// Independent draws with two equal shares change n / 2 times on average.
 TEST(RandomMix, DoesNotAlternate) {
     const DemandPlan plan = mix(DemandPlan::Pattern::random, {0.5, 0.5});
     double changes = 0.0;
@@ -66,7 +66,7 @@ TEST(RandomMix, DoesNotAlternate) {
     EXPECT_NEAR(changes, 0.5 * kVehicles, 4.0 * std::sqrt(0.25 * kVehicles));
 }
 
-TEST(RandomMix, DoesNotDependOnTheOrderOfQuestions) {
+TEST(RandomMix, DoesNotDependOnTheQueryOrder) {
     const DemandPlan plan = mix(DemandPlan::Pattern::random, {0.3, 0.7});
     std::vector<int> forward;
     for (std::int64_t k = 0; k < 1000; ++k) forward.push_back(plan.policy_of(1, k));
@@ -77,7 +77,7 @@ TEST(RandomMix, DoesNotDependOnTheOrderOfQuestions) {
     }
 }
 
-// The share of vehicles for which two plans choose differently.
+// Returns the share of vehicles to which two plans give different policies.
 double difference(const DemandPlan& a, int inlet_a, const DemandPlan& b, int inlet_b) {
     double different = 0.0;
     for (std::int64_t k = 0; k < kVehicles; ++k)
@@ -96,13 +96,13 @@ TEST(RandomMix, DiffersBetweenSeedsAndInletsAndAgreesWithItself) {
 
 TEST(Routes, HaveTheirSharesAndAreIndependentOfThePolicy) {
     const DemandPlan plan = mix(DemandPlan::Pattern::random, {0.5, 0.5});
-    std::vector<std::vector<double>> given(2, std::vector<double>(4, 0.0));
+    std::vector<std::vector<double>> drawn(2, std::vector<double>(4, 0.0));
     for (std::int64_t k = 0; k < kVehicles; ++k) {
         EXPECT_EQ(plan.route_of(0, k), 0);
-        given[static_cast<std::size_t>(plan.policy_of(1, k))][static_cast<std::size_t>(plan.route_of(1, k))] += 1.0;
+        drawn[static_cast<std::size_t>(plan.policy_of(1, k))][static_cast<std::size_t>(plan.route_of(1, k))] += 1.0;
     }
     const std::vector<double> shares{0.0, 0.7, 0.1, 0.2};
-    for (const std::vector<double>& of_policy : given) {
+    for (const std::vector<double>& of_policy : drawn) {
         for (std::size_t r = 0; r < shares.size(); ++r) {
             const double share = 0.5 * shares[r];
             EXPECT_NEAR(of_policy[r], kVehicles * share, 4.0 * std::sqrt(kVehicles * share * (1.0 - share)) + 1e-9);
@@ -110,7 +110,7 @@ TEST(Routes, HaveTheirSharesAndAreIndependentOfThePolicy) {
     }
 }
 
-TEST(OnePolicy, IsEverybodys) {
+TEST(SinglePolicy, AppliesToEveryVehicle) {
     const DemandPlan plan = mix(DemandPlan::Pattern::random, {1.0});
     for (std::int64_t k = 0; k < 100; ++k) EXPECT_EQ(plan.policy_of(0, k), 0);
 }

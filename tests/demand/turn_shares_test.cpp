@@ -1,4 +1,4 @@
-// Turns by lane: calculations by hand, and what always holds.
+// Tests of turn shares by lane against calculations by hand.
 #include "demand/turn_shares.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ void expect_row(const TurnShares& row, const TurnShares& expected) {
     for (std::size_t turn = 0; turn < row.size(); ++turn) EXPECT_NEAR(row[turn], expected[turn], 1e-9) << turn;
 }
 
-// A third of the vehicles on each lane: 8 of 33.3 % turn left, 12 of 33.3 % right.
+// Each lane carries 33.3 % of the traffic. On the left lane 8 of 33.3 turn left, on the right lane 12 of 33.3 turn right.
 TEST(TurnsByLane, FillLanesEvenly) {
     const auto lanes = turns_by_lane({kStraightLeft, kStraight, kStraightRight}, {0.8, 0.12, 0.08});
     expect_row(lanes[0], {0.76, 0.0, 0.24});
@@ -27,27 +27,27 @@ TEST(TurnsByLane, FillLanesEvenly) {
     expect_row(lanes[2], {0.64, 0.36, 0.0});
 }
 
-// Two lanes that allow all: fitting keeps the odds between them, which are equal.
-TEST(TurnsByLane, ThatAreAlikeHaveTheSameTurns) {
+// Fitting keeps the odds between the lanes, so two lanes with the same movements get the same shares.
+TEST(TurnsByLane, AreEqualForEqualLanes) {
     const auto lanes = turns_by_lane({{true, true, true}, {true, true, true}}, {0.5, 0.3, 0.2});
     expect_row(lanes[0], {0.5, 0.3, 0.2});
     expect_row(lanes[1], {0.5, 0.3, 0.2});
 }
 
-// Only 30 % would be on the lane for left turns, 35 % on each of the others: 35 straight on the second, 5 straight and 30 right on the
-// third. Nobody enters on a lane from which its turn does not go on.
-TEST(TurnsByLane, AreAmongThoseThatTheLaneAllows) {
+// The left-turn lane carries 30 %, each other lane 35 %: 35 straight on the second, 5 straight and 30 right on the third.
+// No vehicle enters on a lane that does not serve its turn.
+TEST(TurnsByLane, AreServedByTheLane) {
     const auto lanes = turns_by_lane({kLeft, kStraight, kStraightRight}, {0.4, 0.3, 0.3});
     expect_row(lanes[0], {0.0, 0.0, 1.0});
     expect_row(lanes[1], {1.0, 0.0, 0.0});
     expect_row(lanes[2], {5.0 / 35.0, 30.0 / 35.0, 0.0});
 }
 
-TEST(TurnsByLane, OfALaneForATurnThatNobodyTakesAreThoseOfTheApproach) {
+TEST(TurnsByLane, OfAnUnusedTurnLaneEqualTheApproachShares) {
     expect_row(turns_by_lane({kLeft, kStraight}, {1.0, 0.0, 0.0})[0], {1.0, 0.0, 0.0});
 }
 
-TEST(TurnsByLane, OfOneLaneAreThoseOfTheApproach) {
+TEST(TurnsByLane, OfASingleLaneEqualTheApproachShares) {
     expect_row(turns_by_lane({{true, true, true}}, {0.75, 0.16, 0.09})[0], {0.75, 0.16, 0.09});
 }
 
@@ -59,8 +59,8 @@ double share_of(const LaneGraph& graph, const DemandPlan::Inlet& inlet, Turn tur
     return 0.0;
 }
 
-// All left turners come in on the lane beside the pocket, with a route that begins in the pocket.
-TEST(StreetInlets, SendThoseOfAPocketToTheLaneBesideIt) {
+// Left-turning vehicles enter on the lane beside the pocket. Their route begins in the pocket.
+TEST(StreetInlets, PutPocketTrafficOnTheNeighbouringLane) {
     const LaneGraph graph = make_streets(streets_with_pockets());
     const std::vector<DemandPlan::Inlet> inlets = street_inlets(graph);
     ASSERT_EQ(inlets.size(), graph.entries.size() + graph.links.size());
@@ -69,12 +69,12 @@ TEST(StreetInlets, SendThoseOfAPocketToTheLaneBesideIt) {
     EXPECT_NEAR(share_of(graph, inlets[0], Turn::straight), 0.76, 1e-9);
     EXPECT_EQ(share_of(graph, inlets[1], Turn::left), 0.0);
     EXPECT_NEAR(share_of(graph, inlets[2], Turn::right), 0.36, 1e-9);
-    const auto& way = graph.routes[static_cast<std::size_t>(inlets[0].routes.back())].lanes;
-    EXPECT_EQ(graph.lanes[static_cast<std::size_t>(way[0])].name, "first_west_in_0");
+    const auto& route = graph.routes[static_cast<std::size_t>(inlets[0].routes.back())].lanes;
+    EXPECT_EQ(graph.lanes[static_cast<std::size_t>(route[0])].name, "first_west_in_0");
 }
 
-// On a link each lane has the shares of the approach, and its own routes where it has them.
-TEST(StreetInlets, OnLinksHaveTheSharesOfTheApproach) {
+// On a link, each lane has the turn shares of the approach, and its routes begin on the lane itself if it serves the turn.
+TEST(StreetInlets, UseTheApproachSharesOnLinks) {
     const LaneGraph graph = make_streets(two_streets());
     const std::vector<DemandPlan::Inlet> inlets = street_inlets(graph);
     for (std::size_t k = graph.entries.size(); k < inlets.size(); ++k) {

@@ -51,12 +51,12 @@ def sumo(name):
 
 SHORT_LIGHT = {"duration": "110 s", "signal.first_green": "60 s", "signal.green": "30 s", "demand.vehicles": "18",
                "network.approach.length": "400 m", "measure.green": "[5 s, 10 s, 20 s]"}
-SHORT_STREET = {"duration": "600 s", "measure.steady": "300 s", "measure.time_space": "200 s"}
-SHORT_GRID = {"duration": "420 s", "measure.steady": "240 s"}
+SHORT_STREET = {"duration": "600 s", "measure.window": "300 s", "measure.time_space": "200 s"}
+SHORT_GRID = {"duration": "420 s", "measure.window": "240 s"}
 SMALL_GRID = {**SHORT_GRID, "network.grid.columns": "3", "network.grid.rows": "3"}
 FULL = {"fidelity": "full"}
 MESO = {"fidelity": "meso"}
-GRIDLOCK = {"duration": "900 s", "measure.steady": "600 s", "signal.green": "20 s", "demand.left": "10 %",
+GRIDLOCK = {"duration": "900 s", "measure.window": "600 s", "signal.green": "20 s", "demand.left": "10 %",
             "demand.right": "30 %", **population("CDG")}
 QUICK_CYCLES = {"measure.cycles": "2", "step": "20 ms"}
 MIXED = {"populations": "[CTG-Ref, {name: MIX, pattern: alternating, components: [{policy: CDG, share: 50 %}, "
@@ -94,7 +94,7 @@ RUNS = [
     Run("arterial_turns_wave", "arterial",
         {**SHORT_STREET, "demand.left": "10 %", "demand.right": "20 %", "signal.offset": "15 s"}),
     Run("arterial_table2", "arterial", {**SHORT_STREET, "meso": "table2"}),
-    Run("arterial_full", "arterial", {**FULL, "duration": "240 s", "measure.steady": "120 s", "measure.time_space": "100 s"}),
+    Run("arterial_full", "arterial", {**FULL, "duration": "240 s", "measure.window": "120 s", "measure.time_space": "100 s"}),
     Run("arterial_quiet_crossings", "arterial",
         {**SHORT_STREET, "demand.cross_inflow": "200 veh/h", "signal.green": "35 s", "signal.cross_green": "5 s"}),
     Run("grid", "grid", SHORT_GRID),
@@ -104,9 +104,9 @@ RUNS = [
     Run("grid_gridlock_no_keep_clear", "grid", {**GRIDLOCK, "duration": "700 s", "rules.keep_clear": "off"},
         situation=("gridlocks",)),
     Run("grid_rate", "grid", {**SHORT_GRID, "demand.kind": "rate", "demand.inflow": "600 veh/h", "demand.left": "10 %"}),
-    Run("grid_sight_light_ahead_off", "grid", {**SHORT_GRID, "rules.sight": "100 m", "rules.light_ahead": "off"}),
-    Run("small_grid_full", "grid", {**SMALL_GRID, **FULL, "duration": "240 s", "measure.steady": "120 s"}),
-    Run("small_grid_full", "grid", {**SMALL_GRID, **FULL, "duration": "240 s", "measure.steady": "120 s"}, threads=2),
+    Run("grid_sight_no_queue_at_red", "grid", {**SHORT_GRID, "rules.sight": "100 m", "rules.count_queue_at_red_exit": "off"}),
+    Run("small_grid_full", "grid", {**SMALL_GRID, **FULL, "duration": "240 s", "measure.window": "120 s"}),
+    Run("small_grid_full", "grid", {**SMALL_GRID, **FULL, "duration": "240 s", "measure.window": "120 s"}, threads=2),
     Run("grid_full_gridlock", "grid", {**GRIDLOCK, **FULL}, situation=("gridlocks", "passed_blockers")),
     Run("small_grid_switch", "grid",
         {**SMALL_GRID, "populations": "[SWITCH-1, SWITCH-2]", "measure.baseline": "SWITCH-1"}),
@@ -114,17 +114,17 @@ RUNS = [
     Run("berlin_three_lanes", "berlin", {"duration": "420 s"}, threads=2),
     Run("berlin_four_lanes", "berlin", {"duration": "300 s", "network.streets": "four_lanes"}),
     Run("berlin_pockets_help", "berlin",
-        {"duration": "300 s", "network.streets": "three_lanes_pockets", "driver.lane_change.help": "on"}),
+        {"duration": "300 s", "network.streets": "three_lanes_pockets", "driver.lane_change.gap_opening": "on"}),
     Run("berlin_full", "berlin", {"duration": "120 s", **FULL, **population("CDG")}),
     Run("two_intersections", "berlin", TWO_STREETS),
     Run("two_intersections_full", "berlin", {**TWO_STREETS, **FULL, "duration": "300 s", **MIXED}),
-    imported("import_random", {**sumo("fast_random"), "duration": "500 s", "measure.steady": "400 s"}),
-    imported("import_random", {**sumo("fast_random"), "duration": "500 s", "measure.steady": "400 s"}, threads=2),
-    imported("import_random_full", {**sumo("fast_random"), **FULL, "duration": "200 s", "measure.steady": "120 s"}),
-    imported("import_lights", {**sumo("lights_grid"), "duration": "500 s", "measure.steady": "400 s"}),
-    imported("import_lights_full", {**sumo("lights_grid"), **FULL, "duration": "200 s", "measure.steady": "120 s"}),
-    imported("import_wrong_turn_lane", {**sumo("wrong_turn_lane"), "duration": "400 s", "measure.steady": "300 s"}),
-    imported("import_roundabout", {**sumo("roundabout"), "duration": "300 s", "measure.steady": "200 s"}),
+    imported("import_random", {**sumo("fast_random"), "duration": "500 s", "measure.window": "400 s"}),
+    imported("import_random", {**sumo("fast_random"), "duration": "500 s", "measure.window": "400 s"}, threads=2),
+    imported("import_random_full", {**sumo("fast_random"), **FULL, "duration": "200 s", "measure.window": "120 s"}),
+    imported("import_lights", {**sumo("lights_grid"), "duration": "500 s", "measure.window": "400 s"}),
+    imported("import_lights_full", {**sumo("lights_grid"), **FULL, "duration": "200 s", "measure.window": "120 s"}),
+    imported("import_wrong_turn_lane", {**sumo("wrong_turn_lane"), "duration": "400 s", "measure.window": "300 s"}),
+    imported("import_roundabout", {**sumo("roundabout"), "duration": "300 s", "measure.window": "200 s"}),
     Run("startup", "", program="stopline-startup"),
 ]
 

@@ -1,5 +1,5 @@
-// The feedforwards of Fig. 3 and 4: the predictive one solves its least-squares problem, the one for time gaps inverts the
-// own lag and applies the predecessor's.
+// Tests of the feedforwards of Fig. 3 and 4 in the paper. The predictive one solves a least-squares problem. The one for time
+// gaps inverts the vehicle's own lag and applies the leader's lag.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -14,12 +14,12 @@ namespace {
 struct Problem {
     CaccSettings cacc;
     double own_mps2, own_rate_1ps;
-    PredecessorView<double> p;
+    LeaderView<double> p;
 };
 
 Problem arbitrary_problem(std::uint64_t k) {
-    const auto between = [&](std::uint64_t which, double low, double high) {
-        return low + (high - low) * random_uniform(3, k, which, Purpose::dawdle);
+    const auto between = [&](std::uint64_t draw, double low, double high) {
+        return low + (high - low) * random_uniform(3, k, draw, Purpose::dawdle);
     };
     Problem problem{};
     problem.cacc.prediction_start_s = between(0, 0.02, 0.3);
@@ -33,7 +33,7 @@ Problem arbitrary_problem(std::uint64_t k) {
     return problem;
 }
 
-// The three times at which the accelerations shall meet, as equations w u = b with the exact exponential.
+// Sets up the equations w u = b: the two accelerations shall agree at three times. Uses the exact exponential.
 void equations(const Problem& q, Eigen::Vector3d& w, Eigen::Vector3d& b) {
     for (int k = 0; k < 3; ++k) {
         const double t = q.cacc.prediction_start_s + 0.5 * k * (q.cacc.prediction_end_s - q.cacc.prediction_start_s);
@@ -45,7 +45,7 @@ void equations(const Problem& q, Eigen::Vector3d& w, Eigen::Vector3d& b) {
     }
 }
 
-double solved(const Problem& q) { return predictive_feedforward(q.cacc, q.own_mps2, q.own_rate_1ps, q.p); }
+double feedforward_of(const Problem& q) { return predictive_feedforward(q.cacc, q.own_mps2, q.own_rate_1ps, q.p); }
 
 TEST(PredictiveFeedforward, IsTheLeastSquaresSolution) {
     for (std::uint64_t k = 0; k < 2000; ++k) {
@@ -55,37 +55,37 @@ TEST(PredictiveFeedforward, IsTheLeastSquaresSolution) {
         equations(q, w, b);
         const Eigen::MatrixXd design = w;
         const double best = design.colPivHouseholderQr().solve(b)(0);
-        const double allowed =
+        const double limited =
             std::fmin(q.cacc.acceleration_max_mps2, std::fmax(-q.cacc.deceleration_emergency_mps2, best));
-        ASSERT_NEAR(solved(q), allowed, 1e-5) << "case " << k;
+        ASSERT_NEAR(feedforward_of(q), limited, 1e-5) << "case " << k;
     }
 }
 
-TEST(PredictiveFeedforward, NoAllowedRequestDoesBetter) {
+TEST(PredictiveFeedforward, HasTheSmallestResidualOfAllRequests) {
     for (std::uint64_t k = 0; k < 200; ++k) {
         const Problem q = arbitrary_problem(k);
         Eigen::Vector3d w;
         Eigen::Vector3d b;
         equations(q, w, b);
-        const double found = (w * solved(q) - b).squaredNorm();
+        const double residual = (w * feedforward_of(q) - b).squaredNorm();
         for (double u = -q.cacc.deceleration_emergency_mps2; u <= q.cacc.acceleration_max_mps2; u += 0.01) {
-            ASSERT_LE(found, (w * u - b).squaredNorm() + 1e-9) << "case " << k << ", request " << u;
+            ASSERT_LE(residual, (w * u - b).squaredNorm() + 1e-9) << "case " << k << ", request " << u;
         }
     }
 }
 
-TEST(PredictiveFeedforward, OfAnEqualPredecessorIsItsRequest) {
+TEST(PredictiveFeedforward, EqualsTheRequestOfAnIdenticalLeader) {
     for (std::uint64_t k = 0; k < 200; ++k) {
         Problem q = arbitrary_problem(k);
         q.cacc.v2v_delay_s = 0.0;
         q.own_rate_1ps = q.p.rate_1ps;
         q.own_mps2 = q.p.acceleration_mps2;
-        EXPECT_NEAR(solved(q), q.p.request_mps2, 1e-6);
+        EXPECT_NEAR(feedforward_of(q), q.p.request_mps2, 1e-6);
     }
 }
 
-// Two vehicles that are first-order lags and nothing else, without delays. The gap error follows what feedback and
-// feedforward leave of the predecessor's manoeuvres; with the lags inverted that is nothing.
+// Returns the largest gap error behind a manoeuvring leader, m. Both vehicles are pure first-order lags without delays, so an
+// exact feedforward leaves no error.
 double largest_error_m(double tau_p, double tau, double kp, double kd) {
     constexpr double kStep_s = 0.001;
     constexpr double kTimeGap_s = 0.87;
@@ -97,26 +97,26 @@ double largest_error_m(double tau_p, double tau, double kp, double kd) {
     double a = 0.0;
     double u = 0.0;
     double error_m = 0.0;
-    double largest = 0.0;
+    double largest_m = 0.0;
     for (int k = 0; k * kStep_s < 40.0; ++k) {
         const double t = k * kStep_s;
         const double u_p = std::sin(0.9 * t) + (t > 15.0 && t < 18.0 ? 0.8 : -0.2);
-        const PredecessorView<double> p{10.0 + error_m, closing, a_p, u_p, 1.0 / tau_p};
+        const LeaderView<double> p{10.0 + error_m, closing, a_p, u_p, 1.0 / tau_p};
         u = follow_acceleration<double>(c, 8.0, a, tau, 1.0 / tau, u, 10.0, 7.0, kTimeGap_s, p, kStep_s);
-        const double a_before = a;
-        const double closing_before = closing;
-        const double a_p_before = a_p;
+        const double a_previous = a;
+        const double closing_previous = closing;
+        const double a_p_previous = a_p;
         a += (u - a) * lag_share(kStep_s, tau);
         a_p += (u_p - a_p) * lag_share(kStep_s, tau_p);
-        closing += 0.5 * (a + a_before - a_p - a_p_before) * kStep_s;
+        closing += 0.5 * (a + a_previous - a_p - a_p_previous) * kStep_s;
         // error = gap - r - h v
-        error_m -= 0.5 * (closing + closing_before) * kStep_s + kTimeGap_s * 0.5 * (a + a_before) * kStep_s;
-        largest = std::fmax(largest, std::fabs(error_m));
+        error_m -= 0.5 * (closing + closing_previous) * kStep_s + kTimeGap_s * 0.5 * (a + a_previous) * kStep_s;
+        largest_m = std::fmax(largest_m, std::fabs(error_m));
     }
-    return largest;
+    return largest_m;
 }
 
-TEST(TimeGapFeedforward, InvertsTheOwnLagAndAppliesThePredecessors) {
+TEST(TimeGapFeedforward, InvertsTheOwnLagAndAppliesTheLeaders) {
     for (const double tau_p : {0.1, 0.25, 0.5}) {
         for (const double tau : {0.1, 0.25, 0.5}) {
             EXPECT_LT(largest_error_m(tau_p, tau, 0.2, 0.7), 0.01) << tau_p << ' ' << tau;

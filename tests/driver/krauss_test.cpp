@@ -1,4 +1,4 @@
-// What the mesoscale models add to those of the paper, each against its closed form.
+// Tests of the extensions of the mesoscale car-following model, each against its closed form.
 #include "driver/krauss.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ Krauss model() {
     return k;
 }
 
-// Speed after `time_s` from standstill on a free road.
+// Returns the speed after `time_s` of free driving from standstill, m/s.
 double speed_after(const Krauss& k, double time_s) {
     double speed = 0.0;
     for (int n = 0; n < static_cast<int>(std::lround(time_s / kStep_s)); ++n) {
@@ -29,18 +29,18 @@ double speed_after(const Krauss& k, double time_s) {
     return speed;
 }
 
-TEST(Krauss, AcceleratesEvenlyWithoutAPowerLimit) { EXPECT_NEAR(speed_after(model(), 20.0), 40.0, 1e-9); }
+TEST(Krauss, AcceleratesConstantlyWithoutAPowerLimit) { EXPECT_NEAR(speed_after(model(), 20.0), 40.0, 1e-9); }
 
 // Constant power: v dv/dt = a v_p, so v^2 = v_p^2 + 2 a v_p (t - v_p / a).
-TEST(Krauss, AcceleratesWithConstantPowerBeyondASpeed) {
+TEST(Krauss, AcceleratesWithConstantPowerAboveASpeed) {
     Krauss k = model();
-    k.until_mps = 5.0;
+    k.constant_power_speed_mps = 5.0;
     for (const double time_s : {5.0, 10.0, 20.0}) {
         EXPECT_NEAR(speed_after(k, time_s), std::sqrt(25.0 + 20.0 * (time_s - 2.5)), 0.06) << time_s;
     }
 }
 
-TEST(Krauss, FallsBackByTheTransientGap) {
+TEST(Krauss, AddsTheTransientGap) {
     Krauss k = model();
     k.transient_gap_s2 = 0.5;
     const double gap_m = k.equilibrium_gap_m(8.0) + 0.5 * 1.5;
@@ -49,21 +49,21 @@ TEST(Krauss, FallsBackByTheTransientGap) {
     EXPECT_GT(next_speed_mps(k, {8.0, gap_m, 8.0, 0.0, 0.0, 1e3}, 0.0, kStep_s), 8.05);
 }
 
-// Behind a predecessor that draws away v_safe asks for a higher speed than the time gap has room for; who tracks the gap keeps it.
+// Behind a leader that pulls away, v_safe exceeds the speed that keeps the time gap. Gap tracking prevents this.
 TEST(Krauss, TracksItsTimeGap) {
     Krauss k = model();
     const double gap_m = k.standstill_gap_m + 5.0 * k.reaction_s;
     const KraussInput in{5.0, gap_m, 10.0, 0.0, 0.0, 1e3};
     EXPECT_GT(next_speed_mps(k, in, 0.0, kStep_s), 5.05);
-    k.tracking = 1.0;
+    k.gap_tracking = 1.0;
     EXPECT_NEAR(next_speed_mps(k, in, 0.0, kStep_s), 5.0, 1e-9);
     k.constant_distance = true;
     EXPECT_GT(next_speed_mps(k, in, 0.0, kStep_s), 5.05) << "a constant distance has no time gap";
 }
 
-TEST(Krauss, CatchesUpOnlyCloseBehindAPredecessor) {
+TEST(Krauss, CatchesUpOnlyCloseToItsLeader) {
     Krauss k = model();
-    k.catch_up = 1.5;
+    k.catch_up_factor = 1.5;
     const double near_m = k.equilibrium_gap_m(5.0) + 1.9;
     const double far_m = k.equilibrium_gap_m(5.0) + 2.1;
     EXPECT_NEAR(next_speed_mps(k, {5.0, near_m, 30.0, 0.0, 0.0, 1e3}, 0.0, kStep_s), 5.3, 1e-9);

@@ -1,4 +1,5 @@
-// Laws that lead along a curve of speed over distance or speed alone, driven by a vehicle that does at once what is asked.
+// Tests of laws that follow a curve of speed over distance or of acceleration over speed. The test vehicle realises each
+// requested acceleration immediately.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,44 +17,44 @@ constexpr double kStep_s = 0.001;
 DriverTables shipped() { return compile_driver(load_driver("startup_kit")); }
 
 struct Arrival {
-    double distance_m;  // left when it stands or gets there
+    double distance_m;  // distance left at the end of the approach
     double speed_mps;
     double hardest_mps2;
 };
 
 template <class Law>
 Arrival approach(double speed_mps, double distance_m, const Law& law) {
-    Arrival now{distance_m, speed_mps, 0.0};
-    for (int k = 0; k < 200'000 && now.speed_mps > 1e-3 && now.distance_m > -0.5; ++k) {
-        const double a = law(now.speed_mps, now.distance_m);
-        const double next = std::fmax(0.0, now.speed_mps + a * kStep_s);
-        now.distance_m -= 0.5 * (now.speed_mps + next) * kStep_s;
-        now.speed_mps = next;
-        now.hardest_mps2 = std::fmin(now.hardest_mps2, a);
+    Arrival state{distance_m, speed_mps, 0.0};
+    for (int k = 0; k < 200'000 && state.speed_mps > 1e-3 && state.distance_m > -0.5; ++k) {
+        const double a = law(state.speed_mps, state.distance_m);
+        const double next = std::fmax(0.0, state.speed_mps + a * kStep_s);
+        state.distance_m -= 0.5 * (state.speed_mps + next) * kStep_s;
+        state.speed_mps = next;
+        state.hardest_mps2 = std::fmin(state.hardest_mps2, a);
     }
-    return now;
+    return state;
 }
 
-TEST(Stop, LandsOnTheSpotFromItsCurve) {
+TEST(Stop, StopsAtTheTargetFromItsCurve) {
     const DriverTables d = shipped();
     for (double v = 0.5; v < 20.0; v += 0.5) {
         const double distance = stopping_distance_m(d, v);
-        const Arrival end =
-            approach(v, distance, [&](double speed, double left) { return stop_acceleration(d, speed, left); });
-        EXPECT_NEAR(end.distance_m, 0.0, 0.01) << "from " << v << " m/s";
-        EXPECT_GE(end.distance_m, -1e-6) << "overshoots";
-        EXPECT_GT(end.hardest_mps2, -1.02 * d.stop.deceleration_mps2) << "brakes harder than its deceleration";
+        const Arrival arrival =
+            approach(v, distance, [&](double speed, double distance_left_m) { return stop_acceleration(d, speed, distance_left_m); });
+        EXPECT_NEAR(arrival.distance_m, 0.0, 0.01) << "from " << v << " m/s";
+        EXPECT_GE(arrival.distance_m, -1e-6) << "overshoots";
+        EXPECT_GT(arrival.hardest_mps2, -1.02 * d.stop.deceleration_mps2) << "brakes harder than its deceleration";
     }
 }
 
-// Too late for the curve: it brakes harder, as hard as the vehicle can, and still stops before the line.
-TEST(Stop, CatchesUpWithItsCurveWhenLate) {
+// The vehicle starts braking too late for the curve. It brakes harder, up to its limit, and still stops in time.
+TEST(Stop, BrakesHarderIfItStartsLate) {
     const DriverTables d = shipped();
     for (double v = 2.0; v < 20.0; v += 1.0) {
         const double distance = v * v / (2.0 * 5.0) + 0.2;
-        const Arrival end = approach(
-            v, distance, [&](double speed, double left) { return std::fmax(-7.0, stop_acceleration(d, speed, left)); });
-        EXPECT_GE(end.distance_m, -0.05) << "from " << v << " m/s";  // of the 1 m that it keeps to the line
+        const Arrival arrival = approach(
+            v, distance, [&](double speed, double distance_left_m) { return std::fmax(-7.0, stop_acceleration(d, speed, distance_left_m)); });
+        EXPECT_GE(arrival.distance_m, -0.05) << "from " << v << " m/s";  // well within the margin to the stop line
     }
 }
 
@@ -69,17 +70,17 @@ TEST(SlowDown, ReachesTheLowerLimitWhereItBegins) {
     const double end_mps = 7.0;
     for (const double v : {8.0, 10.0, 14.0, 20.0}) {
         const double distance = (v * v - end_mps * end_mps) / (2.0 * d.deceleration_mps2) + 5.0;
-        Arrival now{distance, v, 0.0};
-        while (now.distance_m > 0.0) {
-            const double a = std::fmin(0.0, slow_down_acceleration(d, now.speed_mps, end_mps, now.distance_m));
-            const double next = now.speed_mps + a * kStep_s;
-            now.distance_m -= 0.5 * (now.speed_mps + next) * kStep_s;
-            now.speed_mps = next;
-            now.hardest_mps2 = std::fmin(now.hardest_mps2, a);
+        Arrival state{distance, v, 0.0};
+        while (state.distance_m > 0.0) {
+            const double a = std::fmin(0.0, slow_down_acceleration(d, state.speed_mps, end_mps, state.distance_m));
+            const double next = state.speed_mps + a * kStep_s;
+            state.distance_m -= 0.5 * (state.speed_mps + next) * kStep_s;
+            state.speed_mps = next;
+            state.hardest_mps2 = std::fmin(state.hardest_mps2, a);
         }
-        EXPECT_LE(now.speed_mps, end_mps + 0.01) << "from " << v;
-        EXPECT_GE(now.speed_mps, end_mps - 0.3) << "from " << v;
-        EXPECT_GT(now.hardest_mps2, -1.1 * d.deceleration_mps2);
+        EXPECT_LE(state.speed_mps, end_mps + 0.01) << "from " << v;
+        EXPECT_GE(state.speed_mps, end_mps - 0.3) << "from " << v;
+        EXPECT_GT(state.hardest_mps2, -1.1 * d.deceleration_mps2);
     }
 }
 
@@ -88,7 +89,7 @@ TEST(FreeDrive, FollowsTheProfileBelowAndTheGainNearTheDesiredSpeed) {
     const DriverTables d = compile_driver(settings);
     const SampledCurve profile{settings.free_drive.speed_mps, settings.free_drive.acceleration_mps2};
     for (double v = 0.0; v < 30.0; v += 0.05) {
-        // Its dents lie between the nodes of the grid.
+        // The tolerance covers kinks of the profile that lie between grid nodes.
         EXPECT_NEAR(free_acceleration(d, v, 1e6), interpolate(profile, v), 0.15) << v;
         EXPECT_LE(free_acceleration(d, v, 14.0), d.speed_gain_1ps * (14.0 - v) + 1e-12);
     }
@@ -102,7 +103,7 @@ TEST(FreeDrive, FollowsTheProfileBelowAndTheGainNearTheDesiredSpeed) {
     EXPECT_NEAR(catch_up_acceleration(d, 14.0 * d.cacc.catch_up_factor, 14.0), 0.0, 1e-12);
 }
 
-TEST(CompileDriver, RefusesAProfileWithoutOneAccelerationASpeed) {
+TEST(CompileDriver, RefusesAProfileWithMissingValues) {
     DriverSettings settings = load_driver("startup_kit");
     settings.free_drive.acceleration_mps2.pop_back();
     EXPECT_THROW(compile_driver(settings), InputError);
@@ -110,7 +111,7 @@ TEST(CompileDriver, RefusesAProfileWithoutOneAccelerationASpeed) {
     EXPECT_THROW(compile_driver(settings), InputError);
 }
 
-TEST(CompileDriver, TakesAProfileOfOnePoint) {
+TEST(CompileDriver, AcceptsAProfileOfOnePoint) {
     DriverSettings settings = load_driver("startup_kit");
     settings.free_drive.speed_mps = {0.0};
     settings.free_drive.acceleration_mps2 = {1.2};

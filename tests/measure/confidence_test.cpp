@@ -1,4 +1,4 @@
-// Bands against values from printed tables of Student's distribution, and against their definition.
+// Tests of confidence intervals against printed tables of Student's distribution and against their definition.
 #include "measure/confidence.h"
 
 #include <gtest/gtest.h>
@@ -14,19 +14,19 @@ namespace {
 
 const std::vector<double> kSix{10.0, 12.0, 9.0, 11.0, 13.0, 11.0};  // mean 11, sample deviation sqrt(2)
 
-TEST(Confidence, IsTheIntervalOfTheTextbooks) {
+TEST(Confidence, MatchesStudentsInterval) {
     const Interval band = confidence_interval(kSix, Band::student);
     EXPECT_NEAR(band.high, 11.0 + 2.5706 * std::sqrt(2.0) / std::sqrt(6.0), 1e-4);  // t(0.975, 5)
     EXPECT_NEAR(band.low + band.high, 22.0, 1e-9);
 }
 
-TEST(Confidence, IsEquationTwoAsPrinted) {
+TEST(Confidence, MatchesEquation2OfThePaper) {
     const Interval band = confidence_interval(kSix, Band::paper);
     EXPECT_NEAR(band.high, 11.0 + 1.9432 * std::sqrt(2.0) / std::sqrt(2.0), 1e-4);  // t(0.95, 6), N = 2
 }
 
-// 95 of 100 intervals of samples of six contain the mean that the samples are from.
-TEST(Confidence, StudentCoversTheTruthAsOftenAsItSays) {
+// 95 % of the intervals from samples of six values contain the true mean.
+TEST(Confidence, StudentIntervalsHaveTheStatedCoverage) {
     std::mt19937_64 generator(7);
     std::normal_distribution<double> normal(3.0, 2.0);
     int inside = 0;
@@ -39,7 +39,7 @@ TEST(Confidence, StudentCoversTheTruthAsOftenAsItSays) {
     EXPECT_NEAR(static_cast<double>(inside) / kSamples, 0.95, 0.006);
 }
 
-TEST(Confidence, IsAPointWhereAllRunsAgree) {
+TEST(Confidence, IsAPointIfAllRunsAgree) {
     const std::vector<double> same(6, 4.25);
     EXPECT_EQ(confidence_interval(same, Band::paper).low, confidence_interval(same, Band::paper).high);
 }

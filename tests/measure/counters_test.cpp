@@ -7,7 +7,7 @@
 namespace stopline {
 namespace {
 
-TEST(Counter, CountsWhoHasPassedTheOneJustPassingIncluded) {
+TEST(Counter, IncludesTheVehicleThatIsPassing) {
     const Counter counter({3.0, 1.0, 2.0});  // in any order
     EXPECT_EQ(counter.passed(0.0), 0);
     EXPECT_EQ(counter.passed(0.999), 0);
@@ -17,7 +17,7 @@ TEST(Counter, CountsWhoHasPassedTheOneJustPassingIncluded) {
     EXPECT_EQ(counter.total(), 3);
 }
 
-TEST(Counter, GrowsEvenlyBetweenPassages) {
+TEST(Counter, InterpolatesLinearlyBetweenPassages) {
     const Counter counter({2.0, 4.0, 5.0});
     EXPECT_DOUBLE_EQ(counter.interpolated(0.0), 0.0);
     EXPECT_DOUBLE_EQ(counter.interpolated(1.0), 0.5);
@@ -27,45 +27,45 @@ TEST(Counter, GrowsEvenlyBetweenPassages) {
     EXPECT_DOUBLE_EQ(counter.interpolated(50.0), 3.0);
 }
 
-TEST(Counter, OfNobodyStaysAtZero) {
+TEST(Counter, StaysAtZeroWithoutPassages) {
     const Counter counter({});
     EXPECT_EQ(counter.passed(10.0), 0);
     EXPECT_DOUBLE_EQ(counter.interpolated(10.0), 0.0);
 }
 
-TEST(Improvement, IsTheShareThatMorePass) {
+TEST(Improvement, IsTheRelativeIncrease) {
     EXPECT_DOUBLE_EQ(improvement_percent(17, 8), 112.5);
     EXPECT_DOUBLE_EQ(improvement_percent(8, 8), 0.0);
     EXPECT_DOUBLE_EQ(improvement_percent(6, 8), -25.0);
     EXPECT_TRUE(std::isnan(improvement_percent(3, 0)));
 }
 
-// A vehicle every `headway_s`, the first after one headway: the interpolated counter is time / headway.
-Counter steady(double headway_s, int vehicles) {
+// Returns a counter with a vehicle every `headway_s`, the first after one headway. Interpolated, it is time / headway.
+Counter steady_counter(double headway_s, int vehicles) {
     std::vector<double> times_s;
     for (int k = 1; k <= vehicles; ++k) times_s.push_back(k * headway_s);
     return Counter(times_s);
 }
 
-TEST(MeanImprovement, OfTwoSteadyFlowsIsTheRatioOfTheirHeadways) {
-    // 0.583 s against 1.453 s: the limit of Fig. 6. Whole counts would give more: both are rounded down.
-    const double mean = mean_improvement_percent(steady(0.5832, 100), steady(1.4532, 40), 10.0, 50.0);
+TEST(MeanImprovement, IsTheHeadwayRatioOfSteadyFlows) {
+    // These headways give the limit of Fig. 6. Whole counts would give a higher value, because both are rounded down.
+    const double mean = mean_improvement_percent(steady_counter(0.5832, 100), steady_counter(1.4532, 40), 10.0, 50.0);
     EXPECT_NEAR(mean, 100.0 * (1.4532 / 0.5832 - 1.0), 1e-9);
 }
 
 TEST(MeanImprovement, AveragesOverTime) {
-    // The baseline has one vehicle a second; the other two for five seconds and then none: 20 % to 100 % more, falling.
+    // The baseline passes one vehicle a second. The fast flow passes two a second for five seconds, then none.
     std::vector<double> times_s;
     for (int k = 1; k <= 10; ++k) times_s.push_back(0.5 * k);
     const Counter fast(times_s);
-    const Counter baseline = steady(1.0, 20);
+    const Counter baseline = steady_counter(1.0, 20);
     EXPECT_NEAR(mean_improvement_percent(fast, baseline, 2.0, 5.0), 100.0, 1e-9);
     // From 5 s to 10 s: the mean of 10 / t - 1 is 2 ln 2 - 1.
     EXPECT_NEAR(mean_improvement_percent(fast, baseline, 5.0, 10.0), 100.0 * (2.0 * std::log(2.0) - 1.0), 1e-3);
 }
 
-TEST(MeanImprovement, IsNoNumberWithoutAnIntervalOrABaseline) {
-    const Counter counter = steady(1.0, 10);
+TEST(MeanImprovement, IsNanWithoutAnIntervalOrABaseline) {
+    const Counter counter = steady_counter(1.0, 10);
     EXPECT_TRUE(std::isnan(mean_improvement_percent(counter, counter, 5.0, 5.0)));
     EXPECT_TRUE(std::isnan(mean_improvement_percent(counter, counter, 6.0, 5.0)));
     EXPECT_TRUE(std::isnan(mean_improvement_percent(counter, Counter({}), 1.0, 5.0)));

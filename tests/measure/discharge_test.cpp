@@ -1,4 +1,4 @@
-// Discharge of a stop line from hand-made passages, by the arithmetic of the Highway Capacity Manual.
+// Tests of queue discharge with synthetic passages, by the arithmetic of the Highway Capacity Manual.
 #include "measure/discharge.h"
 
 #include <gtest/gtest.h>
@@ -7,13 +7,15 @@
 #include <cmath>
 #include <vector>
 
+#include "sim/state/model.h"
+
 namespace stopline {
 namespace {
 
-constexpr double kGreen_s = 10.0;  // the first one begins
+constexpr double kGreen_s = 10.0;  // start of the first green
 constexpr double kCycle_s = 60.0;
 
-// Two lanes with a stop line each; green at 10 s, 70 s, 130 s ... for 15 s, then 3 s of yellow.
+// Returns a model with two lanes. Green starts at 10 s, 70 s, 130 s ... and lasts 15 s; 3 s of yellow follow.
 Model two_lanes() {
     Model model;
     ApproachSettings approach;
@@ -28,8 +30,16 @@ Model two_lanes() {
     return model;
 }
 
-// One lane's fronts in one green.
-void pass(std::vector<Crossing>& crossings, double green_s, int detector, const std::vector<double>& headways_s) {
+Discharge discharge_in(const Model& model, const std::vector<Crossing>& crossings, const TimeWindow& window) {
+    const auto latest_green_start_s = [&](int signal_group, double time_s) {
+        const auto tick = static_cast<std::int64_t>(time_s / model.step_s);
+        return model.time_s(model.signals[static_cast<std::size_t>(signal_group)].last_green_start_tick(tick));
+    };
+    return discharge(model.graph, model.detectors, crossings, window, latest_green_start_s, kCycle_s);
+}
+
+// Adds passages at one detector during one green, given by their headways.
+void add_passages(std::vector<Crossing>& crossings, double green_s, int detector, const std::vector<double>& headways_s) {
     double time_s = green_s;
     for (const double headway_s : headways_s) {
         time_s += headway_s;
@@ -37,61 +47,61 @@ void pass(std::vector<Crossing>& crossings, double green_s, int detector, const 
     }
 }
 
-std::vector<Crossing> in_order(std::vector<Crossing> crossings) {
+std::vector<Crossing> sorted_by_time(std::vector<Crossing> crossings) {
     std::sort(crossings.begin(), crossings.end(),
               [](const Crossing& a, const Crossing& b) { return a.time_s < b.time_s; });
     return crossings;
 }
 
-TEST(Discharge, FollowsFromHeadwaysByArithmetic) {
+TEST(Discharge, MatchesHandCalculation) {
     const Model model = two_lanes();
     std::vector<Crossing> crossings;
-    pass(crossings, kGreen_s - kCycle_s, 0, {59.0});                    // before any green
-    pass(crossings, kGreen_s, 0, {3.0, 2.5, 2.3, 2.2, 2.0, 2.0, 1.7});  // the last one on yellow
-    pass(crossings, kGreen_s, 2, {3.4, 2.7, 2.5, 2.0, 1.8});
-    pass(crossings, kGreen_s, 1, {0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5});  // the bound of a zone is no stop line
-    pass(crossings, kGreen_s + kCycle_s, 0, {3.2, 2.6, 2.4, 2.1, 1.9, 2.0});
-    pass(crossings, kGreen_s + 2.0 * kCycle_s, 2, {1.0, 1.0, 1.0, 1.0, 1.0, 1.0});  // after the window
-    const Discharge d = discharge(model, in_order(crossings), {kGreen_s, kGreen_s + 2.0 * kCycle_s});
+    add_passages(crossings, kGreen_s - kCycle_s, 0, {59.0});                    // before the first green
+    add_passages(crossings, kGreen_s, 0, {3.0, 2.5, 2.3, 2.2, 2.0, 2.0, 1.7});  // the last passage is on yellow
+    add_passages(crossings, kGreen_s, 2, {3.4, 2.7, 2.5, 2.0, 1.8});
+    add_passages(crossings, kGreen_s, 1, {0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5});  // a zone boundary is not a stop line
+    add_passages(crossings, kGreen_s + kCycle_s, 0, {3.2, 2.6, 2.4, 2.1, 1.9, 2.0});
+    add_passages(crossings, kGreen_s + 2.0 * kCycle_s, 2, {1.0, 1.0, 1.0, 1.0, 1.0, 1.0});  // after the window
+    const Discharge d = discharge_in(model, sorted_by_time(crossings), {kGreen_s, kGreen_s + 2.0 * kCycle_s});
 
     const std::vector<double> mean_s{3.2, 2.6, 2.4, 2.1, 1.9, 2.0, 1.7};
     ASSERT_EQ(d.headway_s.size(), mean_s.size());
     for (std::size_t k = 0; k < mean_s.size(); ++k) EXPECT_NEAR(d.headway_s[k], mean_s[k], 1e-9) << k;
     EXPECT_EQ(d.samples, (std::vector{3, 3, 3, 3, 3, 2, 1}));
-    // From the fifth on every vehicle weighs the same: 2.0 + 2.0 + 1.7 + 1.8 + 1.9 + 2.0 over six.
+    // From the fifth vehicle on, all headways have equal weight: (2.0 + 2.0 + 1.7 + 1.8 + 1.9 + 2.0) / 6.
     EXPECT_NEAR(d.saturation_headway_s, 1.9, 1e-9);
     EXPECT_NEAR(d.saturation_flow_veh_h, 3600.0 / 1.9, 1e-6);
-    EXPECT_NEAR(d.lost_time_s, 3.2 + 2.6 + 2.4 + 2.1 - 4.0 * 1.9, 1e-9);
+    EXPECT_NEAR(d.startup_lost_time_s, 3.2 + 2.6 + 2.4 + 2.1 - 4.0 * 1.9, 1e-9);
     EXPECT_EQ(d.greens, 2);
     EXPECT_DOUBLE_EQ(d.vehicles_per_green, 18.0 / 2.0 / 2.0) << "two lanes, two greens, one of them empty";
 }
 
-TEST(Discharge, CountsAVehicleOnYellowToItsOwnGreenThoughItIsTheFirst) {
+TEST(Discharge, CountsAFirstVehicleOnYellowTowardsItsGreen) {
     const Model model = two_lanes();
     std::vector<Crossing> crossings;
-    pass(crossings, kGreen_s, 0, {3.0, 2.5});
-    pass(crossings, kGreen_s + kCycle_s, 0, {15.5});
-    const Discharge d = discharge(model, in_order(crossings), {kGreen_s, kGreen_s + 2.0 * kCycle_s});
+    add_passages(crossings, kGreen_s, 0, {3.0, 2.5});
+    add_passages(crossings, kGreen_s + kCycle_s, 0, {15.5});
+    const Discharge d = discharge_in(model, sorted_by_time(crossings), {kGreen_s, kGreen_s + 2.0 * kCycle_s});
     EXPECT_EQ(d.samples, (std::vector{2, 1}));
     EXPECT_NEAR(d.headway_s.at(0), (3.0 + 15.5) / 2.0, 1e-9);
 }
 
-TEST(Discharge, LeavesOutTheGreenThatBeganBeforeTheWindow) {
+TEST(Discharge, IgnoresAGreenThatStartsBeforeTheWindow) {
     const Model model = two_lanes();
     std::vector<Crossing> crossings;
-    pass(crossings, kGreen_s, 0, {3.0, 2.0, 2.0, 2.0, 2.0, 1.0});
-    pass(crossings, kGreen_s + kCycle_s, 0, {4.0, 3.0, 3.0, 3.0, 2.5});
-    const Discharge d = discharge(model, crossings, {kGreen_s + 6.0, kGreen_s + 6.0 + kCycle_s * 2.0});
+    add_passages(crossings, kGreen_s, 0, {3.0, 2.0, 2.0, 2.0, 2.0, 1.0});
+    add_passages(crossings, kGreen_s + kCycle_s, 0, {4.0, 3.0, 3.0, 3.0, 2.5});
+    const Discharge d = discharge_in(model, crossings, {kGreen_s + 6.0, kGreen_s + 6.0 + kCycle_s * 2.0});
     ASSERT_EQ(d.samples, std::vector(5, 1));
     EXPECT_NEAR(d.headway_s[0], 4.0, 1e-9);
     EXPECT_NEAR(d.saturation_headway_s, 2.5, 1e-9);
 }
 
-TEST(Discharge, HasNoSaturationWithoutAFifthVehicle) {
+TEST(Discharge, HasNoSaturationFlowWithoutAFifthVehicle) {
     const Model model = two_lanes();
     std::vector<Crossing> crossings;
-    pass(crossings, kGreen_s, 0, {3.0, 2.0, 2.0, 2.0});
-    const Discharge d = discharge(model, crossings, {kGreen_s, kGreen_s + kCycle_s});
+    add_passages(crossings, kGreen_s, 0, {3.0, 2.0, 2.0, 2.0});
+    const Discharge d = discharge_in(model, crossings, {kGreen_s, kGreen_s + kCycle_s});
     EXPECT_TRUE(std::isnan(d.saturation_headway_s));
     EXPECT_TRUE(std::isnan(d.saturation_flow_veh_h));
     EXPECT_DOUBLE_EQ(d.vehicles_per_green, 2.0);

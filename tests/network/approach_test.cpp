@@ -1,4 +1,4 @@
-// The generator of an approach: lanes side by side up to a stop line, and the road behind it.
+// Tests of make_approach(): parallel lanes up to a stop line, and an exit lane beyond each of them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,7 +28,7 @@ double length_of(const std::vector<Point>& shape) {
     return sum;
 }
 
-TEST(Approach, EntryAndContinuationAlternate) {
+TEST(Approach, EntryAndExitLanesAlternate) {
     const LaneGraph graph = make_approach(three_lanes());
     ASSERT_EQ(graph.lanes.size(), 6u);
     ASSERT_EQ(graph.routes.size(), 3u);
@@ -44,7 +44,7 @@ TEST(Approach, EntryAndContinuationAlternate) {
     }
 }
 
-TEST(Approach, LanesHaveTheSettingsAndAShapeOfTheirLength) {
+TEST(Approach, LanesMatchTheSettingsAndTheirShapes) {
     const ApproachSettings settings = three_lanes();
     const LaneGraph graph = make_approach(settings);
     std::set<std::string> names;
@@ -59,7 +59,7 @@ TEST(Approach, LanesHaveTheSettingsAndAShapeOfTheirLength) {
     EXPECT_EQ(names.size(), graph.lanes.size());
 }
 
-TEST(Approach, ShapesMeetAtTheStopLineAndLieSideBySide) {
+TEST(Approach, ShapesMeetAtTheStopLineSideBySide) {
     const LaneGraph graph = make_approach(three_lanes());
     for (std::size_t k = 0; k < graph.lanes.size(); k += 2) {
         const Point end = graph.lanes[k].shape.back();
@@ -67,7 +67,7 @@ TEST(Approach, ShapesMeetAtTheStopLineAndLieSideBySide) {
         EXPECT_EQ(end.x_m, 0.0);
         EXPECT_EQ(begin.x_m, 0.0);
         EXPECT_EQ(end.y_m, begin.y_m);
-        // In right-hand traffic lane 0 is the leftmost: the next ones lie to its right, a lane's width apart.
+        // In right-hand traffic lane 0 is the leftmost lane. Each further lane lies one lane width to its right.
         if (k >= 2) {
             EXPECT_NEAR(graph.lanes[k - 2].shape.back().y_m - end.y_m, 3.5, 0.5);
         }

@@ -1,16 +1,15 @@
-// Several intersections: what joins them, and that each is like a single one.
+// Tests of make_grid(): the links between intersections, and each intersection compared with a single one.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 
+#include "base/containers/index.h"
 #include "network/lane_graph.h"
 
 namespace stopline {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 IntersectionSettings layout() {
     IntersectionSettings s;
@@ -18,7 +17,7 @@ IntersectionSettings layout() {
     return s;
 }
 
-// The setup of Fig. 10.
+// Returns the grid of Fig. 10 in the paper.
 GridSettings plus() {
     GridSettings grid;
     grid.columns = grid.rows = 3;
@@ -28,17 +27,17 @@ GridSettings plus() {
 
 LaneGraph plus_graph() { return make_grid(plus(), layout()); }
 
-TEST(Grid, HasItsLanesEntriesAndLinks) {
+TEST(Grid, HasTheExpectedLanesEntriesAndLinks) {
     const LaneGraph graph = plus_graph();
     check(graph);
     EXPECT_EQ(graph.signal_groups, 10);
-    EXPECT_EQ(graph.links.size(), 4u * 2 * 2);  // four streets, two ways, two lanes
-    EXPECT_EQ(graph.entries.size(), 12u * 2);   // three outer arms at each of four
+    EXPECT_EQ(graph.links.size(), 4u * 2 * 2);  // four streets, two directions, two lanes each
+    EXPECT_EQ(graph.entries.size(), 12u * 2);   // three outer legs at each of four intersections
     EXPECT_EQ(graph.routes.size(), 5u * 4 * 2 * 2);
     EXPECT_EQ(graph.lanes.size(), 16u + 2 * 24 + 80);
 }
 
-TEST(Grid, LinksAreAsLongAsTheStreetBetweenTwoIntersections) {
+TEST(Grid, LinksSpanTheRoadBetweenIntersections) {
     const LaneGraph graph = plus_graph();
     for (const int link : graph.links) {
         const Lane& lane = graph.lanes[at(link)];
@@ -48,7 +47,7 @@ TEST(Grid, LinksAreAsLongAsTheStreetBetweenTwoIntersections) {
     }
 }
 
-TEST(Grid, EveryLaneBeginsWhereTheOneBeforeEnds) {
+TEST(Grid, SuccessiveLanesJoin) {
     const LaneGraph graph = plus_graph();
     for (const Lane& lane : graph.lanes) {
         for (const int next : lane.next) {
@@ -60,37 +59,37 @@ TEST(Grid, EveryLaneBeginsWhereTheOneBeforeEnds) {
     }
 }
 
-TEST(Grid, EveryIntersectionHasTheConflictsOfASingleOne) {
+TEST(Grid, EveryIntersectionHasTheConflictsOfASingleIntersection) {
     const LaneGraph single = make_intersection(layout());
-    std::size_t of_one = 0;
-    for (const auto& conflicts : single.conflicts) of_one += conflicts.size();
+    std::size_t single_count = 0;
+    for (const auto& conflicts : single.conflicts) single_count += conflicts.size();
     const LaneGraph graph = plus_graph();
-    std::size_t all = 0;
+    std::size_t grid_count = 0;
     for (std::size_t k = 0; k < graph.conflicts.size(); ++k) {
-        all += graph.conflicts[k].size();
+        grid_count += graph.conflicts[k].size();
         for (const Conflict& conflict : graph.conflicts[k]) {
-            const int here = graph.lanes[at(graph.lanes[k].origin)].signal_group;
-            const int there = graph.lanes[at(graph.lanes[at(conflict.other)].origin)].signal_group;
-            EXPECT_EQ(here / 2, there / 2);
+            const int own_group = graph.lanes[at(graph.lanes[k].origin)].signal_group;
+            const int other_group = graph.lanes[at(graph.lanes[at(conflict.other)].origin)].signal_group;
+            EXPECT_EQ(own_group / 2, other_group / 2);
         }
     }
-    EXPECT_EQ(all, 5 * of_one);
+    EXPECT_EQ(grid_count, 5 * single_count);
 }
 
-TEST(Grid, FromEveryEntryAllExitsAheadCanBeReached) {
+TEST(Grid, EveryEntryReachesAtLeastTwoExits) {
     const LaneGraph graph = plus_graph();
     for (const int entry : graph.entries) {
-        std::set<int> seen{entry};
-        std::vector<int> todo{entry};
-        while (!todo.empty()) {
-            const int lane = todo.back();
-            todo.pop_back();
+        std::set<int> reached{entry};
+        std::vector<int> unvisited{entry};
+        while (!unvisited.empty()) {
+            const int lane = unvisited.back();
+            unvisited.pop_back();
             for (const int next : graph.lanes[at(lane)].next) {
-                if (seen.insert(next).second) todo.push_back(next);
+                if (reached.insert(next).second) unvisited.push_back(next);
             }
         }
         const auto exits =
-            std::count_if(seen.begin(), seen.end(), [&](int lane) { return graph.lanes[at(lane)].next.empty(); });
+            std::count_if(reached.begin(), reached.end(), [&](int lane) { return graph.lanes[at(lane)].next.empty(); });
         EXPECT_GE(exits, 2) << graph.lanes[at(entry)].name;
     }
 }

@@ -1,4 +1,4 @@
-// The intersection's generator: lanes, paths, conflict areas.
+// Tests of make_intersection(): lanes, connections, conflict areas.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace stopline {
 namespace {
 
-IntersectionSettings reference() {
+IntersectionSettings reference_intersection() {
     IntersectionSettings s;
     s.lanes = {{"straight+left"}, {"straight+right"}};
     return s;
@@ -27,15 +27,15 @@ int index_of(const LaneGraph& graph, const std::string& name) {
     return static_cast<int>(&lane_named(graph, name) - graph.lanes.data());
 }
 
-const Conflict* conflict(const LaneGraph& graph, const std::string& one, const std::string& two) {
-    for (const Conflict& c : graph.conflicts_of(index_of(graph, one))) {
-        if (c.other == index_of(graph, two)) return &c;
+const Conflict* conflict(const LaneGraph& graph, const std::string& lane, const std::string& other) {
+    for (const Conflict& c : graph.conflicts_of(index_of(graph, lane))) {
+        if (c.other == index_of(graph, other)) return &c;
     }
     return nullptr;
 }
 
 TEST(Intersection, HasTheLanesAndRoutesOfFigure7) {
-    const LaneGraph graph = make_intersection(reference());
+    const LaneGraph graph = make_intersection(reference_intersection());
     check(graph);
     EXPECT_EQ(graph.entries.size(), 8u);
     EXPECT_EQ(graph.routes.size(), 16u);
@@ -44,8 +44,8 @@ TEST(Intersection, HasTheLanesAndRoutesOfFigure7) {
     EXPECT_NE(lane_named(graph, "west_in_0").signal_group, lane_named(graph, "south_in_0").signal_group);
 }
 
-TEST(Intersection, PathsBeginAtTheStopLineAndEndAtTheExit) {
-    const LaneGraph graph = make_intersection(reference());
+TEST(Intersection, ConnectionsRunFromTheStopLineToTheExitLane) {
+    const LaneGraph graph = make_intersection(reference_intersection());
     for (const Lane& lane : graph.lanes) {
         if (lane.origin < 0) continue;
         const Lane& origin = graph.lanes[static_cast<std::size_t>(lane.origin)];
@@ -58,34 +58,34 @@ TEST(Intersection, PathsBeginAtTheStopLineAndEndAtTheExit) {
             std::hypot(lane.shape.back().x_m - exit.shape.front().x_m, lane.shape.back().y_m - exit.shape.front().y_m),
             0.0, 1e-9)
             << lane.name;
-        // The stretch that the origin shares among its movements and the lane make up the path.
+        // The shape covers the stretch that all movements of the approach lane share, and the connection itself.
         EXPECT_NEAR(origin.length_m - origin.stop_line_m, lane.shape_start_m, 1e-9) << lane.name;
         EXPECT_NEAR(lane.shape_start_m + lane.length_m, length_m(lane.shape), 1e-9) << lane.name;
     }
-    // Quarter circles, as far as 24 chords are.
+    // The turns are quarter circles, approximated by 24 chords.
     EXPECT_NEAR(length_m(lane_named(graph, "west_0_left").shape), 0.5 * std::numbers::pi * 21.75, 0.02);
     EXPECT_NEAR(length_m(lane_named(graph, "west_1_right").shape), 0.5 * std::numbers::pi * 14.75, 0.02);
     EXPECT_NEAR(length_m(lane_named(graph, "west_0_straight").shape), 40.0, 1e-9);
 }
 
-TEST(Intersection, FindsTheConflictsThatADriverWouldName) {
-    const LaneGraph graph = make_intersection(reference());
+TEST(Intersection, HasTheExpectedConflicts) {
+    const LaneGraph graph = make_intersection(reference_intersection());
     for (const char* other : {"east_0_straight", "east_1_straight", "south_0_straight", "north_0_straight"}) {
         EXPECT_NE(conflict(graph, "west_0_left", other), nullptr) << other;
     }
     EXPECT_EQ(conflict(graph, "west_0_left", "east_0_left"), nullptr) << "opposite left turns pass each other";
-    EXPECT_EQ(conflict(graph, "west_0_left", "west_0_straight"), nullptr) << "the same origin";
+    EXPECT_EQ(conflict(graph, "west_0_left", "west_0_straight"), nullptr) << "the same approach lane";
     EXPECT_EQ(conflict(graph, "west_0_straight", "east_0_straight"), nullptr) << "opposite directions";
     EXPECT_EQ(conflict(graph, "west_1_right", "east_1_straight"), nullptr);
     ASSERT_NE(conflict(graph, "west_1_right", "north_1_straight"), nullptr) << "they merge";
-    const auto gives_way = [&](const char* one, const char* two) { return conflict(graph, one, two)->yields; };
-    EXPECT_TRUE(gives_way("west_0_left", "east_0_straight"));
-    EXPECT_FALSE(gives_way("east_0_straight", "west_0_left"));
-    EXPECT_FALSE(gives_way("west_0_left", "south_0_straight")) << "the light decides";
+    const auto yields_to = [&](const char* lane, const char* other) { return conflict(graph, lane, other)->yields; };
+    EXPECT_TRUE(yields_to("west_0_left", "east_0_straight"));
+    EXPECT_FALSE(yields_to("east_0_straight", "west_0_left"));
+    EXPECT_FALSE(yields_to("west_0_left", "south_0_straight")) << "the signal separates them";
 }
 
-TEST(Intersection, ConflictsAreMutualAndWhereTheLinesAreNear) {
-    const IntersectionSettings settings = reference();
+TEST(Intersection, ConflictsAreMutualAndCoverAllNearbyStretches) {
+    const IntersectionSettings settings = reference_intersection();
     const LaneGraph graph = make_intersection(settings);
     int areas = 0;
     for (int k = 0; k < static_cast<int>(graph.lanes.size()); ++k) {
@@ -93,14 +93,14 @@ TEST(Intersection, ConflictsAreMutualAndWhereTheLinesAreNear) {
         for (const Conflict& c : graph.conflicts_of(k)) {
             ++areas;
             const Lane& other = graph.lanes[static_cast<std::size_t>(c.other)];
-            const Conflict* const back = conflict(graph, other.name, lane.name);
-            ASSERT_NE(back, nullptr);
-            EXPECT_EQ(back->from_m, c.other_from_m);
-            EXPECT_EQ(back->other_to_m, c.to_m);
-            EXPECT_EQ(back->yields, c.other_yields);
+            const Conflict* const reverse = conflict(graph, other.name, lane.name);
+            ASSERT_NE(reverse, nullptr);
+            EXPECT_EQ(reverse->from_m, c.other_from_m);
+            EXPECT_EQ(reverse->other_to_m, c.to_m);
+            EXPECT_EQ(reverse->yields, c.other_yields);
             EXPECT_FALSE(c.yields && c.other_yields);
             for (double s = 0.05; s < lane.length_m; s += 0.1) {
-                const Point p = place_at(lane.shape, lane.shape_start_m + s).point;
+                const Point p = pose_at(lane.shape, lane.shape_start_m + s).point;
                 const bool near = distance_m(other.shape, p) < settings.clearance_m - 0.3;
                 const bool within = s >= c.from_m - 1e-9 && s <= c.to_m + 1e-9;
                 EXPECT_TRUE(!near || within) << lane.name << " and " << other.name << " at " << s;
@@ -110,12 +110,12 @@ TEST(Intersection, ConflictsAreMutualAndWhereTheLinesAreNear) {
     EXPECT_GT(areas, 60);
 }
 
-// A quarter turn maps every lane on the next arm's; conflicts must not see the difference.
-TEST(Intersection, LooksTheSameFromEveryArm) {
-    const LaneGraph graph = make_intersection(reference());
+// A rotation by 90 degrees maps each lane onto the same lane of the next leg. The conflicts must agree.
+TEST(Intersection, IsTheSameFromEveryLeg) {
+    const LaneGraph graph = make_intersection(reference_intersection());
     const std::map<std::string, std::string> next{
         {"west", "south"}, {"south", "east"}, {"east", "north"}, {"north", "west"}};
-    const auto turned = [&](const std::string& name) {
+    const auto rotated = [&](const std::string& name) {
         const std::size_t cut = name.find('_');
         return next.at(name.substr(0, cut)) + name.substr(cut);
     };
@@ -123,17 +123,17 @@ TEST(Intersection, LooksTheSameFromEveryArm) {
         const Lane& lane = graph.lanes[static_cast<std::size_t>(k)];
         if (lane.origin < 0) continue;
         for (const Conflict& c : graph.conflicts_of(k)) {
-            const Conflict* const same =
-                conflict(graph, turned(lane.name), turned(graph.lanes[static_cast<std::size_t>(c.other)].name));
-            ASSERT_NE(same, nullptr) << lane.name;
-            EXPECT_NEAR(same->from_m, c.from_m, 0.26);
-            EXPECT_NEAR(same->to_m, c.to_m, 0.26);
-            EXPECT_EQ(same->yields, c.yields);
+            const Conflict* const counterpart =
+                conflict(graph, rotated(lane.name), rotated(graph.lanes[static_cast<std::size_t>(c.other)].name));
+            ASSERT_NE(counterpart, nullptr) << lane.name;
+            EXPECT_NEAR(counterpart->from_m, c.from_m, 0.26);
+            EXPECT_NEAR(counterpart->to_m, c.to_m, 0.26);
+            EXPECT_EQ(counterpart->yields, c.yields);
         }
     }
 }
 
-TEST(Intersection, TakesAnyLanesAndMovements) {
+TEST(Intersection, AcceptsManyLaneLayouts) {
     for (const std::vector<std::string>& lanes :
          std::vector<std::vector<std::string>>{{"straight"},
                                                {"straight+left+right"},
@@ -147,7 +147,7 @@ TEST(Intersection, TakesAnyLanesAndMovements) {
         std::set<int> exits;
         for (const Route& route : graph.routes) exits.insert(route.lanes.back());
         EXPECT_EQ(graph.entries.size(), 4 * lanes.size());
-        // Two lanes that turn the same way lead to two exits.
+        // Two lanes for the same turn lead to two exit lanes.
         EXPECT_GE(exits.size(), 4u);
     }
 }

@@ -1,4 +1,4 @@
-// check() refuses every graph that the engine could not run on, and names what is wrong.
+// Tests of check(): it refuses every lane graph that the engine cannot run, and names the faulty lane or route.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -14,9 +14,9 @@ namespace stopline {
 namespace {
 
 struct Damage {
-    const char* what;
+    const char* name;
     std::function<void(LaneGraph&)> apply;
-    const char* named;  // what the message must name
+    const char* expected_text;  // of the error message
 };
 
 const Damage kDamages[] = {
@@ -39,7 +39,7 @@ const Damage kDamages[] = {
          g.routes[0].lanes = {-1, 1};
      },
      "straight_0"},
-    {"route that jumps",
+    {"route over lanes that are not connected",
      [](LaneGraph& g) {
          g.routes[0].lanes = {0, 3};
      },
@@ -54,48 +54,48 @@ const Damage kDamages[] = {
 class BrokenGraph : public testing::TestWithParam<Damage> {};
 INSTANTIATE_TEST_SUITE_P(Check, BrokenGraph, testing::ValuesIn(kDamages));
 
-TEST_P(BrokenGraph, IsRefusedByName) {
+TEST_P(BrokenGraph, IsRefusedAndNamed) {
     ApproachSettings settings;
     settings.lanes = 2;
     LaneGraph graph = make_approach(settings);
     GetParam().apply(graph);
     try {
         check(graph);
-        ADD_FAILURE() << GetParam().what << " was accepted";
+        ADD_FAILURE() << GetParam().name << " was accepted";
     } catch (const InputError& error) {
-        EXPECT_NE(std::string(error.what()).find(GetParam().named), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find(GetParam().expected_text), std::string::npos) << error.what();
     }
 }
 
-// The same for lanes side by side. Lane 0 is a pocket of first_west, lanes 1 to 3 lie to its right.
-const Damage kBesideDamages[] = {
-    {"neighbour that does not know of it", [](LaneGraph& g) { g.lanes[1].left = -1; }, "first_west_in_1"},
+// Damages to neighbouring lanes. Lane 0 is a turn pocket of first_west; lanes 1 to 3 lie to its right.
+const Damage kNeighbourDamages[] = {
+    {"neighbour without the link back", [](LaneGraph& g) { g.lanes[1].left = -1; }, "first_west_in_1"},
     {"neighbour of another approach", [](LaneGraph& g) { g.lanes[3].right = 7; }, "first_west_in_3"},
     {"neighbours in the wrong order",
      [](LaneGraph& g) { std::swap(g.approaches[0].lanes[1], g.approaches[0].lanes[2]); }, "first_west"},
-    {"stop line beyond the others'", [](LaneGraph& g) { g.lanes[0].begin_m += 1.0; }, "does not end at"},
-    {"lane that begins too early", [](LaneGraph& g) { g.lanes[0].begin_m = -1.0; }, "first_west_in_0"},
+    {"stop line that is not aligned with the neighbours", [](LaneGraph& g) { g.lanes[0].start_offset_m += 1.0; }, "is not beside"},
+    {"lane that begins too early", [](LaneGraph& g) { g.lanes[0].start_offset_m = -1.0; }, "first_west_in_0"},
     {"approach that does not have the lane", [](LaneGraph& g) { g.lanes[0].approach = 1; }, "first_west_in_0"},
     {"lane of two approaches", [](LaneGraph& g) { g.approaches.push_back(g.approaches[1]); }, "first_south_in_0"},
     {"unknown approach", [](LaneGraph& g) { g.lanes.back().approach = 99; }, "second"},
     {"lane without approach beside another", [](LaneGraph& g) { g.lanes.back().left = 3; }, "second"},
-    {"approach with an unknown lane", [](LaneGraph& g) { g.approaches[2].lanes[0] = 9999; }, "names a lane"},
-    {"turns that exceed all", [](LaneGraph& g) { g.approaches[0].right = 0.95; }, "first_west"},
-    {"stages for some groups only", [](LaneGraph& g) { g.stage_of.pop_back(); }, "needs a stage"},
+    {"approach with an unknown lane", [](LaneGraph& g) { g.approaches[2].lanes[0] = 9999; }, "does not exist"},
+    {"turn shares above 100 %", [](LaneGraph& g) { g.approaches[0].right_share = 0.95; }, "first_west"},
+    {"signal group without a stage", [](LaneGraph& g) { g.stage_of.pop_back(); }, "has a stage"},
 };
 
 class BrokenApproach : public testing::TestWithParam<Damage> {};
-INSTANTIATE_TEST_SUITE_P(Check, BrokenApproach, testing::ValuesIn(kBesideDamages));
+INSTANTIATE_TEST_SUITE_P(Check, BrokenApproach, testing::ValuesIn(kNeighbourDamages));
 
-TEST_P(BrokenApproach, IsRefusedByName) {
+TEST_P(BrokenApproach, IsRefusedAndNamed) {
     LaneGraph graph = make_streets(streets_with_pockets());
     check(graph);
     GetParam().apply(graph);
     try {
         check(graph);
-        ADD_FAILURE() << GetParam().what << " was accepted";
+        ADD_FAILURE() << GetParam().name << " was accepted";
     } catch (const InputError& error) {
-        EXPECT_NE(std::string(error.what()).find(GetParam().named), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find(GetParam().expected_text), std::string::npos) << error.what();
     }
 }
 

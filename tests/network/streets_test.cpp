@@ -1,18 +1,17 @@
-// Streets as described: lengths and places in closed form, neighbours, pockets, routes, conflicts.
+// Tests of make_streets(): lengths and positions in closed form, neighbours, pockets, routes, conflicts.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
+#include "base/containers/index.h"
 #include "base/input_error.h"
 #include "network/lane_graph.h"
 #include "support/streets.h"
 
 namespace stopline {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 int find(const LaneGraph& graph, const std::string& name) {
     for (std::size_t k = 0; k < graph.lanes.size(); ++k) {
@@ -24,26 +23,26 @@ int find(const LaneGraph& graph, const std::string& name) {
 
 const Lane& lane(const LaneGraph& graph, const std::string& name) { return graph.lanes[at(find(graph, name))]; }
 
-TEST(Streets, HaveTheirLanesEntriesLinksAndRoutes) {
+TEST(Streets, HaveTheExpectedLanesEntriesLinksAndRoutes) {
     const LaneGraph graph = make_streets(two_streets());
     check(graph);
     EXPECT_EQ(graph.signal_groups, 6);
     EXPECT_EQ(graph.stage_of, (std::vector<int>{0, 0, 1, 2, 2, 3}));
-    EXPECT_EQ(graph.entries.size(), 2u * 3 + 4);  // west of the first, east of the second, four minor arms
+    EXPECT_EQ(graph.entries.size(), 2u * 3 + 4);  // west of the first, east of the second, four minor legs
     EXPECT_EQ(graph.links.size(), 2u * 3);
     EXPECT_EQ(graph.routes.size(), 2u * (2 * 5 + 2 * 3));
-    EXPECT_EQ(graph.lanes.size(), 2u * 8 + (2 * 3 + 4) + 2 * 16);  // to intersections, exits, inside
+    EXPECT_EQ(graph.lanes.size(), 2u * 8 + (2 * 3 + 4) + 2 * 16);  // approach lanes, exit lanes, connections
     EXPECT_EQ(graph.approaches.size(), 8u);
     EXPECT_EQ(graph.approaches[0].name, "first_west");
-    EXPECT_EQ(graph.approaches[0].right, 0.12);
-    EXPECT_EQ(graph.approaches[0].left, 0.08);
+    EXPECT_EQ(graph.approaches[0].right_share, 0.12);
+    EXPECT_EQ(graph.approaches[0].left_share, 0.08);
 }
 
-TEST(Streets, LanesAreAsLongAsTheRoad) {
+TEST(Streets, LaneLengthsMatchTheRoad) {
     StreetSettings streets = two_streets();
     streets.intersections[1].radius_m = 25.0;
-    streets.intersections[0].arms[0].length_m = 320.0;
-    streets.intersections[1].arms[1].exit_length_m = 80.0;
+    streets.intersections[0].legs[0].length_m = 320.0;
+    streets.intersections[1].legs[1].exit_length_m = 80.0;
     const LaneGraph graph = make_streets(streets);
     EXPECT_NEAR(lane(graph, "second_west_in_1").stop_line_m, 200.0 - 20.0 - 25.0, 1e-9);
     EXPECT_NEAR(lane(graph, "first_east_in_1").stop_line_m, 200.0 - 20.0 - 25.0, 1e-9);
@@ -58,8 +57,8 @@ TEST(Streets, LanesAreAsLongAsTheRoad) {
     }
 }
 
-// Movements of one lane share it until their vehicles are clear of each other.
-TEST(Streets, LanesGoOnUntilTheirMovementsPart) {
+// The movements of a lane share a stretch beyond the stop line until their vehicles are clear of each other.
+TEST(Streets, ConnectionsBeginWhereTheMovementsDiverge) {
     const StreetSettings streets = two_streets();
     const LaneGraph graph = make_streets(streets);
     for (const Lane& each : graph.lanes) {
@@ -69,7 +68,7 @@ TEST(Streets, LanesGoOnUntilTheirMovementsPart) {
         for (const int other : origin.next) {
             const Lane& beside = graph.lanes[at(other)];
             if (beside.name == each.name) continue;
-            EXPECT_GE(distance_m(beside.shape, place_at(each.shape, each.shape_start_m).point),
+            EXPECT_GE(distance_m(beside.shape, pose_at(each.shape, each.shape_start_m).point),
                       streets.clearance_m - 0.01)
                 << each.name;
         }
@@ -77,8 +76,8 @@ TEST(Streets, LanesGoOnUntilTheirMovementsPart) {
     }
 }
 
-// Ways of quarter circles and ellipses: from half the median and the lanes between.
-TEST(Streets, TurnsLeadFromTheirLaneToTheExitNextToIt) {
+// Turns are quarter circles or ellipses. Their ends follow from half the median and the lanes in between.
+TEST(Streets, TurnsLeadToTheNearestExitLane) {
     const LaneGraph graph = make_streets(two_streets());
     const Lane& left = lane(graph, "first_west_0_left");
     EXPECT_NEAR(left.shape.front().x_m, -20.0, 1e-9);
@@ -88,16 +87,16 @@ TEST(Streets, TurnsLeadFromTheirLaneToTheExitNextToIt) {
     EXPECT_EQ(graph.lanes[at(left.next[0])].name, "first_north_out_0");
     const Lane& right = lane(graph, "first_south_0_right");
     EXPECT_NEAR(right.shape.back().x_m, 20.0, 1e-9);
-    EXPECT_NEAR(right.shape.back().y_m, -(2.0 + 2 * 3.5 + 1.75), 1e-9);  // the exit next to the kerb
+    EXPECT_NEAR(right.shape.back().y_m, -(2.0 + 2 * 3.5 + 1.75), 1e-9);  // the exit lane next to the kerb
     EXPECT_EQ(graph.lanes[at(right.next[0])].name, "second_west_in_2");
     EXPECT_EQ(graph.lanes[at(lane(graph, "first_north_0_left").next[0])].name, "second_west_in_0");
     EXPECT_EQ(graph.lanes[at(lane(graph, "first_west_1_straight").next[0])].name, "second_west_in_1");
     EXPECT_EQ(left.limit_mps, 7.0);
 }
 
-TEST(Streets, EveryLaneBeginsWhereTheOneBeforeEnds) {
+TEST(Streets, SuccessiveLanesJoin) {
     StreetSettings streets = streets_with_pockets();
-    streets.intersections[1].y_m = 0.8;  // a little beside the line
+    streets.intersections[1].y_m = 0.8;  // slightly off the straight line
     const LaneGraph graph = make_streets(streets);
     for (const Lane& each : graph.lanes) {
         for (const int next : each.next) {
@@ -110,16 +109,16 @@ TEST(Streets, EveryLaneBeginsWhereTheOneBeforeEnds) {
     EXPECT_NEAR(lane(graph, "second_west_in_1").stop_line_m, std::hypot(160.0, 0.8), 1e-9);
 }
 
-TEST(Streets, PocketsLieInTheMedianAndEndAtTheSameLine) {
+TEST(Streets, PocketsLieInTheMedianAndEndAtTheCommonStopLine) {
     const LaneGraph graph = make_streets(streets_with_pockets());
     check(graph);
     const int pocket = find(graph, "first_east_in_0");
-    const Lane& of_pocket = graph.lanes[at(pocket)];
-    EXPECT_EQ(of_pocket.stop_line_m, 60.0);
-    EXPECT_NEAR(of_pocket.begin_m, 160.0 - 60.0, 1e-9);
-    EXPECT_NEAR(of_pocket.shape.front().x_m, 80.0, 1e-9);
-    EXPECT_NEAR(of_pocket.shape.back().x_m, 20.0, 1e-9);
-    EXPECT_NEAR(of_pocket.shape.back().y_m, 2.0 - 1.75, 1e-9);  // heading west, right is north
+    const Lane& pocket_lane = graph.lanes[at(pocket)];
+    EXPECT_EQ(pocket_lane.stop_line_m, 60.0);
+    EXPECT_NEAR(pocket_lane.start_offset_m, 160.0 - 60.0, 1e-9);
+    EXPECT_NEAR(pocket_lane.shape.front().x_m, 80.0, 1e-9);
+    EXPECT_NEAR(pocket_lane.shape.back().x_m, 20.0, 1e-9);
+    EXPECT_NEAR(pocket_lane.shape.back().y_m, 2.0 - 1.75, 1e-9);  // heading west, right is north
     const auto listed = [&](const std::vector<int>& lanes) {
         return std::find(lanes.begin(), lanes.end(), pocket) != lanes.end();
     };
@@ -132,7 +131,7 @@ TEST(Streets, PocketsLieInTheMedianAndEndAtTheSameLine) {
     EXPECT_EQ(graph.lanes[at(lane(graph, "second_east_0_straight").next[0])].name, "first_east_in_1");
 }
 
-TEST(Streets, LanesOfAnApproachKnowEachOther) {
+TEST(Streets, LanesOfAnApproachLinkToTheirNeighbours) {
     const LaneGraph graph = make_streets(streets_with_pockets());
     for (const Approach& approach : graph.approaches) {
         int left = -1;
@@ -144,8 +143,8 @@ TEST(Streets, LanesOfAnApproachKnowEachOther) {
             }
             EXPECT_EQ(graph.approaches[at(each.approach)].name, approach.name);
             EXPECT_NEAR(
-                each.begin_m + each.stop_line_m,
-                graph.lanes[at(approach.lanes.back())].begin_m + graph.lanes[at(approach.lanes.back())].stop_line_m,
+                each.start_offset_m + each.stop_line_m,
+                graph.lanes[at(approach.lanes.back())].start_offset_m + graph.lanes[at(approach.lanes.back())].stop_line_m,
                 1e-9);
             left = number;
         }
@@ -154,18 +153,18 @@ TEST(Streets, LanesOfAnApproachKnowEachOther) {
     for (const Lane& each : graph.lanes) EXPECT_EQ(each.approach >= 0, each.signal_group >= 0) << each.name;
 }
 
-// Opposite straight traffic has the way; it does with a green of the left lane's own too, for both can have green at once.
-TEST(Streets, LeftTurnsGiveWayToOppositeTraffic) {
+// Oncoming straight traffic has priority, also if the left lane has its own signal group: both can be green at once.
+TEST(Streets, LeftTurnsYieldToOncomingTraffic) {
     for (const StreetSettings& streets : {two_streets(), streets_with_pockets()}) {
         const LaneGraph graph = make_streets(streets);
         const int left = find(graph, "first_west_0_left");
-        int met = 0;
+        int oncoming_conflicts = 0;
         for (const Conflict& conflict : graph.conflicts_of(left)) {
             const std::string& other = graph.lanes[at(conflict.other)].name;
-            const bool opposite = other.starts_with("first_east_") && other.ends_with("_straight");
+            const bool oncoming = other.starts_with("first_east_") && other.ends_with("_straight");
             const bool minor = other.starts_with("first_south_") || other.starts_with("first_north_");
-            met += opposite ? 1 : 0;
-            if (opposite) {
+            oncoming_conflicts += oncoming ? 1 : 0;
+            if (oncoming) {
                 EXPECT_TRUE(conflict.yields) << other;
             }
             if (minor) {
@@ -173,31 +172,31 @@ TEST(Streets, LeftTurnsGiveWayToOppositeTraffic) {
             }
             EXPECT_TRUE(other.starts_with("first_")) << other;
         }
-        EXPECT_EQ(met, 3);
+        EXPECT_EQ(oncoming_conflicts, 3);
     }
 }
 
-TEST(Streets, OnlyProtectedLanesHaveALightOfTheirOwn) {
+TEST(Streets, OnlyProtectedLanesHaveTheirOwnSignalGroup) {
     StreetSettings streets = streets_with_pockets();
     const auto group = [&](const std::string& name) { return lane(make_streets(streets), name).signal_group; };
     EXPECT_EQ(group("first_west_in_0"), 1);
     EXPECT_EQ(group("first_west_in_1"), 0);
     EXPECT_EQ(group("first_south_in_0"), 2);
     EXPECT_EQ(group("second_west_in_0"), 3);
-    streets.intersections[0].programme = streets.intersections[1].programme;  // without the protected step
+    streets.intersections[0].programme = streets.intersections[1].programme;  // without a protected left turn
     EXPECT_EQ(group("first_west_in_0"), 0);
 }
 
-// With fewer lanes than exits the way is the shortest in sum; lanes keep their order.
-TEST(Streets, StraightLanesLeadToTheNearestExits) {
+// With fewer lanes than exit lanes, the sum of the lateral shifts is the smallest. The lanes keep their order.
+TEST(Streets, StraightLanesLeadToTheNearestExitLanes) {
     StreetSettings streets = two_streets();
-    streets.intersections[0].arms[0].lanes = {{"left"}, {"straight"}, {"straight+right"}};
+    streets.intersections[0].legs[0].lanes = {{"left"}, {"straight"}, {"straight+right"}};
     const LaneGraph graph = make_streets(streets);
     EXPECT_EQ(graph.lanes[at(lane(graph, "first_west_1_straight").next[0])].name, "second_west_in_1");
     EXPECT_EQ(graph.lanes[at(lane(graph, "first_west_2_straight").next[0])].name, "second_west_in_2");
 }
 
-TEST(Streets, ThatAreAPedestrianLightHaveTwoArms) {
+TEST(Streets, PedestrianLightsHaveTwoLegs) {
     StreetSettings streets = two_streets();
     streets.intersections[1] = street_node("light", 150.0, false);
     streets.intersections[1].radius_m = 5.0;
@@ -207,7 +206,7 @@ TEST(Streets, ThatAreAPedestrianLightHaveTwoArms) {
     EXPECT_NEAR(lane(graph, "light_west_in_1").stop_line_m, 125.0, 1e-9);
 }
 
-TEST(Streets, RefuseWhatCannotBeBuilt) {
+TEST(Streets, RefuseInvalidSettings) {
     StreetSettings streets = two_streets();
     streets.intersections[1].name = "first";
     EXPECT_THROW(make_streets(streets), InputError);

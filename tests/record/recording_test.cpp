@@ -8,11 +8,11 @@
 #include <tuple>
 #include <vector>
 
-#include "experiment/network_run.h"
-#include "experiment/observation.h"
-#include "record/frame_decoder.h"
-#include "record/recorder.h"
-#include "record/recording_reader.h"
+#include "runs/network/network_run.h"
+#include "runs/observation.h"
+#include "record/recording/frame_decoder.h"
+#include "record/recording/recorder.h"
+#include "record/recording/recording_reader.h"
 #include "scenario/scenario_text.h"
 
 namespace stopline {
@@ -31,7 +31,7 @@ Picture picture_of(const State& state) {
     const VehicleArrays& v = state.vehicles;
     for (int lane = 0; lane < static_cast<int>(state.blocks.size()); ++lane) {
         const LaneBlock& block = state.blocks[static_cast<std::size_t>(lane)];
-        for (auto slot = static_cast<std::size_t>(block.first); slot < static_cast<std::size_t>(block.stop()); ++slot) {
+        for (auto slot = static_cast<std::size_t>(block.first); slot < static_cast<std::size_t>(block.past_last()); ++slot) {
             picture[v.id[slot]] = {v.policy[slot], lane, v.next_lane[slot], v.position_m[slot], v.speed_mps[slot]};
         }
     }
@@ -42,14 +42,14 @@ Picture picture_of(const State& state) {
 struct Recorded {
     std::vector<Picture> pictures;
     std::vector<std::vector<Light>> lights;
-    std::vector<std::map<int, Cause>> causes;  // by vehicle, of those that stand
+    std::vector<std::map<int, DelayCause>> causes;  // by vehicle, of those that stand
     std::uint64_t hash = 0;
     RecordingSize size;
 };
 
 Scenario small_grid(const std::string& fidelity) {
     return load_scenario(STOPLINE_SOURCE_DIR "/scenarios/grid.yaml",
-                         {"network.grid.columns=2", "network.grid.rows=2", "duration=240 s", "measure.steady=60 s",
+                         {"network.grid.columns=2", "network.grid.rows=2", "duration=240 s", "measure.window=60 s",
                           "fidelity=" + fidelity, "signal.green=20 s", "demand.left=20 %", "rules.teleport_cycles=1"});
 }
 
@@ -61,7 +61,7 @@ Recorded record_run(const Scenario& scenario, const fs::path& file, const Record
         const Model& model = simulation.model();
         const State& state = simulation.state();
         if (!recorder) recorder = std::make_unique<Recorder>(file, window, RunOrigin{"again", "grid"}, model);
-        recorder->look(state);
+        recorder->observe(state);
         const double frame = (simulation.time_s() - window.from_s) / window.interval_s;
         if (frame < -1e-6 || std::abs(frame - std::round(frame)) > 1e-6) return;
         if (simulation.time_s() > window.until_s + 1e-6) return;
@@ -71,9 +71,9 @@ Recorded record_run(const Scenario& scenario, const fs::path& file, const Record
             result.lights.back().push_back(programme.light(state.tick));
         }
         result.causes.emplace_back();
-        for (const int slot : state.watch.standing) {
+        for (const int slot : state.congestion.watch.stopped_slots) {
             const auto k = static_cast<std::size_t>(slot);
-            result.causes.back()[state.watch.vehicle[k]] = state.watch.cause[k];
+            result.causes.back()[state.congestion.watch.vehicle[k]] = state.congestion.watch.cause[k];
         }
     };
     result.hash = run_network(scenario, 2, {}, 1, observation).state_hash;
@@ -96,7 +96,7 @@ void expect_same(const RecordedRun& run, const FrameDecoder& decoder, const Reco
         EXPECT_EQ(read.next, seen.next);
         const auto& causes = recorded.causes[frame];
         const auto cause = causes.find(read.vehicle);
-        const Cause expected = cause != causes.end() ? cause->second : Cause::none;
+        const DelayCause expected = cause != causes.end() ? cause->second : DelayCause::none;
         EXPECT_EQ(read.cause, static_cast<int>(expected));
     }
     EXPECT_EQ(present, picture.size()) << "frame " << frame;
@@ -164,7 +164,7 @@ TEST(Recording, TellsWhereOnePastTheLineGoesOnAlthoughItStands) {
     const std::vector<int> ways{3, 3, 4, 4};
     for (const int way : ways) {
         state.vehicles.next_lane[slot] = way;
-        recorder.look(state);
+        recorder.observe(state);
         state.tick += 5;
     }
     recorder.finish();
@@ -217,7 +217,7 @@ TEST_F(DamagedRecording, IsNoticedWhereverItEndsOrDiffers) {
         other[at] = static_cast<char>(~other[at]);
         EXPECT_TRUE(contains(error_of_bytes(other), "bad.rec: ")) << "changed at " << at;
     }
-    EXPECT_TRUE(contains(error_of_bytes(bytes_ + "x"), "something follows its end"));
+    EXPECT_TRUE(contains(error_of_bytes(bytes_ + "x"), "bytes follow the end of the recording"));
     EXPECT_TRUE(contains(error_of_bytes("population,time_s\n"), "not written by stopline-run --record"));
     std::string newer = bytes_;
     newer[8] = 9;
@@ -255,7 +255,7 @@ TEST(Recording, AppearsOnlyOnceItIsFinishedAndIsTheSameEachTime) {
         Simulation simulation(model);
         Recorder recorder(folder.path() / "half.rec", {}, {}, model);
         for (int k = 0; k < 1000; ++k) {
-            recorder.look(simulation.state());
+            recorder.observe(simulation.state());
             simulation.step();
         }
     }

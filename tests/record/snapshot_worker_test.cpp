@@ -1,4 +1,4 @@
-#include "record/snapshot_worker.h"
+#include "record/recording/snapshot_worker.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ namespace stopline {
 namespace {
 
 void submit(SnapshotWorker& worker, std::int64_t tick) {
-    worker.blank().tick = tick;
+    worker.acquire().tick = tick;
     worker.submit();
 }
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "experiment/network_run.h"
-#include "record/recording_header.h"
+#include "runs/network/network_run.h"
+#include "record/recording/recording_header.h"
 #include "record/sumo_files.h"
 #include "scenario/import_sumo.h"
 #include "scenario/load_scenario.h"
@@ -30,7 +30,7 @@ Scenario scenario_of(const std::string& routes, const std::string& loops = "", c
         more +
             "duration: 200 s\n"
             "network: {kind: sumo, net: ./my.net.xml, routes: [./my.rou.xml], additional: [./my.add.xml]}\n"
-            "populations: [CDG]\nmeasure: {steady: 100 s}\n",
+            "populations: [CDG]\nmeasure: {window: 100 s}\n",
         "my.yaml", {}, files.folder());
 }
 
@@ -79,8 +79,8 @@ TEST(SumoEntry, BetweenOthersLeavesThemInTheirOrder) {
         EXPECT_NEAR(fronts[1], 100.0, 1.0);
         EXPECT_GT(fronts[0], 149.9);
         EXPECT_LT(fronts[2], 45.0);
-        const NetworkFigures f = run_network(scenario, 0, {}, 1, {});
-        EXPECT_EQ(f.left_network, 3) << fidelity;
+        const NetworkResult f = run_network(scenario, 0, {}, 1, {});
+        EXPECT_EQ(f.exited, 3) << fidelity;
         EXPECT_TRUE(f.violations.none()) << fidelity;
     }
 }
@@ -92,10 +92,10 @@ TEST(SumoEntry, AnywhereInDenseTrafficTouchesNobody) {
                   "to=\"e_out\" departLane=\"random\" departSpeed=\"avg\" departPos=\"" + where + "\"/>\n";
     }
     for (const char* const fidelity : {kMeso, kFull}) {
-        const NetworkFigures f = run_network(scenario_of(routes, "", fidelity), 0, {}, 1, {});
+        const NetworkResult f = run_network(scenario_of(routes, "", fidelity), 0, {}, 1, {});
         EXPECT_TRUE(f.violations.none()) << fidelity;
-        EXPECT_EQ(f.entered + f.waiting, 150) << fidelity;
-        EXPECT_EQ(f.left_network, f.entered) << fidelity;
+        EXPECT_EQ(f.entered + f.backlog, 150) << fidelity;
+        EXPECT_EQ(f.exited, f.entered) << fidelity;
         EXPECT_GT(f.entered, 120) << fidelity;
     }
 }
@@ -109,11 +109,11 @@ TEST(SumoEntry, OnEdgesShorterThanAVehicleTouchesNobody) {
 <flow id="s" begin="0" end="600" period="13" from="s" to="c"/></routes>)");
     const Scenario scenario = parse_scenario(
         std::string(kMeso) + "duration: 600 s\nnetwork: {kind: sumo, net: ./my.net.xml, routes: [./my.rou.xml]}\n" +
-            "populations: [CTG-Ref]\nmeasure: {steady: 300 s}\n",
+            "populations: [CTG-Ref]\nmeasure: {window: 300 s}\n",
         "my.yaml", {}, files.folder());
-    const NetworkFigures f = run_network(scenario, 0, {}, 1, {});
+    const NetworkResult f = run_network(scenario, 0, {}, 1, {});
     EXPECT_TRUE(f.violations.none()) << f.violations.overlaps;
-    EXPECT_GT(f.left_network, 25);
+    EXPECT_GT(f.exited, 25);
 }
 
 // Of an edge of 2 m, behind which another way comes near at once.
@@ -125,7 +125,7 @@ TEST(SumoEntry, OnEdgesShorterThanAVehicleIsWhereItCanStillGiveWay) {
                                       position + "/></routes>");
         const Scenario scenario = parse_scenario(
             std::string(kMeso) + "duration: 60 s\nnetwork: {kind: sumo, net: ./my.net.xml, routes: [./my.rou.xml]}\n" +
-                "populations: [CTG-Ref]\nmeasure: {steady: 60 s}\n",
+                "populations: [CTG-Ref]\nmeasure: {window: 60 s}\n",
             "my.yaml", {}, files.folder());
         const std::vector<double> fronts = fronts_m(scenario, "s_0", 0.1);
         EXPECT_EQ(fronts.size(), 1U) << position;
@@ -157,14 +157,14 @@ TEST(SumoLoops, CountThoseThatPass) {
 <trip id="b" depart="0" from="w_in" to="e_out" departPos="100" departSpeed="max"/>)",
                                           loops);
     EXPECT_EQ(testing::without_folder(sumo_warnings(scenario).back()),
-              "my.add.xml:4: a detector inside a junction, or on a lane where cars do not drive, is left out");
+              "my.add.xml:4: the detector is ignored: it lies inside a junction or on a lane closed to cars");
     Model model = network_model(scenario, 0);
     model.records_detectors = true;
     ASSERT_EQ(model.loop_names, (std::vector<std::string>{"far", "near & dear"}));
     Simulation simulation(model);
     simulation.run_until(60.0);
     std::vector<std::vector<double>> times(2);
-    for (const Crossing& crossing : simulation.state().crossings) {
+    for (const Crossing& crossing : simulation.state().records.crossings) {
         const int loop = model.detectors[static_cast<std::size_t>(crossing.detector)].loop;
         if (loop >= 0) times[static_cast<std::size_t>(loop)].push_back(crossing.time_s);
     }
@@ -185,7 +185,7 @@ TEST(SumoTables, HaveTheNamesOfTheRouteFile) {
         const std::filesystem::path file = files.folder() / name;
         const std::unique_ptr<RunWriter> writer = make(file);
         Simulation simulation(model);
-        for (writer->look(simulation.state()); simulation.time_s() < 60.0; writer->look(simulation.state()))
+        for (writer->observe(simulation.state()); simulation.time_s() < 60.0; writer->observe(simulation.state()))
             simulation.step();
         writer->finish();
         std::ifstream stream(file);

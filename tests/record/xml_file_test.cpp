@@ -1,4 +1,4 @@
-// What any name becomes in XML.
+// Lane names and files as SUMO reads them.
 #include "record/xml_file.h"
 
 #include <gtest/gtest.h>
@@ -7,16 +7,6 @@
 
 namespace stopline {
 namespace {
-
-TEST(XmlFile, EscapesWhatAnAttributeCannotHold) {
-    EXPECT_EQ(xml_escaped("CTG-Ref"), "CTG-Ref");
-    EXPECT_EQ(xml_escaped("a<b>&\"c\"\n\t"), "a&lt;b&gt;&amp;&quot;c&quot;&#10;&#9;");
-    EXPECT_EQ(xml_escaped(std::string("nul\0bell\a", 9)), "nul?bell?");
-    EXPECT_EQ(xml_escaped("Stra\xc3\x9f"
-                          "e"),
-              "Stra\xc3\x9f"
-              "e");
-}
 
 TEST(XmlFile, NamesOfLanesInsideAnIntersectionBeginWithAColon) {
     Lane lane;

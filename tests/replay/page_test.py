@@ -22,7 +22,7 @@ def check(condition, what):
 
 def ready(browser):
     """All that was asked for is unpacked and drawn."""
-    browser.wait("window.replay && replay.shown && !replay.asked && "
+    browser.wait("window.replay && replay.hasFrame && !replay.drawRequested && "
                  "[...replay.recording.sections.keys()].every((section) => replay.recording.ready.has(section))")
 
 
@@ -35,7 +35,7 @@ def shows_the_state(browser, rows):
     for row in rows:
         time_s = float(row["time_s"])
         browser.value(f"replay.seek({time_s}); replay.select(-1)")
-        browser.wait(f"replay.shown && Math.abs(replay.time_s - {time_s}) < 1e-6")
+        browser.wait(f"replay.hasFrame && Math.abs(replay.time_s - {time_s}) < 1e-6")
         browser.value(f"replay.map.lookAt({row['x_m']}, {row['y_m']}); replay.map.scale = 12; replay.map.changed()")
         settle(browser)
         box = browser.value("(({left, top, width, height}) => [left, top, width, height])"
@@ -51,7 +51,7 @@ def shows_the_state(browser, rows):
         check(abs(state["speed_mps"] - float(row["speed_mps"])) < 0.0051, f"speed {state} instead of {row}")
         check(f"{state['speed_mps']:.2f} m/s" in text, f"no speed in: {text}")
         if row["lane"].endswith(("_in_0", "_in_1")):  # the first lane of a route: place along the route is place on the lane
-            check(abs(state["position_m"] - float(row["place_m"])) < 0.0051, f"place {state} instead of {row}")
+            check(abs(state["position_m"] - float(row["position_m"])) < 0.0051, f"place {state} instead of {row}")
             check(f"{state['position_m']:.2f} m" in text, f"no place in: {text}")
 
 
@@ -63,15 +63,15 @@ def keeps_to_its_path(browser):
         for (let number = 0; number + 1 < recording.frameCount; ++number) {
             const [from, to] = [recording.frame(number), recording.frame(number + 1)];
             if (!from || !to) continue;
-            const spots = network.spots(from);
+            const placements = network.placements(from);
             const point = [0, 0];
-            between(network, from, to, 0.5, recording.head.frame_s, (k, p) => {
-                const shape = network.lanes[spots.lane[k]].shape;
+            interpolate(network, from, to, 0.5, recording.head.frame_s, (k, p) => {
+                const shape = network.lanes[placements.lane[k]].shape;
                 if (shape.numbers.length < 8 || to.indexOf(from.number[k]) < 0) return;
-                if (network.spots(to).lane[to.indexOf(from.number[k])] !== spots.lane[k]) return;
+                if (network.placements(to).lane[to.indexOf(from.number[k])] !== placements.lane[k]) return;
                 let near = Infinity;
                 for (let at = 0; at < shape.length_m; at += 0.05) {
-                    shape.place(at, point, 0);
+                    shape.pointAt(at, point, 0);
                     near = Math.min(near, Math.hypot(point[0] - p[0], point[1] - p[1]));
                 }
                 worst = Math.max(worst, near);
@@ -112,7 +112,7 @@ def main():
         keeps_to_its_path(browser)
         browser.value("replay.map.fit(); replay.seek(1e9)")
         ready(browser)
-        check(browser.value("document.getElementById('count-left').textContent") != "0", "nobody has left at the end")
+        check(browser.value("document.getElementById('count-exited').textContent") != "0", "nobody has left at the end")
         browser.resize(400, 800)
         settle(browser)
         check(browser.value("document.documentElement.scrollWidth") <= 400, "wider than a narrow screen")

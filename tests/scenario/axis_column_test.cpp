@@ -1,5 +1,5 @@
-// How values of axes are shown: alike only where they mean the same.
-#include "scenario/axis_column.h"
+// Tests of the columns of sweep axes: two values have equal texts only if they mean the same.
+#include "scenario/sweep_file/axis_column.h"
 
 #include <gtest/gtest.h>
 

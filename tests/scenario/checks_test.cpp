@@ -1,4 +1,4 @@
-// What depends on several fields is checked too, and the message names the field to change.
+// Tests of the checks that compare several fields. Each message names the field to change.
 #include <gtest/gtest.h>
 
 #include "scenario/scenario_text.h"
@@ -6,7 +6,7 @@
 namespace stopline {
 namespace {
 
-// Errors of the default scenario after overrides; "" if it is accepted.
+// Returns the error of the default scenario with overrides, or "" if it is accepted.
 std::string after(const std::vector<std::string>& overrides) { return error_of("title: x\n", overrides); }
 
 TEST(Checks, TheDefaultsAreAccepted) { EXPECT_EQ(after({}), ""); }
@@ -56,14 +56,14 @@ TEST(Checks, PoliciesHaveExactlyTheFieldsOfTheirLaw) {
     EXPECT_EQ(with("law: switch_distance, switch_speed: 30 km/h, reference_speed: 50 km/h, reference_gap: 9 m"), "");
     EXPECT_TRUE(contains(with("law: constant_time"), "field 'policies[A].time_gap' is missing"));
     EXPECT_TRUE(contains(with("law: constant_distance, time_gap: 1 s"),
-                         "is used only where law is constant_time or switch_time_gap"));
+                         "applies only if law is constant_time or switch_time_gap"));
     EXPECT_TRUE(
         contains(with("law: switch_distance, switch_speed: 60 km/h, reference_speed: 50 km/h, reference_gap: 9 m"),
                  "must be greater than switch_speed"));
     EXPECT_TRUE(
         contains(with("law: switch_distance, switch_speed: 30 km/h, reference_speed: 50 km/h, reference_gap: 2 m"),
                  "must be at least standstill_gap"));
-    // Of an unknown law nothing more is said than that.
+    // An unknown law gives one error only; its other fields are not checked.
     EXPECT_EQ(lines_of(with("law: constant_tine, time_gap: 1 s")), 1u);
 }
 
@@ -72,7 +72,7 @@ TEST(Checks, TimesAreWholeSteps) {
     EXPECT_EQ(after({"step=5 ms"}), "");
     EXPECT_TRUE(contains(after({"signal.green=15.005 s"}),
                          "field 'signal.green': 15.005 s is not a whole number of steps of 10 ms"));
-    // Rounded by itself, one street's cycle would drift from the other's.
+    // If each green time were rounded on its own, the cycles of the two streets would drift apart.
     const std::string grid = STOPLINE_SOURCE_DIR "/scenarios/grid.yaml";
     for (const std::string field : {"cross_green", "offset"}) {
         try {
@@ -115,7 +115,7 @@ TEST(Checks, TheSignalFitsItsCycleAndTheRun) {
     EXPECT_TRUE(contains(after({"signal.first_green=200 s"}), "lies after the end of the run at 200 s"));
     EXPECT_TRUE(contains(after({"measure.green=[61 s]"}), "lies after the end of the green time of 60 s"));
     EXPECT_TRUE(contains(after({"signal.first_green=180 s", "measure.green=[30 s]"}),
-                         "the run ends before, at duration = 200 s"));
+                         "the run ends earlier, at duration = 200 s"));
     EXPECT_EQ(after({"signal.first_green=180 s", "measure.green=[20 s]"}), "");
 }
 
@@ -136,7 +136,7 @@ TEST(Checks, VehiclesOnNeighbouringLanesDoNotTouch) {
         };
         EXPECT_TRUE(contains(with("clearance=5 m"),
                              "field 'network.intersection.clearance': value 5 m is too large for "
-                             "lanes of 3.5 m, vehicles on neighbouring lanes would touch: at most 3 m"));
+                             "lanes of 3.5 m: vehicles on neighbouring lanes would touch. The maximum is 3 m"));
         EXPECT_TRUE(contains(with("lane_width=2 m"), "value 2 m is too large for lanes of 2 m"));
         EXPECT_EQ(with("clearance=3 m"), "");
         EXPECT_EQ(with("lane_width=2.5 m"), "");
@@ -158,10 +158,10 @@ TEST(Checks, GearsAgree) {
         contains(after({"vehicle.gear_ratios=[9, 8, 7, 6, 5, 4, 3, 2, 1]"}), "has 9 entries (allowed: 1 to 8 values"));
     EXPECT_TRUE(contains(after({"vehicle.shift_down=1500 rpm"}), "the gearbox would hunt"));
     EXPECT_TRUE(contains(after({"vehicle.shift_up_full_load=1900 rpm"}), "must be at least shift_up_part_load"));
-    EXPECT_TRUE(contains(after({"vehicle.shift_up_full_load=6501 rpm"}), "lies beyond limiter_speed"));
+    EXPECT_TRUE(contains(after({"vehicle.shift_up_full_load=6501 rpm"}), "must be at most limiter_speed"));
     EXPECT_TRUE(contains(after({"vehicle.shift_down=700 rpm"}), "must be greater than idle_speed"));
-    EXPECT_TRUE(contains(after({"vehicle.lag_times=[0.1 s]"}), "has 1 values, but the grid has 8 speeds x 2 shares"));
-    // Shifting is not described for a single gear, and must be for several.
+    EXPECT_TRUE(contains(after({"vehicle.lag_times=[0.1 s]"}), "has 1 values, but the map has 8 speeds x 2 shares"));
+    // Shift speeds are optional for one gear and required for several gears.
     const std::string several = after({"vehicle=electric_100kw", "vehicle.gear_ratios=[9.7, 5]",
                                        "vehicle.rotating_mass_factors=[1, 1]", "vehicle.lag_gear_factors=[1, 1]"});
     EXPECT_TRUE(
@@ -175,13 +175,13 @@ TEST(Checks, EngineSpeedsAgree) {
     EXPECT_TRUE(contains(after({"vehicle.launch_speed=700 rpm"}), "must be at least idle_speed"));
     EXPECT_TRUE(
         contains(after({"vehicle.full_load={1000 rpm: 1 N m, 7000 rpm: 1 N m}"}),
-                 "field 'vehicle.full_load': covers 1000 rpm to 7000 rpm, but the engine turns 798 rpm to 6500 rpm"));
+                 "field 'vehicle.full_load': covers 1000 rpm to 7000 rpm, but the engine runs at 798 rpm to 6500 rpm"));
     EXPECT_TRUE(contains(after({"vehicle.drag_torque={0 rpm: 0 N m, 6000 rpm: 0 N m}"}),
                          "field 'vehicle.drag_torque': covers"));
 }
 
 TEST(Checks, TheDriverIsConsistent) {
-    EXPECT_TRUE(contains(after({"driver.cacc.prediction_end=0.1 s"}), "must lie after prediction_start"));
+    EXPECT_TRUE(contains(after({"driver.cacc.prediction_end=0.1 s"}), "must be greater than prediction_start"));
     EXPECT_TRUE(
         contains(after({"driver.cacc.deceleration_emergency=3 m/s2"}), "must be at least deceleration_comfort"));
     EXPECT_TRUE(contains(after({"driver.free_drive.acceleration={1 km/h: 2 m/s2}"}), "must begin at 0 km/h"));

@@ -1,6 +1,6 @@
-// Properties of every row of the table of fields: whatever is wrong with a value is refused with its place and its path, and
-// a good value arrives where it is written again. A new row is tested the moment it exists.
-#include "scenario/field_table.h"
+// Properties of every row of the field tables. A bad value gives an error with its place and path. A good value reaches
+// its member and the canonical text. A new row is tested without a change here.
+#include "scenario/schema/field_table.h"
 
 #include <gtest/gtest.h>
 
@@ -10,20 +10,20 @@
 #include <random>
 #include <set>
 
-#include "scenario/fields.h"
 #include "scenario/scenario_text.h"
-#include "scenario/yaml_source.h"
+#include "scenario/schema/fields.h"
+#include "scenario/yaml/yaml_source.h"
 
 namespace stopline {
 namespace {
 
-// A field as it stands in a text.
+// A field and its place in a text.
 struct Leaf {
     std::string path;
     const Field* field;
     Place key;
     Place value;
-    std::string text;  // of a scalar
+    std::string text;  // the value, if it is a scalar
 };
 
 void collect(const Table& table, const SourceNode& map, const std::string& path, std::vector<Leaf>& leaves) {
@@ -44,7 +44,7 @@ void collect(const Table& table, const SourceNode& map, const std::string& path,
     }
 }
 
-// A scenario in which every field of every table appears.
+// A scenario with every field of every table.
 class EveryField : public ::testing::TestWithParam<const char*> {
 protected:
     EveryField() {
@@ -59,7 +59,7 @@ protected:
         return at + static_cast<std::size_t>(place.column) - 1;
     }
 
-    // The text with what stands from a place to the end of its line replaced, or with a word inserted there.
+    // Return the text with the rest of a line replaced from a place on, or with a word inserted there.
     std::string replaced(const Place& place, const std::string& value) const {
         const std::size_t begin = offset(place);
         return text_.substr(0, begin) + value + text_.substr(text_.find('\n', begin));
@@ -69,7 +69,7 @@ protected:
         return text_.substr(0, begin) + word + text_.substr(begin);
     }
 
-    // `value` is refused in this field, at this place, with this remark.
+    // Expects an error for `value` in this field, with the place of the field and with the remark.
     void expect_refused(const Leaf& leaf, const std::string& value, const std::string& remark) const {
         const std::string message = error_of(replaced(leaf.value, value));
         EXPECT_TRUE(contains(message, to_string(leaf.value) + ": field '" + leaf.path)) << value;
@@ -97,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(Shipped, EveryField,
 
 TEST_P(EveryField, Appears) {
     std::set<const Field*> seen;
-    std::set<std::string> kinds;  // what is chosen among alternatives
+    std::set<std::string> kinds;  // all scalar values, choices included
     for (const Leaf& leaf : leaves_) {
         seen.insert(leaf.field);
         kinds.insert(leaf.text);
@@ -108,8 +108,8 @@ TEST_P(EveryField, Appears) {
     for (const Table* const table : tables) {
         for (const Field& field : table->fields) {
             const auto chosen = [&](const std::string& value) { return kinds.contains(value); };
-            const bool here =
-                field.only_values.empty() || std::any_of(field.only_values.begin(), field.only_values.end(), chosen);
+            const bool here = field.condition_values.empty() ||
+                              std::any_of(field.condition_values.begin(), field.condition_values.end(), chosen);
             EXPECT_EQ(seen.contains(&field), here) << table->title << ": " << field.name;
         }
     }
@@ -132,7 +132,7 @@ TEST_P(EveryField, RefusesAMisspeltKeyWithTheRightOne) {
         const std::string path =
             leaf.path.substr(0, leaf.path.size() - leaf.field->name.size()) + "q" + leaf.field->name;
         EXPECT_TRUE(contains(message, to_string(leaf.key) + ": field '"));
-        // An entry whose name is misspelt is called by its number.
+        // The path of an entry with a misspelt name has its index.
         EXPECT_TRUE(leaf.field->name == "name" || contains(message, "field '" + path + "' is unknown"));
         EXPECT_TRUE(contains(message, "did you mean '" + leaf.field->name + "'?"));
     }
@@ -144,7 +144,7 @@ TEST_P(EveryField, NumbersRefuseWhatIsWrong) {
         const auto* const f = std::get_if<NumberField>(&leaf.field->kind);
         if (f == nullptr) continue;
         ++fields;
-        const Unit& shown = *f->shown;
+        const Unit& shown = *f->unit;
         for (const char* word : {"nan", ".nan", "inf", "-.inf"}) expect_refused(leaf, word, "is not a finite number");
         for (const char* word : {"abc", "\"\"", "true", "--1"}) expect_refused(leaf, word, "is not a number");
         expect_refused(leaf, "1e999 " + std::string(shown.text), "is too large");
@@ -159,7 +159,8 @@ TEST_P(EveryField, NumbersRefuseWhatIsWrong) {
         const double step = 1e-6 * std::max(1.0, std::abs(f->range.min));
         expect_refused(leaf, quantity(f->range.min - step, shown), "is out of range (allowed: ");
         expect_refused(leaf, quantity(f->range.max * (1 + 1e-6) + step, shown), "is out of range (allowed: ");
-        for (const double end : {f->range.min, f->range.max}) {  // the ends are allowed; other fields may disagree
+        for (const double end :
+             {f->range.min, f->range.max}) {  // both ends are in range; checks with other fields may still fail
             const std::string message = error_of(replaced(leaf.value, quantity(end, shown)));
             EXPECT_EQ(message.find("is out of range"), std::string::npos) << message;
         }
@@ -184,7 +185,7 @@ TEST_P(EveryField, WholeNumbersRefuseWhatIsWrong) {
 TEST_P(EveryField, TextsAndChoicesRefuseWhatIsWrong) {
     for (const Leaf& leaf : leaves_) {
         if (const auto* const text = std::get_if<TextField>(&leaf.field->kind)) {
-            // An entry with a bad name is called by its number.
+            // The path of an entry with a bad name has its index.
             const Leaf anonymous{leaf.path.substr(0, leaf.path.find('[')), leaf.field, leaf.key, leaf.value, ""};
             const Leaf& named = leaf.field->name == "name" ? anonymous : leaf;
             expect_refused(named, "[a]", "needs a single value");
@@ -207,7 +208,7 @@ TEST_P(EveryField, ListsAndCurvesRefuseWhatIsWrong) {
     int fields = 0;
     for (const Leaf& leaf : leaves_) {
         if (const auto* const f = std::get_if<NumbersField>(&leaf.field->kind)) {
-            const std::string one = quantity(f->range.max, *f->shown);
+            const std::string one = quantity(f->range.max, *f->unit);
             expect_refused(leaf, one, "needs a list");
             expect_refused(leaf, "{a: 1}", "needs a list");
             const auto refused_item = [&](const std::string& item, const std::string& remark) {
@@ -217,15 +218,15 @@ TEST_P(EveryField, ListsAndCurvesRefuseWhatIsWrong) {
             };
             refused_item("nan", "is not a finite number");
             refused_item("[1]", "needs a single value");
-            refused_item(quantity(f->range.max * 1.01, *f->shown), "is out of range");
+            refused_item(quantity(f->range.max * 1.01, *f->unit), "is out of range");
             const std::string twice = error_of(replaced(leaf.value, "[" + one + ", " + one + "]"));
             EXPECT_EQ(twice.find("does not rise") != std::string::npos, f->rising) << twice;
             if (f->size.min > 0) expect_refused(leaf, "[]", "has 0 entries");
             ++fields;
         } else if (const auto* const c = std::get_if<CurveField>(&leaf.field->kind)) {
-            // Without points the map is written as {}; else the first point stands where it begins.
+            // A curve without points is written as {}. Otherwise its place is the place of the first point.
             const bool empty = text_.compare(offset(leaf.value), 2, "{}") == 0;
-            const std::string highest = quantity(c->y_range.max, *c->y_shown);
+            const std::string highest = quantity(c->y_range.max, *c->y_unit);
             const auto refused_point = [&](const std::string& point, const std::string& remark) {
                 if (!empty) return expect_refused(leaf, point, remark);
                 const std::string message = error_of(replaced(leaf.value, "{" + point + "}"));
@@ -233,10 +234,10 @@ TEST_P(EveryField, ListsAndCurvesRefuseWhatIsWrong) {
                 EXPECT_TRUE(contains(message, remark));
             };
             refused_point("nan: nan", "is not a finite number");
-            refused_point("1e7 " + std::string(c->x_shown->text) + ": " + highest, "is out of range");
-            refused_point("1 " + other_unit(*c->x_shown) + ": 1", "is needed");
-            const std::string last = quantity(c->x_range.max, *c->x_shown) + ": " + highest;
-            const std::string lower = quantity(0.5 * c->x_range.max, *c->x_shown) + ": " + highest;
+            refused_point("1e7 " + std::string(c->x_unit->text) + ": " + highest, "is out of range");
+            refused_point("1 " + other_unit(*c->x_unit) + ": 1", "is needed");
+            const std::string last = quantity(c->x_range.max, *c->x_unit) + ": " + highest;
+            const std::string lower = quantity(0.5 * c->x_range.max, *c->x_unit) + ": " + highest;
             EXPECT_TRUE(contains(error_of(replaced(leaf.value, empty ? "{" + last + ", " + lower + "}" : last)),
                                  "does not rise"));
             ++fields;
@@ -260,8 +261,7 @@ TEST_P(EveryField, RequiredOnesMustBeThere) {
     EXPECT_GT(fields, 20);
 }
 
-// Another good value arrives at its own member and nowhere else: exactly one line of the canonical text changes, to the
-// value that was set, and the hash with it.
+// Another good value reaches its own member only. Exactly one line of the canonical text changes, and so does the hash.
 TEST_P(EveryField, TakesAnotherValueAndWritesItAgain) {
     const Scenario original = parse_scenario(text_, "single_light.yaml");
     ASSERT_EQ(canonical_text(original), text_);
@@ -271,15 +271,15 @@ TEST_P(EveryField, TakesAnotherValueAndWritesItAgain) {
         const auto* const f = std::get_if<NumberField>(&leaf.field->kind);
         if (f == nullptr) continue;
         ++tried;
-        const double old = from_si(parse_quantity(leaf.text, *f->shown).si, *f->shown);
+        const double old = from_si(parse_quantity(leaf.text, *f->unit).si, *f->unit);
         const double value =
             old * 1.03125 <= f->range.max && old != 0.0 ? old * 1.03125 : (f->range.min + old) / 2 + 0.015625;
-        const std::string wanted = exact_text(to_si(value, *f->shown), *f->shown);
+        const std::string wanted = exact_text(to_si(value, *f->unit), *f->unit);
         Scenario changed;
         const std::string message =
             input_error_of([&] { changed = parse_scenario(text_, "single_light.yaml", {leaf.path + "=" + wanted}); });
         EXPECT_EQ(message.find("is out of range"), std::string::npos) << message;
-        if (!message.empty()) continue;  // another field disagrees
+        if (!message.empty()) continue;  // a check with another field fails
         ++taken;
         EXPECT_EQ(canonical_text(changed), replaced(leaf.value, wanted)) << leaf.path;
         EXPECT_NE(changed.hash, original.hash) << leaf.path;

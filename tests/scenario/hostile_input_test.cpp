@@ -1,4 +1,4 @@
-// Whatever a file says, it is loaded or refused with an InputError: no crash, no other exception, no endless work.
+// Any file is loaded, or refused with an InputError. There is no crash, no other exception and no endless loop.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -31,7 +31,7 @@ TEST(HostileFile, HundredMegabytesOfGarbage) {
     EXPECT_TRUE(contains(input_error_of([&] { load_scenario(file); }), "not a YAML text in UTF-8"));
 }
 
-// Changes some bytes of a text: flips, deletes, doubles, moves, or puts in what means something in YAML.
+// Returns the text with random changes: flipped, deleted or copied bytes, or inserted parts of YAML syntax.
 std::string mutated(std::string text, std::mt19937_64& random) {
     static const std::vector<std::string> kPieces{"&a ",
                                                   "*a",
@@ -107,7 +107,7 @@ struct Outcome {
     int refused = 0;
 };
 
-// Loads `cases` mutations; a loaded one must also be written and read again.
+// Loads `cases` mutations. A mutation that loads must have a canonical text that loads again.
 Outcome load_mutations(const std::string& text, int cases, std::uint64_t seed) {
     Outcome outcome;
     std::mt19937_64 random(seed);
@@ -131,8 +131,8 @@ Outcome load_mutations(const std::string& text, int cases, std::uint64_t seed) {
 TEST(HostileFile, MutatedScenariosLoadOrAreRefused) {
     const std::string file = read_text(shipped("scenarios/single_light.yaml"));
     const Outcome of_file = load_mutations(file, 1000, 2);
-    EXPECT_GT(of_file.refused, 300);  // the mutations do something ...
-    EXPECT_GT(of_file.loaded, 50);    // ... and not always too much
+    EXPECT_GT(of_file.refused, 300);  // many mutations are errors
+    EXPECT_GT(of_file.loaded, 50);    // some mutations still load
     const std::string canonical = canonical_text(load_scenario(shipped("scenarios/single_light.yaml")));
     const Outcome of_canonical = load_mutations(canonical, 1000, 3);
     EXPECT_GT(of_canonical.refused, 300);

@@ -1,12 +1,12 @@
-// The JSON schema for editors: complete, and of one mind with the reader.
+// Tests of the JSON schema: it has every field, and it accepts and rejects the same texts as the reader.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
 
-#include "scenario/fields.h"
 #include "scenario/scenario_text.h"
+#include "scenario/schema/fields.h"
 #include "scenario/visit_rows.h"
 
 namespace stopline {
@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// A validator for the part of JSON schema that is used; any other keyword fails the test.
+// Validates a value against the used part of JSON schema. Any other keyword fails the test.
 std::string violation(const Json& schema, const Json& value);
 
 bool has_type(const std::string& type, const Json& value) {
@@ -96,7 +96,8 @@ void check_keywords(const Json& schema) {
                                              "maxItems",
                                              "minProperties",
                                              "maxProperties",
-                                             "maxLength"};
+                                             "maxLength",
+                                             "deprecated"};
     for (const auto& [key, value] : schema.items()) EXPECT_TRUE(known.contains(key)) << key;
     for (const char* map : {"properties", "patternProperties"}) {
         const Json fields = schema.value(map, Json::object());

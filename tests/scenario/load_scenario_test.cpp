@@ -1,4 +1,4 @@
-// The public interface: what a user writes, what comes out, what the messages say.
+// Tests of loading scenarios: values, defaults, overrides, data files and messages.
 #include "scenario/load_scenario.h"
 
 #include <gtest/gtest.h>
@@ -67,7 +67,7 @@ TEST(LoadScenario, WhatIsAbsentHasTheDefaultOfTheStructs) {
                                                "CTG-HBS"}));
 }
 
-// Distinct values, so that a row bound to the wrong member shows.
+// All values differ, so that a row bound to the wrong member fails the test.
 TEST(LoadScenario, EachFieldFillsItsOwnMember) {
     const Scenario s = parse_scenario(R"(
 name: n
@@ -144,7 +144,7 @@ measure: {green: [5 s, 20 s], baseline: R}
     EXPECT_EQ(policy("P").reference_gap_m, 9.0);
     EXPECT_EQ(policy("Q").time_gap_s, 0.7);
     EXPECT_EQ(policy("Q").switch_speed_mps, 10.0);
-    EXPECT_EQ(policy("CDG").standstill_gap_m, 2.95);  // the paper's are still there
+    EXPECT_EQ(policy("CDG").standstill_gap_m, 2.95);  // the policies of the paper remain
     ASSERT_EQ(s.populations.size(), 2u);
     EXPECT_EQ(s.populations[0].components.at(0).share, 1.0);
     EXPECT_EQ(s.populations[1].pattern, PopulationSettings::Pattern::random);
@@ -206,7 +206,7 @@ TEST(LoadScenario, RefusesFilesWithoutFields) {
 
 TEST(Overrides, AreAppliedFromLeftToRight) {
     const Scenario s = parse_scenario(kSmall, "x", {"signal.green=20 s", "signal.green=25 s", "title=x = y"});
-    EXPECT_EQ(s.title, "x = y");  // only the first = divides
+    EXPECT_EQ(s.title, "x = y");  // only the first = separates path and value
     EXPECT_EQ(s.signal.green_s, 25.0);
 }
 
@@ -252,8 +252,7 @@ TEST(Overrides, ErrorsNameTheOverride) {
     EXPECT_TRUE(contains(of("policies[XYZ].time_gap=1 s"), "has no entry [XYZ]"));
     EXPECT_TRUE(contains(of("measure.green[0]=1 s"), "has no entry [0]"));
     EXPECT_TRUE(contains(of("populations[0][1].name=x"), "has no entry"));
-    EXPECT_TRUE(
-        contains(of("policies[CDG].time_gap=1 s"), "is used only where law is constant_time or switch_time_gap"));
+    EXPECT_TRUE(contains(of("policies[CDG].time_gap=1 s"), "applies only if law is constant_time or switch_time_gap"));
     EXPECT_TRUE(contains(of("vehicle=nothing"), "there is no 'nothing' in"));
     EXPECT_TRUE(contains(of("signal.green="), "needs a single value, not nothing"));
     EXPECT_TRUE(contains(of("signal=["), "--set 'signal=[': not valid YAML"));
@@ -307,7 +306,7 @@ TEST(DataFiles, ErrorsInThemNameThem) {
     folder.write("missing.yaml", "vehicle: ./none.yaml\n");
     const auto of = [&](const char* name) { return input_error_of([&] { load_scenario(folder.path() / name); }); };
     EXPECT_TRUE(contains(of("run.yaml"), "bad.yaml:2:7: field 'vehicle.mass': value '1300' has no unit"));
-    EXPECT_TRUE(contains(of("looping.yaml"), "8 files name each other as base"));
+    EXPECT_TRUE(contains(of("looping.yaml"), "the chain of base files is longer than 8 files"));
     EXPECT_TRUE(contains(of("missing.yaml"), "missing.yaml:1:10: field 'vehicle': "));
     EXPECT_TRUE(contains(of("missing.yaml"), "none.yaml: no such file"));
     EXPECT_NE(input_error_of([] { load_vehicle("none"); }), "");

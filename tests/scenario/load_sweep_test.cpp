@@ -1,5 +1,5 @@
-// Sweep files: what they may say, and how they are refused.
-#include "scenario/load_sweep.h"
+// Tests of sweep files: values, checks and messages.
+#include "scenario/sweep_file/load_sweep.h"
 
 #include <gtest/gtest.h>
 
@@ -57,7 +57,7 @@ TEST(LoadSweep, NamesFieldPlaceAndWhatIsAllowed) {
     EXPECT_TRUE(contains(axis_error("{name: a, path: signal.green, values: [5 s], populations: all}"), "either"));
     EXPECT_TRUE(contains(axis_error("{name: a, path: seed, values: [1, 2]}"), "write 'repetitions'"));
     EXPECT_TRUE(contains(axis_error("{name: a, path: populations, values: [1, 2]}"), "write 'populations: [NAME"));
-    EXPECT_TRUE(contains(axis_error("{name: seed, path: signal.green, values: [5 s]}"), "that of another column"));
+    EXPECT_TRUE(contains(axis_error("{name: seed, path: signal.green, values: [5 s]}"), "belongs to another column"));
     EXPECT_TRUE(contains(axis_error("{name: a, path: demand.kind, values: [queue, jam]}"), "value 'jam' is unknown"));
     EXPECT_TRUE(contains(axis_error("{name: a, path: signal.green, values: ['[5 s']}"), "not valid YAML"));
     EXPECT_TRUE(contains(axis_error("{name: a, path: signal.green, values: ['']}"), "needs a single value"));
@@ -69,7 +69,7 @@ TEST(LoadSweep, NamesThePlaceOfAScenarioThatIsNotThere) {
     EXPECT_EQ(input_error_of([&] { load_sweep(file); }),
               file + ":2:11: field 'scenario': value 'rte.yaml' leads to " + (folder.path() / "rte.yaml").string() +
                   ": no such file (relative paths start at the sweep file's folder)");
-    // With all else that is wrong.
+    // Other errors are reported together with it.
     const std::string both = sweep_error("scenario: none.yaml\naxes:\n- {name: a, path: signal.green, values: [5]}\n");
     EXPECT_TRUE(contains(both, "test.yaml:1:11: field 'scenario': value 'none.yaml' leads to none.yaml: no such file"));
     EXPECT_TRUE(contains(both, "test.yaml:3:42: field 'axes[a]: signal.green': value '5' has no unit"));
@@ -79,7 +79,8 @@ TEST(LoadSweep, NamesThePlaceOfAScenarioThatIsNotThere) {
 }
 
 TEST(LoadSweep, ChecksAxesAgainstEachOther) {
-    EXPECT_TRUE(contains(axis_error("{name: a, populations: all}\n- {name: b, populations: all}"), "already"));
+    EXPECT_TRUE(contains(axis_error("{name: a, populations: all}\n- {name: b, populations: all}"),
+                         "only one axis may have populations"));
     EXPECT_TRUE(contains(axis_error("{name: a, populations: all}\n- {name: a, path: signal.green, values: [5 s]}"),
                          "the name 'a' appears twice"));
     EXPECT_TRUE(contains(axis_error("{name: a, path: signal.green, values: [5 s]}\n"

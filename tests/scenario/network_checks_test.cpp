@@ -1,4 +1,4 @@
-// What does not fit into its network is refused before a run, with the fields that do not fit each other.
+// Tests of checks that a network is large enough. Each message names the fields that do not fit.
 #include <gtest/gtest.h>
 
 #include "scenario/scenario_text.h"
@@ -15,7 +15,7 @@ std::string in_grid(std::vector<std::string> overrides) {
     return of_kind("grid", overrides);
 }
 
-// The default vehicle takes 5.15 m and, in the default populations, up to 6 m of gap; from 50 km/h it stops within 31.4 m.
+// The default vehicle needs 5.15 m and, in the default populations, a gap of up to 6 m. From 50 km/h it stops in 31.4 m.
 TEST(GridLinks, AreLongEnoughForAVehicleAndForStopping) {
     EXPECT_EQ(in_grid({}), "");
     EXPECT_TRUE(contains(in_grid({"network.grid.column_spacing=50 m", "network.intersection.radius=30 m"}),
@@ -32,7 +32,7 @@ TEST(GridLinks, AreLongEnoughForAVehicleAndForStopping) {
     const std::vector<std::string> slow{"network.intersection.speed_limit=10 km/h"};
     EXPECT_EQ(in_grid({slow[0], "network.grid.row_spacing=51.15 m"}), "");
     EXPECT_TRUE(contains(in_grid({slow[0], "network.grid.row_spacing=51.1 m"}), "at least 51.15 m with this radius"));
-    // No street joins intersections of one row.
+    // With one row, no street from south to north joins two intersections.
     EXPECT_EQ(in_grid({"network.grid.rows=1", "network.grid.row_spacing=50 m"}), "");
 }
 
@@ -40,37 +40,40 @@ TEST(Entries, WhoEntersCanStopBeforeTheLine) {
     const std::vector<std::string> fast{"network.intersection.speed_limit=150 km/h", "demand.entry_speed=150 km/h"};
     EXPECT_TRUE(contains(of_kind("intersection", {fast[0], fast[1], "network.intersection.approach_length=50 m"}),
                          "field 'network.intersection.approach_length': value 50 m is too short to stop from 150 km/h "
-                         "at 3.5 m/s2 (driver.stop.decision_deceleration) before the line: at least 259.3 m, or a "
+                         "at 3.5 m/s2 (driver.stop.decision_deceleration) before the stop line: at least 259.3 m, or a "
                          "lower demand.entry_speed than 150 km/h"));
     EXPECT_EQ(of_kind("intersection", {fast[0], fast[1], "network.intersection.approach_length=259.3 m"}), "");
-    // Nobody enters faster than the limit.
+    // No vehicle enters faster than the limit.
     EXPECT_EQ(of_kind("intersection", {fast[1], "network.intersection.approach_length=50 m"}), "");
     EXPECT_TRUE(contains(error_of("demand: {vehicles: 1}\n", {"network.approach.length=30 m"}),
                          "field 'network.approach.length': value 30 m is too short to stop from 50 km/h"));
     EXPECT_TRUE(contains(error_of("network: {kind: streets, streets: three_lanes}\n",
-                                  {"network.streets.intersections[sophie_charlotte_str].arms[2].length=20 m"}),
-                         "field 'network.streets.intersections[sophie_charlotte_str].arms[2].length': value 20 m"));
+                                  {"network.streets.intersections[sophie_charlotte_str].legs[2].length=20 m"}),
+                         "field 'network.streets.intersections[sophie_charlotte_str].legs[2].length': value 20 m"));
 }
 
 TEST(MeasuredArea, EndsWithinTheNetwork) {
-    EXPECT_EQ(in_grid({"measure.outside=100 m"}), "");
-    EXPECT_TRUE(contains(in_grid({"measure.outside=100.1 m"}),
-                         "field 'measure.outside': value 100.1 m lies beyond the end of the network: at most 100 m, "
-                         "network.intersection.exit_length"));
-    EXPECT_TRUE(contains(in_grid({"measure.outside=500 m", "network.intersection.exit_length=600 m"}),
-                         "at most 200 m, network.intersection.approach_length"));
+    EXPECT_EQ(in_grid({"measure.area_margin=100 m"}), "");
+    EXPECT_TRUE(
+        contains(in_grid({"measure.area_margin=100.1 m"}),
+                 "field 'measure.area_margin': value 100.1 m reaches beyond the end of the network: at most 100 m, "
+                 "the value of network.intersection.exit_length"));
+    EXPECT_TRUE(contains(in_grid({"measure.area_margin=500 m", "network.intersection.exit_length=600 m"}),
+                         "at most 200 m, the value of network.intersection.approach_length"));
     const std::string streets = "network: {kind: streets, streets: three_lanes}\n";
-    EXPECT_EQ(error_of(streets, {"measure.outside=100 m"}), "");
-    EXPECT_TRUE(contains(error_of(streets, {"measure.outside=101 m"}),
-                         "at most 100 m, network.streets.intersections[koenigin_elisabeth_str].arms[0].exit_length"));
-    // A single intersection has zones.
-    EXPECT_EQ(of_kind("intersection", {"measure.outside=500 m"}), "");
+    EXPECT_EQ(error_of(streets, {"measure.area_margin=100 m"}), "");
+    EXPECT_TRUE(contains(
+        error_of(streets, {"measure.area_margin=101 m"}),
+        "at most 100 m, the value of network.streets.intersections[koenigin_elisabeth_str].legs[0].exit_length"));
+    // A single intersection has zones instead.
+    EXPECT_EQ(of_kind("intersection", {"measure.area_margin=500 m"}), "");
 }
 
 TEST(Cycle, OfAnIntersectionFollowsFromItsStages) {
     for (const char* const kind : {"intersection", "grid"}) {
-        EXPECT_TRUE(contains(of_kind(kind, {"signal.cycle=200 s", "signal.cross_green=10 s"}),
-                             "field 'signal.cycle': follows from green, cross_green, yellow and all_red here: 86 s"));
+        EXPECT_TRUE(contains(
+            of_kind(kind, {"signal.cycle=200 s", "signal.cross_green=10 s"}),
+            "field 'signal.cycle': must be left out here: it follows from green, cross_green, yellow and all_red, 86 s"));
     }
 }
 
@@ -84,12 +87,12 @@ TEST(Turns, OfALaneSumToAHundredPercentAtMost) {
         const std::string all = "{movements: straight+left+right}";
         EXPECT_TRUE(contains(with_lanes(kind, all, {"demand.left=60 %", "demand.right=60 %"}),
                              "field 'demand.left': left and right sum to 120 % on a lane 'straight+left+right' "
-                             "(allowed: 100 % at most)"));
+                             "(allowed: at most 100 %)"));
         EXPECT_EQ(with_lanes(kind, all, {"demand.left=60 %", "demand.right=40 %"}), "");
         EXPECT_TRUE(contains(
-            with_lanes(kind, all, {"demand.cross_turns=own", "demand.cross_left=60 %", "demand.cross_right=60 %"}),
+            with_lanes(kind, all, {"demand.cross_turns=separate", "demand.cross_left=60 %", "demand.cross_right=60 %"}),
             "field 'demand.cross_left': cross_left and cross_right sum to 120 %"));
-        // Shares are of lanes: none of these has both.
+        // The shares are per lane, and no lane here has both turns.
         EXPECT_EQ(of_kind(kind, {"demand.left=60 %", "demand.right=60 %"}), "");
     }
 }
@@ -99,15 +102,16 @@ TEST(Turns, HaveALaneThatServesThem) {
         const std::string two = "{movements: straight}, {movements: straight}";
         EXPECT_TRUE(contains(with_lanes(kind, two, {"demand.left=50 %"}),
                              "field 'demand.left': value 50 % has no effect: network.intersection.lanes has no lane "
-                             "that leads left and elsewhere"));
+                             "that allows left and another movement"));
         const std::string own_lane = "{movements: left}, {movements: straight+right}";
         EXPECT_TRUE(contains(with_lanes(kind, own_lane, {"demand.left=50 %"}), "has no effect"));
         EXPECT_EQ(with_lanes(kind, own_lane, {"demand.right=50 %"}), "");
-        EXPECT_TRUE(contains(with_lanes(kind, two, {"demand.cross_turns=own", "demand.cross_right=5 %"}),
+        EXPECT_TRUE(contains(with_lanes(kind, two, {"demand.cross_turns=separate", "demand.cross_right=5 %"}),
                              "field 'demand.cross_right': value 5 % has no effect"));
         const std::string no_way_on = "{movements: left+right}";
-        EXPECT_TRUE(contains(with_lanes(kind, no_way_on, {}),
-                             "field 'demand.left': left and right are 0 %, but all turn from a lane 'left+right'"));
+        EXPECT_TRUE(
+            contains(with_lanes(kind, no_way_on, {}),
+                     "field 'demand.left': left and right are 0 %, but all vehicles turn on a lane 'left+right'"));
         EXPECT_EQ(with_lanes(kind, no_way_on, {"demand.left=60 %"}), "");
     }
     EXPECT_TRUE(contains(error_of("title: x\n", {"demand.right=5 %"}), "has no effect on a straight road"));
@@ -117,53 +121,58 @@ std::string with_rules(const std::string& rules, const std::vector<std::string>&
     return error_of("rules: " + rules + "\n", overrides);
 }
 
-TEST(Rules, WhatBelongsToTheNoBlockRuleIsForWhereItIsOn) {
-    EXPECT_TRUE(contains(with_rules("{keep_clear: off, light_ahead: on}"),
-                         "test.yaml:1:39: field 'rules.light_ahead' is used only where keep_clear is on"));
-    EXPECT_TRUE(contains(with_rules("{keep_clear: off, sight: 100 m}"), "'rules.sight' is used only where"));
-    EXPECT_TRUE(contains(with_rules("{light_ahead: on}"), "'rules.light_ahead' is used only where"));
-    EXPECT_TRUE(contains(with_rules("{sight: 300 m}"), "'rules.sight' is used only where"));
-    EXPECT_TRUE(contains(with_rules("{}", {"rules.light_ahead=on"}), "'rules.light_ahead' is used only where"));
-    EXPECT_TRUE(contains(with_rules("{keep_clear: off}", {"rules.sight=9 m"}), "'rules.sight' is used only where"));
-    EXPECT_TRUE(contains(with_rules("{}", {"rules={keep_clear: off, light_ahead: on}"}), "is used only where"));
+TEST(Rules, ParametersOfKeepClearNeedTheRule) {
+    EXPECT_TRUE(contains(with_rules("{keep_clear: off, count_queue_at_red_exit: on}"),
+                         "test.yaml:1:51: field 'rules.count_queue_at_red_exit' applies only if keep_clear is on"));
+    EXPECT_TRUE(contains(with_rules("{keep_clear: off, sight: 100 m}"), "'rules.sight' applies only if"));
+    EXPECT_TRUE(
+        contains(with_rules("{count_queue_at_red_exit: on}"), "'rules.count_queue_at_red_exit' applies only if"));
+    EXPECT_TRUE(contains(with_rules("{sight: 300 m}"), "'rules.sight' applies only if"));
+    EXPECT_TRUE(contains(with_rules("{}", {"rules.count_queue_at_red_exit=on"}),
+                         "'rules.count_queue_at_red_exit' applies only if"));
+    EXPECT_TRUE(contains(with_rules("{keep_clear: off}", {"rules.sight=9 m"}), "'rules.sight' applies only if"));
+    EXPECT_TRUE(
+        contains(with_rules("{}", {"rules={keep_clear: off, count_queue_at_red_exit: on}"}), "applies only if"));
     EXPECT_TRUE(contains(with_rules("{sight: off}"), "field 'rules.sight': value 'off' is not a number"));
     for (const char* const rules :
-         {"{}", "{teleport_cycles: 3}", "{keep_clear: on}", "{keep_clear: on, light_ahead: on}", "{light_ahead: off}",
-          "{keep_clear: on, sight: 100 m, light_ahead: off}", "{keep_clear: off, light_ahead: off}"}) {
+         {"{}", "{teleport_cycles: 3}", "{keep_clear: on}", "{keep_clear: on, count_queue_at_red_exit: on}",
+          "{count_queue_at_red_exit: off}", "{keep_clear: on, sight: 100 m, count_queue_at_red_exit: off}",
+          "{keep_clear: off, count_queue_at_red_exit: off}"}) {
         EXPECT_EQ(with_rules(rules), "") << rules;
     }
 }
 
-// Its parameters stay in the file, and come back with it.
+// The parameters of the rule may stay in the file. They apply again when the rule is on again.
 TEST(Rules, AreSwitchedOffByAnOverrideAlone) {
-    const std::string all = "{keep_clear: on, sight: 100 m, light_ahead: on}";
+    const std::string all = "{keep_clear: on, sight: 100 m, count_queue_at_red_exit: on}";
     EXPECT_EQ(with_rules(all, {"rules.keep_clear=off"}), "");
-    EXPECT_TRUE(contains(with_rules(all, {"rules.keep_clear=off", "rules.light_ahead=on"}), "is used only where"));
+    EXPECT_TRUE(
+        contains(with_rules(all, {"rules.keep_clear=off", "rules.count_queue_at_red_exit=on"}), "applies only if"));
     EXPECT_TRUE(contains(with_rules("{keep_clear: on, sight: 0 m}", {"rules.keep_clear=off"}), "is out of range"));
     for (const char* const keep_clear : {"on", "off"}) {
         const Scenario scenario =
             parse_scenario("rules: " + all + "\n", "test.yaml", {std::string("rules.keep_clear=") + keep_clear});
         const std::string text = canonical_text(scenario);
         EXPECT_EQ(canonical_text(parse_scenario(text, "test.yaml")), text) << keep_clear;
-        EXPECT_EQ(text.find("light_ahead") != std::string::npos, std::string(keep_clear) == "on");
+        EXPECT_EQ(text.find("count_queue_at_red_exit") != std::string::npos, std::string(keep_clear) == "on");
     }
 }
 
-TEST(DemandArms, AreThoseOfTheNetwork) {
-    EXPECT_EQ(in_grid({"demand.arms=[c0r0_west, c1r1_south_in, c2r2]"}), "");
+TEST(DemandApproaches, AreThoseOfTheNetwork) {
+    EXPECT_EQ(in_grid({"demand.approaches=[c0r0_west, c1r1_south_in, c2r2]"}), "");
     const std::string known =
         "Known: c0r0_west, c0r0_south, c1r0_south, c2r0_south, c2r0_east, c0r1_west, c2r1_east, c0r2_west, "
         "c0r2_north, c1r2_north, c2r2_east, c2r2_north and 24 more";
+    EXPECT_TRUE(contains(in_grid({"demand.approaches=[c0r0_west, c0r0_wst]"}),
+                         "field 'demand.approaches[1]': no approach lane has a name that begins with 'c0r0_wst_'; did "
+                         "you mean 'c0r0_west'? " +
+                             known));
+    EXPECT_TRUE(contains(in_grid({"demand.approaches=[c9]"}), "begins with 'c9_'; known: c0r0_west"));
+    EXPECT_TRUE(contains(of_kind("intersection", {"demand.approaches=[up]"}),
+                         "begins with 'up_'; known: west, south, east, north"));
     EXPECT_TRUE(
-        contains(in_grid({"demand.arms=[c0r0_west, c0r0_wst]"}),
-                 "field 'demand.arms[1]': no lane to an intersection has a name that begins with 'c0r0_wst_'; did "
-                 "you mean 'c0r0_west'? " +
-                     known));
-    EXPECT_TRUE(contains(in_grid({"demand.arms=[c9]"}), "begins with 'c9_'; known: c0r0_west"));
-    EXPECT_TRUE(
-        contains(of_kind("intersection", {"demand.arms=[up]"}), "begins with 'up_'; known: west, south, east, north"));
-    EXPECT_TRUE(contains(error_of("network: {kind: streets, streets: three_lanes}\n", {"demand.arms=[suarezstr_up]"}),
-                         "field 'demand.arms[0]': no lane"));
+        contains(error_of("network: {kind: streets, streets: three_lanes}\n", {"demand.approaches=[suarezstr_up]"}),
+                 "field 'demand.approaches[0]': no approach lane"));
 }
 
 TEST(Seconds, AreWholeNumbersOfStepsAndIntervalsOfSeconds) {
@@ -173,7 +182,7 @@ TEST(Seconds, AreWholeNumbersOfStepsAndIntervalsOfSeconds) {
     const std::string meso = "meso={base: passages, step: ";
     EXPECT_TRUE(
         contains(in_grid({"fidelity=meso", meso + "0.4 s}", even[0]}),
-                 "field 'meso.step': vehicles are counted every second, which is not a whole number of steps of "
+                 "field 'meso.step': vehicles are counted every second, but 1 s is not a whole number of steps of "
                  "400 ms"));
     EXPECT_EQ(in_grid({"fidelity=meso", meso + "0.2 s}", even[0]}), "");
     EXPECT_EQ(of_kind("intersection", {"fidelity=meso", meso + "0.4 s}", even[0]}), "") << "no series";
@@ -187,11 +196,11 @@ TEST(TimeSpace, IsForGridsAndStreets) {
 }
 
 TEST(TimeSpace, ASideIsForADiagramThatIsDrawn) {
-    EXPECT_TRUE(contains(in_grid({"measure.time_space_from=south"}),
-                         "field 'measure.time_space_from': value south has no effect without measure.time_space"));
-    EXPECT_EQ(in_grid({"measure.time_space_from=south", "measure.time_space=60 s"}), "");
-    EXPECT_EQ(in_grid({"measure.time_space_from=west"}), "");
-    EXPECT_TRUE(contains(in_grid({"measure.time_space_from=up", "measure.time_space=60 s"}), "'up' is unknown"));
+    EXPECT_TRUE(contains(in_grid({"measure.time_space_side=south"}),
+                         "field 'measure.time_space_side': value south has no effect without measure.time_space"));
+    EXPECT_EQ(in_grid({"measure.time_space_side=south", "measure.time_space=60 s"}), "");
+    EXPECT_EQ(in_grid({"measure.time_space_side=west"}), "");
+    EXPECT_TRUE(contains(in_grid({"measure.time_space_side=up", "measure.time_space=60 s"}), "'up' is unknown"));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "scenario/quantity.h"
+#include "scenario/schema/quantity.h"
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ std::string problem(const char* text, const char* expected_unit) {
 }
 
 TEST(Quantity, ConvertsToSi) {
-    EXPECT_EQ(si("50 km/h", "km/h"), 50.0 / 3.6);  // exactly: the structs' defaults are written that way
+    EXPECT_EQ(si("50 km/h", "km/h"), 50.0 / 3.6);  // exactly, because the defaults of the structs are written so
     EXPECT_EQ(si("13.5 m/s", "km/h"), 13.5);
     EXPECT_EQ(si("0.87 s", "s"), 0.87);
     EXPECT_EQ(si("10 ms", "s"), 0.01);
@@ -69,7 +69,7 @@ TEST(Quantity, RefusesWhatItWouldHaveToGuess) {
     EXPECT_EQ(problem("15 kmh", "km/h"), "has the unknown unit 'kmh' (known here: m/s, km/h)");
     EXPECT_EQ(problem("15 S", "s"), "has the unknown unit 'S' (known here: s, ms, min, h)");
     EXPECT_EQ(problem("50 %", "s"), "is a plain number (unit '%'), but a time is needed");
-    EXPECT_EQ(problem("1,5 s", "s"), "has a comma: write a decimal point, and no separators for thousands");
+    EXPECT_EQ(problem("1,5 s", "s"), "has a comma: write a decimal point, and no thousands separators");
     EXPECT_EQ(problem("15 s s", "s"), "has the unknown unit 's s' (known here: s, ms, min, h)");
     EXPECT_EQ(problem("1 000 m", "m"), "has the unknown unit '000 m' (known here: m, cm, mm, km)");
 }
@@ -98,7 +98,7 @@ TEST(Quantity, WholeNumbersAreDigitsOnly) {
     }
 }
 
-// Whatever number comes, in whatever unit it is shown: the text gives the same bits back.
+// In every unit, the exact text of any number gives the same bits back.
 TEST(Quantity, ExactTextRoundTrips) {
     std::mt19937_64 random(7);
     std::uniform_real_distribution<double> exponent(-12.0, 12.0);

@@ -1,4 +1,4 @@
-// Helpers of the tests of scenario files.
+// Helpers for tests of scenario files.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 
 namespace stopline {
 
-// The message of the InputError that `action` throws; "" if it throws none. Any other exception fails the test.
+// Returns the message of the InputError that `action` throws, or "". Any other exception fails the test.
 inline std::string input_error_of(const std::function<void()>& action) {
     try {
         action();
@@ -53,7 +53,7 @@ inline std::filesystem::path shipped(const std::string& path) {
     return std::filesystem::path(STOPLINE_SOURCE_DIR) / path;
 }
 
-// A folder of its own for a test, removed at the end.
+// A temporary folder for one test, removed by the destructor.
 class TemporaryFolder {
 public:
     TemporaryFolder() {

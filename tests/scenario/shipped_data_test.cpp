@@ -1,12 +1,12 @@
-// The shipped vehicles, drivers and policies are what their sources and the paper say.
+// The shipped vehicles, drivers and policies have the values of their sources and of the paper.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/units.h"
-#include "driver/gap_policy.h"
 #include "scenario/scenario_text.h"
+#include "spacing_laws/gap_policy.h"
 #include "vehicle/powertrain_tables.h"
 
 namespace stopline {
@@ -22,7 +22,7 @@ TEST(ShippedVehicles, AllLoadAndCompile) {
     for (const std::string& name : names) {
         const PowertrainSettings car = load_vehicle(name);
         EXPECT_EQ(car.name, name);
-        EXPECT_EQ(car.length_m, 5.15) << name;  // the paper's, for all
+        EXPECT_EQ(car.length_m, 5.15) << name;  // the length in the paper, for all vehicles
         EXPECT_NO_THROW(compile_powertrain(car)) << name;
     }
 }
@@ -36,7 +36,8 @@ TEST(ShippedVehicles, HaveTheirRatedPower) {
     for (const char* name : {"petrol_eu4_72kw", "petrol_eu4_84kw", "diesel_eu4_103kw", "electric_100kw"}) {
         const PowertrainSettings car = load_vehicle(name);
         const double rated = std::stod(std::string(name).substr(std::string(name).rfind('_') + 1));
-        for (int rpm = 0; rpm <= car.limiter_rpm; rpm += 50) {  // a little more between the points of a coarse curve
+        for (int rpm = 0; rpm <= car.limiter_rpm;
+             rpm += 50) {  // a coarse curve may exceed it a little between its points
             EXPECT_LE(power_kW(car, rpm), rated * 1.03) << name << " at " << rpm;
         }
     }
@@ -56,7 +57,7 @@ TEST(ShippedVehicles, HaveTheLagOfTheFormula) {
     }
 }
 
-// Heywood's friction mean effective pressures, as the comments of the files say.
+// Friction mean effective pressures by Heywood, see the comments in the files.
 TEST(ShippedVehicles, HaveTheDragTorqueOfTheFormula) {
     const auto torque_Nm = [](double pressure_bar, double displacement_l) {
         return -pressure_bar * 1e5 * displacement_l * 1e-3 / (4.0 * kPi);
@@ -82,7 +83,7 @@ TEST(ShippedVehicles, TheElectricOneHasOneGearAndNoClutch) {
     EXPECT_EQ(car.gear_ratio.size(), 1u);
     EXPECT_EQ(car.idle_rpm, 0.0);
     EXPECT_EQ(car.launch_rpm, 0.0);
-    for (std::size_t i = 0; i < car.drag_torque.x.size(); ++i) {  // recuperates at most 50 kW
+    for (std::size_t i = 0; i < car.drag_torque.x.size(); ++i) {  // the limit of recuperation is 50 kW
         EXPECT_GE(car.drag_torque.x[i] * kRadpsPerRpm * car.drag_torque.y[i], -50.1e3);
     }
 }
@@ -98,7 +99,7 @@ TEST(ShippedPolicies, AreThoseOfThePaper) {
     for (const GapPolicySettings& policy : policies) {
         EXPECT_EQ(gap_m(policy.name, 0.0), policy.name == "CDG-6m" ? 6.0 : 2.95) << policy.name;
     }
-    // Time between two vehicles at 50 km/h, in seconds.
+    // Headway at 50 km/h, in s.
     const auto headway_s = [&](const std::string& name) { return (5.15 + gap_m(name, 50.0)) / (50.0 / 3.6); };
     EXPECT_NEAR(headway_s("CDG"), 0.583, 0.001);
     EXPECT_NEAR(headway_s("CTG-Ref"), 1.453, 0.001);

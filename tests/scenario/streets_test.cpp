@@ -1,4 +1,4 @@
-// Networks that users describe: what the shipped one says, what is refused and where.
+// Tests of streets from a file: values of the shipped network, checks and messages.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -12,19 +12,19 @@ namespace {
 const char* const kStreets = R"(median: 4 m
 intersections:
 - name: first
-  arms:
+  legs:
   - {from: west, lanes: &three [{movements: straight+left}, {movements: straight}, {movements: straight+right}], exits: 3, right: 12 %, left: 8 %}
   - {from: east, lanes: *three, exits: 3, right: 12 %, left: 8 %}
   - {from: south, lanes: [{movements: straight+left+right}], exits: 1}
   - {from: north, lanes: [{movements: straight+left+right}], exits: 1}
 - name: second
   x: 200 m
-  arms:
+  legs:
   - {from: west, lanes: &straight [{movements: straight}, {movements: straight}, {movements: straight}], exits: 3}
   - {from: east, lanes: *straight, exits: 3}
 )";
 
-// A scenario beside its network file.
+// Loads a scenario with a network file in the same folder.
 Scenario load(const std::string& streets, const std::vector<std::string>& overrides = {}) {
     const TemporaryFolder folder;
     folder.write("my_streets.yaml", streets);
@@ -44,8 +44,8 @@ TEST(Streets, AreReadFromAFileOfTheUser) {
     EXPECT_EQ(streets.name, "my_streets");
     ASSERT_EQ(streets.intersections.size(), 2u);
     EXPECT_EQ(streets.intersections[1].offset_s, 42.0);
-    EXPECT_EQ(streets.intersections[0].arms[1].lanes[2].movements, "straight+right");
-    EXPECT_EQ(streets.intersections[0].arms[1].right, 0.12);
+    EXPECT_EQ(streets.intersections[0].legs[1].lanes[2].movements, "straight+right");
+    EXPECT_EQ(streets.intersections[0].legs[1].right_share, 0.12);
     EXPECT_EQ(s.intersection_cycle_s(), 60.0);
 }
 
@@ -60,15 +60,16 @@ TEST(Streets, ReadBackFromTheirCanonicalText) {
 
 TEST(Streets, ProblemsNameFileLineAndField) {
     EXPECT_TRUE(contains(error_with("left: 8 %", "left: 90 %"),
-                         "my_streets.yaml:5:143: field 'network.streets.intersections[first].arms[0].left': left and "
-                         "right exceed 100 %"));
-    EXPECT_TRUE(contains(error_with("x: 200 m", "x: 30 m"),
-                         "my_streets.yaml:10:6: field 'network.streets.intersections[second].x': only 30 m from"));
+                         "my_streets.yaml:5:143: field 'network.streets.intersections[first].legs[0].left': left and "
+                         "right together exceed 100 %"));
+    EXPECT_TRUE(contains(
+        error_with("x: 200 m", "x: 30 m"),
+        "my_streets.yaml:10:6: field 'network.streets.intersections[second].x': the centre is only 30 m from"));
     EXPECT_TRUE(contains(error_with("movements: straight+left}", "movements: straight+left, pocket: 60}"),
                          "lanes[0].pocket': value '60' has no unit"));
     EXPECT_TRUE(contains(error_with("median: 4 m", "median: 4 m\nclearance: 5 m"),
                          "my_streets.yaml:2:12: field 'network.streets.clearance': value 5 m is too large for lanes of "
-                         "3.5 m, vehicles on neighbouring lanes would touch: at most 3 m"));
+                         "3.5 m: vehicles on neighbouring lanes would touch. The maximum is 3 m"));
     EXPECT_TRUE(contains(error_with("from: west", "from: left"), "value 'left' is unknown"));
     EXPECT_TRUE(
         contains(error_with("x: 200 m", "offset: 1 s\n  radius: 2 m"), "is out of range (allowed: 3 m to 100 m)"));
@@ -86,7 +87,7 @@ TEST(Streets, PocketsAreAsLongAsAVehicleAndItsGap) {
     };
     EXPECT_TRUE(contains(
         with("1 m"),
-        "my_streets.yaml:5:59: field 'network.streets.intersections[first].arms[0].lanes[0].pocket': value 1 m "
+        "my_streets.yaml:5:59: field 'network.streets.intersections[first].legs[0].lanes[0].pocket': value 1 m "
         "is too short for a vehicle of 5.15 m and its standstill gap: at least 8.1 m, or 0 m"));
     EXPECT_TRUE(contains(with("8 m"), "value 8 m is too short"));
     EXPECT_EQ(with("8.1 m"), "");
@@ -98,16 +99,17 @@ TEST(Streets, HaveTheirSignalsAndTurnsThemselves) {
     };
     EXPECT_EQ(with({}), "");
     EXPECT_TRUE(contains(with({"signal.green=20 s"}),
-                         "field 'signal' is used only where network.kind is approach or intersection or grid"));
+                         "field 'signal' applies only if network.kind is approach or intersection or grid"));
     EXPECT_TRUE(contains(with({"demand.left=5 %"}), "field 'demand.left': has no effect on streets"));
-    EXPECT_TRUE(contains(with({"demand.cross_turns=own"}), "field 'demand.cross_turns': has no effect on streets"));
+    EXPECT_TRUE(
+        contains(with({"demand.cross_turns=separate"}), "field 'demand.cross_turns': has no effect on streets"));
     EXPECT_TRUE(contains(with({"demand={kind: rate, inflow: 600 veh/h}"}), "field 'demand.kind': "));
     EXPECT_TRUE(
         contains(with({"demand={kind: saturated, cross_inflow: 600 veh/h}"}), "field 'demand.cross_inflow': is for"));
     EXPECT_TRUE(contains(with({"network.streets.intersections[first].offset=0.005 s"}), "not a whole number of steps"));
 }
 
-// Table 3 of the paper, row by row: seven steps, offset, turns of the major and the minor street.
+// The rows of Table 3 in the paper: seven steps, offset, turn shares of the major and the minor street.
 TEST(Berlin, IsThatOfTable3) {
     struct Row {
         const char* name;
@@ -139,19 +141,19 @@ TEST(Berlin, IsThatOfTable3) {
             EXPECT_EQ(nodes[k].programme.steps_s(), rows[k].steps_s) << rows[k].name;
             EXPECT_EQ(nodes[k].programme.cycle_s(), 60.0) << rows[k].name;
             EXPECT_EQ(nodes[k].offset_s, rows[k].offset_s) << rows[k].name;
-            for (const StreetArm& arm : nodes[k].arms) {
-                const bool major = arm.from == "west" || arm.from == "east";
-                EXPECT_EQ(arm.right, major ? rows[k].right : rows[k].minor_right) << rows[k].name;
-                EXPECT_EQ(arm.left, major ? rows[k].left : rows[k].minor_left) << rows[k].name;
+            for (const StreetLeg& leg : nodes[k].legs) {
+                const bool major = leg.from == "west" || leg.from == "east";
+                EXPECT_EQ(leg.right_share, major ? rows[k].right : rows[k].minor_right) << rows[k].name;
+                EXPECT_EQ(leg.left_share, major ? rows[k].left : rows[k].minor_left) << rows[k].name;
                 if (major) {
-                    EXPECT_EQ(arm.exits, std::string(network) == "three_lanes" ? 3 : 4) << rows[k].name;
+                    EXPECT_EQ(leg.exits, std::string(network) == "three_lanes" ? 3 : 4) << rows[k].name;
                 }
             }
         }
     }
 }
 
-// From one to the next in Table 3; OpenStreetMap, whose positions are used, differs by at most 5 m.
+// Distances between neighbours in Table 3. The positions are from OpenStreetMap and differ by at most 5 m.
 TEST(Berlin, HasTheDistancesOfTable3) {
     constexpr std::array<double, 9> kTable_m{500, 160, 390, 290, 250, 280, 160, 210, 160};
     const Scenario s = load_scenario(shipped("scenarios/berlin.yaml"));

@@ -3,11 +3,11 @@
 #include <functional>
 #include <string>
 
-#include "scenario/field_table.h"
+#include "scenario/schema/field_table.h"
 
 namespace stopline {
 
-// Visits every row reachable from a table, with its path; lists appear as name[].
+// Visits every row reachable from a table, with its path. A list has the path name[].
 inline void visit_rows(const Table& table, const std::string& path,
                        const std::function<void(const Table&, const Field&, const std::string&)>& visit) {
     for (const Field& field : table.fields) {

@@ -1,10 +1,10 @@
-// What is derived from the table of fields besides reading: canonical text, hash, list of fields.
+// Tests of the other uses of the field tables: canonical text, hash and list of fields.
 #include <gtest/gtest.h>
 
 #include <regex>
 
-#include "scenario/fields.h"
 #include "scenario/scenario_text.h"
+#include "scenario/schema/fields.h"
 #include "scenario/visit_rows.h"
 
 namespace stopline {
@@ -59,25 +59,25 @@ TEST(Hash, DependsOnContentAndNotOnHowItIsWritten) {
 TEST(Tables, AreWellFormed) {
     visit_rows(scenario_table(), "", [](const Table& table, const Field& field, const std::string& path) {
         EXPECT_TRUE(std::regex_match(field.name, std::regex("[a-z][a-z0-9_]*"))) << path;
-        EXPECT_NE(field.name, "base") << path;  // has a meaning of its own
+        EXPECT_NE(field.name, "base") << path;  // the name of a base file
         EXPECT_EQ(std::count_if(table.fields.begin(), table.fields.end(),
                                 [&](const Field& f) { return f.name == field.name; }),
                   1)
             << path;
         EXPECT_FALSE(field.required && !field.fallback.empty()) << path;
-        if (field.only_field.empty()) return;
-        // The choice that a field depends on is read before it.
-        const auto dot = field.only_field.find('.');  // then the choice is one of a section
-        const Field* choice = table.find(field.only_field.substr(0, dot));
+        if (field.condition_field.empty()) return;
+        // The choice that a field depends on comes before it.
+        const auto dot = field.condition_field.find('.');  // the choice is in a section
+        const Field* choice = table.find(field.condition_field.substr(0, dot));
         ASSERT_NE(choice, nullptr) << path;
         EXPECT_LT(choice, &field) << path;
         if (dot != std::string::npos) {
-            choice = std::get<SectionField>(choice->kind).table().find(field.only_field.substr(dot + 1));
+            choice = std::get<SectionField>(choice->kind).table().find(field.condition_field.substr(dot + 1));
             ASSERT_NE(choice, nullptr) << path;
         }
         const auto* const names = std::get_if<ChoiceField>(&choice->kind);
         ASSERT_NE(names, nullptr) << path;
-        for (const std::string& value : field.only_values) {
+        for (const std::string& value : field.condition_values) {
             EXPECT_NE(std::find(names->names.begin(), names->names.end(), value), names->names.end()) << path;
         }
     });

@@ -1,4 +1,4 @@
-#include "scenario/yaml_source.h"
+#include "scenario/yaml/yaml_source.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -67,18 +67,18 @@ TEST(YamlSource, RefusesWhatIsNotText) {
                     "a: 1\n")
                   .find("a")
                   ->text,
-              "1");  // a byte order mark
+              "1");  // after a byte order mark
     EXPECT_EQ(parse("a: 1\r\nb: 2\r\n").find("b")->text, "2");
 }
 
-// Each hostile text must be refused soon, whatever it would unfold to.
+// Each hostile text must be refused quickly, whatever its expanded size.
 class HostileYaml : public ::testing::Test {
 protected:
     void expect_refused(const std::string& text, const std::string& reason) {
         const auto start = std::chrono::steady_clock::now();
         EXPECT_TRUE(contains(refusal(text), reason));
         const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-        EXPECT_LT(taken.count(), 10.0);  // a fraction of a second; slack for sanitizers and busy machines
+        EXPECT_LT(taken.count(), 10.0);  // usually below 1 s; the limit allows for sanitizers and busy machines
     }
 };
 
@@ -144,7 +144,7 @@ TEST(YamlFile, RefusesWhatCannotBeRead) {
     EXPECT_TRUE(contains(of("/dev/zero"), "is not a file that can be read"));
     const auto pipe = folder.path() / "pipe.yaml";
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-    EXPECT_TRUE(contains(of(pipe), "is not a file that can be read"));  // and it does not wait for a writer
+    EXPECT_TRUE(contains(of(pipe), "is not a file that can be read"));  // without waiting for a writer
     const auto loop = folder.path() / "loop.yaml";
     std::filesystem::create_symlink(loop, loop);
     EXPECT_NE(of(loop), "");
@@ -158,7 +158,7 @@ TEST(YamlFile, RefusesWhatCannotBeRead) {
 TEST(YamlFile, RefusesAHugeFileUnread) {
     const TemporaryFolder folder;
     const auto file = folder.write("huge.yaml", "");
-    std::filesystem::resize_file(file, std::uintmax_t{5} << 40u);  // 5 TB of nothing
+    std::filesystem::resize_file(file, std::uintmax_t{5} << 40u);  // an empty file of 5 TB
     EXPECT_TRUE(contains(input_error_of([&] { read_yaml_file(file); }), "at most 4.0 MB"));
 }
 

@@ -1,4 +1,4 @@
-// Fixed-time programmes against a timeline written out tick by tick.
+// Tests of fixed-time programmes against a timeline that lists every tick.
 #include "signals/programme.h"
 
 #include <gtest/gtest.h>
@@ -30,14 +30,14 @@ const Case kCases[] = {
 };
 constexpr std::int64_t kTicks = 20'000;
 
-// The light of each tick and the tick at which its stage began: red up to the offset, the stages one after another, and
-// again or red for ever.
+// The light of each tick and the tick at which its stage began. The light is red before the offset, and stays red after
+// a programme that does not repeat.
 struct Timeline {
     std::vector<Light> light;
     std::vector<std::int64_t> since;
 };
 
-Timeline written_out(const Case& c) {
+Timeline timeline_of(const Case& c) {
     Timeline line;
     const auto append = [&](Light light, std::int64_t ticks, std::int64_t since) {
         for (std::int64_t k = 0; k < ticks; ++k) {
@@ -58,22 +58,22 @@ Timeline written_out(const Case& c) {
 class Programme : public testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(Timelines, Programme, testing::ValuesIn(kCases));
 
-TEST_P(Programme, ShowsTheLightOfTheTimeline) {
+TEST_P(Programme, MatchesTheTimeline) {
     const GroupProgramme programme(GetParam().stages, GetParam().offset, GetParam().repeats);
-    const Timeline line = written_out(GetParam());
+    const Timeline line = timeline_of(GetParam());
     for (std::int64_t tick = 0; tick < kTicks; ++tick) {
         ASSERT_EQ(programme.light(tick), line.light[static_cast<std::size_t>(tick)]) << tick;
-        ASSERT_EQ(programme.since(tick), line.since[static_cast<std::size_t>(tick)]) << tick;
+        ASSERT_EQ(programme.light_start_tick(tick), line.since[static_cast<std::size_t>(tick)]) << tick;
     }
 }
 
-TEST_P(Programme, CountsItsCycle) {
+TEST_P(Programme, ReportsItsCycle) {
     std::int64_t sum = 0;
     for (const Stage& stage : GetParam().stages) sum += stage.ticks;
     EXPECT_EQ(GroupProgramme(GetParam().stages, GetParam().offset, GetParam().repeats).cycle_ticks(), sum);
 }
 
-TEST(Programme, RefusesStagesWithoutTime) {
+TEST(Programme, RefusesStagesWithoutDuration) {
     EXPECT_THROW(GroupProgramme({}, 0, true), InputError);
     EXPECT_THROW(GroupProgramme({{0, Light::green}}, 0, true), InputError);
     EXPECT_THROW(GroupProgramme({{5, Light::green}, {-1, Light::red}}, 0, true), InputError);

@@ -1,4 +1,4 @@
-// Programmes in seven steps, tick by tick.
+// Tests of seven-step programmes, tick by tick.
 #include <gtest/gtest.h>
 
 #include "signals/programme.h"
@@ -11,12 +11,12 @@ const SevenSteps kProtected{22, 3, 8, 3, 11, 3, 10};
 const SevenSteps kPlain{24, 3, 9, 0, 12, 3, 9};
 const SevenSteps kNoClearance{20, 0, 0, 5, 15, 0, 0};
 
-// Written out from the definition.
+// Returns the lights of the three groups at a tick, directly from the definition of the seven steps.
 std::array<Light, 3> lights_at(const SevenSteps& s, double offset_s, std::int64_t tick) {
     const std::int64_t cycle = to_ticks(s.cycle_s(), kStep_s);
-    std::int64_t place = ((tick - to_ticks(offset_s, kStep_s)) % cycle + cycle) % cycle;
+    std::int64_t cycle_tick = ((tick - to_ticks(offset_s, kStep_s)) % cycle + cycle) % cycle;
     std::size_t step = 0;
-    while (place >= to_ticks(s.steps_s()[step], kStep_s)) place -= to_ticks(s.steps_s()[step++], kStep_s);
+    while (cycle_tick >= to_ticks(s.steps_s()[step], kStep_s)) cycle_tick -= to_ticks(s.steps_s()[step++], kStep_s);
     using enum Light;
     switch (step) {
         case 0:
@@ -34,7 +34,7 @@ std::array<Light, 3> lights_at(const SevenSteps& s, double offset_s, std::int64_
     }
 }
 
-TEST(SevenSteps, AreAsWrittenOutForAnyOffset) {
+TEST(SevenSteps, MatchTheDefinitionForAnyOffset) {
     for (const SevenSteps& steps : {kProtected, kPlain, kNoClearance}) {
         for (const double offset_s : {0.0, 19.0, 40.0, 54.0, 60.0, 119.0, 1000.0}) {
             const std::array<GroupProgramme, 3> groups = make_seven_steps(steps, offset_s, kStep_s);
@@ -49,7 +49,7 @@ TEST(SevenSteps, AreAsWrittenOutForAnyOffset) {
     }
 }
 
-TEST(SevenSteps, GiveNobodyGreenTogetherWithTheMinorStreet) {
+TEST(SevenSteps, SeparateTheMinorStreetFromTheMajorStreet) {
     for (const SevenSteps& steps : {kProtected, kPlain}) {
         const std::array<GroupProgramme, 3> groups = make_seven_steps(steps, 31.0, kStep_s);
         std::array<std::int64_t, 3> green{};
@@ -65,23 +65,23 @@ TEST(SevenSteps, GiveNobodyGreenTogetherWithTheMinorStreet) {
     }
 }
 
-// A light is as old as it says, also where it began before the run.
-TEST(SevenSteps, KnowSinceWhenALightIsOn) {
+// light_start_tick() gives the start of the light also if it lies before the run.
+TEST(SevenSteps, ReportWhenALightStarted) {
     for (const double offset_s : {0.0, 19.0, 54.0}) {
         for (const GroupProgramme& group : make_seven_steps(kProtected, offset_s, kStep_s)) {
             EXPECT_EQ(group.cycle_ticks(), 600);
             for (std::int64_t tick = 0; tick < 1300; ++tick) {
-                const std::int64_t since = group.since(tick);
-                ASSERT_LE(since, tick);
-                ASSERT_GT(since, tick - 600);
-                for (std::int64_t t = since; t <= tick; ++t) ASSERT_EQ(group.light(t), group.light(tick)) << tick;
-                ASSERT_NE(group.light(since + 599), group.light(since + 600)) << tick;
+                const std::int64_t start = group.light_start_tick(tick);
+                ASSERT_LE(start, tick);
+                ASSERT_GT(start, tick - 600);
+                for (std::int64_t t = start; t <= tick; ++t) ASSERT_EQ(group.light(t), group.light(tick)) << tick;
+                ASSERT_NE(group.light(start + 599), group.light(start + 600)) << tick;
             }
         }
     }
 }
 
-TEST(SevenSteps, OfSeveralIntersectionsAreInOrder) {
+TEST(SevenSteps, KeepTheOrderOfTheIntersections) {
     StreetSettings streets;
     streets.intersections.resize(2);
     streets.intersections[1].programme = kProtected;

@@ -1,4 +1,4 @@
-// From what a user says of a light to its programme.
+// Tests of make_single_light(): from signal settings to a programme.
 #include <gtest/gtest.h>
 
 #include "base/input_error.h"
@@ -19,7 +19,7 @@ SignalSettings intersection() {
     return s;
 }
 
-// The light at a time between two ticks, whatever the step.
+// Returns the light in the step that contains a time. 1e-6 absorbs rounding errors.
 Light light_at(const SignalSettings& s, double time_s, double step_s) {
     return make_single_light(s, step_s).light(static_cast<std::int64_t>(time_s / step_s + 1e-6));
 }
@@ -38,7 +38,7 @@ TEST(SingleLight, RepeatsItsCycleFromTheFirstGreen) {
     }
 }
 
-TEST(SingleLight, WithoutACycleIsGreenOnce) {
+TEST(SingleLight, IsGreenOnceWithoutACycle) {
     SignalSettings s = intersection();
     s.cycle_s = 0.0;
     for (const double step : kSteps) {
@@ -49,7 +49,7 @@ TEST(SingleLight, WithoutACycleIsGreenOnce) {
     }
 }
 
-TEST(SingleLight, MayDoWithoutYellow) {
+TEST(SingleLight, WorksWithoutYellow) {
     SignalSettings s = intersection();
     s.yellow_s = 0.0;
     EXPECT_EQ(light_at(s, 12.3 + 15.0, 0.01), Light::red);
@@ -66,13 +66,13 @@ TEST(SingleLight, RefusesACycleThatIsTooShort) {
     EXPECT_THROW(make_single_light(s, 0.01), InputError);
 }
 
-TEST(SingleLight, RefusesAGreenWithoutTime) {
+TEST(SingleLight, RefusesAZeroGreenTime) {
     SignalSettings s = intersection();
     s.green_s = 0.0;
     EXPECT_THROW(make_single_light(s, 0.01), InputError);
 }
 
-// 0.15 / 0.01 is not 15 in binary: ticks are rounded, never cut off.
+// In binary, 0.15 / 0.01 is not exactly 15. Ticks must be rounded, not truncated.
 TEST(Ticks, AreRounded) {
     for (int k = 0; k < 100'000; ++k) {
         ASSERT_EQ(to_ticks(k * 0.01, 0.01), k);

@@ -66,7 +66,7 @@ TEST_P(Bumpless, RequestsKeepToTheJerkLimits) {
         before = std::move(now);
     }
     EXPECT_GT(fastest, 12.0);
-    EXPECT_GT(track.state().passages.size(), 3u);
+    EXPECT_GT(track.state().records.passages.size(), 3u);
     EXPECT_GT(track.count(0), 10) << "cut by the signal";
 }
 

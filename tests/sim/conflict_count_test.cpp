@@ -5,12 +5,16 @@
 #include <cmath>
 #include <string>
 
+#include "base/containers/index.h"
+#include "sim/junction/occupants.h"
+#include "sim/junction/right_of_way.h"
+#include "sim/step/occupied_lanes.h"
+#include "sim/step/partition_reports.h"
 #include "support/track.h"
 
 namespace stopline {
 namespace {
 
-using testing_support::at;
 using testing_support::Track;
 
 // The reference intersection without vehicles.
@@ -52,19 +56,19 @@ protected:
         State& state = track_.editable();
         const std::size_t slot = at(state.blocks[at(on)].last());
         state.vehicles.next_lane[slot] = on == road.origin ? number : -1;
-        state.vehicles.record[slot].came_from = number;
-        state.vehicles.record[slot].inside_since = static_cast<int>(state.tick) - inside;
+        state.vehicles.record[slot].previous_lane = number;
+        state.vehicles.record[slot].junction_entry_tick = static_cast<int>(state.tick) - inside;
     }
 
     // How many more after one step.
     std::int64_t counted() {
-        const std::int64_t before = track_.state().violations.conflicts;
+        const std::int64_t before = track_.state().records.violations.conflicts;
         State& state = track_.editable();
-        find_occupied_lanes(state, state.parts[0]);
-        find_insiders(state, state.parts[0]);
-        give_way(track_.model(), state, state.parts[0]);
-        gather_reports(state);
-        return state.violations.conflicts - before;
+        find_occupied_lanes(state, state.queues, state.partitions[0]);
+        find_junction_occupants(state, state.junctions, state.partitions[0]);
+        decide_right_of_way(track_.model(), state, state.partitions[0]);
+        merge_partition_reports(state);
+        return state.records.violations.conflicts - before;
     }
 
     double length_m() const { return track_.model().vehicles[0].length_m; }
@@ -79,23 +83,23 @@ TEST_F(ConflictCount, IsOneForAPairInItsAreaInEachStep) {
     place("south_0_straight", c.other_from_m + 0.1);
     EXPECT_EQ(counted(), 1);
     EXPECT_EQ(counted(), 1) << "the next step";
-    EXPECT_FALSE(track_.state().violations.none());
+    EXPECT_FALSE(track_.state().records.violations.none());
 }
 
 TEST_F(ConflictCount, SaysWhereTheFirstWasSeen) {
     const Conflict c = conflict("west_0_straight", "south_0_straight");
     place("west_0_straight", c.from_m + 0.1);
     place("south_0_straight", c.other_from_m + 0.1);
-    EXPECT_LT(track_.state().violations.first.time_s, 0.0);
+    EXPECT_LT(track_.state().records.violations.first.time_s, 0.0);
     counted();
-    const Sighting first = track_.state().violations.first;
-    EXPECT_EQ(first.kind, Sighting::Kind::conflict);
+    const Violation first = track_.state().records.violations.first;
+    EXPECT_EQ(first.kind, Violation::Kind::conflict);
     EXPECT_DOUBLE_EQ(first.time_s, track_.model().time_s(1000));
     EXPECT_EQ(first.lane, std::min(lane("west_0_straight"), lane("south_0_straight")));
     EXPECT_EQ(std::minmax(first.vehicle, first.other), std::minmax(0, 1));
     ++track_.editable().tick;
     counted();
-    EXPECT_DOUBLE_EQ(track_.state().violations.first.time_s, first.time_s) << "not the first";
+    EXPECT_DOUBLE_EQ(track_.state().records.violations.first.time_s, first.time_s) << "not the first";
 }
 
 // A vehicle half a metre inside the one ahead of it.
@@ -109,9 +113,9 @@ TEST(Overlap, IsSeenOnItsLane) {
         track.place(lane, 60.0, 0.0);
         track.place(lane, 60.5 - track.model().vehicles[0].length_m, 0.0);
         track.simulation().step();
-        const Sighting first = track.state().violations.first;
-        EXPECT_GT(track.state().violations.overlaps, 0) << meso;
-        EXPECT_EQ(first.kind, Sighting::Kind::overlap) << meso;
+        const Violation first = track.state().records.violations.first;
+        EXPECT_GT(track.state().records.violations.overlaps, 0) << meso;
+        EXPECT_EQ(first.kind, Violation::Kind::overlap) << meso;
         EXPECT_DOUBLE_EQ(first.time_s, track.model().step_s) << meso;
         EXPECT_EQ(first.lane, lane) << meso;
         EXPECT_EQ(first.vehicle, 1) << meso;
@@ -159,16 +163,16 @@ TEST_F(ConflictCount, LongestInsideIsOfTheFirstOfALaneAndStays) {
     place("west_0_straight", 20.0, 120);
     place("west_0_straight", -0.5, 40);  // past its stop line, on the stretch that movements share
     counted();
-    EXPECT_EQ(track_.state().longest_inside, 120);
+    EXPECT_EQ(track_.state().records.longest_in_junction, 120);
     track_.editable().tick += 30;
     counted();
-    EXPECT_EQ(track_.state().longest_inside, 150);
+    EXPECT_EQ(track_.state().records.longest_in_junction, 150);
     track_.editable().blocks[at(lane("west_0_straight"))].count = 0;  // gone; the other has been there for 70
     counted();
-    EXPECT_EQ(track_.state().longest_inside, 150);
+    EXPECT_EQ(track_.state().records.longest_in_junction, 150);
     track_.editable().tick += 100;
     counted();
-    EXPECT_EQ(track_.state().longest_inside, 170);
+    EXPECT_EQ(track_.state().records.longest_in_junction, 170);
 }
 
 }  // namespace

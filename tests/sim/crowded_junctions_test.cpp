@@ -4,15 +4,15 @@
 
 #include <string>
 
-#include "experiment/network_run.h"
+#include "runs/network/network_run.h"
 #include "scenario/load_scenario.h"
 
 namespace stopline {
 namespace {
 
 void expect_nobody_meets(const std::string& text) {
-    const NetworkFigures figures = run_network(parse_scenario(text, "test.yaml"), 0);
-    EXPECT_GT(figures.left_network, 50);
+    const NetworkResult figures = run_network(parse_scenario(text, "test.yaml"), 0);
+    EXPECT_GT(figures.exited, 50);
     EXPECT_EQ(figures.violations.overlaps, 0);
     EXPECT_EQ(figures.violations.conflicts, 0);
     EXPECT_TRUE(figures.violations.none());

@@ -5,14 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "experiment/build_model.h"
+#include "base/containers/index.h"
+#include "scenario/build_model.h"
 #include "scenario/load_scenario.h"
-#include "sim/simulation.h"
+#include "sim/step/simulation.h"
 
 namespace stopline {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 constexpr double kEnd_s = 400.0;
 // Between vehicles with priority as they enter: shorter and longer than the critical gap.
@@ -67,7 +66,7 @@ protected:
         for (const int on : {other_, origin}) {
             const double to_m = area_m + (on == origin ? model_.graph.lanes[at(origin)].length_m : 0.0);
             const VehicleArrays& v = state.vehicles;
-            for (int slot = state.blocks[at(on)].first; slot < state.blocks[at(on)].stop(); ++slot) {
+            for (int slot = state.blocks[at(on)].first; slot < state.blocks[at(on)].past_last(); ++slot) {
                 all.push_back({v.id[at(slot)], to_m - v.position_m[at(slot)], v.speed_mps[at(slot)]});
             }
         }
@@ -76,7 +75,7 @@ protected:
 
     // A left turner before the area; that may be on the stretch which its entry lane shares among movements.
     bool waits(const State& state) const {
-        return state.holds[at(turner_)].count > 0 || state.holds[at(model_.graph.lanes[at(turner_)].origin)].count > 0;
+        return state.junctions.yield_stops[at(turner_)].count > 0 || state.junctions.yield_stops[at(model_.graph.lanes[at(turner_)].origin)].count > 0;
     }
 
     Model model_;
@@ -106,12 +105,12 @@ TEST_P(GapAcceptance, TakesTheLongGapsAndRefusesTheShortOnes) {
     const State& state = simulation.state();
     while (simulation.time_s() < kEnd_s) {
         if (simulation.time_s() >= next_s) next_s += kHeadways_s[at(static_cast<int>(released++)) % 11];
-        const std::size_t decided = state.gaps_accepted.size();
+        const std::size_t decided = state.records.gaps_accepted.size();
         const double time_s = simulation.time_s();
         const std::vector<Oncoming> seen = oncoming(state, area_m);
         simulation.step();
-        awaited = awaited && waits(state) && state.gaps_accepted.size() == decided;
-        if (state.gaps_accepted.size() > decided) {
+        awaited = awaited && waits(state) && state.records.gaps_accepted.size() == decided;
+        if (state.records.gaps_accepted.size() > decided) {
             accepted_s.push_back(time_s);
             const auto next = std::find_if(seen.begin(), seen.end(), [](auto& one) { return one.distance_m > 0.0; });
             // One that has braked for the turner before may still gain speed: it says nothing here.
@@ -127,7 +126,7 @@ TEST_P(GapAcceptance, TakesTheLongGapsAndRefusesTheShortOnes) {
             awaited = true;
         }
     }
-    EXPECT_TRUE(state.violations.none());
+    EXPECT_TRUE(state.records.violations.none());
     EXPECT_GE(between, 15);
     for (const double went_s : accepted_s) {
         const auto next = std::find_if(arrivals.begin(), arrivals.end(), [&](auto& a) { return a.time_s > went_s; });

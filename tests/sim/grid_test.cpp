@@ -5,15 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "experiment/build_model.h"
-#include "experiment/network_run.h"
+#include "base/containers/index.h"
+#include "scenario/build_model.h"
+#include "runs/network/network_run.h"
 #include "scenario/load_scenario.h"
-#include "sim/simulation.h"
+#include "sim/step/simulation.h"
 
 namespace stopline {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 Scenario calibration(const std::vector<std::string>& overrides) {
     return load_scenario(STOPLINE_SOURCE_DIR "/scenarios/calibration.yaml", overrides);
@@ -29,7 +28,7 @@ TEST(Inflow, ComesEvenlyAtItsRate) {
     std::vector<double> entry_s(model.graph.lanes.size(), -1.0);
     simulation.run_until(1200.0);
     int vehicles = 0;
-    for (const Passage& passage : simulation.state().passages) {
+    for (const Passage& passage : simulation.state().records.passages) {
         if (passage.from_lane >= 0) continue;
         ++vehicles;
         double& before_s = entry_s[at(passage.to_lane)];
@@ -39,7 +38,7 @@ TEST(Inflow, ComesEvenlyAtItsRate) {
         before_s = passage.time_s;
     }
     EXPECT_NEAR(vehicles, 8 * 2 * 100, 16);
-    EXPECT_TRUE(simulation.state().violations.none());
+    EXPECT_TRUE(simulation.state().records.violations.none());
 }
 
 // Streets that cross with a rate of their own: one vehicle every 36 s a lane of theirs, while the others never run dry.
@@ -53,12 +52,12 @@ TEST(Inflow, OfStreetsThatCrossIsTheirOwn) {
     for (std::size_t k = 0; k < model.graph.entries.size(); ++k) {
         const Lane& lane = model.graph.lanes[at(model.graph.entries[k])];
         if (lane.signal_group % 2 == 1) {
-            EXPECT_NEAR(static_cast<double>(state.inlets[k].entered), 50.0, 1.0) << lane.name;
+            EXPECT_NEAR(static_cast<double>(state.insertion.inlets[k].entered), 50.0, 1.0) << lane.name;
         } else {
-            EXPECT_GT(state.inlets[k].entered, 150) << lane.name;
+            EXPECT_GT(state.insertion.inlets[k].entered, 150) << lane.name;
         }
     }
-    EXPECT_TRUE(state.violations.none());
+    EXPECT_TRUE(state.records.violations.none());
 }
 
 // Where nobody can go straight on, shares are in proportion to each other.
@@ -84,14 +83,14 @@ TEST(Inflow, BetweenTwoIntersectionsFindsItsPlaceAndIsMeasured) {
         for (const char* const arms : {"[c0r1_south]", "[c0r0_south, c0r1_south]"}) {
             Scenario scenario = load_scenario(
                 STOPLINE_SOURCE_DIR "/scenarios/grid.yaml",
-                {"network.grid.columns=2", "network.grid.rows=2", "duration=400 s", "measure.steady=400 s",
-                 std::string("fidelity=") + fidelity, std::string("demand.arms=") + arms});
-            const NetworkFigures figures = run_network(scenario, 0, {}, 1, {});
+                {"network.grid.columns=2", "network.grid.rows=2", "duration=400 s", "measure.window=400 s",
+                 std::string("fidelity=") + fidelity, std::string("demand.approaches=") + arms});
+            const NetworkResult figures = run_network(scenario, 0, {}, 1, {});
             EXPECT_TRUE(figures.violations.none()) << fidelity << arms;
-            EXPECT_GT(figures.left_network, 50) << fidelity << arms;
+            EXPECT_GT(figures.exited, 50) << fidelity << arms;
             std::int64_t measured = 0;
-            for (const NetworkInterval& interval : figures.series) measured += interval.area.left;
-            EXPECT_GT(measured, figures.left_network / 2) << fidelity << arms;
+            for (const NetworkInterval& interval : figures.series) measured += interval.area.exited;
+            EXPECT_GT(measured, figures.exited / 2) << fidelity << arms;
         }
     }
 }
@@ -106,8 +105,8 @@ TEST(Inflow, ThatIsLightIsNeverInTheSameConflictArea) {
     const Model model = build_model(scenario, 2);
     Simulation simulation(model);
     simulation.run_until(2000.0);
-    EXPECT_GT(simulation.state().gaps_accepted.size(), 100U);
-    EXPECT_TRUE(simulation.state().violations.none());
+    EXPECT_GT(simulation.state().records.gaps_accepted.size(), 100U);
+    EXPECT_TRUE(simulation.state().records.violations.none());
 }
 
 // One that has accepted a gap and is held up beyond the area must not lose it before it has used it: here, at 3,908 s, another came.
@@ -118,7 +117,7 @@ TEST(Saturated, SlowTrafficIsNeverInTheSameConflictArea) {
     const Model model = network_model(scenario, 2);
     Simulation simulation(model);
     simulation.run_until(3910.0);
-    EXPECT_TRUE(simulation.state().violations.none());
+    EXPECT_TRUE(simulation.state().records.violations.none());
 }
 
 // Coordinated signals run in every cycle: the farthest intersection does not stay red until its offsets add up, and each is green later
@@ -134,7 +133,7 @@ TEST(Signals, OfAGridAreAllGreenWithinTheFirstCycle) {
         while (model.signals[group].light(tick) != Light::green) ++tick;
         return tick;
     };
-    const std::vector<GridPlace> places = grid_places(scenario.network.grid);
+    const std::vector<GridPosition> places = grid_positions(scenario.network.grid);
     ASSERT_EQ(model.signals.size(), 2 * places.size());
     for (std::size_t k = 0; k < places.size(); ++k) {
         EXPECT_LE(first_green(2 * k), cycle + to_ticks(1.0, model.step_s));
@@ -169,10 +168,10 @@ TEST_P(OnGrid, SlowEveryVehicleOfAQueueComesThroughWithoutHarm) {
         const Scenario scenario = calibration({std::string("fidelity=") + GetParam(), green, "signal.offset=15 s"});
         const Model model = build_model(scenario, 4);
         Simulation simulation(model);
-        while (simulation.time_s() < 1000.0 && simulation.state().left < 36) simulation.step();
-        EXPECT_EQ(simulation.state().entered, 36);
-        EXPECT_EQ(simulation.state().left, 36);
-        EXPECT_TRUE(simulation.state().violations.none());
+        while (simulation.time_s() < 1000.0 && simulation.state().records.exited < 36) simulation.step();
+        EXPECT_EQ(simulation.state().records.entered, 36);
+        EXPECT_EQ(simulation.state().records.exited, 36);
+        EXPECT_TRUE(simulation.state().records.violations.none());
     }
 }
 
@@ -182,16 +181,16 @@ TEST_P(OnGrid, SlowTurnsHaveTheirShareBehindEveryIntersection) {
     constexpr int kVehicles = 300;  // a lane
     Scenario scenario =
         calibration({std::string("fidelity=") + GetParam(), "signal.green=20 s", "demand.vehicles=300"});
-    scenario.demand.arms = {"c1r0_south"};
-    scenario.demand.left = scenario.demand.right = 0.2;
+    scenario.demand.approaches = {"c1r0_south"};
+    scenario.demand.left_share = scenario.demand.right_share = 0.2;
     const Model model = build_model(scenario, 0);
     Simulation simulation(model);
-    while (simulation.time_s() < 4000.0 && simulation.state().left < 2 * kVehicles) simulation.step();
-    EXPECT_EQ(simulation.state().left, 2 * kVehicles);
-    EXPECT_TRUE(simulation.state().violations.none());
+    while (simulation.time_s() < 4000.0 && simulation.state().records.exited < 2 * kVehicles) simulation.step();
+    EXPECT_EQ(simulation.state().records.exited, 2 * kVehicles);
+    EXPECT_TRUE(simulation.state().records.violations.none());
     std::vector<int> turned(model.graph.lanes.size(), 0);
     std::vector<int> passed(model.graph.lanes.size(), 0);
-    for (const Passage& passage : simulation.state().passages) {
+    for (const Passage& passage : simulation.state().records.passages) {
         if (passage.to_lane < 0 || model.graph.lanes[at(passage.to_lane)].origin < 0) continue;
         const Lane& inside = model.graph.lanes[at(passage.to_lane)];
         ++passed[at(inside.origin)];
@@ -215,12 +214,12 @@ TEST(Inflow, EntersOrWaits) {
         const Scenario scenario = load_scenario(
             STOPLINE_SOURCE_DIR "/scenarios/grid.yaml",
             {"demand={kind: rate, left: 5 %, right: 10 %, inflow: " + std::to_string(inflow_veh_h) + " veh/h}",
-             "network.grid.columns=2", "network.grid.rows=2", "duration=900 s", "measure.steady=300 s"});
-        const NetworkFigures figures = run_network(scenario, 0);
+             "network.grid.columns=2", "network.grid.rows=2", "duration=900 s", "measure.window=300 s"});
+        const NetworkResult figures = run_network(scenario, 0);
         constexpr double kArms = 8.0;
         constexpr double kLanes = 16.0;  // each of which may have one more or less
-        EXPECT_NEAR(static_cast<double>(figures.entered + figures.waiting), kArms * inflow_veh_h * 0.25, kLanes);
-        EXPECT_EQ(figures.waiting > 100, inflow_veh_h > 1000.0) << figures.waiting;
+        EXPECT_NEAR(static_cast<double>(figures.entered + figures.backlog), kArms * inflow_veh_h * 0.25, kLanes);
+        EXPECT_EQ(figures.backlog > 100, inflow_veh_h > 1000.0) << figures.backlog;
     }
 }
 

@@ -1,5 +1,5 @@
 // Who waits for whom, and why: vehicles placed by hand on two intersections, the watch called once; and the rules, in runs.
-#include "sim/hindrance.h"
+#include "sim/congestion/delay_causes.h"
 
 #include <gtest/gtest.h>
 
@@ -9,14 +9,18 @@
 #include <string>
 #include <vector>
 
-#include "experiment/network_run.h"
-#include "sim/arrivals.h"
+#include "base/containers/index.h"
+#include "runs/network/network_run.h"
+#include "sim/junction/arrivals.h"
+#include "sim/junction/occupants.h"
+#include "sim/junction/right_of_way.h"
+#include "sim/junction/stop_lines.h"
+#include "sim/step/occupied_lanes.h"
 #include "support/track.h"
 
 namespace stopline {
 namespace {
 
-using testing_support::at;
 using testing_support::Track;
 
 Scenario arterial(const std::vector<std::string>& overrides = {}) {
@@ -31,8 +35,8 @@ protected:
     void set_lights() {
         state().tick = 1000;
         // Streets from west to east have green.
-        for (std::size_t group = 0; group < state().lights.size(); ++group) {
-            state().lights[group] = group % 2 == 0 ? Light::green : Light::red;
+        for (std::size_t group = 0; group < state().stop_lines.lights.size(); ++group) {
+            state().stop_lines.lights[group] = group % 2 == 0 ? Light::green : Light::red;
         }
     }
 
@@ -59,7 +63,7 @@ protected:
         const int on = lane(name);
         track_.place(on, front_m, speed_mps);
         const std::size_t slot = at(state().blocks[at(on)].last());
-        state().vehicles.stands_since[slot] = static_cast<int>(state().tick);
+        state().vehicles.stopped_since[slot] = static_cast<int>(state().tick);
         const Lane& road = track_.model().graph.lanes[at(on)];
         const std::string leads_to =
             next.empty() && road.origin >= 0 ? track_.model().graph.lanes[at(road.next[0])].name : next;
@@ -88,15 +92,15 @@ protected:
 
     void look() {
         const Model& model = track_.model();
-        NetworkPart& all = state().parts[0];
-        find_occupied_lanes(state(), all);
-        find_insiders(state(), all);
-        decide_stops(model, state(), all);
-        give_way(model, state(), all);
-        watch_hindrance(model, state());
+        Partition& all = state().partitions[0];
+        find_occupied_lanes(state(), state().queues, all);
+        find_junction_occupants(state(), state().junctions, all);
+        decide_stop_lines(model, state(), all);
+        decide_right_of_way(model, state(), all);
+        watch_delays(model, state());
     }
 
-    double lost_s(Cause cause) { return state().hindrance.lost_s[static_cast<std::size_t>(cause)]; }
+    double lost_s(DelayCause cause) { return state().congestion.delays.delay_s[static_cast<std::size_t>(cause)]; }
 
     Track track_;
 };
@@ -106,9 +110,9 @@ TEST_F(Hindrance, AQueueAtARedLightWaitsForTheSignal) {
     stand("c0r0_south_in_0", 146.0, "c0r0_south_0_straight");
     stand("c0r0_south_in_0", 138.0, "c0r0_south_0_straight");
     look();
-    EXPECT_EQ(lost_s(Cause::signal), 3.0);
-    EXPECT_TRUE(state().hindrance.episodes.empty());
-    EXPECT_TRUE(state().hindrance.gridlocks.empty());
+    EXPECT_EQ(lost_s(DelayCause::signal), 3.0);
+    EXPECT_TRUE(state().congestion.delays.episodes.empty());
+    EXPECT_TRUE(state().congestion.delays.gridlocks.empty());
 }
 
 TEST_F(Hindrance, WhoStandsAcrossTheWayBlocksTheJunction) {
@@ -117,26 +121,26 @@ TEST_F(Hindrance, WhoStandsAcrossTheWayBlocksTheJunction) {
     const int first = stand("c0r0_west_in_0", 154.0, "c0r0_west_0_straight");
     stand("c0r0_west_in_0", 146.0, "c0r0_west_0_straight");
     look();
-    ASSERT_EQ(state().hindrance.episodes.size(), 1u);
-    const HindranceEpisode& e = state().hindrance.episodes[0];
-    EXPECT_EQ(e.cause, Cause::junction_blocking);
+    ASSERT_EQ(state().congestion.delays.episodes.size(), 1u);
+    const DelayEpisode& e = state().congestion.delays.episodes[0];
+    EXPECT_EQ(e.cause, DelayCause::junction_blocking);
     EXPECT_EQ(e.vehicle, first);
     EXPECT_EQ(e.blocker, blocker);
     EXPECT_EQ(e.blocker_lane, lane("c0r0_south_0_straight"));
-    EXPECT_EQ(e.most, 2);
-    EXPECT_EQ(lost_s(Cause::junction_blocking), 2.0);
+    EXPECT_EQ(e.max_vehicles, 2);
+    EXPECT_EQ(lost_s(DelayCause::junction_blocking), 2.0);
 }
 
 TEST_F(Hindrance, AFullExitIsSpillbackOrTurnBlocking) {
     stand("c1r0_west_in_0", 4.0, "c1r0_west_0_straight");  // its rear is still inside
     const int straight = stand("c0r0_west_in_0", 154.0, "c0r0_west_0_straight");
     stand("c1r0_west_in_1", 4.0, "c1r0_west_1_straight");
-    for (std::size_t group = 0; group < state().lights.size(); ++group) state().lights[group] = Light::green;
+    for (std::size_t group = 0; group < state().stop_lines.lights.size(); ++group) state().stop_lines.lights[group] = Light::green;
     const int turning = stand("c0r0_south_in_1", 154.0, "c0r0_south_1_right");
     look();
-    ASSERT_EQ(state().hindrance.episodes.size(), 2u);
-    for (const HindranceEpisode& e : state().hindrance.episodes) {
-        EXPECT_EQ(e.cause, e.vehicle == straight ? Cause::spillback : Cause::turn_blocking);
+    ASSERT_EQ(state().congestion.delays.episodes.size(), 2u);
+    for (const DelayEpisode& e : state().congestion.delays.episodes) {
+        EXPECT_EQ(e.cause, e.vehicle == straight ? DelayCause::spillback : DelayCause::turn_blocking);
         EXPECT_TRUE(e.vehicle == straight || e.vehicle == turning);
     }
 }
@@ -148,19 +152,19 @@ TEST_F(Hindrance, AtARedLightWhoWasKeptOutGoesOnWaitingForTheSameVehicle) {
     const int first = state().blocks[at(lane("c0r0_west_in_0"))].first;
     const int in_exit = state().blocks[at(lane("c1r0_west_in_0"))].first;
     look();
-    EXPECT_EQ(lost_s(Cause::spillback), 1.0);
+    EXPECT_EQ(lost_s(DelayCause::spillback), 1.0);
     for (const bool moves : {false, true}) {
         state().tick += track_.model().rules.watch_ticks;
-        for (Light& light : state().lights) light = Light::red;
+        for (Light& light : state().stop_lines.lights) light = Light::red;
         if (moves) state().vehicles.speed_mps[at(in_exit)] = 1.0;
         look();
         state().vehicles.speed_mps[at(in_exit)] = 0.0;
-        EXPECT_EQ(state().watch.waits_for[at(first)], moves ? -1 : in_exit);
+        EXPECT_EQ(state().congestion.watch.waits_for[at(first)], moves ? -1 : in_exit);
     }
     state().tick += track_.model().rules.watch_ticks;
     look();
-    EXPECT_EQ(state().watch.waits_for[at(first)], -1) << "it stands again";
-    EXPECT_EQ(lost_s(Cause::spillback), 1.0);
+    EXPECT_EQ(state().congestion.watch.waits_for[at(first)], -1) << "it stands again";
+    EXPECT_EQ(lost_s(DelayCause::spillback), 1.0);
 }
 
 // The light is not all that it waits for.
@@ -169,9 +173,9 @@ TEST_F(Hindrance, AtARedLightWhoStandsCloseBehindOneInTheIntersectionWaitsForTha
     stand("c0r0_south_in_0", 152.0, "c0r0_south_0_straight");
     look();
     const int behind = state().blocks[at(lane("c0r0_south_in_0"))].first;
-    EXPECT_EQ(state().watch.edge[at(behind)], Cause::signal);
-    EXPECT_EQ(state().watch.waits_for[at(behind)], state().blocks[at(lane("c0r0_south_0_straight"))].first);
-    EXPECT_EQ(lost_s(Cause::signal), 1.0);
+    EXPECT_EQ(state().congestion.watch.direct_cause[at(behind)], DelayCause::signal);
+    EXPECT_EQ(state().congestion.watch.waits_for[at(behind)], state().blocks[at(lane("c0r0_south_0_straight"))].first);
+    EXPECT_EQ(lost_s(DelayCause::signal), 1.0);
 }
 
 // A light that is red for hours is no hindrance, but nobody waits for so long untold.
@@ -179,12 +183,12 @@ TEST_F(Hindrance, WhoHasStoodForTwoCyclesIsToldOfWhateverTheCause) {
     const int waits = stand("c0r0_south_in_0", 154.0, "c0r0_south_0_straight");
     state().tick += track_.model().rules.long_wait_ticks - 1;
     look();
-    EXPECT_TRUE(state().hindrance.episodes.empty());
+    EXPECT_TRUE(state().congestion.delays.episodes.empty());
     state().tick += 1;
     look();
-    ASSERT_EQ(state().hindrance.episodes.size(), 1u);
-    EXPECT_EQ(state().hindrance.episodes[0].cause, Cause::signal);
-    EXPECT_EQ(state().hindrance.episodes[0].vehicle, waits);
+    ASSERT_EQ(state().congestion.delays.episodes.size(), 1u);
+    EXPECT_EQ(state().congestion.delays.episodes[0].cause, DelayCause::signal);
+    EXPECT_EQ(state().congestion.delays.episodes[0].vehicle, waits);
 }
 
 // What is decided at the next intersection in this step may be known already, or not yet: threads share them out.
@@ -196,14 +200,14 @@ TEST_F(Hindrance, WhoIsHeldAtTheNextIntersectionDoesNotMatter) {
     stand("c0r0_west_0_straight", front_m);
     const int slot = state().blocks[at(inside)].first;
     look();
-    state().vehicles.record[at(slot)].predecessor = state().vehicles.id[other];
+    state().vehicles.record[at(slot)].leader_id = state().vehicles.id[other];
     state().vehicles.position_m[at(slot - 1)] = front_m + 7.0;
     state().vehicles.length_m[at(slot - 1)] = state().vehicles.length_m[other];
     state().vehicles.speed_mps[at(slot - 1)] = 0.0;
-    const Insider insider{slot, front_m, 0.0, 0};
+    const JunctionOccupant insider{slot, front_m, 0.0, 0};
     for (const int held_at : {-2, static_cast<int>(state().tick)}) {
-        state().vehicles.record[other].held_at = held_at;
-        EXPECT_FALSE(behind_held(state(), inside, insider)) << held_at;
+        state().vehicles.record[other].yield_tick = held_at;
+        EXPECT_FALSE(is_behind_yielding_vehicle(state(), inside, insider)) << held_at;
     }
 }
 
@@ -218,18 +222,18 @@ TEST_F(Hindrance, WhoCrawlsInTheExitOrAcrossTheWayIsWaitedForAsIfItStood) {
                                      : put("c0r0_south_0_straight", m + 1.0, speed_mps);
             stand("c0r0_west_in_0", 154.0, "c0r0_west_0_straight");
             look();
-            const int stopped = state().stop_slot[at(lane("c0r0_west_in_0"))];
+            const int stopped = state().stop_lines.stop_slot[at(lane("c0r0_west_in_0"))];
             if (speed_mps > 1.0) {
                 EXPECT_EQ(stopped, -1) << "makes room";
                 continue;
             }
             EXPECT_GE(stopped, 0);
-            ASSERT_EQ(state().hindrance.episodes.size(), 1u);
-            const HindranceEpisode& e = state().hindrance.episodes[0];
-            EXPECT_EQ(e.cause, in_exit ? Cause::spillback : Cause::junction_blocking);
+            ASSERT_EQ(state().congestion.delays.episodes.size(), 1u);
+            const DelayEpisode& e = state().congestion.delays.episodes[0];
+            EXPECT_EQ(e.cause, in_exit ? DelayCause::spillback : DelayCause::junction_blocking);
             EXPECT_EQ(e.blocker, slow);
             EXPECT_EQ(e.blocker_lane, lane(in_exit ? "c1r0_west_in_0" : "c0r0_south_0_straight"));
-            EXPECT_EQ(e.most, 1) << "it does not stand itself";
+            EXPECT_EQ(e.max_vehicles, 1) << "it does not stand itself";
         }
     }
 }
@@ -246,9 +250,9 @@ TEST_F(Hindrance, WhoStoodAcrossTheWayAndCrawlsNowIsNotInACircle) {
     state().vehicles.speed_mps[at(state().blocks[at(lane("c1r0_south_0_straight"))].first)] = 0.3;
     state().tick += 10;
     look();
-    EXPECT_TRUE(state().hindrance.gridlocks.empty());
-    ASSERT_EQ(state().hindrance.episodes.size(), 2u);
-    EXPECT_EQ(state().hindrance.episodes[1].blocker, blocker);
+    EXPECT_TRUE(state().congestion.delays.gridlocks.empty());
+    ASSERT_EQ(state().congestion.delays.episodes.size(), 2u);
+    EXPECT_EQ(state().congestion.delays.episodes[1].blocker, blocker);
 }
 
 // A column that fills the exit moves, but up to a light that is not green: there will be no room.
@@ -264,7 +268,7 @@ TEST_F(Hindrance, WhoMovesInTheExitCountsAsStandingWhileTheLightAtItsEndIsNotGre
         for (const int present : {fit - 1, fit}) {
             track_ = Track(empty());
             set_lights();
-            state().lights[at(track_.model().graph.lanes[at(lane(exit))].signal_group)] = light;
+            state().stop_lines.lights[at(track_.model().graph.lanes[at(lane(exit))].signal_group)] = light;
             int last = -1;
             // Evenly, so that they are not where they will stand.
             for (int k = 0; k < present; ++k) {
@@ -273,13 +277,13 @@ TEST_F(Hindrance, WhoMovesInTheExitCountsAsStandingWhileTheLightAtItsEndIsNotGre
             const int asks = stand("c0r0_west_in_0", 154.0, "c0r0_west_0_straight");
             look();
             const bool room = light == Light::green || present < fit;
-            const int stopped = state().stop_slot[at(lane("c0r0_west_in_0"))];
+            const int stopped = state().stop_lines.stop_slot[at(lane("c0r0_west_in_0"))];
             EXPECT_EQ(stopped < 0, room) << static_cast<int>(light) << ", " << present << " of " << fit;
             if (room || stopped < 0) continue;
-            ASSERT_EQ(state().hindrance.episodes.size(), 1u);
-            EXPECT_EQ(state().hindrance.episodes[0].cause, Cause::spillback);
-            EXPECT_EQ(state().hindrance.episodes[0].vehicle, asks);
-            EXPECT_EQ(state().hindrance.episodes[0].blocker, last);
+            ASSERT_EQ(state().congestion.delays.episodes.size(), 1u);
+            EXPECT_EQ(state().congestion.delays.episodes[0].cause, DelayCause::spillback);
+            EXPECT_EQ(state().congestion.delays.episodes[0].vehicle, asks);
+            EXPECT_EQ(state().congestion.delays.episodes[0].blocker, last);
         }
     }
 }
@@ -299,14 +303,14 @@ TEST_F(Hindrance, ACircleIsAGridlockWithItsMembers) {
         members.insert(stand(ring[k], far_m - 0.5));
     }
     look();
-    ASSERT_EQ(state().hindrance.gridlocks.size(), 1u);
-    const Gridlock& g = state().hindrance.gridlocks[0];
+    ASSERT_EQ(state().congestion.delays.gridlocks.size(), 1u);
+    const Gridlock& g = state().congestion.delays.gridlocks[0];
     EXPECT_EQ(std::set<int>(g.vehicles.begin(), g.vehicles.end()), members);
-    EXPECT_EQ(lost_s(Cause::gridlock), 4.0);
+    EXPECT_EQ(lost_s(DelayCause::gridlock), 4.0);
     state().tick += track_.model().rules.watch_ticks;
     look();
-    ASSERT_EQ(state().hindrance.gridlocks.size(), 1u) << "the same one, a second later";
-    EXPECT_EQ(state().hindrance.gridlocks[0].to_s - state().hindrance.gridlocks[0].from_s, 1.0);
+    ASSERT_EQ(state().congestion.delays.gridlocks.size(), 1u) << "the same one, a second later";
+    EXPECT_EQ(state().congestion.delays.gridlocks[0].to_s - state().congestion.delays.gridlocks[0].from_s, 1.0);
 }
 
 struct Run {
@@ -321,12 +325,12 @@ INSTANTIATE_TEST_SUITE_P(Modes, SlowRules, testing::Values(Run{"meso", 1200.0}, 
 // Whether its way leads over a lane now: its front or its rear is there, or the front will be next.
 bool is_on(const State& state, int vehicle, int lane) {
     for (std::size_t k = 0; k < state.blocks.size(); ++k) {
-        for (int slot = state.blocks[k].first; slot < state.blocks[k].stop(); ++slot) {
+        for (int slot = state.blocks[k].first; slot < state.blocks[k].past_last(); ++slot) {
             const auto i = static_cast<std::size_t>(slot);
             if (state.vehicles.id[i] != vehicle) continue;
             const VehicleRecord& record = state.vehicles.record[i];
-            return static_cast<int>(k) == lane || state.vehicles.next_lane[i] == lane || record.came_from == lane ||
-                   record.came_by == lane;
+            return static_cast<int>(k) == lane || state.vehicles.next_lane[i] == lane || record.previous_lane == lane ||
+                   record.second_previous_lane == lane;
         }
     }
     return false;
@@ -343,7 +347,7 @@ TEST(PassedBlocker, IsToldOfOnTheWayOfWhoPasses) {
     int passed = 0;
     for (double time_s = 0.0; time_s < 900.0; time_s += model.step_s) {
         simulation.step();
-        const std::vector<RuleUse>& rules = simulation.state().hindrance.rules;
+        const std::vector<RuleUse>& rules = simulation.state().congestion.delays.rule_uses;
         for (; seen < rules.size(); ++seen) {
             if (rules[seen].kind != RuleUse::Kind::passed_blocker) continue;
             ++passed;
@@ -363,33 +367,33 @@ TEST_P(SlowRules, AreUsedAsTheySay) {
     Simulation simulation(model);
     simulation.run_until(GetParam().until_s);
     const State& state = simulation.state();
-    EXPECT_TRUE(state.violations.none());
-    EXPECT_EQ(state.violations.conflicts, 0);
-    EXPECT_EQ(state.entered, state.left + state.present());
-    const double cycle_s = scenario.signal.both_stages_s();
+    EXPECT_TRUE(state.records.violations.none());
+    EXPECT_EQ(state.records.violations.conflicts, 0);
+    EXPECT_EQ(state.records.entered, state.records.exited + state.present());
+    const double cycle_s = scenario.signal.intersection_cycle_s();
     std::set<int> out;
     std::int64_t passed = 0;
-    for (const RuleUse& use : state.hindrance.rules) {
+    for (const RuleUse& use : state.congestion.delays.rule_uses) {
         if (use.kind == RuleUse::Kind::passed_blocker) {
             ++passed;
-            EXPECT_GE(use.stood_s, 2.0 * scenario.signal.green_s - 1e-6);
-        } else if (use.kind == RuleUse::Kind::taken_out) {
-            EXPECT_GE(use.stood_s, 3.0 * cycle_s - 1e-6);
+            EXPECT_GE(use.stopped_s, 2.0 * scenario.signal.green_s - 1e-6);
+        } else if (use.kind == RuleUse::Kind::teleported) {
+            EXPECT_GE(use.stopped_s, 3.0 * cycle_s - 1e-6);
             EXPECT_TRUE(out.insert(use.vehicle).second) << "is out already";
-        } else if (use.kind == RuleUse::Kind::put_back) {
+        } else if (use.kind == RuleUse::Kind::reinserted) {
             EXPECT_EQ(out.erase(use.vehicle), 1u) << "was not out";
         }
     }
-    EXPECT_EQ(passed, state.hindrance.passed_blockers);
-    EXPECT_EQ(static_cast<int>(out.size()), state.limbo.count) << "all who were moved on are back, or wait to be";
-    EXPECT_GT(state.hindrance.episodes.size(), 20u);
+    EXPECT_EQ(passed, state.congestion.delays.passed_blockers);
+    EXPECT_EQ(static_cast<int>(out.size()), state.congestion.teleporting.count) << "all who were moved on are back, or wait to be";
+    EXPECT_GT(state.congestion.delays.episodes.size(), 20u);
     if (GetParam().until_s > 1000.0) {
-        EXPECT_GT(state.hindrance.taken_out, 0);
+        EXPECT_GT(state.congestion.delays.teleported, 0);
         EXPECT_GT(passed, 0);
-        EXPECT_FALSE(state.hindrance.gridlocks.empty());
+        EXPECT_FALSE(state.congestion.delays.gridlocks.empty());
     }
     // Nobody waits for ever: who heads a lane for three cycles is moved on, and those behind move up.
-    EXPECT_LT(state.hindrance.longest_stand_s, 10.0 * cycle_s);
+    EXPECT_LT(state.congestion.delays.longest_stop_s, 10.0 * cycle_s);
 }
 
 // Every second that a vehicle stands is in the account, under one cause.
@@ -402,27 +406,27 @@ TEST(SlowHindranceAccount, HasEverySecondThatAVehicleStands) {
         const State& state = simulation.state();
         if (state.tick % model.rules.watch_ticks == 0) {
             for (const LaneBlock& block : state.blocks) {
-                for (int slot = block.first; slot < block.stop(); ++slot) {
+                for (int slot = block.first; slot < block.past_last(); ++slot) {
                     stood_s += state.vehicles.speed_mps[at(slot)] < 0.1 ? 1.0 : 0.0;
                 }
             }
         }
         simulation.step();
     }
-    const auto& lost = simulation.state().hindrance.lost_s;
+    const auto& lost = simulation.state().congestion.delays.delay_s;
     EXPECT_NEAR(std::accumulate(lost.begin(), lost.end(), 0.0), stood_s, 1e-6);
-    EXPECT_GT(lost[static_cast<std::size_t>(Cause::signal)], 0.5 * stood_s);
-    EXPECT_EQ(lost[static_cast<std::size_t>(Cause::none)], 0.0);
-    EXPECT_GT(lost[static_cast<std::size_t>(Cause::start)], 0.0);
+    EXPECT_GT(lost[static_cast<std::size_t>(DelayCause::signal)], 0.5 * stood_s);
+    EXPECT_EQ(lost[static_cast<std::size_t>(DelayCause::none)], 0.0);
+    EXPECT_GT(lost[static_cast<std::size_t>(DelayCause::queue_discharge)], 0.0);
     double episodes_s = 0.0;
-    for (const HindranceEpisode& e : simulation.state().hindrance.episodes) {
-        if (hinders(e.cause)) episodes_s += e.lost_s;
+    for (const DelayEpisode& e : simulation.state().congestion.delays.episodes) {
+        if (is_blocking(e.cause)) episodes_s += e.delay_s;
         EXPECT_GE(e.to_s, e.from_s);
-        EXPECT_GE(e.lost_s, e.most);
+        EXPECT_GE(e.delay_s, e.max_vehicles);
     }
     double hindered_s = 0.0;
     for (std::size_t cause = 0; cause < lost.size(); ++cause) {
-        if (hinders(static_cast<Cause>(cause))) hindered_s += lost[cause];
+        if (is_blocking(static_cast<DelayCause>(cause))) hindered_s += lost[cause];
     }
     EXPECT_NEAR(episodes_s, hindered_s, 1e-6);
 }
@@ -433,10 +437,10 @@ TEST(SlowKeepClear, LeavesTheJunctionFreeMoreOften) {
         const Model model = network_model(arterial({rule, "network.grid.columns=3"}), 2);
         Simulation simulation(model);
         simulation.run_until(900.0);
-        EXPECT_TRUE(simulation.state().violations.none());
-        const auto& lost = simulation.state().hindrance.lost_s;
-        blocked_s.push_back(lost[static_cast<std::size_t>(Cause::gridlock)] +
-                            static_cast<double>(simulation.state().hindrance.passed_blockers));
+        EXPECT_TRUE(simulation.state().records.violations.none());
+        const auto& lost = simulation.state().congestion.delays.delay_s;
+        blocked_s.push_back(lost[static_cast<std::size_t>(DelayCause::gridlock)] +
+                            static_cast<double>(simulation.state().congestion.delays.passed_blockers));
     }
     EXPECT_LT(blocked_s[1], 0.5 * blocked_s[0]);
 }
@@ -444,15 +448,15 @@ TEST(SlowKeepClear, LeavesTheJunctionFreeMoreOften) {
 // Where lights change one after the other, a column drives up to a light that is red already.
 TEST(SlowKeepClear, MindsTheLightAtTheEndOfTheExit) {
     std::vector<double> blocked_s;
-    for (const char* rule : {"rules.light_ahead=off", "rules.light_ahead=on"}) {
+    for (const char* rule : {"rules.count_queue_at_red_exit=off", "rules.count_queue_at_red_exit=on"}) {
         const Scenario grid = load_scenario(STOPLINE_SOURCE_DIR "/scenarios/grid.yaml",
                                             {rule, "network.grid.columns=3", "network.grid.rows=3", "demand.left=0 %",
                                              "demand.right=0 %", "signal.green=20 s", "signal.offset=5 s"});
         const Model model = network_model(grid, 2);
         Simulation simulation(model);
         simulation.run_until(900.0);
-        EXPECT_TRUE(simulation.state().violations.none());
-        blocked_s.push_back(simulation.state().hindrance.lost_s[static_cast<std::size_t>(Cause::junction_blocking)]);
+        EXPECT_TRUE(simulation.state().records.violations.none());
+        blocked_s.push_back(simulation.state().congestion.delays.delay_s[static_cast<std::size_t>(DelayCause::junction_blocking)]);
     }
     EXPECT_GT(blocked_s[0], 1000.0);
     EXPECT_LT(blocked_s[1], 0.2 * blocked_s[0]);
@@ -470,8 +474,8 @@ TEST(SlowKeepClear, HoldsWhereDriversBrakeLate) {
             Simulation simulation(model);
             simulation.run_until(600.0);
             const State& state = simulation.state();
-            EXPECT_TRUE(state.violations.none());
-            EXPECT_LT(state.hindrance.lost_s[static_cast<std::size_t>(Cause::junction_blocking)], 200.0)
+            EXPECT_TRUE(state.records.violations.none());
+            EXPECT_LT(state.congestion.delays.delay_s[static_cast<std::size_t>(DelayCause::junction_blocking)], 200.0)
                 << fidelity << ' ' << stop;
         }
     }

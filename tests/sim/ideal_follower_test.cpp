@@ -39,7 +39,7 @@ Discharge discharge(const std::string& policy) {
         }
         track.step();
     }
-    for (const Passage& passage : track.state().passages) {
+    for (const Passage& passage : track.state().records.passages) {
         if (passage.from_lane == 0) result.passes_s.push_back(passage.time_s - kGreen_s);
     }
     return result;

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "experiment/network_run.h"
+#include "runs/network/network_run.h"
 #include "scenario/load_scenario.h"
 
 namespace stopline {
@@ -11,14 +11,14 @@ namespace {
 
 void check_blocks(const State& state) {
     int free_from = 1;
-    for (const NetworkPart& part : state.parts) {
+    for (const Partition& part : state.partitions) {
         for (const int lane : part.lanes) {
             const LaneBlock& block = state.blocks[static_cast<std::size_t>(lane)];
             ASSERT_GT(block.begin, free_from) << "no slot for the sentinel of lane " << lane;
             ASSERT_GE(block.first, block.begin);
-            ASSERT_LE(block.stop(), block.end);
+            ASSERT_LE(block.past_last(), block.end);
             for (int slot = free_from; slot < block.end; ++slot) {
-                const bool taken = slot >= block.first && slot < block.stop();
+                const bool taken = slot >= block.first && slot < block.past_last();
                 ASSERT_EQ(state.vehicles.id[static_cast<std::size_t>(slot)] >= 0, taken) << slot;
             }
             free_from = block.end;

@@ -7,13 +7,14 @@
 #include <map>
 #include <vector>
 
+#include "base/containers/index.h"
 #include "base/random.h"
+#include "sim/lane_change/route_choice.h"
 #include "support/track.h"
 
 namespace stopline {
 namespace {
 
-using testing_support::at;
 using testing_support::Track;
 using testing_support::TrackPlan;
 
@@ -66,7 +67,7 @@ int place(Track& track, int k, double position_m, double speed_mps, int to) {
     State& state = track.editable();
     const int slot = state.blocks[at(2 * k)].last();
     state.vehicles.record[at(slot)].route = to;
-    take_way_of_lane(track.model(), state, 2 * k, slot);
+    adopt_lane_route(track.model(), state, 2 * k, slot);
     return id;
 }
 
@@ -116,13 +117,13 @@ void run_crowd(const Case& which, std::uint64_t seed, double gap_m) {
                                     to_ticks(20.0, model.step_s), true)};
     Track track(std::move(model));
     fill(track, seed, 3, gap_m, std::min(13.0, 0.5 * gap_m), 900.0);
-    const auto all = track.state().entered;
+    const auto all = track.state().records.entered;
     track.run(400.0);
-    const Violations& seen = track.state().violations;
+    const Violations& seen = track.state().records.violations;
     EXPECT_TRUE(seen.none()) << seen.overlaps << " overlaps, " << seen.red_entries << " red entries, seed " << seed
                              << ", gap " << gap_m;
-    EXPECT_GT(track.state().lane_changes.size(), at(static_cast<int>(all / 20)));
-    expect_nobody_goes_to_and_fro(track.state().lane_changes);
+    EXPECT_GT(track.state().records.lane_changes.size(), at(static_cast<int>(all / 20)));
+    expect_nobody_goes_to_and_fro(track.state().records.lane_changes);
 }
 
 // Seeds 2, 10 and 29 are those with which SWITCH-1 and SWITCH-2 touched while they had no reserve at their own speed.
@@ -141,13 +142,13 @@ TEST_P(LaneChanging, InFreeTrafficEverybodyGetsToItsLaneWithoutStanding) {
             track.step();
             const VehicleArrays& v = track.state().vehicles;
             for (const LaneBlock& block : track.state().blocks) {
-                for (int slot = block.first; slot < block.stop(); ++slot) {
+                for (int slot = block.first; slot < block.past_last(); ++slot) {
                     ASSERT_GT(v.speed_mps[at(slot)], 0.5) << "vehicle " << v.id[at(slot)] << " stands, seed " << seed;
                 }
             }
         }
         EXPECT_EQ(track.state().present(), 0);
-        EXPECT_TRUE(track.state().violations.none());
+        EXPECT_TRUE(track.state().records.violations.none());
     }
 }
 
@@ -165,8 +166,8 @@ TEST_P(LaneChanging, LeftAndRightAreAlike) {
         place(*track, 2, 340.0, 13.0, 0);
         track->run(60.0);
     }
-    ASSERT_GE(one.state().lane_changes.size(), 5U);
-    ASSERT_EQ(one.state().lane_changes.size(), other.state().lane_changes.size());
+    ASSERT_GE(one.state().records.lane_changes.size(), 5U);
+    ASSERT_EQ(one.state().records.lane_changes.size(), other.state().records.lane_changes.size());
     EXPECT_EQ(one.simulation().state_hash(), other.simulation().state_hash());
 }
 
@@ -176,7 +177,7 @@ TEST_P(LaneChanging, TwoThatWantEachOthersLaneBothGetThere) {
     place(track, 1, 960.0, 8.0, 0);
     track.run(60.0);
     EXPECT_EQ(track.state().present(), 0);
-    EXPECT_EQ(track.state().lane_changes.size(), 2U);
+    EXPECT_EQ(track.state().records.lane_changes.size(), 2U);
 }
 
 TEST_P(LaneChanging, WithoutAGapItWaitsBeforeTheLine) {
@@ -195,7 +196,7 @@ TEST_P(LaneChanging, WithoutAGapItWaitsBeforeTheLine) {
     EXPECT_LT(seen.speed_mps, 0.1);
     EXPECT_LE(seen.position_m, 1000.0 - track.model().driver.stop.margin_m + 0.1);
     EXPECT_GE(seen.position_m, 975.0);
-    EXPECT_TRUE(track.state().lane_changes.empty());
+    EXPECT_TRUE(track.state().records.lane_changes.empty());
 }
 
 TEST_P(LaneChanging, ASlowerVehicleIsPassedAndNobodyGoesToAndFro) {
@@ -213,15 +214,15 @@ TEST_P(LaneChanging, ASlowerVehicleIsPassedAndNobodyGoesToAndFro) {
         const int id = 0;
         State& state = track.editable();
         for (const LaneBlock& block : state.blocks) {
-            for (int slot = block.first; slot < block.stop(); ++slot) {
+            for (int slot = block.first; slot < block.past_last(); ++slot) {
                 if (state.vehicles.id[at(slot)] == id) state.vehicles.speed_mps[at(slot)] = slow_mps;
             }
         }
         track.step();
     }
-    ASSERT_EQ(track.state().lane_changes.size(), 1U);
-    EXPECT_EQ(track.state().lane_changes[0].vehicle, 1);
-    EXPECT_FALSE(track.state().lane_changes[0].for_route);
+    ASSERT_EQ(track.state().records.lane_changes.size(), 1U);
+    EXPECT_EQ(track.state().records.lane_changes[0].vehicle, 1);
+    EXPECT_FALSE(track.state().records.lane_changes[0].for_route);
 }
 
 INSTANTIATE_TEST_SUITE_P(Modes, LaneChanging,

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "experiment/network_run.h"
+#include "runs/network/network_run.h"
 #include "scenario/load_scenario.h"
 
 namespace stopline {
@@ -21,8 +21,8 @@ TEST(LookPast, WhoFollowsOneThatTurnsStopsBehindWhoStandsOnItsOwnWay) {
             "populations: [SWITCH-1, SWITCH-2, CDG]\n";
         const Scenario scenario = parse_scenario(text, "test.yaml");
         for (std::size_t population = 0; population < 3; ++population) {
-            const NetworkFigures figures = run_network(scenario, population);
-            EXPECT_GT(figures.left_network, 100) << turn_speed << population;
+            const NetworkResult figures = run_network(scenario, population);
+            EXPECT_GT(figures.exited, 100) << turn_speed << population;
             EXPECT_EQ(figures.violations.overlaps, 0) << turn_speed << population;
             EXPECT_TRUE(figures.violations.none()) << turn_speed << population;
         }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "experiment/leader_profile.h"
+#include "calibration/leader_profile.h"
 #include "support/track.h"
 
 namespace stopline {
@@ -43,7 +43,7 @@ TEST(MesoStart, GoesThroughAQueueOfConstantDistanceAsFastAsV2V) {
     const double relayed_s = last_sets_out_s(queue("CDG", kQueue, {"fidelity=meso", set}), kQueue) - alone_s;
     EXPECT_NEAR(relayed_s, 0.1 * (kQueue - 1) / 5.0, 0.25) << "five vehicles a step of 100 ms";
     const double singly_s =
-        last_sets_out_s(queue("CDG", kQueue, {"fidelity=meso", set, "meso.relayed=0"}), kQueue) - alone_s;
+        last_sets_out_s(queue("CDG", kQueue, {"fidelity=meso", set, "meso.start_relay_vehicles=0"}), kQueue) - alone_s;
     EXPECT_NEAR(singly_s, 0.1 * (kQueue - 1), 0.25) << "one vehicle a step";
     const double full_s = last_sets_out_s(queue("CDG", kQueue, {}), kQueue) - last_sets_out_s(queue("CDG", 1, {}), 1);
     EXPECT_NEAR(relayed_s, full_s, 0.5);
@@ -54,7 +54,7 @@ TEST(MesoStart, EndsItsRelayAtATimeGap) {
     constexpr int kQueue = 21;
     const double all_s = last_sets_out_s(queue("CTG-Ref", kQueue, {"fidelity=meso", "meso=passages"}), kQueue);
     const double none_s =
-        last_sets_out_s(queue("CTG-Ref", kQueue, {"fidelity=meso", "meso=passages", "meso.relayed=0"}), kQueue);
+        last_sets_out_s(queue("CTG-Ref", kQueue, {"fidelity=meso", "meso=passages", "meso.start_relay_vehicles=0"}), kQueue);
     EXPECT_DOUBLE_EQ(all_s, none_s);
 }
 

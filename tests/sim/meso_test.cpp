@@ -195,7 +195,7 @@ Model mixed_model(const std::string& population) {
     const Scenario scenario =
         load_scenario(STOPLINE_SOURCE_DIR "/scenarios/intersection.yaml",
                       {"fidelity=meso", "demand.left=15 %", "demand.right=10 %", "meso.constant_distance.dawdling=0.2",
-                       "meso.relayed=4", "meso.constant_time.tracking=1",
+                       "meso.start_relay_vehicles=4", "meso.constant_time.gap_tracking=1",
                        "meso.leader_profile={2 km/h: 2 m/s2, 20 km/h: 0.5 m/s2, 40 km/h: 1 m/s2}",
                        std::string("populations=") + kPopulations});
     const auto named = [&](const PopulationSettings& p) { return p.name == population; };
@@ -211,7 +211,7 @@ void expect_same_bits(const Model& model, const Model& other) {
         two.run_until(10.0 * k);
         ASSERT_EQ(one.state_hash(), two.state_hash()) << "at " << 10 * k << " s";
     }
-    EXPECT_TRUE(one.state().violations.none());
+    EXPECT_TRUE(one.state().records.violations.none());
 }
 
 // The compiler's vectors and one vehicle at a time, with mixed policies.

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "experiment/build_model.h"
+#include "scenario/build_model.h"
 #include "scenario/load_scenario.h"
-#include "sim/simulation.h"
+#include "sim/step/simulation.h"
 
 namespace stopline {
 namespace {
@@ -27,20 +27,20 @@ Model crowded(const std::string& fidelity, int population, const std::string& me
 // All that a run tells, as text.
 std::vector<std::string> told(const State& state) {
     std::vector<std::string> lines;
-    for (const RuleUse& use : state.hindrance.rules) {
+    for (const RuleUse& use : state.congestion.delays.rule_uses) {
         lines.push_back("rule " + std::to_string(static_cast<int>(use.kind)) + " " + std::to_string(use.time_s) + " " +
                         std::to_string(use.vehicle) + " " + std::to_string(use.lane) + " " +
                         std::to_string(use.blocker));
     }
-    for (const Crossing& crossing : state.crossings) {
+    for (const Crossing& crossing : state.records.crossings) {
         lines.push_back("crossing " + std::to_string(crossing.time_s) + " " + std::to_string(crossing.vehicle) + " " +
                         std::to_string(crossing.detector));
     }
-    for (const GapAccepted& gap : state.gaps_accepted) {
+    for (const GapAccepted& gap : state.records.gaps_accepted) {
         lines.push_back("gap " + std::to_string(gap.time_s) + " " + std::to_string(gap.vehicle));
     }
-    for (const double lost_s : state.hindrance.lost_s) lines.push_back("lost " + std::to_string(lost_s));
-    lines.push_back("longest " + std::to_string(state.longest_inside) + ", updates " + std::to_string(state.updates));
+    for (const double lost_s : state.congestion.delays.delay_s) lines.push_back("lost " + std::to_string(lost_s));
+    lines.push_back("longest " + std::to_string(state.records.longest_in_junction) + ", updates " + std::to_string(state.records.updates));
     return lines;
 }
 
@@ -51,8 +51,8 @@ void expect_same(Simulation& one, Simulation& other, double until_s, double ever
         ASSERT_EQ(one.state_hash(), other.state_hash()) << what << ": first difference before " << k * every_s << " s";
     }
     ASSERT_EQ(told(one.state()), told(other.state())) << what;
-    EXPECT_TRUE(one.state().violations.none());
-    EXPECT_TRUE(other.state().violations.none());
+    EXPECT_TRUE(one.state().records.violations.none());
+    EXPECT_TRUE(other.state().records.violations.none());
 }
 
 TEST(Parts, AnyNumberOfThreadsGivesTheSameRun) {
@@ -63,7 +63,7 @@ TEST(Parts, AnyNumberOfThreadsGivesTheSameRun) {
             Simulation shared(model, threads);
             expect_same(alone, shared, 400.0, 20.0, std::to_string(threads) + " threads");
             if (population < 2) continue;
-            EXPECT_GT(alone.state().hindrance.taken_out, 0);
+            EXPECT_GT(alone.state().congestion.delays.teleported, 0);
         }
     }
 }
@@ -75,14 +75,14 @@ TEST(Parts, WaysWithoutConflictsAreInTheAccountToo) {
         "turn_speed: 5 m/s}}\n"
         "demand: {kind: queue, vehicles: 10}\n"
         "duration: 300 s\n"
-        "measure: {steady: 60 s}\n"
+        "measure: {window: 60 s}\n"
         "populations: [CTG-HBS]\n",
         "right_turns.yaml");
     const Model model = build_model(scenario, 0);
     Simulation alone(model);
     Simulation shared(model, 2);
     expect_same(alone, shared, 200.0, 50.0, "right turns");
-    EXPECT_GT(model.time_s(alone.state().longest_inside), 10.0);
+    EXPECT_GT(model.time_s(alone.state().records.longest_in_junction), 10.0);
 }
 
 TEST(Parts, InFullDynamicsToo) {
@@ -115,18 +115,18 @@ TEST(Slots, WithoutAVehicleHaveNoId) {
         const State& state = simulation.state();
         std::vector<bool> taken(static_cast<std::size_t>(state.vehicles.slots), false);
         const auto take = [&](const LaneBlock& block) {
-            for (int slot = block.first; slot < block.stop(); ++slot) taken[static_cast<std::size_t>(slot)] = true;
+            for (int slot = block.first; slot < block.past_last(); ++slot) taken[static_cast<std::size_t>(slot)] = true;
         };
         for (const LaneBlock& block : state.blocks) take(block);
-        take(state.limbo);
+        take(state.congestion.teleporting);
         for (std::size_t slot = 0; slot < taken.size(); ++slot) ASSERT_EQ(state.vehicles.id[slot] >= 0, taken[slot]);
         for (std::size_t lane = 0; lane < state.blocks.size(); ++lane) {
-            if (state.sleeps_until_green_of[lane] < 0) continue;
+            if (state.queues.sleeps_until_green[lane] < 0) continue;
             slept = true;
             const LaneBlock& block = state.blocks[lane];
-            EXPECT_EQ(state.stop_lines[lane].stopper, state.vehicles.id[static_cast<std::size_t>(block.first)]);
+            EXPECT_EQ(state.stop_lines.lines[lane].stopping_vehicle, state.vehicles.id[static_cast<std::size_t>(block.first)]);
             EXPECT_EQ(state.vehicles.speed_mps[static_cast<std::size_t>(block.first)], 0.0);
-            EXPECT_EQ(state.stop_slot[lane], block.first);
+            EXPECT_EQ(state.stop_lines.stop_slot[lane], block.first);
         }
     }
     EXPECT_TRUE(slept);
@@ -138,10 +138,10 @@ TEST(Parts, ShareOutAllLanesByWholeIntersections) {
     for (const int threads : {1, 2, 4, 9, 30}) {
         const Simulation simulation(model, threads);
         const State& state = simulation.state();
-        EXPECT_LE(state.parts.size(), static_cast<std::size_t>(std::min(threads, 9)));
+        EXPECT_LE(state.partitions.size(), static_cast<std::size_t>(std::min(threads, 9)));
         std::vector<int> part_of(model.graph.lanes.size(), -1);
-        for (std::size_t p = 0; p < state.parts.size(); ++p) {
-            for (const int lane : state.parts[p].lanes) {
+        for (std::size_t p = 0; p < state.partitions.size(); ++p) {
+            for (const int lane : state.partitions[p].lanes) {
                 EXPECT_EQ(part_of[static_cast<std::size_t>(lane)], -1);
                 part_of[static_cast<std::size_t>(lane)] = static_cast<int>(p);
             }

@@ -23,7 +23,7 @@ TEST_P(QueueRun, KeepsItsInvariantsInEveryStep) {
     Track track(build_model(scenario, 0));
     track.run(100.0);
     ASSERT_EQ(track.count(0), 25) << "all wait for the green";
-    EXPECT_EQ(track.state().passages.size(), 25u) << "entries";
+    EXPECT_EQ(track.state().records.passages.size(), 25u) << "entries";
     EXPECT_NEAR(track.seen(0, 0).position_m, 320.0 - scenario.driver.stop.margin_m, 0.1);
     for (int k = 1; k < 25; ++k) {
         const CompiledPolicy& policy = track.model().policies[at(track.state().vehicles.policy[track.slot(0, k)])];
@@ -31,10 +31,10 @@ TEST_P(QueueRun, KeepsItsInvariantsInEveryStep) {
         EXPECT_LT(track.seen(0, k).speed_mps, 0.05) << "vehicle " << k + 1;
     }
     track.run(80.0);
-    EXPECT_GT(track.state().left, 5);
-    EXPECT_EQ(track.state().entered, 25);
-    EXPECT_EQ(track.state().left + track.count(0), 25) << "the exit is empty again";
-    EXPECT_EQ(track.state().violations.forced_red_entries, 0);
+    EXPECT_GT(track.state().records.exited, 5);
+    EXPECT_EQ(track.state().records.entered, 25);
+    EXPECT_EQ(track.state().records.exited + track.count(0), 25) << "the exit is empty again";
+    EXPECT_EQ(track.state().records.violations.forced_red_entries, 0);
 }
 
 // What is noted of each vehicle: entry, stop line, exit, in this order and once each.
@@ -48,7 +48,7 @@ TEST(QueueRun, NotesEveryPassageOnce) {
     track.run(120.0);
     std::vector<std::vector<Passage>> of(10);
     double before_s = 0.0;
-    for (const Passage& passage : track.state().passages) {
+    for (const Passage& passage : track.state().records.passages) {
         of[at(passage.vehicle)].push_back(passage);
         EXPECT_GT(passage.time_s, before_s - track.step_s()) << "in order of time, to the step";
         before_s = passage.time_s;

@@ -7,14 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "experiment/build_model.h"
-#include "experiment/intersection_run.h"
+#include "base/containers/index.h"
+#include "scenario/build_model.h"
+#include "runs/intersection/intersection_run.h"
 #include "scenario/load_scenario.h"
 
 namespace stopline {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 Scenario reference(const std::vector<std::string>& overrides = {}) {
     return load_scenario(STOPLINE_SOURCE_DIR "/scenarios/intersection.yaml", overrides);
@@ -43,15 +42,15 @@ TEST(RightOfWay, LeftTurnersDoNotWaitWithoutOncomingTraffic) {
         const State& state = simulation.state();
         for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {
             if (model.graph.lanes[at(lane)].origin < 0) continue;
-            ASSERT_EQ(state.holds[at(lane)].count, 0);
+            ASSERT_EQ(state.junctions.yield_stops[at(lane)].count, 0);
             const LaneBlock& block = state.blocks[at(lane)];
-            for (int slot = block.first; slot < block.stop(); ++slot) {
+            for (int slot = block.first; slot < block.past_last(); ++slot) {
                 slowest_mps = std::min(slowest_mps, state.vehicles.speed_mps[at(slot)]);
             }
         }
     }
     EXPECT_GT(slowest_mps, 3.0);
-    EXPECT_GT(simulation.state().gaps_accepted.size(), 8u);
+    EXPECT_GT(simulation.state().records.gaps_accepted.size(), 8u);
 }
 
 // A queue that closes up to 2.45 m puts a vehicle past the stop line, behind the left turner that waits: it is not coming, and
@@ -63,9 +62,9 @@ TEST(RightOfWay, SlowVehiclesThatStandBehindALeftTurnerDoNotHoldUpTheOneOpposite
     const Model model = build_model(scenario, 0);
     Simulation simulation(model);
     while (simulation.time_s() < 400.0) simulation.step();
-    EXPECT_LT(model.time_s(simulation.state().longest_inside), 66.0);  // a cycle
-    EXPECT_GT(simulation.state().left, 400);
-    EXPECT_TRUE(simulation.state().violations.none());
+    EXPECT_LT(model.time_s(simulation.state().records.longest_in_junction), 66.0);  // a cycle
+    EXPECT_GT(simulation.state().records.exited, 400);
+    EXPECT_TRUE(simulation.state().records.violations.none());
 }
 
 TEST(RightOfWay, TurnsAreDrivenAtTheirSpeed) {
@@ -78,7 +77,7 @@ TEST(RightOfWay, TurnsAreDrivenAtTheirSpeed) {
         for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {
             if (model.graph.lanes[at(lane)].turn != Turn::left) continue;
             const LaneBlock& block = state.blocks[at(lane)];
-            for (int slot = block.first; slot < block.stop(); ++slot) {
+            for (int slot = block.first; slot < block.past_last(); ++slot) {
                 fastest_mps = std::max(fastest_mps, state.vehicles.speed_mps[at(slot)]);
             }
         }
@@ -101,7 +100,7 @@ TEST(RightOfWay, LeftTurnsGoIntoGapsLongerThanTheCriticalOne) {
         for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {
             if (model.graph.lanes[at(lane)].turn != Turn::straight) continue;
             const LaneBlock& block = state.blocks[at(lane)];
-            for (int slot = block.first; slot < block.stop(); ++slot) {
+            for (int slot = block.first; slot < block.past_last(); ++slot) {
                 const int id = state.vehicles.id[at(slot)];
                 const double front_m = state.vehicles.position_m[at(slot)];
                 for (const Conflict& c : model.graph.conflicts_of(lane)) {
@@ -113,7 +112,7 @@ TEST(RightOfWay, LeftTurnsGoIntoGapsLongerThanTheCriticalOne) {
             }
         }
     }
-    const std::vector<GapAccepted>& gaps = simulation.state().gaps_accepted;
+    const std::vector<GapAccepted>& gaps = simulation.state().records.gaps_accepted;
     ASSERT_GT(gaps.size(), 20u);
     int checked = 0;
     for (const GapAccepted& gap : gaps) {
@@ -149,11 +148,11 @@ TEST_P(SlowIntersection, NobodyIsInAnothersWayAndNobodyIsStuck) {
     scenario.signal.green_s = GetParam().green_s;
     const auto named = [&](const PopulationSettings& p) { return p.name == GetParam().population; };
     const auto population = std::find_if(scenario.populations.begin(), scenario.populations.end(), named);
-    const IntersectionFigures figures =
+    const IntersectionResult figures =
         run_intersection(scenario, static_cast<std::size_t>(population - scenario.populations.begin()));
     EXPECT_TRUE(figures.violations.none());
     EXPECT_EQ(figures.violations.conflicts, 0);
-    EXPECT_LT(figures.longest_inside_s, 2.0 * 2.0 * (GetParam().green_s + 8.0)) << "a deadlock";
+    EXPECT_LT(figures.longest_in_junction_s, 2.0 * 2.0 * (GetParam().green_s + 8.0)) << "a deadlock";
     // A lane passes at least one vehicle in each green.
     EXPECT_GE(figures.discharge.vehicles_per_green, 1.0);
     // No vehicle needs more than three cycles beyond a queue of 25 at two a green.
@@ -171,8 +170,8 @@ TEST(RightOfWay, PlatoonsCutOnYellowDoNotCollide) {
     const Model model = build_model(scenario, scenario.populations.size() - 1);
     Simulation simulation(model);
     while (simulation.time_s() < 180.0) simulation.step();
-    EXPECT_TRUE(simulation.state().violations.none());
-    EXPECT_EQ(simulation.state().violations.overlaps, 0);
+    EXPECT_TRUE(simulation.state().records.violations.none());
+    EXPECT_EQ(simulation.state().records.violations.overlaps, 0);
 }
 
 TEST(RightOfWay, EveryArmPassesTheSameWithoutTurns) {
@@ -182,7 +181,7 @@ TEST(RightOfWay, EveryArmPassesTheSameWithoutTurns) {
     // Three whole cycles.
     while (simulation.time_s() < 1.0 + 3.0 * 46.0) simulation.step();
     std::map<int, int> passed;  // by entry lane
-    for (const Crossing& crossing : simulation.state().crossings) {
+    for (const Crossing& crossing : simulation.state().records.crossings) {
         const Detector& detector = model.detectors[at(crossing.detector)];
         if (detector.kind == Detector::Kind::stop_line) ++passed[detector.lane];
     }

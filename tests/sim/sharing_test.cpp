@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-#include "sim/sharing.h"
+#include "sim/performance/threading_heuristic.h"
 
 namespace stopline {
 namespace {
@@ -21,13 +21,13 @@ struct Shares {
 };
 
 // Makes steps that take so long, shared or alone.
-Shares make(Sharing& sharing, int steps, nanoseconds alone, nanoseconds shared) {
+Shares make(ThreadingHeuristic& sharing, int steps, nanoseconds alone, nanoseconds shared) {
     Shares all;
     for (all.steps = 0; all.steps < steps; ++all.steps) {
-        const nanoseconds took = sharing.shares() ? shared : alone;
-        all.shared += sharing.shares() ? 1 : 0;
+        const nanoseconds took = sharing.use_threads() ? shared : alone;
+        all.shared += sharing.use_threads() ? 1 : 0;
         all.s += 1e-9 * static_cast<double>(took.count());
-        sharing.made(took, kVehicles);
+        sharing.record_step(took, kVehicles);
     }
     return all;
 }
@@ -37,12 +37,12 @@ constexpr nanoseconds kFaster(30'000);
 constexpr nanoseconds kBusy(8'000'000);
 
 TEST(Sharing, GoesOnWhileItIsFaster) {
-    Sharing sharing;
+    ThreadingHeuristic sharing;
     EXPECT_GT(make(sharing, 100'000, kAlone, kFaster).share(), 0.98);
 }
 
 TEST(Sharing, CostsLittleWhereItIsHopeless) {
-    Sharing sharing;
+    ThreadingHeuristic sharing;
     const int steps = 200'000;
     const Shares all = make(sharing, steps, kAlone, kBusy);
     EXPECT_GT(all.shared, 0) << "it is tried";
@@ -50,7 +50,7 @@ TEST(Sharing, CostsLittleWhereItIsHopeless) {
 }
 
 TEST(Sharing, StopsWhenOtherWorkComesAndBeginsAgainWhenItGoes) {
-    Sharing sharing;
+    ThreadingHeuristic sharing;
     EXPECT_GT(make(sharing, 20'000, kAlone, kFaster).share(), 0.95);
     const Shares busy = make(sharing, 100'000, kAlone, kBusy);
     EXPECT_LT(busy.s - 100'000 * 50e-6, 0.5) << "until it notices";
@@ -59,7 +59,7 @@ TEST(Sharing, StopsWhenOtherWorkComesAndBeginsAgainWhenItGoes) {
 }
 
 TEST(Sharing, IsLeftWhereItIsALittleSlower) {
-    Sharing sharing;
+    ThreadingHeuristic sharing;
     EXPECT_LT(make(sharing, 100'000, kAlone, nanoseconds(55'000)).share(), 0.02);
 }
 

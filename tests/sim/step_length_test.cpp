@@ -26,7 +26,7 @@ std::vector<double> stop_line_times(const std::string& policy, double step_s) {
     Simulation simulation(model);
     simulation.run_until(400.0);
     std::vector<double> times;
-    for (const Passage& passage : simulation.state().passages) {
+    for (const Passage& passage : simulation.state().records.passages) {
         if (passage.from_lane == 0) times.push_back(passage.time_s - 260.0);
     }
     return times;

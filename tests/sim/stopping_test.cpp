@@ -2,6 +2,7 @@
 // vehicle, without overlap, and from afar on the spot that it shall stop at.
 #include <gtest/gtest.h>
 
+#include "base/speed_thresholds.h"
 #include "support/track.h"
 
 namespace stopline {
@@ -12,7 +13,6 @@ using namespace testing_support;
 // Feasible: braking with this after this delay (jerk of the command and lag of the brake) suffices.
 constexpr double kFeasible_mps2 = 6.0;
 constexpr double kDelay_s = 0.35;
-constexpr double kStanding_mps = 1e-3;  // the engine's: a vehicle as slow as this is held by its brake
 
 struct Approach {
     double speed_mps;
@@ -58,13 +58,13 @@ TEST_P(Stopping, BeforeARedLine) {
         track.place(static_cast<int>(2 * k), 1000.0 - all[k].distance_m, all[k].speed_mps);
     }
     track.run(45.0);
-    EXPECT_EQ(track.state().passages.size(), 0u) << "vehicles past the line";
-    EXPECT_EQ(track.state().violations.forced_red_entries, 0);
+    EXPECT_EQ(track.state().records.passages.size(), 0u) << "vehicles past the line";
+    EXPECT_EQ(track.state().records.violations.forced_red_entries, 0);
     const double margin_m = track.model().driver.stop.margin_m;
     for (std::size_t k = 0; k < all.size(); ++k) {
         ASSERT_EQ(track.count(static_cast<int>(2 * k)), 1) << text(all[k]);
         const Seen car = track.seen(static_cast<int>(2 * k), 0);
-        EXPECT_LT(car.speed_mps, kStanding_mps) << text(all[k]);
+        EXPECT_LT(car.speed_mps, kBrakeHoldSpeed_mps) << text(all[k]);
         const double left_m = 1000.0 - car.position_m;
         EXPECT_GT(left_m, 0.0) << text(all[k]);
         if (all[k].far) {
@@ -94,7 +94,7 @@ TEST_P(Stopping, BehindAStandingVehicle) {
     for (std::size_t k = 0; k < all.size(); ++k) {
         const Seen car = track.seen(static_cast<int>(2 * k), 1);
         EXPECT_GT(closest_m[k], 0.0) << text(all[k]);
-        EXPECT_LT(car.speed_mps, kStanding_mps) << text(all[k]);
+        EXPECT_LT(car.speed_mps, kBrakeHoldSpeed_mps) << text(all[k]);
         if (all[k].far) {
             EXPECT_NEAR(car.gap_m, wanted_m, 0.1) << text(all[k]);
         }

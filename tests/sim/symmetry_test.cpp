@@ -8,15 +8,14 @@
 #include <utility>
 #include <vector>
 
-#include "experiment/build_model.h"
+#include "base/containers/index.h"
+#include "scenario/build_model.h"
 #include "network/conflicts.h"
 #include "scenario/load_scenario.h"
-#include "sim/simulation.h"
+#include "sim/step/simulation.h"
 
 namespace stopline {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 constexpr double kUntil_s = 1.0 + 4 * 46.0;
 
@@ -71,7 +70,7 @@ TEST_P(SeenFromElsewhere, TheSameVehiclesPassAtTheSameTimes) {
     Simulation two(there);
     one.run_until(kUntil_s);
     two.run_until(kUntil_s);
-    EXPECT_GT(one.state().gaps_accepted.size(), 5u);
+    EXPECT_GT(one.state().records.gaps_accepted.size(), 5u);
     EXPECT_EQ(one.state_hash(), two.state_hash());
 }
 
@@ -114,11 +113,11 @@ TEST(Symmetry, ArmsAreAlike) {
         }
         return -1;
     };
-    for (const Crossing& c : one.state().crossings) {
+    for (const Crossing& c : one.state().records.crossings) {
         const Detector& d = here.detectors[at(c.detector)];
         first[detector_on(turned(d.lane), d.position_m)].push_back(c.time_s);
     }
-    for (const Crossing& c : two.state().crossings) {
+    for (const Crossing& c : two.state().records.crossings) {
         const Detector& d = here.detectors[at(c.detector)];
         second[detector_on(d.lane, d.position_m)].push_back(c.time_s);
     }

@@ -4,22 +4,22 @@
 #include <algorithm>
 #include <vector>
 
-#include "sim/events.h"
+#include "sim/state/events.h"
 
 namespace stopline {
 namespace {
 
 TEST(Violations, TheFirstIsTheEarliestInAnyOrder) {
-    std::vector<Sighting> seen{{2.0, Sighting::Kind::conflict, 7, 3, 4},
-                               {2.0, Sighting::Kind::overlap, 5, 9, 1},
-                               {2.0, Sighting::Kind::overlap, 5, 2, 9},
-                               {2.1, Sighting::Kind::overlap, 1, 1, 2}};
+    std::vector<Violation> seen{{2.0, Violation::Kind::conflict, 7, 3, 4},
+                               {2.0, Violation::Kind::overlap, 5, 9, 1},
+                               {2.0, Violation::Kind::overlap, 5, 2, 9},
+                               {2.1, Violation::Kind::overlap, 1, 1, 2}};
     std::vector<int> order{0, 1, 2, 3};
     do {
         Violations all;
         for (const int k : order) {
             Violations part;
-            part.see(seen[static_cast<std::size_t>(k)]);
+            part.record(seen[static_cast<std::size_t>(k)]);
             all.add(part);
             all.add({});
         }

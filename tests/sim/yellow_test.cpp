@@ -76,8 +76,8 @@ void Yellow::divides(double kmh, const char* decision) {
         const bool stopped = track.count(2 * k) == 1 && track.seen(2 * k, 0).speed_mps < 1e-3;
         EXPECT_EQ(stopped, slack_m[at(k)] > 0.0) << kmh << " km/h, slack " << slack_m[at(k)] << " m";
     }
-    EXPECT_EQ(track.state().violations.forced_red_entries, 0) << kmh << " km/h";
-    for (const Passage& passage : track.state().passages) {
+    EXPECT_EQ(track.state().records.violations.forced_red_entries, 0) << kmh << " km/h";
+    for (const Passage& passage : track.state().records.passages) {
         if (passage.from_lane % 2 == 0) {
             EXPECT_LT(passage.time_s, kYellowFrom_s + kYellow_s);
         }
@@ -125,9 +125,9 @@ void YellowQueue::is_cut(double green_s, const char* decision) {
     const int passed = before - track.count(0);
     EXPECT_TRUE(passed == pass || (passed == pass + 1 && slack_m < kClose_m))
         << "green " << green_s << ", slack " << slack_m << " m: " << passed << " passed, not " << pass;
-    EXPECT_EQ(track.state().violations.forced_red_entries, 0) << "green " << green_s;
+    EXPECT_EQ(track.state().records.violations.forced_red_entries, 0) << "green " << green_s;
     double last_s = 0.0;
-    for (const Passage& passage : track.state().passages) {
+    for (const Passage& passage : track.state().records.passages) {
         if (passage.from_lane == 0) last_s = passage.time_s;
     }
     EXPECT_LT(last_s, 5.0 + green_s + kYellow_s) << "green " << green_s;
@@ -150,8 +150,8 @@ TEST(WithoutYellow, NobodyEntersOnRedWhoCouldHaveStopped) {
     const Model model = build_model(scenario, 0);
     Simulation simulation(model);
     simulation.run_until(180.0);
-    EXPECT_EQ(simulation.state().violations.red_entries, 0);
-    EXPECT_GT(simulation.state().violations.forced_red_entries, 0);
+    EXPECT_EQ(simulation.state().records.violations.red_entries, 0);
+    EXPECT_GT(simulation.state().records.violations.forced_red_entries, 0);
 }
 
 }  // namespace

@@ -38,9 +38,9 @@ def cases():
                                "duration=900 s"]
     for green, left in itertools.product((15, 25), (0, 5)):
         yield "grid", [f"signal.green={green} s", f"demand.left={left} %", f"demand.right={2 * left} %", "duration=900 s",
-                       "measure.steady=600 s", "network.grid.columns=3", "network.grid.rows=2"]
+                       "measure.window=600 s", "network.grid.columns=3", "network.grid.rows=2"]
     for offset in (0, 15):
-        yield "arterial", [f"signal.offset={offset} s", "duration=900 s", "measure.steady=600 s"]
+        yield "arterial", [f"signal.offset={offset} s", "duration=900 s", "measure.window=600 s"]
 
 
 def main():

@@ -4,7 +4,7 @@
     import_nets.py BIN [--fidelity meso|full] [--seeds N] [--only NAME] [--keep DIR] [--net FILE ROUTES[,ROUTES...]]...
 
 BIN is the folder of stopline-run. SUMO is found by SUMO_HOME or the package eclipse-sumo (pip install eclipse-sumo). For each network the table
-has lanes, signals, trips, those that arrived, were moved on or strayed, and violations. Exit code 1 where a run has violations (overlaps,
+has lanes, signals, trips, arrivals, teleported vehicles, missed turns and violations. Exit code 1 where a run has violations (overlaps,
 entries on red, lost vehicles) or trips do not add up, 77 where SUMO is missing.
 """
 
@@ -86,7 +86,7 @@ def run(binary, folder, name, net, routes, fidelity):
         f"fidelity: {fidelity}\nduration: {SECONDS} s\n"
         f"network: {{kind: sumo, net: {net}, routes: [{routes}]}}\n"
         "populations: [CDG, {name: MIX, pattern: alternating, components: [{policy: CDG, share: 50 %},"
-        " {policy: CTG-Ref, share: 50 %}]}, CTG-Ref]\nrules: {teleport_cycles: 3}\nmeasure: {steady: 600 s}\n"
+        " {policy: CTG-Ref, share: 50 %}]}, CTG-Ref]\nrules: {teleport_cycles: 3}\nmeasure: {window: 600 s}\n"
     )
     out = folder / f"out_{name}"
     result = subprocess.run(
@@ -108,8 +108,8 @@ def judge(name, rows, errors):
         wrong = {key: int(row[key]) for key in ("overlaps", "conflicts", "red_entries", "lost_vehicles") if int(row[key])}
         good = good and not wrong
         print(
-            f"{name:28} {row['population']:8} entered {row['entered']:>5} arrived {row['left']:>5} moved on {row['moved_on']:>4} "
-            f"strayed {row['strayed']:>4} waiting {row['waiting']:>4} gridlocks {row['gridlocks']:>3} s {row['travel_time_s']:>8} "
+            f"{name:28} {row['population']:8} entered {row['entered']:>5} arrived {row['exited']:>5} teleported {row['teleported']:>4} "
+            f"missed turns {row['missed_turns']:>4} backlog {row['backlog']:>4} gridlocks {row['gridlocks']:>3} s {row['travel_time_s']:>8} "
             f"forced {row['forced_red_entries']:>3} {wrong or ''}",
             flush=True,
         )

@@ -29,8 +29,8 @@ STUDENT = [12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228
 SCENARIOS = HERE.parent.parent / "scenarios"
 CASES = {
     "intersection": ["duration=700 s"],
-    "arterial": ["duration=700 s", "measure.steady=400 s"],
-    "grid": ["duration=700 s", "measure.steady=400 s", "network.grid.columns=3", "network.grid.rows=2"],
+    "arterial": ["duration=700 s", "measure.window=400 s"],
+    "grid": ["duration=700 s", "measure.window=400 s", "network.grid.columns=3", "network.grid.rows=2"],
 }
 # Of ours, what SUMO has no word for, is left out.
 AS_SUMO = ["fidelity=meso", "meso=table2", "driver.free_drive.hesitation=0 s", "driver.stop.decision_deceleration=4.7 m/s2"]
@@ -50,7 +50,7 @@ driver:
 network: {{kind: sumo, net: {net}, routes: [{routes}]}}
 rules: {rules}
 populations: [CTG-Ref]
-measure: {{steady: 400 s}}
+measure: {{window: 400 s}}
 """
 RULES = {"intersection": "{}", "arterial": "{keep_clear: on, teleport_cycles: 3, pass_blocker_greens: 2}"}
 RULES["grid"] = RULES["arterial"]

@@ -53,7 +53,7 @@ struct Car {
 inline CarState cruising(const Car& car, double v_mps) {
     CarState s{};
     s.speed_mps = v_mps;
-    s.gear = gear_for(car.tables, v_mps);
+    s.gear = cruising_gear(car.tables, v_mps);
     s.gear_time_s = 1000.0;
     s.lag_s = 0.2;
     return s;

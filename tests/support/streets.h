@@ -13,25 +13,25 @@ inline StreetIntersection street_node(const std::string& name, double x_m, bool 
     node.name = name;
     node.x_m = x_m;
     for (const char* const from : {"west", "east"}) {
-        StreetArm arm;
-        arm.from = from;
-        arm.lanes = {{minor ? "straight+left" : "straight"}, {"straight"}, {minor ? "straight+right" : "straight"}};
-        arm.exits = 3;
+        StreetLeg leg;
+        leg.from = from;
+        leg.lanes = {{minor ? "straight+left" : "straight"}, {"straight"}, {minor ? "straight+right" : "straight"}};
+        leg.exits = 3;
         if (minor) {
-            arm.right = 0.12;
-            arm.left = 0.08;
+            leg.right_share = 0.12;
+            leg.left_share = 0.08;
         }
-        node.arms.push_back(arm);
+        node.legs.push_back(leg);
     }
     for (const char* const from : {"south", "north"}) {
         if (!minor) break;
-        StreetArm arm;
-        arm.from = from;
-        arm.lanes = {{"straight+left+right"}};
-        arm.exits = 1;
-        arm.right = 0.16;
-        arm.left = 0.09;
-        node.arms.push_back(arm);
+        StreetLeg leg;
+        leg.from = from;
+        leg.lanes = {{"straight+left+right"}};
+        leg.exits = 1;
+        leg.right_share = 0.16;
+        leg.left_share = 0.09;
+        node.legs.push_back(leg);
     }
     return node;
 }
@@ -48,7 +48,7 @@ inline StreetSettings streets_with_pockets() {
     StreetSettings streets = two_streets();
     StreetIntersection& node = streets.intersections[0];
     for (std::size_t a = 0; a < 2; ++a)
-        node.arms[a].lanes = {{"left", 60.0}, {"straight"}, {"straight"}, {"straight+right"}};
+        node.legs[a].lanes = {{"left", 60.0}, {"straight"}, {"straight"}, {"straight+right"}};
     node.programme = {22, 3, 8, 3, 11, 3, 10};
     return streets;
 }

@@ -10,14 +10,15 @@
 #include <string>
 #include <vector>
 
-#include "experiment/build_model.h"
+#include "base/containers/index.h"
+#include "scenario/build_model.h"
 #include "scenario/load_scenario.h"
-#include "sim/phases.h"
-#include "sim/simulation.h"
+#include "sim/perception/reset_leader.h"
+#include "sim/state/lane_blocks.h"
+#include "sim/state/state.h"
+#include "sim/step/simulation.h"
 
 namespace stopline::testing_support {
-
-inline std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 inline constexpr double kForever_s = 1e5;
 
@@ -102,22 +103,18 @@ public:
         v.length_m[i] = static_cast<float>(car.length_m);
         v.reset_powertrain(slot, car, speed_mps);
         if (v.has_powertrain()) v.gear_time_s[i] = 100.0F, v.lag_s[i] = 0.2F;
-        v.leads[i] = 1.0F;
+        v.is_platoon_leader[i] = 1.0F;
         v.standstill_gap_m[i] = static_cast<float>(model_->policies[at(policy)].settings.standstill_gap_m);
         v.end_speed_mps[i] = 1e3F;
         v.policy[i] = policy;
         v.type[i] = type;
-        v.id[i] = state.next_id++;
+        v.id[i] = state.insertion.next_id++;
         v.record[i] = {};
         v.record[i].route = lane / 2;
         v.record[i].route_index = lane % 2;
         v.next_lane[i] = lane % 2 == 0 ? lane + 1 : -1;
-        const bool first = state.blocks[at(lane)].count == 1;
-        v.record[i].predecessor = first ? -1 : v.id[i - 1];
-        v.reset_radar(slot, first ? 1e6 : v.position_m[i - 1] - v.length_m[i - 1] - position_m,
-                      first ? 0.0 : speed_mps - v.speed_mps[i - 1]);
-        v.reset_v2v(slot);
-        ++state.entered;
+        initialise_sensors(v, slot, state.blocks[at(lane)].count == 1);
+        ++state.records.entered;
         return v.id[i];
     }
 
@@ -131,7 +128,7 @@ public:
     }
 
     // A lane's k-th vehicle is no leader of a platoon (any more).
-    void follows(int lane, int k) { editable().vehicles.leads[slot(lane, k)] = 0.0; }
+    void follows(int lane, int k) { editable().vehicles.is_platoon_leader[slot(lane, k)] = 0.0; }
 
     // Slot of a lane's k-th vehicle from the front.
     std::size_t slot(int lane, int k) const { return at(state().blocks[at(lane)].first + k); }
@@ -162,7 +159,7 @@ public:
                 v.acceleration_mps2[i],
                 (v.has_powertrain() ? v.request_mps2[i] : v.acceleration_mps2[i]),
                 gap_m,
-                v.leads[i] != 0.0F};
+                v.is_platoon_leader[i] != 0.0F};
     }
 
     void step() {
@@ -188,17 +185,17 @@ public:
         for (const LaneBlock& block : s.blocks) {
             present += block.count;
             ASSERT_GE(block.first, block.begin);
-            ASSERT_LE(block.stop(), block.end);
+            ASSERT_LE(block.past_last(), block.end);
             if (!model_->graph.approaches.empty()) continue;
             // Ids are given in the order of entering: where nobody changes lanes they rise from front to back.
-            for (int k = block.first + 1; k < block.stop(); ++k) {
+            for (int k = block.first + 1; k < block.past_last(); ++k) {
                 ASSERT_LT(s.vehicles.id[at(k - 1)], s.vehicles.id[at(k)]) << "order changed at " << time_s() << " s";
             }
         }
-        ASSERT_EQ(s.entered, s.left + present) << "vehicles lost at " << time_s() << " s";
-        ASSERT_EQ(s.violations.overlaps, 0) << "overlap at " << time_s() << " s";
-        ASSERT_EQ(s.violations.red_entries, 0) << "passed on red at " << time_s() << " s";
-        ASSERT_EQ(s.violations.lost_vehicles, 0) << "at " << time_s() << " s";
+        ASSERT_EQ(s.records.entered, s.records.exited + present) << "vehicles lost at " << time_s() << " s";
+        ASSERT_EQ(s.records.violations.overlaps, 0) << "overlap at " << time_s() << " s";
+        ASSERT_EQ(s.records.violations.red_entries, 0) << "passed on red at " << time_s() << " s";
+        ASSERT_EQ(s.records.violations.lost_vehicles, 0) << "at " << time_s() << " s";
     }
 
 private:

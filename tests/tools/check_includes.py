@@ -1,36 +1,70 @@
 #!/usr/bin/env python3
-"""Checks that includes go one way, and that files stay short.
+"""Checks that includes go one way between the rooms of core/, and that folders and files stay small.
 
     check_includes.py [PROJECT]
 
-Reads every #include "..." of core/ and apps/ under PROJECT (default: the project this script lies in). Fails when a folder
-of core/ includes one that it may not know, when yaml-cpp appears in more than one source file or outside core/scenario, when
-an include does not name a file from the include root, and when a file is longer than MAX_LINES.
+Reads every #include "..." of core/ and apps/ under PROJECT (default: the project of this script). A room is a folder of
+core/, or an inner folder of core/sim. The check fails if
+
+  - a room includes a room that is not in its list below, or a file that does not exist,
+  - a heavy library is included outside the files that may use it, or in a header of the project,
+  - a folder has more than MAX_FILES files, or a file more than MAX_LINES lines,
+  - a CMakeLists.txt of core/ links a library of the project that no include of the folder needs,
+  - the rooms include each other in a circle.
 """
 
 import re
 import sys
 from pathlib import Path
 
-# What each folder of core/ may include besides itself. `measure` sees events and the network but never a vehicle or a driver,
-# so that metrics cannot depend on the fidelity; `vehicle` and `driver` never see each other.
+SIM_BELOW = ["base", "network", "signals", "demand", "vehicle", "driver", "spacing_laws"]
+
+# The rooms that each room may include besides itself. `measure` sees events and the network, never a vehicle or a driver,
+# so that measures cannot depend on the fidelity. `vehicle` and `driver` do not know each other.
 ALLOWED = {
     "base": [],
     "network": ["base"],
     "vehicle": ["base"],
     "driver": ["base"],
+    "spacing_laws": ["base", "driver"],
     "signals": ["base", "network"],
     "demand": ["base", "network"],
-    "sim": ["base", "network", "signals", "demand", "vehicle", "driver"],
-    "measure": ["base", "network", "sim"],
-    "record": ["base", "network", "signals", "sim"],
-    "scenario": ["base", "network", "signals", "demand", "vehicle", "driver", "sim", "measure"],
-    "experiment": ["base", "sim", "measure", "scenario"],
-    "report": ["base", "scenario", "experiment"],
-    "sumo": ["base", "network", "signals", "sim", "measure", "record", "scenario", "experiment"],
+    "sumo_import": ["base", "network", "demand", "signals"],
+    "sim/state": SIM_BELOW,
+    "sim/perception": SIM_BELOW + ["sim/state"],
+    "sim/performance": SIM_BELOW + ["sim/state"],
+    "sim/full_dynamics": SIM_BELOW + ["sim/state", "sim/perception", "sim/performance"],
+    "sim/mesoscale": SIM_BELOW + ["sim/state", "sim/perception", "sim/performance"],
+    "sim/junction": SIM_BELOW + ["sim/state", "sim/perception", "sim/performance"],
+    "sim/lane_change": SIM_BELOW + ["sim/state", "sim/perception"],
+    "sim/insertion": SIM_BELOW + ["sim/state", "sim/perception", "sim/lane_change"],
+    "sim/congestion": SIM_BELOW + ["sim/state", "sim/perception", "sim/lane_change", "sim/insertion"],
+    "sim/step": SIM_BELOW + ["sim/*"],
+    "measure": ["base", "network", "sim/state/events.h"],
+    "scenario": SIM_BELOW + ["sumo_import", "sim/state/model.h"],
+    "record": ["base", "network", "signals", "sim/*"],
+    "reference": ["base", "scenario"],
+    "runs": SIM_BELOW + ["sim/*", "measure", "scenario"],
+    "sweeps": ["base", "measure", "scenario", "runs"],
+    "calibration": ["base", "driver", "measure", "scenario", "sim/*", "runs", "sweeps"],
+    "figures": ["base", "network", "measure", "scenario", "sim/*", "reference", "runs", "sweeps", "calibration"],
+    "paper": ["base", "measure", "scenario", "sim/*", "reference", "runs", "sweeps", "calibration", "figures"],
+    "sumo_export": ["base", "network", "signals", "demand", "sumo_import", "sim/*", "measure", "record", "scenario", "runs", "figures"],
 }
-YAML_FOLDER = "scenario"
+TOP_FOLDERS = {room.split("/")[0] for room in ALLOWED}
+
+# Libraries that take long to compile, and the only files that may include them.
+HEAVY = {
+    "yaml-cpp/": r"core/scenario/yaml/yaml_source\.cpp",
+    "nlohmann/": r".*\.cpp",
+    "CLI/": r"apps/.*\.cpp",
+    "fmt/ranges.h": r".*\.cpp",
+    "Eigen/": r".*\.cpp",
+    "boost/": r".*\.cpp",
+    "pugixml": r"core/sumo_import/.*\.cpp",
+}
 MAX_LINES = 450
+MAX_FILES = 25
 SUFFIXES = {".h", ".hpp", ".cpp", ".cc", ".cxx", ".c", ".inl", ".inc", ".ipp"}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
@@ -48,31 +82,92 @@ def includes(path):
             yield number, match.group(1), match.group(2)
 
 
+def room_of(path):
+    """The room of a path below core/: 'scenario' or 'sim/state'."""
+    parts = path.split("/")
+    return "/".join(parts[:2]) if parts[0] == "sim" else parts[0]
+
+
+def allows(room, included):
+    target = room_of(included)
+    return any(
+        entry in (target, included) or (entry.endswith("/*") and target.startswith(entry[:-1]))
+        for entry in [room, *ALLOWED[room]])
+
+
 def check_core_file(path, project, problems):
-    folder = path.relative_to(project / "core").parts[0]
-    allowed = [folder] + ALLOWED[folder]
+    room = room_of(str(path.relative_to(project / "core")))
+    where = str(path.relative_to(project))
+    if room not in ALLOWED:
+        problems.append(f"{where}: core/{room} is not a known room; add it to {Path(__file__).name}")
+        return
     for number, quote, included in includes(path):
-        where = f"{path.relative_to(project)}:{number}"
-        target = included.split("/")[0]
-        if "/" in included and target in ALLOWED:
+        place = f"{where}:{number}"
+        if "/" in included and included.split("/")[0] in TOP_FOLDERS:
             if quote == "<":
-                problems.append(f'{where}: write "{included}", as for every file of the project')
+                problems.append(f'{place}: write "{included}", as for every file of the project')
             elif not (project / "core" / included).is_file():
-                problems.append(f"{where}: there is no core/{included}")
-            if target not in allowed:
-                problems.append(f"{where}: {folder} must not include {included}; it may include {', '.join(allowed)}")
+                problems.append(f"{place}: there is no core/{included}")
+            if not allows(room, included):
+                problems.append(f"{place}: {room} must not include {included}; it may include {', '.join([room, *ALLOWED[room]])}")
         elif quote == '"' and included != "version_text.h":
-            problems.append(f'{where}: "{included}" does not begin with a folder of core/ ({", ".join(ALLOWED)})')
+            problems.append(f'{place}: "{included}" does not begin with a folder of core/ ({", ".join(sorted(TOP_FOLDERS))})')
 
 
-def check_yaml(files, project, problems):
-    users = [path for path in files if any(included.startswith("yaml-cpp/") for _, _, included in includes(path))]
-    names = ", ".join(str(path.relative_to(project)) for path in users)
-    if len(users) > 1:
-        problems.append(f"yaml-cpp belongs in one source file, but is included by {names}")
-    for path in users:
-        if path.suffix != ".cpp" or path.parent != project / "core" / YAML_FOLDER:
-            problems.append(f"{path.relative_to(project)}: yaml-cpp belongs in one .cpp of core/{YAML_FOLDER}")
+def check_heavy(files, project, problems):
+    for path in files:
+        name = str(path.relative_to(project))
+        for number, _, included in includes(path):
+            for library, users in HEAVY.items():
+                if included.startswith(library) and not re.fullmatch(users, name):
+                    problems.append(f"{name}:{number}: <{included}> is slow to compile and belongs into {users} only")
+
+
+def check_links(project, problems):
+    """Each library of the project that a folder links is included by the folder."""
+    for folder in sorted(TOP_FOLDERS):
+        cmake = project / "core" / folder / "CMakeLists.txt"
+        if not cmake.is_file():
+            continue
+        used = {included.split("/")[0] for path in sources(cmake.parent) for _, _, included in includes(path)}
+        for linked in re.findall(r"\bstopline_(\w+)", cmake.read_text(encoding="utf-8")):
+            if linked in TOP_FOLDERS and linked != folder and linked not in used:
+                problems.append(f"core/{folder}/CMakeLists.txt: links stopline_{linked}, but no file of the folder includes it")
+
+
+def check_circles(project, problems):
+    """Includes between rooms form no circle."""
+    edges = {}
+    for path in sources(project / "core"):
+        room = room_of(str(path.relative_to(project / "core")))
+        for _, _, included in includes(path):
+            if included.split("/")[0] in TOP_FOLDERS and room_of(included) != room:
+                edges.setdefault(room, set()).add(room_of(included))
+    state = {}
+
+    def visit(room, trail):
+        if state.get(room) == "done":
+            return
+        if room in trail:
+            problems.append("rooms include each other in a circle: " + " -> ".join(trail[trail.index(room):] + [room]))
+            return
+        for target in sorted(edges.get(room, ())):
+            visit(target, trail + [room])
+        state[room] = "done"
+
+    for room in sorted(edges):
+        visit(room, [])
+
+
+def check_sizes(project, files, problems):
+    for path in files:
+        lines = len(path.read_text(encoding="utf-8").splitlines())
+        if lines > MAX_LINES:
+            problems.append(f"{path.relative_to(project)}: {lines} lines; split it, {MAX_LINES} is the limit")
+    for folder in sorted({path.parent for path in files}):
+        count = sum(1 for path in folder.iterdir() if path.is_file() and path.name != "CMakeLists.txt")
+        if count > MAX_FILES:
+            problems.append(f"{folder.relative_to(project)}: {count} files at one level; {MAX_FILES} is the limit")
 
 
 def main():
@@ -84,16 +179,11 @@ def main():
         problems.append(f"no sources under {project / 'core'}")
 
     for path in core_files:
-        folder = path.relative_to(project / "core").parts[0]
-        if folder in ALLOWED:
-            check_core_file(path, project, problems)
-        else:
-            problems.append(f"{path.relative_to(project)}: core/{folder} is not a known folder; add it to {Path(__file__).name}")
-    check_yaml(core_files + app_files, project, problems)
-    for path in core_files + app_files:
-        lines = len(path.read_text(encoding="utf-8").splitlines())
-        if lines > MAX_LINES:
-            problems.append(f"{path.relative_to(project)}: {lines} lines; split it, {MAX_LINES} is the limit")
+        check_core_file(path, project, problems)
+    check_heavy(core_files + app_files, project, problems)
+    check_links(project, problems)
+    check_circles(project, problems)
+    check_sizes(project, core_files + app_files, problems)
 
     for problem in problems:
         print(problem)

@@ -1,4 +1,4 @@
-// Brakes: lag, friction limit, stopping distance, rest.
+// Tests of the brakes: lag, friction limit, stopping distance, standstill.
 #include <gtest/gtest.h>
 
 #include "support/cars.h"
@@ -13,26 +13,26 @@ constexpr double kStep_s = 0.01;
 class Braking : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(EveryVehicle, Braking, testing::ValuesIn(car_names()), as_test_name);
 
-TEST_P(Braking, StopsWithinTheDistanceOfItsDecelerationAndLag) {
+TEST_P(Braking, StopsWithinTheExpectedDistance) {
     const Car car(GetParam());
     for (const double v : {5.0, 50.0 / 3.6, 25.0}) {
         for (const double braking : {2.0, 4.0, 6.0}) {
             CarState s = cruising(car, v);
             double distance_m = 0.0;
             while (s.speed_mps > 0.0 && distance_m < 500.0) {
-                const double before = s.speed_mps;
+                const double previous_mps = s.speed_mps;
                 s = advance(car, s, -braking, 0.0, kStep_s);
-                distance_m += 0.5 * (before + s.speed_mps) * kStep_s;
+                distance_m += 0.5 * (previous_mps + s.speed_mps) * kStep_s;
             }
-            // The lag delays the braking by its time constant; engine drag and resistance act at once.
-            const double at_once_m = v * v / (2.0 * braking);
-            EXPECT_GT(distance_m, 0.99 * at_once_m) << v << ' ' << braking;
-            EXPECT_LT(distance_m, 1.01 * at_once_m + v * car.settings.brake_lag_s) << v << ' ' << braking;
+            // The lag delays the brake force by its time constant. Engine drag and resistance act immediately.
+            const double distance_without_lag_m = v * v / (2.0 * braking);
+            EXPECT_GT(distance_m, 0.99 * distance_without_lag_m) << v << ' ' << braking;
+            EXPECT_LT(distance_m, 1.01 * distance_without_lag_m + v * car.settings.brake_lag_s) << v << ' ' << braking;
         }
     }
 }
 
-TEST_P(Braking, ForceFollowsWithItsLag) {
+TEST_P(Braking, ForceFollowsAsAFirstOrderLag) {
     const Car car(GetParam());
     CarState s = cruising(car, 20.0);
     std::vector<double> force_N;
@@ -48,24 +48,24 @@ TEST_P(Braking, ForceFollowsWithItsLag) {
     EXPECT_NEAR(force_N[2 * at_lag + 1] / force_N.back(), 1.0 - std::exp(-2.0), 0.01);
 }
 
-TEST_P(Braking, DoesNotExceedFriction) {
+TEST_P(Braking, NeverExceedsFriction) {
     for (const double friction : {0.8, 0.3}) {
         PowertrainSettings settings = load_vehicle(GetParam());
         settings.brake_friction = friction;
         const Car car(settings);
         CarState s = cruising(car, 30.0);
-        double hardest = 0.0;
-        while (s.speed_mps > 1.0) {  // the clutch opens on the way
+        double max_friction_use = 0.0;
+        while (s.speed_mps > 1.0) {  // the clutch opens during the stop
             s = advance(car, s, -15.0, 0.0, kStep_s);
             const double tyres_N = -s.acceleration_mps2 * car.mass_kg() - car.resistance_N(s.speed_mps);
-            hardest = std::max(hardest, tyres_N / car.friction_N());
+            max_friction_use = std::max(max_friction_use, tyres_N / car.friction_N());
         }
-        EXPECT_LT(hardest, 1.02) << friction;  // 1 %: a motor's torque follows faster than the brake's
-        EXPECT_GT(hardest, 0.9) << friction;
+        EXPECT_LT(max_friction_use, 1.02) << friction;  // an electric motor's torque changes faster than the brake force
+        EXPECT_GT(max_friction_use, 0.9) << friction;
     }
 }
 
-TEST_P(Braking, SpeedIsNeverNegativeAndRestIsExact) {
+TEST_P(Braking, SpeedIsNeverNegativeAndStandstillIsExact) {
     const Car car(GetParam());
     for (const double gradient : {-0.12, 0.0, 0.12}) {
         CarState s = cruising(car, 8.0);
@@ -80,11 +80,11 @@ TEST_P(Braking, SpeedIsNeverNegativeAndRestIsExact) {
     }
 }
 
-TEST_P(Braking, StandstillIsHeldOnGradientsBothWays) {
+TEST_P(Braking, HoldsStandstillUphillAndDownhill) {
     const Car car(GetParam());
     for (const double gradient : {-0.12, -0.06, 0.06, 0.12}) {
         CarState s = cruising(car, 0.0);
-        s.brake_N = car.grade_N(0.12);  // it has stopped there
+        s.brake_N = car.grade_N(0.12);  // brake force left from the stop
         for (int k = 0; k < 6000; ++k) {
             s = advance(car, s, -0.3, car.grade_N(gradient), kStep_s);
             ASSERT_EQ(s.speed_mps, 0.0) << "gradient " << gradient << " after " << k * kStep_s << " s";
@@ -92,20 +92,20 @@ TEST_P(Braking, StandstillIsHeldOnGradientsBothWays) {
     }
 }
 
-TEST_P(Braking, AHillStartMovesForwardOnly) {
+TEST_P(Braking, NeverRollsBackOnAHillStart) {
     const Car car(GetParam());
     for (const double gradient : {0.0, 0.06, 0.12}) {
         CarState s = cruising(car, 0.0);
         s.brake_N = car.grade_N(gradient) + 500.0;
-        double begins_s = -1.0;
+        double start_s = -1.0;
         for (int k = 0; k < 500; ++k) {
             s = advance(car, s, 1.0, car.grade_N(gradient), kStep_s);
             ASSERT_GE(s.speed_mps, 0.0);
-            if (begins_s < 0.0 && s.speed_mps > 0.1) begins_s = k * kStep_s;
+            if (start_s < 0.0 && s.speed_mps > 0.1) start_s = k * kStep_s;
         }
         EXPECT_GT(s.speed_mps, 2.0) << "gradient " << gradient;
-        EXPECT_GT(begins_s, 0.0);
-        EXPECT_LT(begins_s, 1.5) << "gradient " << gradient;
+        EXPECT_GT(start_s, 0.0);
+        EXPECT_LT(start_s, 1.5) << "gradient " << gradient;
     }
 }
 

@@ -1,4 +1,4 @@
-// The force balance in closed form: coasting, full load in every gear, and the account of energy.
+// Tests of the force balance in closed form: coasting, full load in every gear, energy.
 #include <gtest/gtest.h>
 
 #include "support/cars.h"
@@ -11,8 +11,8 @@ using namespace testing_support;
 class ForceBalance : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(EveryVehicle, ForceBalance, testing::ValuesIn(car_names()), as_test_name);
 
-// The vehicle in one gear with an engine that gives nothing and drags nothing: whatever is asked for, it coasts. The low-level
-// controller cannot make up for a wrong resistance then.
+// Returns the vehicle with a single gear and an engine without torque and drag. It coasts at any request, so the low-level
+// controller cannot hide a wrong resistance.
 Car without_engine(const std::string& name, std::size_t gear) {
     PowertrainSettings s = load_vehicle(name);
     for (double& torque : s.full_load.y) torque = 0.0;
@@ -23,7 +23,7 @@ Car without_engine(const std::string& name, std::size_t gear) {
     return Car(std::move(s));
 }
 
-// Solution of m lambda dv/dt = -(A + B v + C v^2) for 4 A C > B^2.
+// Returns the speed at time t: the solution of m lambda dv/dt = -(A + B v + C v^2) for 4 A C > B^2.
 double coasting_speed(const Car& car, double grade_N, double v0, double t) {
     const double A = car.rolling_N() + grade_N;
     const double B = car.rolling_Nspm();
@@ -53,7 +53,7 @@ TEST_P(ForceBalance, CoastingFollowsTheAnalyticSolution) {
     }
 }
 
-// Every gear held by hand, the engine at full load: acceleration by the settings' curve, ratio, losses, rotating mass.
+// The test holds each gear at full load. Torque curve, gear ratio, losses and rotating mass give the acceleration.
 TEST_P(ForceBalance, FullLoadAccelerationFollowsTheTorqueCurve) {
     const Car car(GetParam());
     for (int gear = 0; gear < car.tables.gears; ++gear) {
@@ -68,16 +68,16 @@ TEST_P(ForceBalance, FullLoadAccelerationFollowsTheTorqueCurve) {
             }
             const double force_N = std::min(car.full_force_N(v, gear), car.friction_N()) - car.resistance_N(v);
             const double expected = force_N / (car.mass_kg() * car.rotating(gear));
-            // The corners of the curve lie between the nodes of the grid.
+            // The tolerance covers corners of the curve that lie between grid nodes.
             EXPECT_NEAR(s.acceleration_mps2, expected, 0.015 * std::fabs(expected) + 0.01)
                 << "gear " << gear + 1 << ", speed " << v;
         }
     }
 }
 
-// With one gear and no clutch nothing is lost but in the driveline, the resistances and the brake: the motor's work is kinetic
-// energy and these, over any sequence of requests.
-TEST(EnergyOfAnElectricCar, IsAccountedFor) {
+// With one gear and no clutch, the motor's work becomes kinetic energy and losses in driveline, resistances and brake. This
+// holds for any sequence of requests.
+TEST(ElectricCar, ConservesEnergy) {
     const Car car("electric_100kw");
     const double efficiency = car.settings.driveline_efficiency;
     const double inertia_kg = car.mass_kg() * car.rotating(0);
@@ -86,7 +86,7 @@ TEST(EnergyOfAnElectricCar, IsAccountedFor) {
         CarState s = cruising(car, 10.0);
         double wheel_J = 0.0;
         double lost_J = 0.0;
-        double moved_J = 0.0;  // all that was turned over, to measure the error by
+        double absolute_J = 0.0;  // absolute work of the motor, the scale of the tolerance
         const double begin_J = 0.5 * inertia_kg * s.speed_mps * s.speed_mps;
         for (int k = 0; k * dt < 120.0; ++k) {
             const double t = k * dt;
@@ -96,16 +96,16 @@ TEST(EnergyOfAnElectricCar, IsAccountedFor) {
             const double motor_W = next.torque_Nm * car.rpm(mean_mps, 0) * kRadpsPerRpm;
             wheel_J += (motor_W > 0.0 ? motor_W * efficiency : motor_W / efficiency) * dt;
             lost_J += (car.resistance_N(mean_mps) + grade_N + next.brake_N) * mean_mps * dt;
-            moved_J += std::fabs(motor_W) * dt;
+            absolute_J += std::fabs(motor_W) * dt;
             s = next;
         }
         const double gained_J = 0.5 * inertia_kg * s.speed_mps * s.speed_mps - begin_J;
-        EXPECT_NEAR(wheel_J, gained_J + lost_J, 1e-3 * moved_J) << dt;
+        EXPECT_NEAR(wheel_J, gained_J + lost_J, 1e-3 * absolute_J) << dt;
     }
 }
 
-// No vehicle moves more kinetic energy than its engine turned over: a start from rest to 100 km/h.
-TEST_P(ForceBalance, AStartTakesAtLeastItsKineticEnergy) {
+// On a start from rest to 100 km/h, the engine's work is at least the kinetic energy.
+TEST_P(ForceBalance, StartNeedsAtLeastTheKineticEnergy) {
     const Car car(GetParam());
     CarState s = cruising(car, 0.0);
     double crank_J = 0.0;

@@ -1,4 +1,4 @@
-// Gear changes: in order, at the scheduled engine speeds, with the interruption that is said, and never back and forth.
+// Tests of gear changes: in order, at the scheduled engine speeds, with the set torque interruption, without hunting.
 #include <gtest/gtest.h>
 
 #include "support/cars.h"
@@ -13,36 +13,36 @@ constexpr double kStep_s = 0.01;
 class Gearbox : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(EveryVehicle, Gearbox, testing::ValuesIn(car_names()), as_test_name);
 
-// At a constant speed and load the gear settles: within 20 s, and at most one more change in the 20 s after.
-TEST_P(Gearbox, DoesNotHuntAtAnySpeedAndLoad) {
+// At constant speed and load the gear settles within 20 s. At most one change may follow in the next 20 s.
+TEST_P(Gearbox, NeverHunts) {
     constexpr double kCoarse_s = 0.02;
     const Car car(GetParam());
-    int hunting = 0;
+    int hunting_cases = 0;
     for (const double gradient : {-0.08, -0.03, 0.0, 0.03, 0.06, 0.12}) {
         for (double v = 0.5; v < 45.0; v += 0.75) {
             for (const double request : {-3.0, -1.0, -0.4, -0.1, 0.0, 0.1, 0.25, 0.5, 1.0, 1.5, 2.0}) {
                 CarState s = cruising(car, v);
                 int changes = 0;
                 for (int k = 0; k < 2000; ++k) {
-                    const double before = s.gear;
+                    const double previous_gear = s.gear;
                     s = advance(car, s, request, car.grade_N(gradient), kCoarse_s);
                     s.speed_mps = v;
-                    if (k >= 1000 && s.gear != before) ++changes;
+                    if (k >= 1000 && s.gear != previous_gear) ++changes;
                 }
                 if (changes <= 1) continue;
-                ++hunting;
-                EXPECT_GT(hunting, 10) << "speed " << v << ", request " << request << ", gradient " << gradient << ": "
+                ++hunting_cases;
+                EXPECT_GT(hunting_cases, 10) << "speed " << v << ", request " << request << ", gradient " << gradient << ": "
                                        << changes << " changes in 20 s, now in gear " << s.gear + 1;
             }
         }
     }
-    EXPECT_EQ(hunting, 0) << "cases (the first ten are shown)";
+    EXPECT_EQ(hunting_cases, 0) << "cases (the first ten are shown)";
 }
 
 struct Change {
     double time_s;
-    int from, to;  // gears from 0
-    double rpm;    // before it
+    int from, to;  // gears, counted from 0
+    double rpm;    // engine speed before the change
 };
 
 struct Drive {
@@ -65,7 +65,7 @@ Drive drive(const Car& car, CarState s, double request_mps2, double until_mps, d
     return result;
 }
 
-TEST_P(Gearbox, GoesUpOneByOneWithinTheSchedule) {
+TEST_P(Gearbox, ShiftsUpOneGearAtATimeWithinTheSchedule) {
     const Car car(GetParam());
     for (const double request : {0.6, 1.5, 9.0}) {
         const Drive start = drive(car, cruising(car, 0.0), request, 120.0 * kMpsPerKmh, 120.0);
@@ -82,7 +82,7 @@ TEST_P(Gearbox, GoesUpOneByOneWithinTheSchedule) {
     }
 }
 
-TEST_P(Gearbox, ChangesLaterTheMoreIsAskedFor) {
+TEST_P(Gearbox, ShiftsAtHigherEngineSpeedForHigherRequests) {
     const Car car(GetParam());
     if (car.electric()) GTEST_SKIP() << "one gear";
     const Drive gentle = drive(car, cruising(car, 0.0), 0.6, 20.0, 60.0);
@@ -90,8 +90,8 @@ TEST_P(Gearbox, ChangesLaterTheMoreIsAskedFor) {
     EXPECT_GT(hard.changes.front().rpm, 1.5 * gentle.changes.front().rpm);
 }
 
-// While a change interrupts the torque the vehicle coasts, exactly that long, and not before and after.
-TEST_P(Gearbox, InterruptsTheTorqueAsLongAsSaid) {
+// The vehicle coasts exactly as long as gear changes interrupt the torque.
+TEST_P(Gearbox, InterruptsTheTorqueForTheSetTime) {
     const Car car(GetParam());
     const Drive start = drive(car, cruising(car, 0.0), 1.5, 100.0 * kMpsPerKmh, 60.0);
     double coasting_s = 0.0;
@@ -101,7 +101,7 @@ TEST_P(Gearbox, InterruptsTheTorqueAsLongAsSaid) {
     EXPECT_NEAR(coasting_s, changes * car.settings.torque_interruption_s, (changes + 1.0) * 1.5 * kStep_s);
 }
 
-TEST_P(Gearbox, StaysInAGearForItsMinimumTimeWhileDriving) {
+TEST_P(Gearbox, KeepsAGearForItsMinimumTime) {
     const Car car(GetParam());
     for (const double request : {0.6, 1.5, 9.0}) {
         const Drive start = drive(car, cruising(car, 0.0), request, 120.0 * kMpsPerKmh, 120.0);
@@ -112,7 +112,7 @@ TEST_P(Gearbox, StaysInAGearForItsMinimumTimeWhileDriving) {
     }
 }
 
-TEST_P(Gearbox, ComesToRestInFirstGearAndStartsAgain) {
+TEST_P(Gearbox, StopsInFirstGearAndStartsAgain) {
     const Car car(GetParam());
     for (const double request : {-0.8, -2.0, -6.0}) {
         const Drive stop = drive(car, cruising(car, 30.0), request, 0.0, 60.0);
@@ -120,11 +120,11 @@ TEST_P(Gearbox, ComesToRestInFirstGearAndStartsAgain) {
         EXPECT_EQ(stop.states.back().gear, 0.0) << request;
         const Drive start = drive(car, stop.states.back(), 1.0, 5.0, 20.0);
         EXPECT_GT(start.states.back().speed_mps, 5.0);
-        EXPECT_LT(start.states.size(), 700u) << "delayed by a change?";
+        EXPECT_LT(start.states.size(), 700u) << "a gear change delays the start";
     }
 }
 
-TEST(ElectricCar, NeverChangesGearsNorInterrupts) {
+TEST(ElectricCar, NeverShiftsOrInterruptsTheTorque) {
     const Car car("electric_100kw");
     for (const double request : {0.5, 2.0, 9.0}) {
         const Drive start = drive(car, cruising(car, 0.0), request, 100.0 * kMpsPerKmh, 120.0);

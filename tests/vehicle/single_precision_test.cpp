@@ -1,5 +1,5 @@
-// What single precision costs: the kernels' powertrain beside the same equations in double.
-#include "base/narrowed.h"
+// Compares the kernels' powertrain in single precision with the same equations in double precision.
+#include "base/simd/narrowed.h"
 #include "support/cars.h"
 
 namespace stopline {
@@ -8,7 +8,7 @@ namespace {
 using testing_support::Car;
 using testing_support::CarState;
 
-// A start, cruising, gentle and hard braking, another start; 60 s.
+// Returns a requested acceleration: a start, cruising, gentle and hard braking and another start within 60 s.
 double request_at(double time_s) {
     if (time_s < 15.0) return 1.8;
     if (time_s < 25.0) return 0.0;
@@ -19,7 +19,7 @@ double request_at(double time_s) {
 
 class SinglePrecision : public testing::TestWithParam<std::string> {};
 
-TEST_P(SinglePrecision, KeepsToDoubleWithinMillimetresPerSecond) {
+TEST_P(SinglePrecision, StaysWithinMillimetresPerSecondOfDouble) {
     const Car car(GetParam());
     const PowertrainTablesOf<float> narrow = narrowed(car.tables);
     CarState wide = testing_support::cruising(car, 0.0);
@@ -30,14 +30,14 @@ TEST_P(SinglePrecision, KeepsToDoubleWithinMillimetresPerSecond) {
         const double request = request_at(0.01 * tick);
         wide = testing_support::advance(car, wide, request, 0.0, 0.01);
         s = powertrain_step<Single>(narrow, s, Single(request), 0.0, 0.01);
-        // As the engine does: small increments add up in double.
-        const double after = speed_mps + static_cast<double>(s.acceleration_mps2.v) * 0.01;
-        speed_mps = after > 1e-6 ? after : 0.0;
+        // The simulation adds small increments in double precision, too.
+        const double next_mps = speed_mps + static_cast<double>(s.acceleration_mps2.v) * 0.01;
+        speed_mps = next_mps > 1e-6 ? next_mps : 0.0;
         s.speed_mps = Single(speed_mps);
         largest_mps = std::max(largest_mps, std::abs(speed_mps - wide.speed_mps));
     }
     EXPECT_LT(largest_mps, 2e-3);
-    EXPECT_GT(largest_mps, 0.0) << "both are double";
+    EXPECT_GT(largest_mps, 0.0) << "both results are in double precision";
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryVehicle, SinglePrecision, testing::ValuesIn(testing_support::car_names()),

@@ -1,5 +1,5 @@
-// What is asked for is what happens: at a constant speed band, on any gradient where torque or brake suffices, the realised
-// acceleration is the requested one within 2 %.
+// Tests of the powertrain in steady state. At constant speed, the realised acceleration is within 2 % of the request on
+// every gradient where torque or brake suffices.
 #include <gtest/gtest.h>
 
 #include "support/cars.h"
@@ -14,7 +14,7 @@ constexpr double kStep_s = 0.01;
 class SteadyState : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(EveryVehicle, SteadyState, testing::ValuesIn(car_names()), as_test_name);
 
-// The request is held and the speed put back after each step, until a gear has been in for a second.
+// Returns the state after holding request and speed until one gear has been engaged for more than a second.
 CarState settled(const Car& car, double v_mps, double request_mps2, double grade_N) {
     CarState s = cruising(car, v_mps);
     for (int k = 0; k < 3000; ++k) {
@@ -25,8 +25,8 @@ CarState settled(const Car& car, double v_mps, double request_mps2, double grade
     return s;
 }
 
-// Whether the force lies within what engine and brake give in this gear, by the settings. While the clutch slips the engine
-// takes part in the motion in part: both ends must fit.
+// Returns true if engine and brake can deliver the force in this gear. A slipping clutch transmits only part of the engine's
+// inertia, so the force must be feasible with and without rotating masses.
 bool feasible(const Car& car, double v_mps, int gear, double request_mps2, double grade_N) {
     const double resistance_N = car.resistance_N(v_mps) + grade_N;
     for (const double rotating : {1.0, car.rotating(gear)}) {
@@ -37,9 +37,9 @@ bool feasible(const Car& car, double v_mps, int gear, double request_mps2, doubl
     return true;
 }
 
-TEST_P(SteadyState, RequestIsMetWithinTwoPercentOnEveryGradient) {
+TEST_P(SteadyState, MeetsTheRequestWithinTwoPercent) {
     const Car car(GetParam());
-    int met = 0;
+    int feasible_cases = 0;
     for (const double gradient : {-0.08, -0.05, -0.02, 0.0, 0.02, 0.05, 0.08, 0.12}) {
         const double grade_N = car.grade_N(gradient);
         for (const double v : {1.0, 2.5, 4.0, 6.0, 9.0, 12.0, 13.9, 18.0, 25.0, 33.0}) {
@@ -49,15 +49,15 @@ TEST_P(SteadyState, RequestIsMetWithinTwoPercentOnEveryGradient) {
                 const double allowed = std::max(0.02 * std::fabs(request), 0.005);
                 ASSERT_NEAR(s.acceleration_mps2, request, allowed)
                     << "speed " << v << ", gradient " << gradient << ", gear " << s.gear + 1;
-                ++met;
+                ++feasible_cases;
             }
         }
     }
-    EXPECT_GT(met, 1000) << "cases where torque suffices";
+    EXPECT_GT(feasible_cases, 1000) << "cases where torque suffices";
 }
 
-// In a steady state nobody brakes against the engine.
-TEST_P(SteadyState, BrakeAndEngineDoNotWorkAgainstEachOther) {
+// In steady state the brake never works against the engine.
+TEST_P(SteadyState, NeverBrakesAgainstTheEngine) {
     const Car car(GetParam());
     for (const double gradient : {-0.08, 0.0, 0.08}) {
         for (const double v : {2.0, 8.0, 14.0, 25.0}) {
@@ -71,10 +71,10 @@ TEST_P(SteadyState, BrakeAndEngineDoNotWorkAgainstEachOther) {
     }
 }
 
-// Beyond what suffices the vehicle gives all it has and no more.
-TEST_P(SteadyState, BeyondFullLoadIsFullLoad) {
+// A request beyond the vehicle's power gives full load.
+TEST_P(SteadyState, GivesFullLoadForExcessiveRequests) {
     const Car car(GetParam());
-    for (const double v : {4.0, 9.0, 14.0, 25.0}) {  // above the speeds of a slipping clutch
+    for (const double v : {4.0, 9.0, 14.0, 25.0}) {  // at lower speeds the clutch may slip
         const CarState s = settled(car, v, 9.0, 0.0);
         const int gear = static_cast<int>(s.gear);
         const double force_N = std::min(car.full_force_N(v, gear), car.friction_N());

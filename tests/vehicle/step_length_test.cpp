@@ -1,4 +1,4 @@
-// The powertrain's behaviour does not depend on the step.
+// Tests that the powertrain's behaviour does not depend on the step length.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -13,7 +13,7 @@ using namespace testing_support;
 class StepLength : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(EveryVehicle, StepLength, testing::ValuesIn(car_names()), as_test_name);
 
-// Starts, drives, slows down and stops, through gear changes and from drive to brake and back.
+// Returns a requested acceleration. It leads to a start, gear changes, changes between drive and brake, and a stop.
 double request_at(double t) {
     if (t < 2.0) return 0.0;
     if (t < 12.0) return 1.8;
@@ -41,12 +41,12 @@ Journey journey(const Car& car, double dt) {
     return result;
 }
 
-TEST_P(StepLength, DoesNotMatterToAJourney) {
+TEST_P(StepLength, DoesNotChangeAJourney) {
     const Car car(GetParam());
     const Journey fine = journey(car, 0.0025);
     for (const double dt : {0.005, 0.01, 0.02}) {
         const Journey coarse = journey(car, dt);
-        // A gear change begins and ends at a step: up to a step longer without torque, which nothing makes up for here.
+        // A gear change begins and ends at a step, so the vehicle may lack torque for up to one step longer.
         EXPECT_NEAR(coarse.distance_m, fine.distance_m, (car.electric() ? 0.1 : 1.5) * dt / 0.01) << dt;
         for (std::size_t k = 0; k < fine.speed_mps.size(); ++k) {
             ASSERT_NEAR(coarse.speed_mps[k], fine.speed_mps[k], 0.05 * dt / 0.01)

@@ -1,4 +1,4 @@
-// Compiling a vehicle: curves keep their shape on the grid, and settings that do not fit together are refused by name.
+// Tests of compile_powertrain(): curves keep their shape on the grid, and inconsistent settings are refused by name.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -18,19 +18,19 @@ TEST_P(Tables, KeepTheShapeOfTheTorqueCurves) {
     const Car car(GetParam());
     for (double rpm = 0.0; rpm <= car.settings.limiter_rpm; rpm += 10.0) {
         const double cell = rpm * car.tables.torque_nodes_per_rpm;
-        const double full = on_grid(car.tables.full_load_Nm, cell);
-        const double drag = on_grid(car.tables.drag_Nm, cell);
+        const double full = interpolate_on_grid(car.tables.full_load_Nm, cell);
+        const double drag = interpolate_on_grid(car.tables.drag_Nm, cell);
         EXPECT_NEAR(full, interpolate(car.settings.full_load, rpm), 0.03 * full) << rpm;
-        // The corners of a curve lie between nodes of the grid: 5 N m at most.
+        // The tolerance covers corners of the curve that lie between grid nodes.
         EXPECT_NEAR(drag, interpolate(car.settings.drag_torque, rpm), 5.0) << rpm;
         EXPECT_LE(drag, 0.0);
     }
 }
 
-TEST_P(Tables, CruiseInTheHighestGearThatTurnsFastEnough) {
+TEST_P(Tables, CruiseInTheHighestPossibleGear) {
     const Car car(GetParam());
     for (double v = 0.0; v < 50.0; v += 0.5) {
-        const int gear = gear_for(car.tables, v);
+        const int gear = cruising_gear(car.tables, v);
         if (gear > 0) {
             EXPECT_GE(car.rpm(v, gear), car.settings.shift_down_rpm);
         }
@@ -51,7 +51,7 @@ TEST(Interpolate, IsLinearBetweenAndConstantBeyond) {
 }
 
 struct Damage {
-    const char* what;
+    const char* name;
     std::function<void(PowertrainSettings&)> apply;
 };
 
@@ -68,14 +68,14 @@ const Damage kDamages[] = {
     {"limiter below idle", [](auto& s) { s.limiter_rpm = 0.5 * s.idle_rpm; }},
 };
 
-TEST(CompilePowertrain, RefusesWhatDoesNotFitTogether) {
+TEST(CompilePowertrain, RefusesInconsistentSettings) {
     for (const Damage& damage : kDamages) {
         PowertrainSettings settings = load_vehicle("petrol_eu4_72kw");
         settings.name = "my car";
         damage.apply(settings);
         try {
             compile_powertrain(settings);
-            ADD_FAILURE() << damage.what << " was accepted";
+            ADD_FAILURE() << damage.name << " was accepted";
         } catch (const InputError& error) {
             EXPECT_NE(std::string(error.what()).find("my car"), std::string::npos) << error.what();
         }

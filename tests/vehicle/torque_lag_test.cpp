@@ -1,4 +1,4 @@
-// The torque follows its request as a first-order lag whose time constant is the map's.
+// Tests that the torque follows its request as a first-order lag with the time constant of the map.
 #include <gtest/gtest.h>
 
 #include "support/cars.h"
@@ -11,7 +11,7 @@ using namespace testing_support;
 class TorqueLag : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(EveryVehicle, TorqueLag, testing::ValuesIn(car_names()), as_test_name);
 
-// The shipped maps do not depend on the torque: the first column is all of them.
+// Returns the time constant of the map, s. The shipped maps do not depend on the torque, so the first column suffices.
 double map_lag_s(const Car& car, double rpm) {
     SampledCurve over_rpm{car.settings.lag_rpm, {}};
     const std::size_t columns = car.settings.lag_torque_share.size();
@@ -21,36 +21,36 @@ double map_lag_s(const Car& car, double rpm) {
     return interpolate(over_rpm, rpm);
 }
 
-TEST_P(TorqueLag, IsThatOfTheMapInEveryGear) {
+TEST_P(TorqueLag, MatchesTheMapInEveryGear) {
     const Car car(GetParam());
     for (int gear = 0; gear < car.tables.gears; ++gear) {
         for (double share = 0.3; share < 0.95; share += 0.2) {
             const double rpm = share * car.settings.limiter_rpm;
             const double v = rpm / car.rpm(1.0, gear);
             CarState s = cruising(car, v);
-            // Asks for a share of full load.
-            const auto held = [&](double load, double dt) {
+            // Holds gear and speed and requests a share of full load.
+            const auto advance_at = [&](double load, double dt) {
                 s.gear = gear;
                 s.gear_time_s = 1.0;
                 s.speed_mps = v;
                 const double force_N = load * car.full_force_N(v, gear) - car.resistance_N(v);
                 s = advance(car, s, force_N / (car.mass_kg() * car.rotating(gear)), 0.0, dt);
             };
-            for (int k = 0; k < 500; ++k) held(0.3, 0.01);
-            const double before = s.torque_Nm;
+            for (int k = 0; k < 500; ++k) advance_at(0.3, 0.01);
+            const double initial_Nm = s.torque_Nm;
             const double tau_s = s.lag_s;
             EXPECT_NEAR(tau_s, map_lag_s(car, rpm), 0.05 * tau_s) << "gear " << gear + 1 << ", " << rpm << " rpm";
-            // One time constant after a jump of the request, in a hundred steps.
-            for (int k = 0; k < 100; ++k) held(0.6, 0.01 * tau_s);
-            const double after_tau = s.torque_Nm;
-            for (int k = 0; k < 500; ++k) held(0.6, 0.01);
-            EXPECT_NEAR((after_tau - before) / (s.torque_Nm - before), 1.0 - std::exp(-1.0), 0.01);
+            // Advance by one time constant after a jump of the request, in a hundred steps.
+            for (int k = 0; k < 100; ++k) advance_at(0.6, 0.01 * tau_s);
+            const double after_tau_Nm = s.torque_Nm;
+            for (int k = 0; k < 500; ++k) advance_at(0.6, 0.01);
+            EXPECT_NEAR((after_tau_Nm - initial_Nm) / (s.torque_Nm - initial_Nm), 1.0 - std::exp(-1.0), 0.01);
         }
     }
 }
 
-// A map with all of its dimensions in use: engine speed, share of full load, gear.
-TEST(TorqueLagMap, IsInterpolatedOverSpeedAndShareAndScaledByGear) {
+// The map depends on engine speed, share of full load and gear.
+TEST(TorqueLagMap, IsInterpolatedAndScaledByGear) {
     PowertrainSettings s = load_vehicle("petrol_eu4_72kw");
     s.lag_rpm = {0.0, 6500.0};
     s.lag_torque_share = {0.0, 1.0};

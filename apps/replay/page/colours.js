@@ -1,25 +1,27 @@
-// What colours mean. Okabe and Ito's palette, and cividis for speeds: both can be told apart with any colour vision.
+// Colours and their labels. Okabe and Ito's palette and cividis (for speeds) suit every kind of colour vision.
 'use strict';
 
 const LIGHT_COLOURS = ['#d55e00', '#009e73', '#f0c000'];  // red, green, yellow
 const POLICY_COLOURS = ['#0072b2', '#e69f00', '#cc79a7', '#56b4e9', '#000000', '#009e73', '#d55e00'];
 const SPEED_COLOURS = ['#00224e', '#213b6e', '#4c556c', '#6c6e72', '#8e8978', '#b2a570', '#d9c55c'];
-const FASTEST_MPS = 14;
+const SCALE_END_MPS = 14;  // end of the speed scale; faster vehicles have the last colour
+// Colour and label of each delay cause, by its name in the recording.
 const CAUSES = {
-    none: ['#8fa2b3', 'drives, or has just stopped'],
-    start: ['#f0e442', 'its own start: the one ahead drives'],
-    signal: ['#4d565e', 'a light, or the queue before it'],
-    priority: ['#56b4e9', 'vehicles with priority'],
-    junction_blocking: ['#d55e00', 'a vehicle across its way'],
-    turn_blocking: ['#e69f00', 'room in the exit, to turn'],
-    spillback: ['#0072b2', 'room in the exit, straight on'],
-    gridlock: ['#cc0078', 'a circle: gridlock'],
-    wrong_lane: ['#009e73', 'a gap in the lane beside'],
+    none: ['#8fa2b3', 'none (moving, or just stopped)'],
+    queue_discharge: ['#f0e442', 'queue discharge (the leader moves)'],
+    signal: ['#4d565e', 'signal (or the queue there)'],
+    yielding: ['#56b4e9', 'yielding'],
+    junction_blocking: ['#d55e00', 'junction blocking'],
+    turn_blocking: ['#e69f00', 'turn blocking (full exit lane)'],
+    spillback: ['#0072b2', 'spillback (full exit lane)'],
+    gridlock: ['#cc0078', 'gridlock'],
+    wrong_lane: ['#009e73', 'wrong lane (waits for a gap)'],
 };
 
-// Each mode: colours, a label for each, and the one that a vehicle has.
+// Returns the colour modes by name. Each has colours, their labels, and a function `of` for the colour index of
+// vehicle k.
 function colourModes(head) {
-    const speeds = SPEED_COLOURS.length;
+    const classes = SPEED_COLOURS.length;
     return {
         policy: {
             colours: head.policies.map((name, k) => POLICY_COLOURS[k % POLICY_COLOURS.length]),
@@ -29,10 +31,10 @@ function colourModes(head) {
         speed: {
             colours: SPEED_COLOURS,
             labels: SPEED_COLOURS.map((colour, k) => {
-                const [from, to] = [k, k + 1].map((each) => Math.round(each * FASTEST_MPS * 3.6 / speeds));
-                return k + 1 < speeds ? `${from} to ${to} km/h` : `over ${from} km/h`;
+                const [from, to] = [k, k + 1].map((bound) => Math.round(bound * SCALE_END_MPS * 3.6 / classes));
+                return k + 1 < classes ? `${from} to ${to} km/h` : `over ${from} km/h`;
             }),
-            of: (frame, k) => Math.min(Math.floor(frame.speed_mps[k] / FASTEST_MPS * speeds), speeds - 1),
+            of: (frame, k) => Math.min(Math.floor(frame.speed_mps[k] / SCALE_END_MPS * classes), classes - 1),
         },
         cause: {
             colours: head.causes.map((name) => (CAUSES[name] || ['#000000'])[0]),

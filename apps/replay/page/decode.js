@@ -1,8 +1,8 @@
-// Reads the sections of a recording; the format is described in core/record/recording_format.h.
+// Decodes the sections of a recording. core/record/recording/recording_format.h describes the format.
 'use strict';
 
-const WIDE = 255;
-const STANDS_MPS = 0.1;
+const WIDE_CODE = 255;
+const STOPPED_MPS = 0.1;
 
 class Bytes {
     constructor(bytes) {
@@ -23,18 +23,18 @@ class Bytes {
     }
 }
 
-const unzigzag = (code) => (code >>> 1) ^ -(code & 1);
+const unzigzag = (difference) => (difference >>> 1) ^ -(difference & 1);
 
-// One vehicle for as long as it has a seat.
+// The vehicle in a seat. `position` and `speed` are in units of the header, as in the recording.
 class Vehicle {
     constructor(number, policy, length_m, lane, next) {
-        Object.assign(this, {number, policy, length_m, lane, next, before: -1, cause: 0, waitedFor: -1});
+        Object.assign(this, {number, policy, length_m, lane, next, previous: -1, cause: 0, waitedFor: -1});
         this.position = 0;
         this.speed = 0;
     }
 }
 
-// A frame for drawing: one entry a vehicle in each array.
+// A frame for drawing. Each array has one entry per vehicle.
 class Frame {
     constructor(count) {
         this.number = new Int32Array(count);
@@ -42,18 +42,19 @@ class Frame {
         this.cause = new Uint8Array(count);
         this.waitedFor = new Int32Array(count);
         this.lane = new Int32Array(count);
-        this.next = new Int32Array(count);
-        this.before = new Int32Array(count);  // lane that it was on; -1: unknown
+        this.next = new Int32Array(count);      // next lane; -1: the vehicle leaves the network
+        this.previous = new Int32Array(count);  // lane before this one; -1: unknown
         this.length_m = new Float32Array(count);
         this.position_m = new Float32Array(count);
         this.speed_mps = new Float32Array(count);
         this.lights = null;
-        this.index = null;  // by number of the vehicle, made when asked for
+        this.index = null;  // Map from vehicle number to entry, built on first use
     }
+    // Returns the entry of a vehicle, or -1 if it is not in the network.
     indexOf(number) {
         if (!this.index) {
             this.index = new Map();
-            this.number.forEach((each, k) => this.index.set(each, k));
+            this.number.forEach((vehicle, k) => this.index.set(vehicle, k));
         }
         const k = this.index.get(number);
         return k === undefined ? -1 : k;
@@ -74,10 +75,10 @@ class SectionDecoder {
 
     frame() {
         this.readEvents();
-        this.in.varint();  // entered and left: in the series
+        this.in.varint();  // skip the counts of entries and exits: the series has them
         this.in.varint();
         this.readColumns();
-        return this.picture();
+        return this.drawableFrame();
     }
 
     readEvents() {
@@ -95,7 +96,7 @@ class SectionDecoder {
         for (let n = read(); n > 0; --n) {
             const vehicle = seats[read()];
             const lane = read();
-            if (lane !== vehicle.lane) vehicle.before = vehicle.lane;
+            if (lane !== vehicle.lane) vehicle.previous = vehicle.lane;
             vehicle.lane = lane;
             vehicle.next = read() - 1;
             vehicle.position = 0;
@@ -109,45 +110,46 @@ class SectionDecoder {
 
     readColumns() {
         const count = this.in.varint();
-        const marks = this.in.take((count + 7) >> 3);
-        const marked = (k) => (marks[k >> 3] >> (k & 7)) & 1;
-        let told = 0;
-        for (let k = 0; k < count; ++k) told += marked(k);
-        const columns = [this.in.take(told), this.in.take(told)];
-        const wides = columns.map((column) => {
-            let wide = 0;
-            for (const byte of column) wide += byte === WIDE ? 1 : 0;
-            return new Bytes(this.in.take(2 * wide));
+        const bits = this.in.take((count + 7) >> 3);
+        const isChanged = (k) => (bits[k >> 3] >> (k & 7)) & 1;
+        let changed = 0;
+        for (let k = 0; k < count; ++k) changed += isChanged(k);
+        const columns = [this.in.take(changed), this.in.take(changed)];
+        const wideCodes = columns.map((column) => {
+            let count = 0;
+            for (const byte of column) count += byte === WIDE_CODE ? 1 : 0;
+            return new Bytes(this.in.take(2 * count));
         });
-        const code = (which, k) => {
-            const byte = columns[which][k];
-            if (byte !== WIDE) return unzigzag(byte);
-            const [low, high] = wides[which].take(2);
+        const difference = (column, k) => {
+            const byte = columns[column][k];
+            if (byte !== WIDE_CODE) return unzigzag(byte);
+            const [low, high] = wideCodes[column].take(2);
             return unzigzag(low | (high << 8));
         };
         let k = 0;
         for (let seat = 0; seat < count; ++seat) {
             const vehicle = this.seats[seat];
-            const differs = marked(seat);
+            const isWritten = isChanged(seat);
             if (!vehicle) continue;
             const before = vehicle.speed;
-            if (differs) vehicle.speed = (before + code(0, k)) & 0xffff;
+            if (isWritten) vehicle.speed = (before + difference(0, k)) & 0xffff;
             vehicle.position += Math.imul(before + vehicle.speed, this.head.advance_q12) >>> 12;
-            if (differs) vehicle.position += code(1, k++);
+            if (isWritten) vehicle.position += difference(1, k++);
             vehicle.position &= 0xffff;
         }
     }
 
-    picture() {
+    // Returns the current state as a Frame. A delay cause counts only while the vehicle is stopped.
+    drawableFrame() {
         const present = this.seats.filter((vehicle) => vehicle);
         const frame = new Frame(present.length);
         present.forEach((vehicle, k) => {
-            for (const each of ['number', 'policy', 'cause', 'waitedFor', 'lane', 'next', 'before', 'length_m']) {
-                frame[each][k] = vehicle[each];
+            for (const name of ['number', 'policy', 'cause', 'waitedFor', 'lane', 'next', 'previous', 'length_m']) {
+                frame[name][k] = vehicle[name];
             }
             frame.position_m[k] = vehicle.position * this.head.position_unit_m;
             frame.speed_mps[k] = vehicle.speed * this.head.speed_unit_mps;
-            if (frame.speed_mps[k] < STANDS_MPS) return;
+            if (frame.speed_mps[k] < STOPPED_MPS) return;
             frame.cause[k] = 0;
             frame.waitedFor[k] = -1;
         });
@@ -156,12 +158,12 @@ class SectionDecoder {
     }
 }
 
-// The sections of the page, unpacked when they are needed and kept while they are near.
+// The recording in the page. Sections are unpacked when they are needed, and the last used ones are kept.
 class Recording {
     constructor(payload) {
         this.payload = payload;
-        this.sections = new Map();  // number -> promise of frames, the one used last at the end
-        this.ready = new Map();     // number -> frames
+        this.sections = new Map();  // from section number to the promise of its frames; the last used section is last
+        this.ready = new Map();     // from section number to its frames, once they are unpacked
         this.onReady = () => {};
         this.onError = () => {};
     }
@@ -169,7 +171,7 @@ class Recording {
     async open() {
         this.head = JSON.parse(new TextDecoder().decode(await this.unpack(this.payload.head)));
         const series = await this.unpack(this.payload.series);
-        // [frame] vehicles present, entered and left since the start, passages of stop lines
+        // Four numbers per frame: vehicles in the network, then entries, exits and stop-line passages since the start.
         this.series = new Uint32Array(series.buffer, series.byteOffset, series.byteLength / 4);
         this.frameCount = this.series.length / 4;
         return this;
@@ -184,8 +186,8 @@ class Recording {
 
     present(frame) { return this.series[4 * frame]; }
     entered(frame) { return this.series[4 * frame + 1]; }
-    left(frame) { return this.series[4 * frame + 2]; }
-    passed(frame) { return this.series[4 * frame + 3]; }
+    exited(frame) { return this.series[4 * frame + 2]; }
+    passages(frame) { return this.series[4 * frame + 3]; }
     time_s(frame) { return this.payload.first_s + frame * this.head.frame_s; }
     frameAt(time_s) { return (time_s - this.payload.first_s) / this.head.frame_s; }
 
@@ -205,7 +207,7 @@ class Recording {
         return (section + 1 < starts.length ? starts[section + 1] : this.frameCount) - starts[section];
     }
 
-    // The frame if its section is there; asks for it if not.
+    // Returns the frame, or null if its section is not unpacked yet. Then it starts to unpack the section.
     frame(number) {
         const section = this.sectionOf(number);
         const frames = this.ready.get(section);
@@ -214,7 +216,7 @@ class Recording {
     }
 
     load(section) {
-        const MOST = 16;
+        const MAX_SECTIONS = 16;
         if (section < 0 || section >= this.payload.starts.length) return Promise.resolve(null);
         let promise = this.sections.get(section);
         this.sections.delete(section);
@@ -228,10 +230,10 @@ class Recording {
             promise.catch((error) => this.onError(error));
         }
         this.sections.set(section, promise);
-        for (const old of this.sections.keys()) {
-            if (this.sections.size <= MOST) break;
-            this.sections.delete(old);
-            this.ready.delete(old);
+        for (const oldest of this.sections.keys()) {
+            if (this.sections.size <= MAX_SECTIONS) break;
+            this.sections.delete(oldest);
+            this.ready.delete(oldest);
         }
         return promise;
     }

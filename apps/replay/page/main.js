@@ -1,7 +1,7 @@
-// The page: joins recording, map, diagram and controls. `replay` is also what tests drive.
+// The page: connects the recording, the map, the diagram and the controls. Tests use the global `replay`.
 'use strict';
 
-const FLOW_S = 300;  // flows are means over this time
+const FLOW_S = 300;  // averaging time of the flows
 const byId = (id) => document.getElementById(id);
 
 class Replay {
@@ -13,15 +13,17 @@ class Replay {
         this.network = new Network(head);
         this.map = new MapView(byId('map'), this.network, (number) => this.select(number));
         this.diagram = new TimeSpace(byId('time-space'), recording, (time_s) => this.seek(time_s));
-        this.drawn = 0;  // pictures, for tests
+        this.drawCount = 0;  // number of calls of draw(), for tests
         this.addStreets();
         this.setMode(head.policies.length > 1 ? 'policy' : 'cause');
-        for (const part of [this.map, this.diagram]) part.onChange = () => this.ask();
-        recording.onReady = () => this.ask();
-        recording.onError = (error) => { byId('message').textContent = `The data are damaged: ${error.message}`; };
-        this.connect();
+        for (const part of [this.map, this.diagram]) part.onChange = () => this.requestDraw();
+        recording.onReady = () => this.requestDraw();
+        recording.onError = (error) => {
+            byId('message').textContent = `The recording in this page is damaged: ${error.message}`;
+        };
+        this.connectControls();
         this.drawSeries();
-        this.ask();
+        this.requestDraw();
     }
 
     addStreets() {
@@ -37,7 +39,7 @@ class Replay {
         byId('street').value = number;
         this.street = this.streets[number];
         if (this.mode) this.diagram.show(this.street, this.mode);
-        this.ask();
+        this.requestDraw();
     }
 
     setMode(name) {
@@ -59,10 +61,10 @@ class Replay {
         });
         byId('legend').replaceChildren(...items, lights);
         this.diagram.show(this.street, this.mode);
-        this.ask();
+        this.requestDraw();
     }
 
-    connect() {
+    connectControls() {
         byId('play').onclick = () => this.play(!this.playing);
         byId('rate').onchange = (event) => { this.rate = Number(event.target.value); };
         byId('mode').onchange = (event) => this.setMode(event.target.value);
@@ -93,42 +95,42 @@ class Replay {
     play(on) {
         if (on && this.time_s >= this.last_s) this.time_s = this.recording.time_s(0);
         this.playing = on;
-        this.before_ms = undefined;
+        this.lastTick_ms = undefined;
         byId('play').textContent = on ? '\u23f8' : '\u25b6';
         byId('play').setAttribute('aria-label', on ? 'Pause' : 'Play');
-        this.ask();
+        this.requestDraw();
     }
 
     seek(time_s) {
         this.time_s = Math.min(Math.max(time_s, this.recording.time_s(0)), this.last_s);
-        this.ask();
+        this.requestDraw();
     }
 
     select(number) {
         this.selected = number;
-        this.ask();
+        this.requestDraw();
     }
 
-    ask() {
-        if (this.asked) return;
-        this.asked = true;
+    requestDraw() {
+        if (this.drawRequested) return;
+        this.drawRequested = true;
         requestAnimationFrame((now_ms) => this.tick(now_ms));
     }
 
     tick(now_ms) {
-        this.asked = false;
+        this.drawRequested = false;
         if (this.playing) {
-            const elapsed_s = this.before_ms === undefined ? 0 : (now_ms - this.before_ms) / 1000;
-            this.before_ms = now_ms;
-            const MOST_S = 0.25;  // after a pause of the browser
-            if (this.shown) this.time_s += Math.min(elapsed_s, MOST_S) * this.rate;
+            const elapsed_s = this.lastTick_ms === undefined ? 0 : (now_ms - this.lastTick_ms) / 1000;
+            this.lastTick_ms = now_ms;
+            const MAX_STEP_S = 0.25;  // limits the jump after the browser was inactive
+            if (this.hasFrame) this.time_s += Math.min(elapsed_s, MAX_STEP_S) * this.rate;
             if (this.time_s >= this.last_s) {
                 this.time_s = this.last_s;
                 this.play(false);
             }
         }
         this.draw();
-        if (this.playing) this.ask();
+        if (this.playing) this.requestDraw();
     }
 
     draw() {
@@ -136,9 +138,9 @@ class Replay {
         const number = Math.min(Math.floor(at + 1e-9), this.recording.frameCount - 1);
         const from = this.recording.frame(number);
         const to = number + 1 < this.recording.frameCount ? this.recording.frame(number + 1) : null;
-        const AHEAD = 40;
-        this.recording.frame(Math.min(number + AHEAD, this.recording.frameCount - 1));
-        this.shown = from !== null;
+        const PREFETCH_FRAMES = 40;
+        this.recording.frame(Math.min(number + PREFETCH_FRAMES, this.recording.frameCount - 1));
+        this.hasFrame = from !== null;
         byId('message').textContent = from ? '' : 'Unpacking \u2026';
         this.map.draw(from, to, Math.max(at - number, 0), this.head.frame_s, this.mode, this.street, this.selected);
         this.diagram.draw(this.time_s);
@@ -147,26 +149,27 @@ class Replay {
         byId('scrub').value = this.time_s;
         byId('clock').textContent = `${this.time_s.toFixed(1)} of ${this.last_s.toFixed(0)} s`;
         this.showScale();
-        ++this.drawn;
+        ++this.drawCount;
     }
 
     showCounters(number) {
         const {recording} = this;
         byId('count-present').textContent = recording.present(number).toLocaleString('en');
-        byId('count-left').textContent = recording.left(number).toLocaleString('en');
+        byId('count-exited').textContent = recording.exited(number).toLocaleString('en');
         const since = Math.max(number - Math.round(FLOW_S / this.head.frame_s), 0);
         const hours = (number - since) * this.head.frame_s / 3600;
-        const flow = (count) => hours > 0 ? Math.round((count(number) - count(since)) / hours).toLocaleString('en') : '\u2013';
-        byId('flow-left').textContent = flow((frame) => recording.left(frame));
-        byId('flow-passed').textContent = flow((frame) => recording.passed(frame));
+        const flow = (count) =>
+            hours > 0 ? Math.round((count(number) - count(since)) / hours).toLocaleString('en') : '\u2013';
+        byId('flow-exits').textContent = flow((frame) => recording.exited(frame));
+        byId('flow-passages').textContent = flow((frame) => recording.passages(frame));
     }
 
-    // What the simulation wrote of it at the last frame.
+    // Returns the recorded state of the selected vehicle, or null if it is not in the network.
     vehicleState(frame, number) {
         const k = frame.indexOf(this.selected);
         if (k < 0) return null;
         const lane = this.network.lanes[frame.lane[k]];
-        const next = frame.next[k] < 0 ? 'out' : this.network.lanes[frame.next[k]].name;
+        const next = frame.next[k] < 0 ? 'leaves the network' : this.network.lanes[frame.next[k]].name;
         const cause = this.head.causes[frame.cause[k]];
         return {
             vehicle: frame.number[k], policy: this.head.policies[frame.policy[k]], lane: lane.name, next,
@@ -180,15 +183,17 @@ class Replay {
         this.state = state;
         const box = byId('vehicle');
         if (!state) {
-            box.textContent = this.selected < 0 ? 'Click one in the network.' : `${this.selected} is not in the network now.`;
+            box.textContent = this.selected < 0 ? 'Click a vehicle to see its state.' :
+                `Vehicle ${this.selected} is not in the network now.`;
             return;
         }
+        const causeLabel = CAUSES[state.cause] ? CAUSES[state.cause][1] : state.cause;
         const rows = [
-            ['number', state.vehicle], ['policy', state.policy], ['lane', state.lane], ['then', state.next],
-            ['front on its lane', `${state.position_m.toFixed(2)} m`],
+            ['number', state.vehicle], ['policy', state.policy], ['lane', state.lane], ['next lane', state.next],
+            ['position of the front', `${state.position_m.toFixed(2)} m`],
             ['speed', `${state.speed_mps.toFixed(2)} m/s = ${(3.6 * state.speed_mps).toFixed(1)} km/h`],
-            ['waits for', state.cause === 'none' ? '\u2013' : CAUSES[state.cause] ? CAUSES[state.cause][1] : state.cause],
-            ['at', `${state.time_s.toFixed(1)} s`],
+            ['delay cause', state.cause === 'none' ? '\u2013' : causeLabel],
+            ['time', `${state.time_s.toFixed(1)} s`],
         ];
         const list = document.createElement('dl');
         for (const [name, value] of rows) {
@@ -196,7 +201,7 @@ class Replay {
             const [term, detail] = [document.createElement('dt'), document.createElement('dd')];
             term.textContent = name;
             detail.textContent = value;
-            if (name === 'waits for' && state.waitedFor >= 0) detail.append(' ', this.linkTo(state.waitedFor));
+            if (name === 'delay cause' && state.waitedFor >= 0) detail.append(' ', this.linkTo(state.waitedFor));
             row.append(term, detail);
             list.append(row);
         }
@@ -213,7 +218,7 @@ class Replay {
     showScale() {
         const NICE_M = [1000, 500, 200, 100, 50, 20, 10, 5, 2];
         const perPixel_m = this.map.ratio / this.map.scale;
-        const length_m = NICE_M.find((each) => each / perPixel_m < 130) || 1;
+        const length_m = NICE_M.find((length) => length / perPixel_m < 130) || 1;
         const bar = document.querySelector('#scale span');
         bar.style.width = `${length_m / perPixel_m}px`;
         bar.textContent = `${length_m} m`;
@@ -226,26 +231,30 @@ class Replay {
         canvas.height = Math.max(1, canvas.clientHeight * ratio);
         const ctx = canvas.getContext('2d');
         const {frameCount} = this.recording;
-        let most = 1;
-        for (let frame = 0; frame < frameCount; ++frame) most = Math.max(most, this.recording.present(frame));
+        let maxPresent = 1;
+        for (let frame = 0; frame < frameCount; ++frame) {
+            maxPresent = Math.max(maxPresent, this.recording.present(frame));
+        }
         ctx.fillStyle = '#dbe6ef';
         for (let x = 0; x < canvas.width; ++x) {
             const frame = Math.round(x / canvas.width * (frameCount - 1));
-            const height = this.recording.present(frame) / most * canvas.height;
+            const height = this.recording.present(frame) / maxPresent * canvas.height;
             ctx.fillRect(x, canvas.height - height, 1, height);
         }
     }
 }
 
-// #t=120&vehicle=35 in the address begins there.
+// Applies the address: #t=120&vehicle=35 begins at 120 s with vehicle 35 selected.
 function goToAddress(replay) {
-    const wanted = new URLSearchParams(location.hash.slice(1));
-    if (wanted.has('t')) replay.seek(Number(wanted.get('t')));
-    if (wanted.has('vehicle')) replay.select(Number(wanted.get('vehicle')));
+    const parameters = new URLSearchParams(location.hash.slice(1));
+    if (parameters.has('t')) replay.seek(Number(parameters.get('t')));
+    if (parameters.has('vehicle')) replay.select(Number(parameters.get('vehicle')));
 }
 
 async function start() {
-    if (typeof DecompressionStream === 'undefined') throw new Error('This browser is too old: it cannot unpack the data.');
+    if (typeof DecompressionStream === 'undefined') {
+        throw new Error('This browser is too old: it cannot decompress the recording.');
+    }
     const recording = await new Recording(JSON.parse(byId('payload').textContent)).open();
     const {head} = recording;
     byId('title').textContent = head.title || head.scenario;

@@ -1,11 +1,11 @@
-// The canvas with the network: view, drawing, and what the pointer does on it.
+// The canvas with the network: view, drawing and pointer input.
 'use strict';
 
 class MapView {
     constructor(canvas, network, onPick) {
         Object.assign(this, {canvas, network, onPick});
         this.ctx = canvas.getContext('2d');
-        this.roads = document.createElement('canvas');  // drawn again only when the view changes
+        this.roads = document.createElement('canvas');  // background image, redrawn only when the view changes
         this.pointers = new Map();
         this.fitted = true;
         canvas.addEventListener('wheel', (event) => this.onWheel(event), {passive: false});
@@ -38,6 +38,7 @@ class MapView {
         this.changed();
     }
 
+    // Marks the view as changed: the next draw() redraws the roads.
     changed() {
         this.stale = true;
         if (this.onChange) this.onChange();
@@ -69,7 +70,7 @@ class MapView {
         ctx.setTransform(s, 0, 0, -s, width / 2 - s * this.centre[0], height / 2 + s * this.centre[1]);
     }
 
-    // `street`: to be marked. `selected`: number of a vehicle.
+    // Draws the state between two frames. `street` is marked on the map. `selected` is the number of a vehicle, or -1.
     draw(from, to, share, frame_s, mode, street, selected) {
         const {ctx} = this;
         if (this.stale || this.drawnStreet !== street) this.drawRoads(street);
@@ -106,13 +107,13 @@ class MapView {
     drawVehicles(from, to, share, frame_s, mode, selected) {
         const {ctx, scale} = this;
         const paths = mode.colours.map(() => new Path2D());
-        const boxes = mode.colours.map(() => []);  // those along an axis: much faster to fill than paths
+        const boxes = mode.colours.map(() => []);  // axis-parallel vehicles; fillRect is faster than a path
         const half_m = Math.max(VEHICLE_WIDTH_M, 2.2 * this.ratio / scale) / 2;
         const [left, top] = this.toWorld(-20, -20);
         const [right, bottom] = this.toWorld(this.canvas.width + 20, this.canvas.height + 20);
         let mark = null;
-        this.shown = [];  // x, y, number of each vehicle in view, for picking
-        between(this.network, from, to, share, frame_s, (k, [fx, fy, rx, ry]) => {
+        this.drawnVehicles = [];  // x, y, number of each vehicle in view, for picking
+        interpolate(this.network, from, to, share, frame_s, (k, [fx, fy, rx, ry]) => {
             if (fx < left || fx > right || fy > top || fy < bottom) return;
             const length = Math.hypot(fx - rx, fy - ry) || 1;
             const [nx, ny] = [-(fy - ry) / length * half_m, (fx - rx) / length * half_m];
@@ -129,7 +130,7 @@ class MapView {
                 path.lineTo(rx + nx, ry + ny);
                 path.closePath();
             }
-            this.shown.push((fx + rx) / 2, (fy + ry) / 2, from.number[k]);
+            this.drawnVehicles.push((fx + rx) / 2, (fy + ry) / 2, from.number[k]);
             if (from.number[k] === selected) mark = [(fx + rx) / 2, (fy + ry) / 2, length / 2];
         });
         paths.forEach((path, k) => {
@@ -145,18 +146,19 @@ class MapView {
         ctx.stroke();
     }
 
-    // The number of the vehicle next to a point of the canvas, in its pixels; -1: none is near.
+    // Returns the number of the vehicle nearest to a point in canvas pixels, or -1 if no vehicle is near.
     pick(x, y) {
         const [wx, wy] = this.toWorld(x, y);
-        let near_m = Math.max(4, 9 * this.ratio / this.scale);
+        let nearest_m = Math.max(4, 9 * this.ratio / this.scale);
         let found = -1;
-        for (let k = 0; k < (this.shown || []).length; k += 3) {
-            const distance_m = Math.hypot(this.shown[k] - wx, this.shown[k + 1] - wy);
-            if (distance_m < near_m) [near_m, found] = [distance_m, this.shown[k + 2]];
+        for (let k = 0; k < (this.drawnVehicles || []).length; k += 3) {
+            const distance_m = Math.hypot(this.drawnVehicles[k] - wx, this.drawnVehicles[k + 1] - wy);
+            if (distance_m < nearest_m) [nearest_m, found] = [distance_m, this.drawnVehicles[k + 2]];
         }
         return found;
     }
 
+    // Returns the position of a pointer event in canvas pixels.
     at(event) {
         const box = this.canvas.getBoundingClientRect();
         return [(event.clientX - box.left) * this.ratio, (event.clientY - box.top) * this.ratio];
@@ -170,7 +172,7 @@ class MapView {
     onDown(event) {
         this.canvas.setPointerCapture(event.pointerId);
         this.pointers.set(event.pointerId, this.at(event));
-        this.travelled = this.pointers.size > 1 ? Infinity : 0;
+        this.movedPixels = this.pointers.size > 1 ? Infinity : 0;
     }
 
     onMove(event) {
@@ -185,13 +187,14 @@ class MapView {
             return;
         }
         const [dx, dy] = [now[0] - before[0], now[1] - before[1]];
-        this.travelled += Math.hypot(dx, dy);
+        this.movedPixels += Math.hypot(dx, dy);
         this.lookAt(this.centre[0] - dx / this.scale, this.centre[1] + dy / this.scale);
     }
 
     onUp(event) {
         if (!this.pointers.delete(event.pointerId)) return;
-        const MOST_PX = 4;
-        if (event.type === 'pointerup' && this.travelled < MOST_PX * this.ratio) this.onPick(this.pick(...this.at(event)));
+        const MAX_CLICK_PX = 4;
+        const isClick = event.type === 'pointerup' && this.movedPixels < MAX_CLICK_PX * this.ratio;
+        if (isClick) this.onPick(this.pick(...this.at(event)));
     }
 }

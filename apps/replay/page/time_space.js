@@ -1,4 +1,4 @@
-// The time-space diagram: vehicles of one street over the last minutes, its stop lines red and yellow as its lights were.
+// The time-space diagram: vehicles of one street over the last seconds, with red and yellow at the stop lines.
 'use strict';
 
 const PAST_S = 100;
@@ -8,7 +8,7 @@ class TimeSpace {
     constructor(canvas, recording, onSeek) {
         Object.assign(this, {canvas, recording});
         this.ctx = canvas.getContext('2d');
-        this.strips = new Map();  // section -> canvas with its lines
+        this.strips = new Map();  // from section number to a canvas with its trajectories
         new ResizeObserver(() => this.resize()).observe(canvas);
         canvas.addEventListener('click', (event) => {
             const box = canvas.getBoundingClientRect();
@@ -25,17 +25,17 @@ class TimeSpace {
         const [left, top, bottom] = [52, 8, 34].map((px) => px * this.ratio);
         this.plot = {x: left, y: top, width: this.canvas.width - left - 4, height: this.canvas.height - top - bottom};
         this.perSecond = this.plot.width / (PAST_S + FUTURE_S);
-        this.forget();
+        this.clearStrips();
     }
 
-    forget() {
+    clearStrips() {
         this.strips.clear();
         if (this.onChange) this.onChange();
     }
 
     show(street, mode) {
         Object.assign(this, {street, mode});
-        this.forget();
+        this.clearStrips();
     }
 
     draw(now_s) {
@@ -59,20 +59,21 @@ class TimeSpace {
         this.drawAxes(now_s);
     }
 
+    // Returns the drawn section, or null if its frames are not unpacked yet.
     strip(section) {
         if (this.strips.has(section)) return this.strips.get(section);
         const {recording} = this;
         const frames = recording.ready.get(section);
-        const before = recording.ready.get(section - 1);  // its last frame is where the lines begin
-        if (!frames || (section > 0 && !before)) {
+        const previousFrames = recording.ready.get(section - 1);  // its last frame is the start of the trajectories
+        if (!frames || (section > 0 && !previousFrames)) {
             recording.load(section);
             recording.load(section - 1);
             return null;
         }
-        const strip = this.drawStrip([before ? before[before.length - 1] : null, ...frames]);
+        const strip = this.drawStrip([previousFrames ? previousFrames[previousFrames.length - 1] : null, ...frames]);
         this.strips.set(section, strip);
-        const MOST = 8;
-        if (this.strips.size > MOST) this.strips.delete(this.strips.keys().next().value);
+        const MAX_STRIPS = 8;
+        if (this.strips.size > MAX_STRIPS) this.strips.delete(this.strips.keys().next().value);
         return strip;
     }
 
@@ -84,32 +85,32 @@ class TimeSpace {
         const ctx = strip.getContext('2d');
         const y = (distance_m) => this.plot.height * (1 - distance_m / this.street.length_m);
         const paths = this.mode.colours.map(() => new Path2D());
-        let before = new Map();
+        let previous_m = new Map();  // from vehicle to its distance along the street in the frame before
         frames.forEach((frame, n) => {
-            const now = new Map();
+            const now_m = new Map();
             for (let k = 0; frame && k < frame.number.length; ++k) {
                 const from_m = this.street.from.get(frame.lane[k]);
                 if (from_m === undefined) continue;
                 const at_m = from_m + frame.position_m[k];
-                now.set(frame.number[k], at_m);
-                const last_m = before.get(frame.number[k]);
+                now_m.set(frame.number[k], at_m);
+                const last_m = previous_m.get(frame.number[k]);
                 if (last_m === undefined || last_m > at_m + 1) continue;
                 const path = paths[this.mode.of(frame, k)];
                 path.moveTo((n - 1) * perFrame, y(last_m));
                 path.lineTo(n * perFrame, y(at_m));
             }
-            before = now;
+            previous_m = now_m;
         });
         ctx.lineWidth = this.ratio;
         paths.forEach((path, k) => {
             ctx.strokeStyle = this.mode.colours[k];
             ctx.stroke(path);
         });
-        this.drawReds(ctx, frames, perFrame, y);
+        this.drawLights(ctx, frames, perFrame, y);
         return strip;
     }
 
-    drawReds(ctx, frames, perFrame, y) {
+    drawLights(ctx, frames, perFrame, y) {
         const thick = 3 * this.ratio;
         for (const {lane, from_m} of this.street.pieces) {
             if (lane.signal_group === undefined) continue;
@@ -142,7 +143,7 @@ class TimeSpace {
             if (time_s < 0 || time_s > now_s + FUTURE_S - 5) continue;
             ctx.fillText(`${time_s}`, plot.x + (time_s - now_s + PAST_S) * this.perSecond, plot.y + plot.height + 13 * this.ratio);
         }
-        ctx.fillText('time [s]', plot.x + plot.width / 2, plot.y + plot.height + 28 * this.ratio);
+        ctx.fillText('time (s)', plot.x + plot.width / 2, plot.y + plot.height + 28 * this.ratio);
         ctx.textAlign = 'right';
         const step_m = [100, 200, 500, 1000, 2000, 5000].find((step) => this.street.length_m <= 10 * step) ?? 10000;
         for (let at_m = 0; at_m <= this.street.length_m; at_m += step_m) {
@@ -153,7 +154,7 @@ class TimeSpace {
         ctx.translate(10 * this.ratio, plot.y + plot.height / 2);
         ctx.rotate(-Math.PI / 2);
         ctx.textAlign = 'center';
-        ctx.fillText('along the street [m]', 0, 0);
+        ctx.fillText('distance along the street (m)', 0, 0);
         ctx.restore();
     }
 }

@@ -1,0 +1,119 @@
+#include "common/options.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "base/version.h"
+#include "common/examples.h"
+#include "scenario/schema/quantity.h"
+
+namespace stopline {
+
+namespace {
+
+// CLI11 accepts -1 and too large numbers for an unsigned integer, so seeds are read as text.
+std::uint64_t parse_seed(const std::string& names, const std::string& text) {
+    const ParsedWhole seed = parse_whole(text);
+    if (!seed.problem.empty()) {
+        throw CLI::ValidationError(names,
+                                   fmt::format("value '{}' {}; give a whole number such as 1", text, seed.problem));
+    }
+    return seed.value;
+}
+
+}  // namespace
+
+Option& Option::required() {
+    option_->required();
+    return *this;
+}
+
+Option& Option::type_name(const std::string& name) {
+    option_->type_name(name);
+    return *this;
+}
+
+Option& Option::range(int low, int high) {
+    option_->check(CLI::Range(low, high));
+    return *this;
+}
+
+Option& Option::one_of(const std::vector<std::string>& texts) {
+    option_->check(CLI::IsMember(texts));
+    return *this;
+}
+
+Option& Option::one_value_each() {
+    option_->allow_extra_args(false);
+    return *this;
+}
+
+Option& Option::show_default() {
+    option_->capture_default_str();
+    return *this;
+}
+
+Options::Options(const std::string& description, const std::string& program)
+    : app_(new CLI::App(description, program)), owns_app_(true) {
+    app_->get_formatter()->column_width(34);
+    app_->set_version_flag("--version", std::string("stopline ") + version(), "Print the version and exit");
+}
+
+Options::Options(CLI::App* subcommand) : app_(subcommand), owns_app_(false) {}
+
+Options::~Options() {
+    for (const Options* const subcommand : subcommands_) delete subcommand;
+    if (owns_app_) delete app_;
+}
+
+Option Options::add(const std::string& names, std::string& value, const std::string& help) {
+    return Option(app_->add_option(names, value, help));
+}
+
+Option Options::add(const std::string& names, int& value, const std::string& help) {
+    return Option(app_->add_option(names, value, help));
+}
+
+Option Options::add(const std::string& names, std::optional<std::uint64_t>& value, const std::string& help) {
+    return Option(app_->add_option_function<std::string>(
+        names, [&value, names](const std::string& text) { value = parse_seed(names, text); }, help));
+}
+
+Option Options::add(const std::string& names, std::vector<std::string>& values, const std::string& help) {
+    return Option(app_->add_option(names, values, help));
+}
+
+Option Options::add_flag(const std::string& names, bool& value, const std::string& help) {
+    return Option(app_->add_flag(names, value, help));
+}
+
+Options& Options::add_subcommand(const std::string& name, const std::string& help) {
+    subcommands_.push_back(new Options(app_->add_subcommand(name, help)));
+    return *subcommands_.back();
+}
+
+bool Options::parsed() const { return app_->parsed(); }
+
+const std::vector<std::string>& Options::accept_others() {
+    app_->allow_extras();
+    return others_;
+}
+
+void Options::footer(const std::string& text) { app_->footer(text); }
+
+std::optional<ExitCode> Options::parse(int argc, const char* const* argv) {
+    try {
+        app_->parse(argc, argv);
+        others_ = app_->remaining();
+    } catch (const CLI::Success& success) {
+        app_->exit(success);  // prints the help or the version
+        return ExitCode::done;
+    } catch (const CLI::ParseError& error) {
+        fmt::print(stderr, "{}: {}\nTry: {} --help\n", app_->get_name(), error.what(),
+                   program_command(app_->get_name()));
+        return ExitCode::bad_input;
+    }
+    return std::nullopt;
+}
+
+}  // namespace stopline

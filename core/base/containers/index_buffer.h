@@ -1,0 +1,43 @@
+// A list of indices that is filled anew in each step. Memory is reserved beforehand, so that appending needs no branch.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace stopline {
+
+class IndexBuffer {
+public:
+    // Empties the list and reserves memory for `capacity` indices.
+    void reset(std::size_t capacity) {
+        if (indices_.size() < capacity + kUnconditional) indices_.resize(2 * capacity + kUnconditional);
+        size_ = 0;
+    }
+    void push(int index) { indices_[size_++] = index; }
+    void push_if(bool condition, int index) {
+        indices_[size_] = index;
+        size_ += condition ? 1U : 0U;
+    }
+    // Appends `first`, `first` + 1 and so on, below `end`.
+    void push_range(int first, int end) {
+        for (std::size_t k = 0; k < kUnconditional; ++k) indices_[size_ + k] = first + static_cast<int>(k);
+        for (int k = first + static_cast<int>(kUnconditional); k < end; ++k) {
+            indices_[size_ + static_cast<std::size_t>(k - first)] = k;
+        }
+        size_ += static_cast<std::size_t>(end > first ? end - first : 0);
+    }
+
+    std::size_t size() const { return size_; }
+    int operator[](std::size_t k) const { return indices_[k]; }
+    int last_or(int other) const { return size_ == 0 ? other : indices_[size_ - 1]; }
+    const int* begin() const { return indices_.data(); }
+    const int* end() const { return indices_.data() + size_; }
+
+private:
+    static constexpr std::size_t kUnconditional = 4;  // elements that push_range() always writes
+
+    std::vector<int> indices_ = std::vector<int>(kUnconditional);
+    std::size_t size_ = 0;
+};
+
+}  // namespace stopline

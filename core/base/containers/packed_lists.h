@@ -1,0 +1,40 @@
+// Lists of different lengths, stored one after the other in one array.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace stopline {
+
+template <class T>
+class PackedLists {
+public:
+    // Appends a list; its number is the count of lists before it.
+    template <class List>
+    void add(const List& list) {
+        elements_.insert(elements_.end(), list.begin(), list.end());
+        offsets_.push_back(elements_.size());
+    }
+    std::span<const T> of(int list) const {
+        const std::size_t first = offsets_[static_cast<std::size_t>(list)];
+        return {elements_.data() + first, offsets_[static_cast<std::size_t>(list) + 1] - first};
+    }
+
+    // Calls visit(begin, end) for the memory of one list: its offsets and its elements.
+    template <class Visit>
+    void visit_memory(int list, Visit visit) const {
+        visit_offsets(list, visit);
+        visit(of(list).data(), of(list).data() + of(list).size());
+    }
+    template <class Visit>
+    void visit_offsets(int list, Visit visit) const {
+        visit(offsets_.data() + list, offsets_.data() + list + 2);
+    }
+
+private:
+    std::vector<T> elements_;
+    std::vector<std::size_t> offsets_{0};
+};
+
+}  // namespace stopline

@@ -1,0 +1,22 @@
+// Runs another program and waits for its end.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace stopline {
+
+struct ProcessResult {
+    int start_error = 0;  // errno if the program could not be started, else 0
+    int wait_status = 0;  // status from waitpid(); 0: success
+    std::string output;   // standard output and standard error, interleaved
+
+    bool failed() const { return start_error != 0 || wait_status != 0; }
+};
+
+// Runs `command` in `folder` with empty standard input. The first word is the program, which is searched in PATH.
+// Failures are reported in the result, not thrown.
+ProcessResult run_process(std::vector<std::string> command, const std::filesystem::path& folder);
+
+}  // namespace stopline

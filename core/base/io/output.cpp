@@ -1,0 +1,50 @@
+#include "base/io/output.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "base/input_error.h"
+#include "base/io/replaced_file.h"
+
+namespace stopline {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const fs::path& path, const char* what, int error) {
+    throw InputError(fmt::format("{}: {}: {}", path.string(), what, std::generic_category().message(error)));
+}
+
+}  // namespace
+
+void prepare_folder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) fail(folder, "cannot create the folder", error.value());
+    if (!fs::is_directory(folder)) fail(folder, "cannot create the folder", ENOTDIR);
+    if (::access(folder.c_str(), W_OK | X_OK) != 0) fail(folder, "cannot write into the folder", errno);
+}
+
+void write_file(const fs::path& file, std::string_view text) {
+    ReplacedFile replaced(file);
+    replaced.write(text);
+    replaced.commit();
+}
+
+std::string read_file(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream || fs::is_directory(file)) {
+        throw InputError(fmt::format("{}: cannot read: {}", file.string(),
+                                     std::generic_category().message(fs::is_directory(file) ? EISDIR : errno)));
+    }
+    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+}  // namespace stopline

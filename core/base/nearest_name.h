@@ -1,0 +1,26 @@
+// Helpers for messages: the known name closest to an unknown one, lists of names, and values cut to fit a line.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stopline {
+
+// Returns the candidate closest to `name` in edit distance, ignoring case. Returns "" if no candidate is similar
+// enough.
+std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);
+
+// Returns the end of a message about an unknown name: "; did you mean 'x'? Known: a, b, c". Lists at most `max_listed`
+// candidates, followed by "and 7 more".
+std::string known_names_hint(std::string_view name, const std::vector<std::string>& candidates,
+                             std::size_t max_listed = std::string::npos);
+
+// Returns the names in one text, separated by `between`.
+std::string joined(const std::vector<std::string>& names, std::string_view between = ", ");
+
+// Returns the text cut to 60 characters, with spaces in place of control characters. A cut text ends in "...".
+std::string shortened(std::string_view text);
+
+}  // namespace stopline

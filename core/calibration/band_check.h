@@ -1,0 +1,51 @@
+// Step II of the calibration (Section V.B). It checks for each permutation if the mean of the mesoscale mode lies in
+// the confidence band of full dynamics. Both fidelities run the same sweep with the same seeds.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "measure/confidence.h"
+#include "sweeps/run_store.h"
+#include "sweeps/sweep.h"
+
+namespace stopline {
+
+// One metric in one permutation, means over all seeds.
+struct BandPoint {
+    std::string permutation;  // axis values as text
+    double full_mean = 0.0;
+    double meso_mean = 0.0;
+    Interval paper;
+    Interval student;
+};
+
+struct MetricBands {
+    std::string metric;  // name of the result column
+    std::vector<BandPoint> points;
+
+    double share_inside(Band band) const;
+    double mean_relative_difference() const;    // mean of |meso / full - 1|
+    double mean_relative_bias() const;          // mean of meso / full - 1, signed
+    double median_relative_half_width() const;  // half width of the paper's band over the mean of full dynamics
+};
+
+struct BandCheck {
+    std::vector<MetricBands> metrics;
+    std::size_t permutations = 0;
+
+    // Returns the share of permutations in which every metric is inside its band.
+    double share_inside(Band band) const;
+};
+
+// Returns the result columns to check: the named ones, or throughput, density and travel time of the first zone.
+// Throws InputError if a named column does not exist, or if none is named and the runs have no such results.
+std::vector<std::string> band_metrics(const RunStore& full, const std::vector<std::string>& named);
+
+// Compares two stores that hold all points of `sweep`. Throws InputError for fewer than three repetitions.
+BandCheck check_bands(const Sweep& sweep, const RunStore& full, const RunStore& meso,
+                      const std::vector<std::string>& metrics);
+
+std::string bands_csv(const BandCheck& check);
+
+}  // namespace stopline

@@ -1,0 +1,74 @@
+// Step I of the calibration (Section V.B). It compares the times at which vehicles pass detectors in both fidelities,
+// for every permutation of a sweep and any set of mesoscale parameters.
+//
+// The criterion is that no pair of passages differs by more than one second. A reviewed difference can be marked as
+// accepted (load_accepted.h): it then counts as valid and is listed. Every third permutation is held out of the fit.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "calibration/detector_times.h"
+#include "calibration/meso_fit.h"
+#include "scenario/load_accepted.h"
+#include "sweeps/run_store.h"
+#include "sweeps/sweep.h"
+
+namespace stopline {
+
+inline constexpr double kTimingLimit_s = 1.0;
+
+// One permutation: axis values, population and seed.
+struct CalibrationCase {
+    std::string permutation;  // "green = 15 s, offset = 0 s, population = CDG"
+    double cycle_s = 0.0;
+    FitCase fit;
+};
+
+// Builds the cases from a store that holds all points of the sweep, written by detector_metrics. `settings` are the
+// mesoscale parameters of every case.
+std::vector<CalibrationCase> calibration_cases(const Sweep& sweep, const RunStore& full, const MesoSettings& settings);
+
+// Results of one set of parameters on all permutations.
+struct TimingResult {
+    std::string name;
+    MesoSettings settings;
+    std::vector<PairedTimes> pairs;  // [case]
+    Violations violations;           // sum over all runs
+    std::int64_t updates = 0;        // vehicle updates
+};
+// Runs every case in the mesoscale mode and pairs its passages with those of full dynamics.
+TimingResult evaluate_timing(const std::string& name, const std::vector<CalibrationCase>& cases,
+                             const MesoSettings& settings, int threads);
+
+// The cases used for the fit, the cases held out of it, or both.
+enum class CaseSubset { fitted, held_out, all };
+Agreement timing_agreement(const TimingResult& result, const std::vector<CalibrationCase>& cases, CaseSubset subset);
+
+// A detector in one permutation at which passages differ by more than the limit or lack a partner.
+struct TimingMiss {
+    std::size_t permutation;
+    int detector;
+    int pairs_beyond_limit;
+    int pairs_compared;
+    int unpaired;          // passages without a partner
+    double largest_s;      // largest difference in amount, signed
+    int first_passage;     // number of the first passage beyond the limit, from 1
+    std::string cause;     // in words
+    std::string accepted;  // reason given in the file of accepted differences; empty: not accepted
+};
+std::vector<TimingMiss> timing_misses(const TimingResult& result, const std::vector<CalibrationCase>& cases,
+                                      const AcceptedFile& accepted);
+
+// Returns the share of pairs that are within the limit or accepted.
+double valid_share(const TimingResult& result, const std::vector<CalibrationCase>& cases,
+                   const std::vector<TimingMiss>& misses, CaseSubset subset);
+
+// The tables as CSV.
+std::string differences_csv(const TimingResult& result, const std::vector<CalibrationCase>& cases);
+std::string misses_csv(const std::vector<TimingMiss>& misses, const std::vector<CalibrationCase>& cases);
+std::string permutations_csv(const std::vector<TimingResult>& results, const std::vector<CalibrationCase>& cases);
+std::string history_csv(const MesoFit& fit);
+
+}  // namespace stopline

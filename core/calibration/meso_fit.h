@@ -1,0 +1,76 @@
+// Fits the parameters of the mesoscale mode to detector passages of full dynamics (Section V.B, step I). The k-th
+// passages of a detector in both fidelities form a pair. The loss is a robust least-squares sum over all pairs: a
+// difference far beyond one second hardly influences the search.
+//
+// First, each model of the Krauss family is fitted alone, from several starts, to the permutations that have only its
+// vehicles. Then all parameters are fitted together to all permutations. The search depends on nothing but its inputs.
+// An interrupted search that gets its stored evaluations back therefore continues on the same path.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/detector_times.h"
+#include "sim/state/model.h"
+
+namespace stopline {
+
+// One parameter of the mesoscale mode. Start delay and leader acceleration are shared by all vehicles and fitted with
+// the time-gap models.
+struct FitParameter {
+    const char* name = "";  // path in the parameter file
+    const char* unit = "";
+    bool constant_distance = false;  // fitted with the constant-distance model
+    double low = 0.0;                // bounds of the search, SI units; equal bounds: not fitted
+    double high = 0.0;
+    double& (*value)(MesoSettings&) = nullptr;
+    bool (*is_used)(const MesoSettings&) = nullptr;  // false: other settings make it irrelevant; null: always used
+
+    bool is_free(const MesoSettings& settings) const { return low < high && (is_used == nullptr || is_used(settings)); }
+};
+const std::vector<FitParameter>& fit_parameters();
+
+// One permutation: the mesoscale model and the passages in full dynamics.
+struct FitCase {
+    Scenario scenario;
+    Model model;
+    DetectorTimes reference;
+    bool held_out = false;
+};
+
+// Runs the case with the given parameters and returns its passages.
+DetectorRun run_case(const FitCase& fit_case, const MesoSettings& settings);
+
+// Returns the mean over all pairs of d^2 / (d^2 + limit^2), where d is the difference. An unpaired passage counts 1.
+double fit_loss(const PairedTimes& pairs, double limit_s);
+
+struct FitEvaluation {
+    std::string stage;           // name of the search: "constant_time 2", "all"
+    std::vector<double> values;  // in the order of fit_parameters()
+    double loss = 0.0;
+};
+
+struct FitOptions {
+    int threads = 1;
+    int starts = 3;
+    int evaluations_per_start = 250;  // evaluations from one start, for one model alone
+    int joint_evaluations = 800;      // evaluations of the last search, for all parameters together
+    double limit_s = 1.0;
+    // Returns the stored loss of evaluation `index` from an earlier session if it was made with these values.
+    std::function<std::optional<double>(std::size_t index, const std::vector<double>& values)> stored_loss;
+    std::function<void(std::size_t index, const FitEvaluation&)> on_evaluation;
+    std::function<bool(double)> on_progress;  // gets the share done; false: fit_meso throws Interrupted
+};
+
+struct MesoFit {
+    MesoSettings settings;
+    std::vector<FitEvaluation> history;
+};
+
+// Fits the parameters to the cases that are not held out. `start` is the first start of the search and gives the values
+// of all parameters that are not fitted.
+MesoFit fit_meso(const std::vector<FitCase>& cases, const MesoSettings& start, const FitOptions& options);
+
+}  // namespace stopline

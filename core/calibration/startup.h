@@ -1,0 +1,64 @@
+// Calibration of the start-up (Section III.B). The leader's acceleration over speed is fitted so that the simulated
+// start in full dynamics follows the mean of measured starts.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/speed_thresholds.h"
+#include "scenario/scenario.h"
+
+namespace stopline {
+
+// Measured starts: speed over the time since the car moves. A quantity that the file lacks is empty.
+struct StartupCurve {
+    std::vector<double> time_s;  // rising from 0
+    std::vector<double> mean_mps;
+    std::vector<double> mean_ci_mps;  // half width of the 95 % confidence interval of the mean
+    std::vector<double> low_mps;      // 2.5th and 97.5th percentile of single starts; both present or both empty
+    std::vector<double> high_mps;
+    std::vector<double> starts;  // number of starts behind each mean
+};
+
+// Reads the columns t_s and mean_kmh, and the optional columns ci95_of_mean, p2.5, p97.5 and n. Throws InputError with
+// file and line.
+StartupCurve load_startup_curve(const std::filesystem::path& file);
+
+// Speed from which the car counts as moving. The measurements use the same value (OBD reports whole km/h,
+// interpolated).
+inline constexpr double kMoving_mps = kStoppedSpeed_mps;
+
+// A simulated start of one vehicle at a signal, sampled at given times after it begins to move.
+struct StartupRun {
+    std::vector<double> time_s;
+    std::vector<double> speed_mps;
+    std::vector<double> distance_m;  // from standstill
+    std::vector<int> gear;           // from 1
+};
+StartupRun simulate_start(const Scenario& scenario, const std::vector<double>& times_s);
+
+struct StartupFit {
+    DriverSettings driver;        // driver of the scenario with the fitted profile
+    double rms_before_mps = 0.0;  // root mean square deviation from the measured mean
+    double rms_after_mps = 0.0;
+    int evaluations = 0;
+};
+// Fits with NLopt's BOBYQA (Powell 2009). `on_progress` gets the number of evaluations; if it returns false, the fit
+// throws Interrupted.
+StartupFit fit_startup(const Scenario& scenario, const StartupCurve& curve,
+                       const std::function<bool(int)>& on_progress = {});
+
+// A time interval in which a start is outside a band, on one side. Between measured points the band is interpolated.
+struct BandExit {
+    double from_s, to_s;
+    double largest_deviation_mps;  // largest deviation from the mean in amount, signed
+};
+// Returns the exits from the confidence band of the mean (`of_mean`) or from the band of single starts. Returns nothing
+// if the curve does not have that band.
+std::vector<BandExit> band_exits(const StartupCurve& curve, const StartupRun& run, bool of_mean);
+
+double rms_deviation_mps(const StartupCurve& curve, const StartupRun& run);
+
+}  // namespace stopline

@@ -1,0 +1,19 @@
+// Figures of the runs of one intersection: a picture of one moment (Fig. 8 of the paper) and headways by queue
+// position.
+#pragma once
+
+#include <vector>
+
+#include "figures/gnuplot.h"
+#include "runs/intersection/intersection.h"
+
+namespace stopline {
+
+// Draws the network to scale with the vehicles of one population at `picture_s`, coloured by policy.
+Figure intersection_picture(const IntersectionReport& report, std::size_t population);
+
+// Returns the picture of the most evenly mixed population, and the headways by queue position if there are enough
+// samples.
+std::vector<Figure> intersection_figures(const IntersectionReport& report);
+
+}  // namespace stopline

@@ -1,0 +1,24 @@
+// Points of curves over time. Each point is the mean of one or several measured intervals.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "scenario/scenario.h"
+
+namespace stopline {
+
+// Returns five, which hides the greens of single cycles. Returns one for a run with fewer than two such points.
+std::size_t intervals_per_point(std::size_t intervals);
+
+// Describes the points, such as "means of 5 intervals of 60 s".
+std::string points_text(std::size_t intervals, double interval_s);
+
+// Says that the run has no whole interval and therefore no point.
+std::string no_interval_text(const Scenario& scenario);
+
+// Returns the gnuplot plotting style for this number of points. Few points are also marked, because a line alone is
+// hard to see.
+std::string curve_style(std::size_t points);
+
+}  // namespace stopline

@@ -1,0 +1,15 @@
+// Figures of one run over several intersections.
+#pragma once
+
+#include "figures/gnuplot.h"
+#include "runs/network/network.h"
+
+namespace stopline {
+
+// Draws throughput, travel time, density and teleported vehicles over time (Fig. 22 of the paper).
+Figure network_series_figure(const NetworkReport& report);
+
+// Draws the share of each delay cause in the time that vehicles are stopped.
+Figure delay_causes_figure(const NetworkReport& report);
+
+}  // namespace stopline

@@ -1,0 +1,13 @@
+// Map of streets to scale: lanes with their movements, stop lines by signal group, and the programme of each
+// intersection.
+#pragma once
+
+#include "figures/gnuplot.h"
+#include "scenario/scenario.h"
+
+namespace stopline {
+
+// Draws the figure `network`. A corridor from west to east is split into several rows. Legs to the border are cut.
+Figure street_map(const Scenario& scenario);
+
+}  // namespace stopline

@@ -1,0 +1,187 @@
+#include "figures/studies/lines.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace stopline {
+
+namespace {
+
+constexpr std::size_t kMetrics = kSweepMetrics.size();
+constexpr std::size_t kMaxNamedLines = 12;  // with more lines, the legend lists populations and axis values separately
+
+// The counts of dashes and points have no common factor, so 88 combinations differ.
+constexpr std::array<const char*, 8> kDashes{"1",      "(9,4)",          "(2,4)",      "(12,4,2,4)",
+                                             "(18,5)", "(12,4,2,4,2,4)", "(5,3,5,10)", "(2,9)"};
+constexpr std::array<int, 11> kPoints{6, 4, 8, 12, 10, 14, 1, 2, 7, 5, 9};
+
+struct CurveStyle {
+    std::string colour;
+    std::string dash;
+    int point = 0;
+
+    std::string text() const { return fmt::format("lw 2 dt {} pt {} ps 0.8 lc rgb '{}'", dash, point, colour); }
+};
+
+CurveStyle curve_style(const SweepPlanes& all, std::size_t population, std::size_t line) {
+    const LineStyle style = line_style(population);
+    if (!all.line_axis.exists()) return {style.colour, fmt::format("{}", style.dash), style.hollow_point};
+    return {style.colour, kDashes[line % kDashes.size()], kPoints[line % kPoints.size()]};
+}
+
+// Returns tick positions at the axis values. A value is skipped if its number would touch the previous one.
+std::string ticks_of(const std::vector<double>& values) {
+    constexpr double kPanel_px = 235.0;  // width of the narrowest panel
+    constexpr double kDigit_px = 8.0;
+    constexpr double kBetween_px = 12.0;
+    std::size_t digits = 0;
+    for (const double value : values) digits = std::max(digits, fmt::format("{:g}", value).size());
+    const double number_px = kDigit_px * static_cast<double>(digits) + kBetween_px;
+    const double apart = (values.back() - values.front()) * number_px / kPanel_px;
+    std::vector<std::string> ticks;
+    double last = 0.0;
+    for (const double value : values) {
+        if (!ticks.empty() && value - last < apart) continue;
+        ticks.push_back(fmt::format("{:g}", value));
+        last = value;
+    }
+    return fmt::format("({})", fmt::join(ticks, ", "));
+}
+
+std::string cells_of(const std::optional<SeedSpread>& spread) {
+    if (!spread) return " NaN NaN NaN";
+    const auto cell = [](double value) { return fmt::format(" {:.6g}", value + 0.0); };  // + 0.0 turns -0 into 0
+    return cell(spread->mean) + cell(spread->min) + cell(spread->max);
+}
+
+// Writes one data block for each line of the figure.
+std::string data_of(const SweepPlanes& all, const SweepPlane& plane) {
+    std::string data = fmt::format(
+        "# {}; mean, minimum and maximum of throughput, travel time and density; then of their changes in percent\n",
+        all.x_axis.name);
+    for (std::size_t population = 0; population < all.populations.size(); ++population) {
+        for (std::size_t line = 0; line < all.line_axis.values.size(); ++line) {
+            data += "# " + all.populations[population] +
+                    (all.line_axis.exists() ? ", " + all.line_axis.value_titles[line] : "") + "\n";
+            for (std::size_t x = 0; x < all.x_axis.values.size(); ++x) {
+                const PlanePoint point{x, line, population};
+                data += fmt::format("{:g}", all.x_axis.values[x]);
+                for (std::size_t metric = 0; metric < kMetrics; ++metric) data += cells_of(plane.value(metric, point));
+                for (std::size_t metric = 0; metric < kMetrics; ++metric) data += cells_of(plane.change(metric, point));
+                data += "\n";
+            }
+            data += "\n\n";
+        }
+    }
+    return data;
+}
+
+struct KeyEntry {
+    std::string style;
+    std::string title;
+};
+
+// Names each line in the legend. If there are too many, colours and dashes get separate entries.
+std::vector<KeyEntry> key_of(const SweepPlanes& all) {
+    constexpr const char* kGrey = "#404040";
+    const std::size_t populations = all.populations.size();
+    const std::size_t lines = all.line_axis.values.size();
+    std::vector<KeyEntry> entries;
+    if (!all.line_axis.exists() || populations * lines <= kMaxNamedLines) {
+        for (std::size_t p = 0; p < populations; ++p) {
+            for (std::size_t line = 0; line < lines; ++line) {
+                const std::string line_name = all.line_axis.exists() ? ", " + all.line_axis.value_titles[line] : "";
+                entries.push_back({"linespoints " + curve_style(all, p, line).text(), all.populations[p] + line_name});
+            }
+        }
+        return entries;
+    }
+    for (std::size_t p = 0; p < populations; ++p) {
+        entries.push_back({fmt::format("lines lw 4 dt 1 lc rgb '{}'", line_style(p).colour), all.populations[p]});
+    }
+    for (std::size_t line = 0; line < lines; ++line) {
+        CurveStyle style = curve_style(all, 0, line);
+        style.colour = kGrey;
+        entries.push_back({"linespoints " + style.text(), all.line_axis.value_titles[line]});
+    }
+    return entries;
+}
+
+double key_width_px(const std::vector<KeyEntry>& entries) {
+    constexpr double kSample_px = 85.0;
+    constexpr double kLetter_px = 8.0;
+    std::size_t letters = 0;
+    for (const KeyEntry& entry : entries) letters = std::max(letters, entry.title.size());
+    return kSample_px + kLetter_px * static_cast<double>(letters);
+}
+
+std::string panel_of(const SweepPlanes& all, const std::string& file, std::size_t metric, bool change) {
+    std::string plots;
+    const std::size_t column = 2 + 3 * (metric + (change ? kMetrics : 0));
+    for (std::size_t p = change ? 1 : 0; p < all.populations.size(); ++p) {
+        for (std::size_t line = 0; line < all.line_axis.values.size(); ++line) {
+            const CurveStyle style = curve_style(all, p, line);
+            const std::string block =
+                fmt::format("'{}' index {} using 1:{}", file, p * all.line_axis.values.size() + line, column);
+            if (all.seeds > 1) {
+                plots += fmt::format("{}:{}:{} with yerrorbars pt 0 lw 1.2 dt 1 lc rgb '{}' notitle, ", block,
+                                     column + 1, column + 2, style.colour);
+            }
+            plots += fmt::format("{} with linespoints {} notitle, ", block, style.text());
+        }
+    }
+    return plots;
+}
+
+}  // namespace
+
+Figure sweep_lines_figure(const SweepPlanes& all, const SweepPlane& plane, std::size_t number) {
+    constexpr double kMargin = 0.05;  // share of the range, keeps points off the frame
+    constexpr double kKeyMargin = 0.008;
+    Figure figure;
+    figure.name = fmt::format("network_{}", number);
+    figure.width_px = 1300;
+    const bool compares = all.populations.size() > 1;
+    figure.height_px = compares ? 760 : 410;
+    const std::string file = figure.name + ".dat";
+    figure.data.emplace_back(file, data_of(all, plane));
+    const std::string title = all.title(plane, "means of {} seeds, whiskers from minimum to maximum");
+    const std::vector<double>& values = all.x_axis.values;
+    const double margin = values.size() > 1 ? kMargin * (values.back() - values.front()) : 1.0;
+    const std::vector<KeyEntry> key = key_of(all);
+    const double right = 1.0 - key_width_px(key) / figure.width_px;
+    std::string body = fmt::format(
+        "set multiplot layout {},3{} margins 0.075,{:.4f},{},{} spacing 0.065,0.10\nset xlabel {}\nset xrange [{:g}:{:g}]\n"
+        "set xtics {}\nset bars 0.5\n",
+        compares ? 2 : 1, title.empty() ? "" : " title " + gnuplot_text(title), right, compares ? "0.08" : "0.15",
+        title.empty() ? "0.97"
+        : compares    ? "0.94"
+                      : "0.89",
+        gnuplot_text(all.x_axis.label()), values.front() - margin, values.back() + margin, ticks_of(values));
+    for (std::size_t panel = 0; panel < (compares ? 2 : 1) * kMetrics; ++panel) {
+        const bool change = panel >= kMetrics;
+        const std::size_t metric = panel % kMetrics;
+        const SweepMetric& shown = kSweepMetrics[metric];
+        body += fmt::format("set ylabel {}\n", gnuplot_text(change ? all.change_label(shown) : shown.label()));
+        // gnuplot needs an explicit range if no value is a number.
+        body += change ? "set yrange [*:*]\n" : plane.has(metric) ? "set yrange [0:*]\n" : "set yrange [0:1]\n";
+        const bool with_key = panel + 1 == kMetrics;
+        body += with_key ? fmt::format("set key at screen {:.4f},graph 1 left top\nplot ", right + kKeyMargin)
+                         : "unset key\nplot ";
+        body += panel_of(all, file, metric, change);
+        for (std::size_t k = 0; with_key && k < key.size(); ++k) {
+            body += fmt::format("NaN with {} title {}, ", key[k].style, gnuplot_text(key[k].title));
+        }
+        body += change ? "0 with lines lw 1 dt 1 lc rgb '#888888' notitle\n" : "NaN notitle\n";
+    }
+    figure.body = body + "unset multiplot\n";
+    return figure;
+}
+
+}  // namespace stopline

@@ -1,0 +1,253 @@
+#include "figures/studies/planes.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/io/csv.h"
+#include "runs/network/network_run.h"
+
+namespace stopline {
+
+namespace {
+
+constexpr double kPercent = 100.0;
+
+template <class T>
+std::size_t index_of(const std::vector<T>& all, const T& one) {
+    return static_cast<std::size_t>(std::find(all.begin(), all.end(), one) - all.begin());
+}
+
+template <class T>
+void add_new(std::vector<T>& all, const T& one) {
+    if (index_of(all, one) == all.size()) all.push_back(one);
+}
+
+bool has_column(const CsvTable& table, const std::string& name) {
+    return index_of(table.columns, name) < table.columns.size();
+}
+
+// Splits a column name into name and unit, for a table that is read without its sweep: "green_s" is green in s.
+std::pair<std::string, std::string> name_and_unit(const std::string& column) {
+    const std::size_t cut = column.rfind('_');
+    if (cut == std::string::npos) return {column, ""};
+    const std::string unit = column.substr(cut + 1);
+    return {column.substr(0, cut), unit == "percent" ? "%" : unit};
+}
+
+// Returns the text for a cell in titles, such as "green 15 s".
+std::string cell_title(const CellTitles& titles, const std::string& column, const std::string& cell) {
+    const auto found = titles.find({column, cell});
+    if (found != titles.end()) return found->second;
+    const auto [name, unit] = name_and_unit(column);
+    return name + " " + cell + (unit.empty() ? "" : " ") + unit;
+}
+
+// Takes name and unit from the title of a cell: "green 15 s" or, for an axis that sets two fields, "green 15 s / 7 s".
+void name_axis(PlotAxis& axis, const std::string& title, const std::string& cell) {
+    const std::size_t end = title.find(" " + cell);
+    axis.name = title.substr(0, end);
+    const std::string rest = end == std::string::npos ? "" : title.substr(end + 1 + cell.size());
+    if (rest.starts_with(" ") && !rest.starts_with(" / ")) axis.unit = rest.substr(1, rest.find(" / ") - 1);
+}
+
+// Returns nothing if a cell is not a number.
+std::optional<PlotAxis> numeric_axis(const CsvTable& results, const std::string& column, const CellTitles& titles) {
+    std::map<double, std::string> cells;
+    for (const std::vector<std::string>& row : results.rows) {
+        const std::string& cell = row[results.column(column)];
+        const std::optional<double> number = parse_number(cell);
+        if (!number) return std::nullopt;
+        cells.try_emplace(*number, cell);
+    }
+    PlotAxis axis;
+    axis.column = column;
+    axis.values.clear();
+    for (const auto& [number, cell] : cells) {
+        axis.values.push_back(number);
+        axis.value_titles.push_back(cell_title(titles, column, cell));
+    }
+    name_axis(axis, axis.value_titles.front(), cells.begin()->second);
+    return axis;
+}
+
+// Chooses the x axis and the line axis, in this order. Returns one axis if only one varies, and none if no choice is
+// clear.
+std::vector<PlotAxis> drawn_axes(const CsvTable& results, const CellTitles& titles,
+                                 const std::string& population_column) {
+    std::vector<PlotAxis> all;
+    for (const std::string& column : axis_columns(results, population_column)) {
+        if (std::optional<PlotAxis> axis = numeric_axis(results, column, titles)) all.push_back(std::move(*axis));
+    }
+    const auto single = [](const PlotAxis& axis) { return axis.values.size() == 1; };
+    std::vector<PlotAxis> paper;
+    for (const char* const column : {kGreenColumn, kOffsetColumn}) {
+        for (const PlotAxis& axis : all) {
+            if (axis.column == column) paper.push_back(axis);
+        }
+    }
+    std::vector<PlotAxis> varied = paper.size() == 2 && !std::all_of(paper.begin(), paper.end(), single) ? paper : all;
+    std::erase_if(varied, single);
+    if (varied.empty() && paper.size() == 2) return {paper.front()};
+    if (varied.size() > 2) varied.resize(2);  // each value of the other axes gets figures of its own
+    // As in the paper, green is the x axis and offset the line axis.
+    if (varied.size() == 2 && (varied[0].column == kOffsetColumn || varied[1].column == kGreenColumn)) {
+        std::swap(varied[0], varied[1]);
+    }
+    return varied;
+}
+
+bool has_paper_axes(const SweepPlanes& all) {
+    return all.x_axis.column == kGreenColumn && all.line_axis.column == kOffsetColumn;
+}
+
+// Counts the combinations of the axes that are neither x axis nor line axis.
+std::size_t plane_count(const CsvTable& results, const SweepPlanes& all, const std::string& population_column) {
+    std::set<std::vector<std::string>> combinations;
+    for (const std::vector<std::string>& row : results.rows) {
+        std::vector<std::string> cells;
+        for (const std::string& column : axis_columns(results, population_column)) {
+            if (column != all.x_axis.column && column != all.line_axis.column)
+                cells.push_back(row[results.column(column)]);
+        }
+        combinations.insert(cells);
+    }
+    return combinations.size();
+}
+
+std::string title_of(const CsvTable& results, const std::vector<std::string>& row, const SweepPlanes& planes,
+                     const CellTitles& titles, const std::string& population_column) {
+    std::string text;
+    for (const std::string& column : axis_columns(results, population_column)) {
+        if (column == planes.x_axis.column || column == planes.line_axis.column) continue;
+        text += (text.empty() ? "" : "; ") + cell_title(titles, column, row[results.column(column)]);
+    }
+    return text;
+}
+
+std::size_t index_on(const PlotAxis& axis, const CsvTable& results, const std::vector<std::string>& row) {
+    if (!axis.exists()) return 0;
+    return index_of(axis.values, parse_number(row[results.column(axis.column)]).value_or(0.0));
+}
+
+void add_row(SweepPlane& plane, const PlanePoint& point, const CsvTable& results, const std::vector<std::string>& row) {
+    for (std::size_t metric = 0; metric < kSweepMetrics.size(); ++metric) {
+        const std::optional<double> value = parse_number(row[results.column(kSweepMetrics[metric].column)]);
+        if (value) plane.add(metric, point, row[results.column("seed")], *value);
+    }
+    const auto known = std::find(kStabilityNames.begin(), kStabilityNames.end(), row[results.column("stability")]);
+    if (known != kStabilityNames.end()) {
+        plane.add_stability(point, static_cast<std::size_t>(known - kStabilityNames.begin()));
+    }
+}
+
+}  // namespace
+
+bool SweepPlane::has(std::size_t metric) const {
+    return std::any_of(values_.begin(), values_.end(), [&](const auto& entry) { return entry.first.first == metric; });
+}
+
+const SweepPlane::Seeds* SweepPlane::seeds(std::size_t metric, const PlanePoint& point) const {
+    const auto found = values_.find({metric, point});
+    return found == values_.end() ? nullptr : &found->second;
+}
+
+std::optional<SeedSpread> SweepPlane::value(std::size_t metric, const PlanePoint& point) const {
+    const Seeds* const here = seeds(metric, point);
+    if (here == nullptr) return std::nullopt;
+    SeedSpread spread{0.0, here->begin()->second, here->begin()->second};
+    for (const auto& [seed, value] : *here) {
+        spread.mean += value / static_cast<double>(here->size());
+        spread.min = std::min(spread.min, value);
+        spread.max = std::max(spread.max, value);
+    }
+    return spread;
+}
+
+std::optional<SeedSpread> SweepPlane::change(std::size_t metric, const PlanePoint& point) const {
+    const PlanePoint base{point.x, point.line, 0};
+    const std::optional<SeedSpread> spread_here = value(metric, point);
+    const std::optional<SeedSpread> base_spread = value(metric, base);
+    if (!spread_here || !base_spread || base_spread->mean == 0.0) return std::nullopt;
+    const double sign = kSweepMetrics[metric].sign;
+    const double change_of_means = sign * kPercent * (spread_here->mean / base_spread->mean - 1.0);
+    SeedSpread spread{change_of_means, change_of_means, change_of_means};
+    const Seeds& runs_of_base = *seeds(metric, base);
+    for (const auto& [seed, here] : *seeds(metric, point)) {
+        const auto before = runs_of_base.find(seed);
+        if (before == runs_of_base.end() || before->second == 0.0) continue;
+        const double change = sign * kPercent * (here / before->second - 1.0);
+        spread.min = std::min(spread.min, change);
+        spread.max = std::max(spread.max, change);
+    }
+    return spread;
+}
+
+std::array<std::size_t, 3> SweepPlane::stabilities(const PlanePoint& point) const {
+    std::array<std::size_t, kStabilityNames.size()> counts{};
+    const auto found = stability_.find(point);
+    if (found == stability_.end()) return counts;
+    for (const std::size_t stability : found->second) ++counts[stability];
+    return counts;
+}
+
+std::string SweepPlanes::title(const SweepPlane& plane, const std::string& seed_note) const {
+    if (seeds < 2) return plane.title;
+    return plane.title + (plane.title.empty() ? "" : "; ") + fmt::format(fmt::runtime(seed_note), seeds);
+}
+
+std::string SweepPlanes::change_label(const SweepMetric& metric) const {
+    return fmt::format(fmt::runtime(metric.change), populations.front());
+}
+
+bool has_network_metrics(const CsvTable& results, const std::string& population_column) {
+    const auto has = [&](const std::string& name) { return has_column(results, name); };
+    return has(population_column) && has("seed") && has("stability") && !results.rows.empty() &&
+           std::all_of(kSweepMetrics.begin(), kSweepMetrics.end(), [&](const SweepMetric& m) { return has(m.column); });
+}
+
+std::vector<std::string> axis_columns(const CsvTable& results, const std::string& population_column) {
+    std::vector<std::string> columns;
+    for (const std::string& column : results.columns) {
+        if (column == "seed") break;
+        if (column != "point" && column != population_column) columns.push_back(column);
+    }
+    return columns;
+}
+
+std::optional<SweepPlanes> sweep_planes(const CsvTable& results, const CellTitles& titles,
+                                        const std::string& population_column) {
+    const std::vector<PlotAxis> axes = drawn_axes(results, titles, population_column);
+    if (axes.empty()) return std::nullopt;
+    SweepPlanes all;
+    all.x_axis = axes.front();
+    if (axes.size() == 2) all.line_axis = axes.back();
+    if (plane_count(results, all, population_column) > kMaxPlanes && !has_paper_axes(all)) return std::nullopt;
+    std::vector<std::string> seeds;
+    for (const std::vector<std::string>& row : results.rows) {
+        const std::string& population = row[results.column(population_column)];
+        add_new(all.populations, population);
+        add_new(seeds, row[results.column("seed")]);
+        const std::string title = title_of(results, row, all, titles, population_column);
+        auto plane =
+            std::find_if(all.planes.begin(), all.planes.end(), [&](const SweepPlane& p) { return p.title == title; });
+        if (plane == all.planes.end()) {
+            plane = all.planes.emplace(all.planes.end());
+            plane->title = title;
+        }
+        add_row(*plane,
+                {index_on(all.x_axis, results, row), index_on(all.line_axis, results, row),
+                 index_of(all.populations, population)},
+                results, row);
+    }
+    all.seeds = seeds.size();
+    return all;
+}
+
+}  // namespace stopline

@@ -1,0 +1,120 @@
+// The results of a sweep over several intersections, arranged for its figures. A figure has an x axis and, if there are
+// two varied axes, a line axis. Each combination of all other axes is a plane and gets figures of its own. A plane
+// holds one value for each point of the two axes, population and seed.
+//
+// As in the paper, the x axis is green and the line axis is offset, provided that both are axes of the sweep and at
+// least one of them varies. Otherwise the first one or two numeric axes are used. An axis with a single value appears
+// in the title only.
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/io/csv.h"
+#include "sweeps/sweep.h"
+
+namespace stopline {
+
+inline constexpr const char* kGreenColumn = "green_s";
+inline constexpr const char* kOffsetColumn = "offset_s";
+
+struct SweepMetric {
+    const char* column;
+    const char* name;
+    const char* unit;
+    const char* change;  // axis label of the change; {} is replaced by the reference population
+    double sign;         // -1: the label counts a decrease as positive
+    bool improves;       // a positive change is an improvement; false for density, which falls with less traffic
+
+    std::string label() const { return std::string(name) + " [" + unit + "]"; }
+};
+inline constexpr std::array<SweepMetric, 3> kSweepMetrics{
+    SweepMetric{"throughput_veh_h", "throughput", "veh/h", "throughput gain over {} [%]", 1.0, true},
+    SweepMetric{"travel_time_s", "travel time", "s", "travel time saved against {} [%]", -1.0, true},
+    SweepMetric{"density_percent", "density", "%", "density change against {} [%]", 1.0, false}};
+
+// The x axis or the line axis of a figure.
+struct PlotAxis {
+    std::string column;                     // empty: the axis does not exist, and a single value stands for it
+    std::string name;                       // such as "green"
+    std::string unit;                       // such as "s"; empty: plain numbers
+    std::vector<double> values = {0.0};     // ascending
+    std::vector<std::string> value_titles;  // [value] "green 15 s"; empty if the axis does not exist
+
+    bool exists() const { return !column.empty(); }
+    std::string label() const { return unit.empty() ? name : name + " [" + unit + "]"; }
+};
+
+// A point of a plane: indices on the x axis and the line axis, and of the population.
+struct PlanePoint {
+    std::size_t x = 0;
+    std::size_t line = 0;
+    std::size_t population = 0;
+    auto operator<=>(const PlanePoint&) const = default;
+};
+
+// Mean, minimum and maximum over the seeds.
+struct SeedSpread {
+    double mean;
+    double min;
+    double max;
+};
+
+class SweepPlane {
+public:
+    std::string title;  // values of the other axes
+
+    void add(std::size_t metric, const PlanePoint& point, const std::string& seed, double value) {
+        values_[{metric, point}][seed] = value;
+    }
+    void add_stability(const PlanePoint& point, std::size_t stability) { stability_[point].push_back(stability); }
+
+    bool has(std::size_t metric) const;
+    std::optional<SeedSpread> value(std::size_t metric, const PlanePoint& point) const;
+    // Returns the change against the first population in percent. `mean` compares the means. `min` and `max` compare
+    // runs with the same seed.
+    std::optional<SeedSpread> change(std::size_t metric, const PlanePoint& point) const;
+    // Returns the numbers of seeds that are stable, semi-stable and unstable.
+    std::array<std::size_t, 3> stabilities(const PlanePoint& point) const;
+
+private:
+    using Seeds = std::map<std::string, double>;
+    const Seeds* seeds(std::size_t metric, const PlanePoint& point) const;
+
+    std::map<std::pair<std::size_t, PlanePoint>, Seeds> values_;
+    std::map<PlanePoint, std::vector<std::size_t>> stability_;
+};
+
+struct SweepPlanes {
+    PlotAxis x_axis;
+    PlotAxis line_axis;
+    std::vector<std::string> populations;
+    std::size_t seeds = 1;
+    std::vector<SweepPlane> planes;
+
+    // Returns the title of a figure, which may be empty. `seed_note` is appended if there are several seeds; its {} is
+    // replaced by their number.
+    std::string title(const SweepPlane& plane, const std::string& seed_note) const;
+    std::string change_label(const SweepMetric& metric) const;  // names the reference population
+};
+
+// Returns true if the table has the metrics of several intersections.
+bool has_network_metrics(const CsvTable& results, const std::string& population_column);
+
+// Returns the columns of all axes except the population axis.
+std::vector<std::string> axis_columns(const CsvTable& results, const std::string& population_column);
+
+// Upper limit of planes, unless the axes are green and offset.
+inline constexpr std::size_t kMaxPlanes = 24;
+
+// Arranges the results. Returns nothing if no numeric axis varies or if there are too many planes.
+std::optional<SweepPlanes> sweep_planes(const CsvTable& results, const CellTitles& titles,
+                                        const std::string& population_column);
+
+}  // namespace stopline

@@ -1,0 +1,22 @@
+// The legs that lead to the border of a network: their lengths, and the scenario fields of these lengths for messages.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "network/network_settings.h"
+
+namespace stopline {
+
+struct OuterLeg {
+    std::string length_field;       // path of the scenario field of length_m
+    std::string exit_length_field;  // path of the scenario field of exit_length_m
+    double limit_mps = 0.0;         // speed limit
+    double length_m = 0.0;          // from the border to the stop line; 0: no approach lane
+    double exit_length_m = 0.0;     // from the intersection to the border; 0: no exit lane
+};
+
+// Returns the outer legs. Where all legs of a network are equal, one leg represents them. An imported network has none.
+std::vector<OuterLeg> outer_legs(const NetworkSettings& network);
+
+}  // namespace stopline

@@ -1,0 +1,41 @@
+// Reductions of the paper's experiments for a quick run. They are a table that users can change: data/paper/quick.csv
+// with the columns what,field,value. `what` is sweeps/NAME or scenarios/NAME. `field` is one of:
+//     repetitions   number of seeds of each combination
+//     axis NAME     values of that axis to keep, separated by ';'
+//     PATH          field of the scenario, as for --set
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenario/sweep_file/sweep_settings.h"
+
+namespace stopline {
+
+class Reductions {
+public:
+    struct Row {
+        std::string what;
+        std::string field;
+        std::string value;
+    };
+
+    Reductions() = default;  // no reduction
+    // Throws InputError if the file cannot be read or a row is invalid.
+    static Reductions load(const std::filesystem::path& file);
+
+    const std::vector<Row>& rows() const { return rows_; }
+
+    // Returns overrides for load_scenario.
+    std::vector<std::string> settings(const std::string& what) const;
+    std::optional<int> repetitions(const std::string& what) const;
+    // Reduces axes and repetitions of a sweep. Throws InputError for an axis or a value that the sweep does not have.
+    void apply(SweepSettings& sweep) const;
+
+private:
+    std::vector<Row> rows_;
+};
+
+}  // namespace stopline

@@ -1,0 +1,58 @@
+#include "paper/row_text.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/io/csv.h"
+
+namespace stopline {
+
+std::string main_section(const std::string& section) { return section.substr(0, section.find_first_of(". ")); }
+
+std::string section_title(const std::string& main) {
+    constexpr std::array<std::pair<const char*, const char*>, 6> kTitles{
+        {{"I", "numbers of the introduction"},
+         {"III", "one signal"},
+         {"IV", "one intersection"},
+         {"V", "calibration of the mesoscale mode"},
+         {"VI", "arterial and grid"},
+         {"VII", "Berlin"}}};
+    for (const auto& [name, title] : kTitles) {
+        if (main == name) return fmt::format("Section {}: {}", main, title);
+    }
+    return "Section " + main;
+}
+
+std::vector<std::string> main_sections(const std::vector<ScoredRow>& rows) {
+    std::vector<std::string> sections;
+    for (const ScoredRow& row : rows) {
+        const std::string section = main_section(row.target.section);
+        if (std::find(sections.begin(), sections.end(), section) == sections.end()) sections.push_back(section);
+    }
+    std::stable_partition(sections.begin(), sections.end(), [](const std::string& section) { return section == "I"; });
+    return sections;
+}
+
+std::string quantity_text(const ScoredRow& row) {
+    std::string quantity = row.target.quantity;
+    std::replace(quantity.begin(), quantity.end(), '_', ' ');
+    return quantity;
+}
+
+std::string difference_text(const ScoredRow& row) {
+    const std::optional<double> paper = parse_number(row.target.value);
+    const std::optional<double> ours = parse_number(row.ours);
+    if (!paper || !ours) return "";
+    const double difference = *ours - *paper;
+    if (std::abs(difference) < 1e-9) return "0";
+    std::string text = fmt::format("{:+.4g}", difference);
+    if (row.target.unit != "%" && *paper != 0.0) text += fmt::format(" ({:+.1f} %)", 100.0 * difference / *paper);
+    return text;
+}
+
+}  // namespace stopline

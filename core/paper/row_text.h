@@ -1,0 +1,26 @@
+// Texts of a scored row, shared by the report page and the results page.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "paper/scorecard.h"
+
+namespace stopline {
+
+// Returns the main section of a section: "IV" for "IV.C" and "IV Table 1".
+std::string main_section(const std::string& section);
+
+// Returns the title of a main section, such as "Section IV: one intersection".
+std::string section_title(const std::string& main);
+
+// Returns the main sections of the rows in order, each once. Section I comes first.
+std::vector<std::string> main_sections(const std::vector<ScoredRow>& rows);
+
+// Returns the quantity of a row in words: "travel time" for travel_time.
+std::string quantity_text(const ScoredRow& row);
+
+// Returns ours minus paper, also in percent of the paper where the unit is not percent. Empty unless both are numbers.
+std::string difference_text(const ScoredRow& row);
+
+}  // namespace stopline

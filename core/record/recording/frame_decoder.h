@@ -1,0 +1,53 @@
+// Decodes the frames of a section of a recording (recording_format.h), as FrameEncoder wrote them.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "record/recording/bytes.h"
+#include "record/recording/recording_header.h"
+
+namespace stopline {
+
+struct RecordedVehicle {
+    int vehicle = -1;  // -1: the seat is empty
+    int policy = 0;
+    double length_m = 0.0;
+    int lane = 0;
+    int next = -1;               // next lane; -1: the vehicle leaves the network
+    int cause = 0;               // index in RecordedRun::causes
+    int waited_for = -1;         // vehicle that causes the stop; -1: none
+    std::uint16_t position = 0;  // distance of the front from the start of the lane, in units of the header
+    std::uint16_t speed = 0;     // in units of the header
+};
+
+class FrameDecoder {
+public:
+    // Keeps references to both arguments.
+    FrameDecoder(const RecordedRun& run, std::string_view section);
+
+    // Decodes the next frame. Throws InputError if it is invalid.
+    void next();
+    // Throws InputError if bytes remain after the last frame.
+    void check_end() const;
+
+    const std::vector<RecordedVehicle>& seats() const { return seats_; }
+    const std::vector<std::uint8_t>& lights() const { return lights_; }  // [signal group] 0 red, 1 green, 2 yellow
+    std::int64_t entered() const { return entered_; }                    // vehicles since the frame before
+    std::int64_t exited() const { return exited_; }                      // vehicles since the frame before
+
+private:
+    RecordedVehicle& read_seat();
+    void read_events();
+    void read_columns();
+
+    const RecordedRun& run_;
+    ByteReader reader_;
+    std::vector<RecordedVehicle> seats_;
+    std::vector<std::uint8_t> lights_;
+    std::int64_t entered_ = 0;
+    std::int64_t exited_ = 0;
+};
+
+}  // namespace stopline

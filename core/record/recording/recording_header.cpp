@@ -1,0 +1,127 @@
+#include "record/recording/recording_header.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "base/input_error.h"
+#include "base/version.h"
+#include "record/recording/recording_format.h"
+#include "sim/state/delay_log.h"
+
+namespace stopline {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array<const char*, 4> kTurnNames{"none", "straight", "right", "left"};
+
+// Returns the name of a turn. Imported networks have further turns, which are numbered.
+std::string turn_name(Turn turn) {
+    const auto number = static_cast<std::size_t>(turn);
+    return number < kTurnNames.size() ? kTurnNames[number] : "turn " + std::to_string(number);
+}
+
+// Returns a length in metres, rounded to millimetres.
+double round_to_mm(double length_m) { return std::round(length_m * 1000.0) / 1000.0; }
+
+// Returns a lane as JSON. Signal group 0 of an imported network is always green and is not drawn.
+Json lane_json(const Lane& lane, bool imported) {
+    Json json{{"name", lane.name}, {"length_m", lane.length_m}, {"limit_mps", lane.limit_mps}, {"next", lane.next}};
+    if (lane.signal_group >= (imported ? 1 : 0)) json["signal_group"] = lane.signal_group;
+    if (lane.signal_group >= 0) json["stop_line_m"] = lane.stop_line_m;
+    if (lane.origin >= 0) {
+        json["origin"] = lane.origin;
+        json["turn"] = turn_name(lane.turn);
+    }
+    json["shape_start_m"] = lane.shape_start_m;
+    if (lane.shape_scale != 1.0) json["shape_scale"] = lane.shape_scale;
+    json["shape"] = Json::array();
+    for (const Point& point : lane.shape) {
+        json["shape"].push_back(round_to_mm(point.x_m));
+        json["shape"].push_back(round_to_mm(point.y_m));
+    }
+    return json;
+}
+
+RecordedRun run_of(const nlohmann::json& json) {
+    RecordedRun run;
+    run.version = json.at("version");
+    run.origin = {json.at("command"), json.at("scenario"),   json.at("title"),       json.at("scenario_hash"),
+                  json.at("seed"),    json.at("population"), json.at("lane_width_m")};
+    run.grid.step_s = json.at("step_s");
+    run.grid.frame_ticks = std::llround(json.at("frame_s").get<double>() / run.grid.step_s);
+    run.grid.first_tick = std::llround(json.at("first_frame_s").get<double>() / run.grid.step_s);
+    run.grid.position_unit_m = json.at("position_unit_m");
+    run.grid.advance_q12 = json.at("advance_q12");
+    run.policies = json.at("policies");
+    run.causes = json.at("causes");
+    run.signal_groups = json.at("signal_groups");
+    for (const nlohmann::json& lane : json.at("lanes")) {
+        run.lanes.push_back(
+            {lane.at("name"), lane.at("length_m"), lane.value("signal_group", -1), lane.value("stop_line_m", 0.0)});
+    }
+    return run;
+}
+
+}  // namespace
+
+FrameGrid make_frame_grid(const Model& model, const FrameClock& clock) {
+    constexpr double kMaxCode = 65535.0;
+    double longest_m = 0.0;
+    for (const Lane& lane : model.graph.lanes) longest_m = std::max(longest_m, lane.length_m);
+    FrameGrid grid;
+    grid.step_s = model.step_s;
+    grid.frame_ticks = clock.frame_ticks();
+    grid.first_tick = clock.first_tick();
+    grid.position_unit_m = kFinestPosition_m * std::max(std::ceil(longest_m / (kMaxCode * kFinestPosition_m)), 1.0);
+    const double frame_s = static_cast<double>(grid.frame_ticks) * model.step_s;
+    const double advance_q12 = std::round(0.5 * frame_s * kSpeedUnit_mps / grid.position_unit_m * 4096.0);
+    grid.advance_q12 = static_cast<std::uint32_t>(std::min(advance_q12, static_cast<double>(kMaxAdvance)));
+    return grid;
+}
+
+std::string recording_header(const Model& model, const RunOrigin& origin, const FrameGrid& grid) {
+    Json json{{"program", "stopline"},
+              {"version", version()},
+              {"command", origin.command},
+              {"scenario", origin.scenario},
+              {"title", origin.title},
+              {"scenario_hash", origin.scenario_hash},
+              {"seed", origin.seed},
+              {"population", origin.population},
+              {"fidelity", model.meso ? "meso" : "full"},
+              {"step_s", model.step_s},
+              {"frame_s", static_cast<double>(grid.frame_ticks) * model.step_s},
+              {"first_frame_s", grid.time_s(0)},
+              {"position_unit_m", grid.position_unit_m},
+              {"speed_unit_mps", kSpeedUnit_mps},
+              {"advance_q12", grid.advance_q12},
+              {"policies", Json::array()},
+              {"causes", kDelayCauseNames},
+              {"signal_groups", model.graph.signal_groups},
+              {"lane_width_m", origin.lane_width_m},
+              {"lanes", Json::array()},
+              {"entries", model.graph.entries}};
+    for (const CompiledPolicy& policy : model.policies) json["policies"].push_back(policy.settings.name);
+    for (const Lane& lane : model.graph.lanes) json["lanes"].push_back(lane_json(lane, !model.demand.trips.empty()));
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+RecordedRun parse_recording_header(std::string_view json) {
+    try {
+        RecordedRun run = run_of(nlohmann::json::parse(json));
+        const bool is_valid = run.grid.step_s > 0.0 && run.grid.frame_ticks > 0 && run.grid.position_unit_m > 0.0 &&
+                              run.grid.advance_q12 <= kMaxAdvance && !run.lanes.empty() && !run.policies.empty() &&
+                              run.signal_groups >= 0;
+        if (!is_valid) throw InputError("the header has values out of range");
+        return run;
+    } catch (const nlohmann::json::exception& error) {
+        throw InputError(std::string("the header is not valid: ") + error.what());
+    }
+}
+
+}  // namespace stopline

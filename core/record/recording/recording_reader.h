@@ -1,0 +1,48 @@
+// Reads a recording section by section and checks that it is complete. All functions throw InputError with the path of
+// the file.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "record/recording/recording_header.h"
+
+namespace stopline {
+
+// The unpacked frames of one section, for FrameDecoder.
+struct RecordedSection {
+    std::int64_t first_frame = 0;
+    int frames = 0;
+    std::string bytes;
+};
+
+class RecordingReader {
+public:
+    explicit RecordingReader(const std::filesystem::path& file);
+
+    const RecordedRun& run() const { return run_; }
+    const std::string& header() const { return header_; }  // JSON
+    // Reads the next section. Returns false, after checking the end of the file, if there is none.
+    bool next(RecordedSection& section);
+    // Returns the number of frames read so far.
+    std::int64_t frames() const { return frames_; }
+
+    // Throws InputError with the path and the message.
+    [[noreturn]] void fail(const std::string& what) const;
+
+private:
+    std::string read(std::size_t size);
+    std::string read_section(std::string& tag);
+    void check_begin();
+    void check_end(const std::string& bytes);
+
+    std::filesystem::path path_;
+    std::ifstream stream_;
+    std::string header_;
+    RecordedRun run_;
+    std::int64_t frames_ = 0;
+};
+
+}  // namespace stopline

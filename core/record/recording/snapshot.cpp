@@ -1,0 +1,119 @@
+#include "record/recording/snapshot.h"
+
+#include <algorithm>
+
+#include "base/containers/index.h"
+#include "record/recording/recording_format.h"
+
+namespace stopline {
+
+namespace {
+
+constexpr double kSpeedUnitsPer_mps = 1.0 / kSpeedUnit_mps;
+constexpr double kMaxCode = 65535.0;
+
+// Returns the value as a 16-bit number of units. The form of the comparisons compiles to one maximum and one minimum.
+std::uint32_t code_of(double value, double units_per_value) {
+    const double code = value * units_per_value + 0.5;
+    const double clipped = code > 0.0 ? code : 0.0;
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>(clipped < kMaxCode ? clipped : kMaxCode));
+}
+
+void encode_motion(const double* position_m, const double* speed_mps, int count, double positions_per_m,
+                   std::uint32_t* motion) {
+    for (int k = 0; k < count; ++k) {
+        motion[k] = code_of(position_m[k], positions_per_m) | code_of(speed_mps[k], kSpeedUnitsPer_mps) << 16U;
+    }
+}
+
+// Returns true if the arrays differ. The loop has no early exit, so that the compiler vectorises it.
+bool differ(const int* a, const int* b, int count) {
+    int bits = 0;
+    for (int k = 0; k < count; ++k) bits |= a[k] ^ b[k];
+    return bits != 0;
+}
+
+void copy_stopped(const DelayWatch& watch, std::vector<Snapshot::StoppedVehicle>& stopped) {
+    stopped.resize(watch.stopped_slots.size());
+    for (std::size_t k = 0; k < stopped.size(); ++k) {
+        const std::size_t slot = at(watch.stopped_slots[k]);
+        const int ahead = watch.waits_for[slot];
+        stopped[k] = {watch.vehicle[slot], ahead < 0 ? -1 : watch.vehicle[at(ahead)], watch.cause[slot]};
+    }
+}
+
+}  // namespace
+
+SnapshotTaker::SnapshotTaker(const Model& model, const FrameGrid& grid)
+    : positions_per_m_(1.0 / grid.position_unit_m), lanes_(model.graph.lanes.size()) {
+    for (const Lane& lane : model.graph.lanes) {
+        const double line_m = lane.signal_group >= 0 ? lane.stop_line_m : lane.length_m;
+        stop_line_.push_back(code_of(line_m, positions_per_m_));
+    }
+}
+
+void SnapshotTaker::start_section() { std::fill(vehicle_in_slot_.begin(), vehicle_in_slot_.end(), -1); }
+
+void SnapshotTaker::take(const State& state, bool with_stopped, Snapshot& snapshot) {
+    const VehicleArrays& vehicles = state.vehicles;
+    snapshot.tick = state.tick;
+    snapshot.entered = state.records.entered;
+    snapshot.exited = state.records.exited;
+    if (vehicle_in_slot_.size() < at(vehicles.slots)) vehicle_in_slot_.resize(at(vehicles.slots), -1);
+    snapshot.placements.clear();
+    snapshot.beyond_stop_line.clear();
+    snapshot.motion.resize(update_lanes(state, snapshot));
+    std::uint32_t* motion = snapshot.motion.data();
+    for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
+        const Snapshot::Slots slots = lanes_[lane];
+        if (slots.count == 0) continue;
+        const std::size_t first = at(slots.first);
+        encode_motion(&vehicles.position_m[first], &vehicles.speed_mps[first], slots.count, positions_per_m_, motion);
+        if (differ(&vehicles.id[first], &vehicle_in_slot_[first], slots.count)) {
+            add_placements(vehicles, static_cast<int>(lane), snapshot);
+        }
+        add_beyond_stop_line(vehicles, static_cast<int>(lane), motion, snapshot);
+        motion += slots.count;
+    }
+    if (with_stopped) copy_stopped(state.congestion.watch, snapshot.stopped);
+}
+
+// Copies the slots of all lanes and returns the number of vehicles. Slots that a lane gave up become empty here,
+// before another lane's vehicles are placed in them.
+std::size_t SnapshotTaker::update_lanes(const State& state, Snapshot& snapshot) {
+    std::size_t vehicles = 0;
+    for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
+        const Snapshot::Slots now{state.blocks[lane].first, state.blocks[lane].count};
+        const Snapshot::Slots before = lanes_[lane];
+        vehicles += at(now.count);
+        if (now == before) continue;
+        for (int slot = before.first; slot < before.past_last(); ++slot) {
+            if (slot < now.first || slot >= now.past_last()) vehicle_in_slot_[at(slot)] = -1;
+        }
+        lanes_[lane] = now;
+    }
+    snapshot.lanes = lanes_;
+    return vehicles;
+}
+
+void SnapshotTaker::add_placements(const VehicleArrays& vehicles, int lane, Snapshot& snapshot) {
+    const Snapshot::Slots slots = lanes_[at(lane)];
+    for (int slot = slots.first; slot < slots.past_last(); ++slot) {
+        const int vehicle = vehicles.id[at(slot)];
+        if (vehicle == vehicle_in_slot_[at(slot)]) continue;
+        vehicle_in_slot_[at(slot)] = vehicle;
+        snapshot.placements.push_back({slot, lane, vehicle, vehicles.policy[at(slot)], vehicles.next_lane[at(slot)],
+                                       vehicles.length_m[at(slot)]});
+    }
+}
+
+void SnapshotTaker::add_beyond_stop_line(const VehicleArrays& vehicles, int lane, const std::uint32_t* motion,
+                                         Snapshot& snapshot) const {
+    const Snapshot::Slots slots = lanes_[at(lane)];
+    for (int slot = slots.first; slot < slots.past_last() && position_of(*motion) > stop_line_[at(lane)];
+         ++slot, ++motion) {
+        snapshot.beyond_stop_line.push_back({slot, lane, vehicles.next_lane[at(slot)]});
+    }
+}
+
+}  // namespace stopline

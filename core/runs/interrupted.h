@@ -1,0 +1,13 @@
+// The exception for work that the user has stopped. Programs then end with exit code 130.
+#pragma once
+
+#include <stdexcept>
+
+namespace stopline {
+
+class Interrupted : public std::runtime_error {
+public:
+    Interrupted() : std::runtime_error("interrupted") {}
+};
+
+}  // namespace stopline

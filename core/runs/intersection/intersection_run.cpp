@@ -1,0 +1,215 @@
+#include "runs/intersection/intersection_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "base/containers/index.h"
+#include "base/speed_thresholds.h"
+#include "scenario/build_model.h"
+
+namespace stopline {
+
+namespace {
+
+// Samples what events do not record: vehicles present, and queues at the start of green.
+class QueueSampler {
+public:
+    explicit QueueSampler(const Model& model, const TimeWindow& window)
+        : model_(model),
+          window_tick_(to_ticks(window.from_s, model.step_s)),
+          second_ticks_(to_ticks(1.0, model.step_s)) {}
+
+    void sample(const State& state) {
+        if (state.tick < window_tick_) return;
+        if ((state.tick - window_tick_) % second_ticks_ == 0) {
+            present_ += state.present();
+            ++samples_;
+        }
+        for (int group = 0; group < static_cast<int>(model_.signals.size()); ++group) {
+            const GroupProgramme& programme = model_.signals[at(group)];
+            if (programme.light_start_tick(state.tick) != state.tick || programme.light(state.tick) != Light::green)
+                continue;
+            for (const int lane : model_.graph.entries) {
+                const Lane& road = model_.graph.lanes[at(lane)];
+                if (road.signal_group == group) measure_queue(state, lane, road.stop_line_m);
+            }
+        }
+    }
+
+    void finish(IntersectionResult& result) const {
+        result.vehicles_present =
+            static_cast<double>(present_) / static_cast<double>(std::max<std::int64_t>(samples_, 1));
+        result.queue_veh = static_cast<double>(queued_) / static_cast<double>(std::max<std::int64_t>(queues_, 1));
+        result.longest_queue_m = longest_m_;
+    }
+
+private:
+    void measure_queue(const State& state, int lane, double line_m) {
+        const VehicleArrays& v = state.vehicles;
+        const LaneBlock& block = state.blocks[at(lane)];
+        ++queues_;
+        for (int slot = block.first; slot < block.past_last(); ++slot) {
+            if (v.position_m[at(slot)] > line_m) continue;
+            if (v.speed_mps[at(slot)] > kQueuedSpeed_mps) break;
+            ++queued_;
+            longest_m_ = std::max(longest_m_, line_m - v.position_m[at(slot)] + v.length_m[at(slot)]);
+        }
+    }
+
+    const Model& model_;
+    std::int64_t window_tick_;
+    std::int64_t second_ticks_;
+    std::int64_t present_ = 0;
+    std::int64_t samples_ = 0;
+    std::int64_t queued_ = 0;
+    std::int64_t queues_ = 0;
+    double longest_m_ = 0.0;
+};
+
+// Returns the places of all vehicles. A vehicle past its stop line is drawn on its connection.
+std::vector<DrawnVehicle> snapshot_of(const Model& model, const State& state) {
+    const VehicleArrays& v = state.vehicles;
+    std::vector<DrawnVehicle> vehicles;
+    for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {
+        const LaneBlock& block = state.blocks[at(lane)];
+        for (int slot = block.first; slot < block.past_last(); ++slot) {
+            const Lane* road = &model.graph.lanes[at(lane)];
+            double front_m = road->shape_start_m + v.position_m[at(slot)];
+            if (road->signal_group >= 0 && v.position_m[at(slot)] > road->stop_line_m) {
+                front_m = v.position_m[at(slot)] - road->stop_line_m;
+                road = &model.graph.lanes[at(model.graph.routes[at(v.record[at(slot)].route)].lanes[1])];
+            }
+            const Point front = pose_at(road->shape, front_m).point;
+            const Point rear = pose_at(road->shape, front_m - v.length_m[at(slot)]).point;
+            vehicles.push_back({rear, front, v.policy[at(slot)]});
+        }
+    }
+    return vehicles;
+}
+
+void take_snapshot(const Simulation& simulation, IntersectionResult& result) {
+    const State& state = simulation.state();
+    result.snapshot_s = simulation.time_s();
+    result.snapshot = snapshot_of(simulation.model(), state);
+    for (const GroupProgramme& programme : simulation.model().signals) {
+        result.snapshot_lights.push_back(programme.light(state.tick));
+    }
+}
+
+void count_turns(const Model& model, const State& state, IntersectionResult& result) {
+    int all = 0;
+    for (const Passage& passage : state.records.passages) {
+        if (passage.from_lane < 0 || passage.time_s < result.window.from_s || passage.time_s >= result.window.to_s) {
+            continue;
+        }
+        const Lane& from = model.graph.lanes[at(passage.from_lane)];
+        if (from.origin < 0) continue;
+        ++all;
+        double& share = from.turn == Turn::left    ? result.left_share
+                        : from.turn == Turn::right ? result.right_share
+                                                   : result.straight_share;
+        share += 1.0;
+    }
+    result.throughput_veh_h = all * 3600.0 / result.window.length_s();
+    for (double* share : {&result.straight_share, &result.right_share, &result.left_share}) *share /= std::max(all, 1);
+}
+
+void measure_zones(const Scenario& scenario, const Model& model, const State& state, IntersectionResult& result) {
+    const auto lanes = static_cast<double>(model.graph.entries.size());
+    for (std::size_t zone = 0; zone < scenario.measure.zone_radius_m.size(); ++zone) {
+        const double path_m = 2.0 * scenario.measure.zone_radius_m[zone];
+        result.zones.push_back(measure_zone(model.detectors, state.records.crossings, static_cast<int>(zone),
+                                            result.window, lanes * path_m));
+        const double free_s = path_m / scenario.network.intersection.speed_limit_mps;
+        result.delay_s.push_back(result.zones.back().travel_time_s - free_s);
+    }
+}
+
+// Returns the length of all lanes, m. Each lane counts once, straight through the intersection.
+double road_m(const Scenario& scenario, const Model& model) {
+    const IntersectionSettings& layout = scenario.network.intersection;
+    const double lane_m = layout.approach_length_m + 2.0 * layout.radius_m + layout.exit_length_m;
+    return static_cast<double>(model.graph.entries.size()) * lane_m;
+}
+
+double cycle_of(const Scenario& scenario) { return scenario.signal.intersection_cycle_s(); }
+
+// Returns the longest time that an unobstructed crossing takes, s. It counts from the front at the stop line to the
+// rear on the exit lane, at the speed limit of the connection.
+double slowest_crossing_s(const Model& model) {
+    double slowest_s = 0.0;
+    for (const Lane& connection : model.graph.lanes) {
+        if (connection.origin < 0) continue;
+        const Lane& origin = model.graph.lanes[at(connection.origin)];
+        const double crossing_m =
+            origin.length_m - origin.stop_line_m + connection.length_m + model.vehicles[0].length_m;
+        slowest_s = std::max(slowest_s, crossing_m / connection.limit_mps);
+    }
+    return slowest_s;
+}
+
+}  // namespace
+
+TimeWindow first_cycle(const Scenario& scenario) {
+    const double cycle_s = cycle_of(scenario);
+    const double from_s = scenario.signal.first_green_s + scenario.measure.warmup_cycles * cycle_s;
+    return {from_s, from_s + cycle_s};
+}
+
+TimeWindow measured_window(const Scenario& scenario) {
+    const double from_s = first_cycle(scenario).from_s;
+    if (scenario.duration_s == 0.0) return {from_s, from_s + scenario.measure.cycles * cycle_of(scenario)};
+    return {from_s, scenario.duration_s};
+}
+
+IntersectionResult run_intersection(const Scenario& scenario, std::size_t population,
+                                    const std::function<bool(const Simulation&)>& on_step,
+                                    const Observation& observation) {
+    Model model = build_model(scenario, population);
+    observation.prepare(model);
+    Simulation simulation(model);
+    IntersectionResult result;
+    result.population = scenario.populations.at(population).name;
+    result.window = measured_window(scenario);
+    result.complete = true;
+    QueueSampler sampler(model, result.window);
+    const std::int64_t end_tick = to_ticks(result.window.to_s, model.step_s);
+    const double second_stage_s = result.window.from_s + scenario.signal.stage_s(0);
+    const std::int64_t snapshot_tick = to_ticks(second_stage_s + 0.5 * scenario.signal.group_green_s(1), model.step_s);
+    while (simulation.state().tick < end_tick) {
+        if (on_step && !on_step(simulation)) {
+            result.complete = false;
+            break;
+        }
+        if (simulation.state().tick == snapshot_tick) take_snapshot(simulation, result);
+        sampler.sample(simulation.state());
+        observation.call(population, simulation);
+        simulation.step();
+    }
+    const State& state = simulation.state();
+    if (result.complete) observation.call(population, simulation);
+    sampler.finish(result);
+    result.occupied = result.vehicles_present * scenario.vehicle.length_m / road_m(scenario, model);
+    count_turns(model, state, result);
+    measure_zones(scenario, model, state, result);
+    const auto latest_green_start_s = [&](int signal_group, double time_s) {
+        const auto tick = static_cast<std::int64_t>(time_s / model.step_s);
+        return model.time_s(model.signals[at(signal_group)].last_green_start_tick(tick));
+    };
+    result.discharge = discharge(model.graph, model.detectors, state.records.crossings, result.window,
+                                 latest_green_start_s, model.time_s(model.signals[0].cycle_ticks()));
+    result.gaps_accepted = static_cast<std::int64_t>(state.records.gaps_accepted.size());
+    result.longest_in_junction_s = model.time_s(state.records.longest_in_junction);
+    result.violations = state.records.violations;
+    // A stay of two cycles beyond the slowest unobstructed crossing counts as a deadlock.
+    const double deadlock_s = 2.0 * cycle_of(scenario) + slowest_crossing_s(model);
+    result.violations.deadlocks = result.longest_in_junction_s >= deadlock_s ? 1 : 0;
+    result.entered = state.records.entered;
+    result.exited = state.records.exited;
+    result.updates = state.records.updates;
+    result.state_hash = simulation.state_hash();
+    return result;
+}
+
+}  // namespace stopline

@@ -1,0 +1,267 @@
+#include "runs/network/network.h"
+
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "base/io/csv.h"
+#include "runs/parallel_runs.h"
+#include "scenario/make_network.h"
+
+namespace stopline {
+
+namespace {
+
+constexpr double kHour_s = 3600.0;
+
+const NetworkResult* baseline_of(const NetworkReport& report) {
+    for (const NetworkResult& result : report.populations) {
+        if (result.population == report.scenario.measure.baseline) return &result;
+    }
+    return nullptr;
+}
+
+const std::string& lane_name(const NetworkReport& report, int lane) {
+    static const std::string kNone;
+    return lane < 0 ? kNone : report.lanes.at(static_cast<std::size_t>(lane));
+}
+
+// Returns the time as a cell; an empty cell if the measured window is empty.
+std::string window_time(const NetworkResult& result, double time_s) {
+    return result.measured.window.length_s() > 0.0 ? fixed(time_s, 0) : "";
+}
+
+// Returns the number as a cell; an empty cell for -1.
+std::string id_cell(int number) { return number < 0 ? "" : std::to_string(number); }
+
+}  // namespace
+
+bool is_travel_time_biased(const NetworkResult& result) {
+    constexpr double kMaxRatio = 1.5;
+    const AreaResult& measured = result.measured;
+    return measured.vehicles * kHour_s > kMaxRatio * measured.throughput_veh_h() * measured.travel_time_s;
+}
+
+double NetworkReport::improvement_percent(const NetworkResult& result) const {
+    const NetworkResult* const base = baseline_of(*this);
+    if (base == nullptr) return std::numeric_limits<double>::quiet_NaN();
+    return 100.0 * (result.measured.throughput_veh_h() / base->measured.throughput_veh_h() - 1.0);
+}
+
+double NetworkReport::time_saved_percent(const NetworkResult& result) const {
+    const NetworkResult* const base = baseline_of(*this);
+    if (base == nullptr) return std::numeric_limits<double>::quiet_NaN();
+    if (is_travel_time_biased(result) || is_travel_time_biased(*base)) return std::numeric_limits<double>::quiet_NaN();
+    return 100.0 * (1.0 - result.measured.travel_time_s / base->measured.travel_time_s);
+}
+
+bool NetworkReport::no_violations() const {
+    return std::all_of(populations.begin(), populations.end(),
+                       [](const NetworkResult& f) { return f.violations.none(); });
+}
+
+NetworkReport run_networks(const Scenario& scenario, const NetworkOptions& options) {
+    constexpr std::int64_t kProgressSteps = 200;
+    NetworkReport report{scenario, std::vector<NetworkResult>(scenario.populations.size()), {}};
+    for (const Lane& lane : make_network(scenario.network).lanes) {
+        report.lanes.push_back(lane.name);
+    }
+    // All threads share a single run. Several runs get one thread each, because nested teams of threads would be formed
+    // anew in every step.
+    const int threads_per_run = report.populations.size() == 1 ? options.threads : 1;
+    run_side_by_side(report.populations.size(), options.threads, options.on_progress,
+                     [&](std::size_t k, const std::function<bool(double)>& report_progress) {
+                         const auto on_step = [&](const Simulation& simulation) {
+                             return simulation.state().tick % kProgressSteps != 0 ||
+                                    report_progress(simulation.time_s() / scenario.duration_s);
+                         };
+                         report.populations[k] =
+                             run_network(scenario, k, on_step, threads_per_run, options.observation);
+                     });
+    return report;
+}
+
+std::string window_text(const NetworkReport& report) {
+    const MeasureSettings& measure = report.scenario.measure;
+    const double end_s = report.scenario.duration_s;
+    const double target_from_s = end_s - measure.window_s;
+    if (report.populations.empty()) return "";
+    const TimeWindow& first = report.populations[0].measured.window;
+    if (!(first.length_s() > 0.0)) {
+        return fmt::format(
+            "Nothing is measured: the last {:g} s of the run contain no whole interval of {:g} s (measure.interval).",
+            std::min(measure.window_s, end_s), measure.interval_s);
+    }
+    std::string text = fmt::format("Measured from {:.0f} to {:.0f} s.", first.from_s, first.to_s);
+    if (target_from_s <= 0.0) {
+        text += fmt::format(
+            " measure.window is {:g} s, but the run lasts {:g} s: each population is measured from the end of its "
+            "warm-up",
+            measure.window_s, end_s);
+        const auto same = [&](const NetworkResult& f) { return f.measured.window.from_s == first.from_s; };
+        if (!std::all_of(report.populations.begin(), report.populations.end(), same)) {
+            text += fmt::format("; these times are those of {}, the others are in summary.csv (window_from_s)",
+                                report.populations[0].population);
+        }
+        text += ".";
+    } else if (first.from_s != target_from_s || first.to_s != end_s) {
+        text += fmt::format(
+            " measure.window gives {:g} to {:g} s; only whole intervals of {:g} s (measure.interval) are measured.",
+            target_from_s, end_s, measure.interval_s);
+    }
+    std::string late;
+    for (const NetworkResult& f : report.populations) {
+        if (f.measured.window.from_s >= f.warm_up_s) continue;
+        late += fmt::format("{}{} at {:.0f} s", late.empty() ? "" : ", ", f.population, f.warm_up_s);
+    }
+    if (!late.empty())
+        text += "\nThe measured window begins before the warm-up ends: " + late + " (warm_up_s in summary.csv).";
+    return text;
+}
+
+std::string network_csv(const NetworkReport& report) {
+    std::vector<std::string> columns{
+        "population",      "throughput_veh_h", "improvement_percent", "travel_time_s",  "travel_time_saved_percent",
+        "density_percent", "vehicles_in_area", "vehicles_present",    "max_present",    "window_from_s",
+        "window_to_s",     "warm_up_s",        "stability",           "unstable_by",    "collapse_s",
+        "gridlocks",       "first_gridlock_s", "teleported",          "passed_blockers"};
+    for (std::size_t cause = 1; cause < kDelayCauseNames.size(); ++cause) {
+        columns.push_back(fmt::format("delay_{}_h", kDelayCauseNames[cause]));
+    }
+    for (const char* const column : {"delay_upstream_h", "longest_stop_s", "longest_in_junction_s", "entered", "exited",
+                                     "overlaps", "conflicts", "red_entries", "forced_red_entries", "lost_vehicles"}) {
+        columns.emplace_back(column);
+    }
+    const bool is_imported = report.scenario.network.is_sumo();
+    if (is_imported) columns.emplace_back("missed_turns");
+    columns.emplace_back("backlog");
+    CsvWriter csv(columns);
+    for (const NetworkResult& f : report.populations) {
+        const DelayLog& delays = f.delays;
+        std::vector<std::string> row{f.population,
+                                     fixed(f.measured.throughput_veh_h(), 2),
+                                     fixed(report.improvement_percent(f), 2),
+                                     fixed(f.measured.travel_time_s, 3),
+                                     fixed(report.time_saved_percent(f), 2),
+                                     fixed(100.0 * f.measured.occupied, 3),
+                                     fixed(f.measured.vehicles, 2),
+                                     fixed(f.vehicles_present, 2),
+                                     std::to_string(f.max_present),
+                                     window_time(f, f.measured.window.from_s),
+                                     window_time(f, f.measured.window.to_s),
+                                     fixed(f.warm_up_s, 0),
+                                     kStabilityNames[static_cast<std::size_t>(f.stability)],
+                                     kInstabilityCauseNames[static_cast<std::size_t>(f.unstable_by)],
+                                     f.collapse_s ? fixed(*f.collapse_s, 0) : "",
+                                     std::to_string(delays.gridlocks.size()),
+                                     delays.gridlocks.empty() ? "" : fixed(delays.gridlocks[0].from_s, 0),
+                                     std::to_string(delays.teleported),
+                                     std::to_string(delays.passed_blockers)};
+        for (std::size_t cause = 1; cause < kDelayCauseNames.size(); ++cause) {
+            row.push_back(fixed(delays.delay_s[cause] / kHour_s, 3));
+        }
+        const Violations& v = f.violations;
+        for (const std::string& cell :
+             {fixed(delays.delay_upstream_s / kHour_s, 3), fixed(delays.longest_stop_s, 0),
+              fixed(f.longest_in_junction_s, 1), std::to_string(f.entered), std::to_string(f.exited),
+              std::to_string(v.overlaps), std::to_string(v.conflicts), std::to_string(v.red_entries),
+              std::to_string(v.forced_red_entries), std::to_string(v.lost_vehicles)}) {
+            row.push_back(cell);
+        }
+        if (is_imported) row.push_back(std::to_string(f.missed_turns));
+        row.push_back(std::to_string(f.backlog));
+        csv.row(row);
+    }
+    return csv.text();
+}
+
+std::string network_series_csv(const NetworkReport& report) {
+    std::vector<std::string> columns{"population",      "from_s",           "throughput_veh_h", "travel_time_s",
+                                     "density_percent", "vehicles_in_area", "teleported"};
+    for (std::size_t cause = 1; cause < kDelayCauseNames.size(); ++cause) {
+        columns.push_back(fmt::format("delay_{}_h", kDelayCauseNames[cause]));
+    }
+    CsvWriter csv(columns);
+    for (const NetworkResult& f : report.populations) {
+        for (const NetworkInterval& interval : f.series) {
+            std::vector<std::string> row{f.population,
+                                         fixed(interval.area.window.from_s, 0),
+                                         fixed(interval.area.throughput_veh_h(), 1),
+                                         fixed(interval.area.travel_time_s, 3),
+                                         fixed(100.0 * interval.area.occupied, 3),
+                                         fixed(interval.area.vehicles, 2),
+                                         std::to_string(interval.teleported)};
+            for (std::size_t cause = 1; cause < kDelayCauseNames.size(); ++cause) {
+                row.push_back(fixed(interval.delay_s[cause] / kHour_s, 4));
+            }
+            csv.row(row);
+        }
+    }
+    return csv.text();
+}
+
+std::string origin_destination_csv(const NetworkReport& report) {
+    CsvWriter csv({"population", "from", "to", "throughput_veh_h", "travel_time_s"});
+    for (const NetworkResult& f : report.populations) {
+        for (const OriginDestinationResult& pair : f.origin_destination) {
+            if (pair.exited == 0) continue;
+            csv.row({f.population, kSideNames[static_cast<std::size_t>(pair.from)],
+                     kSideNames[static_cast<std::size_t>(pair.to)],
+                     fixed(pair.exited * kHour_s / f.measured.window.length_s(), 2), fixed(pair.travel_time_s, 3)});
+        }
+    }
+    return csv.text();
+}
+
+std::string delays_csv(const NetworkReport& report) {
+    CsvWriter csv({"population", "cause", "lane", "vehicle", "blocker", "blocker_lane", "from_s", "to_s",
+                   "max_vehicles", "delay_s"});
+    for (const NetworkResult& f : report.populations) {
+        for (const DelayEpisode& e : f.delays.episodes) {
+            csv.row({f.population, kDelayCauseNames[static_cast<std::size_t>(e.cause)], lane_name(report, e.lane),
+                     std::to_string(e.vehicle), id_cell(e.blocker), lane_name(report, e.blocker_lane),
+                     fixed(e.from_s, 1), fixed(e.to_s, 1), std::to_string(e.max_vehicles), fixed(e.delay_s, 1)});
+        }
+    }
+    return csv.text();
+}
+
+std::string gridlocks_csv(const NetworkReport& report) {
+    CsvWriter csv({"population", "gridlock", "from_s", "to_s", "vehicle", "lane"});
+    for (const NetworkResult& f : report.populations) {
+        for (std::size_t k = 0; k < f.delays.gridlocks.size(); ++k) {
+            const Gridlock& g = f.delays.gridlocks[k];
+            for (std::size_t member = 0; member < g.vehicles.size(); ++member) {
+                csv.row({f.population, std::to_string(k + 1), fixed(g.from_s, 1), fixed(g.to_s, 1),
+                         std::to_string(g.vehicles[member]), lane_name(report, g.lanes[member])});
+            }
+        }
+    }
+    return csv.text();
+}
+
+std::string rules_csv(const NetworkReport& report) {
+    static constexpr std::array<const char*, 4> kRuleNames{"teleported", "reinserted", "passed_blocker", "keep_clear"};
+    CsvWriter csv({"population", "time_s", "rule", "vehicle", "lane", "blocker", "stopped_s"});
+    for (const NetworkResult& f : report.populations) {
+        for (const RuleUse& use : f.delays.rule_uses) {
+            csv.row({f.population, fixed(use.time_s, 1), kRuleNames[static_cast<std::size_t>(use.kind)],
+                     std::to_string(use.vehicle), lane_name(report, use.lane), id_cell(use.blocker),
+                     fixed(use.stopped_s, 1)});
+        }
+    }
+    return csv.text();
+}
+
+std::string street_time_space_csv(const NetworkReport& report) {
+    std::vector<std::string> names;
+    std::vector<StreetTrace> traces;
+    for (const NetworkResult& f : report.populations) {
+        names.push_back(f.population);
+        traces.push_back(f.street_trace);
+    }
+    return time_space_csv(names, traces);
+}
+
+}  // namespace stopline

@@ -1,0 +1,330 @@
+#include "runs/network/network_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+
+#include "base/containers/index.h"
+#include "measure/steady_state.h"
+#include "scenario/build_model.h"
+#include "scenario/make_network.h"
+#include "sim/insertion/insert_vehicles.h"
+
+namespace stopline {
+
+namespace {
+
+// Returns true if vehicles reach the lane from outside the network: it is an entry lane, or lies beside one.
+bool is_fed_from_outside(const LaneGraph& graph, int lane) {
+    const int approach = graph.lanes[at(lane)].approach;
+    return std::any_of(graph.entries.begin(), graph.entries.end(), [&](int entry) {
+        return entry == lane || (approach >= 0 && graph.lanes[at(entry)].approach == approach);
+    });
+}
+
+// Adds a detector for the start and one for the end of trips. The whole imported network is the measured area.
+void add_trip_detectors(Model& model) {
+    model.trips_begin = static_cast<int>(model.detectors.size());
+    model.detectors.push_back({-1, 0.0, Detector::Kind::zone, 0, false});
+    model.trips_end = static_cast<int>(model.detectors.size());
+    model.detectors.push_back({-1, 0.0, Detector::Kind::zone, 0, true});
+}
+
+// Adds a detector at each inlet inside the measured area. All other vehicles on these lanes are in the area already.
+void add_inner_inlet_detectors(Model& model) {
+    for (const DemandPlan::Inlet& inlet : model.demand.inlets) {
+        if (inlet.vehicles == 0 || is_fed_from_outside(model.graph, inlet.lane)) continue;
+        model.detectors.push_back({inlet.lane, 0.0, Detector::Kind::zone, 0, false});
+    }
+}
+
+// Adds detectors at the boundary of the measured area, on the entry and exit lanes of the network. Pockets that lie
+// wholly inside the area have none, because vehicles enter them from the lane beside.
+void add_area_detectors(const Scenario& scenario, Model& model) {
+    if (scenario.network.is_sumo()) return add_trip_detectors(model);
+    std::erase_if(model.detectors, [](const Detector& d) { return d.kind != Detector::Kind::stop_line; });
+    const double margin_m = scenario.measure.area_margin_m;
+    model.area_begins_m.assign(model.graph.lanes.size(), 0.0);
+    for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {
+        const Lane& road = model.graph.lanes[at(lane)];
+        if (road.origin >= 0) continue;
+        const bool is_inner_pocket = road.start_offset_m > 0.0 && road.stop_line_m <= margin_m;
+        if (road.signal_group < 0) {
+            model.detectors.push_back({lane, margin_m, Detector::Kind::zone, 0, true});
+        } else if (is_fed_from_outside(model.graph, lane) && !is_inner_pocket) {
+            model.area_begins_m[at(lane)] = road.stop_line_m - margin_m;
+            model.detectors.push_back({lane, model.area_begins_m[at(lane)], Detector::Kind::zone, 0, false});
+        }
+    }
+    add_inner_inlet_detectors(model);
+}
+
+// Returns the length of all lanes in the measured area, m. An intersection counts once, straight across, for each lane
+// that leads to it.
+double area_lane_m(const Scenario& scenario, const Model& model) {
+    double sum_m = 0.0;
+    const double margin_m = scenario.measure.area_margin_m;
+    for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {
+        const Lane& road = model.graph.lanes[at(lane)];
+        if (road.origin >= 0) continue;
+        if (scenario.network.is_sumo()) {
+            sum_m += road.length_m;
+        } else if (road.signal_group < 0) {
+            sum_m += margin_m;
+        } else {
+            const bool is_inner_pocket = road.start_offset_m > 0.0 && road.stop_line_m <= margin_m;
+            sum_m += is_fed_from_outside(model.graph, lane) && !is_inner_pocket ? margin_m : road.stop_line_m;
+            sum_m += 2.0 * radius_beyond_m(scenario.network, road);
+        }
+    }
+    return sum_m;
+}
+
+// Samples what events do not record: delay and teleported vehicles of each interval, vehicles present in each second.
+class IntervalSampler {
+public:
+    IntervalSampler(const Scenario& scenario, const Model& model)
+        : interval_ticks_(to_ticks(scenario.measure.interval_s, model.step_s)),
+          second_ticks_(to_ticks(1.0, model.step_s)) {}
+
+    void sample(const State& state) {
+        if (state.tick % second_ticks_ == 0) present_.push_back(state.present());
+        if (state.tick % interval_ticks_ != 0 || state.tick == 0) return;
+        const DelayLog& delays = state.congestion.delays;
+        NetworkInterval interval;
+        for (std::size_t cause = 0; cause < interval.delay_s.size(); ++cause) {
+            interval.delay_s[cause] = delays.delay_s[cause] - last_delay_s_[cause];
+        }
+        interval.teleported = delays.teleported - last_teleported_;
+        last_delay_s_ = delays.delay_s;
+        last_teleported_ = delays.teleported;
+        series_.push_back(interval);
+    }
+
+    std::vector<NetworkInterval> series() const { return series_; }
+    int max_present() const { return present_.empty() ? 0 : *std::max_element(present_.begin(), present_.end()); }
+    double mean_present(const TimeWindow& window) const {
+        double sum = 0.0;
+        int samples = 0;
+        for (std::size_t s = 0; s < present_.size(); ++s) {
+            if (!window.contains(static_cast<double>(s))) continue;
+            sum += present_[s];
+            ++samples;
+        }
+        return samples > 0 ? sum / samples : std::numeric_limits<double>::quiet_NaN();
+    }
+
+private:
+    std::int64_t interval_ticks_;
+    std::int64_t second_ticks_;
+    std::array<double, kDelayCauseNames.size()> last_delay_s_{};  // [cause] since the start of the run
+    std::int64_t last_teleported_ = 0;
+    std::vector<NetworkInterval> series_;
+    std::vector<int> present_;  // [second] vehicles
+};
+
+// Returns the mean over the whole intervals from `from_s` on. Values without data are NaN.
+AreaResult mean_from(const std::vector<NetworkInterval>& series, double from_s) {
+    AreaResult mean;
+    double travel_s = 0.0;
+    int intervals = 0;
+    for (const NetworkInterval& interval : series) {
+        const AreaResult& area = interval.area;
+        if (area.window.from_s < from_s) continue;
+        if (intervals == 0) mean.window.from_s = area.window.from_s;
+        mean.window.to_s = area.window.to_s;
+        ++intervals;
+        mean.exited += area.exited;
+        if (area.exited > 0) travel_s += area.exited * area.travel_time_s;
+        mean.vehicles += area.vehicles;
+        mean.occupied += area.occupied;
+    }
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    mean.vehicles = intervals > 0 ? mean.vehicles / intervals : none;
+    mean.occupied = intervals > 0 ? mean.occupied / intervals : none;
+    mean.travel_time_s = mean.exited > 0 ? travel_s / mean.exited : none;
+    return mean;
+}
+
+// Returns true if the gridlock still exists at the end and has lasted for six cycles or more.
+bool is_permanent(const Gridlock& gridlock, double end_s, double cycle_s) {
+    constexpr double kLasting_cycles = 6.0;  // twice the three cycles after which vehicles are teleported
+    return end_s - gridlock.to_s <= cycle_s && gridlock.to_s - gridlock.from_s >= kLasting_cycles * cycle_s;
+}
+
+// Decides whether a run is stable. It uses the exits in each signal cycle, so that measure.interval has no influence.
+class StabilityJudge {
+public:
+    StabilityJudge(NetworkResult& result, const std::vector<AreaResult>& cycles, double cycle_s)
+        : result_(result), cycles_(cycles), cycle_s_(cycle_s), first_full_(first_full_cycle()) {}
+
+    void judge(double end_s) {
+        result_.full_cycles = static_cast<int>(cycles_.size() - first_full_);
+        const DelayLog& delays = result_.delays;
+        if (const auto drop_s = delays.gridlocks.empty() ? std::nullopt : throughput_drop_s()) {
+            return set_unstable(InstabilityCause::throughput_drop, drop_s);
+        }
+        const auto teleported = static_cast<double>(delays.teleported);
+        if (delays.teleported > 0 && teleported >= kSemiStableShare * static_cast<double>(result_.exited)) {
+            return set_unstable(InstabilityCause::teleported, teleport_limit_s());
+        }
+        for (const Gridlock& gridlock : delays.gridlocks) {
+            if (is_permanent(gridlock, end_s, cycle_s_)) {
+                return set_unstable(InstabilityCause::gridlock, gridlock.from_s);
+            }
+        }
+        const bool is_semi_stable = !delays.gridlocks.empty() || delays.teleported > 0;
+        result_.stability = is_semi_stable ? Stability::semi_stable : Stability::stable;
+    }
+
+private:
+    void set_unstable(InstabilityCause cause, std::optional<double> since_s) {
+        result_.stability = Stability::unstable;
+        result_.unstable_by = cause;
+        result_.collapse_s = since_s;
+    }
+
+    // Returns the first cycle in which the network has filled. It uses means of five cycles, because single cycles
+    // scatter.
+    std::size_t first_full_cycle() const {
+        constexpr std::size_t kCycles = 5;
+        std::vector<double> means;
+        for (std::size_t k = 0; k + kCycles <= cycles_.size(); k += kCycles) {
+            double sum = 0.0;
+            for (std::size_t i = 0; i < kCycles; ++i) sum += cycles_[k + i].exited;
+            means.push_back(sum / static_cast<double>(kCycles));
+        }
+        return rise_end(means) * kCycles;
+    }
+
+    // Returns the start of the first cycle with the lower throughput, s; nothing if throughput does not drop.
+    std::optional<double> throughput_drop_s() const {
+        std::vector<double> flow;
+        for (const AreaResult& cycle : cycles_) flow.push_back(cycle.exited);
+        const std::optional<Collapse> collapse = find_collapse(std::span(flow).subspan(first_full_), kCollapseShare);
+        if (!collapse) return std::nullopt;
+        return cycles_[first_full_ + collapse->index].window.from_s;
+    }
+
+    // Returns the end of the last cycle in which the share of teleported vehicles was below the limit, s.
+    double teleport_limit_s() const {
+        double since_s = 0.0;
+        double exited = 0.0;
+        double teleported = 0.0;
+        auto use = result_.delays.rule_uses.begin();
+        for (const AreaResult& cycle : cycles_) {
+            exited += cycle.exited;
+            for (; use != result_.delays.rule_uses.end() && use->time_s < cycle.window.to_s; ++use) {
+                teleported += use->kind == RuleUse::Kind::teleported ? 1.0 : 0.0;
+            }
+            if (teleported < kSemiStableShare * exited) since_s = cycle.window.to_s;
+        }
+        return since_s;
+    }
+
+    NetworkResult& result_;
+    const std::vector<AreaResult>& cycles_;
+    double cycle_s_;
+    std::size_t first_full_;  // index into cycles_
+};
+
+void measure(const Scenario& scenario, const Model& model, const State& state, const IntervalSampler& sampler,
+             NetworkResult& result) {
+    const double end_s = model.time_s(state.tick);
+    result.series = sampler.series();
+    const std::vector<AreaResult> areas = area_series(model.detectors, state.records.crossings,
+                                                      scenario.measure.interval_s, end_s, area_lane_m(scenario, model));
+    result.series.resize(std::min(result.series.size(), areas.size()));
+    std::vector<double> vehicles;
+    for (std::size_t k = 0; k < result.series.size(); ++k) {
+        result.series[k].area = areas[k];
+        vehicles.push_back(areas[k].vehicles);
+    }
+    result.warm_up_s = static_cast<double>(warm_up(vehicles)) * scenario.measure.interval_s;
+    // A run that is not longer than measure.window is measured from the end of the warm-up on.
+    const double window_from_s = end_s - scenario.measure.window_s;
+    result.measured = mean_from(result.series, window_from_s > 0.0 ? window_from_s : result.warm_up_s);
+    if (model.trips_begin < 0) {
+        result.origin_destination =
+            origin_destination_results(model.graph, model.detectors, state.records.crossings, result.measured.window);
+    }
+}
+
+// Number of vehicles from which a second thread is worth its cost. A step then takes some tens of microseconds.
+constexpr int kSharedFromMeso = 4000;
+constexpr int kSharedFromFull = 500;
+
+}  // namespace
+
+Model network_model(const Scenario& scenario, std::size_t population) {
+    Model model = build_model(scenario, population);
+    add_area_detectors(scenario, model);
+    model.records_all = false;
+    model.rules.watch_ticks = std::max<std::int64_t>(to_ticks(1.0, model.step_s), 1);
+    return model;
+}
+
+NetworkResult run_network(const Scenario& scenario, std::size_t population,
+                          const std::function<bool(const Simulation&)>& on_step, int threads,
+                          const Observation& observation) {
+    Model model = network_model(scenario, population);
+    observation.prepare(model);
+    Simulation simulation(model, threads);
+    simulation.share_from(model.meso ? kSharedFromMeso : kSharedFromFull);
+    NetworkResult result;
+    result.population = scenario.populations.at(population).name;
+    result.complete = true;
+    IntervalSampler sampler(scenario, model);
+    StreetTracer tracer(scenario, model);
+    CongestionSampler congestion(model, scenario.measure.interval_s);
+    const std::int64_t end_tick = to_ticks(scenario.duration_s, model.step_s);
+    while (simulation.state().tick < end_tick) {
+        if (on_step && !on_step(simulation)) {
+            result.complete = false;
+            break;
+        }
+        sampler.sample(simulation.state());
+        tracer.sample(simulation.state());
+        congestion.sample(simulation.state());
+        observation.call(population, simulation);
+        simulation.step();
+    }
+    const State& state = simulation.state();
+    sampler.sample(state);
+    if (result.complete) observation.call(population, simulation);
+    measure(scenario, model, state, sampler, result);
+    result.delays = state.congestion.delays;
+    result.violations = state.records.violations;
+    result.longest_in_junction_s = model.time_s(state.records.longest_in_junction);
+    result.vehicles_present = sampler.mean_present(result.measured.window);
+    result.max_present = sampler.max_present();
+    result.entered = state.records.entered;
+    result.exited = state.records.exited;
+    result.updates = state.records.updates;
+    result.state_hash = simulation.state_hash();
+    const double cycle_s = model.time_s(model.rules.gridlock_ticks);
+    const double end_s = model.time_s(state.tick);
+    StabilityJudge(result,
+                   area_series(model.detectors, state.records.crossings, cycle_s, end_s, area_lane_m(scenario, model)),
+                   cycle_s)
+        .judge(end_s);
+    result.street_trace = tracer.trace();
+    congestion.sample(state);
+    result.congestion = congestion.congestion();
+    result.missed_turns = state.congestion.missed_turns;
+    result.backlog = insertion_backlog(model, state);
+    if (model.trips_begin < 0) {
+        result.inflow = inflow_series(model.graph, model.detectors, state.records.crossings,
+                                      scenario.measure.interval_s, model.time_s(state.tick));
+    }
+    result.turn_counts = state.records.turned;
+    result.mandatory_lane_changes = std::count_if(state.records.lane_changes.begin(), state.records.lane_changes.end(),
+                                                  [](const LaneChange& change) { return change.for_route; });
+    result.discretionary_lane_changes =
+        static_cast<std::int64_t>(state.records.lane_changes.size()) - result.mandatory_lane_changes;
+    return result;
+}
+
+}  // namespace stopline

@@ -1,0 +1,16 @@
+#include "runs/observation.h"
+
+#include <algorithm>
+
+namespace stopline {
+
+void Observation::prepare(Model& model) const {
+    if (!look) return;
+    model.records_detectors = model.records_detectors || all_detectors;
+    // Delay causes are sampled once a second. Networks without conflict areas have none.
+    if (!model.rules.watches() && !model.graph.conflicts.empty()) {
+        model.rules.watch_ticks = std::max<std::int64_t>(to_ticks(1.0, model.step_s), 1);
+    }
+}
+
+}  // namespace stopline

@@ -1,0 +1,66 @@
+// Runs one population of a scenario to its end, and keeps its events and trajectory.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "runs/observation.h"
+#include "scenario/scenario.h"
+#include "sim/state/events.h"
+#include "sim/step/simulation.h"
+
+namespace stopline {
+
+// The state of a vehicle at one time.
+struct TrajectoryPoint {
+    double time_s;
+    int vehicle;
+    int policy;         // index into the population's components
+    int lane;           // index into the lane graph
+    double distance_m;  // front, from the start of the route
+    double position_m;  // front, from the start of the lane
+    double speed_mps;
+    double acceleration_mps2;
+    double request_mps2;  // acceleration that the controller requests
+    double net_gap_m;     // to the leader; NaN without a leader
+    int gear;             // from 1; 0 in the mesoscale mode
+};
+
+// Appends a point for each vehicle in the network, lane by lane.
+void sample_vehicles(const Simulation& simulation, std::vector<TrajectoryPoint>& points);
+
+struct RunOptions {
+    double trajectory_interval_s = 0.0;  // 0: no trajectories
+    double trajectory_from_s = 0.0;
+    double trajectory_until_s = std::numeric_limits<double>::infinity();
+    // Called every 1000 steps with the share done, 0 .. 1. Return false to stop early; the result is then incomplete.
+    std::function<bool(double)> on_progress;
+    Observation observation = {};
+};
+
+struct RunResult {
+    std::string population;
+    double green_start_s = 0.0;             // start of the first green
+    std::vector<Passage> passages;          // all passages of the run
+    std::vector<double> stop_line_times_s;  // passages of stop lines, from green_start_s, sorted
+    std::vector<TrajectoryPoint> trajectory;
+    std::vector<double> queue_gaps_m;  // net gaps in the queue at the start of green
+    Violations violations;
+    std::int64_t vehicles_entered = 0;
+    std::int64_t vehicles_exited = 0;
+    std::int64_t updates = 0;  // vehicles times steps
+    double wall_s = 0.0;       // wall-clock time of the step loop
+    std::uint64_t state_hash = 0;
+    bool complete = false;  // false: the run was stopped early
+
+    // Returns the number of vehicles that passed a stop line within `green_s` after the start of green.
+    int passed_within(double green_s) const;
+};
+
+// Builds the model of a population and runs it.
+RunResult run_population(const Scenario& scenario, std::size_t population, const RunOptions& options = {});
+
+}  // namespace stopline

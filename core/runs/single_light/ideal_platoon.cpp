@@ -1,0 +1,73 @@
+#include "runs/single_light/ideal_platoon.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/state/model.h"
+
+namespace stopline {
+
+namespace {
+
+// Returns the interpolated speed of the leader, m/s.
+double speed_at(std::span<const SpeedSample> samples, double time_s) {
+    const auto after = std::upper_bound(samples.begin(), samples.end(), time_s,
+                                        [](double time, const SpeedSample& sample) { return time < sample.time_s; });
+    if (after == samples.begin()) return samples.empty() ? 0.0 : samples.front().speed_mps;
+    const auto before = after - 1;
+    if (after == samples.end()) return before->speed_mps;
+    const double share = (time_s - before->time_s) / (after->time_s - before->time_s);
+    return before->speed_mps + share * (after->speed_mps - before->speed_mps);
+}
+
+// Returns the speed v >= 0 with v dt + gap(v) = available_m, m/s. It uses Newton steps from `guess_mps`, which are
+// exact on each linear piece of a gap law.
+double gap_keeping_speed_mps(const GapPolicySettings& policy, const GapLaw& law, double available_m, double guess_mps) {
+    double speed_mps = guess_mps;
+    constexpr int kSteps = 20;
+    for (int k = 0; k < kSteps; ++k) {
+        double gap_m = 0.0;
+        double slope_s = 0.0;
+        law.evaluate(policy, {&speed_mps, 1}, {&gap_m, 1}, {&slope_s, 1});
+        const double next_mps =
+            std::max(speed_mps - (speed_mps * kIdealStep_s + gap_m - available_m) / (kIdealStep_s + slope_s), 0.0);
+        if (std::abs(next_mps - speed_mps) < 1e-12) break;
+        // At a kink of the law Newton steps can alternate, so later steps are halved.
+        speed_mps = k < kSteps / 2 ? next_mps : 0.5 * (speed_mps + next_mps);
+    }
+    return speed_mps;
+}
+
+}  // namespace
+
+std::vector<double> ideal_passages_s(std::span<const SpeedSample> leader,
+                                     const std::vector<const GapPolicySettings*>& policies, double length_m,
+                                     double to_line_m, double until_s) {
+    const std::size_t vehicles = policies.size();
+    std::vector<double> front_m(vehicles, -to_line_m);
+    std::vector<double> speed_mps(vehicles, 0.0);
+    std::vector<const GapLaw*> laws(vehicles);
+    for (std::size_t i = 0; i < vehicles; ++i) {
+        laws[i] = &find_gap_law(policies[i]->law);
+        if (i > 0) front_m[i] = front_m[i - 1] - length_m - equilibrium_gap_m(*policies[i], 0.0);
+    }
+    std::vector<double> passages_s;
+    const auto steps = static_cast<std::int64_t>(std::floor(until_s / kIdealStep_s));
+    for (std::int64_t step = 0; step < steps && passages_s.size() < vehicles; ++step) {
+        const double now_s = static_cast<double>(step) * kIdealStep_s;
+        for (std::size_t i = 0; i < vehicles; ++i) {
+            if (i == 0) {
+                speed_mps[i] = speed_at(leader, now_s + 0.5 * kIdealStep_s);
+            } else {
+                const double available_m = front_m[i - 1] - length_m - front_m[i];
+                speed_mps[i] = gap_keeping_speed_mps(*policies[i], *laws[i], available_m, speed_mps[i]);
+            }
+            const double last_m = front_m[i];
+            front_m[i] += speed_mps[i] * kIdealStep_s;
+            if (last_m < 0.0 && front_m[i] >= 0.0) passages_s.push_back(now_s - last_m / speed_mps[i]);
+        }
+    }
+    return passages_s;
+}
+
+}  // namespace stopline

@@ -1,0 +1,35 @@
+// An ideal platoon: each follower keeps the gap of its policy at all times, without a controller, delay or acceleration
+// limit. The leader has a given speed. The result is what a spacing policy allows behind a given start; the simulated
+// platoon differs from it by its controller and powertrain.
+//
+//     front_{i-1}(t) - length - front_i(t) = gap_i(v_i(t)),   dfront_i / dt = v_i >= 0
+//
+// The platoon starts as a queue with standstill gaps. The equations are solved with backward Euler steps of
+// kIdealStep_s. Each step finds the speed v with v dt + gap(v) = d. Here d is the net gap after the vehicle ahead has
+// moved and before the vehicle itself moves. The left side increases with v.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "scenario/scenario.h"
+
+namespace stopline {
+
+// One sample of the leader's speed. Samples are in the order of time, from 0 s on. The speed is interpolated linearly
+// and stays constant after the last sample.
+struct SpeedSample {
+    double time_s = 0.0;
+    double speed_mps = 0.0;
+};
+
+inline constexpr double kIdealStep_s = 0.01;
+
+// Returns the times at which fronts pass a line, s, in the order of the platoon. Passages after `until_s` are left out.
+// `policies` has one entry for each vehicle, the leader first. `to_line_m` is the initial distance of the leader to the
+// line.
+std::vector<double> ideal_passages_s(std::span<const SpeedSample> leader,
+                                     const std::vector<const GapPolicySettings*>& policies, double length_m,
+                                     double to_line_m, double until_s);
+
+}  // namespace stopline

@@ -1,0 +1,74 @@
+#include "runs/single_light/platoon.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <span>
+
+namespace stopline {
+
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kSteadyTime_s = 5.0;
+constexpr double kSteadyGapChange_m = 0.1;
+
+bool at_limit(const TrajectoryPoint& point, double limit_mps) {
+    return std::abs(point.speed_mps - limit_mps) <= kAtLimit_mps;
+}
+
+// Returns the last sample of one vehicle in steady state; null if there is none.
+const TrajectoryPoint* last_steady_point(std::span<const TrajectoryPoint> points, double interval_s, double limit_mps) {
+    const auto window = static_cast<std::size_t>(std::lround(kSteadyTime_s / interval_s));
+    const TrajectoryPoint* last = nullptr;
+    std::size_t steady = 0;  // consecutive samples at the limit
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        steady = at_limit(points[k], limit_mps) ? steady + 1 : 0;
+        if (steady <= window) continue;
+        // Without a leader the gap is NaN and the comparison is false.
+        if (std::abs(points[k].net_gap_m - points[k - window].net_gap_m) <= kSteadyGapChange_m) last = &points[k];
+    }
+    return last;
+}
+
+}  // namespace
+
+std::vector<TrajectoryPoint> points_of(const std::vector<TrajectoryPoint>& trajectory, int vehicle) {
+    std::vector<TrajectoryPoint> points;
+    std::copy_if(trajectory.begin(), trajectory.end(), std::back_inserter(points),
+                 [&](const TrajectoryPoint& point) { return point.vehicle == vehicle; });
+    return points;
+}
+
+LeaderStart leader_start(const std::vector<TrajectoryPoint>& points, double limit_mps) {
+    constexpr double kAtRest_mps = 0.01;
+    LeaderStart start{kNone, kNone};
+    for (const TrajectoryPoint& point : points) {
+        if (point.speed_mps < kAtRest_mps) {
+            start.start_s = point.time_s;
+        } else if (point.speed_mps >= limit_mps - kAtLimit_mps) {
+            start.limit_s = point.time_s;
+            break;
+        }
+    }
+    return start;
+}
+
+std::vector<SteadyVehicle> steady_vehicles(const std::vector<TrajectoryPoint>& trajectory, double interval_s,
+                                           double limit_mps, double length_m) {
+    std::vector<TrajectoryPoint> points = trajectory;
+    std::stable_sort(points.begin(), points.end(),
+                     [](const TrajectoryPoint& a, const TrajectoryPoint& b) { return a.vehicle < b.vehicle; });
+    std::vector<SteadyVehicle> steady;
+    for (std::size_t begin = 0, end = 0; begin < points.size(); begin = end) {
+        while (end < points.size() && points[end].vehicle == points[begin].vehicle) ++end;
+        const TrajectoryPoint* const last = last_steady_point({&points[begin], end - begin}, interval_s, limit_mps);
+        if (last == nullptr) continue;
+        steady.push_back(
+            {last->vehicle, last->policy, last->net_gap_m, (length_m + last->net_gap_m) / last->speed_mps});
+    }
+    return steady;
+}
+
+}  // namespace stopline

@@ -1,0 +1,222 @@
+#include "runs/single_light/single_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <numeric>
+
+#include "base/containers/index.h"
+#include "runs/single_light/ideal_platoon.h"
+#include "sim/state/model.h"
+
+namespace stopline {
+
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+std::int64_t ticks_of(double interval_s, double step_s) {
+    return std::max<std::int64_t>(1, to_ticks(interval_s, step_s));
+}
+
+const GapPolicySettings& policy_named(const Scenario& scenario, const std::string& name) {
+    // The loader has checked that the policy exists.
+    return *std::find_if(scenario.policies.begin(), scenario.policies.end(),
+                         [&](const GapPolicySettings& policy) { return policy.name == name; });
+}
+
+SteadyFlow steady_flow(const Scenario& scenario, const PopulationSettings& population,
+                       const std::vector<SteadyVehicle>& steady) {
+    const double limit_mps = scenario.network.approach.speed_limit_mps;
+    SteadyFlow flow{static_cast<int>(steady.size()), 0.0, 0.0, 0.0, 0.0, 0.0};
+    for (std::size_t k = 0; k < population.components.size(); ++k) {
+        const double share = population.components[k].share;
+        const double gap_m = equilibrium_gap_m(policy_named(scenario, population.components[k].policy), limit_mps);
+        std::vector<double> gaps_m;
+        std::vector<double> headways_s;
+        for (const SteadyVehicle& vehicle : steady) {
+            if (vehicle.policy != static_cast<int>(k)) continue;
+            gaps_m.push_back(vehicle.net_gap_m);
+            headways_s.push_back(vehicle.headway_s);
+        }
+        flow.net_gap_m += share * mean(gaps_m);
+        flow.headway_s += share * mean(headways_s);
+        flow.policy_gap_m += share * gap_m;
+        flow.policy_headway_s += share * (scenario.vehicle.length_m + gap_m) / limit_mps;
+    }
+    flow.deviation_percent = 100.0 * (flow.headway_s / flow.policy_headway_s - 1.0);
+    return flow;
+}
+
+QueueGaps queue_gaps(const std::vector<double>& gaps_m) {
+    if (gaps_m.empty()) return {kNone, kNone, kNone};
+    const auto [smallest, largest] = std::minmax_element(gaps_m.begin(), gaps_m.end());
+    return {mean(gaps_m), *smallest, *largest};
+}
+
+// Returns the points downstream of the stop line. Upstream of it late arrivals can drive at the limit too.
+std::vector<TrajectoryPoint> downstream_points(const std::vector<TrajectoryPoint>& points, double line_m) {
+    std::vector<TrajectoryPoint> downstream;
+    std::copy_if(points.begin(), points.end(), std::back_inserter(downstream),
+                 [&](const TrajectoryPoint& point) { return point.distance_m >= line_m; });
+    return downstream;
+}
+
+// Returns the start of the platoon leader: the first vehicle at the stop line of the first lane.
+LeaderStart leader_of(const Scenario& scenario, const std::vector<LinePassage>& line,
+                      const std::vector<TrajectoryPoint>& points, double green_start_s) {
+    if (line.empty()) return {kNone, kNone};
+    LeaderStart start =
+        leader_start(points_of(points, line.front().vehicle), scenario.network.approach.speed_limit_mps);
+    start.start_s -= green_start_s;
+    start.limit_s -= green_start_s;
+    return start;
+}
+
+// Returns the speeds from a time on. Their times count from there.
+std::vector<SpeedSample> speeds_from(const std::vector<TrajectoryPoint>& points, double start_s) {
+    std::vector<SpeedSample> samples;
+    for (const TrajectoryPoint& point : points) {
+        if (point.time_s >= start_s) samples.push_back({point.time_s - start_s, point.speed_mps});
+    }
+    return samples;
+}
+
+// Returns the passages of the queues at the start of green, each lane as an ideal platoon behind its leader.
+Counter ideal_counter(const Scenario& scenario, const PopulationSettings& population,
+                      const std::vector<TrajectoryPoint>& points, double green_start_s) {
+    const double line_m = scenario.network.approach.length_m;
+    const double sample_s = kSampleInterval_s;
+    std::map<int, std::vector<TrajectoryPoint>> queues;  // by lane
+    for (const TrajectoryPoint& point : points) {
+        if (point.time_s < green_start_s || point.time_s >= green_start_s + 0.5 * sample_s) continue;
+        if (point.distance_m < line_m) queues[point.lane].push_back(point);
+    }
+    std::vector<double> times_s;
+    for (auto& [lane, queue] : queues) {
+        std::sort(queue.begin(), queue.end(), [](const TrajectoryPoint& one, const TrajectoryPoint& other) {
+            return one.distance_m > other.distance_m;
+        });
+        std::vector<const GapPolicySettings*> policies;
+        for (const TrajectoryPoint& point : queue) {
+            policies.push_back(&policy_named(scenario, population.components[at(point.policy)].policy));
+        }
+        const std::vector<SpeedSample> leader = speeds_from(points_of(points, queue.front().vehicle), green_start_s);
+        const std::vector<double> lane_s = ideal_passages_s(leader, policies, scenario.vehicle.length_m,
+                                                            line_m - queue.front().distance_m, scenario.signal.green_s);
+        times_s.insert(times_s.end(), lane_s.begin(), lane_s.end());
+    }
+    return Counter(times_s);
+}
+
+void compare_with_baseline(SingleLightReport& result) {
+    for (PopulationSummary& summary : result.populations) {
+        summary.asymptotic_improvement_percent = kNone;
+        summary.improvement_percent.assign(summary.passed.size(), kNone);
+        if (!result.baseline) continue;
+        const PopulationSummary& baseline = result.populations[*result.baseline];
+        summary.asymptotic_improvement_percent =
+            improvement_percent(baseline.steady.headway_s, summary.steady.headway_s);
+        for (std::size_t k = 0; k < summary.passed.size(); ++k) {
+            summary.improvement_percent[k] = improvement_percent(summary.passed[k], baseline.passed[k]);
+        }
+    }
+}
+
+}  // namespace
+
+PopulationSummary summary_of(const Scenario& scenario, std::size_t index, const RunResult& run,
+                             const std::vector<TrajectoryPoint>& points, double interval_s) {
+    const PopulationSettings& population = scenario.populations[index];
+    PopulationSummary summary;
+    summary.name = population.name;
+    summary.line =
+        within_green(line_passages(make_approach(scenario.network.approach), run.passages, run.green_start_s),
+                     scenario.signal.green_s);
+    std::vector<double> times_s;
+    for (const LinePassage& passage : summary.line) times_s.push_back(passage.time_s);
+    summary.counter = Counter(times_s);
+    for (const double green_s : scenario.measure.green_s) summary.passed.push_back(summary.counter.passed(green_s));
+    const int queued = scenario.demand.vehicles * scenario.network.approach.lanes;
+    summary.emptied_s = summary.counter.total() >= queued ? summary.counter.times_s().back() : kNone;
+    summary.last_positions = last_positions_flow(summary.line, kLastPositions);
+    const ApproachSettings& road = scenario.network.approach;
+    summary.steady = steady_flow(scenario, population,
+                                 steady_vehicles(downstream_points(points, road.length_m), interval_s,
+                                                 road.speed_limit_mps, scenario.vehicle.length_m));
+    summary.leader = leader_of(scenario, summary.line, points, run.green_start_s);
+    summary.queue = queue_gaps(run.queue_gaps_m);
+    summary.ideal = ideal_counter(scenario, population, points, run.green_start_s);
+    return summary;
+}
+
+std::vector<TrajectoryPoint> thin_out(const std::vector<TrajectoryPoint>& points, double interval_s, double step_s) {
+    const std::int64_t interval_ticks = ticks_of(interval_s, step_s);
+    std::vector<TrajectoryPoint> kept;
+    std::copy_if(points.begin(), points.end(), std::back_inserter(kept), [&](const TrajectoryPoint& point) {
+        return std::llround(point.time_s / step_s) % interval_ticks == 0;
+    });
+    return kept;
+}
+
+const PopulationSummary* SingleLightReport::find(const std::string& population) const {
+    const auto found = std::find_if(populations.begin(), populations.end(),
+                                    [&](const PopulationSummary& summary) { return summary.name == population; });
+    return found == populations.end() ? nullptr : &*found;
+}
+
+double SingleLightReport::mean_improvement_percent(const PopulationSummary& population, double from_s) const {
+    if (!baseline) return kNone;
+    const PopulationSummary& base = populations[*baseline];
+    double to_s = scenario.signal.green_s;
+    for (const double emptied_s : {population.emptied_s, base.emptied_s}) {
+        if (!std::isnan(emptied_s)) to_s = std::min(to_s, emptied_s);
+    }
+    return stopline::mean_improvement_percent(population.counter, base.counter, from_s, to_s);
+}
+
+double SingleLightReport::ideal_improvement_percent(const PopulationSummary& population, double from_s) const {
+    if (!baseline) return kNone;
+    const Counter& base = populations[*baseline].ideal;
+    const int queued = scenario.demand.vehicles * scenario.network.approach.lanes;
+    double to_s = scenario.signal.green_s;
+    for (const Counter* const counter : {&population.ideal, &base}) {
+        if (counter->total() >= queued) to_s = std::min(to_s, counter->times_s().back());
+    }
+    return stopline::mean_improvement_percent(population.ideal, base, from_s, to_s);
+}
+
+bool SingleLightReport::no_violations() const {
+    return std::all_of(runs.begin(), runs.end(), [](const RunResult& run) { return run.violations.none(); });
+}
+
+SingleLightReport run_single_light(const Scenario& scenario, const SingleLightOptions& options) {
+    SingleLightReport result;
+    result.scenario = scenario;
+    const std::int64_t summary_ticks = ticks_of(kSampleInterval_s, scenario.tick_s());
+    std::int64_t sample_ticks = summary_ticks;
+    if (options.trajectory_interval_s > 0.0) {
+        sample_ticks = std::gcd(summary_ticks, ticks_of(options.trajectory_interval_s, scenario.tick_s()));
+    }
+    result.sample_interval_s = static_cast<double>(summary_ticks) * scenario.tick_s();
+    RunAllOptions runs;
+    runs.threads = options.threads;
+    runs.trajectory_interval_s = static_cast<double>(sample_ticks) * scenario.tick_s();
+    runs.trajectory_from_s = scenario.signal.first_green_s - kTrajectoryBefore_s;
+    runs.trajectory_until_s = scenario.signal.first_green_s + scenario.signal.green_s + kTrajectoryAfter_s;
+    runs.on_progress = options.on_progress;
+    runs.observation = options.observation;
+    result.runs = run_populations(scenario, runs);
+    for (std::size_t k = 0; k < result.runs.size(); ++k) {
+        const std::vector<TrajectoryPoint> points =
+            thin_out(result.runs[k].trajectory, result.sample_interval_s, scenario.tick_s());
+        result.populations.push_back(summary_of(scenario, k, result.runs[k], points, result.sample_interval_s));
+        if (result.populations.back().name == scenario.measure.baseline) result.baseline = k;
+    }
+    compare_with_baseline(result);
+    return result;
+}
+
+}  // namespace stopline

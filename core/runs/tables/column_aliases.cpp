@@ -1,0 +1,222 @@
+#include "runs/tables/column_aliases.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "base/io/csv.h"
+
+namespace stopline {
+
+namespace {
+
+// A '*' in a table name stands for any text. A '*' in both column names stands for the same text. The first row that
+// matches applies.
+struct ColumnAlias {
+    std::string_view table;
+    std::string_view old_name;
+    std::string_view name;
+};
+constexpr std::array kColumns{
+    ColumnAlias{"*/trajectories.csv", "place_m", "position_m"},
+    ColumnAlias{"network/time_space.csv", "front_m", "position_m"},
+    ColumnAlias{"network/summary.csv", "most_present", "max_present"},
+    ColumnAlias{"network/*", "moved_on", "teleported"},
+    ColumnAlias{"network/*", "lost_priority_h", "delay_yielding_h"},
+    ColumnAlias{"network/*", "lost_start_h", "delay_queue_discharge_h"},
+    ColumnAlias{"network/*", "lost_outside_h", "delay_upstream_h"},
+    ColumnAlias{"network/*", "lost_*_h", "delay_*_h"},
+    ColumnAlias{"network/summary.csv", "longest_stand_s", "longest_stop_s"},
+    ColumnAlias{"network/summary.csv", "longest_inside_s", "longest_in_junction_s"},
+    ColumnAlias{"network/summary.csv", "left", "exited"},
+    ColumnAlias{"network/summary.csv", "strayed", "missed_turns"},
+    ColumnAlias{"network/summary.csv", "waiting", "backlog"},
+    ColumnAlias{"network/delays.csv", "most_vehicles", "max_vehicles"},
+    ColumnAlias{"network/delays.csv", "lost_s", "delay_s"},
+    ColumnAlias{"network/rules.csv", "stood_s", "stopped_s"},
+    ColumnAlias{"network/turns.csv", "*_asked_percent", "*_target_percent"},
+    ColumnAlias{"network/turns.csv", "filled_s", "congested_from_s"},
+    ColumnAlias{"intersection/summary.csv", "longest_inside_s", "longest_in_junction_s"},
+    ColumnAlias{"intersection/summary.csv", "lost_time_s", "startup_lost_time_s"},
+    ColumnAlias{"single_light/summary.csv", "settled_vehicles_veh", "steady_vehicles"},
+    ColumnAlias{"single_light/summary.csv", "settled_gap_m", "steady_net_gap_m"},
+    ColumnAlias{"single_light/summary.csv", "settled_headway_s", "steady_headway_s"},
+    ColumnAlias{"single_light/summary.csv", "late_line_headway_s", "last_ten_headway_s"},
+    ColumnAlias{"single_light/summary.csv", "late_line_speed_mps", "last_ten_speed_mps"},
+    ColumnAlias{"single_light/summary.csv", "leader_starts_s", "leader_start_s"},
+    ColumnAlias{"single_light/summary.csv", "leader_to_limit_s", "leader_time_to_limit_s"},
+    ColumnAlias{"single_light/summary.csv", "entered_veh", "vehicles_entered"},
+    ColumnAlias{"single_light/summary.csv", "left_veh", "vehicles_exited"},
+    ColumnAlias{"single_light/summary.csv", "lost_vehicles_veh", "lost_vehicles"},
+    ColumnAlias{"sweep/NAME.csv", "most_present_veh", "max_present"},
+    ColumnAlias{"sweep/NAME.csv", "vehicles_in_area_veh", "vehicles_in_area"},
+    ColumnAlias{"sweep/NAME.csv", "vehicles_present_veh", "vehicles_present"},
+    ColumnAlias{"sweep/NAME.csv", "vehicles_per_green_veh", "vehicles_per_green"},
+    ColumnAlias{"sweep/NAME.csv", "vehicles_left", "vehicles_exited"},
+    ColumnAlias{"sweep/NAME.csv", "waiting_veh", "backlog"},
+    ColumnAlias{"sweep/NAME.csv", "moved_on", "teleported"},
+    ColumnAlias{"sweep/NAME.csv", "lost_time_s", "startup_lost_time_s"},
+    ColumnAlias{"sweep/NAME.csv", "lost_priority_h", "delay_yielding_h"},
+    ColumnAlias{"sweep/NAME.csv", "lost_start_h", "delay_queue_discharge_h"},
+    ColumnAlias{"sweep/NAME.csv", "lost_outside_h", "delay_upstream_h"},
+    ColumnAlias{"sweep/NAME.csv", "lost_*_h", "delay_*_h"},
+    ColumnAlias{"sweep/NAME.csv", "longest_stand_s", "longest_stop_s"},
+    ColumnAlias{"sweep/NAME.csv", "longest_inside_s", "longest_in_junction_s"},
+    ColumnAlias{"sweep/NAME.csv", "filled_*_s", "congested_from_*_s"},
+    ColumnAlias{"sweep/NAME.csv", "changes_for_route", "mandatory_lane_changes"},
+    ColumnAlias{"sweep/NAME.csv", "changes_for_speed", "discretionary_lane_changes"},
+    ColumnAlias{"sweep/NAME.csv", "emptied_s", "queue_emptied_s"},
+    ColumnAlias{"sweep/NAME.csv", "settled_veh", "steady_vehicles"},
+    ColumnAlias{"sweep/NAME.csv", "settled_headway_s", "steady_headway_s"},
+    ColumnAlias{"sweep/NAME.csv", "settled_net_gap_m", "steady_net_gap_m"},
+    ColumnAlias{"sweep/NAME_means.csv", "low", "ci95_low"},
+    ColumnAlias{"sweep/NAME_means.csv", "high", "ci95_high"},
+    ColumnAlias{"sweep/NAME_means.csv", "difference_low", "difference_ci95_low"},
+    ColumnAlias{"sweep/NAME_means.csv", "difference_high", "difference_ci95_high"},
+};
+
+struct ValueAlias {
+    std::string_view table;
+    std::string_view column;
+    std::string_view old_value;
+    std::string_view value;
+};
+constexpr std::array kValues{
+    ValueAlias{"network/delays.csv", "cause", "priority", "yielding"},
+    ValueAlias{"network/delays.csv", "cause", "start", "queue_discharge"},
+    ValueAlias{"network/rules.csv", "rule", "moved_on", "teleported"},
+    ValueAlias{"network/rules.csv", "rule", "put_back", "reinserted"},
+    ValueAlias{"network/rules.csv", "rule", "kept_out", "keep_clear"},
+    ValueAlias{"network/summary.csv", "unstable_by", "fall", "throughput_drop"},
+    ValueAlias{"network/summary.csv", "unstable_by", "moved_on", "teleported"},
+    ValueAlias{"sweep/NAME.csv", "unstable_by", "fall", "throughput_drop"},
+    ValueAlias{"sweep/NAME.csv", "unstable_by", "moved_on", "teleported"},
+};
+
+struct FileAlias {
+    std::string_view table;
+    std::string_view old_file;
+};
+constexpr std::array kFiles{
+    FileAlias{"network/origin_destination.csv", "ways.csv"},
+    FileAlias{"network/delays.csv", "hindrance.csv"},
+};
+
+constexpr std::string_view kSweepTable = "sweep/NAME.csv";
+constexpr std::string_view kMeansTable = "sweep/NAME_means.csv";
+
+// Returns the text that '*' stands for; nothing if the text does not match the pattern.
+std::optional<std::string_view> match(std::string_view pattern, std::string_view text) {
+    const std::size_t star = pattern.find('*');
+    if (star == std::string_view::npos) return pattern == text ? std::optional(std::string_view()) : std::nullopt;
+    const std::string_view begin = pattern.substr(0, star);
+    const std::string_view end = pattern.substr(star + 1);
+    if (text.size() <= begin.size() + end.size() || !text.starts_with(begin) || !text.ends_with(end)) {
+        return std::nullopt;
+    }
+    return text.substr(begin.size(), text.size() - begin.size() - end.size());
+}
+
+std::string filled(std::string_view pattern, std::string_view text) {
+    std::string name(pattern);
+    const std::size_t star = name.find('*');
+    if (star != std::string::npos) name.replace(star, 1, text);
+    return name;
+}
+
+// Returns the column name after replacing `from` by `to`, which are members of ColumnAlias.
+std::string renamed_column(std::string_view table, const std::string& name, std::string_view ColumnAlias::*from,
+                           std::string_view ColumnAlias::*to) {
+    for (const ColumnAlias& alias : kColumns) {
+        if (!match(alias.table, table)) continue;
+        if (const auto text = match(alias.*from, name)) return filled(alias.*to, *text);
+    }
+    return name;
+}
+
+std::string renamed_value(std::string_view table, std::string_view column, const std::string& value,
+                          std::string_view ValueAlias::*from, std::string_view ValueAlias::*to) {
+    for (const ValueAlias& alias : kValues) {
+        if (alias.table == table && alias.column == column && alias.*from == value) return std::string(alias.*to);
+    }
+    return value;
+}
+
+// Returns the index of the first column that can have an old name. The first columns of a sweep table are its axes.
+std::size_t first_result_column(std::string_view table, const std::vector<std::string>& columns) {
+    const char* const last_axis = table == kSweepTable ? "seed" : "metric";
+    if (table != kSweepTable && table != kMeansTable) return 0;
+    return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), last_axis) - columns.begin());
+}
+
+std::string old_value(std::string_view table, const std::string& column, const std::string& value) {
+    if (table == kMeansTable && column == "metric") {
+        return renamed_column(kSweepTable, value, &ColumnAlias::name, &ColumnAlias::old_name);
+    }
+    return renamed_value(table, column, value, &ValueAlias::value, &ValueAlias::old_value);
+}
+
+}  // namespace
+
+std::string OldNameReader::column(const std::string& name) {
+    const auto [found, is_new] = known_.try_emplace(name, name);
+    if (is_new) {
+        found->second = renamed_column(table_, name, &ColumnAlias::old_name, &ColumnAlias::name);
+        if (found->second != name) {
+            warnings_.push_back(
+                fmt::format("column '{}' is now called '{}'; the old name will be removed in the next release", name,
+                            found->second));
+        }
+    }
+    return found->second;
+}
+
+std::string OldNameReader::value(const std::string& column, const std::string& value) {
+    return renamed_value(table_, column, value, &ValueAlias::old_value, &ValueAlias::value);
+}
+
+std::string with_old_names(std::string_view table, const std::string& csv) {
+    const CsvTable current = parse_csv(csv, std::string(table));
+    std::vector<std::string> columns = current.columns;
+    const std::size_t first = first_result_column(table, columns);
+    for (std::size_t k = first; k < columns.size(); ++k) {
+        columns[k] = renamed_column(table, columns[k], &ColumnAlias::name, &ColumnAlias::old_name);
+    }
+    CsvWriter old(columns);
+    for (std::vector<std::string> row : current.rows) {
+        for (std::size_t k = first; k < row.size(); ++k) row[k] = old_value(table, current.columns[k], row[k]);
+        old.row(row);
+    }
+    return old.text();
+}
+
+ResultFile result_file(std::string_view table, std::string file, std::string csv, ColumnNames names) {
+    if (names == ColumnNames::current) return {std::move(file), std::move(csv)};
+    const auto found =
+        std::find_if(kFiles.begin(), kFiles.end(), [&](const FileAlias& alias) { return alias.table == table; });
+    if (found != kFiles.end()) file = found->old_file;
+    return {std::move(file), with_old_names(table, csv)};
+}
+
+std::string old_names_markdown() {
+    std::string text =
+        "## Old names\n\n"
+        "The last release used other names. `stopline-run` and `stopline-sweep` write them with `--old-column-names`. "
+        "The\n"
+        "next release removes this option. `*` stands for any text.\n\n"
+        "| table | column | old name |\n|---|---|---|\n";
+    for (const ColumnAlias& alias : kColumns) {
+        text += fmt::format("| {} | `{}` | `{}` |\n", alias.table, alias.name, alias.old_name);
+    }
+    text += "\n| table | column | value | old value |\n|---|---|---|---|\n";
+    for (const ValueAlias& alias : kValues) {
+        text += fmt::format("| {} | `{}` | `{}` | `{}` |\n", alias.table, alias.column, alias.value, alias.old_value);
+    }
+    text += "\n| file | old file |\n|---|---|\n";
+    for (const FileAlias& alias : kFiles) text += fmt::format("| {} | {} |\n", alias.table, alias.old_file);
+    return text;
+}
+
+}  // namespace stopline

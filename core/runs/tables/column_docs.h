@@ -1,0 +1,47 @@
+// Descriptions of all columns of all result tables. scenarios/COLUMNS.md is made from them.
+//
+// The name of a table is its group and its file, such as "network/summary.csv". The group is the kind of network or the
+// program that writes the table. CAPITALS in names stand for varying parts, such as the NAME of a sweep.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "network/network_settings.h"
+
+namespace stopline {
+
+struct ColumnDoc {
+    std::string_view name;
+    std::string_view unit;    // empty: no unit
+    std::string_view extent;  // part of the run that the value covers; empty: not applicable
+    std::string_view meaning;
+};
+
+struct TableDoc {
+    std::string_view name;
+    std::string_view rows;  // what a row is, and when the file is written
+    std::vector<ColumnDoc> columns;
+};
+
+// Returns all tables in the order of the page.
+const std::vector<TableDoc>& table_docs();
+
+// Returns the group of the tables that stopline-run writes for a network.
+std::string table_group(const NetworkSettings& network);
+
+// Each returns the tables of one group.
+std::vector<TableDoc> network_table_docs();
+std::vector<TableDoc> intersection_table_docs();
+std::vector<TableDoc> single_light_table_docs();
+std::vector<TableDoc> sweep_table_docs();
+std::vector<TableDoc> program_table_docs();  // stopline-calibrate, -startup, -compare and -scorecard
+
+// Returns the description of a column. Throws std::logic_error if there is none.
+ColumnDoc column_doc(const std::vector<TableDoc>& tables, std::string_view table, std::string_view column);
+
+// Returns the page of all columns as Markdown.
+std::string columns_markdown();
+
+}  // namespace stopline

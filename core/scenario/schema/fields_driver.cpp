@@ -1,0 +1,294 @@
+// Fields of the driver, of the rules at blocked intersections, of spacing policies and of populations.
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "scenario/schema/field_rows.h"
+#include "scenario/schema/fields.h"
+#include "spacing_laws/gap_policy.h"
+
+namespace stopline {
+namespace {
+
+const Table& cacc_table() {
+    using S = CaccSettings;
+    static const Table table = make_table<S>(
+        "CACC car following: gap feedback and feedforward from the leader (Fig. 3 and 4)",
+        {
+            number<&S::feedback_kp_1ps2>("feedback_kp", "1/s2", {0, 10},
+                                         "feedback gain: acceleration per metre of gap error"),
+            number<&S::feedback_kd_1ps>("feedback_kd", "1/s", {0, 10},
+                                        "feedback gain: acceleration per m/s of change of the gap error"),
+            number<&S::radar_delay_s>("radar_delay", "s", {0, 1}, "age of a gap measured by radar"),
+            number<&S::radar_range_m>("radar_range", "m", {1, 1000}, "range of the radar"),
+            number<&S::v2v_delay_s>("v2v_delay", "s", {0, 1}, "age of a received V2V message"),
+            number<&S::prediction_start_s>(
+                "prediction_start", "s", {0, 5},
+                "constant distance: start of the interval, from now, in which the vehicle matches "
+                "its leader's predicted acceleration (Fig. 4)"),
+            number<&S::prediction_end_s>("prediction_end", "s", {0.01, 5}, "end of that interval, from now"),
+            number<&S::acceleration_max_mps2>("acceleration_max", "m/s2", {0.1, 10},
+                                              "maximum acceleration of a follower"),
+            number<&S::deceleration_comfort_mps2>("deceleration_comfort", "m/s2", {0.1, 10},
+                                                  "maximum deceleration without an emergency (ISO 15622)"),
+            number<&S::deceleration_emergency_mps2>("deceleration_emergency", "m/s2", {0.1, 12},
+                                                    "maximum deceleration in an emergency"),
+            number<&S::emergency_threshold_mps2>("emergency_threshold", "m/s2", {0.1, 12},
+                                                 "emergency braking begins when more deceleration than this is needed"),
+            number<&S::emergency_gap_m>("emergency_gap", "m", {0, 10}, "net gap that emergency braking keeps"),
+            number<&S::jerk_up_mps3>("jerk_up", "m/s3", {0.1, 1000},
+                                     "maximum rate of rise of the acceleration command"),
+            number<&S::jerk_down_mps3>("jerk_down", "m/s3", {0.1, 1000},
+                                       "maximum rate of fall of the acceleration command"),
+            number<&S::catch_up_factor>("catch_up_factor", "", {1, 1.5},
+                                        "factor on the speed limit for a follower that closes its gap"),
+        },
+        [](const S& s, Checker& check) {
+            if (s.prediction_end_s <= s.prediction_start_s) {
+                check.error("prediction_end", "must be greater than prediction_start");
+            }
+            if (s.deceleration_emergency_mps2 < s.deceleration_comfort_mps2) {
+                check.error("deceleration_emergency", "must be at least deceleration_comfort");
+            }
+        });
+    return table;
+}
+
+const Table& free_drive_table() {
+    using S = FreeDriveSettings;
+    static const Table table = make_table<S>(
+        "driving without a leader",
+        {
+            curve<&S::speed_mps, &S::acceleration_mps2>("acceleration", {"km/h", {0, 300}}, {"m/s2", {0.01, 10}},
+                                                        {1, 200},
+                                                        "desired acceleration over speed, from 0 km/h; constant "
+                                                        "beyond the last point (start-up curve, Section III.B)")
+                .required(),
+            number<&S::speed_gain_1ps>("speed_gain", "1/s", {0.01, 10}, "acceleration per m/s below the desired speed"),
+            number<&S::deceleration_mps2>("deceleration", "m/s2", {0.1, 10}, "deceleration before a lower speed limit"),
+            number<&S::hesitation_s>("hesitation", "s", {0, 10},
+                                     "first vehicle at the stop line: time from green to the release of the brake"),
+        },
+        [](const S& s, Checker& check) {
+            if (s.speed_mps.front() != 0.0) check.error("acceleration", "must begin at 0 km/h");
+        });
+    return table;
+}
+
+const Table& stop_table() {
+    using S = StopSettings;
+    static const Table table = make_table<S>(
+        "stopping at a stop line",
+        {
+            number<&S::deceleration_mps2>("deceleration", "m/s2", {0.1, 10},
+                                          "braking begins when this deceleration is needed"),
+            number<&S::decision_deceleration_mps2>("decision_deceleration", "m/s2", {0.1, 10},
+                                                   "on yellow: stop if this deceleration suffices, else go on"),
+            number<&S::margin_m>("margin", "m", {0, 20},
+                                 "distance from the front of the stopped vehicle to the stop line"),
+        });
+    return table;
+}
+
+const Table& component_table() {
+    using S = PopulationSettings::Component;
+    static const Table table =
+        make_table<S>("a part of a population",
+                      {
+                          text<&S::policy>("policy", TextField::Rule::name, "name of the spacing policy").required(),
+                          number<&S::share>("share", "%", {0, 100}, "share of the vehicles").required(),
+                      });
+    return table;
+}
+
+void check_population(const PopulationSettings& population, Checker& check) {
+    double sum = 0.0;
+    for (const PopulationSettings::Component& component : population.components) sum += component.share;
+    if (std::abs(sum - 1.0) > 1e-9) {
+        check.error("components", "the shares sum to " + short_text(sum, unit("%")) + ", not to 100 %");
+    }
+}
+
+const Table& lane_change_table() {
+    using S = LaneChangeSettings;
+    static const Table table = make_table<S>(
+        "lane changes on the approaches of streets",
+        {
+            number<&S::strategic_m>("strategic_distance", "m", {10, 10'000},
+                                    "mandatory changes: the search for a target lane begins this far before the stop "
+                                    "line, times the number of changes needed"),
+            number<&S::urgent_m>("urgent_distance", "m", {10, 1000},
+                                 "mandatory changes: from this distance before the stop line the speed is adapted to "
+                                 "gaps in the target lane"),
+            number<&S::gap_share>(
+                "gap_share", "%", {0, 200},
+                "smallest accepted lead gap and lag gap, as a share of the gap that the policy keeps"),
+            number<&S::urgent_gap_share>(
+                "urgent_gap_share", "%", {0, 200},
+                "gap_share of a mandatory change at the stop line; linear from urgent_distance on"),
+            choice<&S::look_ahead>(
+                "look_ahead", {"off", "on"},
+                "on: vehicles choose a lane also for their turn at the intersection after the next one"),
+            choice<&S::gap_opening>("gap_opening", {"off", "on"},
+                                    "on: a follower in the target lane opens a gap for a mandatory change")
+                .renamed_from("help"),
+            number<&S::threshold_mps2>("threshold", "m/s2", {0, 10},
+                                       "discretionary changes (MOBIL): smallest gain in acceleration"),
+            number<&S::politeness>("politeness", "", {0, 1},
+                                   "discretionary changes (MOBIL): weight of the gains and losses of other vehicles"),
+            number<&S::keep_right_mps2>("keep_right", "m/s2", {0, 5},
+                                        "discretionary changes (MOBIL): bonus of a change to the right"),
+            number<&S::acceleration_mps2>("acceleration", "m/s2", {0.1, 10},
+                                          "acceleration of the intelligent driver model that rates a change"),
+            number<&S::deceleration_mps2>("deceleration", "m/s2", {0.1, 10},
+                                          "comfortable deceleration of the intelligent driver model"),
+            number<&S::pause_s>("pause", "s", {0, 1000},
+                                "shortest time from a change to the next discretionary change"),
+        });
+    return table;
+}
+
+const Table& give_way_table() {
+    using S = GiveWaySettings;
+    static const Table table = make_table<S>(
+        "yielding inside intersections",
+        {
+            number<&S::critical_gap_s>("critical_gap", "s", {0, 60},
+                                       "shortest accepted time to the next vehicle with priority"),
+            number<&S::margin_m>("margin", "m", {0, 10}, "distance from the front to the conflict area while waiting"),
+            number<&S::approach_acceleration_mps2>(
+                "approach_acceleration", "m/s2", {0.1, 10},
+                "assumed acceleration of approaching vehicles with priority, up to the speed limit")
+                .renamed_from("approach"),
+        });
+    return table;
+}
+
+// Returns a scalar with another text at the same place.
+SourceNode with_text(const SourceNode& scalar, std::string text) {
+    SourceNode node = scalar;
+    node.text = std::move(text);
+    return node;
+}
+
+// Expands `CDG` to {name: CDG, components: [{policy: CDG, share: 100 %}]}.
+SourceNode population_of_one_policy(const SourceNode& policy) {
+    SourceNode component;
+    component.kind = SourceNode::Kind::map;
+    component.place = policy.place;
+    component.add({"policy", policy.place}, policy);
+    component.add({"share", policy.place}, with_text(policy, "100 %"));
+    SourceNode components;
+    components.kind = SourceNode::Kind::list;
+    components.place = policy.place;
+    components.items.push_back(std::move(component));
+    SourceNode population;
+    population.kind = SourceNode::Kind::map;
+    population.place = policy.place;
+    population.add({"name", policy.place}, policy);
+    population.add({"components", policy.place}, std::move(components));
+    return population;
+}
+
+}  // namespace
+
+const Table& driver_table() {
+    using S = DriverSettings;
+    static const Table table = make_table<S>(
+        "the driver: controllers and behaviour",
+        {
+            text<&S::name>("name", TextField::Rule::name, "name of the driver; default: the name of the file"),
+            section<&S::cacc>("cacc", cacc_table, "CACC car following"),
+            section<&S::free_drive>("free_drive", free_drive_table, "driving without a leader").required(),
+            section<&S::stop>("stop", stop_table, "stopping at a stop line"),
+            section<&S::give_way>("give_way", give_way_table, "yielding inside intersections"),
+            section<&S::lane_change>("lane_change", lane_change_table, "lane changes"),
+        });
+    return table;
+}
+
+const Table& rules_table() {
+    using S = TrafficRules;
+    static const Table table = make_table<S>(
+        "rules against junction blocking and gridlock",
+        {
+            choice<&S::keep_clear>(
+                "keep_clear", {"off", "on"},
+                "on: a vehicle passes the stop line only if its exit lane has room behind the last stopped vehicle"),
+            number<&S::sight_m>("sight", "m", {1, 10'000}, "distance into the exit lane that drivers check for room")
+                .enabled_by("keep_clear"),
+            choice<&S::count_queue_at_red_exit>(
+                "count_queue_at_red_exit", {"off", "on"},
+                "on: while the signal at the end of the exit lane is not green, moving vehicles in that lane count as "
+                "already stopped at it")
+                .enabled_by("keep_clear")
+                .renamed_from("light_ahead"),
+            number<&S::teleport_cycles>(
+                "teleport_cycles", "", {0, 1000},
+                "teleport: number of signal cycles after which a stopped vehicle, the first of its lane, is moved past "
+                "the intersection; 0: never"),
+            number<&S::pass_blocker_greens>(
+                "pass_blocker_greens", "", {0, 1000},
+                "number of green times after which crossing vehicles may pass a vehicle that blocks the intersection; "
+                "0: never"),
+        });
+    return table;
+}
+
+const Table& gap_policy_table() {
+    using S = GapPolicySettings;
+    static const Table table = make_table<S>(
+        "a spacing policy: the net gap as a function of speed",
+        {
+            text<&S::name>("name", TextField::Rule::name, "name of the policy").required(),
+            choice<&S::law>("law", gap_law_names(), "spacing law: how the gap depends on the speed").required(),
+            number<&S::standstill_gap_m>("standstill_gap", "m", {0.1, 100}, "net gap at standstill").required(),
+            number<&S::time_gap_s>("time_gap", "s", {0, 20}, "time gap: growth of the gap per m/s")
+                .required()
+                .only_if("law", {"constant_time", "switch_time_gap"}),
+            number<&S::switch_speed_mps>("switch_speed", "km/h", {0, 300},
+                                         "speed up to which the gap is the standstill gap")
+                .required()
+                .only_if("law", {"switch_time_gap", "switch_distance"}),
+            number<&S::reference_speed_mps>("reference_speed", "km/h", {1, 300},
+                                            "speed at which the gap is reference_gap")
+                .required()
+                .only_if("law", {"switch_distance"}),
+            number<&S::reference_gap_m>("reference_gap", "m", {0.1, 1000}, "net gap at reference_speed")
+                .required()
+                .only_if("law", {"switch_distance"}),
+        },
+        [](const S& s, Checker& check) {
+            if (s.law != "switch_distance") return;
+            if (s.reference_speed_mps <= s.switch_speed_mps) {
+                check.error("reference_speed", "must be greater than switch_speed");
+            }
+            if (s.reference_gap_m < s.standstill_gap_m) {
+                check.error("reference_gap", "must be at least standstill_gap");
+            }
+        });
+    return table;
+}
+
+const Table& policy_file_table() {
+    static const Table table = make_table<PolicyFile>(
+        "named spacing policies",
+        {list<&PolicyFile::policies>("policies", gap_policy_table, {1, 1000}, "spacing policies").required()});
+    return table;
+}
+
+const Table& population_table() {
+    using S = PopulationSettings;
+    static const Table table = make_table<S>(
+        "the shares of the spacing policies in the traffic; the name of a policy alone: all vehicles follow it",
+        {
+            text<&S::name>("name", TextField::Rule::name, "name of the population").required(),
+            enumeration<&S::pattern>("pattern", {"alternating", "random", "balanced"},
+                                     "order of the policies; balanced: the shares hold in every 20 vehicles of a lane"),
+            list<&S::components>("components", component_table, {1, 100}, "policies with their shares").required(),
+        },
+        check_population, population_of_one_policy);
+    return table;
+}
+
+}  // namespace stopline

@@ -1,0 +1,293 @@
+// Fields of a scenario and of its measurements, and the checks across the parts of a scenario.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/nearest_name.h"
+#include "scenario/network_checks.h"
+#include "scenario/schema/field_rows.h"
+#include "scenario/schema/fields.h"
+#include "scenario/turn_checks.h"
+
+namespace stopline {
+namespace {
+
+using StepCheck = std::function<void(const std::string& field, double time_s)>;
+
+void check_street_steps(const Scenario& scenario, const StepCheck& require_whole_steps) {
+    for (const StreetIntersection& node : scenario.network.streets.intersections) {
+        const std::string field = "network.streets.intersections[" + node.name + "]";
+        for (const double step_s : node.programme.steps_s()) require_whole_steps(field + ".programme", step_s);
+        require_whole_steps(field + ".offset", node.offset_s);
+    }
+}
+
+bool is_whole(double number) { return std::abs(number - std::round(number)) <= 1e-6; }
+
+// Networks of several intersections count their vehicles once per second, so a second must be a whole number of steps.
+void check_seconds(const Scenario& scenario, Checker& check) {
+    if (!is_whole(1.0 / scenario.tick_s())) {
+        check.error(scenario.is_meso() ? "meso.step" : "step",
+                    "vehicles are counted every second, but 1 s is not a whole number of steps of " +
+                        short_text(scenario.tick_s(), unit("ms")));
+    }
+    if (!is_whole(scenario.measure.interval_s)) {
+        check.error("measure.interval", "value " + short_text(scenario.measure.interval_s, unit("s")) +
+                                            " is not a whole number of seconds; vehicles are counted every second");
+    }
+}
+
+// Time is counted in steps, so signals can change only between two steps.
+void check_steps(const Scenario& scenario, Checker& check) {
+    const auto require_whole_steps = [&](const std::string& field, double time_s) {
+        if (is_whole(time_s / scenario.tick_s())) return;
+        check.error(field, short_text(time_s, unit("s")) + " is not a whole number of steps of " +
+                               short_text(scenario.tick_s(), unit("ms")));
+    };
+    require_whole_steps("duration", scenario.duration_s);
+    if (scenario.network.has_several_intersections()) check_seconds(scenario, check);
+    if (scenario.network.is_sumo()) return;  // imported programmes are rounded to steps
+    if (scenario.network.is_streets()) return check_street_steps(scenario, require_whole_steps);
+    require_whole_steps("signal.first_green", scenario.signal.first_green_s);
+    require_whole_steps("signal.green", scenario.signal.green_s);
+    require_whole_steps("signal.cross_green", scenario.signal.cross_green_s);
+    require_whole_steps("signal.yellow", scenario.signal.yellow_s);
+    require_whole_steps("signal.all_red", scenario.signal.all_red_s);
+    require_whole_steps("signal.cycle", scenario.signal.cycle_s);
+    require_whole_steps("signal.offset", scenario.signal.offset_s);
+    for (std::size_t i = 0; i < scenario.measure.green_s.size(); ++i) {
+        require_whole_steps("measure.green[" + std::to_string(i) + "]", scenario.measure.green_s[i]);
+    }
+}
+
+template <class T>
+std::vector<std::string> names_of(const std::vector<T>& named) {
+    std::vector<std::string> names;
+    names.reserve(named.size());
+    for (const T& item : named) names.push_back(item.name);
+    return names;
+}
+
+void check_unique(const std::vector<std::string>& names, const std::string& list, Checker& check) {
+    std::set<std::string> seen;
+    for (const std::string& name : names) {
+        if (!seen.insert(name).second) {
+            check.error(list + "[" + name + "].name", "the name '" + name + "' appears twice");
+        }
+    }
+}
+
+void check_known(const std::string& name, const std::vector<std::string>& known, const std::string& what,
+                 const std::string& field, Checker& check) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) return;
+    check.error(field, "there is no " + what + " '" + name + "'" + known_names_hint(name, known));
+}
+
+void check_names(const Scenario& scenario, Checker& check) {
+    const std::vector<std::string> policies = names_of(scenario.policies);
+    const std::vector<std::string> populations = names_of(scenario.populations);
+    check_unique(policies, "policies", check);
+    check_unique(populations, "populations", check);
+    for (const PopulationSettings& population : scenario.populations) {
+        for (std::size_t k = 0; k < population.components.size(); ++k) {
+            const std::string field =
+                "populations[" + population.name + "].components[" + std::to_string(k) + "].policy";
+            check_known(population.components[k].policy, policies, "policy", field, check);
+        }
+    }
+    if (!scenario.measure.baseline.empty()) {
+        check_known(scenario.measure.baseline, populations, "population", "measure.baseline", check);
+    }
+}
+
+void check_intersection(const Scenario& scenario, Checker& check) {
+    const IntersectionSettings& layout = scenario.network.intersection;
+    const double cycle_s = scenario.signal.intersection_cycle_s();
+    const double shortest_s = scenario.signal.first_green_s + (scenario.measure.warmup_cycles + 1) * cycle_s;
+    if (scenario.duration_s != 0.0 && scenario.duration_s < shortest_s) {
+        check.error("duration",
+                    "leaves no whole cycle to measure after first_green and warmup_cycles: must be at least " +
+                        short_text(shortest_s, unit("s")));
+    }
+    const double reach_m = layout.radius_m + std::min(layout.approach_length_m, layout.exit_length_m);
+    for (std::size_t i = 0; i < scenario.measure.zone_radius_m.size(); ++i) {
+        const double radius_m = scenario.measure.zone_radius_m[i];
+        if (radius_m > layout.radius_m && radius_m < reach_m) continue;
+        check.error("measure.zones[" + std::to_string(i) + "]",
+                    "must lie between the radius of the intersection and the end of its legs, " +
+                        short_text(layout.radius_m, unit("m")) + " to " + short_text(reach_m, unit("m")));
+    }
+}
+
+void check_streets(const Scenario& scenario, Checker& check) {
+    if (scenario.demand.kind == "rate") {
+        check.error("demand.kind", "value 'rate' is not possible for streets: use queue or saturated");
+    }
+    if (!scenario.measure.green_s.empty())
+        check.error("measure.green", "is for a single light only (network.kind: approach)");
+    check_pockets(scenario, check);
+}
+
+void check_sumo(const Scenario& scenario, Checker& check) {
+    if (!scenario.measure.green_s.empty())
+        check.error("measure.green", "is for a single light only (network.kind: approach)");
+}
+
+void check_times(const Scenario& scenario, Checker& check) {
+    const SignalSettings& signal = scenario.signal;
+    if (!scenario.is_meso() && scenario.driver.cacc.v2v_delay_s < scenario.step_s) {
+        check.error(check.given("step") ? "step" : "driver.cacc.v2v_delay",
+                    "a message cannot arrive before the next step: step, " + short_text(scenario.step_s, unit("ms")) +
+                        ", must be at most driver.cacc.v2v_delay, " +
+                        short_text(scenario.driver.cacc.v2v_delay_s, unit("ms")));
+    }
+    if (scenario.network.kind == "intersection") return check_intersection(scenario, check);
+    if (scenario.duration_s < 1.0) check.error("duration", "must be at least 1 s");
+    if (scenario.network.is_streets()) return check_streets(scenario, check);
+    if (scenario.network.is_sumo()) return check_sumo(scenario, check);
+    for (std::size_t i = 0; i < scenario.measure.green_s.size(); ++i) {
+        const double green_s = scenario.measure.green_s[i];
+        const std::string field = "measure.green[" + std::to_string(i) + "]";
+        if (green_s > signal.green_s) {
+            check.error(field, "lies after the end of the green time of " + short_text(signal.green_s, unit("s")));
+        } else if (signal.first_green_s + green_s > scenario.duration_s) {
+            check.error(field, "the run ends earlier, at duration = " + short_text(scenario.duration_s, unit("s")));
+        }
+    }
+    if (signal.first_green_s >= scenario.duration_s) {
+        check.error("signal.first_green",
+                    "lies after the end of the run at " + short_text(scenario.duration_s, unit("s")));
+    }
+}
+
+// The cycle of an intersection is the sum of its two stages.
+void check_cycle(const Scenario& scenario, Checker& check) {
+    const std::string& kind = scenario.network.kind;
+    if (scenario.signal.cycle_s == 0.0 || (kind != "intersection" && kind != "grid")) return;
+    check.error("signal.cycle", "must be left out here: it follows from green, cross_green, yellow and all_red, " +
+                                    short_text(scenario.signal.intersection_cycle_s(), unit("s")));
+}
+
+void check_cross_inflow(const Scenario& scenario, Checker& check) {
+    const std::string& kind = scenario.network.kind;
+    if (scenario.demand.cross_inflow_1ps == 0.0 || kind == "intersection" || kind == "grid") return;
+    check.error("demand.cross_inflow", "is for intersections and grids only");
+}
+
+void check_time_space(const Scenario& scenario, Checker& check) {
+    const MeasureSettings& measure = scenario.measure;
+    if (measure.time_space_s > 0.0 && (scenario.network.is_sumo() || !scenario.network.has_several_intersections())) {
+        return check.error("measure.time_space", "is for grids and streets only");
+    }
+    if (measure.time_space_side == "west" || measure.time_space_s > 0.0) return;
+    check.error("measure.time_space_side",
+                "value " + measure.time_space_side + " has no effect without measure.time_space");
+}
+
+void check_scenario(const Scenario& scenario, Checker& check) {
+    check_cross_inflow(scenario, check);
+    check_turns(scenario, check);
+    check_cycle(scenario, check);
+    check_steps(scenario, check);
+    check_times(scenario, check);
+    check_names(scenario, check);
+    check_queue(scenario, check);
+    check_grid_links(scenario, check);
+    check_entries(scenario, check);
+    check_approaches(scenario, check);
+    check_measured_area(scenario, check);
+    check_time_space(scenario, check);
+}
+
+}  // namespace
+
+const Table& measure_table() {
+    using S = MeasureSettings;
+    static const Table table = make_table<S>(
+        "the measurements",
+        {
+            numbers<&S::green_s>("green", "s", {0.1, 7200}, {0, 1000},
+                                 "single light: times after the start of green at which the passed vehicles are "
+                                 "counted",
+                                 true),
+            text<&S::baseline>("baseline", TextField::Rule::name,
+                               "reference population for improvements; absent: none"),
+            whole_number<&S::warmup_cycles>("warmup_cycles", {0, 1000},
+                                            "single intersection: signal cycles before the measurement"),
+            whole_number<&S::cycles>("cycles", {1, 100'000}, "single intersection: measured signal cycles"),
+            numbers<&S::zone_radius_m>(
+                "zones", "m", {1, 20'000}, {0, 10},
+                "single intersection: radii around the centre within which travel time and density are "
+                "measured; reports show the first",
+                false),
+            number<&S::area_margin_m>("area_margin", "m", {0, 10'000},
+                                      "grids and streets: distance from the outer intersections to the boundary of the "
+                                      "measured area, on their approaches and exit lanes")
+                .renamed_from("outside"),
+            number<&S::interval_s>("interval", "s", {1, 86'400},
+                                   "networks: interval of the time series, in whole seconds"),
+            number<&S::window_s>(
+                "window", "s", {1, 1'000'000},
+                "networks: length of the measuring window at the end of the run; results are means over "
+                "it")
+                .renamed_from("steady"),
+            number<&S::time_space_s>("time_space", "s", {0, 7200},
+                                     "grids and streets: length of the time-space diagram at the end of the run; "
+                                     "0 s: none"),
+            choice<&S::time_space_side>("time_space_side", {"west", "east", "south", "north"},
+                                        "side from which the time-space diagram follows a street; in a grid, west and "
+                                        "east: the middle row, south and north: the middle column")
+                .renamed_from("time_space_from"),
+        });
+    return table;
+}
+
+const Table& scenario_table() {
+    using S = Scenario;
+    static const Table table = make_table<S>(
+        "a scenario file",
+        {
+            text<&S::name>("name", TextField::Rule::name, "name of the scenario; default: the name of the file"),
+            text<&S::title>("title", TextField::Rule::title, "heading of tables and figures"),
+            choice<&S::fidelity>(
+                "fidelity", {"full", "meso"},
+                "vehicle model; full: controller and powertrain (full dynamics); meso: Krauss family (mesoscale mode)"),
+            // A step above 0.1 s would be longer than the shortest lags of the powertrain.
+            number<&S::step_s>("step", "s", {0.001, 0.1},
+                               "time step of full dynamics, at most driver.cacc.v2v_delay; the mesoscale mode uses "
+                               "meso.step"),
+            number<&S::duration_s>(
+                "duration", "s", {0, 1'000'000},
+                "length of a run; 0 s: the time that the measured cycles take (single intersection only)"),
+            whole_number<&S::seed>("seed", {}, "seed of all random numbers"),
+            section<&S::network>("network", network_table, "road network"),
+            section<&S::signal>("signal", signal_table,
+                                "fixed-time signal; streets and SUMO networks have their own programmes")
+                .only_if("network.kind", {"approach", "intersection", "grid"}),
+            section<&S::demand>("demand", demand_table, "traffic that enters; SUMO networks have route files")
+                .only_if("network.kind", {"approach", "intersection", "grid", "streets"}),
+            section<&S::vehicle>("vehicle", vehicle_table, "vehicle and powertrain", "vehicles")
+                .fallback("petrol_eu4_72kw"),
+            section<&S::driver>("driver", driver_table, "driver: controllers and behaviour", "drivers")
+                .fallback("startup_kit"),
+            section<&S::rules>("rules", rules_table, "rules against junction blocking and gridlock"),
+            section<&S::meso>("meso", meso_table, "parameters of the mesoscale mode", "meso").fallback("table2"),
+            list<&S::policies>(
+                "policies", gap_policy_table, {0, 1000},
+                "additional spacing policies; one with the name of a policy in data/policies/paper.yaml replaces it",
+                "policies/paper")
+                .fallback("[]"),
+            list<&S::populations>("populations", population_table, {1, 1000}, "populations; each makes one run")
+                .fallback(
+                    "[CDG, CDG-6m, SWITCH-1, SWITCH-2, {name: MIX, pattern: alternating, components: [{policy: CDG, "
+                    "share: 50 %}, {policy: CTG-Ref, share: 50 %}]}, CTG-Ref, CTG-HCM, CTG-HBS]"),
+            section<&S::measure>("measure", measure_table, "measurements"),
+        },
+        check_scenario);
+    return table;
+}
+
+}  // namespace stopline

@@ -1,0 +1,63 @@
+// Collects the errors and warnings of loading, each with its place, so that a user sees all mistakes of a file at once.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scenario/yaml/source_node.h"
+
+namespace stopline {
+
+class Report {
+public:
+    void error(const Place& place, const std::string& message);
+    std::size_t error_count() const { return errors_.size(); }
+    // Throws an InputError with one line per error in file order, at most 20 lines. Returns if there is no error.
+    void throw_if_any() const;
+
+    // A warning does not stop loading.
+    void warn(const Place& place, const std::string& message);
+    // Returns one line per warning in file order, without repetitions.
+    std::vector<std::string> warnings() const;
+
+    // Stores the place of a field by its path, such as "populations[0].name".
+    void remember(const std::string& path, const Place& place) { places_[path] = place; }
+    bool given(const std::string& path) const { return places_.contains(path); }
+    // Returns the place of a field; for a field that the file does not give, the place of its parent.
+    Place place_of(std::string path) const;
+
+private:
+    struct Entry {
+        Place place;
+        std::string message;
+    };
+
+    static std::vector<std::string> sorted_lines(std::vector<Entry> entries);
+
+    std::vector<Entry> errors_;
+    std::vector<Entry> warnings_;
+    std::map<std::string, Place> places_;
+};
+
+// Reports errors of a check that compares several fields. Paths are relative to the checked struct; "" is the struct
+// itself.
+class Checker {
+public:
+    Checker(Report& report, std::string path) : report_(report), path_(std::move(path)) {}
+    void error(const std::string& relative_path, const std::string& message);
+    bool given(const std::string& relative_path) const { return report_.given(full_path(relative_path)); }
+
+private:
+    std::string full_path(const std::string& relative_path) const;
+
+    Report& report_;
+    std::string path_;
+};
+
+// Returns "parent.name". An empty parent or name adds no dot, and neither does a name that begins with '['.
+std::string join_path(const std::string& parent, const std::string& name);
+
+}  // namespace stopline

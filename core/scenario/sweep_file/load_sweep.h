@@ -1,0 +1,32 @@
+// Loads sweep files, with the same kind of field tables and messages as scenarios (load_scenario.h).
+//
+//     scenario: ../intersection.yaml
+//     axes:
+//     - {name: green, path: signal.green, values: [5 s, 10 s]}
+//     - {name: population, populations: [CTG-Ref, CDG]}
+//     repetitions: 6
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenario/sweep_file/sweep_settings.h"
+
+namespace stopline {
+
+// Loads a sweep file and checks every value against its field. Throws InputError for a file that cannot be used. Checks
+// that compare several fields come later, when the combinations are loaded (sweeps/sweep.h).
+SweepSettings load_sweep(const std::filesystem::path& file);
+// Loads a sweep from text. `label` stands for the file in messages. Relative paths in the text start at `directory`.
+SweepSettings parse_sweep(std::string_view text, const std::string& label,
+                          const std::filesystem::path& directory = ".");
+
+// Returns the overrides for load_scenario that one value of an axis stands for. An axis of populations has none.
+std::vector<std::string> axis_overrides(const SweepAxis& axis, std::size_t value);
+
+// Returns the list of all fields of a sweep file for a terminal.
+std::string describe_sweep_fields();
+
+}  // namespace stopline

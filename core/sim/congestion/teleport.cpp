@@ -1,0 +1,173 @@
+#include "sim/congestion/teleport.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "base/containers/index.h"
+#include "sim/lane_change/route_choice.h"
+#include "sim/perception/approaching_vehicles.h"
+#include "sim/perception/look_ahead.h"
+#include "sim/perception/reset_leader.h"
+#include "sim/state/delay_log.h"
+#include "sim/state/lane_blocks.h"
+#include "sim/state/queries/stopping_distance.h"
+
+namespace stopline {
+
+namespace {
+
+// Returns the exit lane of the intersection ahead of a vehicle; -1: the vehicle is behind its last intersection.
+int exit_lane_ahead(const Model& model, const State& state, int lane, int slot) {
+    const Route& route = model.graph.routes[at(state.vehicles.record[at(slot)].route)];
+    if (route.lanes.size() < 2) return -1;  // the trip ends on this lane
+    const bool before = model.graph.lanes[at(lane)].signal_group >= 0 || model.graph.lanes[at(lane)].origin >= 0;
+    return before ? route.lanes.back() : -1;
+}
+
+void record_rule_use(const Model& model, State& state, RuleUse::Kind kind, int slot, int lane) {
+    const VehicleArrays& v = state.vehicles;
+    const double stopped_s = model.time_s(state.tick - v.stopped_since[at(slot)]);
+    state.congestion.delays.rule_uses.push_back({kind, model.time_s(state.tick), v.id[at(slot)], lane, -1, stopped_s});
+}
+
+}  // namespace
+
+bool remove_for_teleport(const Model& model, State& state, int lane) {
+    ensure_teleport_slot(state);
+    CongestionState& congestion = state.congestion;
+    LaneBlock& block = state.blocks[at(lane)];
+    const int slot = block.first;
+    const int target_lane = exit_lane_ahead(model, state, lane, slot);
+    if (target_lane < 0 || congestion.teleporting.past_last() == congestion.teleporting.end) return false;
+    // Detectors ahead of the vehicle will not record it.
+    for (const int detector : state.detectors.on_lane[at(lane)]) {
+        int& upstream = state.detectors.upstream[at(detector)];
+        upstream = std::min(upstream, block.count - 1);
+    }
+    record_rule_use(model, state, RuleUse::Kind::teleported, slot, lane);
+    ++congestion.delays.teleported;
+    state.vehicles.copy(slot, congestion.teleporting.past_last());
+    ++congestion.teleporting.count;
+    congestion.teleport_targets.push_back({target_lane, state.tick});
+    remove_first(state, lane);
+    return true;
+}
+
+namespace {
+
+bool trip_ends_on_next_edge(const State& state, const VehicleRecord& record) {
+    return record.trip >= 0 && state.plan.turn_of_trip(record.trip, record.trip_edge + 1) == Turn::none;
+}
+
+// Returns true if a vehicle on a trip, reinserted on an empty lane, has room to its leader beyond the lane.
+bool has_room_beyond_lane(const Model& model, const State& state, int lane, int slot, double front_m) {
+    const VehicleArrays& v = state.vehicles;
+    const VehicleRecord& record = v.record[at(slot)];
+    const int trip_edge = record.trip_edge + 1;
+    const int route = state.plan.adjacent(lane).turn_option(state.plan.turn_of_trip(record.trip, trip_edge)).route;
+    if (route < 0) return true;
+    const RoutePosition position{route, 0, record.trip, trip_edge};
+    const LeaderAhead leader = leader_ahead(state, lane, front_m, position, model.driver.cacc.radar_range_m);
+    if (leader.slot < 0) return true;
+    const double rear_m =
+        leader.lane_start_m + v.position_m[at(leader.slot)] - static_cast<double>(v.length_m[at(leader.slot)]);
+    return rear_m - front_m >= static_cast<double>(v.standstill_gap_m[at(slot)]);
+}
+
+// Reinserts the k-th teleported vehicle at the start of its lane, with its rear just behind the intersection. Returns
+// false if there is no room.
+bool reinsert_teleported(const Model& model, State& state, int k) {
+    VehicleArrays& v = state.vehicles;
+    const int target_lane = state.congestion.teleport_targets[at(k)].lane;
+    ensure_free_slot(state, target_lane);
+    const int waiting = state.congestion.teleporting.first + k;
+    const LaneBlock& block = state.blocks[at(target_lane)];
+    const Lane& lane = model.graph.lanes[at(target_lane)];
+    const double length_m = v.length_m[at(waiting)];
+    double front_m = length_m;
+    double speed_mps = lane.limit_mps;
+    if (v.record[at(waiting)].trip >= 0) {  // edges of imported networks can be shorter than the vehicle
+        if (length_m >= lane.stop_line_m && !trip_ends_on_next_edge(state, v.record[at(waiting)])) return false;
+        front_m = std::min(length_m, lane.stop_line_m);
+        const double to_line_m = lane.stop_line_m - front_m;
+        speed_mps = std::min(speed_mps, std::sqrt(2.0 * model.driver.stop.deceleration_mps2 * to_line_m));
+        if (block.count == 0 && !has_room_beyond_lane(model, state, target_lane, waiting, front_m)) return false;
+    }
+    const double gap_m = v.standstill_gap_m[at(waiting)];
+    if (block.count > 0) {
+        const int last = block.last();
+        const double room_m = v.position_m[at(last)] - static_cast<double>(v.length_m[at(last)]) - front_m - gap_m;
+        if (room_m < 0.0) return false;
+        speed_mps = std::min(v.speed_mps[at(last)], 0.5 * room_m);
+    }
+    if (v.record[at(waiting)].trip < 0) {
+        speed_mps = std::min(speed_mps, max_stoppable_speed_mps(model, target_lane, front_m));
+    }
+    if (approaching_vehicle_cannot_stop(model, state, target_lane)) return false;
+    const int slot = append_slot(state, target_lane);
+    v.copy(waiting, slot);
+    const auto i = at(slot);
+    v.position_m[i] = front_m;
+    v.speed_mps[i] = speed_mps;
+    v.acceleration_mps2[i] = 0.0F;
+    v.reset_powertrain(slot, model.vehicles[at(v.type[i])], speed_mps);
+    v.is_platoon_leader[i] = 1.0F;
+    v.record[i].previous_lane = v.record[i].second_previous_lane = v.record[i].accepted_gap_on = -1;
+    initialise_sensors(v, slot, state.blocks[at(target_lane)].count == 1);
+    const int route_index = static_cast<int>(model.graph.routes[at(v.record[i].route)].lanes.size()) - 1;
+    set_route_index(state, slot, route_index);
+    choose_next_route(model, state, target_lane, slot);
+    record_rule_use(model, state, RuleUse::Kind::reinserted, slot, target_lane);
+    v.stopped_since[i] = static_cast<int>(state.tick);
+    state.queues.standing[at(target_lane)].last_external_tick = state.tick;
+    return true;
+}
+
+// Moves the target of a waiting vehicle behind the next intersection once the vehicle would have driven along its full
+// target lane.
+void advance_target(const Model& model, State& state, int waiting, TeleportTarget& target) {
+    const Lane& lane = model.graph.lanes[at(target.lane)];
+    const double waiting_s = model.time_s(state.tick - target.waiting_since);
+    if (lane.signal_group < 0 || waiting_s < lane.length_m / lane.limit_mps) return;
+    if (trip_ends_on_next_edge(state, state.vehicles.record[at(waiting)])) return;
+    choose_next_route(model, state, target.lane, waiting);
+    target = {model.graph.routes[at(state.vehicles.record[at(waiting)].route)].lanes.back(), state.tick};
+}
+
+void reinsert_teleported_vehicles(const Model& model, State& state) {
+    LaneBlock& teleporting = state.congestion.teleporting;
+    std::vector<TeleportTarget>& targets = state.congestion.teleport_targets;
+    for (int k = 0; k < teleporting.count;) {
+        if (!reinsert_teleported(model, state, k)) {
+            advance_target(model, state, teleporting.first + k, targets[at(k)]);
+            ++k;
+            continue;
+        }
+        const int freed = teleporting.first + k;
+        state.vehicles.move(freed + 1, teleporting.past_last() - freed - 1, freed);
+        targets.erase(targets.begin() + k);
+        --teleporting.count;
+        state.vehicles.clear_slot(teleporting.past_last());
+    }
+}
+
+}  // namespace
+
+void teleport_blocked_vehicles(const Model& model, State& state) {
+    const RulesPlan& rules = model.rules;
+    const bool is_needed = rules.teleport_ticks > 0 || state.congestion.teleporting.count > 0;
+    if (!is_needed || state.tick % std::max<std::int64_t>(rules.watch_ticks, 1) != 0) return;
+    reinsert_teleported_vehicles(model, state);
+    if (rules.teleport_ticks == 0) return;
+    for (const Partition& part : state.partitions) {
+        for (const int lane : part.occupied) {
+            const LaneBlock& block = state.blocks[at(lane)];
+            if (block.count == 0) continue;
+            const std::int64_t stopped = state.tick - state.vehicles.stopped_since[at(block.first)];
+            if (stopped >= rules.teleport_ticks) remove_for_teleport(model, state, lane);
+        }
+    }
+}
+
+}  // namespace stopline

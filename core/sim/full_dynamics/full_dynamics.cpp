@@ -1,0 +1,102 @@
+#include "sim/full_dynamics/full_dynamics.h"
+
+#include <algorithm>
+
+#include "base/containers/index.h"
+#include "base/simd/narrowed.h"
+#include "sim/full_dynamics/full_kernels.h"
+#include "sim/state/queries/overlap.h"
+
+namespace stopline {
+
+namespace {
+
+FullStreams streams_of(const Model& model, State& state) {
+    VehicleArrays& v = state.vehicles;
+    const DelayRows& radar = state.radar;
+    const DelayRows& v2v = state.v2v;
+    FullStreams s{};
+    s.position = v.position_m.data();
+    s.speed = v.speed_mps.data();
+    s.length = v.length_m.data();
+    s.standstill_gap = v.standstill_gap_m.data();
+    s.end_speed = v.end_speed_mps.data();
+    s.policy = model.policies.size() > 1 ? v.policy.data() : nullptr;
+    s.type = model.vehicles.size() > 1 ? v.type.data() : nullptr;
+    s.acceleration = v.acceleration_mps2.data();
+    s.lag = v.lag_s.data();
+    s.request = v.request_mps2.data();
+    s.is_platoon_leader = v.is_platoon_leader.data();
+    s.torque = v.torque_Nm.data();
+    s.brake = v.brake_N.data();
+    s.gear_time = v.gear_time_s.data();
+    s.gear = v.gear.data();
+    s.gap_now = v.radar_gap_m.data() + radar.now;
+    s.gap_delayed = v.radar_gap_m.data() + radar.delayed;
+    s.gap_older = v.radar_gap_m.data() + radar.older;
+    s.closing_now = v.radar_closing_mps.data() + radar.now;
+    s.closing_delayed = v.radar_closing_mps.data() + radar.delayed;
+    s.closing_older = v.radar_closing_mps.data() + radar.older;
+    s.sent_acceleration = v.v2v_acceleration_mps2.data() + v2v.now;
+    s.sent_request = v.v2v_request_mps2.data() + v2v.now;
+    s.sent_rate = v.v2v_rate_1ps.data() + v2v.now;
+    s.heard_acceleration = v.v2v_acceleration_mps2.data() + v2v.delayed;
+    s.heard_request = v.v2v_request_mps2.data() + v2v.delayed;
+    s.heard_rate = v.v2v_rate_1ps.data() + v2v.delayed;
+    s.heard_acceleration_older = v.v2v_acceleration_mps2.data() + v2v.older;
+    s.heard_request_older = v.v2v_request_mps2.data() + v2v.older;
+    s.heard_rate_older = v.v2v_rate_1ps.data() + v2v.older;
+    return s;
+}
+
+// Evaluates the desired gaps at the speed at the end of the step, because the delayed measurements belong to that time
+// too (Model::radar). With the speed at the start of the step, results would depend on the step length. Each law runs
+// over the whole group, and a vehicle takes the result of its own law.
+void evaluate_gap_laws(const Model& model, int vehicles, const FullGroup& g) {
+    const std::size_t n = at(vehicles);
+    const std::span<const double> speed_mps(g.coming_speed, n);
+    const int* const policy_of = g.policy;
+    const auto evaluate = [&](int policy, double* gap, double* slope) {
+        const CompiledPolicy& p = model.policies[at(policy)];
+        p.law->evaluate(p.settings, speed_mps, {gap, n}, {slope, n});
+    };
+    const int first = model.policies.size() > 1 ? policy_of[0] : 0;
+    evaluate(first, g.desired_gap, g.slope);
+    for (int k = 0; k < static_cast<int>(model.policies.size()); ++k) {
+        if (k == first || std::find(policy_of, policy_of + n, k) == policy_of + n) continue;
+        evaluate(k, g.law_gap, g.law_slope);
+        for (std::size_t i = 0; i < n; ++i) {
+            g.desired_gap[i] = policy_of[i] == k ? g.law_gap[i] : g.desired_gap[i];
+            g.slope[i] = policy_of[i] == k ? g.law_slope[i] : g.slope[i];
+        }
+    }
+}
+
+}  // namespace
+
+FullTables full_tables(const Model& model) {
+    FullTables tables{narrowed(model.driver), {}};
+    for (const PowertrainTables& type : model.vehicles) tables.vehicles.push_back(narrowed(type));
+    return tables;
+}
+
+void step_full(const Model& model, const FullTables& tables, const LaneGroup& lanes, std::span<const int> next,
+               State& state, Partition& part) {
+    const FullKernels& kernels = full_kernels(model.scalar_kernels);
+    const FullStreams streams = streams_of(model, state);
+    const FullGroup group = part.full_group.streams();
+    kernels.gather(streams, state.radar, state.v2v, lanes, model.step_s, group);
+    evaluate_gap_laws(model, lanes.vehicles, group);
+    kernels.plan(tables.driver, group, lanes.vehicles, model.step_s, streams, next);
+    for (std::size_t k = 0; k < tables.vehicles.size(); ++k) {
+        const int only = tables.vehicles.size() == 1 ? -1 : static_cast<int>(k);
+        kernels.drive(tables.vehicles[k], group, lanes.vehicles, model.step_s, only, streams,
+                      k == 0 ? next : std::span<const int>());
+    }
+    kernels.scatter(streams, lanes.lanes, group, model.step_s);
+    const std::int64_t count = count_overlaps(state.vehicles, lanes.lanes);
+    if (count > 0) record_first_overlap(model, state, part);
+    part.violations.overlaps += count;
+}
+
+}  // namespace stopline

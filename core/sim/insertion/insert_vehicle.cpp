@@ -1,0 +1,40 @@
+#include "sim/insertion/insert_vehicle.h"
+
+#include "base/containers/index.h"
+#include "sim/perception/reset_leader.h"
+#include "sim/state/lane_blocks.h"
+#include "sim/state/queries/passage.h"
+
+namespace stopline {
+
+int insert_vehicle(const Model& model, State& state, const NewVehicle& vehicle) {
+    const int slot = vehicle.behind_last ? append_slot(state, vehicle.lane)
+                                         : insert_slot(model, state, vehicle.lane, vehicle.position_m);
+    VehicleArrays& v = state.vehicles;
+    const std::size_t i = at(slot);
+    v.position_m[i] = vehicle.position_m;
+    v.speed_mps[i] = vehicle.speed_mps;
+    v.acceleration_mps2[i] = 0.0F;
+    v.length_m[i] = static_cast<float>(vehicle.length_m);
+    v.reset_powertrain(slot, model.vehicles[0], vehicle.speed_mps);
+    v.is_platoon_leader[i] = 1.0F;
+    v.standstill_gap_m[i] = static_cast<float>(model.policies[at(vehicle.policy)].settings.standstill_gap_m);
+    v.policy[i] = vehicle.policy;
+    v.type[i] = 0;
+    v.id[i] = state.insertion.next_id++;
+    v.record[i] = {};
+    v.next_lane[i] = -1;
+    v.record[i].route = vehicle.route;
+    return slot;
+}
+
+void finish_insertion(const Model& model, State& state, int lane, int slot) {
+    VehicleArrays& v = state.vehicles;
+    v.stopped_since[at(slot)] = static_cast<int>(state.tick);
+    initialise_sensors(v, slot, slot == state.blocks[at(lane)].first);
+    state.queues.standing[at(lane)].last_external_tick = state.tick;
+    ++state.records.entered;
+    if (model.records_all) record_passage(state.records, v, model.time_s(state.tick + 1), slot, -1, lane);
+}
+
+}  // namespace stopline

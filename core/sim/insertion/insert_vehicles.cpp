@@ -1,0 +1,214 @@
+#include "sim/insertion/insert_vehicles.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "base/containers/index.h"
+#include "base/random.h"
+#include "sim/insertion/insert_vehicle.h"
+#include "sim/lane_change/route_choice.h"
+#include "sim/perception/look_ahead.h"
+#include "sim/state/lane_blocks.h"
+#include "sim/state/queries/desired_gap.h"
+#include "sim/state/queries/stopping_distance.h"
+
+namespace stopline {
+
+namespace {
+
+constexpr double kBeforeStart_s = -1e9;
+constexpr double kBacklogHeadway_s = 2.0;  // of vehicles that had to wait for room
+
+// Draws policy and route of the next vehicle of an inlet, once a vehicle.
+void draw_next_vehicle(const Model& model, State& state, int number) {
+    InletState& inlet = state.insertion.inlets[at(number)];
+    if (inlet.next_policy >= 0) return;
+    inlet.next_policy = model.demand.policy_of(number, inlet.entered);
+    inlet.next_route = draw_route(model, state, number, inlet.entered, false);
+}
+
+// Position and speed with which a vehicle would enter.
+struct Entry {
+    bool is_possible = false;
+    double position_m = 0.0;  // front
+    double speed_mps = 0.0;
+};
+
+bool is_connection_occupied(const Model& model, const State& state, int lane) {
+    const std::vector<int>& connections = model.connections_to[at(lane)];
+    return std::any_of(connections.begin(), connections.end(),
+                       [&](int connection) { return state.blocks[at(connection)].count > 0; });
+}
+
+// Returns the entry on a link without vehicles, behind the leader beyond the link.
+Entry entry_on_empty_link(const Model& model, const State& state, int number, int policy, double max_entry_mps) {
+    const int lane = model.demand.inlets[at(number)].lane;
+    const double front_m = model.vehicles[0].length_m;
+    const double max_mps = std::min(max_entry_mps, max_stoppable_speed_mps(model, lane, front_m));
+    const int route = state.insertion.inlets[at(number)].next_route;
+    const LeaderAhead leader = leader_ahead(state, lane, front_m, route, 0, model.driver.cacc.radar_range_m);
+    if (leader.slot < 0) return {true, front_m, max_mps};
+    const VehicleArrays& v = state.vehicles;
+    const double leader_mps = v.speed_mps[at(leader.slot)];
+    const double gap_m = leader.lane_start_m + v.position_m[at(leader.slot)] - v.length_m[at(leader.slot)] - front_m;
+    const double braking_m = braking_distance_m(max_mps, leader_mps, model.driver.stop.deceleration_mps2);
+    const bool is_far = gap_m >= desired_gap_m(model, policy, max_mps) + braking_m;
+    const double speed_mps = is_far ? max_mps : std::min(max_mps, leader_mps);
+    return {gap_m >= desired_gap_m(model, policy, speed_mps), front_m, speed_mps};
+}
+
+// Returns the entry at an inlet. On a link the vehicle enters with its rear at the start of the lane, so that the
+// intersection upstream stays clear.
+Entry entry_at(const Model& model, const State& state, int number, int policy) {
+    const int lane = model.demand.inlets[at(number)].lane;
+    const double max_entry_mps = std::min(model.demand.entry_speed_mps, model.graph.lanes[at(lane)].limit_mps);
+    const LaneBlock& block = state.blocks[at(lane)];
+    if (is_connection_occupied(model, state, lane)) return {};
+    const bool is_link = !model.connections_to[at(lane)].empty();
+    if (block.count == 0 && is_link) return entry_on_empty_link(model, state, number, policy, max_entry_mps);
+    if (block.count == 0) return {true, 0.0, max_entry_mps};
+    const double min_front_m = is_link ? model.vehicles[0].length_m : 0.0;
+    const VehicleArrays& v = state.vehicles;
+    const std::size_t last = at(block.last());
+    const double rear_m = v.position_m[last] - v.length_m[last];
+    const double max_mps =
+        is_link ? std::min(max_entry_mps, max_stoppable_speed_mps(model, lane, min_front_m)) : max_entry_mps;
+    const double speed_mps = std::min(max_mps, v.speed_mps[last]);
+    if (model.demand.is_saturated(number)) {
+        const double position_m = rear_m - desired_gap_m(model, policy, speed_mps);
+        return {position_m >= min_front_m, position_m, speed_mps};
+    }
+    const double headway_s = model.demand.is_evenly_spaced(number) ? kBacklogHeadway_s : model.demand.entry_headway_s;
+    const double room_m = desired_gap_m(model, policy, speed_mps) + speed_mps * headway_s * 0.5;
+    return {rear_m - min_front_m >= room_m, min_front_m, speed_mps};
+}
+
+// Copies acceleration and powertrain of the leader, as if both were part of an endless platoon.
+void copy_longitudinal_state(VehicleArrays& v, std::size_t i, std::size_t leader) {
+    v.acceleration_mps2[i] = v.acceleration_mps2[leader];
+    v.is_platoon_leader[i] = 0.0F;
+    if (!v.has_powertrain()) return;
+    v.request_mps2[i] = v.request_mps2[leader];
+    v.torque_Nm[i] = v.torque_Nm[leader];
+    v.brake_N[i] = v.brake_N[leader];
+    v.gear_time_s[i] = v.gear_time_s[leader];
+    v.lag_s[i] = v.lag_s[leader];
+    v.gear[i] = v.gear[leader];
+}
+
+void insert_at_inlet(const Model& model, State& state, int number, const Entry& entry) {
+    const int lane = model.demand.inlets[at(number)].lane;
+    InletState& inlet = state.insertion.inlets[at(number)];
+    const double length_m = model.vehicles[0].length_m;
+    const NewVehicle vehicle{lane, entry.position_m, entry.speed_mps, length_m, inlet.next_policy, inlet.next_route};
+    const int slot = insert_vehicle(model, state, vehicle);
+    inlet.next_policy = -1;
+    VehicleArrays& v = state.vehicles;
+    const std::size_t i = at(slot);
+    const bool is_first = state.blocks[at(lane)].count == 1;
+    if (model.demand.saturated && !is_first && v.speed_mps[i - 1] <= entry.speed_mps) {
+        copy_longitudinal_state(v, i, i - 1);
+    }
+    adopt_lane_route(model, state, lane, slot);
+    draw_following_turn(model, state, slot, true);
+    finish_insertion(model, state, lane, slot);
+    ++inlet.entered;
+    inlet.last_entry_s = model.time_s(state.tick + 1);
+}
+
+// Marks detectors upstream of inserted queues as passed. Zones are excluded: vehicles in them count as entered.
+void mark_detectors_passed(const Model& model, State& state) {
+    for (std::size_t k = 0; k < model.detectors.size(); ++k) {
+        const Detector& detector = model.detectors[k];
+        if (detector.kind == Detector::Kind::zone) continue;
+        const LaneBlock& block = state.blocks[at(detector.lane)];
+        int& upstream = state.detectors.upstream[k];
+        while (upstream > 0 && state.vehicles.position_m[at(block.past_last() - upstream)] >= detector.position_m) {
+            --upstream;
+        }
+    }
+}
+
+// Reserves memory for all queues at once. Growing lane by lane would move all other vehicles each time.
+void reserve_initial_queues(const Model& model, State& state) {
+    std::vector<int> expected(model.graph.lanes.size(), 0);
+    for (const DemandPlan::Inlet& inlet : model.demand.inlets) {
+        const double fitting = model.graph.lanes[at(inlet.lane)].stop_line_m / shortest_vehicle_m(model) + 1.0;
+        expected[at(inlet.lane)] = static_cast<int>(std::min(fitting, static_cast<double>(inlet.vehicles)));
+    }
+    reserve_blocks(state, expected);
+}
+
+// Returns the random offset of the first vehicle of an evenly spaced inlet, in headways.
+double first_entry_offset(const Model& model, int number) {
+    return random_uniform(model.seed, static_cast<std::uint64_t>(number), 0, Purpose::insertion);
+}
+
+// Returns the earliest time at which the next vehicle of an inlet enters.
+double next_entry_s(const Model& model, const State& state, int number) {
+    if (model.demand.is_saturated(number)) return kBeforeStart_s;
+    const InletState& inlet = state.insertion.inlets[at(number)];
+    const double headway_s = model.demand.inlet_headway_s(number);
+    if (!model.demand.is_evenly_spaced(number)) return inlet.last_entry_s + headway_s;
+    return (static_cast<double>(inlet.entered) + first_entry_offset(model, number)) * headway_s;
+}
+
+}  // namespace
+
+void insert_initial_queues(const Model& model, State& state) {
+    if (!model.demand.starts_queued) return;
+    reserve_initial_queues(model, state);
+    for (int k = 0; k < static_cast<int>(model.demand.inlets.size()); ++k) {
+        const int lane = model.demand.inlets[at(k)].lane;
+        double front_m = model.graph.lanes[at(lane)].stop_line_m - model.driver.stop.margin_m;
+        while (front_m >= 0.0 && state.insertion.inlets[at(k)].entered < model.demand.inlets[at(k)].vehicles) {
+            draw_next_vehicle(model, state, k);
+            insert_at_inlet(model, state, k, {true, front_m, 0.0});
+            const int last = state.blocks[at(lane)].last();
+            draw_next_vehicle(model, state, k);
+            const int next_policy = state.insertion.inlets[at(k)].next_policy;
+            front_m -= state.vehicles.length_m[at(last)] + desired_gap_m(model, next_policy, 0.0);
+        }
+    }
+    mark_detectors_passed(model, state);
+}
+
+void insert_vehicles(const Model& model, State& state) {
+    InsertionState& insertion = state.insertion;
+    const auto is_exhausted = [&](int k) {
+        return insertion.inlets[at(k)].entered >= model.demand.inlets[at(k)].vehicles;
+    };
+    const auto is_link = [&](int k) { return !model.connections_to[at(model.demand.inlets[at(k)].lane)].empty(); };
+    bool has_exhausted_link = false;
+    for (const int k : insertion.open_inlets) {
+        if (is_exhausted(k)) {
+            has_exhausted_link = has_exhausted_link || is_link(k);
+            continue;
+        }
+        draw_next_vehicle(model, state, k);
+        if (model.time_s(state.tick + 1) < next_entry_s(model, state, k)) continue;
+        const Entry entry = entry_at(model, state, k, insertion.inlets[at(k)].next_policy);
+        if (entry.is_possible) insert_at_inlet(model, state, k, entry);
+    }
+    if (has_exhausted_link) {
+        std::erase_if(insertion.open_inlets, [&](int k) { return is_exhausted(k) && is_link(k); });
+    }
+}
+
+std::int64_t insertion_backlog(const Model& model, const State& state) {
+    std::int64_t backlog = 0;
+    for (int k = 0; k < static_cast<int>(model.demand.inlets.size()); ++k) {
+        if (model.demand.is_saturated(k) || !model.demand.is_evenly_spaced(k)) continue;
+        const double arrived =
+            model.time_s(state.tick) / model.demand.inlet_headway_s(k) + 1.0 - first_entry_offset(model, k);
+        const std::int64_t due = std::min(static_cast<std::int64_t>(arrived), model.demand.inlets[at(k)].vehicles);
+        backlog += std::max<std::int64_t>(due - state.insertion.inlets[at(k)].entered, 0);
+    }
+    for (const std::vector<int>& trips : state.insertion.waiting_trips) {
+        backlog += static_cast<std::int64_t>(trips.size());
+    }
+    return backlog;
+}
+
+}  // namespace stopline

@@ -1,0 +1,274 @@
+#include "sim/insertion/trips.h"
+
+#include <algorithm>
+#include <bitset>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "base/containers/index.h"
+#include "base/random.h"
+#include "sim/insertion/insert_vehicle.h"
+#include "sim/lane_change/route_choice.h"
+#include "sim/perception/approaching_vehicles.h"
+#include "sim/perception/look_ahead.h"
+#include "sim/perception/reset_leader.h"
+#include "sim/state/lane_blocks.h"
+#include "sim/state/queries/desired_gap.h"
+#include "sim/state/queries/passage.h"
+#include "sim/state/queries/stopping_distance.h"
+
+namespace stopline {
+
+namespace {
+
+// A vehicle inserted nearer to the stop line can surprise crossing vehicles, which have decided without it.
+constexpr double kNearLine_m = 40.0;
+// Positions in route files are rounded. A queue read from a file keeps its positions within this tolerance.
+constexpr double kPositionRounding_m = 0.01;
+
+// Returns the rear of the last vehicle on a lane, or 1e6 on an empty lane.
+double last_rear_m(const State& state, int lane) {
+    const LaneBlock& block = state.blocks[at(lane)];
+    if (block.count == 0) return 1e6;
+    const VehicleArrays& v = state.vehicles;
+    return v.position_m[at(block.last())] - static_cast<double>(v.length_m[at(block.last())]);
+}
+
+// Returns the departure lane of a trip.
+int departure_lane(const Model& model, const State& state, int number) {
+    const Trip& trip = model.demand.trips[at(number)];
+    const std::vector<int>& lanes = model.graph.approaches[at(trip.approach)].lanes;
+    const auto count = static_cast<int>(lanes.size());
+    if (trip.depart_lane == Trip::DepartLane::given) return lanes[at(std::min(trip.lane, count - 1))];
+    if (trip.depart_lane == Trip::DepartLane::rightmost) return lanes.back();
+    if (trip.depart_lane == Trip::DepartLane::random) {
+        const double drawn = random_uniform(model.seed, static_cast<std::uint64_t>(number), 0, Purpose::insertion);
+        return lanes[at(std::min(static_cast<int>(drawn * count), count - 1))];
+    }
+    const auto lane_changes = [&](int lane) {
+        return trip.depart_lane == Trip::DepartLane::best ? state.plan.lane_changes_from(number, 0, lane, count) : 0;
+    };
+    const auto is_better = [&](int a, int b) {
+        const int changes_a = lane_changes(a);
+        const int changes_b = lane_changes(b);
+        return changes_a != changes_b ? changes_a < changes_b : last_rear_m(state, a) > last_rear_m(state, b);
+    };
+    int best = lanes.back();
+    std::for_each(lanes.rbegin(), lanes.rend(), [&](int lane) {
+        if (is_better(lane, best)) best = lane;
+    });
+    return best;
+}
+
+struct InsertionPoint {
+    int lane = -1;
+    int index = 0;  // of the new vehicle, counted from the first vehicle of the lane
+    double front_m = 0.0;
+};
+
+// Returns a random share of the lane, in [0, 1). `free` positions are drawn again in each step.
+double random_position(const Model& model, const State& state, int number) {
+    const bool draws_each_step = model.demand.trips[at(number)].depart_position == Trip::DepartPosition::free;
+    const std::uint64_t draw = draws_each_step ? 3 + static_cast<std::uint64_t>(state.tick) : 2;
+    return random_uniform(model.seed, static_cast<std::uint64_t>(number), draw, Purpose::insertion);
+}
+
+// Returns the position furthest downstream from which a vehicle can still yield.
+double max_departure_m(const Model& model, const State& state, int lane, int number) {
+    const Lane& road = model.graph.lanes[at(lane)];
+    const int route = state.plan.adjacent(lane).turn_option(model.demand.turn_of_trip(number, 0)).route;
+    if (route < 0 || state.plan.route(route).size() < 2) return road.stop_line_m;
+    const double first_conflict_m = state.plan.lane(state.plan.route(route)[1]).first_conflict_m;
+    return std::max(std::min(road.stop_line_m, road.length_m + first_conflict_m - model.give_way.margin_m), 0.0);
+}
+
+// Returns the front of a new vehicle. Where vehicles can arrive from upstream, its rear is on the lane.
+double departure_front_m(const Model& model, const State& state, int lane, int number) {
+    using enum Trip::DepartPosition;
+    const Trip& trip = model.demand.trips[at(number)];
+    const double max_m = max_departure_m(model, state, lane, number);
+    const double base_m = std::min(static_cast<double>(trip.length_m), max_m);
+    const double min_m = model.connections_to[at(lane)].empty() ? 0.0 : base_m;
+    const LaneBlock& block = state.blocks[at(lane)];
+    const auto within_lane = [&](double front_m) { return std::clamp(front_m, min_m, max_m); };
+    switch (trip.depart_position) {
+        case base:
+            break;
+        case given:
+            return within_lane(static_cast<double>(trip.front_m));
+        case last: {
+            if (block.count == 0) return within_lane(max_m - model.driver.stop.margin_m);
+            const int policy = model.demand.trip_policies[at(number)];
+            const double last_mps = state.vehicles.speed_mps[at(block.last())];
+            return within_lane(last_rear_m(state, lane) - desired_gap_m(model, policy, last_mps));
+        }
+        case random:
+        case free:
+            return std::lerp(base_m, max_m, random_position(model, state, number));
+    }
+    return base_m;
+}
+
+InsertionPoint insertion_point(const Model& model, const State& state, int number) {
+    const int lane = departure_lane(model, state, number);
+    const LaneBlock& block = state.blocks[at(lane)];
+    InsertionPoint point{lane, block.count, departure_front_m(model, state, lane, number)};
+    while (point.index > 0 && state.vehicles.position_m[at(block.first + point.index - 1)] < point.front_m) {
+        --point.index;
+    }
+    return point;
+}
+
+constexpr double kNoLeader_m = 1e6;
+
+// The leader of a new vehicle.
+struct EntryLeader {
+    double gap_m = kNoLeader_m;  // net gap
+    double speed_mps = 0.0;
+
+    bool exists() const { return gap_m <= 0.1 * kNoLeader_m; }
+};
+
+EntryLeader entry_leader(const Model& model, const State& state, const InsertionPoint& point,
+                         const RoutePosition& position) {
+    const VehicleArrays& v = state.vehicles;
+    if (point.index > 0) {
+        const std::size_t leader = at(state.blocks[at(point.lane)].first + point.index - 1);
+        return {v.position_m[leader] - static_cast<double>(v.length_m[leader]) - point.front_m, v.speed_mps[leader]};
+    }
+    const LeaderAhead leader =
+        leader_ahead(state, point.lane, point.front_m, position, model.driver.cacc.radar_range_m);
+    if (leader.slot < 0) return {};
+    const double rear_m =
+        leader.lane_start_m + v.position_m[at(leader.slot)] - static_cast<double>(v.length_m[at(leader.slot)]);
+    return {rear_m - point.front_m, v.speed_mps[at(leader.slot)]};
+}
+
+// Returns true if the follower of the new vehicle has its desired gap plus the distance for comfortable braking.
+bool follower_has_room(const Model& model, const State& state, const InsertionPoint& point, double rear_m,
+                       double speed_mps) {
+    const LaneBlock& block = state.blocks[at(point.lane)];
+    if (point.index == block.count) return !approaching_vehicle_cannot_stop(model, state, point.lane, rear_m);
+    const VehicleArrays& v = state.vehicles;
+    const std::size_t follower = at(block.first + point.index);
+    const double follower_mps = v.speed_mps[follower];
+    const double braking_m = braking_distance_m(follower_mps, speed_mps, model.driver.cacc.deceleration_comfort_mps2);
+    return rear_m - v.position_m[follower] + kPositionRounding_m >=
+           desired_gap_m(model, v.policy[follower], follower_mps) + braking_m;
+}
+
+// Returns the departure speed behind a leader; below 0: the gap is too small.
+double departure_speed_mps(const Model& model, const Trip& trip, int number, int policy, double limit_mps,
+                           const EntryLeader& leader) {
+    using enum Trip::DepartSpeed;
+    double wanted_mps = limit_mps;
+    if (trip.depart_speed == given) wanted_mps = std::min(limit_mps, static_cast<double>(trip.speed_mps));
+    if (trip.depart_speed == last && leader.exists()) wanted_mps = std::min(limit_mps, leader.speed_mps);
+    if (trip.depart_speed == random) {
+        wanted_mps *= random_uniform(model.seed, static_cast<std::uint64_t>(number), 1, Purpose::insertion);
+    }
+    if (!leader.exists()) return wanted_mps;
+    const auto is_safe = [&](double speed_mps) {
+        const double braking_m = braking_distance_m(speed_mps, leader.speed_mps, model.driver.stop.deceleration_mps2);
+        return leader.gap_m + kPositionRounding_m >= desired_gap_m(model, policy, speed_mps) + braking_m;
+    };
+    if (is_safe(wanted_mps)) return wanted_mps;
+    const double leader_mps = std::min(wanted_mps, leader.speed_mps);
+    return trip.depart_speed != given && is_safe(leader_mps) ? leader_mps : -1.0;
+}
+
+// Returns true if a yielding vehicle is crossing the path of a new vehicle with priority, or has accepted a gap there.
+bool crossing_vehicle_is_committed(const State& state, int route) {
+    const std::span<const int> lanes = state.plan.route(route);
+    if (lanes.size() < 2) return false;
+    for (const Conflict& conflict : state.plan.conflicts(lanes[1])) {
+        if (!conflict.other_yields) continue;
+        const auto is_not_past = [&](const JunctionOccupant& occupant) {
+            return occupant.rear_m < conflict.other_to_m;
+        };
+        const std::vector<JunctionOccupant>& occupants = state.junctions.occupants[at(conflict.other)];
+        if (std::any_of(occupants.begin(), occupants.end(), is_not_past)) return true;
+        const LaneBlock& approach = state.blocks[at(state.plan.lane(conflict.other).origin)];
+        for (int slot = approach.first; slot < approach.past_last(); ++slot) {
+            if (state.vehicles.record[at(slot)].accepted_gap_on == conflict.other) return true;
+        }
+    }
+    return false;
+}
+
+// Inserts the vehicle of a trip. Returns false if there is no room.
+bool insert_trip(const Model& model, State& state, int number, const InsertionPoint& point) {
+    const Trip& trip = model.demand.trips[at(number)];
+    const Lane& road = model.graph.lanes[at(point.lane)];
+    const int policy = model.demand.trip_policies[at(number)];
+    const Turn turn = model.demand.turn_of_trip(number, 0);
+    const int route = state.plan.route_with(trip.approach, turn);
+    const int lane_route = state.plan.adjacent(point.lane).turn_option(turn).route;
+    const RoutePosition position{lane_route >= 0 ? lane_route : route, 0, number, 0};
+    const EntryLeader leader = entry_leader(model, state, point, position);
+    double limit_mps = state.plan.free_speed_mps(point.lane);
+    if (lane_route < 0) limit_mps = std::min(limit_mps, 0.5 * road.stop_line_m);  // slow enough to change lanes
+    const double to_line_m = road.stop_line_m - point.front_m;
+    const double stoppable_mps = std::sqrt(2.0 * model.driver.stop.deceleration_mps2 * to_line_m);
+    if (road.signal_group >= 0) limit_mps = std::min(limit_mps, stoppable_mps);
+    const double speed_mps = departure_speed_mps(model, trip, number, policy, limit_mps, leader);
+    const double rear_m = point.front_m - static_cast<double>(trip.length_m);
+    if (speed_mps < 0.0 || !follower_has_room(model, state, point, rear_m, speed_mps)) return false;
+    if (lane_route >= 0 && to_line_m < kNearLine_m && crossing_vehicle_is_committed(state, lane_route)) return false;
+    ensure_free_slot(state, point.lane);
+    const int slot =
+        insert_vehicle(model, state, {point.lane, point.front_m, speed_mps, trip.length_m, policy, route, false});
+    state.vehicles.record[at(slot)].trip = number;
+    state.vehicles.record[at(slot)].junction_entry_tick = static_cast<int>(state.tick);
+    enter_trip_edge(model, state, point.lane, slot, 0);
+    finish_insertion(model, state, point.lane, slot);
+    const LaneBlock& block = state.blocks[at(point.lane)];
+    reset_leader(state.vehicles, slot + 1, block);
+    // The first vehicle that can stop at the line may be another one now.
+    if (slot < block.last()) state.stop_lines.lines[at(point.lane)].stopping_vehicle = -1;
+    record_trip_crossing(state.records, state.vehicles, model.time_s(state.tick + 1), slot, model.trips_begin);
+    return true;
+}
+
+// Inserts the backlog of an approach in the order of departure. A trip that finds no room blocks later trips on its
+// lane only.
+void insert_backlog(const Model& model, State& state, int approach) {
+    constexpr std::size_t kMaxFailures = 16;
+    std::vector<int>& trips = state.insertion.waiting_trips[at(approach)];
+    const std::size_t lanes = model.graph.approaches[at(approach)].lanes.size();
+    std::bitset<kMaxFailures> full;  // [lane index]; lanes with a higher index share the last bit
+    std::size_t kept = 0;
+    std::size_t k = 0;
+    for (; k < trips.size() && full.count() < lanes && kept < kMaxFailures; ++k) {
+        const InsertionPoint point = insertion_point(model, state, trips[k]);
+        const std::size_t lane_index = std::min(at(state.plan.adjacent(point.lane).index), kMaxFailures - 1);
+        if (!full[lane_index] && insert_trip(model, state, trips[k], point)) continue;
+        full.set(lane_index);
+        trips[kept++] = trips[k];
+    }
+    trips.erase(trips.begin() + static_cast<std::ptrdiff_t>(kept), trips.begin() + static_cast<std::ptrdiff_t>(k));
+}
+
+}  // namespace
+
+void insert_trips(const Model& model, State& state) {
+    const std::vector<Trip>& trips = model.demand.trips;
+    InsertionState& insertion = state.insertion;
+    std::vector<int>& approaches = insertion.approaches_with_backlog;
+    const double now_s = model.time_s(state.tick + 1);
+    for (; insertion.next_trip < trips.size() && trips[insertion.next_trip].depart_s < now_s; ++insertion.next_trip) {
+        const int approach = trips[insertion.next_trip].approach;
+        std::vector<int>& waiting = insertion.waiting_trips[at(approach)];
+        if (waiting.empty()) {
+            approaches.insert(std::lower_bound(approaches.begin(), approaches.end(), approach), approach);
+        }
+        waiting.push_back(static_cast<int>(insertion.next_trip));
+    }
+    std::erase_if(approaches, [&](int approach) {
+        insert_backlog(model, state, approach);
+        return insertion.waiting_trips[at(approach)].empty();
+    });
+}
+
+}  // namespace stopline

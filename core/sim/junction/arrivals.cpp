@@ -1,0 +1,176 @@
+#include "sim/junction/arrivals.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/containers/index.h"
+#include "base/simd/arithmetic.h"
+#include "base/speed_thresholds.h"
+#include "sim/perception/look_ahead.h"
+
+namespace stopline {
+
+namespace {
+
+constexpr double kCloseBehind_m = 6.0;
+constexpr double kQueueLookAhead_m = 20.0;
+
+}  // namespace
+
+bool is_yielding(const State& state, int slot) {
+    const VehicleArrays& v = state.vehicles;
+    return v.record[at(slot)].yield_tick >= state.tick - 1 && v.speed_mps[at(slot)] < kCrawlingSpeed_mps;
+}
+
+bool is_yielding_before(const State& state, int slot, double area_m) {
+    return is_yielding(state, slot) && state.vehicles.record[at(slot)].yield_position_m <= static_cast<float>(area_m);
+}
+
+double earliest_arrival_s(double distance_m, double speed_mps, double acceleration_mps2, double limit_mps) {
+    const double to_limit_mps = std::max(limit_mps - speed_mps, 0.0);
+    const double to_limit_m = to_limit_mps * (speed_mps + 0.5 * to_limit_mps) / acceleration_mps2;
+    if (distance_m <= to_limit_m) {
+        return (std::sqrt(square(speed_mps) + 2.0 * acceleration_mps2 * distance_m) - speed_mps) / acceleration_mps2;
+    }
+    return to_limit_mps / acceleration_mps2 + (distance_m - to_limit_m) / std::max(limit_mps, speed_mps);
+}
+
+bool is_blocked_by_leader(const State& state, int slot) {
+    const VehicleArrays& v = state.vehicles;
+    const std::size_t i = at(slot);
+    const double gap_m = v.position_m[i - 1] - v.length_m[i - 1] - v.position_m[i];
+    return v.record[i].leader_id >= 0 && v.speed_mps[i] < kCrawlingSpeed_mps &&
+           v.speed_mps[i - 1] < kCrawlingSpeed_mps && gap_m < kCloseBehind_m;
+}
+
+namespace {
+
+// Returns true if the vehicle's lane belongs to the same intersection as `lane`. At other intersections it is not
+// certain that the yielding state of vehicles has been updated in this step.
+bool is_at_same_intersection(const State& state, int lane, int slot) {
+    const VehicleRecord& record = state.vehicles.record[at(slot)];
+    const int own_lane = state.plan.route(record.route)[at(record.route_index)];
+    return state.plan.intersection_of(own_lane) == state.plan.intersection_of(lane);
+}
+
+}  // namespace
+
+bool is_behind_yielding_vehicle(const State& state, int lane, const JunctionOccupant& occupant) {
+    constexpr int kMaxQueue = 8;  // vehicles of the queue that are examined
+    int slot = occupant.slot;
+    int current_lane = occupant.front_m > 0.0 ? lane : state.plan.lane(lane).origin;
+    for (int k = 0; k < kMaxQueue && is_blocked_by_leader(state, slot); ++k) {
+        const LaneBlock& block = state.blocks[at(current_lane)];
+        if (slot == block.first) {
+            slot = leader_ahead(state, current_lane, slot, kQueueLookAhead_m).slot;
+            const LaneBlock& connection_block = state.blocks[at(lane)];
+            const bool on_connection = slot >= connection_block.first && slot < connection_block.past_last();
+            if (!on_connection)
+                return slot >= 0 && is_at_same_intersection(state, lane, slot) && is_yielding(state, slot);
+            current_lane = lane;
+        } else {
+            --slot;
+        }
+        if (is_yielding(state, slot)) return true;
+    }
+    return false;
+}
+
+namespace {
+
+// Returns the slot of the vehicle that stops at the line of `lane` and holds up the traffic to `connection`; -1: none.
+// If the connection has green, only a vehicle that stops for the signal of another movement holds it up.
+int vehicle_stopping_at_signal(const State& state, int lane, int connection) {
+    const int stopping = state.stop_lines.stop_slot[at(lane)];
+    if (state.stop_lines.lights[at(state.plan.signal_group_for(lane, connection))] != Light::green) return stopping;
+    if (stopping < 0 || !state.plan.lane(lane).has_movement_signals) return -1;
+    const int next = state.vehicles.next_lane[at(stopping)];
+    return state.stop_lines.lights[at(state.plan.signal_group_for(lane, next))] == Light::green ? -1 : stopping;
+}
+
+// A lane from whose start the search goes upstream. The search looks for moving vehicles that will take `connection`
+// from the lane. It reads no decision made for these vehicles in this step.
+struct Upstream {
+    int lane;
+    int connection;
+    double to_area_m;  // from the lane's start to the conflict area
+    int depth;         // lanes searched before this one
+};
+
+void look_upstream(const Model& model, const State& state, const Upstream& here, double horizon_s, Arrival& soonest) {
+    constexpr int kMaxDepth = 3;
+    const VehicleArrays& v = state.vehicles;
+    if (here.depth == kMaxDepth) return;
+    const Turn turn = model.graph.lanes[at(here.connection)].turn;
+    const auto consider = [&](int slot, double distance_m, double limit_mps) {
+        if (v.speed_mps[at(slot)] < kCrawlingSpeed_mps || distance_m > horizon_s * limit_mps) return;
+        const VehicleRecord& record = v.record[at(slot)];
+        // A vehicle that has not drawn its turn yet may take the connection. A vehicle whose trip ends on this lane
+        // does not.
+        const bool unknown = record.trip < 0 && record.following_turn == Turn::none;
+        if (here.depth == 0 && !unknown && record.following_turn != turn) return;
+        const double acceleration_mps2 = model.give_way.approach_acceleration_mps2;
+        soonest.keep_earlier(earliest_arrival_s(distance_m, v.speed_mps[at(slot)], acceleration_mps2, limit_mps), slot);
+    };
+    for (const int upstream_connection : model.connections_to[at(here.lane)]) {
+        const LanePlan& connection = state.plan.lane(upstream_connection);
+        if (here.to_area_m > horizon_s * connection.limit_mps) continue;
+        const LaneBlock& block = state.blocks[at(upstream_connection)];
+        const double limit_mps = state.plan.lane(here.lane).limit_mps;
+        if (block.count > 0) {
+            consider(block.first, here.to_area_m + connection.length_m - v.position_m[at(block.first)], limit_mps);
+            continue;
+        }
+        const double from_m = here.to_area_m + connection.length_m + state.plan.lane(connection.origin).length_m;
+        const LaneBlock& origin_block = state.blocks[at(connection.origin)];
+        for (int slot = origin_block.first; slot < origin_block.past_last(); ++slot) {
+            const double distance_m = from_m - v.position_m[at(slot)];
+            if (distance_m > horizon_s * limit_mps) break;
+            if (v.next_lane[at(slot)] == upstream_connection) {
+                consider(slot, distance_m, limit_mps);
+                break;
+            }
+        }
+        look_upstream(model, state, {connection.origin, upstream_connection, from_m, here.depth + 1}, horizon_s,
+                      soonest);
+    }
+}
+
+}  // namespace
+
+Arrival next_arrival(const Model& model, const State& state, const Conflict& conflict, double horizon_s) {
+    const VehicleArrays& v = state.vehicles;
+    const LanePlan& other = state.plan.lane(conflict.other);
+    const LanePlan& origin = state.plan.lane(other.origin);
+    const double acceleration_mps2 = model.give_way.approach_acceleration_mps2;
+    const int stopping = vehicle_stopping_at_signal(state, other.origin, conflict.other);
+    Arrival soonest;
+    for (const JunctionOccupant& occupant : state.junctions.occupants[at(conflict.other)]) {
+        if (occupant.front_m >= conflict.other_from_m) continue;
+        if (is_yielding_before(state, occupant.slot, conflict.other_from_m) || occupant.slot == stopping ||
+            is_behind_yielding_vehicle(state, conflict.other, occupant)) {
+            return soonest;
+        }
+        const double distance_m = conflict.other_from_m - occupant.front_m;
+        const double in_s =
+            earliest_arrival_s(distance_m, v.speed_mps[at(occupant.slot)], acceleration_mps2, other.limit_mps);
+        soonest.keep_earlier(in_s, occupant.slot);
+    }
+    const LaneBlock& block = state.blocks[at(other.origin)];
+    if (block.count > 0 && (is_blocked_by_leader(state, block.first) || is_yielding(state, block.first)))
+        return soonest;
+    for (int slot = block.first; slot < block.past_last(); ++slot) {
+        const double distance_m = origin.length_m + conflict.other_from_m - v.position_m[at(slot)];
+        if (distance_m > horizon_s * origin.limit_mps) break;
+        if (slot == stopping) break;
+        if (v.position_m[at(slot)] > origin.stop_line_m || v.next_lane[at(slot)] != conflict.other) continue;
+        soonest.keep_earlier(earliest_arrival_s(distance_m, v.speed_mps[at(slot)], acceleration_mps2, other.limit_mps),
+                             slot);
+        return soonest;
+    }
+    look_upstream(model, state, {other.origin, conflict.other, origin.length_m + conflict.other_from_m, 0}, horizon_s,
+                  soonest);
+    return soonest;
+}
+
+}  // namespace stopline

@@ -1,0 +1,72 @@
+// Counts pairs of vehicles from different connections that occupy the same conflict area. Giving way
+// (right_of_way.cpp) must prevent such pairs.
+#include "sim/junction/count_conflicts.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/containers/index.h"
+#include "sim/state/delay_log.h"
+#include "sim/state/events.h"
+
+namespace stopline {
+
+namespace {
+
+// Returns true if the pass-blocker rule lets one of two vehicles in the same area pass the other. Records the rule use
+// in the first step in which both are in the area.
+bool pass_is_allowed(const Model& model, const State& state, Partition& part, int slot_a, int lane_a, int slot_b,
+                     int lane_b) {
+    const std::pair<int, int> pair = std::minmax(state.vehicles.id[at(slot_a)], state.vehicles.id[at(slot_b)]);
+    for (BlockerPass& known : part.blocker_passes) {
+        if (std::pair<int, int>(std::minmax(known.vehicle, known.blocker)) != pair) continue;
+        known.last_needed_tick = state.tick;
+        if (known.begun) return true;
+        known.begun = true;
+        ++part.passed_blockers;
+        part.rule_uses.push_back({RuleUse::Kind::passed_blocker, model.time_s(state.tick), known.vehicle,
+                                  known.vehicle == state.vehicles.id[at(slot_a)] ? lane_a : lane_b, known.blocker,
+                                  model.time_s(known.blocker_stopped_ticks)});
+        return true;
+    }
+    return false;
+}
+
+// Returns the number of vehicle pairs in the conflict area, without the pairs that the pass-blocker rule allows.
+std::int64_t count_pairs(const Model& model, const State& state, Partition& part, int lane, const Conflict& c) {
+    std::int64_t pairs = 0;
+    for (const JunctionOccupant& own : state.junctions.occupants[at(lane)]) {
+        if (own.front_m <= c.from_m || own.rear_m >= c.to_m) continue;
+        for (const JunctionOccupant& other_vehicle : state.junctions.occupants[at(c.other)]) {
+            if (other_vehicle.front_m <= c.other_from_m || other_vehicle.rear_m >= c.other_to_m) continue;
+            if (pass_is_allowed(model, state, part, own.slot, lane, other_vehicle.slot, c.other)) continue;
+            const auto& id = state.vehicles.id;
+            part.violations.record({model.time_s(state.tick), Violation::Kind::conflict, lane, id[at(own.slot)],
+                                    id[at(other_vehicle.slot)]});
+            ++pairs;
+        }
+    }
+    return pairs;
+}
+
+// Returns the number of such pairs in all conflict areas of a lane. Only other lanes with a higher index count, so that
+// each pair is counted once.
+std::int64_t count_conflicts_of_lane(const Model& model, const State& state, Partition& part, int lane) {
+    std::int64_t pairs = 0;
+    for (const Conflict& c : state.plan.conflicts(lane)) {
+        if (c.other > lane && !state.junctions.occupants[at(c.other)].empty())
+            pairs += count_pairs(model, state, part, lane, c);
+    }
+    return pairs;
+}
+
+}  // namespace
+
+void count_conflicts(const Model& model, const State& state, Partition& part) {
+    for (const int lane : part.occupied_connections) {
+        if (state.junctions.occupied.has_any(state.plan.conflicting(lane)))
+            part.violations.conflicts += count_conflicts_of_lane(model, state, part, lane);
+    }
+}
+
+}  // namespace stopline

@@ -1,0 +1,112 @@
+// Lists the vehicles inside intersections. A vehicle is inside from passing the stop
+// line until its rear is on the exit lane.
+#include "sim/junction/occupants.h"
+
+#include <algorithm>
+
+#include "base/containers/index.h"
+#include "base/speed_thresholds.h"
+#include "sim/junction/arrivals.h"
+#include "sim/performance/prefetch.h"
+
+namespace stopline {
+
+namespace {
+
+class OccupantSearch {
+public:
+    OccupantSearch(const State& state, JunctionState& junctions, Partition& part)
+        : state_(state), v_(state.vehicles), junctions_(junctions), part_(part) {}
+
+    // Clears the results of the last step.
+    void clear_lists() {
+        for (const int lane : part_.occupied_connections) {
+            junctions_.occupants[at(lane)].clear();
+            const int bit = state_.plan.lane(lane).bitset_index;
+            if (bit < 0) continue;
+            junctions_.occupied.clear_word_of(at(bit));
+            junctions_.with_stopped.clear_word_of(at(bit));
+        }
+        part_.occupied_connections.clear();
+    }
+
+    // Adds vehicles on an exit lane whose rear is still inside the intersection. Returns false if no rear reaches back.
+    bool add_from_exit(int exit) {
+        const LaneBlock& block = state_.blocks[at(exit)];
+        const auto reaches_back = [&](int slot) { return v_.position_m[at(slot)] < v_.length_m[at(slot)]; };
+        if (block.count == 0 || !reaches_back(block.last())) return false;
+        for (int slot = std::max(block.first, block.past_last() - 2); slot < block.past_last(); ++slot) {
+            if (!reaches_back(slot)) continue;
+            const int from = v_.record[at(slot)].previous_lane;
+            if (from >= 0 && state_.plan.lane(from).exit == exit) {
+                add(from, slot, state_.plan.lane(from).length_m);
+            }
+        }
+        return true;
+    }
+
+    void add_from_connection(int lane) {
+        const LaneBlock& block = state_.blocks[at(lane)];
+        for (int slot = block.first; slot < block.past_last(); ++slot) add(lane, slot, 0.0);
+        if (const int bit = state_.plan.lane(lane).bitset_index; bit >= 0) junctions_.to_decide.set(at(bit));
+        state_.plan.prefetch_conflicts(lane);
+    }
+
+    // Adds vehicles on an approach lane whose front has passed the stop line.
+    void add_from_approach(int lane) {
+        const LaneBlock& block = state_.blocks[at(lane)];
+        const LanePlan& plan = state_.plan.lane(lane);
+        for (int slot = block.first; slot < block.past_last(); ++slot) {
+            if (v_.position_m[at(slot)] <= plan.stop_line_m) break;
+            const int next = v_.next_lane[at(slot)];
+            if (next >= 0 && state_.plan.lane(next).origin == lane) add(next, slot, -plan.length_m);
+        }
+    }
+
+    void update_bitsets() {
+        for (const int lane : part_.occupied_connections) {
+            const std::vector<JunctionOccupant>& occupants_of_lane = junctions_.occupants[at(lane)];
+            part_.longest_in_junction =
+                std::max(part_.longest_in_junction, state_.tick - occupants_of_lane.front().since);
+            const int bit = state_.plan.lane(lane).bitset_index;
+            if (bit < 0) continue;
+            junctions_.occupied.set(at(bit));
+            const auto is_slow = [&](const JunctionOccupant& occupant) {
+                return v_.speed_mps[at(occupant.slot)] < kCrawlingSpeed_mps;
+            };
+            if (std::any_of(occupants_of_lane.begin(), occupants_of_lane.end(), is_slow))
+                junctions_.with_stopped.set(at(bit));
+        }
+    }
+
+private:
+    void add(int lane, int slot, double offset_m) {
+        std::vector<JunctionOccupant>& occupants_of_lane = junctions_.occupants[at(lane)];
+        if (occupants_of_lane.empty()) part_.occupied_connections.push_back(lane);
+        const double front_m = v_.position_m[at(slot)] + offset_m;
+        occupants_of_lane.push_back(
+            {slot, front_m, front_m - v_.length_m[at(slot)], v_.record[at(slot)].junction_entry_tick});
+    }
+
+    const State& state_;
+    const VehicleArrays& v_;
+    JunctionState& junctions_;
+    Partition& part_;
+};
+
+}  // namespace
+
+void find_junction_occupants(const State& state, JunctionState& junctions, Partition& part) {
+    OccupantSearch search(state, junctions, part);
+    search.clear_lists();
+    // This order of the searches lists the occupants of each connection from the front.
+    part.exit_candidates.retain_if([&](std::size_t place) {
+        advance_prefetch(state, part.prefetch);
+        return search.add_from_exit(part.exits[place]);
+    });
+    for (const int lane : part.awake_connections) search.add_from_connection(lane);
+    for (const int lane : part.awake_approaches) search.add_from_approach(lane);
+    search.update_bitsets();
+}
+
+}  // namespace stopline

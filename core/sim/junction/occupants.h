@@ -1,0 +1,11 @@
+// The vehicles inside intersections.
+#pragma once
+
+#include "sim/state/state.h"
+
+namespace stopline {
+
+// Lists the occupants of each connection of a partition and updates the bitsets.
+void find_junction_occupants(const State& state, JunctionState& junctions, Partition& part);
+
+}  // namespace stopline

@@ -1,0 +1,366 @@
+// Decides which vehicle stops at each stop line, for its signal or under the keep-clear rule.
+#include "sim/junction/stop_lines.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/containers/index.h"
+#include "base/simd/arithmetic.h"
+#include "base/speed_thresholds.h"
+#include "sim/junction/arrivals.h"
+#include "sim/performance/prefetch.h"
+#include "sim/state/delay_log.h"
+#include "sim/state/queries/lane_end.h"
+#include "sim/state/queries/stopping_distance.h"
+
+namespace stopline {
+
+namespace {
+
+// Returns true if braking with `deceleration_mps2` stops the vehicle before the line. The braking begins late: after
+// the brake lag and the time in which the limited jerk changes the request. Until then the vehicle keeps accelerating.
+bool can_stop(const Model& model, const VehicleArrays& v, int slot, double line_m, double deceleration_mps2) {
+    const double speed = v.speed_mps[at(slot)];
+    const double lag_s = model.vehicles[at(v.type[at(slot)])].brake_lag_s;
+    const double present_mps2 = std::max(static_cast<double>(v.acceleration_mps2[at(slot)]), 0.0);
+    const double delay_s = lag_s + 0.5 * (present_mps2 + deceleration_mps2) / model.driver.cacc.jerk_down_mps3;
+    const double room_m = line_m - v.position_m[at(slot)] - speed * delay_s;
+    return square(speed + present_mps2 * delay_s) <= 2.0 * deceleration_mps2 * room_m;
+}
+
+// Returns the deceleration that drivers use to stop for a signal: a limited one on yellow, all that the brakes give on
+// red.
+double stopping_deceleration_mps2(const Model& model, Light light) {
+    return light == Light::yellow ? model.driver.stop.decision_deceleration_mps2
+                                  : model.driver.cacc.deceleration_emergency_mps2;
+}
+
+// Returns true if stopping takes more than 90 % of the maximum braking, so that the vehicle may overrun the line.
+// Downshifts can cost up to a tenth of the braking, which can_stop() ignores. The mesoscale mode has no gears.
+bool may_overrun_line(const Model& model, const VehicleArrays& v, int slot, double line_m, Light light) {
+    constexpr double kReliableShare = 0.9;
+    const double reliable_mps2 = kReliableShare * model.driver.cacc.deceleration_emergency_mps2;
+    if (model.meso || stopping_deceleration_mps2(model, light) <= reliable_mps2) return false;
+    return !can_stop(model, v, slot, line_m, reliable_mps2);
+}
+
+// Returns the slot of the vehicle with this id on a lane; -1: none.
+int slot_of(const VehicleArrays& v, const LaneBlock& block, int id) {
+    for (int slot = block.first; slot < block.past_last(); ++slot) {
+        if (v.id[at(slot)] == id) return slot;
+    }
+    return -1;
+}
+
+// Returns the slot of the first vehicle that can stop before the line; -1: none.
+int choose_stopper(const Model& model, const State& state, const LaneBlock& block, double line_m, Light light) {
+    const double deceleration_mps2 = stopping_deceleration_mps2(model, light);
+    for (int slot = block.first; slot < block.past_last(); ++slot) {
+        if (is_on_last_edge(state, slot)) continue;
+        if (can_stop(model, state.vehicles, slot, line_m, deceleration_mps2)) return slot;
+    }
+    return -1;
+}
+
+// Returns true if vehicles may pass the stop line.
+bool line_is_open(const Model& model, const State& state, int signal_group, const StopLineState& line) {
+    if (state.stop_lines.lights[at(signal_group)] != Light::green) return false;
+    // A vehicle that is stopped at the line hesitates at the start of green.
+    return line.stopping_vehicle < 0 ||
+           state.tick >= model.signals[at(signal_group)].light_start_tick(state.tick) + model.hesitation_ticks;
+}
+
+double space_needed_m(const VehicleArrays& v, int slot) {
+    return static_cast<double>(v.length_m[at(slot)]) + static_cast<double>(v.standstill_gap_m[at(slot)]);
+}
+
+// Returns the slot of the first vehicle that can stop and whose own signal is not green; -1: none. For lanes whose
+// movements have separate signals.
+int choose_stopper_per_movement(const Model& model, const State& state, int index, const StopLineState& line) {
+    const LaneBlock& block = state.blocks[at(index)];
+    const VehicleArrays& v = state.vehicles;
+    for (int slot = block.first; slot < block.past_last(); ++slot) {
+        if (is_on_last_edge(state, slot)) continue;
+        const int group = state.plan.signal_group_for(index, v.next_lane[at(slot)]);
+        const Light light = state.stop_lines.lights[at(group)];
+        const bool is_stopping = line.stopping_vehicle == v.id[at(slot)];
+        const bool hesitates =
+            is_stopping && state.tick < model.signals[at(group)].light_start_tick(state.tick) + model.hesitation_ticks;
+        if (light == Light::green && !hesitates) continue;
+        const double line_m = state.plan.lane(index).stop_line_m;
+        if (is_stopping || can_stop(model, v, slot, line_m, stopping_deceleration_mps2(model, light))) return slot;
+    }
+    return -1;
+}
+
+// Returns true if the signal at the lane's end is not green for the last vehicle. All vehicles of the lane will then
+// stop.
+bool queue_ends_at_red(const Model& model, const State& state, int lane) {
+    const LanePlan& plan = state.plan.lane(lane);
+    if (!model.rules.count_queue_at_red_exit || plan.signal_group < 0) return false;
+    const int next = plan.has_movement_signals ? state.vehicles.next_lane[at(state.blocks[at(lane)].last())] : -1;
+    return state.stop_lines.lights[at(state.plan.signal_group_for(lane, next))] != Light::green;
+}
+
+// Returns true if a vehicle on the lane is slower than kCrawlingSpeed_mps.
+bool has_slow_vehicle(const State& state, const LaneBlock& block) {
+    const std::span<const double> speeds_mps(state.vehicles.speed_mps.data(), at(state.vehicles.slots));
+    bool found = false;
+    for (const double mps : speeds_mps.subspan(at(block.first), at(block.count))) found |= mps < kCrawlingSpeed_mps;
+    return found;
+}
+
+// Returns the free room in an exit lane. The first call in a step computes it.
+const ExitRoom& exit_room(const Model& model, State& state, int exit) {
+    const VehicleArrays& v = state.vehicles;
+    ExitRoom& room = state.stop_lines.exit_rooms[at(exit)];
+    if (room.tick == state.tick) return room;
+    room = {state.tick, 1e9, -1};
+    const LaneBlock& block = state.blocks[at(exit)];
+    if (block.count == 0) return room;
+    const double line_m = state.plan.lane(exit).next_limit_m;  // stop line, or end of the lane
+    const bool ends_at_red = line_m <= model.rules.sight_m && queue_ends_at_red(model, state, exit);
+    if (!ends_at_red && !has_slow_vehicle(state, block)) return room;
+    double moving_m = 0.0;   // space that moving vehicles need when they stop
+    double leaving_m = 0.0;  // part of moving_m that belongs to vehicles past the stop line
+    for (int slot = block.last(); slot >= block.first; --slot) {
+        const double rear_m = v.position_m[at(slot)] - static_cast<double>(v.length_m[at(slot)]);
+        if (rear_m > model.rules.sight_m) return room;
+        if (v.speed_mps[at(slot)] < kCrawlingSpeed_mps) {
+            room.stopped_slot = slot;
+            room.room_m = rear_m - moving_m;
+            break;
+        }
+        moving_m += space_needed_m(v, slot);
+        if (v.position_m[at(slot)] > line_m) leaving_m += space_needed_m(v, slot);
+    }
+    if (room.stopped_slot < 0 && ends_at_red) {
+        room.stopped_slot = block.last();
+        room.room_m = line_m - model.driver.stop.margin_m - (moving_m - leaving_m);
+    }
+    if (room.stopped_slot < 0) return room;
+    for (const int other : model.connections_to[at(exit)]) {
+        const LaneBlock& inner = state.blocks[at(other)];
+        for (int slot = inner.first; slot < inner.past_last(); ++slot) room.room_m -= space_needed_m(v, slot);
+    }
+    return room;
+}
+
+// Returns the slot of a stopped vehicle from a crossing street that blocks this connection and may not be passed; -1:
+// none.
+int crossing_blocker(const Model& model, const State& state, int connection) {
+    if (!state.junctions.with_stopped.has_any(state.plan.conflicting(connection))) return -1;
+    const VehicleArrays& v = state.vehicles;
+    const std::int64_t pass_after_ticks = model.rules.pass_blocker_ticks;
+    for (const Conflict& c : state.plan.conflicts(connection)) {
+        if (c.yields || c.other_yields) continue;
+        for (const JunctionOccupant& occupant : state.junctions.occupants[at(c.other)]) {
+            if (occupant.front_m <= c.other_from_m || occupant.rear_m >= c.other_to_m ||
+                v.speed_mps[at(occupant.slot)] >= kCrawlingSpeed_mps)
+                continue;
+            if (pass_after_ticks > 0 && state.tick - v.stopped_since[at(occupant.slot)] >= pass_after_ticks) continue;
+            return occupant.slot;
+        }
+    }
+    return -1;
+}
+
+// Keep-clear state of one connection from the stop line.
+struct ConnectionState {
+    int connection;
+    int stopped_in_exit;  // see ExitRoom
+    int crossing_slot;    // slot of a stopped vehicle that blocks the connection; -1: none
+    double room_m;        // free room in the exit lane
+    bool is_free;         // no crossing blocker, and room for all vehicles of the lane
+};
+
+// Keep-clear states of the connections that vehicles of one lane take. Each is evaluated on first use.
+class ConnectionStates {
+public:
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): states_ is written before it is read
+    ConnectionStates(const Model& model, State& state, int vehicles)
+        : model_(model), state_(state), ample_room_m_(vehicles * state.plan.max_space_per_vehicle_m() + kRounding_m) {}
+
+    // Returns nullptr if the keep-clear rule does not apply to the connection.
+    ConnectionState* state_of(int connection) {
+        if (last_ != nullptr && last_->connection == connection) return last_;
+        return last_ = find(connection);
+    }
+
+private:
+    ConnectionState* find(int connection) {
+        for (std::size_t k = 0; k < count_; ++k) {
+            if (states_[k].connection == connection) return &states_[k];
+        }
+        if (connection < 0 || count_ == states_.size()) return nullptr;
+        const LanePlan& plan = state_.plan.lane(connection);
+        if (plan.exit < 0 || !plan.keep_clear) return nullptr;
+        const ExitRoom& room = exit_room(model_, state_, plan.exit);
+        const int crossing_slot = crossing_blocker(model_, state_, connection);
+        states_[count_] = {connection, room.stopped_slot, crossing_slot, room.room_m,
+                           crossing_slot < 0 && room.room_m >= ample_room_m_};
+        return &states_[count_++];
+    }
+
+    static constexpr double kRounding_m = 1e-3;
+
+    const Model& model_;
+    State& state_;
+    double ample_room_m_;                     // room that suffices for all vehicles of the lane
+    std::array<ConnectionState, 16> states_;  // not initialised, to save time in every step
+    std::size_t count_ = 0;
+    ConnectionState* last_ = nullptr;  // most vehicles take the connection of their leader
+};
+
+// Returns true if the keep-clear rule can still hold the vehicle before the line by comfortable braking. Drivers begin
+// to brake late (`stop.deceleration`), so a vehicle that does not brake yet must count as able to stop. In the
+// mesoscale mode brakes have no lag, and the vehicle counts as able to stop until it is close to the line.
+bool can_hold_for_keep_clear(const Model& model, const VehicleArrays& v, int slot, double line_m) {
+    constexpr double kLagFactor = 1.4;  // the brake lag makes the final braking this much harder than its start
+    const CaccSettings& cacc = model.driver.cacc;
+    const double final_mps2 =
+        std::min(kLagFactor * model.driver.stop.deceleration_mps2, cacc.deceleration_emergency_mps2);
+    if (final_mps2 <= cacc.deceleration_comfort_mps2) {
+        return can_stop(model, v, slot, line_m, cacc.deceleration_comfort_mps2);
+    }
+    if (!model.meso) return can_stop(model, v, slot, line_m, final_mps2);
+    return square(v.speed_mps[at(slot)]) <= 2.0 * final_mps2 * (line_m - v.position_m[at(slot)]);
+}
+
+// Returns the slot of the first vehicle that the keep-clear rule holds before the line; -1: none. Its exit lane has no
+// room, or a stopped vehicle blocks its connection.
+int choose_keep_clear_stop(const Model& model, State& state, int index) {
+    constexpr double kDecisionDistance_m = 80.0;  // distance before the stop line
+    const VehicleArrays& v = state.vehicles;
+    const double line_m = state.plan.lane(index).stop_line_m;
+    const LaneBlock& block = state.blocks[at(index)];
+    ConnectionStates connections(model, state, block.count);
+    for (int slot = block.first; slot < block.past_last(); ++slot) {
+        if (v.position_m[at(slot)] < line_m - kDecisionDistance_m) break;
+        ConnectionState* const next = connections.state_of(v.next_lane[at(slot)]);
+        if (next == nullptr || next->is_free) continue;
+        next->room_m -= space_needed_m(v, slot);
+        if ((next->room_m >= 0.0 && next->crossing_slot < 0) || v.position_m[at(slot)] > line_m) continue;
+        if (!can_hold_for_keep_clear(model, v, slot, line_m)) continue;
+        state.stop_lines.held_at_green[at(index)] = next->crossing_slot >= 0
+                                                        ? KeepClearHold{next->crossing_slot, false}
+                                                        : KeepClearHold{next->stopped_in_exit, true};
+        return slot;
+    }
+    return -1;
+}
+
+// Records the rule use when the keep-clear rule begins to hold a vehicle.
+void record_keep_clear_use(const Model& model, const State& state, Partition& part, int index, int slot,
+                           StopLineState& line) {
+    const VehicleArrays& v = state.vehicles;
+    const int id = slot < 0 ? -1 : v.id[at(slot)];
+    if (id >= 0 && id != line.keep_clear_vehicle && model.rules.watches()) {
+        const int blocker = state.stop_lines.held_at_green[at(index)].blocker;
+        const std::int64_t stood = blocker < 0 ? 0 : state.tick - v.stopped_since[at(blocker)];
+        part.rule_uses.push_back({RuleUse::Kind::keep_clear, model.time_s(state.tick), id, index,
+                                  blocker < 0 ? -1 : v.id[at(blocker)], model.time_s(stood)});
+    }
+    line.keep_clear_vehicle = id;
+}
+
+// Stores which vehicle stops at the line for its signal, and whether it may overrun the line. `slot` -1: none.
+void set_stopper(const Model& model, const State& state, int index, int slot, StopLineState& line) {
+    const VehicleArrays& v = state.vehicles;
+    const int id = slot < 0 ? -1 : v.id[at(slot)];
+    if (id >= 0 && id != line.stopping_vehicle) {
+        const Light light = state.stop_lines.lights[at(state.plan.signal_group_for(index, v.next_lane[at(slot)]))];
+        line.may_overrun = may_overrun_line(model, v, slot, state.plan.lane(index).stop_line_m, light);
+    }
+    line.stopping_vehicle = id;
+}
+
+// Makes the stopping vehicle the platoon leader of the next green. If it stands past the line, it counts as entering
+// the intersection only now. Before the line its entry tick must not change: its rear may still be in the previous
+// intersection, which another thread reads.
+void make_platoon_leader(State& state, const LanePlan& lane, int slot) {
+    state.vehicles.is_platoon_leader[at(slot)] = 1.0F;
+    if (state.vehicles.position_m[at(slot)] > lane.stop_line_m) {
+        state.vehicles.record[at(slot)].junction_entry_tick = static_cast<int>(state.tick);
+    }
+}
+
+// Lists the vehicles of an approach lane that will not stop at the line and are near a conflict area.
+void list_approaching(const Model& model, State& state, int index) {
+    constexpr double kLookBack_m = 60.0;           // covers a comfortable stop from 50 km/h
+    constexpr double kFastRoadLookBack_m = 160.0;  // for the faster roads of imported networks
+    const bool has_trips = !model.demand.trips.empty();
+    const double look_back_m = has_trips ? kFastRoadLookBack_m : kLookBack_m;
+    const VehicleArrays& v = state.vehicles;
+    const double length_m = state.plan.lane(index).length_m;
+    const LaneBlock& block = state.blocks[at(index)];
+    for (int slot = block.first; slot < block.past_last(); ++slot) {
+        const double to_end_m = length_m - v.position_m[at(slot)];
+        if (to_end_m > look_back_m || slot == state.stop_lines.stop_slot[at(index)]) break;
+        const int next = v.next_lane[at(slot)];
+        if (next < 0) continue;
+        const LanePlan& connection_plan = state.plan.lane(next);
+        if (connection_plan.origin != index || connection_plan.bitset_index < 0) continue;
+        // A vehicle with priority needs no decision while all conflicting connections are empty. In imported networks
+        // it may still have to wait for a vehicle that comes too fast to yield.
+        if (!has_trips && !connection_plan.yields && !state.junctions.occupied.has_any(state.plan.conflicting(next)))
+            continue;
+        double to_area_m = to_end_m + connection_plan.first_conflict_m - model.give_way.margin_m;
+        if (!state.plan.may_wait_inside(next)) {
+            const double line_m = state.plan.lane(index).stop_line_m - model.driver.stop.margin_m;
+            to_area_m = std::min(to_area_m, line_m - v.position_m[at(slot)]);
+        }
+        const bool is_far = to_area_m > decision_distance_m(model, v.speed_mps[at(slot)]);
+        if (is_far && !(connection_plan.yields && v.record[at(slot)].accepted_gap_on == next)) continue;
+        state.junctions.approaching[at(next)].push_back(slot);
+        if (!state.junctions.to_decide.has(at(connection_plan.bitset_index))) state.plan.prefetch_conflicts(next);
+        state.junctions.to_decide.set(at(connection_plan.bitset_index));
+    }
+}
+
+}  // namespace
+
+void update_signals(const Model& model, std::int64_t tick, StopLines& stop_lines) {
+    for (std::size_t group = 0; group < model.signals.size(); ++group) {
+        stop_lines.lights[group] = model.signals[group].light(tick);
+    }
+}
+
+void decide_stop_lines(const Model& model, State& state, Partition& part) {
+    for (const int index : part.awake_approaches) {
+        advance_prefetch(state, part.prefetch);
+        const LanePlan& lane = state.plan.lane(index);
+        state.stop_lines.held_at_green[at(index)] = {};
+        StopLineState& line = state.stop_lines.lines[at(index)];
+        const LaneBlock& block = state.blocks[at(index)];
+        int stop_slot = -1;
+        int held_slot = -1;
+        if (lane.has_movement_signals) {
+            stop_slot = choose_stopper_per_movement(model, state, index, line);
+            set_stopper(model, state, index, stop_slot, line);
+            if (stop_slot >= 0) {
+                make_platoon_leader(state, lane, stop_slot);
+            } else if (model.rules.keep_clear) {
+                stop_slot = held_slot = choose_keep_clear_stop(model, state, index);
+            }
+        } else if (line_is_open(model, state, lane.signal_group, line)) {
+            line.stopping_vehicle = -1;
+            if (model.rules.keep_clear) stop_slot = held_slot = choose_keep_clear_stop(model, state, index);
+        } else {
+            if (line.stopping_vehicle >= 0) stop_slot = slot_of(state.vehicles, block, line.stopping_vehicle);
+            if (stop_slot < 0) {
+                stop_slot = choose_stopper(model, state, block, lane.stop_line_m,
+                                           state.stop_lines.lights[at(lane.signal_group)]);
+            }
+            set_stopper(model, state, index, stop_slot, line);
+            if (stop_slot >= 0) make_platoon_leader(state, lane, stop_slot);
+        }
+        if (held_slot >= 0 || line.keep_clear_vehicle >= 0)
+            record_keep_clear_use(model, state, part, index, held_slot, line);
+        state.stop_lines.stop_slot[at(index)] = stop_slot;
+        list_approaching(model, state, index);
+    }
+}
+
+}  // namespace stopline

@@ -1,0 +1,146 @@
+// Speed adaptation for mandatory lane changes. Near the stop line a vehicle aligns its speed with a gap in the target
+// lane, and finally waits for one before the line.
+#include "sim/lane_change/gap_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/containers/index.h"
+#include "driver/krauss.h"
+#include "sim/lane_change/lane_change.h"
+#include "sim/perception/lane_gaps.h"
+#include "sim/state/queries/desired_gap.h"
+#include "sim/state/queries/stopping_distance.h"
+
+namespace stopline {
+
+namespace {
+
+// A vehicle that falls back behind another one is this much slower than it.
+constexpr double kFallBack_mps = 3.0;
+constexpr double kMinSpeed_mps = 1.0;
+constexpr double kTargetGapFactor = 1.1;   // aims for 110 % of the required gap, because the approach is asymptotic
+constexpr double kDroppingBack_mps = 0.5;  // a follower that is slower by more than this falls back by itself
+
+class GapSearch {
+public:
+    GapSearch(const Model& model, State& state, Partition& part, int lane)
+        : model_(model), state_(state), v_(state.vehicles), part_(part), lane_(lane) {}
+
+    void search() {
+        const LaneBlock& block = state_.blocks[at(lane_)];
+        for (int slot = block.first; slot < block.past_last(); ++slot) {
+            if (v_.next_lane[at(slot)] >= 0 && v_.record[at(slot)].following_turn == Turn::none) continue;
+            const LaneChangeRequest me = lane_change_request(model_, state_, lane_, slot);
+            if (me.to_line_m < -model_.driver.stop.margin_m) continue;
+            const double urgent_m = model_.lane_change.urgent_m;
+            if (me.lane_changes != 0 && me.to_line_m < urgent_m * std::abs(me.lane_changes)) {
+                add_stop(me);
+                align_with_gap(me, me.lane_changes, me.to_line_m);
+            } else if (me.preferred_offset != 0 && me.to_next_line_m < urgent_m * std::abs(me.preferred_offset)) {
+                align_with_gap(me, me.preferred_offset, me.to_next_line_m);
+            }
+        }
+    }
+
+private:
+    void add_stop(const LaneChangeRequest& me) {
+        const double place_m = waiting_position_m(model_, state_, me);
+        if (place_m - me.front_m > decision_distance_m(model_, me.speed_mps)) return;
+        add_yield_stop(state_.junctions, part_, lane_, {me.slot, place_m, -1, false});
+    }
+
+    // Returns the speed at which a vehicle reaches the required gap behind `ahead`. It falls no more than kFallBack_mps
+    // below the speed of `ahead`.
+    double gap_reaching_speed_mps(const Neighbour& ahead, int policy, double speed_mps) const {
+        const double braking_mps2 = model_.driver.stop.deceleration_mps2;
+        const double share = kTargetGapFactor * model_.lane_change.gap_share;
+        const double spare_gap_m =
+            ahead.gap_m - share * desired_gap_m(model_, policy, std::min(speed_mps, ahead.speed_mps));
+        return std::max(braking_speed_mps(braking_mps2, kLandingTime_s, spare_gap_m, ahead.speed_mps),
+                        ahead.speed_mps - kFallBack_mps);
+    }
+
+    // Returns true if the vehicle in `slot` on the other lane wants to change to this lane. Of two vehicles that want
+    // to swap lanes, the one behind falls back.
+    bool wants_to_swap(int other, int slot, const LaneChangeRequest& me) const {
+        const LaneBlock& block = state_.blocks[at(other)];
+        if (slot < block.first || slot >= block.past_last()) return false;
+        return me.lane_changes * lane_change_request(model_, state_, other, slot).lane_changes < 0;
+    }
+
+    bool must_let_pass(int other, const Neighbour& behind, const LaneChangeRequest& me, double to_line_m) const {
+        if (behind.slot < 0 || behind.speed_mps + kDroppingBack_mps < me.speed_mps) return false;
+        const double share = urgent_share(model_, to_line_m);
+        const double needed_m = required_gap_m(model_, behind.policy, behind.speed_mps, me.speed_mps, share);
+        return behind.gap_m < needed_m && !wants_to_swap(other, behind.slot, me);
+    }
+
+    // Returns true if the follower may open the gap: it is on the other lane itself, and comfortable braking to this
+    // vehicle's speed suffices.
+    bool can_open_gap(int other, const Neighbour& behind, const LaneChangeRequest& me) const {
+        const LaneBlock& block = state_.blocks[at(other)];
+        const double braking_m =
+            braking_distance_m(behind.speed_mps, me.speed_mps, model_.driver.stop.deceleration_mps2);
+        return model_.lane_change.gap_opening == "on" && behind.slot >= block.first &&
+               behind.slot < block.past_last() && std::max(behind.gap_m, 0.0) >= braking_m;
+    }
+
+    // Aligns the speed with a gap in the adjacent lane, or asks the follower there to open one. `changes`: signed as
+    // TurnOption::lane_changes. `to_line_m`: distance to the stop line before which they must be done.
+    void align_with_gap(const LaneChangeRequest& me, int changes, double to_line_m) {
+        const AdjacentLanes& adjacent = state_.plan.adjacent(lane_);
+        const int other = changes < 0 ? adjacent.left : adjacent.right;
+        if (other < 0) return;
+        const double there_m = adjacent_position_m(state_, lane_, me.front_m, other);
+        if (there_m < me.length_m) return;
+        const LaneNeighbours there = neighbours_at(model_, state_, other, there_m, me.length_m, route_from(other, me));
+        double target_mps = kUnlimitedSpeed_mps;
+        // Beside a standing queue the vehicle drives on.
+        if (there.leader.slot >= 0 && there.leader.speed_mps > kFallBack_mps) {
+            target_mps = gap_reaching_speed_mps(there.leader, me.policy, me.speed_mps);
+        }
+        const Neighbour& behind = there.follower;
+        if (must_let_pass(other, behind, me, to_line_m)) {
+            if (can_open_gap(other, behind, me)) {
+                const Neighbour mine{me.slot, behind.gap_m, me.speed_mps, me.policy};
+                add_alignment(other,
+                              {behind.slot,
+                               std::max(gap_reaching_speed_mps(mine, behind.policy, behind.speed_mps), kMinSpeed_mps)});
+            } else {
+                target_mps = std::min(target_mps, std::max(behind.speed_mps - kFallBack_mps, kMinSpeed_mps));
+            }
+        }
+        if (target_mps < me.speed_mps + 1.0) add_alignment(lane_, {me.slot, target_mps});
+    }
+
+    int route_from(int other, const LaneChangeRequest& me) const {
+        return state_.plan.adjacent(other).turn_option(me.turn).route;
+    }
+
+    void add_alignment(int lane, const GapAlignment& alignment) {
+        std::vector<GapAlignment>& alignments = state_.gap_alignments[at(lane)];
+        if (alignments.empty()) part_.lanes_with_alignments.push_back(lane);
+        alignments.push_back(alignment);
+        state_.queues.standing[at(lane)].last_external_tick = state_.tick;
+    }
+
+    const Model& model_;
+    State& state_;
+    const VehicleArrays& v_;
+    Partition& part_;
+    int lane_;
+};
+
+}  // namespace
+
+void prepare_lane_changes(const Model& model, State& state, Partition& part) {
+    if (state.plan.lanes_with_neighbours().empty()) return;
+    for (const int lane : part.lanes_with_alignments) state.gap_alignments[at(lane)].clear();
+    part.lanes_with_alignments.clear();
+    for (const int lane : part.occupied) {
+        if (state.plan.adjacent(lane).has_neighbours()) GapSearch(model, state, part, lane).search();
+    }
+}
+
+}  // namespace stopline

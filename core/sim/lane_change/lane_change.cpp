@@ -1,0 +1,302 @@
+#include "sim/lane_change/lane_change.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/containers/index.h"
+#include "base/simd/arithmetic.h"
+#include "sim/lane_change/route_choice.h"
+#include "sim/perception/lane_gaps.h"
+#include "sim/perception/look_ahead.h"
+#include "sim/perception/reset_leader.h"
+#include "sim/state/lane_blocks.h"
+#include "sim/state/queries/desired_gap.h"
+#include "sim/state/queries/stopping_distance.h"
+#include "sim/state/state.h"
+
+namespace stopline {
+
+namespace {
+
+constexpr double kDecisionInterval_s = 0.5;  // interval at which each vehicle decides
+constexpr double kMinInterval_s = 2.0;       // minimum time between two changes, about the duration of one
+// Within this time a vehicle does not return to its last lane for speed. Own choice: adjacent queues may move in turn.
+constexpr double kReturnPause_s = 30.0;
+
+// Returns the acceleration of the intelligent driver model (Treiber, Hennecke, Helbing 2000). The policy's gap replaces
+// s_0 + v T.
+double idm_mps2(const Model& model, int policy, double speed_mps, double limit_mps, double gap_m, double ahead_mps) {
+    const LaneChangeSettings& c = model.lane_change;
+    constexpr double kNoLeader_m = 1e5;
+    constexpr double kMinAcceleration_mps2 = -9.0;
+    const double free = 1.0 - square(square(speed_mps / limit_mps));
+    if (gap_m > kNoLeader_m) return c.acceleration_mps2 * free;
+    const double closing_gap_m =
+        0.5 * speed_mps * (speed_mps - ahead_mps) / std::sqrt(c.acceleration_mps2 * c.deceleration_mps2);
+    const double wanted_m = std::max(desired_gap_m(model, policy, speed_mps) + closing_gap_m, 0.0);
+    return std::max(c.acceleration_mps2 * (free - square(wanted_m / std::max(gap_m, 0.1))), kMinAcceleration_mps2);
+}
+
+double follower_mps2(const Model& model, const Neighbour& follower, double limit_mps, double gap_m, double ahead_mps) {
+    return idm_mps2(model, follower.policy, follower.speed_mps, limit_mps, gap_m, ahead_mps);
+}
+
+// Returns the MOBIL incentive for a change of `me` to another lane, m/s2.
+double incentive_mps2(const Model& model, const State& state, const LaneChangeRequest& me, const LaneNeighbours& here,
+                      const LaneNeighbours& there, bool to_the_right) {
+    const LaneChangeSettings& c = model.lane_change;
+    const double limit_mps = state.plan.free_speed_mps(me.lane);
+    const auto own = [&](const Neighbour& ahead) {
+        return idm_mps2(model, me.policy, me.speed_mps, limit_mps, ahead.gap_m, ahead.speed_mps);
+    };
+    double gain = own(there.leader) - own(here.leader) + (to_the_right ? c.keep_right_mps2 : -c.keep_right_mps2);
+    if (c.politeness == 0.0) return gain;
+    if (there.follower.slot >= 0) {
+        const double joined_gap_m = there.follower.gap_m + me.length_m + there.leader.gap_m;
+        gain += c.politeness * (follower_mps2(model, there.follower, limit_mps, there.follower.gap_m, me.speed_mps) -
+                                follower_mps2(model, there.follower, limit_mps, joined_gap_m, there.leader.speed_mps));
+    }
+    if (here.follower.slot >= 0) {
+        const double joined_gap_m = here.follower.gap_m + me.length_m + here.leader.gap_m;
+        gain += c.politeness * (follower_mps2(model, here.follower, limit_mps, joined_gap_m, here.leader.speed_mps) -
+                                follower_mps2(model, here.follower, limit_mps, here.follower.gap_m, me.speed_mps));
+    }
+    return gain;
+}
+
+bool gaps_suffice(const Model& model, const LaneChangeRequest& me, const LaneNeighbours& there, double share) {
+    constexpr double kMinGap_m = 1.0;
+    const auto suffices = [&](const Neighbour& other, double needed_m) {
+        return other.slot < 0 || other.gap_m >= std::max(needed_m, kMinGap_m);
+    };
+    return suffices(there.leader, required_gap_m(model, me.policy, me.speed_mps, there.leader.speed_mps, share)) &&
+           suffices(there.follower,
+                    required_gap_m(model, there.follower.policy, there.follower.speed_mps, me.speed_mps, share));
+}
+
+// Returns the lane changes that remain behind the intersection if the vehicle takes `turn` from `lane`. They count for
+// the following turn, or for the rest of a trip. Returns kMany if the lane does not allow the turn.
+int changes_after(const State& state, int lane, Turn turn, const VehicleRecord& vehicle) {
+    constexpr int kMany = 100;
+    const int route = state.plan.adjacent(lane).turn_option(turn).route;
+    if (route < 0) return kMany;
+    if (vehicle.trip >= 0) return state.plan.lane_changes_after(vehicle.trip, vehicle.trip_edge, lane);
+    const Turn following = vehicle.following_turn;
+    return following == Turn::none
+               ? 0
+               : std::abs(state.plan.adjacent(state.plan.route(route).back()).turn_option(following).lane_changes);
+}
+
+// Returns the offset to the nearest lane from which the fewest changes remain behind the intersection, signed as
+// TurnOption::lane_changes. All lanes up to that lane allow the turn.
+int find_preferred_offset(const State& state, int lane, Turn turn, const VehicleRecord& vehicle) {
+    int fewest = changes_after(state, lane, turn, vehicle);
+    int offset = 0;
+    int distance = 0;
+    for (int other = state.plan.adjacent(lane).right; other >= 0; other = state.plan.adjacent(other).right) {
+        const int changes = changes_after(state, other, turn, vehicle);
+        if (state.plan.adjacent(other).turn_option(turn).route < 0) break;
+        ++distance;
+        if (changes >= fewest) continue;
+        fewest = changes;
+        offset = distance;
+    }
+    distance = 0;
+    for (int other = state.plan.adjacent(lane).left; other >= 0; other = state.plan.adjacent(other).left) {
+        const int changes = changes_after(state, other, turn, vehicle);
+        if (state.plan.adjacent(other).turn_option(turn).route < 0) break;
+        --distance;
+        if (changes > fewest || (changes == fewest && -distance >= offset)) continue;
+        fewest = changes;
+        offset = distance;
+    }
+    return offset;
+}
+
+// Returns true if the whole vehicle fits on both lanes and it can still stop before the stop line.
+bool can_move_beside(const Model& model, const LaneChangeRequest& me, double front_there_m) {
+    return me.front_m >= me.length_m && front_there_m >= me.length_m &&
+           me.to_line_m + model.driver.stop.margin_m >= lane_change_stopping_distance_m(model, me.speed_mps);
+}
+
+class LaneChangeDecision {
+public:
+    LaneChangeDecision(const Model& model, State& state, int lane, int slot)
+        : model_(model),
+          state_(state),
+          me_(lane_change_request(model, state, lane, slot)),
+          since_change_s_(time_since_change_s(slot)) {}
+
+    // Changes lanes if the vehicle wants to and can. Returns true if it has left the lane.
+    bool execute() {
+        const AdjacentLanes& adjacent = state_.plan.adjacent(me_.lane);
+        if (me_.lane_changes != 0 && me_.to_line_m < model_.lane_change.strategic_m * std::abs(me_.lane_changes)) {
+            return since_change_s_ >= kMinInterval_s &&
+                   change_for_route(me_.lane_changes < 0 ? adjacent.left : adjacent.right, me_.to_line_m);
+        }
+        if (me_.preferred_offset != 0 &&
+            me_.to_next_line_m < model_.lane_change.strategic_m * std::abs(me_.preferred_offset)) {
+            return since_change_s_ >= kMinInterval_s &&
+                   change_for_route(me_.preferred_offset < 0 ? adjacent.left : adjacent.right, me_.to_next_line_m);
+        }
+        if (since_change_s_ < model_.lane_change.pause_s) return false;
+        return change_for_speed(adjacent.right, adjacent.left);
+    }
+
+private:
+    double time_since_change_s(int slot) const {
+        return model_.time_s(state_.tick - state_.vehicles.record[at(slot)].lane_change_tick);
+    }
+
+    int route_on(int lane) const { return state_.plan.adjacent(lane).turn_option(me_.turn).route; }
+
+    LaneNeighbours neighbours_on(int other) const {
+        return neighbours_at(model_, state_, other, adjacent_position_m(state_, me_.lane, me_.front_m, other),
+                             me_.length_m, route_on(other));
+    }
+
+    bool change_for_route(int other, double to_line_m) {
+        if (other < 0 || !can_move_beside(model_, me_, adjacent_position_m(state_, me_.lane, me_.front_m, other)))
+            return false;
+        const LaneNeighbours there = neighbours_on(other);
+        if (!gaps_suffice(model_, me_, there, urgent_share(model_, to_line_m))) return false;
+        change_to(other, there, true);
+        return true;
+    }
+
+    // Returns true if the other lane serves the route at least as well as the current one.
+    bool serves_route(int other) const {
+        if (other < 0 || !can_move_beside(model_, me_, adjacent_position_m(state_, me_.lane, me_.front_m, other)))
+            return false;
+        const VehicleRecord& vehicle = state_.vehicles.record[at(me_.slot)];
+        if (other == vehicle.lane_before_change && since_change_s_ < kReturnPause_s) return false;
+        if (changes_after(state_, other, me_.turn, vehicle) > changes_after(state_, me_.lane, me_.turn, vehicle))
+            return false;
+        const int changes = std::abs(state_.plan.adjacent(other).turn_option(me_.turn).lane_changes);
+        return route_on(other) >= 0 || me_.to_line_m > model_.lane_change.strategic_m * changes;
+    }
+
+    bool change_for_speed(int right, int left) {
+        const bool may_right = serves_route(right);
+        const bool may_left = serves_route(left);
+        if (!may_right && !may_left) return false;
+        const LaneBlock& block = state_.blocks[at(me_.lane)];
+        const VehicleArrays& v = state_.vehicles;
+        LaneNeighbours here;
+        if (me_.slot > block.first) {
+            here.leader = {
+                me_.slot - 1,
+                v.position_m[at(me_.slot - 1)] - static_cast<double>(v.length_m[at(me_.slot - 1)]) - me_.front_m,
+                v.speed_mps[at(me_.slot - 1)], v.policy[at(me_.slot - 1)]};
+        } else {
+            here.leader = leader_beyond_lane();
+        }
+        if (me_.slot < block.last()) {
+            here.follower = {me_.slot + 1, me_.front_m - me_.length_m - v.position_m[at(me_.slot + 1)],
+                             v.speed_mps[at(me_.slot + 1)], v.policy[at(me_.slot + 1)]};
+        }
+        double best_mps2 = model_.lane_change.threshold_mps2;
+        int chosen = -1;
+        LaneNeighbours chosen_neighbours;
+        for (const int other : {may_right ? right : -1, may_left ? left : -1}) {
+            if (other < 0) continue;
+            const LaneNeighbours there = neighbours_on(other);
+            const double gain = incentive_mps2(model_, state_, me_, here, there, other == right);
+            if (gain <= best_mps2 || !gaps_suffice(model_, me_, there, model_.lane_change.gap_share)) continue;
+            best_mps2 = gain;
+            chosen = other;
+            chosen_neighbours = there;
+        }
+        if (chosen < 0) return false;
+        change_to(chosen, chosen_neighbours, false);
+        return true;
+    }
+
+    Neighbour leader_beyond_lane() const {
+        const VehicleArrays& v = state_.vehicles;
+        const LeaderAhead leader = leader_ahead(state_, me_.lane, me_.slot, model_.driver.cacc.radar_range_m);
+        if (leader.slot < 0) return {};
+        const double rear_m = v.position_m[at(leader.slot)] - static_cast<double>(v.length_m[at(leader.slot)]);
+        return {leader.slot, leader.lane_start_m + rear_m - me_.front_m, v.speed_mps[at(leader.slot)],
+                v.policy[at(leader.slot)]};
+    }
+
+    void change_to(int other, const LaneNeighbours& there, bool for_route) {
+        VehicleArrays& v = state_.vehicles;
+        const int id = v.id[at(me_.slot)];
+        const int from = me_.slot - state_.blocks[at(me_.lane)].first;
+        const int slot = move_to_lane(model_, state_, me_.lane, from, other, there.index,
+                                      adjacent_position_m(state_, me_.lane, me_.front_m, other));
+        VehicleRecord& record = v.record[at(slot)];
+        record.lane_change_tick = static_cast<int>(state_.tick);
+        record.lane_before_change = me_.lane;
+        record.accepted_gap_on = -1;
+        adopt_lane_route(model_, state_, other, slot);
+        reset_leader(state_.vehicles, slot, state_.blocks[at(other)]);
+        reset_leader(state_.vehicles, slot + 1, state_.blocks[at(other)]);
+        reset_leader(state_.vehicles, state_.blocks[at(me_.lane)].first + from, state_.blocks[at(me_.lane)]);
+        // Another vehicle may now be the one that stops at the line.
+        state_.stop_lines.lines[at(other)].stopping_vehicle = -1;
+        state_.records.lane_changes.push_back(
+            {model_.time_s(state_.tick + 1), id, me_.lane, other, static_cast<float>(me_.front_m), for_route});
+    }
+
+    const Model& model_;
+    State& state_;
+    LaneChangeRequest me_;
+    double since_change_s_;
+};
+
+}  // namespace
+
+LaneChangeRequest lane_change_request(const Model& model, const State& state, int lane, int slot) {
+    const VehicleArrays& v = state.vehicles;
+    LaneChangeRequest me;
+    me.lane = lane;
+    me.slot = slot;
+    me.front_m = v.position_m[at(slot)];
+    me.length_m = v.length_m[at(slot)];
+    me.speed_mps = v.speed_mps[at(slot)];
+    me.policy = v.policy[at(slot)];
+    me.turn = state.plan.turn_of(v.record[at(slot)].route);
+    me.lane_changes = state.plan.adjacent(lane).turn_option(me.turn).lane_changes;
+    me.to_line_m = state.plan.lane(lane).stop_line_m - model.driver.stop.margin_m - me.front_m;
+    const Turn following = v.record[at(slot)].following_turn;
+    if (me.lane_changes != 0 || following == Turn::none) return me;
+    me.preferred_offset = find_preferred_offset(state, lane, me.turn, v.record[at(slot)]);
+    const int exit = state.plan.route(v.record[at(slot)].route).back();
+    me.to_next_line_m = me.to_line_m + state.plan.adjacent(exit).start_offset_m + state.plan.lane(exit).stop_line_m;
+    return me;
+}
+
+double urgent_share(const Model& model, double to_line_m) {
+    const LaneChangeSettings& c = model.lane_change;
+    const double near = std::clamp(1.0 - to_line_m / c.urgent_m, 0.0, 1.0);
+    return c.gap_share + near * (c.urgent_gap_share - c.gap_share);
+}
+
+double waiting_position_m(const Model& model, const State& state, const LaneChangeRequest& me) {
+    const double spacing_m = me.length_m + 2.0 * state.vehicles.standstill_gap_m[at(me.slot)];
+    const int places_behind_line = std::abs(me.lane_changes) - (me.lane_changes < 0 ? 1 : 0);
+    const int other = me.lane_changes < 0 ? state.plan.adjacent(me.lane).left : state.plan.adjacent(me.lane).right;
+    // The target lane must have begun at the waiting position.
+    const double min_position_m = adjacent_position_m(state, other, 0.0, me.lane) + me.length_m + 1.0;
+    const double line_m = state.plan.lane(me.lane).stop_line_m - model.driver.stop.margin_m;
+    return std::min(std::max(line_m - places_behind_line * spacing_m, min_position_m), line_m);
+}
+
+void change_lanes(const Model& model, State& state) {
+    const std::int64_t interval_ticks = std::max<std::int64_t>(to_ticks(kDecisionInterval_s, model.step_s), 1);
+    for (const int lane : state.plan.lanes_with_neighbours()) {
+        const LaneBlock& block = state.blocks[at(lane)];
+        for (int place = 0; place < block.count;) {
+            const int slot = block.first + place;
+            const VehicleRecord& record = state.vehicles.record[at(slot)];
+            const bool decides_now = (state.tick + state.vehicles.id[at(slot)]) % interval_ticks == 0 &&
+                                     record.lane_change_tick != state.tick && record.route >= 0;
+            if (!decides_now || !LaneChangeDecision(model, state, lane, slot).execute()) ++place;
+        }
+    }
+}
+
+}  // namespace stopline

@@ -1,0 +1,127 @@
+// Chooses the route of each vehicle from its current lane, and its turn at the following intersection.
+#include "sim/lane_change/route_choice.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <span>
+
+#include "base/containers/index.h"
+
+namespace stopline {
+
+namespace {
+
+// Returns the lower speed limit that the route sets at the end of the current lane; kNoLowerLimit_mps: none.
+float end_speed(const State& state, std::span<const int> route, int index) {
+    if (at(index) + 1 >= route.size()) return kNoLowerLimit_mps;
+    const double here = state.plan.lane(route[at(index)]).limit_mps;
+    const double next = state.plan.lane(route[at(index) + 1]).limit_mps;
+    return next < here ? static_cast<float>(next) : kNoLowerLimit_mps;
+}
+
+// Returns the parallel route to the exit lane from which the fewest lane changes remain. Parallel routes start on the
+// same lane with the same turn. Among equally good routes the vehicle's id decides.
+int best_parallel_route(const Model& model, const State& state, int route, int slot) {
+    const auto changes = [&](int candidate) {
+        const VehicleRecord& vehicle = state.vehicles.record[at(slot)];
+        const int exit = state.plan.route(candidate).back();
+        if (vehicle.trip < 0)
+            return std::abs(state.plan.adjacent(exit).turn_option(vehicle.following_turn).lane_changes);
+        const int approach = model.graph.lanes[at(exit)].approach;
+        const auto lane_count = static_cast<int>(model.graph.approaches[at(approach)].lanes.size());
+        return state.plan.lane_changes_from(vehicle.trip, vehicle.trip_edge + 1, exit, lane_count);
+    };
+    int fewest = changes(route);
+    int count = 0;
+    for (int candidate = route; candidate >= 0; candidate = state.plan.next_parallel_route(candidate)) {
+        if (changes(candidate) < fewest) fewest = changes(candidate), count = 0;
+        if (changes(candidate) == fewest) ++count;
+    }
+    int remaining = state.vehicles.id[at(slot)] % count;
+    for (int candidate = route; candidate >= 0; candidate = state.plan.next_parallel_route(candidate)) {
+        if (changes(candidate) == fewest && remaining-- == 0) return candidate;
+    }
+    return route;
+}
+
+}  // namespace
+
+void set_route_index(State& state, int slot, int index) {
+    VehicleArrays& v = state.vehicles;
+    const std::span<const int> route = state.plan.route(v.record[at(slot)].route);
+    v.record[at(slot)].route_index = index;
+    v.next_lane[at(slot)] = at(index) + 1 < route.size() ? route[at(index) + 1] : -1;
+    v.end_speed_mps[at(slot)] = end_speed(state, route, index);
+}
+
+int draw_route(const Model& model, State& state, int inlet, std::int64_t k, bool chose_lane) {
+    const DemandPlan::Inlet& in = model.demand.inlets[at(inlet)];
+    if (in.approach_shares.empty()) {
+        return chose_lane ? model.demand.route_for_chosen_lane(inlet, k) : model.demand.route_of(inlet, k);
+    }
+    auto& drawn = state.insertion.drawn_turns[at(model.graph.lanes[at(in.lane)].approach)];
+    std::array<std::int64_t, kMaxTurns> drawn_per_route{};
+    const auto turn = [&](int route) { return static_cast<std::size_t>(state.plan.turn_of(route)); };
+    for (std::size_t c = 0; c < in.routes.size(); ++c) drawn_per_route[c] = drawn[turn(in.routes[c])];
+    const std::int64_t total = std::accumulate(drawn.begin(), drawn.end(), std::int64_t{0});
+    const int route =
+        model.demand.balancing_route(inlet, k, {drawn_per_route.data(), in.routes.size()}, total, chose_lane);
+    ++drawn[turn(route)];
+    return route;
+}
+
+void draw_following_turn(const Model& model, State& state, int slot, bool chose_lane) {
+    VehicleRecord& record = state.vehicles.record[at(slot)];
+    record.following_turn = Turn::none;
+    const int exit = state.plan.route(record.route).back();
+    if (model.graph.lanes[at(exit)].approach < 0 || model.lane_change.look_ahead == "off") return;
+    const int inlet = state.insertion.inlet_of[at(exit)];
+    if (inlet < 0) return;
+    const std::int64_t k = state.insertion.inlets[at(inlet)].entered++;
+    const int route = draw_route(model, state, inlet, k, chose_lane);
+    record.following_turn = state.plan.turn_of(route);
+}
+
+void enter_trip_edge(const Model& model, State& state, int lane, int slot, int leg) {
+    VehicleRecord& record = state.vehicles.record[at(slot)];
+    record.trip_edge = leg;
+    record.following_turn = state.plan.turn_of_trip(record.trip, leg + 1);
+    record.route =
+        state.plan.route_with(model.graph.lanes[at(lane)].approach, state.plan.turn_of_trip(record.trip, leg));
+    adopt_lane_route(model, state, lane, slot);
+}
+
+void choose_next_route(const Model& model, State& state, int lane, int slot) {
+    if (const VehicleRecord& own = state.vehicles.record[at(slot)]; own.trip >= 0) {
+        if (state.plan.lane(lane).origin < 0) enter_trip_edge(model, state, lane, slot, own.trip_edge + 1);
+        return;
+    }
+    const int inlet = state.insertion.inlet_of[at(lane)];
+    if (inlet < 0) return;
+    VehicleRecord& record = state.vehicles.record[at(slot)];
+    const int approach = model.graph.lanes[at(lane)].approach;
+    const int known_route =
+        record.following_turn == Turn::none ? -1 : state.plan.route_with(approach, record.following_turn);
+    record.route = known_route >= 0
+                       ? known_route
+                       : draw_route(model, state, inlet, state.insertion.inlets[at(inlet)].entered++, false);
+    adopt_lane_route(model, state, lane, slot);
+    draw_following_turn(model, state, slot, false);
+}
+
+void adopt_lane_route(const Model& model, State& state, int lane, int slot) {
+    VehicleRecord& record = state.vehicles.record[at(slot)];
+    const int own = state.plan.adjacent(lane).turn_option(state.plan.turn_of(record.route)).route;
+    if (own >= 0) {
+        record.route = state.plan.next_parallel_route(own) < 0 ? own : best_parallel_route(model, state, own, slot);
+        return set_route_index(state, slot, 0);
+    }
+    record.route_index = 0;
+    state.vehicles.next_lane[at(slot)] = -1;
+    state.vehicles.end_speed_mps[at(slot)] = kNoLowerLimit_mps;
+}
+
+}  // namespace stopline

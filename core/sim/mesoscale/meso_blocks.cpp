@@ -1,0 +1,219 @@
+// Selects the vehicles that the mesoscale kernels move in a step, and caps the speed of vehicles that must stop or
+// adapt.
+//
+// Vehicles inside a standing queue are left out, because nothing that they react to changes. A lane sleeps while its
+// first vehicle rests before a red signal, because nothing is to be decided on it.
+#include "sim/mesoscale/meso_blocks.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "base/containers/index.h"
+#include "sim/mesoscale/meso_dynamics.h"
+#include "sim/performance/prefetch.h"
+
+namespace stopline {
+
+namespace {
+
+// Updates the standing queue of a lane: drops vehicles that started at its head, and adds vehicles that stopped behind
+// it.
+void update_queue(const VehicleArrays& v, const LaneBlock& block, std::int64_t tick, StandingQueue& queue) {
+    const auto is_at_rest = [&](int place) {
+        const std::size_t i = at(block.first + place);
+        return v.speed_mps[i] == 0.0 && v.acceleration_mps2[i] == 0.0F;
+    };
+    while (queue.first < queue.end && !is_at_rest(queue.first)) ++queue.first;
+    // A vehicle that received the start message may have closed up although its leader did not start.
+    for (int place = queue.first + 1; place < std::min(queue.released, queue.end); ++place) {
+        if (!is_at_rest(place)) queue.end = place;
+    }
+    queue.released = 0;
+    if (queue.first == queue.end) queue.first = queue.end = 0;
+    if (queue.last_external_tick >= tick - 1) {
+        queue.end = queue.first;
+        return;
+    }
+    while (queue.end < block.count && is_at_rest(queue.end)) ++queue.end;
+}
+
+// Relays the start of a queue by V2V to vehicles that keep a constant distance. Returns how many vehicles get the
+// message. The message passes several vehicles per step, because a vehicle forwards it before it moves. A vehicle with
+// a time gap starts later and ends the relay. The messages take effect when vehicles move, as other lanes still read
+// their state.
+int relay_start(const Model& model, const VehicleArrays& v, const LaneBlock& block, StandingQueue& queue,
+                std::vector<StartMessage>& messages) {
+    constexpr double kClosedUp_m = 0.5;  // a vehicle with a larger excess gap starts later
+    if (queue.first == 0) return 0;
+    const std::size_t last_started = at(block.first + queue.first - 1);
+    const float relayed_mps2 = v.acceleration_mps2[last_started];
+    if (relayed_mps2 <= 0.0F || v.speed_mps[last_started] == 0.0) return 0;
+    int receivers = 0;
+    while (receivers < model.start_relay_vehicles && queue.first + receivers < queue.end) {
+        const std::size_t i = at(block.first + queue.first + receivers);
+        const Krauss& krauss = model.krauss[at(v.policy[i])];
+        const double gap_m = v.position_m[i - 1] - static_cast<double>(v.length_m[i - 1]) - v.position_m[i];
+        if (!krauss.constant_distance || gap_m > krauss.equilibrium_gap_m(0.0) + kClosedUp_m) break;
+        messages.push_back({static_cast<int>(i), relayed_mps2});
+        ++receivers;
+    }
+    if (receivers > 0) queue.released = queue.first + receivers + 1;
+    return receivers;
+}
+
+const YieldStops kNoYieldStops;
+constexpr double kRounding_m = 1e-3;
+
+class LaneCollector {
+public:
+    LaneCollector(const Model& model, int shift, State& state, Partition& part, int lane)
+        : model_(model),
+          shift_(shift),
+          state_(state),
+          v_(state.vehicles),
+          part_(part),
+          lane_(lane),
+          block_(state.blocks[at(lane)]),
+          plan_(state.plan.lane(lane)),
+          stop_slot_(state.stop_lines.stop_slot[at(lane)]),
+          yield_stops_(state.junctions.has_yield_stops[at(lane)] != 0 ? state.junctions.yield_stops[at(lane)]
+                                                                      : kNoYieldStops) {}
+
+    void collect() {
+        const int first = block_.first;
+        StandingQueue& queue = state_.queues.standing[at(lane_)];
+        int& sleep_group = state_.queues.sleeps_until_green[at(lane_)];
+        if (sleep_group >= 0) {
+            cap_aligning_vehicles();
+            cap_behind_first();
+            if (queue.end == block_.count) return;
+            update_queue(v_, block_, state_.tick, queue);
+            return add_blocks(first + queue.end, block_.past_last());
+        }
+        if (is_near_end()) part_.lanes_near_end.push(lane_);
+        v_.speed_cap_mps[at(first)] = kUnlimitedSpeed_mps;  // clears the cap of a sleeping lane
+        cap_aligning_vehicles();
+        if (last_stopping_slot() > first + queue.first) queue.last_external_tick = state_.tick;
+        update_queue(v_, block_, state_.tick, queue);
+        const bool is_restrained = last_stopping_slot() >= first + queue.first;
+        const int receivers = is_restrained ? 0 : relay_start(model_, v_, block_, queue, part_.start_messages);
+        if (model_.scalar_kernels) {
+            cap_all();
+            return add_blocks(first, block_.past_last());
+        }
+        if (queue.first == 0 && queue.end > 0 && waits_only_for_signal()) {
+            sleep_group = state_.plan.signal_group_for(lane_, v_.next_lane[at(first)]);
+            v_.speed_cap_mps[at(first)] = 0.0;  // the kernel may move other vehicles of its block
+            return add_blocks(first + queue.end, block_.past_last());
+        }
+        cap_all();
+        if (queue.end - queue.first <= 1) return add_blocks(first, block_.past_last());
+        add_blocks(first, std::min(first + queue.first + receivers + 1, block_.past_last()));
+        add_blocks(first + queue.end, block_.past_last());
+    }
+
+private:
+    // Returns the last slot that must stop at the line or at a yield stop; -1: none.
+    int last_stopping_slot() const {
+        return std::max(stop_slot_, yield_stops_.count == 0 ? -1 : yield_stops_.stops[at(yield_stops_.count - 1)].slot);
+    }
+
+    // Returns true if the first vehicle, at the free speed of the lane, can reach the lane's end or stop line in this
+    // step.
+    bool is_near_end() const {
+        const double end_m = plan_.signal_group < 0 ? plan_.length_m : std::min(plan_.length_m, plan_.stop_line_m);
+        const double step_m = state_.plan.free_speed_mps(lane_) * model_.step_s;
+        return v_.position_m[at(block_.first)] + step_m + kRounding_m >= end_m;
+    }
+
+    // Caps the speed of vehicles that align with a gap in the adjacent lane.
+    void cap_aligning_vehicles() {
+        if (part_.lanes_with_alignments.empty()) return;
+        const double braking_step_mps = GapAlignment::kDeceleration_mps2 * model_.step_s;
+        for (const GapAlignment& alignment : state_.gap_alignments[at(lane_)]) {
+            const double speed_mps = v_.speed_mps[at(alignment.slot)];
+            // At rest the cap stays unchanged, because it may hold the first vehicle of a sleeping lane.
+            if (speed_mps > 0.0)
+                cap_speed(alignment.slot, std::max(alignment.target_speed_mps, speed_mps - braking_step_mps));
+        }
+    }
+
+    double room_to_line_m(int slot) const {
+        return plan_.stop_line_m - model_.driver.stop.margin_m - v_.position_m[at(slot)];
+    }
+
+    // Returns true if only its signal keeps the first vehicle at rest.
+    bool waits_only_for_signal() const {
+        const int first = block_.first;
+        if (stop_slot_ != first || state_.stop_lines.lines[at(lane_)].stopping_vehicle != v_.id[at(first)])
+            return false;
+        if (yield_stops_.count > 0 || v_.position_m[at(first)] > plan_.stop_line_m) return false;
+        return snap_to_standstill(stopping_speed_mps(model_, v_, first, room_to_line_m(first))) == 0.0;
+    }
+
+    // Caps vehicles behind the first that wait to change lanes. The first vehicle of the sleeping lane keeps its cap.
+    void cap_behind_first() {
+        for (int k = 0; k < yield_stops_.count; ++k) {
+            const YieldStop& stop = yield_stops_.stops[at(k)];
+            if (stop.slot == block_.first) continue;
+            cap_speed(stop.slot,
+                      stopping_speed_mps(model_, v_, stop.slot, stop.position_m - v_.position_m[at(stop.slot)]));
+            state_.queues.standing[at(lane_)].last_external_tick = state_.tick;
+        }
+    }
+
+    void cap_all() {
+        if (stop_slot_ >= 0)
+            cap_speed(stop_slot_, stopping_speed_mps(model_, v_, stop_slot_, room_to_line_m(stop_slot_)));
+        for (int k = 0; k < yield_stops_.count; ++k) {
+            const YieldStop& stop = yield_stops_.stops[at(k)];
+            const double room_m = stop.position_m - v_.position_m[at(stop.slot)];
+            cap_speed(stop.slot, stopping_speed_mps(model_, v_, stop.slot, room_m));
+        }
+        const int first = block_.first;
+        if (v_.record[at(first)].leader_id < 0) {
+            cap_speed(first, leading_speed_mps(model_, v_.speed_mps[at(first)], v_.limit_mps[at(first)]));
+        }
+    }
+
+    void cap_speed(int slot, double cap_mps) {
+        v_.speed_cap_mps[at(slot)] = std::min(v_.speed_cap_mps[at(slot)], cap_mps);
+        part_.capped_slots.push_back(slot);
+    }
+
+    // Adds the blocks of slots [from, to). Calls come in ascending order of slots, so each block is added once.
+    void add_blocks(int from, int to) {
+        if (from == to) return;
+        part_.moving_blocks.push_range(std::max(from >> shift_, part_.moving_blocks.last_or(-1) + 1),
+                                       ((to - 1) >> shift_) + 1);
+    }
+
+    const Model& model_;
+    int shift_;  // binary logarithm of the slots in a block
+    State& state_;
+    VehicleArrays& v_;
+    Partition& part_;
+    int lane_;
+    const LaneBlock& block_;
+    const LanePlan& plan_;
+    int stop_slot_;
+    const YieldStops& yield_stops_;
+};
+
+}  // namespace
+
+// Runs right after the decisions of a partition, while its data are still in the cache.
+void collect_moving_blocks(const Model& model, State& state, Partition& part) {
+    // Upper bound: one block for each vehicle, and a reserve for each lane.
+    constexpr std::size_t kReservePerLane = 4;
+    const int shift = std::countr_zero(static_cast<unsigned>(meso_kernels(model.scalar_kernels).size));
+    part.lanes_near_end.reset(part.occupied.size());
+    part.moving_blocks.reset(static_cast<std::size_t>(part.present) + kReservePerLane * part.occupied.size());
+    part.start_messages.clear();
+    for (const int lane : part.occupied) {
+        advance_prefetch(state, part.prefetch);
+        LaneCollector(model, shift, state, part, lane).collect();
+    }
+}
+
+}  // namespace stopline

@@ -1,0 +1,97 @@
+#include "sim/mesoscale/meso_dynamics.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "base/containers/index.h"
+#include "base/random.h"
+#include "base/simd/simd.h"
+#include "sim/state/queries/overlap.h"
+
+namespace stopline {
+
+namespace {
+
+// Evaluates the extra gap that switching policies add to their standstill gap, for all slots of the moving blocks.
+// Returns nullptr if no policy has one.
+ExtraGap evaluate_extra_gap(const Model& model, std::size_t size, const VehicleArrays& v, Partition& part) {
+    const auto is_switching = [&](int k) {
+        return model.krauss[at(k)].constant_distance && model.policies[at(k)].settings.law != "constant_distance";
+    };
+    constexpr std::size_t kMaxBlockSize = kSimdWidth;
+    part.extra_gap_m.clear();
+    for (int k = 0; k < static_cast<int>(model.policies.size()); ++k) {
+        if (!is_switching(k)) continue;
+        const CompiledPolicy& policy = model.policies[at(k)];
+        part.extra_gap_m.resize(part.moving_blocks.size() * size, 0.0);
+        double* extra_gap = part.extra_gap_m.data();
+        for (const int block : part.moving_blocks) {
+            std::array<double, kMaxBlockSize> gap_m{};
+            std::array<double, kMaxBlockSize> slope_s{};
+            const std::size_t from = at(block) * size;
+            policy.law->evaluate(policy.settings, {v.speed_mps.data() + from, size}, {gap_m.data(), size},
+                                 {slope_s.data(), size});
+            for (std::size_t j = 0; j < size; ++j, ++extra_gap) {
+                if (v.policy[from + j] == k) *extra_gap = gap_m[j] - policy.settings.standstill_gap_m;
+            }
+        }
+    }
+    return part.extra_gap_m.empty() ? nullptr : part.extra_gap_m.data();
+}
+
+}  // namespace
+
+double stopping_speed_mps(const Model& model, const VehicleArrays& v, int slot, double room_m) {
+    const Krauss& krauss = model.krauss[model.krauss.size() == 1 ? 0 : at(v.policy[at(slot)])];
+    const double b = std::min(krauss.deceleration_mps2, model.driver.stop.deceleration_mps2);
+    const double max_braking_mps2 = model.driver.cacc.deceleration_emergency_mps2;
+    const double lowest_mps = v.speed_mps[at(slot)] - max_braking_mps2 * model.step_s;
+    return std::max(braking_speed_mps(b, krauss.reaction_s, std::max(room_m, 0.0), 0.0), lowest_mps);
+}
+
+double leading_speed_mps(const Model& model, double speed_mps, double limit_mps) {
+    const double target_mps = model.leader_speed_share * limit_mps;
+    return std::min(speed_mps + model.approach_share * (target_mps - speed_mps), target_mps);
+}
+
+MesoStreams meso_streams(VehicleArrays& v) {
+    return {v.position_m.data(),        v.speed_mps.data(), v.limit_mps.data(),     v.next_limit_m.data(),
+            v.speed_cap_mps.data(),     v.length_m.data(),  v.end_speed_mps.data(), v.acceleration_mps2.data(),
+            v.is_platoon_leader.data(), v.id.data(),        v.policy.data()};
+}
+
+MesoStep meso_step(const Model& model, std::int64_t tick, bool prefetches) {
+    constexpr double kNoLimit_mps2 = 1e9;
+    const bool relays = model.start_relay_vehicles > 0;
+    const auto has_no_transient_gap = [](const Krauss& k) { return k.transient_gap_s2 == 0.0; };
+    return {model.step_s,
+            dawdle_key(model.seed),
+            static_cast<std::uint64_t>(tick),
+            model.driver.deceleration_mps2,
+            model.approach_share,
+            model.turn_share,
+            model.leader_mps2,
+            model.leader_constant_power_speed_mps,
+            model.leader_profile.bins_per_mps > 0.0 ? &model.leader_profile : nullptr,
+            relays,
+            relays && std::all_of(model.krauss.begin(), model.krauss.end(), has_no_transient_gap),
+            model.graph.approaches.empty() ? kNoLimit_mps2 : model.driver.cacc.deceleration_emergency_mps2,
+            prefetches};
+}
+
+void step_meso(const Model& model, State& state, Partition& part) {
+    VehicleArrays& v = state.vehicles;
+    const MesoKernels& kernels = meso_kernels(model.scalar_kernels);
+    for (const StartMessage& message : part.start_messages)
+        v.acceleration_mps2[at(message.slot)] = message.acceleration_mps2;
+    const ExtraGap extra_gap = evaluate_extra_gap(model, static_cast<std::size_t>(kernels.size), v, part);
+    const std::int64_t count = kernels.step(meso_streams(v), part.moving_blocks, model.krauss, extra_gap,
+                                            meso_step(model, state.tick, state.outgrows_cache()));
+    if (count > 0) record_first_overlap(model, state, part);
+    part.violations.overlaps += count;
+    for (const int slot : part.capped_slots) v.speed_cap_mps[at(slot)] = kUnlimitedSpeed_mps;
+    part.capped_slots.clear();
+}
+
+}  // namespace stopline

@@ -1,0 +1,374 @@
+// Source of the mesoscale kernels. One file for each build includes it. The kernels have internal linkage, so that the
+// builds do not mix. R is the number type of the equations: a vector with one double for each slot of a block, or one
+// double.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+
+#include "base/random.h"
+#include "base/simd/arithmetic.h"
+#include "base/simd/simd.h"
+#include "sim/mesoscale/meso_kernels.h"
+#include "sim/state/vehicles/vehicle_arrays.h"
+
+namespace stopline {
+
+namespace {
+
+// Doubles in a vector register. A block has as many slots.
+constexpr int kWide = kBatchWidth / 2;
+using Wide = PackedOf<double, kWide>;
+using Words = Vector<std::uint64_t, kWide>;
+
+template <class To, class From>
+STOPLINE_INLINE To same_bits(const From& from) {
+    To to;
+    static_assert(sizeof to == sizeof from);
+    std::memcpy(&to, &from, sizeof to);
+    return to;
+}
+
+// Converts a vector to another number type. Intrinsics do it for 512 bits, because the compiler would convert in two
+// halves.
+template <class To, class From>
+STOPLINE_INLINE Vector<To, kWide> converted(const Vector<From, kWide>& from) {
+#if defined(__AVX512F__)
+    constexpr __mmask8 kAll = 0xff;  // the unmasked functions cause warnings in g++
+    if constexpr (kWide == 8 && std::is_same_v<From, float> && std::is_same_v<To, double>) {
+        return same_bits<Vector<To, kWide>>(_mm512_maskz_cvtps_pd(kAll, same_bits<__m256>(from)));
+    } else if constexpr (kWide == 8 && std::is_same_v<From, double> && std::is_same_v<To, float>) {
+        return same_bits<Vector<To, kWide>>(_mm512_maskz_cvtpd_ps(kAll, same_bits<__m512d>(from)));
+    } else if constexpr (kWide == 8 && std::is_same_v<From, int> && std::is_same_v<To, double>) {
+        return same_bits<Vector<To, kWide>>(_mm512_maskz_cvtepi32_pd(kAll, same_bits<__m256i>(from)));
+    } else if constexpr (kWide == 8 && std::is_same_v<From, int> && std::is_same_v<To, std::int64_t>) {
+        return same_bits<Vector<To, kWide>>(_mm512_maskz_cvtepi32_epi64(kAll, same_bits<__m256i>(from)));
+    }
+#endif
+    return __builtin_convertvector(from, Vector<To, kWide>);
+}
+
+// Loads the values of one block as R.
+template <class R, class Stored>
+STOPLINE_INLINE R get(const Stored* from) {
+    if constexpr (std::is_same_v<R, double>) {
+        return *from;
+    } else {
+        Vector<Stored, kWide> values;
+        std::memcpy(&values, from, sizeof values);
+        return packed<kWide>(converted<double, Stored>(values));
+    }
+}
+template <class Stored>
+STOPLINE_INLINE void put(Stored* to, double value) {
+    *to = static_cast<Stored>(value);
+}
+template <class Stored>
+STOPLINE_INLINE void put(Stored* to, const Wide& value) {
+    const auto values = converted<Stored, double>(value.v);
+    std::memcpy(to, &values, sizeof values);
+}
+
+// Returns the random number of each vehicle, uniform in [0, 1).
+template <class R>
+STOPLINE_INLINE R dawdle(const MesoStep& t, const int* id) {
+    if constexpr (std::is_same_v<R, double>) {
+        return dawdle_uniform(t.key, *id, t.tick);
+    } else {
+        Vector<int, kWide> ids;
+        std::memcpy(&ids, id, sizeof ids);
+        const Words bits = dawdle_bits(t.key, same_bits<Words>(converted<std::int64_t, int>(ids)), t.tick);
+        return packed<kWide>(same_bits<Vector<double, kWide>>(bits)) - 1.0;
+    }
+}
+
+// Returns the mask of the slots that hold a vehicle.
+template <class R>
+STOPLINE_INLINE auto occupied_slots(const int* id) {
+    if constexpr (std::is_same_v<R, double>) {
+        return *id >= 0;
+    } else {
+        Vector<int, kWide> ids;
+        std::memcpy(&ids, id, sizeof ids);
+        return typename R::Mask{converted<std::int64_t, int>(ids) >= 0};
+    }
+}
+
+// Returns the parameters of each vehicle if there are two policies.
+template <class R>
+STOPLINE_INLINE KraussPerVehicle<R> of_two_policies(const R& policy, const Krauss& a, const Krauss& b) {
+    const auto second = policy > 0.0;
+    const auto pick = [&](double first, double other)
+                          STOPLINE_INLINE_LAMBDA { return select(second, R(other), R(first)); };
+    return {pick(a.acceleration_mps2, b.acceleration_mps2),
+            pick(a.constant_power_speed_mps, b.constant_power_speed_mps),
+            pick(a.transient_gap_s2, b.transient_gap_s2),
+            pick(a.catch_up_factor, b.catch_up_factor),
+            pick(a.gap_tracking, b.gap_tracking),
+            pick(a.anticipation_s, b.anticipation_s),
+            pick(a.deceleration_mps2, b.deceleration_mps2),
+            pick(a.reaction_s, b.reaction_s),
+            pick(a.standstill_gap_m, b.standstill_gap_m),
+            pick(a.dawdling, b.dawdling),
+            pick(a.constant_distance ? 1.0 : 0.0, b.constant_distance ? 1.0 : 0.0) > 0.5,
+            pick(a.band_m, b.band_m),
+            pick(a.below_band_speed_share, b.below_band_speed_share)};
+}
+
+// Returns the next speed on the way to a limit. A vehicle above the limit takes it at once, a slower one gains a share
+// of the difference.
+template <class R>
+STOPLINE_INLINE R approach_limit(const R& speed_mps, const R& limit_mps, double share) {
+    const R gaining_mps = speed_mps + share * (limit_mps - speed_mps);
+    return min_of(gaining_mps, limit_mps);  // above the limit gaining_mps is not lower, because share <= 1
+}
+
+// Returns the next speed before a turn, where the allowed speed falls with the distance. This is
+// slow_down_acceleration() of full dynamics.
+template <class R>
+STOPLINE_INLINE R approach_turn(const R& speed_mps, const R& allowed_mps, double share, double braked_mps) {
+    return speed_mps + share * (allowed_mps - speed_mps) - braked_mps * speed_mps / max_of(allowed_mps, R(1.0));
+}
+
+// Returns true if the float of any vehicle differs from `value` in its bits.
+template <class R>
+STOPLINE_INLINE bool any_differs(const float* floats, float value) {
+    if constexpr (std::is_same_v<R, double>) {
+        return *floats != value;
+    } else {
+#if defined(__AVX512VL__)
+        if constexpr (kWide == 8) {
+            __m256i loaded;
+            std::memcpy(&loaded, floats, sizeof loaded);
+            return _mm256_cmpneq_epi32_mask(loaded, _mm256_set1_epi32(std::bit_cast<int>(value))) != 0;
+        }
+#endif
+        const auto bits = std::bit_cast<std::uint32_t>(value);
+        std::uint32_t loaded[kWide];
+        std::memcpy(loaded, floats, sizeof loaded);
+        std::uint32_t differences = 0;
+        for (const std::uint32_t own_bits : loaded) differences |= own_bits ^ bits;
+        return differences != 0;
+    }
+}
+
+// Returns the highest next speed that the limits allow.
+template <class R, bool kInstantSlowdown>
+STOPLINE_INLINE R allowed_mps(const MesoStreams& s, const MesoStep& t, int i, const R& position, const R& speed) {
+    const R here_mps = min_of(approach_limit(speed, get<R>(s.limit + i), t.approach_share), get<R>(s.speed_cap + i));
+    if (!any_differs<R>(s.end_speed + i, kNoLowerLimit_mps)) return here_mps;
+    // Braking towards a lower limit at the end of the lane: v^2 = v_end^2 + 2 b distance.
+    const R end_mps = get<R>(s.end_speed + i);
+    const R to_next_limit_m = max_of(R(get<R>(s.next_limit + i) - position), R(0.0));
+    const R allowed_before_turn_mps = square_root(end_mps * end_mps + 2.0 * t.slow_down_mps2 * to_next_limit_m);
+    R turn_mps = allowed_before_turn_mps;
+    if constexpr (!kInstantSlowdown)
+        turn_mps = approach_turn(speed, allowed_before_turn_mps, t.turn_share, t.slow_down_mps2 * t.dt);
+    return select(end_mps < static_cast<double>(kNoLowerLimit_mps), min_of(here_mps, turn_mps), here_mps);
+}
+
+constexpr double kNoLeader_m = 1e5;  // a longer gap means that there is no leader
+
+#if defined(__AVX512DQ__)
+// Returns the table value of each vehicle's bin. Permutes 16 values at a time instead of loading one for each vehicle.
+template <std::size_t bins>
+STOPLINE_INLINE Wide permute_table(const std::array<double, bins>& table, const Wide& bin) {
+    const __m512i index = _mm512_cvttpd_epi64(same_bits<__m512d>(bin));
+    const auto permute_16 = [&](std::size_t from) STOPLINE_INLINE_LAMBDA {
+        const double* const part = table.data() + from;
+        return _mm512_permutex2var_pd(_mm512_loadu_pd(part), index, _mm512_loadu_pd(part + 8));
+    };
+    __m512d values = permute_16(0);
+    for (std::size_t from = 16; from < bins; from += 16) {
+        const __mmask8 in_range = _mm512_cmpge_epi64_mask(index, _mm512_set1_epi64(static_cast<long long>(from)));
+        values = _mm512_mask_mov_pd(values, in_range, permute_16(from));
+    }
+    return packed<kWide>(same_bits<Vector<double, kWide>>(values));
+}
+#endif
+
+// Returns the table value of each vehicle's bin. Bins beyond the table take its last value.
+template <class R, std::size_t bins>
+STOPLINE_INLINE R table_value(const std::array<double, bins>& table, const R& bin) {
+    const R within = clamped(bin, 0.0, static_cast<double>(bins) - 1.0);
+    if constexpr (std::is_same_v<R, double>) {
+        return table[static_cast<std::size_t>(within)];
+    } else {
+#if defined(__AVX512DQ__)
+        if constexpr (kWide == 8 && bins % 16 == 0) return permute_table(table, within);
+#endif
+        R values = 0.0;
+        for (int j = 0; j < kWide; ++j) values.v[j] = table[static_cast<std::size_t>(within.v[j])];
+        return values;
+    }
+}
+
+// Returns the acceleration of a platoon leader at a speed.
+template <class R>
+STOPLINE_INLINE R platoon_leader_acceleration_mps2(const MesoStep& t, const R& speed_mps) {
+    if (t.leader_profile != nullptr) {
+        // Evaluated at the speed in the middle of the step. The speed at its start would miss gear changes.
+        const LeaderProfile& profile = *t.leader_profile;
+        const R first_mps2 = table_value(profile.acceleration_mps2, R(speed_mps * profile.bins_per_mps));
+        const R middle_mps = speed_mps + first_mps2 * (0.5 * t.dt);
+        return table_value(profile.acceleration_mps2, R(middle_mps * profile.bins_per_mps));
+    }
+    return t.leader_mps2 *
+           R(t.leader_constant_power_speed_mps / max_of(speed_mps, R(t.leader_constant_power_speed_mps)));
+}
+
+// Returns the next speeds of platoon leaders. They all accelerate alike, whatever their policy, until following demands
+// less. A leader at rest remains leader until it moves. `foreseen_mps`: from anticipated_safe_speed_mps(). `next`: next
+// speeds of the other vehicles. `has_policy`: 1 for vehicles with the policy of model `k`.
+template <class R, class Model>
+STOPLINE_INLINE R platoon_leader_speed(const Model& k, const MesoStep& t, const KraussInputOf<R>& in,
+                                       const R& foreseen_mps, const R& next, const R& has_policy,
+                                       float* is_platoon_leader) {
+    const R free_mps = in.speed_mps + platoon_leader_acceleration_mps2(t, in.speed_mps) * t.dt;
+    const R contact_mps = max_of(in.gap_m, R(0.0)) * (1.0 / t.dt);
+    R policy_safe_mps = foreseen_mps;
+    if (!t.leaders_foresee) {
+        policy_safe_mps = t.relays ? anticipated_safe_speed_mps(k, in, in.extra_gap_m)
+                                   : safe_speed_mps(k, in.gap_m, in.leader_speed_mps, in.extra_gap_m);
+    }
+    const R safe_mps = min_of(policy_safe_mps, contact_mps);
+    const R following_mps = select(in.gap_m > kNoLeader_m, contact_mps, safe_mps);
+    const R leader_next = snap_to_standstill(min_of(following_mps, min_of(free_mps, in.speed_cap_mps)));
+    const R was_leader = get<R>(is_platoon_leader);
+    const R becomes_follower =
+        STOPLINE_FLAG(R, following_mps < free_mps) * STOPLINE_FLAG(R, leader_next > 0.0) * has_policy;
+    put(is_platoon_leader, was_leader * (1.0 - becomes_follower));
+    return choose(R(was_leader * has_policy), leader_next, next);
+}
+
+constexpr double kNoExtraGap[kWide] = {};
+
+// Properties of a run that select an instance of the kernels.
+struct MesoVariant {
+    int policies;           // 1 or 2; 0: more
+    bool power_limit;       // the power of a policy limits its acceleration
+    bool instant_slowdown;  // vehicles follow the speed profile before a lower limit without delay
+};
+
+// Moves one block. Returns 1 for each vehicle that overlaps its leader, else 0.
+template <class R, MesoVariant kVariant>
+STOPLINE_INLINE R step_slots(const MesoStreams& s, int i, std::span<const Krauss> models, const double* extra_gap,
+                             const MesoStep& t) {
+    const R position = get<R>(s.position + i);
+    const R speed = get<R>(s.speed + i);
+    const KraussInputOf<R> in{speed,
+                              get<R>(s.position + i - 1) - get<R>(s.length + i - 1) - position,
+                              get<R>(s.speed + i - 1),
+                              max_of(get<R>(s.acceleration + i - 1), R(0.0)),
+                              get<R>(extra_gap),
+                              allowed_mps<R, kVariant.instant_slowdown>(s, t, i, position, speed)};
+    const R random = dawdle<R>(t, s.id + i);
+    const bool has_platoon_leaders =
+        (t.leader_mps2 > 0.0 || t.leader_profile != nullptr) && any_differs<R>(s.is_platoon_leader + i, 0.0F);
+    const R policy = get<R>(s.policy + i);
+    R next = speed;
+    const auto drive = [&](const auto& model, const R& has_policy) STOPLINE_INLINE_LAMBDA {
+        const R safe_mps = anticipated_safe_speed_mps(model, in);
+        const R lowest_mps = in.speed_mps - t.hardest_mps2 * t.dt;
+        R following = speed_after_mps<kVariant.power_limit>(model, in, safe_mps, random, t.dt, lowest_mps);
+        if (has_platoon_leaders)
+            following = platoon_leader_speed(model, t, in, safe_mps, following, has_policy, s.is_platoon_leader + i);
+        return following;
+    };
+    if constexpr (kVariant.policies == 1) {
+        next = drive(models[0], R(1.0));
+    } else if constexpr (kVariant.policies == 2) {
+        next = drive(of_two_policies(policy, models[0], models[1]), R(1.0));
+    } else {
+        for (std::size_t k = 0; k < models.size(); ++k) {
+            const R has_policy = STOPLINE_FLAG(R, policy == static_cast<double>(k));
+            next = choose(has_policy, drive(models[k], has_policy), next);
+        }
+    }
+    constexpr double kRounding_m = 1e-6;
+    const auto occupied = occupied_slots<R>(s.id + i);
+    put(s.acceleration + i, select(occupied, R((next - speed) * (1.0 / t.dt)), get<R>(s.acceleration + i)));
+    put(s.speed + i, select(occupied, next, speed));
+    put(s.position + i, select(occupied, R(position + next * t.dt), position));
+    return select(occupied, STOPLINE_FLAG(R, in.gap_m < -kRounding_m), R(0.0));
+}
+
+STOPLINE_INLINE double sum(double value) { return value; }
+STOPLINE_INLINE double sum(const Wide& values) {
+    double total = 0.0;
+    for (int j = 0; j < kWide; ++j) total += values.v[j];
+    return total;
+}
+
+STOPLINE_INLINE void prefetch_block(const MesoStreams& s, int i) {
+    for (const double* const stream : {static_cast<const double*>(s.position), static_cast<const double*>(s.speed),
+                                       s.limit, s.next_limit, s.speed_cap}) {
+        __builtin_prefetch(stream + i);
+    }
+    for (const float* const stream : {s.length, s.end_speed, static_cast<const float*>(s.acceleration),
+                                      static_cast<const float*>(s.is_platoon_leader)}) {
+        __builtin_prefetch(stream + i);
+    }
+    for (const int* const stream : {s.id, s.policy}) __builtin_prefetch(stream + i);
+}
+
+// Moves the blocks from last to first, because the first vehicle of a block reacts to the unmoved last vehicle of the
+// block before.
+template <class R, MesoVariant kVariant>
+inline int step_blocks(const MesoStreams& streams, std::span<const int> blocks, std::span<const Krauss> models,
+                       ExtraGap extra_gaps, const MesoStep& step) {
+    constexpr int kSize = std::is_same_v<R, double> ? 1 : kWide;
+    const MesoStreams s = streams;  // local copies, which stores cannot alias
+    const MesoStep t = step;
+    R overlaps = 0.0;
+    constexpr std::size_t kPrefetchBlocks = 8;
+    for (std::size_t n = blocks.size(); n-- > 0;) {
+        if (t.prefetches && n >= kPrefetchBlocks) prefetch_block(s, blocks[n - kPrefetchBlocks] * kSize);
+        const double* const extra_gap = extra_gaps == nullptr ? kNoExtraGap : extra_gaps + n * kSize;
+        overlaps += step_slots<R, kVariant>(s, blocks[n] * kSize, models, extra_gap, t);
+    }
+    return static_cast<int>(sum(overlaps));
+}
+
+template <class R>
+inline void follow(const Krauss& krauss, const MesoStep& step, const KraussInputOf<const double*>& in,
+                   std::span<const int> ids, double* next_mps) {
+    constexpr std::size_t kSize = std::is_same_v<R, double> ? 1 : kWide;
+    const Krauss k = krauss;
+    const MesoStep t = step;
+    for (std::size_t i = 0; i < ids.size(); i += kSize) {
+        const KraussInputOf<R> input{get<R>(in.speed_mps + i),        get<R>(in.gap_m + i),
+                                     get<R>(in.leader_speed_mps + i), get<R>(in.leader_acceleration_mps2 + i),
+                                     get<R>(in.extra_gap_m + i),      get<R>(in.speed_cap_mps + i)};
+        const R safe_mps = anticipated_safe_speed_mps(k, input);
+        put(next_mps + i, speed_after_mps<true>(k, input, safe_mps, dawdle<R>(t, ids.data() + i), t.dt));
+    }
+}
+
+template <class R>
+inline int step(const MesoStreams& streams, std::span<const int> blocks, std::span<const Krauss> models,
+                ExtraGap extra_gaps, const MesoStep& t) {
+    const bool power_limit = std::any_of(models.begin(), models.end(), has_power_limit);
+    const bool instant_slowdown = t.turn_share >= 1.0;
+    const auto step_with = [&](auto policies) {
+        constexpr int kPolicies = policies;
+        if (power_limit) {
+            return instant_slowdown
+                       ? step_blocks<R, MesoVariant{kPolicies, true, true}>(streams, blocks, models, extra_gaps, t)
+                       : step_blocks<R, MesoVariant{kPolicies, true, false}>(streams, blocks, models, extra_gaps, t);
+        }
+        return instant_slowdown
+                   ? step_blocks<R, MesoVariant{kPolicies, false, true}>(streams, blocks, models, extra_gaps, t)
+                   : step_blocks<R, MesoVariant{kPolicies, false, false}>(streams, blocks, models, extra_gaps, t);
+    };
+    if (models.size() == 1) return step_with(std::integral_constant<int, 1>());
+    if (models.size() == 2) return step_with(std::integral_constant<int, 2>());
+    return step_with(std::integral_constant<int, 0>());
+}
+
+}  // namespace
+
+}  // namespace stopline

@@ -1,0 +1,10 @@
+// Mesoscale kernels that compute one vehicle at a time, the oracle of the other builds. Compiled without vectorisation
+// (see CMakeLists.txt).
+#include "sim/mesoscale/meso_kernels.inl"
+
+namespace stopline {
+
+extern const MesoKernels kScalarMesoKernels;
+const MesoKernels kScalarMesoKernels{"scalar", 1, step<double>, follow<double>};
+
+}  // namespace stopline

@@ -1,0 +1,81 @@
+// Full dynamics: adds braking for hidden leaders. A vehicle follows the nearest vehicle ahead. Where connections
+// diverge or a trip ends, that leader may leave the vehicle's route and hide a slow vehicle on it. The follower brakes
+// for the hidden vehicle as well, because it would see it too late.
+#include "sim/perception/hidden_leaders.h"
+
+#include <algorithm>
+#include <array>
+
+#include "base/containers/index.h"
+#include "driver/acceleration_laws.h"
+#include "sim/perception/look_ahead.h"
+#include "sim/state/queries/desired_gap.h"
+#include "sim/state/state.h"
+
+namespace stopline {
+
+namespace {
+
+// Adds a braking demand for `own`, the next vehicle on the route beyond the lane. The vehicle follows another leader.
+void add_demand(const Model& model, const State& state, int lane, int slot, const LeaderAhead& own, Partition& part) {
+    const VehicleArrays& v = state.vehicles;
+    const double speed_mps = v.speed_mps[at(slot)];
+    double rear_m = own.lane_start_m;
+    if (!rear_is_on_merging_path(state, lane, slot, own.slot)) {
+        rear_m += v.position_m[at(own.slot)] - static_cast<double>(v.length_m[at(own.slot)]);
+    }
+    LeaderView<double> p{};
+    p.gap_m = rear_m - v.position_m[at(slot)];
+    const double standstill_m = v.standstill_gap_m[at(slot)];
+    if (p.gap_m > stopping_distance_m(model.driver, speed_mps) + standstill_m) return;
+    p.closing_mps = speed_mps - v.speed_mps[at(own.slot)];
+    p.acceleration_mps2 = v.acceleration_mps2[at(own.slot)];
+    p.request_mps2 = v.request_mps2[at(own.slot)];
+    const double gap_growth_m = desired_gap_m(model, v.policy[at(slot)], speed_mps) - standstill_m;
+    const double demand_mps2 =
+        hidden_leader_acceleration(model.driver, speed_mps, standstill_m, std::max(gap_growth_m, 0.0), p);
+    if (demand_mps2 < kUnconstrained_mps2) part.extra_demands.push_back({slot, demand_mps2});
+}
+
+// Adds demands for vehicles behind the first one on the lane: for each further connection, the first vehicle that takes
+// it.
+void react_to_leaders_hidden_from_followers(const Model& model, const State& state, int lane, Partition& part) {
+    constexpr double kMinLookBack_m = 60.0;  // from the lane's end; covers a comfortable stop from 50 km/h
+    constexpr std::size_t kMaxConnections = 8;
+    const VehicleArrays& v = state.vehicles;
+    const LaneBlock& block = state.blocks[at(lane)];
+    const LanePlan& plan = state.plan.lane(lane);
+    const double from_m = plan.length_m - std::max(kMinLookBack_m, stopping_distance_m(model.driver, plan.limit_mps));
+    const std::size_t connection_count = std::min(state.plan.next(lane).size(), kMaxConnections);
+    int previous = v.next_lane[at(block.first)];
+    std::array<int, kMaxConnections> handled{previous};
+    std::size_t count = previous >= 0 ? 1 : 0;
+    for (int slot = block.first + 1; slot < block.past_last() && v.position_m[at(slot)] > from_m; ++slot) {
+        const int connection = v.next_lane[at(slot)];
+        if (connection == previous) continue;
+        previous = connection;
+        if (connection < 0 ||
+            std::find(handled.begin(), handled.begin() + count, connection) != handled.begin() + count)
+            continue;
+        const double range_m = stopping_distance_m(model.driver, v.speed_mps[at(slot)]) + v.standstill_gap_m[at(slot)];
+        const LeaderAhead own = last_vehicle_on_route(state, lane, slot, range_m);
+        if (own.slot >= 0) add_demand(model, state, lane, slot, own, part);
+        handled[count++] = connection;
+        if (count == connection_count) return;
+    }
+}
+
+}  // namespace
+
+void react_to_hidden_leaders(const Model& model, const State& state, int lane, const LeaderAhead& hidden,
+                             Partition& part) {
+    const int first = state.blocks[at(lane)].first;
+    if (hidden.slot >= 0) add_demand(model, state, lane, first, hidden, part);
+    // No follower can get past a first vehicle that is stopped.
+    const bool can_diverge = state.plan.lane(lane).branches || !model.demand.trips.empty();
+    if (can_diverge && state.vehicles.speed_mps[at(first)] > 0.0) {
+        react_to_leaders_hidden_from_followers(model, state, lane, part);
+    }
+}
+
+}  // namespace stopline

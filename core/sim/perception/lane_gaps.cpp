@@ -1,0 +1,100 @@
+#include "sim/perception/lane_gaps.h"
+
+#include <algorithm>
+
+#include "base/containers/index.h"
+#include "sim/perception/look_ahead.h"
+#include "sim/state/queries/desired_gap.h"
+#include "sim/state/queries/stopping_distance.h"
+
+namespace stopline {
+
+namespace {
+
+constexpr double kLookAhead_m = 150.0;
+
+Neighbour neighbour(const VehicleArrays& v, int slot, double gap_m) {
+    return {slot, gap_m, v.speed_mps[at(slot)], v.policy[at(slot)]};
+}
+
+double rear_m(const VehicleArrays& v, int slot) {
+    return v.position_m[at(slot)] - static_cast<double>(v.length_m[at(slot)]);
+}
+
+// Returns the nearest leader beyond the end of the lane.
+Neighbour leader_beyond_lane(const State& state, int lane, double front_m, int route) {
+    const VehicleArrays& v = state.vehicles;
+    if (route >= 0) {
+        const LeaderAhead leader = leader_ahead(state, lane, front_m, route, 0, kLookAhead_m);
+        return leader.slot < 0 ? Neighbour{}
+                               : neighbour(v, leader.slot, leader.lane_start_m + rear_m(v, leader.slot) - front_m);
+    }
+    Neighbour nearest;
+    for (const int next : state.plan.next(lane)) {
+        const LaneBlock& block = state.blocks[at(next)];
+        if (block.count == 0) continue;
+        const double gap_m = state.plan.lane(lane).length_m + rear_m(v, block.last()) - front_m;
+        if (gap_m < nearest.gap_m) nearest = neighbour(v, block.last(), gap_m);
+    }
+    return nearest;
+}
+
+// Returns the nearest upstream vehicle on its way to the lane. `rear_at_m`: position on the lane to which the gap is
+// measured.
+Neighbour follower_upstream(const Model& model, const State& state, int lane, double rear_at_m) {
+    const VehicleArrays& v = state.vehicles;
+    Neighbour nearest;
+    const auto keep_nearest = [&](int slot, double gap_m) {
+        if (gap_m < nearest.gap_m) nearest = neighbour(v, slot, gap_m);
+    };
+    for (const int connection : model.connections_to[at(lane)]) {
+        const LanePlan& connection_plan = state.plan.lane(connection);
+        const LaneBlock& inner = state.blocks[at(connection)];
+        if (inner.count > 0) {
+            keep_nearest(inner.first, connection_plan.length_m - v.position_m[at(inner.first)] + rear_at_m);
+            continue;
+        }
+        const LaneBlock& origin_block = state.blocks[at(connection_plan.origin)];
+        for (int slot = origin_block.first; slot < origin_block.past_last(); ++slot) {
+            if (v.next_lane[at(slot)] != connection) continue;
+            keep_nearest(slot, state.plan.lane(connection_plan.origin).length_m - v.position_m[at(slot)] +
+                                   connection_plan.length_m + rear_at_m);
+            break;
+        }
+    }
+    return nearest;
+}
+
+}  // namespace
+
+LaneNeighbours neighbours_at(const Model& model, const State& state, int lane, double front_m, double length_m,
+                             int route) {
+    const VehicleArrays& v = state.vehicles;
+    const LaneBlock& block = state.blocks[at(lane)];
+    const double* const positions = v.position_m.data();
+    LaneNeighbours found;
+    const double* const end = positions + block.past_last();
+    const double* const behind =
+        std::partition_point(positions + block.first, end, [=](double position_m) { return position_m >= front_m; });
+    const auto slot = static_cast<int>(behind - positions);
+    found.index = slot - block.first;
+    found.leader = found.index == 0 ? leader_beyond_lane(state, lane, front_m, route)
+                                    : neighbour(v, slot - 1, rear_m(v, slot - 1) - front_m);
+    found.follower = found.index == block.count ? follower_upstream(model, state, lane, front_m - length_m)
+                                                : neighbour(v, slot, front_m - length_m - v.position_m[at(slot)]);
+    return found;
+}
+
+double required_gap_m(const Model& model, int policy, double speed_mps, double ahead_mps, double share) {
+    // In full dynamics radar and brake are delayed, and each follower brakes harder than its leader. The gap must
+    // therefore suffice for gentle braking.
+    constexpr double kGentleBraking_mps2 = 2.0;
+    constexpr double kDelay_s = 0.3;
+    const double b_mps2 = model.meso ? model.krauss[at(policy)].deceleration_mps2 : kGentleBraking_mps2;
+    const double delay_m = model.meso ? 0.0 : kDelay_s * std::max(speed_mps - ahead_mps, 0.0);
+    const double braking_m = braking_distance_m(speed_mps, ahead_mps, b_mps2) + delay_m;
+    const double standstill_m = model.policies[at(policy)].settings.standstill_gap_m;
+    return std::max(share * desired_gap_m(model, policy, speed_mps), standstill_m) + braking_m;
+}
+
+}  // namespace stopline

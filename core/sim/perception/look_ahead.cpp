@@ -1,0 +1,265 @@
+// Finds the leader of the first vehicle of each lane, beyond the end of the lane.
+#include "sim/perception/look_ahead.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/containers/index.h"
+#include "sim/perception/hidden_leaders.h"
+#include "sim/performance/prefetch.h"
+#include "sim/state/events.h"
+
+namespace stopline {
+
+namespace {
+
+constexpr double kFar_m = 1e9;
+
+// The area behind the end of a lane where its connections still overlap. Finds the vehicle there whose rear is furthest
+// back. Only vehicles whose front is more than `front_m` beyond the end of the lane count.
+class DivergeArea {
+public:
+    DivergeArea(const State& state, int lane, double front_m = kAll_m)
+        : state_(state), v_(state.vehicles), end_m_(state.plan.lane(lane).length_m), front_m_(front_m) {
+        for (const int next : state.plan.next(lane)) search_connection(next);
+    }
+    // Return the vehicle found, and the position of its rear from the start of the lane.
+    LeaderAhead vehicle() const { return found_; }
+    double rear_m() const { return rear_m_; }
+
+private:
+    void search_connection(int connection) {
+        const double clear_m = state_.plan.diverge_end_m(connection);
+        const LaneBlock& block = state_.blocks[at(connection)];
+        for (int slot = block.last(); slot >= block.first; --slot) {
+            if (!consider(slot, 0.0, clear_m) || front_m_ == kAll_m) break;
+        }
+        if (!state_.plan.exit_reaches_back(connection)) return;
+        const LanePlan& plan = state_.plan.lane(connection);
+        const LaneBlock& exit = state_.blocks[at(plan.exit)];
+        for (int slot = std::max(exit.past_last() - kReachBack, exit.first); slot < exit.past_last(); ++slot) {
+            if (v_.record[at(slot)].previous_lane == connection) consider(slot, plan.length_m, clear_m);
+        }
+    }
+
+    // Keeps the vehicle if its rear is the furthest back so far. `start_m`: start of its lane, from the end of the
+    // diverging lane. Returns false if the vehicle is clear of the other connections.
+    bool consider(int slot, double start_m, double clear_m) {
+        const double front_m = start_m + v_.position_m[at(slot)];
+        const double beyond_m = front_m - v_.length_m[at(slot)];
+        if (beyond_m >= clear_m) return false;
+        if (front_m <= front_m_ || end_m_ + beyond_m >= rear_m_) return true;
+        rear_m_ = end_m_ + beyond_m;
+        found_ = {slot, end_m_ + start_m};
+        return true;
+    }
+
+    static constexpr double kAll_m = -1.0;
+    static constexpr int kReachBack = 2;  // vehicles on the exit lane whose rear can reach back over the connection
+
+    const State& state_;
+    const VehicleArrays& v_;
+    double end_m_;
+    double front_m_;
+    double rear_m_ = kFar_m;
+    LeaderAhead found_;
+};
+
+// Returns the leader beyond the end of the route, on the next edges of the trip, within `range_m`. The route itself
+// must be empty ahead of the vehicle.
+LeaderAhead ahead_on_trip(const State& state, int lane, double position_m, const RoutePosition& position,
+                          double range_m) {
+    const std::span<const int> route = state.plan.route(position.route);
+    double start_m = 0.0;  // start of `current_lane`, from the start of the vehicle's lane
+    int current_lane = lane;
+    for (std::size_t k = at(position.route_index) + 1; k < route.size(); ++k) {
+        start_m += state.plan.lane(current_lane).length_m;
+        current_lane = route[k];
+    }
+    for (int leg = position.trip_edge + 1;; ++leg) {
+        const Turn turn = state.plan.turn_of_trip(position.trip, leg);
+        const int turn_route = turn == Turn::none ? -1 : state.plan.adjacent(current_lane).turn_option(turn).route;
+        const LeaderAhead diverging = DivergeArea(state, current_lane).vehicle();
+        if (diverging.slot >= 0) return {diverging.slot, start_m + diverging.lane_start_m};
+        if (turn_route < 0) return {};
+        const std::span<const int> next_route = state.plan.route(turn_route);
+        for (std::size_t k = 1; k < next_route.size(); ++k) {
+            start_m += state.plan.lane(current_lane).length_m;
+            current_lane = next_route[k];
+            if (start_m - position_m > range_m) return {};
+            const LaneBlock& block = state.blocks[at(current_lane)];
+            if (block.count > 0) return {block.last(), start_m};
+        }
+    }
+}
+
+// Returns the last vehicle on the lanes of a route from `index` on. `start_m`: start of the lane at `index`, from the
+// start of the vehicle's lane.
+STOPLINE_INLINE LeaderAhead last_vehicle_on(const State& state, std::span<const int> route, std::size_t index,
+                                            double start_m, double position_m, double range_m) {
+    for (std::size_t k = index; k < route.size(); ++k) {
+        if (start_m - position_m > range_m) break;
+        const LaneBlock& block = state.blocks[at(route[k])];
+        if (block.count > 0) return {block.last(), start_m};
+        start_m += state.plan.lane(route[k]).length_m;
+    }
+    return {};
+}
+
+// Returns true if `own` came to the route from a lane outside it and there is a vehicle in the diverge area. While the
+// rear of `own` is off the route, the vehicle in the diverge area may be nearer.
+bool may_merge_behind(const State& state, std::span<const int> route, const LeaderAhead& own,
+                      const LeaderAhead& diverging_leader) {
+    if (diverging_leader.slot < 0) return false;
+    const int previous_lane = state.vehicles.record[at(own.slot)].previous_lane;
+    return previous_lane >= 0 && std::find(route.begin(), route.end(), previous_lane) == route.end();
+}
+
+// Returns the leader on the route, or a nearer vehicle in the diverge area. In the second case `hidden` receives the
+// vehicle on the route. Inlined because it runs once per lane and step.
+STOPLINE_INLINE LeaderAhead ahead_on_route(const State& state, int lane, double position_m, int route_number, int index,
+                                           double range_m, LeaderAhead* hidden = nullptr) {
+    const VehicleArrays& v = state.vehicles;
+    const LanePlan& here = state.plan.lane(lane);
+    if (!here.branches && here.length_m - position_m > range_m) return {};
+    LeaderAhead diverging_leader;
+    double beside_rear_m = kFar_m;
+    const std::span<const int> route = state.plan.route(route_number);
+    const bool ends_here = at(index) + 1 == route.size();  // other vehicles may drive on
+    if (here.branches || ends_here) {
+        const DivergeArea diverge_area(state, lane);
+        diverging_leader = diverge_area.vehicle();
+        beside_rear_m = diverge_area.rear_m();
+    } else if (here.origin >= 0 && position_m < state.plan.diverge_end_m(lane)) {
+        const double origin_m = state.plan.lane(here.origin).length_m;
+        const DivergeArea diverge_area(state, here.origin, position_m);
+        diverging_leader = {diverge_area.vehicle().slot, diverge_area.vehicle().lane_start_m - origin_m};
+        beside_rear_m = diverge_area.rear_m() - origin_m;
+    }
+    const LeaderAhead own = last_vehicle_on(state, route, at(index) + 1, here.length_m, position_m, range_m);
+    if (own.slot >= 0) {
+        double rear_m = own.lane_start_m + v.position_m[at(own.slot)] - v.length_m[at(own.slot)];
+        if (rear_m < own.lane_start_m && may_merge_behind(state, route, own, diverging_leader))
+            rear_m = own.lane_start_m;
+        if (rear_m <= beside_rear_m) return own;
+        if (hidden != nullptr && own.slot != diverging_leader.slot) *hidden = own;
+    }
+    return diverging_leader;
+}
+
+}  // namespace
+
+namespace {
+
+STOPLINE_INLINE LeaderAhead ahead_of(const State& state, int lane, int slot, double range_m,
+                                     LeaderAhead* hidden = nullptr) {
+    // A vehicle without a next lane leaves the network or waits to change lanes.
+    if (state.vehicles.next_lane[at(slot)] < 0) {
+        return DivergeArea(state, lane).vehicle();
+    }
+    const VehicleRecord& record = state.vehicles.record[at(slot)];
+    const double position_m = state.vehicles.position_m[at(slot)];
+    const LeaderAhead leader =
+        ahead_on_route(state, lane, position_m, record.route, record.route_index, range_m, hidden);
+    if (leader.slot >= 0 || record.trip < 0) return leader;
+    const RoutePosition position{record.route, record.route_index, record.trip, record.trip_edge};
+    return ahead_on_trip(state, lane, position_m, position, range_m);
+}
+
+}  // namespace
+
+LeaderAhead leader_ahead(const State& state, int lane, int slot, double range_m) {
+    return ahead_of(state, lane, slot, range_m);
+}
+
+LeaderAhead leader_ahead(const State& state, int lane, double position_m, const RoutePosition& position,
+                         double range_m) {
+    const LeaderAhead leader = leader_ahead(state, lane, position_m, position.route, position.route_index, range_m);
+    if (leader.slot >= 0 || position.trip < 0) return leader;
+    return ahead_on_trip(state, lane, position_m, position, range_m);
+}
+
+LeaderAhead last_vehicle_on_route(const State& state, int lane, int slot, double range_m) {
+    const VehicleRecord& record = state.vehicles.record[at(slot)];
+    return last_vehicle_on(state, state.plan.route(record.route), at(record.route_index) + 1,
+                           state.plan.lane(lane).length_m, state.vehicles.position_m[at(slot)], range_m);
+}
+
+LeaderAhead leader_ahead(const State& state, int lane, double position_m, int route, int index, double range_m) {
+    return ahead_on_route(state, lane, position_m, route, index, range_m);
+}
+
+namespace {
+
+// Copies the V2V messages of the leader to the sentinel, or neutral values if there is no leader.
+void copy_v2v(const DelayRows& rows, VehicleArrays& v, std::size_t sentinel, std::size_t ahead, bool has_leader) {
+    for (const std::size_t row : {rows.delayed, rows.older}) {
+        const std::size_t to = row + sentinel;
+        const std::size_t from = row + ahead;
+        v.v2v_acceleration_mps2[to] = has_leader ? v.v2v_acceleration_mps2[from] : 0.0F;
+        v.v2v_request_mps2[to] = has_leader ? v.v2v_request_mps2[from] : 0.0F;
+        v.v2v_rate_1ps[to] = has_leader ? v.v2v_rate_1ps[from] : 1.0F;
+    }
+}
+
+}  // namespace
+
+bool rear_is_on_merging_path(const State& state, int lane, int slot, int ahead) {
+    const VehicleArrays& v = state.vehicles;
+    const VehicleRecord& leader = v.record[at(ahead)];
+    double rear_m = v.position_m[at(ahead)] - static_cast<double>(v.length_m[at(ahead)]);
+    if (rear_m >= 0.0) return false;
+    const std::span<const int> route = state.plan.route(v.record[at(slot)].route);
+    const auto is_on_route = [&](int other_lane) {
+        return std::find(route.begin(), route.end(), other_lane) != route.end();
+    };
+    if (leader.previous_lane >= 0 && state.plan.lane(leader.previous_lane).origin == lane)
+        return false;  // the leader diverges at the end of this lane
+    if (leader.previous_lane >= 0 && !is_on_route(leader.previous_lane)) return true;
+    // The rear may reach back over a lane that is shorter than the vehicle.
+    if (leader.previous_lane >= 0) rear_m += state.plan.lane(leader.previous_lane).length_m;
+    return rear_m < 0.0 && leader.second_previous_lane >= 0 && !is_on_route(leader.second_previous_lane);
+}
+
+void find_leaders_beyond_lanes(const Model& model, const State& state, VehicleArrays& v, Partition& part) {
+    constexpr double kFree_m = 1e6;
+    constexpr double kTouch_m = 1e-4;  // keeps rounding from making the gap negative
+    part.extra_demands.clear();
+    for (const int lane : part.awake) {
+        advance_prefetch(state, part.prefetch);
+        const int head = state.blocks[at(lane)].first;
+        const std::size_t sentinel = at(head - 1);
+        LeaderAhead hidden;
+        const LeaderAhead ahead = ahead_of(state, lane, head, model.driver.cacc.radar_range_m, &hidden);
+        const bool has_leader = ahead.slot >= 0;
+        const std::size_t leader_slot = at(has_leader ? ahead.slot : head);
+        v.position_m[sentinel] = has_leader ? ahead.lane_start_m + v.position_m[leader_slot] : kFree_m;
+        v.speed_mps[sentinel] = v.speed_mps[leader_slot];
+        v.length_m[sentinel] = v.length_m[leader_slot];
+        v.acceleration_mps2[sentinel] = has_leader ? v.acceleration_mps2[leader_slot] : 0.0F;
+        if (const double reach_m = v.position_m[sentinel] - v.position_m[at(head)];
+            has_leader && reach_m < v.length_m[sentinel] && rear_is_on_merging_path(state, lane, head, ahead.slot)) {
+            v.length_m[sentinel] = static_cast<float>(std::max(reach_m - kTouch_m, 0.0));
+        }
+        const double rear_m = v.position_m[sentinel] - v.length_m[sentinel];
+        // In the mesoscale mode the kernels count these overlaps too.
+        if (!model.meso && has_leader && rear_m < v.position_m[at(head)]) {
+            ++part.violations.overlaps;
+            part.violations.record(
+                {model.time_s(state.tick), Violation::Kind::overlap, lane, v.id[at(head)], v.id[leader_slot]});
+        }
+        if (v.has_powertrain()) {
+            copy_v2v(state.v2v, v, sentinel, leader_slot, has_leader);
+            react_to_hidden_leaders(model, state, lane, hidden, part);
+        }
+        const int id = has_leader ? v.id[leader_slot] : -1;
+        if (v.record[at(head)].leader_id == id) continue;
+        // A new leader: its first radar measurement fills the radar history.
+        v.record[at(head)].leader_id = id;
+        v.is_platoon_leader[at(head)] = 1.0F;
+        const double gap_m = rear_m - v.position_m[at(head)];
+        v.reset_radar(head, gap_m, v.speed_mps[at(head)] - v.speed_mps[sentinel]);
+    }
+}
+
+}  // namespace stopline

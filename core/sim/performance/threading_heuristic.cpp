@@ -1,0 +1,46 @@
+#include "sim/performance/threading_heuristic.h"
+
+#include <algorithm>
+
+namespace stopline {
+
+namespace {
+
+constexpr int kTrialSteps = 16;          // for each number of threads
+constexpr double kHopelessFactor = 3.0;  // threads that are slower by this factor end the trial early
+constexpr int kMinSteps = 3;             // before a trial can end early
+constexpr double kPauseFactor = 100.0;   // pause between trials, in durations of the last trial
+constexpr double kMinPause_ns = 0.2e9;
+
+}  // namespace
+
+void ThreadingHeuristic::record_step(std::chrono::nanoseconds duration, int vehicles) {
+    const auto ns = static_cast<double>(duration.count());
+    if (!in_trial_) {
+        pause_ns_ -= ns;
+        if (pause_ns_ > 0.0) return;
+        in_trial_ = true;
+        use_threads_ = false;
+        one_thread_ = all_threads_ = {};
+        return;
+    }
+    Timing& timing = use_threads_ ? all_threads_ : one_thread_;
+    ++timing.steps;
+    timing.ns += ns;
+    timing.vehicles += std::max(vehicles, 1);
+    if (!use_threads_) {
+        use_threads_ = timing.steps == kTrialSteps;
+        return;
+    }
+    const bool hopeless =
+        timing.steps >= kMinSteps && timing.ns_per_vehicle() > kHopelessFactor * one_thread_.ns_per_vehicle();
+    if (timing.steps == kTrialSteps || hopeless) finish_trial();
+}
+
+void ThreadingHeuristic::finish_trial() {
+    use_threads_ = all_threads_.ns_per_vehicle() < one_thread_.ns_per_vehicle();
+    in_trial_ = false;
+    pause_ns_ = std::max(kPauseFactor * (one_thread_.ns + all_threads_.ns), kMinPause_ns);
+}
+
+}  // namespace stopline

@@ -1,0 +1,201 @@
+#include "sim/state/plan/network_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/containers/index.h"
+#include "base/simd/arithmetic.h"
+#include "sim/state/state.h"
+
+namespace stopline {
+
+namespace {
+
+// Disjoint sets of lanes that depend on each other (union-find).
+class LaneSets {
+public:
+    explicit LaneSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
+
+    // Returns the lowest member of the set of a lane.
+    int of(int member) {
+        while (parent_[at(member)] != member) {
+            parent_[at(member)] = parent_[at(parent_[at(member)])];
+            member = parent_[at(member)];
+        }
+        return member;
+    }
+    void join(int a, int b) {
+        const int set_a = of(a);
+        const int set_b = of(b);
+        parent_[at(std::max(set_a, set_b))] = std::min(set_a, set_b);
+    }
+
+private:
+    std::vector<int> parent_;
+};
+
+LanePlan plan_of(const Model& model, int index) {
+    const Lane& lane = model.graph.lanes[at(index)];
+    LanePlan plan;
+    plan.length_m = lane.length_m;
+    plan.stop_line_m = lane.stop_line_m;
+    plan.next_limit_m = lane.signal_group >= 0 ? lane.stop_line_m : lane.length_m;
+    plan.limit_mps = lane.limit_mps;
+    plan.sine = static_cast<float>(lane.gradient / std::sqrt(1.0 + square(lane.gradient)));
+    plan.signal_group = lane.signal_group;
+    plan.origin = lane.origin;
+    plan.branches = lane.next.size() > 1;
+    if (lane.origin >= 0) plan.exit = lane.next[0];
+    plan.keep_clear = lane.keep_clear;
+    const auto has_signals = [&](int next) { return model.graph.lanes[at(next)].movement_signal_group >= 0; };
+    plan.has_movement_signals = lane.origin < 0 && std::any_of(lane.next.begin(), lane.next.end(), has_signals);
+    for (const Conflict& conflict : model.graph.conflicts_of(index)) {
+        plan.first_conflict_m = std::min(plan.first_conflict_m, conflict.from_m);
+        plan.yields = plan.yields || conflict.yields;
+    }
+    return plan;
+}
+
+double longest_vehicle_m(const Model& model) {
+    double longest_m = 0.0;
+    for (const PowertrainTables& type : model.vehicles) longest_m = std::max(longest_m, type.length_m);
+    for (const Trip& trip : model.demand.trips) longest_m = std::max(longest_m, static_cast<double>(trip.length_m));
+    return longest_m;
+}
+
+double max_space_per_vehicle(const Model& model) {
+    double gap_m = 0.0;
+    for (const CompiledPolicy& policy : model.policies) gap_m = std::max(gap_m, policy.settings.standstill_gap_m);
+    return longest_vehicle_m(model) + gap_m;
+}
+
+// A connection depends on its origin and on the connections that it meets. An exit lane without a stop line joins them,
+// so that its data lie nearby.
+void join_intersections(const Model& model, LaneSets& sets) {
+    for (int index = 0; index < static_cast<int>(model.graph.lanes.size()); ++index) {
+        const Lane& lane = model.graph.lanes[at(index)];
+        if (lane.origin < 0) continue;
+        sets.join(index, lane.origin);
+        for (const Conflict& conflict : model.graph.conflicts_of(index)) sets.join(index, conflict.other);
+        if (model.graph.lanes[at(lane.next[0])].signal_group < 0) sets.join(index, lane.next[0]);
+    }
+    for (const Approach& approach : model.graph.approaches) {
+        for (const int lane : approach.lanes) sets.join(approach.lanes[0], lane);
+    }
+}
+
+// Sets the lane changes from each lane of an approach to the nearest lane with a route for a turn.
+void count_lane_changes(const Approach& approach, std::size_t turn, std::vector<AdjacentLanes>& adjacent) {
+    const auto lanes = static_cast<int>(approach.lanes.size());
+    const auto option = [&](int k) -> TurnOption& { return adjacent[at(approach.lanes[at(k)])].turn_options[turn]; };
+    for (int k = 0; k < lanes; ++k) {
+        for (int distance = 0; distance < lanes && option(k).route < 0 && option(k).lane_changes == 0; ++distance) {
+            if (k + distance < lanes && option(k + distance).route >= 0) {
+                option(k).lane_changes = distance;
+            } else if (k >= distance && option(k - distance).route >= 0) {
+                option(k).lane_changes = -distance;
+            }
+        }
+    }
+}
+
+// Routes from one lane with one turn form a chain through `next_parallel_route`, the last route first.
+std::vector<AdjacentLanes> plan_adjacent_lanes(const LaneGraph& graph, const std::vector<Turn>& turns,
+                                               std::vector<int>& next_parallel_route) {
+    std::vector<AdjacentLanes> adjacent(graph.lanes.size());
+    for (std::size_t lane = 0; lane < graph.lanes.size(); ++lane) {
+        adjacent[lane].left = graph.lanes[lane].left;
+        adjacent[lane].right = graph.lanes[lane].right;
+        adjacent[lane].start_offset_m = graph.lanes[lane].start_offset_m;
+    }
+    for (std::size_t route = 0; route < graph.routes.size(); ++route) {
+        AdjacentLanes& origin = adjacent[at(graph.routes[route].lanes[0])];
+        int& first_route = origin.turn_options[static_cast<std::size_t>(turns[route])].route;
+        next_parallel_route.push_back(first_route);
+        first_route = static_cast<int>(route);
+    }
+    for (const Approach& approach : graph.approaches) {
+        for (std::size_t k = 0; k < approach.lanes.size(); ++k) {
+            adjacent[at(approach.lanes[k])].index = static_cast<int>(k);
+        }
+        for (std::size_t turn = 0; turn < adjacent[0].turn_options.size(); ++turn) {
+            count_lane_changes(approach, turn, adjacent);
+        }
+    }
+    return adjacent;
+}
+
+}  // namespace
+
+NetworkPlan::NetworkPlan(const Model& model)
+    : speed_factor_(model.speed_factor),
+      max_space_per_vehicle_m_(max_space_per_vehicle(model)),
+      demand_(&model.demand) {
+    const auto count = static_cast<int>(model.graph.lanes.size());
+    const double longest_m = longest_vehicle_m(model);
+    LaneSets sets(at(count));
+    join_intersections(model, sets);
+    for (int index = 0; index < count; ++index) {
+        const Lane& lane = model.graph.lanes[at(index)];
+        lanes_.push_back(plan_of(model, index));
+        intersection_of_.push_back(sets.of(index));
+        intersection_count_ += sets.of(index) == index ? 1 : 0;
+        lane_order_.push_back(index);
+        may_wait_inside_.push_back(lane.waits_inside ? 1 : 0);
+        movement_groups_.push_back(lane.movement_signal_group);
+        diverges_.push_back({lane.diverge_end_m, lane.origin >= 0 && lane.length_m - lane.diverge_end_m < longest_m});
+        next_.add(lane.next);
+        conflicts_.add(model.graph.conflicts_of(index));
+    }
+    std::stable_sort(lane_order_.begin(), lane_order_.end(),
+                     [this](int a, int b) { return intersection_of(a) < intersection_of(b); });
+    number_connections(model);
+    for (const Route& route : model.graph.routes) {
+        routes_.add(route.lanes);
+        turns_.push_back(route.lanes.size() > 1 ? model.graph.lanes[at(route.lanes[1])].turn : Turn::none);
+    }
+    adjacent_ = plan_adjacent_lanes(model.graph, turns_, next_parallel_route_);
+    for (const Approach& approach : model.graph.approaches) {
+        std::array<int, kMaxTurns> routes{};
+        routes.fill(-1);
+        for (const int lane : approach.lanes) {
+            for (std::size_t turn = 0; turn < routes.size(); ++turn) {
+                routes[turn] = std::max(routes[turn], adjacent_[at(lane)].turn_options[turn].route);
+            }
+        }
+        routes_with_.push_back(routes);
+    }
+    for (const int lane : lane_order_) {
+        if (adjacent_[at(lane)].has_neighbours()) lanes_with_neighbours_.push_back(lane);
+    }
+    if (!model.demand.trips.empty()) trip_lanes_ = TripLanes(model, *this);
+}
+
+void NetworkPlan::number_connections(const Model& model) {
+    constexpr std::size_t kBits = Bitset::kWordBits;
+    int intersection = -1;
+    for (const int lane : lane_order_) {
+        if (lanes_[at(lane)].origin < 0 || model.graph.conflicts_of(lane).empty()) continue;
+        if (intersection_of(lane) != intersection) {
+            connections_.resize((connections_.size() + kBits - 1) / kBits * kBits, -1);
+            intersection = intersection_of(lane);
+        }
+        lanes_[at(lane)].bitset_index = static_cast<int>(connections_.size());
+        connections_.push_back(lane);
+    }
+    for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
+        std::vector<BitsetMask> masks;
+        for (const Conflict& conflict : model.graph.conflicts_of(static_cast<int>(lane))) {
+            const int index = lanes_[at(conflict.other)].bitset_index;
+            if (index < 0) continue;
+            const std::size_t word = at(index) / kBits;
+            auto mask = std::find_if(masks.begin(), masks.end(), [&](const BitsetMask& m) { return m.word == word; });
+            if (mask == masks.end()) mask = masks.insert(mask, {word, 0});
+            mask->bits |= std::uint64_t{1} << at(index) % kBits;
+        }
+        conflicting_.add(masks);
+    }
+}
+
+}  // namespace stopline

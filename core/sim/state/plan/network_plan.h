@@ -1,0 +1,119 @@
+// The network as the phases of a step read it: one cache line a lane, routes in one array, and lanes in the order of
+// their intersections, which is the unit of distribution to threads.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "base/containers/bitset.h"
+#include "base/containers/packed_lists.h"
+#include "base/simd/simd.h"
+#include "sim/state/model.h"
+#include "sim/state/plan/lane_plan.h"
+#include "sim/state/plan/trip_lanes.h"
+
+namespace stopline {
+
+class NetworkPlan {
+public:
+    // Keeps a pointer to the demand of the model, which must outlive the plan.
+    explicit NetworkPlan(const Model& model);
+
+    const LanePlan& lane(int lane) const { return lanes_[static_cast<std::size_t>(lane)]; }
+    int lanes() const { return static_cast<int>(lanes_.size()); }
+    // Returns the length of the longest vehicle plus the largest standstill gap.
+    double max_space_per_vehicle_m() const { return max_space_per_vehicle_m_; }
+    // Returns the highest speed of vehicles of the mesoscale mode on a lane.
+    double free_speed_mps(int lane) const { return speed_factor_ * this->lane(lane).limit_mps; }
+    std::span<const int> route(int route) const { return routes_.of(route); }
+    std::span<const int> next(int lane) const { return next_.of(lane); }
+    const AdjacentLanes& adjacent(int lane) const { return adjacent_[static_cast<std::size_t>(lane)]; }
+    const std::vector<int>& lanes_with_neighbours() const { return lanes_with_neighbours_; }
+    // Returns a route from any lane of an approach with a turn; -1: none.
+    int route_with(int approach, Turn turn) const {
+        return routes_with_[static_cast<std::size_t>(approach)][static_cast<std::size_t>(turn)];
+    }
+    Turn turn_of(int route) const { return turns_[static_cast<std::size_t>(route)]; }
+    // Returns the next route with the same first lane and turn that leads to another exit lane; -1: none.
+    int next_parallel_route(int route) const { return next_parallel_route_[static_cast<std::size_t>(route)]; }
+    // Returns the signal group that controls a vehicle on an approach lane with connection `next` (-1: none yet).
+    int signal_group_for(int lane, int next) const {
+        const LanePlan& plan = this->lane(lane);
+        const int own = plan.has_movement_signals && next >= 0 ? movement_groups_[static_cast<std::size_t>(next)] : -1;
+        return own >= 0 ? own : plan.signal_group;
+    }
+    // Returns the position on a connection beyond which a rear is clear of the other connections of its origin.
+    double diverge_end_m(int lane) const { return diverges_[static_cast<std::size_t>(lane)].end_m; }
+    // Returns true if a vehicle on the exit lane can reach back into the part of the connection that is not clear.
+    bool exit_reaches_back(int lane) const { return diverges_[static_cast<std::size_t>(lane)].exit_reaches_back; }
+    // Returns true if vehicles may yield inside the intersection on this connection; else they yield at the stop line.
+    bool may_wait_inside(int lane) const { return may_wait_inside_[static_cast<std::size_t>(lane)] != 0; }
+    // Returns the turn at the end of an edge of a trip; none: the trip ends there.
+    Turn turn_of_trip(int trip, int trip_edge) const { return demand_->turn_of_trip(trip, trip_edge); }
+    // Returns the lane changes that a trip needs beyond an edge if the vehicle leaves the edge from `lane`.
+    int lane_changes_after(int trip, int trip_edge, int lane) const {
+        return trip_lanes_.after(demand_->trips[static_cast<std::size_t>(trip)], trip_edge, adjacent(lane).index);
+    }
+    // Returns the lane changes that a trip needs on and beyond an edge of `lanes` lanes, starting on `lane`.
+    int lane_changes_from(int trip, int trip_edge, int lane, int lanes) const {
+        return trip_lanes_.from(demand_->trips[static_cast<std::size_t>(trip)], trip_edge, adjacent(lane).index, lanes);
+    }
+    STOPLINE_INLINE void prefetch_conflicts(int lane) const {
+        for (const Conflict& conflict : conflicts_.of(lane)) __builtin_prefetch(&conflict);
+    }
+    // Returns the conflict areas of a connection, from its start.
+    std::span<const Conflict> conflicts(int lane) const { return conflicts_.of(lane); }
+    // Returns the connections that a connection meets.
+    std::span<const BitsetMask> conflicting(int lane) const { return conflicting_.of(lane); }
+    // Connections that meet others have numbers in bitsets, in the order of lanes. Intersections share no word.
+    std::size_t bitset_size() const { return connections_.size(); }
+    int connection_at(std::size_t bitset_index) const { return connections_[bitset_index]; }  // -1: unused number
+    // Calls visit(begin, end) for the memory that steps read of a lane.
+    template <class Visit>
+    void for_each_memory_range(int lane, Visit visit) const {
+        const auto element = [&](const auto& array) { visit(array.data() + lane, array.data() + lane + 1); };
+        element(lanes_), element(diverges_), element(movement_groups_), element(may_wait_inside_);
+        next_.visit_memory(lane, visit), conflicting_.visit_memory(lane, visit), conflicts_.visit_offsets(lane, visit);
+        for (const TurnOption& option : adjacent(lane).turn_options) {
+            if (option.route >= 0) routes_.visit_memory(option.route, visit);
+        }
+    }
+    // Returns all lanes, grouped by intersection.
+    const std::vector<int>& lane_order() const { return lane_order_; }
+    int intersection_count() const { return intersection_count_; }
+    // Lanes with the same number depend on each other within a step.
+    int intersection_of(int lane) const { return intersection_of_[static_cast<std::size_t>(lane)]; }
+
+private:
+    void number_connections(const Model& model);
+
+    double speed_factor_;
+    double max_space_per_vehicle_m_ = 0.0;
+    int intersection_count_ = 0;
+    std::vector<LanePlan> lanes_;
+    PackedLists<int> routes_;
+    PackedLists<int> next_;
+    PackedLists<Conflict> conflicts_;
+    PackedLists<BitsetMask> conflicting_;
+    std::vector<int> connections_;  // [bitset index]
+    std::vector<int> lane_order_;
+    std::vector<int> intersection_of_;  // [lane]
+    std::vector<AdjacentLanes> adjacent_;
+    std::vector<int> lanes_with_neighbours_;
+    std::vector<Turn> turns_;                              // [route]
+    std::vector<std::array<int, kMaxTurns>> routes_with_;  // [approach][turn]
+    std::vector<int> next_parallel_route_;                 // [route]
+    std::vector<int> movement_groups_;                     // [lane] signal group of the movement; -1: none
+    std::vector<char> may_wait_inside_;                    // [lane]
+    struct DivergePlan {
+        double end_m = 0.0;
+        bool exit_reaches_back = false;
+    };
+    std::vector<DivergePlan> diverges_;  // [lane]
+    const DemandPlan* demand_;
+    TripLanes trip_lanes_;
+};
+
+}  // namespace stopline

@@ -1,0 +1,25 @@
+// Where vehicles leave their lane.
+#pragma once
+
+#include "base/containers/index.h"
+#include "sim/state/state.h"
+
+namespace stopline {
+
+// Returns true on the last edge of a trip. The vehicle is removed at the stop line and ignores its signal.
+inline bool is_on_last_edge(const State& state, int slot) {
+    if (state.vehicles.next_lane[at(slot)] >= 0) return false;
+    const VehicleRecord& record = state.vehicles.record[at(slot)];
+    return record.trip >= 0 && state.plan.turn_of(record.route) == Turn::none;
+}
+
+// Returns true if a vehicle has passed the end of its lane, or the stop line where its trip ends.
+inline bool has_left_lane(const State& state, int lane, int slot) {
+    const LanePlan& plan = state.plan.lane(lane);
+    const double position_m = state.vehicles.position_m[at(slot)];
+    if (position_m >= plan.length_m) return true;
+    if (plan.signal_group < 0 || position_m < plan.stop_line_m) return false;
+    return is_on_last_edge(state, slot);
+}
+
+}  // namespace stopline

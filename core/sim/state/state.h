@@ -1,0 +1,62 @@
+// All data that change during a run. Concurrent runs share nothing but the Model.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "sim/state/congestion_state.h"
+#include "sim/state/detector_state.h"
+#include "sim/state/gap_alignment.h"
+#include "sim/state/insertion_state.h"
+#include "sim/state/junction_state.h"
+#include "sim/state/model.h"
+#include "sim/state/partition.h"
+#include "sim/state/plan/network_plan.h"
+#include "sim/state/queue_state.h"
+#include "sim/state/run_records.h"
+#include "sim/state/stop_line_state.h"
+#include "sim/state/vehicles/delay_rows.h"
+#include "sim/state/vehicles/vehicle_arrays.h"
+
+namespace stopline {
+
+// The place of a lane in the partitions.
+struct LaneLocation {
+    std::size_t partition = 0;
+    std::size_t index = 0;       // in Partition::lanes
+    int exit_partition = -1;     // partition that has the lane among its exits; -1: none
+    std::size_t exit_index = 0;  // in Partition::exits
+};
+
+struct State {
+    std::int64_t tick = 0;
+    NetworkPlan plan;
+    VehicleArrays vehicles;
+    std::vector<LaneBlock> blocks;  // [lane]
+    DelayRows radar;                // rows of this step
+    DelayRows v2v;                  // rows of this step
+    std::vector<Partition> partitions;
+    std::vector<LaneLocation> location_of;  // [lane]
+    StopLines stop_lines;
+    JunctionState junctions;
+    std::vector<std::vector<GapAlignment>> gap_alignments;  // [lane]
+    QueueState queues;
+    DetectorState detectors;
+    InsertionState insertion;
+    CongestionState congestion;
+    RunRecords records;
+
+    explicit State(const Model& model) : plan(model) {}
+    // Returns the number of vehicles in the network, including teleported vehicles.
+    int present() const { return static_cast<int>(records.entered - records.exited); }
+    // Returns true if the vehicles do not fit into a second-level cache of 1 MiB. A step uses about 150 bytes a
+    // vehicle.
+    bool outgrows_cache() const { return present() > 4000; }
+};
+
+// Returns the state before the first step, without vehicles. The network is split into at least `threads` partitions if
+// it has as many intersections.
+State make_state(const Model& model, int threads);
+
+}  // namespace stopline

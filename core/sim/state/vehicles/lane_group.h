@@ -1,0 +1,38 @@
+// Input of the full-dynamics kernels: some lanes whose vehicles go through the kernels together.
+#pragma once
+
+#include <vector>
+
+namespace stopline {
+
+struct LaneStep {
+    int begin = 0;  // slots [begin, stop) hold the vehicles
+    int stop = 0;
+    double next_limit_m = 0.0;  // position from which the next lane's speed limit applies
+    double limit_mps = 0.0;
+    double sine = 0.0;  // sine of the slope angle
+
+    int count() const { return stop - begin; }
+};
+
+// The acceleration that a stop line, yielding, a gap alignment or a hidden leader demands of one vehicle.
+struct ExternalDemand {
+    int index = 0;  // of the vehicle in the group
+    double acceleration_mps2 = 0.0;
+};
+
+struct LaneGroup {
+    std::vector<LaneStep> lanes;  // in the order of their slots
+    std::vector<ExternalDemand> demands;
+    std::vector<int> prefetch_slots;  // one slot for each cache line of the group's vehicles
+    int vehicles = 0;
+
+    void clear() {
+        lanes.clear();
+        prefetch_slots.clear();
+        demands.clear();
+        vehicles = 0;
+    }
+};
+
+}  // namespace stopline

@@ -1,0 +1,98 @@
+// The state of all vehicles as structures of arrays in lane order.
+//
+//     block of a lane:  | sentinel | free ... | first | ... | last | free ... |
+//
+// The leader of the vehicle in slot i is in slot i - 1. The slot before the first vehicle is the lane's sentinel: a
+// copy of the leader beyond the lane (sim/perception/look_ahead.h). Vehicles leave at the front and enter at the back.
+#pragma once
+
+#include <cstddef>
+
+#include "base/simd/huge_page_allocator.h"
+#include "base/simd/simd.h"
+#include "sim/state/vehicles/lane_block.h"
+#include "sim/state/vehicles/vehicle_record.h"
+#include "vehicle/powertrain_tables.h"
+
+namespace stopline {
+
+inline constexpr double kUnlimitedSpeed_mps = 1e9;
+inline constexpr float kNoLowerLimit_mps = 1e3F;  // end_speed_mps if the next lane has no lower speed limit
+
+struct VehicleArrays {
+    // Read and written in every step. One value a slot, SI units.
+    LargeArray<double> position_m;  // front, from the start of the lane
+    LargeArray<double> speed_mps;
+    LargeArray<float> acceleration_mps2;  // realised in the last step
+    LargeArray<float> length_m;
+    LargeArray<float> end_speed_mps;      // speed limit at the end of the lane, from the next lane of the route
+    LargeArray<float> is_platoon_leader;  // 1: uses the start-up profile; 0: follower
+    LargeArray<int> policy;
+    LargeArray<int> id;  // mesoscale mode: -1 in a free slot
+    // Mesoscale mode only. The first two belong to the lane and are not copied when the vehicle changes its lane.
+    LargeArray<double> limit_mps;      // speed limit times the speed factor
+    LargeArray<double> next_limit_m;   // position from which end_speed_mps applies
+    LargeArray<double> speed_cap_mps;  // highest speed in this step, for stopping, yielding or free driving
+    // Full dynamics only.
+    LargeArray<float> request_mps2;  // u: acceleration requested in the last step
+    LargeArray<float> torque_Nm;
+    LargeArray<float> brake_N;
+    LargeArray<float> gear_time_s;
+    LargeArray<float> lag_s;  // tau, sent to the follower
+    LargeArray<float> gear;   // 0: first gear
+    // Delay lines, [row][slot]: radar measurements and V2V messages of past steps.
+    LargeArray<float> radar_gap_m;
+    LargeArray<float> radar_closing_mps;
+    LargeArray<float> v2v_acceleration_mps2;
+    LargeArray<float> v2v_request_mps2;
+    LargeArray<float> v2v_rate_1ps;  // 1 / lag
+    // Read for the first vehicles of a lane and at events.
+    LargeArray<int> next_lane;  // on the route; -1: the vehicle leaves the network or must change lanes
+    LargeArray<VehicleRecord> record;
+    LargeArray<int> stopped_since;  // tick at which the vehicle was last observed in motion
+    LargeArray<float> standstill_gap_m;
+    LargeArray<int> type;
+
+    int slots = 0;
+    int radar_rows = 0;  // 0 in the mesoscale mode
+    int v2v_rows = 0;    // 0 in the mesoscale mode
+
+    // Sets the number of slots in full dynamics.
+    void resize(int slot_count, int radar_row_count, int v2v_row_count);
+    // Mesoscale mode: reserves memory without adding slots.
+    void reserve(int slot_count);
+    // Mesoscale mode: adds free slots at the end.
+    void grow(int slot_count);
+    bool has_powertrain() const { return v2v_rows > 0; }
+    // Copies a vehicle to a slot of another lane, without the data that belong to the lane.
+    void copy(int from, int to);
+    // Moves vehicles in consecutive slots to other slots of the same lane.
+    void move(int from, int count, int to);
+    // Marks a slot as free, so that the mesoscale kernels skip it.
+    void clear_slot(int slot) {
+        const auto i = static_cast<std::size_t>(slot);
+        id[i] = -1;
+        is_platoon_leader[i] = 0.0F;
+        end_speed_mps[i] = kNoLowerLimit_mps;
+    }
+    // Sets the powertrain to steady driving at a speed.
+    void reset_powertrain(int slot, const PowertrainTables& vehicle, double speed);
+    // Fills the radar's delay line with one measurement.
+    void reset_radar(int slot, double gap_m, double closing_mps);
+    // Fills the V2V delay line with the present state of the vehicle.
+    void reset_v2v(int slot);
+
+    std::size_t row(int row_index, int slot) const {
+        return static_cast<std::size_t>(row_index) * static_cast<std::size_t>(slots) + static_cast<std::size_t>(slot);
+    }
+
+private:
+    template <class Visit>
+    void for_each_common(Visit visit);
+    template <class Visit>
+    void for_each_powertrain(Visit visit);
+    template <class Visit>
+    void for_each_of_lane(Visit visit);
+};
+
+}  // namespace stopline

@@ -1,0 +1,51 @@
+#include "sim/step/detectors.h"
+
+#include "base/containers/index.h"
+#include "sim/state/events.h"
+#include "sim/state/queries/passage.h"
+
+namespace stopline {
+
+namespace {
+
+// Notes the entry into the intersection, and a violation if the vehicle passes on red although it could have stopped.
+void pass_stop_line(const Model& model, State& state, Partition& part, int lane, int slot) {
+    VehicleRecord& record = state.vehicles.record[at(slot)];
+    record.junction_entry_tick = static_cast<int>(state.tick);
+    const int next = state.vehicles.next_lane[at(slot)];
+    if (state.stop_lines.lights[at(state.plan.signal_group_for(lane, next))] != Light::red) return;
+    if (record.trip >= 0 && next < 0) return;  // its trip ends here, or it cannot enter in this lane
+    // A vehicle is chosen to stop only if it can.
+    const StopLineState& line = state.stop_lines.lines[at(lane)];
+    if (line.stopping_vehicle == state.vehicles.id[at(slot)] && !line.may_overrun) {
+        ++part.violations.red_entries;
+        part.violations.record(
+            {model.time_s(state.tick + 1), Violation::Kind::red_entry, lane, state.vehicles.id[at(slot)], -1});
+    } else {
+        ++part.violations.forced_red_entries;
+    }
+}
+
+}  // namespace
+
+// Vehicles pass a detector in the order of the lane, so only the first vehicle upstream of it must be inspected.
+void record_detector_crossings(const Model& model, State& state, Partition& part) {
+    const VehicleArrays& v = state.vehicles;
+    for (const int number : part.detectors) {
+        const Detector& detector = model.detectors[at(number)];
+        const LaneBlock& block = state.blocks[at(detector.lane)];
+        int& upstream = state.detectors.upstream[at(number)];
+        for (; upstream > 0; --upstream) {
+            const int slot = block.past_last() - upstream;
+            if (v.position_m[at(slot)] < detector.position_m) break;
+            if (model.records_all || model.records_detectors || detector.kind == Detector::Kind::zone) {
+                part.crossings.push_back({passing_time_s(model, state, slot, detector.position_m), v.id[at(slot)],
+                                          v.policy[at(slot)], number, static_cast<float>(v.speed_mps[at(slot)]),
+                                          v.length_m[at(slot)]});
+            }
+            if (detector.kind == Detector::Kind::stop_line) pass_stop_line(model, state, part, detector.lane, slot);
+        }
+    }
+}
+
+}  // namespace stopline

@@ -1,0 +1,98 @@
+#include "sim/step/move_vehicles.h"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "base/containers/index.h"
+#include "base/simd/simd.h"
+#include "sim/full_dynamics/full_dynamics.h"
+#include "sim/mesoscale/meso_dynamics.h"
+#include "sim/state/queries/lane_end.h"
+
+namespace stopline {
+
+namespace {
+
+// Appends a lane to a group with all external demands on its vehicles. `hidden_leader_demands`: the demands of the
+// partition that have not been appended yet; the lane's demands are removed from its front.
+void add_lane(const Model& model, const State& state, int lane, std::span<const BrakingDemand>& hidden_leader_demands,
+              LaneGroup& group) {
+    const VehicleArrays& v = state.vehicles;
+    const LaneBlock& block = state.blocks[at(lane)];
+    const LanePlan& plan = state.plan.lane(lane);
+    const auto demand = [&](int slot, double acceleration_mps2) {
+        group.demands.push_back({group.vehicles + slot - block.first, acceleration_mps2});
+    };
+    const auto stop_at = [&](int slot, double position_m) {
+        const double room_m = position_m - v.position_m[at(slot)];
+        demand(slot, stop_at_line_acceleration(model.driver, v.speed_mps[at(slot)], room_m));
+    };
+    if (plan.signal_group >= 0 && state.stop_lines.stop_slot[at(lane)] >= 0) {
+        stop_at(state.stop_lines.stop_slot[at(lane)], plan.stop_line_m - model.driver.stop.margin_m);
+    }
+    const YieldStops& yield_stops = state.junctions.yield_stops[at(lane)];
+    for (int k = 0; k < yield_stops.count; ++k) {
+        stop_at(yield_stops.stops[at(k)].slot, yield_stops.stops[at(k)].position_m);
+    }
+    while (!hidden_leader_demands.empty() && block.has(hidden_leader_demands.front().slot)) {
+        demand(hidden_leader_demands.front().slot, hidden_leader_demands.front().acceleration_mps2);
+        hidden_leader_demands = hidden_leader_demands.subspan(1);
+    }
+    for (const GapAlignment& alignment : state.gap_alignments[at(lane)]) {
+        constexpr double kTimeToTarget_s = 1.0;
+        const double acceleration_mps2 =
+            (alignment.target_speed_mps - v.speed_mps[at(alignment.slot)]) / kTimeToTarget_s;
+        demand(alignment.slot, std::max(acceleration_mps2, -GapAlignment::kDeceleration_mps2));
+    }
+    group.lanes.push_back(
+        {block.first, block.past_last(), plan.next_limit_m, plan.limit_mps, static_cast<double>(plan.sine)});
+    // Blocks and arrays begin with a cache line.
+    const int first_of_line = block.first / kSimdWidth * kSimdWidth;
+    for (int slot = first_of_line; slot < block.past_last(); slot += kSimdWidth) group.prefetch_slots.push_back(slot);
+    group.vehicles += block.count;
+}
+
+// Fills a group with occupied lanes, starting with the k-th one, and advances k.
+void collect_group(const Model& model, const State& state, const Partition& part, std::size_t& k,
+                   std::span<const BrakingDemand>& hidden_leader_demands, LaneGroup& group) {
+    group.clear();
+    for (; k < part.occupied.size() && group.vehicles < Partition::kGroupVehicles; ++k) {
+        add_lane(model, state, part.occupied[k], hidden_leader_demands, group);
+    }
+}
+
+// Groups are small enough for the first-level cache.
+void step_full_groups(const Model& model, const FullTables& tables, State& state, Partition& part) {
+    LaneGroup& group = part.groups[0];
+    LaneGroup& next = part.groups[1];
+    const bool prefetch = state.outgrows_cache();
+    std::size_t k = 0;
+    std::span<const BrakingDemand> hidden_leader_demands = part.extra_demands;
+    collect_group(model, state, part, k, hidden_leader_demands, group);
+    while (!group.lanes.empty()) {
+        collect_group(model, state, part, k, hidden_leader_demands, next);
+        part.full_group.reserve(group.vehicles);
+        const std::span<const int> next_slots =
+            prefetch ? std::span<const int>(next.prefetch_slots) : std::span<const int>();
+        step_full(model, tables, group, next_slots, state, part);
+        std::swap(group, next);
+    }
+}
+
+}  // namespace
+
+void move_vehicles(const Model& model, const FullTables& tables, State& state, Partition& part) {
+    if (model.meso) {
+        step_meso(model, state, part);
+    } else {
+        step_full_groups(model, tables, state, part);
+    }
+    part.lanes_to_transfer.clear();
+    for (const int lane : model.meso ? part.lanes_near_end : part.awake) {
+        const int first = state.blocks[at(lane)].first;
+        if (has_left_lane(state, lane, first)) part.lanes_to_transfer.push_back(lane);
+    }
+}
+
+}  // namespace stopline

@@ -1,0 +1,13 @@
+// Moves all vehicles of a partition.
+#pragma once
+
+#include "sim/full_dynamics/full_dynamics.h"
+#include "sim/state/model.h"
+#include "sim/state/state.h"
+
+namespace stopline {
+
+// Moves the vehicles and lists the lanes whose first vehicle has reached the end.
+void move_vehicles(const Model& model, const FullTables& tables, State& state, Partition& part);
+
+}  // namespace stopline

@@ -1,0 +1,53 @@
+#include "sim/step/partition_reports.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "sim/state/delay_log.h"
+
+namespace stopline {
+
+namespace {
+
+// Sets the number of lost vehicles: entered minus exited minus present.
+void update_lost_vehicles(RunRecords& records, std::int64_t present) {
+    records.violations.lost_vehicles = records.entered - records.exited - present;
+}
+
+}  // namespace
+
+void count_lost_vehicles(State& state) {
+    std::int64_t present = state.congestion.teleporting.count;
+    for (const LaneBlock& block : state.blocks) present += block.count;
+    update_lost_vehicles(state.records, present);
+}
+
+void merge_partition_reports(State& state) {
+    const auto move_to = [](auto& target, auto& source) {
+        target.insert(target.end(), source.begin(), source.end());
+        source.clear();
+    };
+    RunRecords& records = state.records;
+    std::vector<RuleUse> rule_uses;
+    std::int64_t present = state.congestion.teleporting.count;
+    for (Partition& part : state.partitions) {
+        present += part.present;
+        records.updates += part.updates;
+        records.longest_in_junction = std::max(records.longest_in_junction, part.longest_in_junction);
+        state.congestion.delays.passed_blockers += part.passed_blockers;
+        records.violations.add(part.violations);
+        part.updates = part.longest_in_junction = part.passed_blockers = 0;
+        part.violations = {};
+        move_to(records.crossings, part.crossings);
+        move_to(records.gaps_accepted, part.gaps_accepted);
+        move_to(rule_uses, part.rule_uses);
+    }
+    std::stable_sort(rule_uses.begin(), rule_uses.end(),
+                     [](const RuleUse& a, const RuleUse& b) { return a.vehicle < b.vehicle; });
+    move_to(state.congestion.delays.rule_uses, rule_uses);
+    // Partitions count their vehicles at the beginning of the step. Vehicles enter and leave after this phase.
+    update_lost_vehicles(records, present);
+}
+
+}  // namespace stopline

@@ -1,0 +1,78 @@
+// One run: a Model (constant) and a State (all that changes), advanced step by step. The phases of a step:
+//
+//   for each partition:
+//     occupied    lanes with vehicles                                           step/occupied_lanes
+//     perception  leader of the first vehicle of each lane, hidden leaders      perception/look_ahead, hidden_leaders
+//     occupants   vehicles inside intersections                                 junction/occupants
+//     stop lines  vehicles that stop for a signal or the keep-clear rule        junction/stop_lines
+//     yielding    vehicles that yield before a conflict area                    junction/right_of_way
+//     gaps        alignment with gaps in the target lane                        lane_change/gap_search
+//     selection   mesoscale mode: vehicles that can move                        mesoscale/meso_blocks
+//   at intervals:
+//     delay       stopped vehicles and the causes of their delay                congestion/delay_causes
+//   for each partition:
+//     move        request, powertrain, speed and position of all vehicles       step/move_vehicles
+//     detectors   fronts that pass a detector                                   step/detectors
+//   for the whole network:
+//     reports     events and counters of the partitions                         step/partition_reports
+//     transfer    vehicles that have reached the end of their lane              step/transfer
+//     insertion   vehicles that enter the network                               insertion/
+//     teleport    vehicles that have been stopped for too long                  congestion/teleport
+//     change      lane changes                                                  lane_change/lane_change
+//
+// All partitions read the state at the beginning of the step and write only their own part. Results therefore do not
+// depend on the number of partitions and threads.
+#pragma once
+
+#include <cstdint>
+
+#include "sim/full_dynamics/full_dynamics.h"
+#include "sim/performance/threading_heuristic.h"
+#include "sim/state/model.h"
+#include "sim/state/state.h"
+
+namespace stopline {
+
+class Simulation {
+public:
+    // Keeps a reference to the model, which must outlive the simulation. `threads`: number of threads for this run.
+    // Throws InputError if the parts of the model contradict each other.
+    explicit Simulation(const Model& model, int threads = 1);
+
+    // Uses threads only if at least `vehicles` vehicles are present and threads are faster (ThreadingHeuristic). By
+    // default threads are always used. Synchronisation costs more than threads save in small networks. Results do not
+    // change.
+    void share_from(int vehicles) {
+        share_from_ = vehicles;
+        always_shares_ = false;
+    }
+
+    void step();
+    // Steps up to a time and counts lost vehicles.
+    void run_until(double time_s);
+    double time_s() const { return model_.time_s(state_.tick); }
+
+    const State& state() const { return state_; }
+    const Model& model() const { return model_; }
+
+    // Returns a hash of all vehicles in lane order and of all counters. Equal hashes mean equal bits.
+    std::uint64_t state_hash() const;
+
+private:
+    void step(bool use_threads);
+    void decide(int thread, int threads);
+    void decide(Partition& part);
+    void move(int thread, int threads);
+    void move(Partition& part);
+    void watch_delays_in_parallel();
+
+    const Model& model_;
+    FullTables tables_;
+    State state_;
+    int threads_;
+    int share_from_ = 0;
+    bool always_shares_ = true;
+    ThreadingHeuristic heuristic_;
+};
+
+}  // namespace stopline

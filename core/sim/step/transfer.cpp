@@ -1,0 +1,70 @@
+#include "sim/step/transfer.h"
+
+#include <cmath>
+
+#include "base/containers/index.h"
+#include "sim/congestion/teleport.h"
+#include "sim/lane_change/route_choice.h"
+#include "sim/state/lane_blocks.h"
+#include "sim/state/queries/lane_end.h"
+#include "sim/state/queries/passage.h"
+
+namespace stopline {
+
+namespace {
+
+// Handles a vehicle at the end of a lane without its turn: teleports it behind the intersection, or stops it at once if
+// that is impossible.
+void miss_turn(const Model& model, State& state, int lane) {
+    ++state.congestion.missed_turns;
+    if (remove_for_teleport(model, state, lane)) return;
+    const std::size_t slot = at(state.blocks[at(lane)].first);
+    state.vehicles.position_m[slot] = std::nextafter(state.plan.lane(lane).length_m, 0.0);
+    state.vehicles.speed_mps[slot] = 0.0;
+}
+
+// Moves the first vehicle of a lane to the next lane of its route, or out of the network.
+void transfer_first(const Model& model, State& state, int lane) {
+    VehicleArrays& v = state.vehicles;
+    const double length_m = state.plan.lane(lane).length_m;
+    const int first = state.blocks[at(lane)].first;
+    const int next = v.next_lane[at(first)];
+    const bool leaves = next < 0;
+    if (leaves && v.record[at(first)].trip >= 0 && !is_on_last_edge(state, first)) return miss_turn(model, state, lane);
+    if (!leaves) ensure_free_slot(state, next);
+    const int slot = state.blocks[at(lane)].first;  // ensure_free_slot() can change it
+    const bool has_trip = v.record[at(slot)].trip >= 0;
+    const int route_index = v.record[at(slot)].route_index + 1;
+    const double line_m = leaves && has_trip ? state.plan.lane(lane).stop_line_m : length_m;
+    const double time_s = passing_time_s(model, state, slot, line_m);
+    if (model.records_all) record_passage(state.records, v, time_s, slot, lane, next);
+    if (const int approach = model.graph.lanes[at(lane)].approach; approach >= 0 && !leaves) {
+        ++state.records.turned[at(approach)][static_cast<std::size_t>(model.graph.lanes[at(next)].turn)];
+    }
+    if (leaves) {
+        ++state.records.exited;
+        if (has_trip) record_trip_crossing(state.records, v, time_s, slot, model.trips_end);
+    } else {
+        const int target = append_slot(state, next);
+        v.copy(slot, target);
+        v.position_m[at(target)] -= length_m;
+        v.record[at(target)].second_previous_lane = v.record[at(target)].previous_lane;
+        v.record[at(target)].previous_lane = lane;
+        set_route_index(state, target, route_index);
+        choose_next_route(model, state, next, target);
+    }
+    remove_first(state, lane);
+}
+
+}  // namespace
+
+void transfer_vehicles(const Model& model, State& state) {
+    for (Partition& part : state.partitions) {
+        for (const int lane : part.lanes_to_transfer) {
+            const LaneBlock& block = state.blocks[at(lane)];
+            while (block.count > 0 && has_left_lane(state, lane, block.first)) transfer_first(model, state, lane);
+        }
+    }
+}
+
+}  // namespace stopline

@@ -1,0 +1,59 @@
+// The data of one run for a comparison, in the same form for our runs and for SUMO's.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "record/run_writer.h"
+#include "sim/state/model.h"
+
+namespace stopline {
+
+// All times count from the beginning of the run.
+struct RunFacts {
+    struct Trip {
+        double arrival_s = 0.0;
+        double duration_s = 0.0;         // time in the network
+        double departure_delay_s = 0.0;  // from the planned departure to the insertion; 0 without planned departures
+    };
+    // The state at a full second.
+    struct Instant {
+        double time_s = 0.0;
+        int present = 0;              // vehicles in the network
+        int stopped = 0;              // vehicles slower than 0.1 m/s
+        double mean_speed_mps = 0.0;  // undefined if no vehicle is present
+        int backlog = 0;              // vehicles that wait for insertion
+    };
+    std::vector<Trip> trips;                              // completed trips
+    std::map<std::string, std::vector<double>> passed_s;  // [stop line] times at which a front passed
+    std::vector<Instant> instants;
+    std::int64_t teleported = 0;  // vehicles teleported by SUMO, or by our rules for blocked vehicles and missed turns
+};
+
+// Totals and means over a part of the run.
+struct RunSummary {
+    double throughput_veh_h = 0.0;   // completed trips
+    double travel_time_s = 0.0;      // mean of the completed trips
+    double departure_delay_s = 0.0;  // mean of the completed trips
+    double passages_veh_h = 0.0;     // at all stop lines
+    double speed_mps = 0.0;          // time mean of the mean speed, without seconds in which the network is empty
+    double stopped = 0.0;            // mean number of stopped vehicles
+    double backlog = 0.0;            // vehicles that wait for insertion at the end
+};
+// Returns the summary of the time after `from_s` up to `to_s`. Means without data are NaN.
+RunSummary summary_of(const RunFacts& facts, double from_s, double to_s);
+
+// Returns a writer that collects `facts` from one of our runs. `stop_lines` [lane] is the name under which passages of
+// the lane's stop line are counted; the stop line is not counted if the name is empty. Keeps references to `model` and
+// `facts`.
+std::unique_ptr<RunWriter> make_facts_writer(const Model& model, std::vector<std::string> stop_lines, RunFacts& facts);
+
+// Reads the output of a SUMO run with the files of inputs.h: trips.out.xml, summary.out.xml and, if `has_loops`,
+// detectors.out.xml. Throws InputError if a file is missing or malformed.
+RunFacts read_sumo_facts(const std::filesystem::path& folder, bool has_loops);
+
+}  // namespace stopline

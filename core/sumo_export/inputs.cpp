@@ -1,0 +1,209 @@
+#include "sumo_export/inputs.h"
+
+#include <algorithm>
+
+#include "base/io/escape.h"
+
+#include "base/containers/index.h"
+
+namespace stopline {
+
+namespace {
+
+std::string points_text(const Polyline& line) {
+    std::string text;
+    for (const Point& p : line) text += fmt::format("{}{:.3f},{:.3f}", text.empty() ? "" : " ", p.x_m, p.y_m);
+    return text;
+}
+
+// Returns the shape of a lane from its start up to `end_m`.
+Polyline lane_shape(const Lane& lane, double end_m) {
+    Polyline part;
+    double along_m = 0.0;
+    part.push_back(pose_at(lane.shape, lane.shape_start_m).point);
+    for (std::size_t k = 1; k < lane.shape.size(); ++k) {
+        along_m += length_m({lane.shape[k - 1], lane.shape[k]});
+        if (along_m > lane.shape_start_m + 1e-6 && along_m < lane.shape_start_m + end_m - 1e-6) {
+            part.push_back(lane.shape[k]);
+        }
+    }
+    part.push_back(pose_at(lane.shape, lane.shape_start_m + end_m).point);
+    return part;
+}
+
+void write_nodes(const std::filesystem::path& file, const PlainNetwork& network) {
+    XmlFile xml(file, "nodes", "nodes_file.xsd");
+    for (const PlainNode& node : network.nodes) {
+        xml.add("    <node id=\"{}\" x=\"{:.3f}\" y=\"{:.3f}\" type=\"{}\"/>\n", node.id, node.position.x_m,
+                node.position.y_m, node.has_signal ? "traffic_light" : "priority");
+    }
+    xml.finish();
+}
+
+void write_edges(const std::filesystem::path& file, const LaneGraph& graph, const PlainNetwork& network) {
+    XmlFile xml(file, "edges", "edges_file.xsd");
+    for (const PlainEdge& edge : network.edges) {
+        const Lane& first = graph.lanes[at(edge.lanes[0])];
+        Polyline centre_line = lane_shape(first, edge.length_m);
+        const Polyline last = lane_shape(graph.lanes[at(edge.lanes.back())], edge.length_m);
+        for (std::size_t k = 0; k < std::min(centre_line.size(), last.size()); ++k) {
+            centre_line[k] = {0.5 * (centre_line[k].x_m + last[k].x_m), 0.5 * (centre_line[k].y_m + last[k].y_m)};
+        }
+        xml.add(
+            "    <edge id=\"{}\" from=\"{}\" to=\"{}\" numLanes=\"{}\" speed=\"{:.6f}\" length=\"{:.3f}\" "
+            "spreadType=\"center\" shape=\"{}\"/>\n",
+            escape_xml(edge.id), network.nodes[at(edge.from)].id, network.nodes[at(edge.to)].id, edge.lanes.size(),
+            first.limit_mps, edge.length_m, points_text(centre_line));
+    }
+    xml.finish();
+}
+
+void write_connections(const std::filesystem::path& file, const LaneGraph& graph, const PlainNetwork& network) {
+    XmlFile xml(file, "connections", "connections_file.xsd");
+    for (const PlainConnection& c : network.connections) {
+        const PlainNetwork::LanePosition& from = network.position_of[at(c.from)];
+        const PlainNetwork::LanePosition& to = network.position_of[at(c.to)];
+        xml.add(R"(    <connection from="{}" to="{}" fromLane="{}" toLane="{}")",
+                escape_xml(network.edges[at(from.edge)].id), escape_xml(network.edges[at(to.edge)].id), from.index,
+                to.index);
+        if (c.connection_lane >= 0) {
+            const Lane& connection = graph.lanes[at(c.connection_lane)];
+            xml.add(R"( speed="{:.6f}" length="{:.3f}" shape="{}")", connection.limit_mps, c.length_m,
+                    points_text(connection.shape));
+        }
+        xml.add("/>\n");
+    }
+    xml.finish();
+}
+
+// Returns SUMO's letter for the light of a connection: 'G' is green with priority, 'g' is green and yields to another
+// green.
+char link_state(const Model& model, const PlainConnection& c, std::int64_t tick) {
+    const auto light_of = [&](int lane) {
+        return model.signals[at(model.graph.lanes[at(lane)].signal_group)].light(tick);
+    };
+    const Light light = light_of(c.from);
+    if (light != Light::green) return light == Light::yellow ? 'y' : 'r';
+    if (c.connection_lane < 0) return 'G';
+    const std::vector<Conflict>& conflicts = model.graph.conflicts_of(c.connection_lane);
+    const bool yields = std::any_of(conflicts.begin(), conflicts.end(), [&](const Conflict& conflict) {
+        const int origin = model.graph.lanes[at(conflict.other)].origin;
+        return conflict.yields && origin >= 0 && model.graph.lanes[at(origin)].signal_group >= 0 &&
+               light_of(origin) == Light::green;
+    });
+    return yields ? 'g' : 'G';
+}
+
+struct Phase {
+    std::int64_t ticks = 0;
+    std::string state;  // one letter for each link
+};
+
+// Returns the cycle of the signals if the whole run repeats it, else the duration of the run.
+std::int64_t programme_ticks(const Model& model, const std::vector<int>& groups, std::int64_t run_ticks) {
+    const std::int64_t cycle = groups.empty() ? 0 : model.signals[at(groups[0])].cycle_ticks();
+    if (cycle <= 0 || cycle > run_ticks) return run_ticks;
+    for (const int group : groups) {
+        const GroupProgramme& programme = model.signals[at(group)];
+        if (programme.cycle_ticks() != cycle) return run_ticks;
+        for (std::int64_t tick = 0; tick + cycle < run_ticks; ++tick) {
+            if (programme.light(tick) != programme.light(tick + cycle)) return run_ticks;
+        }
+    }
+    return cycle;
+}
+
+std::vector<Phase> phases_of(const Model& model, const PlainNetwork& network, int node, std::int64_t run_ticks) {
+    std::vector<const PlainConnection*> links;
+    std::vector<int> groups;
+    for (const PlainConnection& c : network.connections) {
+        if (c.node != node || c.link < 0) continue;
+        links.push_back(&c);
+        groups.push_back(model.graph.lanes[at(c.from)].signal_group);
+    }
+    std::vector<Phase> phases;
+    const std::int64_t ticks = programme_ticks(model, groups, run_ticks);
+    std::vector<Light> previous_lights;
+    for (std::int64_t tick = 0; tick < ticks; ++tick) {
+        std::vector<Light> lights;
+        for (const int group : groups) lights.push_back(model.signals[at(group)].light(tick));
+        if (lights != previous_lights) {
+            std::string text;
+            for (const PlainConnection* const c : links) text += link_state(model, *c, tick);
+            phases.push_back({0, text});
+            previous_lights = lights;
+        }
+        ++phases.back().ticks;
+    }
+    return phases;
+}
+
+void write_lights(const std::filesystem::path& file, const Model& model, const PlainNetwork& network,
+                  double duration_s) {
+    XmlFile xml(file, "tlLogics", "tllogic_file.xsd");
+    const std::int64_t run_ticks = std::max<std::int64_t>(to_ticks(duration_s, model.step_s), 1);
+    for (int node = 0; node < static_cast<int>(network.nodes.size()); ++node) {
+        if (!network.nodes[at(node)].has_signal) continue;
+        xml.add("    <tlLogic id=\"{}\" type=\"static\" programID=\"0\" offset=\"0\">\n", network.nodes[at(node)].id);
+        for (const Phase& phase : phases_of(model, network, node, run_ticks)) {
+            xml.add("        <phase duration=\"{:.2f}\" state=\"{}\"/>\n", model.time_s(phase.ticks), phase.state);
+        }
+        xml.add("    </tlLogic>\n");
+    }
+    for (const PlainConnection& c : network.connections) {
+        if (c.link < 0) continue;
+        const PlainNetwork::LanePosition& from = network.position_of[at(c.from)];
+        const PlainNetwork::LanePosition& to = network.position_of[at(c.to)];
+        xml.add("    <connection from=\"{}\" to=\"{}\" fromLane=\"{}\" toLane=\"{}\" tl=\"{}\" linkIndex=\"{}\"/>\n",
+                escape_xml(network.edges[at(from.edge)].id), escape_xml(network.edges[at(to.edge)].id), from.index,
+                to.index, network.nodes[at(c.node)].id, c.link);
+    }
+    xml.finish();
+}
+
+// Writes an induction loop for every stop line.
+void write_detectors(const std::filesystem::path& file, const Model& model, const PlainNetwork& network) {
+    XmlFile xml(file, "additional", "additional_file.xsd");
+    for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {
+        if (model.graph.lanes[at(lane)].signal_group < 0) continue;
+        const std::string id = escape_xml(network.lane_id(lane));
+        xml.add("    <instantInductionLoop id=\"{} stop_line\" lane=\"{}\" pos=\"-0.1\" file=\"detectors.out.xml\"/>\n",
+                id, id);
+    }
+    xml.finish();
+}
+
+void write_configuration(const std::filesystem::path& file, const Model& model, double duration_s) {
+    constexpr double kStep_s = 0.1;  // time step of the mesoscale mode
+    XmlFile xml(file, "sumoConfiguration", "sumoConfiguration.xsd");
+    xml.add(
+        "    <input>\n        <net-file value=\"net.net.xml\"/>\n        <route-files value=\"vehicles.rou.xml\"/>\n"
+        "        <additional-files value=\"detectors.add.xml\"/>\n    </input>\n");
+    xml.add("    <time>\n        <begin value=\"0\"/>\n        <end value=\"{:.1f}\"/>\n", duration_s);
+    xml.add("        <step-length value=\"{:.1f}\"/>\n    </time>\n", kStep_s);
+    write_sumo_rules(xml, model);
+    xml.finish();
+}
+
+}  // namespace
+
+void write_sumo_inputs(const std::filesystem::path& folder, const Model& model, const PlainNetwork& network,
+                       double duration_s) {
+    write_nodes(folder / "nodes.nod.xml", network);
+    write_edges(folder / "edges.edg.xml", model.graph, network);
+    write_connections(folder / "connections.con.xml", model.graph, network);
+    write_lights(folder / "lights.tll.xml", model, network, duration_s);
+    write_detectors(folder / "detectors.add.xml", model, network);
+    write_configuration(folder / "run.sumocfg", model, duration_s);
+}
+
+void write_sumo_rules(XmlFile& xml, const Model& model) {
+    const RulesPlan& rules = model.rules;
+    xml.add("    <processing>\n        <time-to-teleport value=\"{:g}\"/>\n",
+            rules.teleport_ticks > 0 ? model.time_s(rules.teleport_ticks) : -1.0);
+    xml.add("        <ignore-junction-blocker value=\"{:g}\"/>\n",
+            rules.pass_blocker_ticks > 0 ? model.time_s(rules.pass_blocker_ticks) : -1.0);
+    xml.add("        <collision.action value=\"warn\"/>\n    </processing>\n");
+}
+
+}  // namespace stopline

@@ -1,0 +1,166 @@
+// Writes the vehicles of a run as a SUMO route file.
+#include <algorithm>
+#include <map>
+
+#include "base/containers/index.h"
+#include "base/io/escape.h"
+#include "record/xml_file.h"
+#include "sumo_export/inputs.h"
+#include "sumo_export/vehicle_type.h"
+
+namespace stopline {
+
+namespace {
+
+struct Trip {
+    double depart_s = 0.0;
+    double depart_m = 0.0;
+    double depart_mps = 0.0;
+    int depart_lane = -1;
+    int policy = 0;
+    int lane = -1;           // last lane
+    int route = -1;          // last route
+    std::vector<int> edges;  // edges used so far
+};
+
+class RouteWriter : public RunWriter {
+public:
+    RouteWriter(std::filesystem::path file, const Model& model, const PlainNetwork& network)
+        : file_(std::move(file)), model_(model), network_(network), next_edges_(network.edges.size()) {
+        for (const PlainConnection& c : network.connections) {
+            next_edges_[at(network.position_of[at(c.from)].edge)].push_back(network.position_of[at(c.to)].edge);
+        }
+    }
+
+    void observe(const State& state) override {
+        for (int lane = 0; lane < static_cast<int>(state.blocks.size()); ++lane) {
+            const LaneBlock& block = state.blocks[at(lane)];
+            for (int slot = block.first; slot < block.past_last(); ++slot) update_trip(state, lane, at(slot));
+        }
+    }
+
+    std::string finish() override {
+        XmlFile xml(file_, "routes", "routes_file.xsd");
+        xml.add("    <!-- minGap: 1 mm less than the standstill gap of the initial queues -->\n");
+        for (std::size_t k = 0; k < model_.policies.size(); ++k) {
+            add_vehicle_type(
+                xml, model_, k,
+                {escape_xml(model_.policies[k].settings.name), model_.vehicles[0].length_m, changes_lanes()});
+        }
+        // SUMO needs the vehicles in the order of departure.
+        std::vector<std::pair<int, const Trip*>> trips;
+        for (const auto& [vehicle, trip] : trips_) trips.emplace_back(vehicle, &trip);
+        std::stable_sort(trips.begin(), trips.end(),
+                         [](const auto& a, const auto& b) { return a.second->depart_s < b.second->depart_s; });
+        for (const auto& [vehicle, trip] : trips) add_trip(xml, vehicle, *trip);
+        xml.finish();
+        return fmt::format("{} vehicles", trips.size());
+    }
+
+private:
+    void update_trip(const State& state, int lane, std::size_t slot) {
+        const VehicleArrays& v = state.vehicles;
+        Trip& trip = trips_[v.id[slot]];
+        trip.route = v.record[slot].route;
+        if (trip.lane == lane) return;
+        if (trip.lane < 0) {
+            trip.depart_s = model_.time_s(state.tick);
+            trip.depart_m = v.position_m[slot];
+            trip.depart_mps = v.speed_mps[slot];
+            trip.depart_lane = lane;
+            trip.policy = v.policy[slot];
+        }
+        trip.lane = lane;
+        add_edge_of(lane, trip.edges);
+    }
+
+    // Adds the edge of a lane to the route, unless it is the last edge already or the lane is a connection.
+    void add_edge_of(int lane, std::vector<int>& edges) const {
+        if (model_.graph.lanes[at(lane)].origin >= 0) return;
+        const int edge = network_.position_of[at(lane)].edge;
+        if (edges.empty()) {
+            edges.push_back(edge);
+        } else if (edges.back() != edge) {
+            add_path_to(edge, edges);
+        }
+    }
+
+    // Adds the path with the fewest edges from the last edge to `edge`. A teleported vehicle skips edges.
+    void add_path_to(int edge, std::vector<int>& edges) const {
+        const int start = edges.back();
+        const std::vector<int>& next_edges = next_edges_[at(start)];
+        if (std::find(next_edges.begin(), next_edges.end(), edge) != next_edges.end()) {
+            edges.push_back(edge);
+            return;
+        }
+        std::vector<int> predecessor(next_edges_.size(), -1);
+        std::vector<int> reached = {start};
+        for (std::size_t k = 0; k < reached.size() && predecessor[at(edge)] < 0; ++k) {
+            for (const int next : next_edges_[at(reached[k])]) {
+                if (predecessor[at(next)] >= 0 || next == start) continue;
+                predecessor[at(next)] = reached[k];
+                reached.push_back(next);
+            }
+        }
+        const auto end = static_cast<std::ptrdiff_t>(edges.size());
+        edges.push_back(edge);
+        for (int k = predecessor[at(edge)]; k >= 0 && k != start; k = predecessor[at(k)])
+            edges.insert(edges.begin() + end, k);
+    }
+
+    // Returns the edges of the trip. A vehicle that is still in the network at the end of the run completes its route
+    // and then goes straight on until it leaves the network. In SUMO it would else end its trip in the middle of a
+    // queue.
+    std::vector<int> complete_route(const Trip& trip) const {
+        std::vector<int> edges = trip.edges;
+        int lane = trip.lane;
+        const std::vector<int>& route = model_.graph.routes[at(trip.route)].lanes;
+        for (auto k = std::find(route.begin(), route.end(), lane); k != route.end(); ++k) {
+            lane = *k;
+            add_edge_of(lane, edges);
+        }
+        while (edges.size() <= network_.edges.size() && !model_.graph.lanes[at(lane)].next.empty()) {
+            const std::vector<int>& next = model_.graph.lanes[at(lane)].next;
+            const auto straight = std::find_if(next.begin(), next.end(), [&](int connection) {
+                return model_.graph.lanes[at(connection)].turn == Turn::straight;
+            });
+            lane = straight == next.end() ? next.front() : *straight;
+            add_edge_of(lane, edges);
+        }
+        return edges;
+    }
+
+    // Returns true if the network has lanes side by side.
+    bool changes_lanes() const {
+        const std::vector<Lane>& lanes = model_.graph.lanes;
+        return std::any_of(lanes.begin(), lanes.end(),
+                           [](const Lane& lane) { return lane.left >= 0 || lane.right >= 0; });
+    }
+
+    void add_trip(XmlFile& xml, int vehicle, const Trip& trip) const {
+        const PlainNetwork::LanePosition& position = network_.position_of[at(trip.depart_lane)];
+        xml.add(
+            "    <vehicle id=\"{}\" type=\"{}\" depart=\"{:.2f}\" departLane=\"{}\" departPos=\"{:.4f}\" "
+            "departSpeed=\"{:.3f}\">",
+            vehicle, escape_xml(model_.policies[at(trip.policy)].settings.name), trip.depart_s, position.index,
+            trip.depart_m, trip.depart_mps);
+        std::string edges;
+        for (const int edge : complete_route(trip)) edges += (edges.empty() ? "" : " ") + network_.edges[at(edge)].id;
+        xml.add("<route edges=\"{}\"/></vehicle>\n", escape_xml(edges));
+    }
+
+    std::filesystem::path file_;
+    const Model& model_;
+    const PlainNetwork& network_;
+    std::vector<std::vector<int>> next_edges_;  // [edge]
+    std::map<int, Trip> trips_;                 // [vehicle]
+};
+
+}  // namespace
+
+std::unique_ptr<RunWriter> make_sumo_route_writer(const std::filesystem::path& file, const Model& model,
+                                                  const PlainNetwork& network) {
+    return std::make_unique<RouteWriter>(file, model, network);
+}
+
+}  // namespace stopline

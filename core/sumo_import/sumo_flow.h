@@ -1,0 +1,19 @@
+// Times and flows of SUMO's route files.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sumo_import/sumo_xml.h"
+
+namespace stopline {
+
+// Returns the time in an attribute (seconds, hh:mm:ss or d:hh:mm:ss), or `fallback_s` if there is no such attribute.
+// Throws InputError if the value is negative or not a time.
+double sumo_time_s(const SumoXml& xml, pugi::xml_node node, const char* attribute, double fallback_s);
+
+// Returns the departure times of a flow before `until_s`. The flow gives its number, period, vehsPerHour (perHour) or
+// probability; period="exp(RATE)" means exponential headways. Throws InputError with file and line.
+std::vector<double> sumo_departures(const SumoXml& xml, pugi::xml_node flow, double until_s, std::uint64_t seed);
+
+}  // namespace stopline

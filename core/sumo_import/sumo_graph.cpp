@@ -1,0 +1,366 @@
+#include "sumo_import/sumo_graph.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/containers/index.h"
+#include "base/input_error.h"
+#include "base/simd/arithmetic.h"
+#include "network/conflicts.h"
+#include "sumo_import/sumo_right_of_way.h"
+#include "sumo_import/sumo_short_edges.h"
+
+namespace stopline {
+
+namespace {
+
+constexpr double kMinConnection_m = 1.0;  // minimum length of a connection
+
+class Builder {
+public:
+    Builder(SumoNet net, double clearance_m) : clearance_m_(clearance_m) { network_.net = std::move(net); }
+
+    SumoNetwork build() {
+        net().check_lights();
+        network_.lights.push_back({});
+        merge_short_edges(network_.net);
+        add_edges();
+        index_chains();
+        for (const SumoConnection& c : net().connections) {
+            if (!edge(c.from).internal && !edge(c.to).internal) connections_.push_back({&c, {}, 0.0, -1, -1});
+        }
+        for (BuiltConnection& connection : connections_) trace_chain(connection);
+        assign_turns();
+        for (BuiltConnection& connection : connections_) add_connection(connection);
+        assign_shared_stretches();
+        for (int lane = 0; lane < first_connection_; ++lane) finish_lane(lane);
+        assign_signal_groups();
+        find_sumo_conflicts(network_, connections_, clearance_m_);
+        limit_entry_speeds();
+        drop_loops_off_car_lanes();
+        network_.graph.signal_groups = static_cast<int>(network_.lights.size());
+        return std::move(network_);
+    }
+
+private:
+    const SumoNet& net() const { return network_.net; }
+    const SumoEdge& edge(int index) const { return network_.net.edges[at(index)]; }
+    std::vector<Lane>& lanes() { return network_.graph.lanes; }
+
+    void drop_loops_off_car_lanes() {
+        std::erase_if(network_.net.loops, [&](const SumoLoop& loop) {
+            if (network_.lane_of[at(loop.edge)][at(loop.lane)] >= 0) return false;
+            network_.net.warnings.note(
+                loop.where, "the detector is ignored: it lies inside a junction or on a lane closed to cars");
+            return true;
+        });
+    }
+
+    // Adds the lanes of all edges, each edge from its left lane to its right one.
+    void add_edges() {
+        for (const SumoEdge& edge : net().edges) {
+            std::vector<int>& numbers = network_.lane_of.emplace_back(edge.lanes.size(), -1);
+            network_.approach_of.push_back(-1);
+            const auto first_open =
+                std::find_if(edge.lanes.begin(), edge.lanes.end(), [](auto& lane) { return lane.allows_cars; });
+            if (edge.internal || first_open == edge.lanes.end()) continue;
+            network_.approach_of.back() = static_cast<int>(network_.graph.approaches.size());
+            Approach approach{edge.id, {}, 0.0, 0.0};
+            for (auto k = static_cast<int>(edge.lanes.size()) - 1; k >= 0; --k) {
+                const SumoLane& from = edge.lanes[at(k)];
+                if (!from.allows_cars) continue;
+                Lane lane;
+                lane.name = fmt::format("{}_{}", edge.id, k);
+                lane.length_m = lane.stop_line_m = first_open->length_m;
+                lane.limit_mps = from.speed_mps;
+                lane.shape = from.shape;
+                lane.shape_scale = length_m(lane.shape) / lane.length_m;
+                lane.approach = network_.approach_of.back();
+                lane.left = approach.lanes.empty() ? -1 : approach.lanes.back();
+                numbers[at(k)] = static_cast<int>(lanes().size());
+                if (lane.left >= 0) lanes()[at(lane.left)].right = numbers[at(k)];
+                approach.lanes.push_back(numbers[at(k)]);
+                lanes().push_back(std::move(lane));
+            }
+            network_.graph.approaches.push_back(std::move(approach));
+        }
+        first_connection_ = static_cast<int>(lanes().size());
+    }
+
+    void index_chains() {
+        for (const SumoConnection& c : net().connections) {
+            if (edge(c.from).internal) next_in_chain_[{c.from, c.from_lane}] = &c;
+        }
+    }
+
+    // Joins the shapes of a connection's `via` chain and finds its junction and link.
+    void trace_chain(BuiltConnection& connection) const {
+        constexpr int kMaxLanes = 16;
+        const SumoConnection& c = *connection.source;
+        connection.speed_mps =
+            std::min(edge(c.from).lanes[at(c.from_lane)].speed_mps, edge(c.to).lanes[at(c.to_lane)].speed_mps);
+        int via = c.via;
+        int lane = c.via_lane;
+        for (int k = 0; via >= 0; ++k) {
+            const SumoLane& inner = edge(via).lanes[at(lane)];
+            connection.speed_mps = std::min(connection.speed_mps, inner.speed_mps);
+            sumo_append(connection.shape, inner.shape);
+            const auto link = net().link_of.find(fmt::format("{}_{}", edge(via).id, lane));
+            if (link != net().link_of.end()) std::tie(connection.junction, connection.link) = link->second;
+            const auto next = next_in_chain_.find({via, lane});
+            if (next == next_in_chain_.end() || next->second->to != c.to || next->second->to_lane != c.to_lane ||
+                k == kMaxLanes) {
+                throw InputError(fmt::format("{}: the chain of 'via' lanes does not lead to lane {} of edge '{}'",
+                                             c.where, c.to_lane, edge(c.to).id));
+            }
+            via = next->second->via;
+            lane = next->second->via_lane;
+        }
+        const Polyline& before = edge(c.from).lanes[at(c.from_lane)].shape;
+        if (connection.shape.empty()) connection.shape = {before.back(), edge(c.to).lanes[at(c.to_lane)].shape.front()};
+        if (connection.shape.size() < 2 || length_m(connection.shape) < kMinConnection_m) {
+            const Pose end = pose_at(before, length_m(before));
+            connection.shape = {
+                end.point,
+                {end.point.x_m + kMinConnection_m * end.cosine, end.point.y_m + kMinConnection_m * end.sine}};
+        }
+    }
+
+    // Gives each successor of an edge its own Turn value: straight, right or left by the attribute `dir` if that value
+    // is free, else the next unused value.
+    void assign_turns() {
+        std::map<std::pair<int, int>, Turn> turns;      // [from edge, to edge]
+        std::map<int, std::vector<bool>> used_by_edge;  // [from edge][turn]
+        const auto assign = [&](const SumoConnection& c, std::size_t preferred) {
+            const std::pair key{c.from, c.to};
+            if (turns.contains(key)) return;
+            std::vector<bool>& used = used_by_edge.try_emplace(c.from, at(kMaxTurns), false).first->second;
+            std::size_t turn = preferred;
+            constexpr std::size_t kFirstExtraTurn = 4;
+            if (turn == 0 || used[turn]) turn = kFirstExtraTurn;
+            while (turn < used.size() && used[turn]) ++turn;
+            if (turn == used.size()) {
+                throw InputError(fmt::format("{}: edge '{}' leads to more than {} other edges", c.where,
+                                             edge(c.from).id, kMaxTurns - 1));
+            }
+            used[turn] = true;
+            turns[key] = static_cast<Turn>(turn);
+        };
+        const auto usual_turn = [](char dir) { return dir == 's' ? 1 : dir == 'r' ? 2 : dir == 'l' ? 3 : 0; };
+        for (const BuiltConnection& connection : connections_) {
+            if (const int turn = usual_turn(connection.source->dir); turn > 0) assign(*connection.source, at(turn));
+        }
+        for (const BuiltConnection& connection : connections_) assign(*connection.source, 0);
+        for (BuiltConnection& connection : connections_) {
+            connection.turn = turns.at({connection.source->from, connection.source->to});
+        }
+    }
+
+    void add_connection(BuiltConnection& connection) {
+        const SumoConnection& c = *connection.source;
+        Lane lane;
+        lane.origin = network_.lane_of[at(c.from)][at(c.from_lane)];
+        lane.next = {network_.lane_of[at(c.to)][at(c.to_lane)]};
+        lane.name = c.via >= 0 ? fmt::format("{}_{}", edge(c.via).id, c.via_lane)
+                               : fmt::format("{}_to_{}_{}", lanes()[at(lane.origin)].name, edge(c.to).id, c.to_lane);
+        lane.shape = connection.shape;
+        lane.length_m = length_m(lane.shape);
+        lane.limit_mps = connection.speed_mps;
+        lane.turn = connection.turn;
+        lane.keep_clear = c.keep_clear;
+        connection.lane = static_cast<int>(lanes().size());
+        lanes()[at(lane.origin)].next.push_back(connection.lane);
+        network_.graph.routes.push_back({lane.name, {lane.origin, connection.lane, lane.next[0]}});
+        lanes().push_back(std::move(lane));
+    }
+
+    // Moves the stretch that the connections of a lane share to the lane itself. Beyond it their vehicles are clear of
+    // each other. If a connection is shorter than that stretch, diverge_end_m says where they are clear.
+    void assign_shared_stretches() {
+        for (int index = 0; index < first_connection_; ++index) {
+            const std::vector<int> next = lanes()[at(index)].next;
+            widen_u_turns(next);
+            const double diverge_m = last_diverge_m(next, [](const Lane&) { return true; });
+            double shared_m = diverge_m;
+            for (const int k : next) shared_m = std::min(shared_m, lanes()[at(k)].length_m - kMinConnection_m);
+            shared_m = std::max(shared_m, 0.0);
+            lanes()[at(index)].length_m += shared_m;
+            for (const int k : next) {
+                Lane& connection = lanes()[at(k)];
+                connection.length_m -= shared_m;
+                connection.shape_start_m = shared_m;
+                connection.diverge_end_m = diverge_m - shared_m;
+            }
+        }
+    }
+
+    // Returns the distance at which the last two of the selected connections diverge.
+    template <class IsSelected>
+    double last_diverge_m(const std::vector<int>& next, const IsSelected& is_selected) {
+        double last_m = 0.0;
+        for (const int first : next) {
+            for (const int second : next) {
+                const Lane& a = lanes()[at(first)];
+                const Lane& b = lanes()[at(second)];
+                if (first == second || a.next == b.next || !is_selected(a) || !is_selected(b)) continue;
+                last_m = std::max(last_m, shared_stretch_m(a.shape, b.shape, clearance_m_));
+            }
+        }
+        return last_m;
+    }
+
+    // Extends U-turns to where the other connections diverge, up to a limit. netconvert draws them on the spot.
+    void widen_u_turns(const std::vector<int>& next) {
+        constexpr double kMaxExtension_m = 4.0;
+        const double diverge_m =
+            last_diverge_m(next, [&](const Lane& lane) { return !is_u_turn(lane); }) + kMinConnection_m;
+        for (const int index : next) {
+            Lane& connection = lanes()[at(index)];
+            if (connection.length_m >= diverge_m || !is_u_turn(connection)) continue;
+            const double ahead_m = std::min(0.5 * (diverge_m - connection.length_m), kMaxExtension_m);
+            const Pose from = end_of(lanes()[at(connection.origin)]);
+            Polyline wide{connection.shape.front()};
+            for (const Point& p : connection.shape) {
+                wide.push_back({p.x_m + ahead_m * from.cosine, p.y_m + ahead_m * from.sine});
+            }
+            wide.push_back(connection.shape.back());
+            connection.shape = std::move(wide);
+            connection.length_m = length_m(connection.shape);
+        }
+    }
+
+    static Pose end_of(const Lane& lane) { return pose_at(lane.shape, length_m(lane.shape)); }
+
+    bool is_u_turn(const Lane& connection) {
+        const Pose from = end_of(lanes()[at(connection.origin)]);
+        const Pose to = pose_at(lanes()[at(connection.next[0])].shape, 0.0);
+        return from.cosine * to.cosine + from.sine * to.sine < -0.9;
+    }
+
+    // Adds the route that begins and ends on the lane. Adds a stop line if any lane of the approach continues.
+    void finish_lane(int lane) {
+        network_.graph.routes.push_back({lanes()[at(lane)].name, {lane}});
+        network_.graph.links.push_back(lane);
+        const Approach& approach = network_.graph.approaches[at(lanes()[at(lane)].approach)];
+        const bool continues = std::any_of(approach.lanes.begin(), approach.lanes.end(),
+                                           [&](int k) { return !lanes()[at(k)].next.empty(); });
+        if (continues) lanes()[at(lane)].signal_group = 0;
+    }
+
+    // Makes one signal group for all links of a signal that have the same lights. A lane with one group for all its
+    // connections has it at the stop line; else every connection has its own.
+    void assign_signal_groups() {
+        std::map<std::pair<int, std::string>, int> groups;
+        const auto group_of = [&](const SumoConnection& c) {
+            if (c.tl < 0) return 0;
+            std::string letters;
+            for (const SumoPhase& phase : net().signals[at(c.tl)].phases) {
+                const char letter = phase.state[at(c.tl_link)];
+                letters += sumo_is_green(letter) ? 'G' : letter == 'y' || letter == 'Y' ? 'y' : 'r';
+            }
+            const auto [known, added] = groups.try_emplace({c.tl, letters}, static_cast<int>(network_.lights.size()));
+            if (added) network_.lights.push_back({c.tl, c.tl_link});
+            return known->second;
+        };
+        for (const BuiltConnection& connection : connections_)
+            lanes()[at(connection.lane)].movement_signal_group = group_of(*connection.source);
+        for (int index = 0; index < first_connection_; ++index) {
+            const std::vector<int>& next = lanes()[at(index)].next;
+            if (next.empty()) continue;
+            const int first = lanes()[at(next[0])].movement_signal_group;
+            const auto same = [&](int connection) { return lanes()[at(connection)].movement_signal_group == first; };
+            lanes()[at(index)].signal_group = first;
+            if (!std::all_of(next.begin(), next.end(), same)) continue;
+            for (const int connection : next) lanes()[at(connection)].movement_signal_group = -1;
+        }
+    }
+
+    // Lowers the speed limits of connections to lanes that are too short to stop on. The safe speed at the start of a
+    // lane follows from that at its end, so short lanes in a row need several rounds.
+    void limit_entry_speeds() {
+        constexpr double kBraking_mps2 = 3.0;
+        constexpr double kMargin_m = 2.0;
+        constexpr double kMinEntrySpeed_mps = 3.0;
+        constexpr int kRounds = 8;
+        std::vector<double> entry_mps(lanes().size(), 1e9);
+        for (int round = 0; round < kRounds; ++round) {
+            for (std::size_t index = lanes().size(); index-- > 0;) {
+                const Lane& lane = lanes()[index];
+                double end_mps = lane.origin >= 0 ? entry_mps[at(lane.next[0])] : 1e9;
+                if (lane.origin < 0) {
+                    for (const int connection : lane.next) {
+                        const bool stops = lane.signal_group > 0 || lanes()[at(connection)].movement_signal_group > 0 ||
+                                           !network_.graph.conflicts[at(connection)].empty();
+                        end_mps = std::min(
+                            end_mps,
+                            stops ? 0.0 : std::min(entry_mps[at(connection)], lanes()[at(connection)].limit_mps));
+                    }
+                }
+                const double braking_m = lane.origin >= 0 ? 0.0 : std::max(lane.stop_line_m - kMargin_m, 0.0);
+                const double safe_mps = std::sqrt(square(end_mps) + 2.0 * kBraking_mps2 * braking_m);
+                entry_mps[index] = std::max(safe_mps, kMinEntrySpeed_mps);
+            }
+        }
+        for (std::size_t index = at(first_connection_); index < lanes().size(); ++index) {
+            lanes()[index].limit_mps = std::min(lanes()[index].limit_mps, entry_mps[index]);
+        }
+    }
+
+    SumoNetwork network_;
+    double clearance_m_;
+    int first_connection_ = 0;
+    std::vector<BuiltConnection> connections_;
+    std::map<std::pair<int, int>, const SumoConnection*> next_in_chain_;  // [internal edge, lane]
+};
+
+}  // namespace
+
+bool sumo_is_green(char letter) {
+    return letter == 'G' || letter == 'g' || letter == 's' || letter == 'o' || letter == 'O';
+}
+
+namespace {
+
+// Returns the longest green of a link, or 0 if no green ends. A green may span several phases and the end of the cycle.
+double longest_green_of(const SumoSignal& signal) {
+    double longest_s = 0.0;
+    const std::size_t links = signal.phases.empty() ? 0 : signal.phases[0].state.size();
+    for (std::size_t link = 0; link < links; ++link) {
+        const auto is_green = [&](const SumoPhase& phase) {
+            return link < phase.state.size() && sumo_is_green(phase.state[link]);
+        };
+        if (std::all_of(signal.phases.begin(), signal.phases.end(), is_green)) continue;
+        double green_s = 0.0;
+        for (std::size_t k = 0; k < 2 * signal.phases.size(); ++k) {
+            const SumoPhase& phase = signal.phases[k % signal.phases.size()];
+            green_s = is_green(phase) ? green_s + phase.duration_s : 0.0;
+            longest_s = std::max(longest_s, green_s);
+        }
+    }
+    return longest_s;
+}
+
+}  // namespace
+
+double SumoNetwork::longest_cycle_s() const {
+    constexpr double kDefault_s = 90.0;
+    double longest_s = 0.0;
+    for (const SumoSignal& signal : net.signals) longest_s = std::max(longest_s, signal.cycle_s());
+    return longest_s > 0.0 ? longest_s : kDefault_s;
+}
+
+double SumoNetwork::longest_green_s() const {
+    constexpr double kDefault_s = 40.0;
+    double longest_s = 0.0;
+    for (const SumoSignal& signal : net.signals) longest_s = std::max(longest_s, longest_green_of(signal));
+    return longest_s > 0.0 ? longest_s : kDefault_s;
+}
+
+SumoNetwork make_sumo_network(SumoNet net, double clearance_m) { return Builder(std::move(net), clearance_m).build(); }
+
+}  // namespace stopline

@@ -1,0 +1,42 @@
+// Reads the vehicles, trips, flows, types and routes of SUMO's route files as trips of a DemandPlan.
+//
+// Format: https://sumo.dlr.de/docs/Definition_of_Vehicles,_Vehicle_Types,_and_Routes.html. scenarios/README.md lists
+// the supported elements.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "demand/demand_plan.h"
+#include "sumo_import/sumo_graph.h"
+
+namespace stopline {
+
+struct SumoTraffic {
+    std::vector<Trip> trips;       // in the order of departure
+    std::vector<Turn> turns;       // turns of all trips, one trip after the other; see Trip::first_turn
+    std::vector<std::string> ids;  // [trip]
+    SumoWarnings warnings;
+    std::uint64_t hash = 0;                             // of the text of all files
+    std::int64_t elements = 0;                          // number of vehicle, trip and flow elements
+    std::optional<double> first_late_departure_s = {};  // earliest departure after the end of the run
+
+    // Returns the length of the shortest vehicle.
+    double shortest_vehicle_m() const;
+};
+
+struct SumoRouteFiles {
+    std::vector<std::filesystem::path> additional;  // read first; elements other than traffic are skipped
+    std::vector<std::filesystem::path> routes;
+};
+
+// Reads the files in order; a file may use types and routes of the files before it. Vehicles that depart at `until_s`
+// or later are omitted, and flows without an end last until then. `seed` keys all random draws. Throws InputError with
+// file and line.
+SumoTraffic read_sumo_routes(const SumoRouteFiles& files, const SumoNetwork& network, double until_s,
+                             std::uint64_t seed);
+
+}  // namespace stopline

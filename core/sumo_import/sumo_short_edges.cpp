@@ -1,0 +1,157 @@
+#include "sumo_import/sumo_short_edges.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/containers/index.h"
+
+namespace stopline {
+
+namespace {
+
+class Merger {
+public:
+    explicit Merger(SumoNet& net) : net_(net), outgoing_(net.edges.size()), incoming_(net.edges.size()) {
+        for (std::size_t k = 0; k < net.connections.size(); ++k) {
+            const SumoConnection& c = net.connections[k];
+            if (net.edges[at(c.from)].internal) {
+                next_in_chain_[{c.from, c.from_lane}] = k;
+            } else if (!net.edges[at(c.to)].internal) {
+                outgoing_[at(c.from)].push_back(k);
+                incoming_[at(c.to)].push_back(k);
+            }
+        }
+    }
+
+    void merge_all() {
+        for (std::size_t edge = 0; edge < net_.edges.size(); ++edge) try_to_merge(static_cast<int>(edge));
+        std::vector<SumoConnection> kept;
+        for (SumoConnection& c : net_.connections) {
+            if (c.from >= 0) kept.push_back(std::move(c));
+        }
+        net_.connections = std::move(kept);
+    }
+
+private:
+    const SumoConnection& connection(std::size_t k) const { return net_.connections[k]; }
+
+    void try_to_merge(int edge) {
+        SumoEdge& own = net_.edges[at(edge)];
+        if (own.internal || own.lanes[0].length_m >= kShortEdge_m || incoming_[at(edge)].empty() ||
+            outgoing_[at(edge)].empty())
+            return;
+        const int before = connection(incoming_[at(edge)][0]).from;
+        const auto from_before = [&](std::size_t k) { return connection(k).from == before && connection(k).tl < 0; };
+        const auto to_edge = [&](std::size_t k) { return connection(k).to == edge; };
+        const auto has_via = [&](std::size_t k) { return connection(k).via >= 0; };
+        if (before == edge || !std::all_of(incoming_[at(edge)].begin(), incoming_[at(edge)].end(), from_before)) return;
+        if (!std::all_of(outgoing_[at(before)].begin(), outgoing_[at(before)].end(), to_edge)) return;
+        if (!std::all_of(outgoing_[at(edge)].begin(), outgoing_[at(edge)].end(), has_via)) return;
+        merge(before, edge);
+    }
+
+    // Returns the internal lanes of a connection, in driving order.
+    std::vector<const SumoLane*> via_lanes(const SumoConnection& c) const {
+        constexpr std::size_t kMaxLanes = 16;
+        std::vector<const SumoLane*> lanes;
+        int via = c.via;
+        int lane = c.via_lane;
+        while (via >= 0 && lanes.size() < kMaxLanes) {
+            lanes.push_back(&net_.edges[at(via)].lanes[at(lane)]);
+            const auto next = next_in_chain_.find({via, lane});
+            via = next == next_in_chain_.end() ? -1 : connection(next->second).via;
+            lane = next == next_in_chain_.end() ? 0 : connection(next->second).via_lane;
+        }
+        return lanes;
+    }
+
+    // Merges `edge` into the edge `before`.
+    void merge(int before, int edge) {
+        SumoEdge& predecessor = net_.edges[at(before)];
+        const SumoEdge own = net_.edges[at(edge)];
+        std::vector<bool> grown(predecessor.lanes.size(), false);
+        double growth_m = 0.0;
+        std::vector<SumoConnection> new_connections;
+        move_loops(before, edge);
+        for (const std::size_t in : incoming_[at(edge)]) {
+            const SumoConnection c = connection(in);
+            SumoLane& lane = predecessor.lanes[at(c.from_lane)];
+            double added_m = own.lanes[at(c.to_lane)].length_m;
+            std::vector<const SumoLane*> parts = via_lanes(c);
+            for (const SumoLane* const part : parts) added_m += part->length_m;
+            parts.push_back(&own.lanes[at(c.to_lane)]);
+            add_end_lane(lane, own, c.to_lane, !grown[at(c.from_lane)]);
+            if (!grown[at(c.from_lane)]) {
+                for (const SumoLane* const part : parts) sumo_append(lane.shape, part->shape);
+                growth_m = std::max(growth_m, added_m);
+            }
+            grown[at(c.from_lane)] = true;
+            for (const std::size_t out : outgoing_[at(edge)]) {
+                if (connection(out).from_lane != c.to_lane) continue;
+                new_connections.push_back(connection(out));
+                new_connections.back().from = before;
+                new_connections.back().from_lane = c.from_lane;
+            }
+        }
+        for (SumoLane& lane : predecessor.lanes) lane.length_m += growth_m;
+        for (const std::size_t removed : incoming_[at(edge)]) net_.connections[removed].from = -1;
+        for (const std::size_t removed : outgoing_[at(edge)]) net_.connections[removed].from = -1;
+        replace_connections(before, edge, std::move(new_connections));
+    }
+
+    // Records that a lane now ends where a lane of the merged edge ends. `replace` drops the ends recorded before.
+    static void add_end_lane(SumoLane& lane, const SumoEdge& merged, int index, bool replace) {
+        if (replace) lane.end_lanes.clear();
+        const SumoLane& last = merged.lanes[at(index)];
+        std::vector<std::string> ends = last.end_lanes;
+        if (ends.empty()) ends.push_back(fmt::format("{}_{}", merged.id, index));
+        lane.end_lanes.insert(lane.end_lanes.end(), ends.begin(), ends.end());
+    }
+
+    // Moves the detectors of a merged edge to the edge before, without changing where they are on the road.
+    void move_loops(int before, int edge) {
+        for (SumoLoop& loop : net_.loops) {
+            if (loop.edge != edge) continue;
+            const auto leads_to_loop = [&](std::size_t k) { return connection(k).to_lane == loop.lane; };
+            const auto in = std::find_if(incoming_[at(edge)].begin(), incoming_[at(edge)].end(), leads_to_loop);
+            if (in == incoming_[at(edge)].end()) continue;  // no connection leads to the lane
+            const SumoConnection& c = connection(*in);
+            loop.edge = before;
+            loop.lane = c.from_lane;
+            loop.position_m += net_.edges[at(before)].lanes[at(c.from_lane)].length_m;
+            for (const SumoLane* const part : via_lanes(c)) loop.position_m += part->length_m;
+        }
+    }
+
+    // Replaces the connections of both edges by `new_connections` and closes the merged edge.
+    void replace_connections(int before, int edge, std::vector<SumoConnection> new_connections) {
+        const auto is_removed = [&](std::size_t k) { return connection(k).from < 0; };
+        outgoing_[at(before)].clear();
+        outgoing_[at(edge)].clear();
+        incoming_[at(edge)].clear();
+        for (SumoConnection& c : new_connections) {
+            std::erase_if(incoming_[at(c.to)], is_removed);
+            outgoing_[at(before)].push_back(net_.connections.size());
+            incoming_[at(c.to)].push_back(net_.connections.size());
+            net_.connections.push_back(std::move(c));
+        }
+        net_.edges[at(edge)].merged_into = before;
+        for (SumoLane& lane : net_.edges[at(edge)].lanes) lane.allows_cars = false;
+    }
+
+    SumoNet& net_;
+    std::vector<std::vector<std::size_t>> outgoing_;            // [edge] connections from it to other edges
+    std::vector<std::vector<std::size_t>> incoming_;            // [edge] connections to it from other edges
+    std::map<std::pair<int, int>, std::size_t> next_in_chain_;  // [internal edge, lane] connection from there
+};
+
+}  // namespace
+
+void merge_short_edges(SumoNet& net) { Merger(net).merge_all(); }
+
+}  // namespace stopline

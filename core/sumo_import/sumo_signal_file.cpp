@@ -1,0 +1,153 @@
+#include "sumo_import/sumo_signal_file.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/containers/index.h"
+
+namespace stopline {
+
+namespace {
+
+constexpr double kMaxDuration_s = 1e6;
+
+SumoPhase phase_of(const SumoXml& xml, pugi::xml_node node, SumoWarnings& warnings) {
+    constexpr std::string_view kLetters = "rugGyYsoO";
+    SumoPhase phase{xml.number(node, "duration"), xml.text(node, "state")};
+    if (phase.duration_s < 0.0 || phase.duration_s > kMaxDuration_s) {
+        xml.refuse(
+            node, fmt::format("duration=\"{}\" must be 0 to {} s", node.attribute("duration").value(), kMaxDuration_s));
+    }
+    const std::size_t unknown = phase.state.find_first_not_of(kLetters);
+    if (unknown != std::string::npos) {
+        xml.refuse(node,
+                   fmt::format("'state' has the unknown letter '{}'; known are {}", phase.state[unknown], kLetters));
+    }
+    if (phase.state.find('s') != std::string::npos) {
+        warnings.note(xml.where(node), "the letter 's' is read as 'g': vehicles do not stop first");
+    }
+    if (node.attribute("next"))
+        warnings.note(xml.where(node), "'next' is ignored: phases run in the order of the file");
+    return phase;
+}
+
+void read_phases(const SumoXml& xml, pugi::xml_node node, SumoSignal& signal, SumoWarnings& warnings) {
+    for (const pugi::xml_node phase : node.children("phase")) {
+        signal.phases.push_back(phase_of(xml, phase, warnings));
+        if (signal.phases.back().state.size() != signal.phases[0].state.size()) {
+            xml.refuse(phase,
+                       fmt::format("'state' has {} letters, but the first phase has {}; all phases need the same "
+                                   "number",
+                                   signal.phases.back().state.size(), signal.phases[0].state.size()));
+        }
+    }
+    if (!signal.phases.empty() && !(signal.cycle_s() >= 1.0)) {
+        xml.refuse(node, fmt::format("tlLogic '{}': the phases must last at least 1 s in total", signal.id));
+    }
+}
+
+}  // namespace
+
+void add_sumo_signal(const SumoXml& xml, pugi::xml_node node, bool from_net, SumoNet& net) {
+    SumoWarnings& warnings = net.warnings;
+    SumoSignal signal{xml.text(node, "id"), node.attribute("programID").value()};
+    signal.where = xml.where(node);
+    signal.defined_in_net = from_net;
+    if (signal.programme == "off") {
+        xml.refuse(node, fmt::format("tlLogic '{}': programID=\"off\" switches the signal off, which is not supported; "
+                                     "remove this element, or give it phases under another programID",
+                                     signal.id));
+    }
+    signal.offset_s = xml.number_or(node, "offset", 0.0);
+    if (std::abs(signal.offset_s) > kMaxDuration_s) {
+        xml.refuse(node, fmt::format("'offset' must be between -{0} and {0} s", kMaxDuration_s));
+    }
+    read_phases(xml, node, signal, warnings);
+    const std::string type = node.attribute("type").value();
+    if (!type.empty() && type != "static") {
+        warnings.note(
+            signal.where,
+            fmt::format("signals of type '{}' run as fixed-time signals with the durations of the file", type));
+    }
+    const auto known = net.signal_by_id.find(signal.id);
+    const bool is_known = known != net.signal_by_id.end();
+    const bool has_phases = is_known && !net.signals[at(known->second)].phases.empty();
+    if (signal.phases.empty()) {
+        if (from_net || !has_phases) {
+            xml.refuse(node, fmt::format("tlLogic '{}' has no phase; it needs at least one", signal.id));
+        }
+        net.signals[at(known->second)].offset_s = signal.offset_s;
+        return;
+    }
+    if (!is_known) {
+        if (!from_net) xml.refuse(node, fmt::format("tlLogic '{}': the network has no signal with this id", signal.id));
+        net.signal_by_id.emplace(signal.id, static_cast<int>(net.signals.size()));
+        net.signals.push_back(std::move(signal));
+        return;
+    }
+    SumoSignal& earlier = net.signals[at(known->second)];
+    if (from_net && earlier.programme == signal.programme) {
+        xml.refuse(node,
+                   fmt::format("tlLogic '{}' has two programmes '{}'; one is allowed", signal.id, signal.programme));
+    }
+    if (has_phases && earlier.phases[0].state.size() > signal.phases[0].state.size()) {
+        xml.refuse(node, fmt::format("tlLogic '{}': 'state' has {} letters, but an earlier programme has {}", signal.id,
+                                     signal.phases[0].state.size(), earlier.phases[0].state.size()));
+    }
+    signal.defined_in_net = signal.defined_in_net || earlier.defined_in_net;
+    earlier = std::move(signal);  // SUMO also uses the last programme
+}
+
+namespace {
+
+bool is_true(pugi::xml_node node, const char* attribute) {
+    const std::string_view value = node.attribute(attribute).value();
+    return value == "true" || value == "1" || value == "yes" || value == "on" || value == "x" || value == "t";
+}
+
+void read_loop(const SumoXml& xml, pugi::xml_node node, SumoNet& net) {
+    const std::string lane = xml.text(node, "lane");
+    const auto edge_and_index = net.lane(lane);
+    if (!edge_and_index) xml.refuse(node, fmt::format("lane=\"{}\": the network has no lane with this id", lane));
+    SumoLoop loop{xml.text(node, "id"), edge_and_index->first, edge_and_index->second, xml.number(node, "pos"),
+                  xml.where(node)};
+    const double length_m = net.edges[at(loop.edge)].lanes[at(loop.lane)].length_m;
+    if (loop.position_m < 0.0) loop.position_m += length_m;  // SUMO counts a negative position from the end
+    if (is_true(node, "friendlyPos")) loop.position_m = std::clamp(loop.position_m, 0.0, length_m);
+    if (loop.position_m < 0.0 || loop.position_m > length_m) {
+        xml.refuse(node, fmt::format("pos=\"{}\" must lie on the lane, which is {:.2f} m long",
+                                     node.attribute("pos").value(), length_m));
+    }
+    for (const char* const ignored : {"vTypes", "nextEdges", "detectPersons"}) {
+        if (!node.attribute(ignored)) continue;
+        net.warnings.note(loop.where, fmt::format("'{}' is ignored: the detector counts all vehicles", ignored));
+    }
+    const auto has_same_id = [&](const SumoLoop& other) { return other.id == loop.id; };
+    if (std::any_of(net.loops.begin(), net.loops.end(), has_same_id)) {
+        xml.refuse(node, fmt::format("there are two detectors '{}'; ids must be unique", loop.id));
+    }
+    net.loops.push_back(std::move(loop));
+}
+
+}  // namespace
+
+void read_sumo_additional(const std::filesystem::path& file, SumoNet& net) {
+    const SumoXml xml(file, {"additional", "tlLogics", "add", "routes"});
+    SumoWarnings& warnings = net.warnings;
+    constexpr std::string_view kTraffic = " vType vTypeDistribution route routeDistribution vehicle trip flow ";
+    for (const pugi::xml_node node : xml.root()) {
+        const std::string_view name = node.name();
+        if (name == "tlLogic") {
+            add_sumo_signal(xml, node, false, net);
+        } else if (name == "e1Detector" || name == "inductionLoop") {
+            read_loop(xml, node, net);
+        } else if (node.type() == pugi::node_element && kTraffic.find(fmt::format(" {} ", name)) == std::string::npos) {
+            warnings.note(xml.where(node), fmt::format("the element '{}' is ignored", name));
+        }
+    }
+    net.hash = net.hash * 0x100000001b3U ^ xml.hash();
+}
+
+}  // namespace stopline

@@ -1,0 +1,61 @@
+#include "sumo_import/sumo_signals.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace stopline {
+
+namespace {
+
+Light light_of(char letter) {
+    if (sumo_is_green(letter)) return Light::green;
+    return letter == 'y' || letter == 'Y' ? Light::yellow : Light::red;
+}
+
+// Returns the programme of one link. The end times of phases are rounded to ticks, so rounding errors do not add up.
+// Consecutive phases with the same light become one stage.
+GroupProgramme programme_of(const SumoSignal& signal, int link, double step_s) {
+    std::vector<Stage> stages;
+    double end_s = 0.0;
+    std::int64_t begin = 0;
+    for (const SumoPhase& phase : signal.phases) {
+        end_s += phase.duration_s;
+        const std::int64_t end = to_ticks(end_s, step_s);
+        const Light light = light_of(phase.state[static_cast<std::size_t>(link)]);
+        if (end == begin) continue;
+        if (!stages.empty() && stages.back().light == light) {
+            stages.back().ticks += end - begin;
+        } else {
+            stages.push_back({end - begin, light});
+        }
+        begin = end;
+    }
+    std::int64_t offset = to_ticks(std::fmod(signal.offset_s, end_s), step_s);
+    // If the first and the last stage have the same light, shift the programme so that they become one stage.
+    if (stages.size() > 1 && stages.front().light == stages.back().light) {
+        offset += stages.front().ticks;
+        stages.back().ticks += stages.front().ticks;
+        stages.erase(stages.begin());
+    }
+    const std::int64_t cycle = begin;
+    return {std::move(stages), (offset % cycle + cycle) % cycle - cycle, true};
+}
+
+}  // namespace
+
+std::vector<GroupProgramme> make_sumo_signals(const SumoNetwork& network, double step_s) {
+    std::vector<GroupProgramme> programmes;
+    for (const SumoLight& light : network.lights) {
+        if (light.signal < 0) {
+            programmes.emplace_back(std::vector<Stage>{{to_ticks(3600.0, step_s), Light::green}}, 0, true);
+        } else {
+            programmes.push_back(
+                programme_of(network.net.signals[static_cast<std::size_t>(light.signal)], light.link, step_s));
+        }
+    }
+    return programmes;
+}
+
+}  // namespace stopline

@@ -1,0 +1,155 @@
+#include "sumo_import/sumo_types.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include <fmt/format.h>
+
+namespace stopline {
+
+namespace {
+
+struct VehicleClass {
+    std::string_view name;
+    double length_m;  // SUMO's default, https://sumo.dlr.de/docs/Vehicle_Type_Parameter_Defaults.html
+    bool uses_car_lanes;
+};
+
+constexpr std::array<VehicleClass, 25> kClasses{{
+    {"passenger", 5.0, true},     {"private", 5.0, true},   {"taxi", 5.0, true},          {"hov", 5.0, true},
+    {"evehicle", 5.0, true},      {"emergency", 6.5, true}, {"authority", 5.0, true},     {"army", 5.0, true},
+    {"vip", 5.0, true},           {"custom1", 5.0, true},   {"custom2", 5.0, true},       {"bus", 12.0, true},
+    {"coach", 14.0, true},        {"delivery", 6.5, true},  {"truck", 7.1, true},         {"trailer", 16.5, true},
+    {"motorcycle", 2.2, true},    {"moped", 2.1, true},     {"ignoring", 5.0, true},      {"bicycle", 1.6, false},
+    {"pedestrian", 0.215, false}, {"tram", 22.0, false},    {"rail_urban", 109.5, false}, {"rail", 135.0, false},
+    {"ship", 17.0, false},
+}};
+
+// Attributes that the import reads, or that change only how SUMO draws a vehicle.
+constexpr std::string_view kWithoutWarning = " id length vClass probability color guiShape imgFile osgFile ";
+// Ignored attributes whose value must still be a number, or a distribution such as normc(...).
+constexpr std::string_view kIgnoredNumbers =
+    " speedDev sigma tau accel decel emergencyDecel minGap maxSpeed speedFactor lcStrategic ";
+
+bool is_in(std::string_view list, std::string_view word) {
+    return list.find(fmt::format(" {} ", word)) != std::string_view::npos;
+}
+
+void warn_about_ignored(const SumoXml& xml, pugi::xml_node type, SumoWarnings& warnings) {
+    for (const pugi::xml_attribute attribute : type.attributes()) {
+        const std::string name = attribute.name();
+        if (is_in(kWithoutWarning, name)) continue;
+        const std::string_view text = attribute.value();
+        if (is_in(kIgnoredNumbers, name) && text.find('(') == std::string_view::npos)
+            xml.optional_number(type, name.c_str());
+        warnings.note(
+            xml.where(type),
+            fmt::format("'{}' is ignored: the scenario's populations and drivers define the driving behaviour", name));
+    }
+    for (const pugi::xml_node child : type.children()) {
+        if (child.type() != pugi::node_element) continue;
+        warnings.note(xml.where(child), fmt::format("the element '{}' is ignored", child.name()));
+    }
+}
+
+}  // namespace
+
+std::size_t pick_by_share(const std::vector<double>& shares, double random_number) {
+    double sum = 0.0;
+    for (const double share : shares) sum += share;
+    std::size_t k = 0;
+    double upper = shares[0];
+    while (random_number * sum >= upper && k + 1 < shares.size()) upper += shares[++k];
+    return k;
+}
+
+SumoTypes::SumoTypes() {
+    types_.emplace_back();
+    for (const char* const name : {"", "DEFAULT_VEHTYPE", "DEFAULT_TAXITYPE"}) types_by_name_[name] = {{0, 1.0}};
+    types_.push_back({1.6, false});
+    for (const char* const name : {"DEFAULT_BIKETYPE", "DEFAULT_PEDTYPE", "DEFAULT_RAILTYPE"})
+        types_by_name_[name] = {{1, 1.0}};
+}
+
+std::size_t SumoTypes::read_type(const SumoXml& xml, pugi::xml_node node, SumoWarnings& warnings) {
+    constexpr double kMaxLength_m = 100.0;
+    constexpr double kMinLength_m = 1.0;
+    SumoType type;
+    if (const std::string name = node.attribute("vClass").value(); !name.empty()) {
+        const auto known =
+            std::find_if(kClasses.begin(), kClasses.end(), [&](auto& known_class) { return known_class.name == name; });
+        if (known != kClasses.end()) {
+            type = {known->length_m, known->uses_car_lanes};
+        } else {
+            type.uses_car_lanes = false;
+            warnings.note(xml.where(node),
+                          fmt::format("vehicles of class '{}' are ignored: they do not use car lanes", name));
+        }
+    }
+    if (const auto length_m = xml.optional_number(node, "length")) {
+        type.length_m = *length_m;
+        if (type.uses_car_lanes && (type.length_m < kMinLength_m || type.length_m > kMaxLength_m)) {
+            xml.refuse(node, fmt::format("length=\"{}\" must be between {} and {} m", node.attribute("length").value(),
+                                         kMinLength_m, kMaxLength_m));
+        }
+    }
+    warn_about_ignored(xml, node, warnings);
+    types_.push_back(type);
+    return types_.size() - 1;
+}
+
+void SumoTypes::add(const SumoXml& xml, pugi::xml_node node, const std::string& name, std::vector<Share> shares) {
+    if (name.starts_with("DEFAULT_")) {
+        types_by_name_[name] = std::move(shares);
+        if (name == "DEFAULT_VEHTYPE") types_by_name_[""] = types_by_name_[name];
+        return;
+    }
+    if (!types_by_name_.emplace(name, std::move(shares)).second)
+        xml.refuse(node, fmt::format("there are two types '{}'; ids must be unique", name));
+}
+
+void SumoTypes::read(const SumoXml& xml, pugi::xml_node node, SumoWarnings& warnings) {
+    const std::string id = xml.text(node, "id");
+    if (node.name() == std::string_view("vType")) return add(xml, node, id, {{read_type(xml, node, warnings), 1.0}});
+    std::vector<Share> shares;
+    const auto checked = [&](pugi::xml_node at, double share) {
+        if (share < 0.0) xml.refuse(at, "a probability must be at least 0");
+        return share;
+    };
+    for (const pugi::xml_node child : node.children("vType")) {
+        const std::size_t type = read_type(xml, child, warnings);
+        shares.push_back({type, checked(child, xml.number_or(child, "probability", 1.0))});
+        if (child.attribute("id")) add(xml, child, child.attribute("id").value(), {{type, 1.0}});
+    }
+    const std::string members = node.attribute("vTypes").value();
+    const std::vector<std::string_view> probabilities = sumo_words(node.attribute("probabilities").value());
+    std::size_t k = 0;
+    for (const std::string_view member : sumo_words(members)) {
+        const auto known = types_by_name_.find(std::string(member));
+        if (known == types_by_name_.end() || known->second.size() != 1) {
+            xml.refuse(node,
+                       fmt::format("vTypeDistribution '{}': there is no vType '{}' before this element", id, member));
+        }
+        const auto share = k < probabilities.size() ? sumo_number(probabilities[k]) : 1.0;
+        if (!share) xml.refuse(node, fmt::format("vTypeDistribution '{}': a probability must be a finite number", id));
+        shares.push_back({known->second[0].type, checked(node, *share)});
+        ++k;
+    }
+    double sum = 0.0;
+    for (const Share& share : shares) sum += share.share;
+    if (!(sum > 0.0))
+        xml.refuse(node, fmt::format("vTypeDistribution '{}' needs a type with a probability above 0", id));
+    add(xml, node, id, std::move(shares));
+}
+
+const SumoType& SumoTypes::pick(const SumoXml& xml, pugi::xml_node node, const std::string& name,
+                                double random_number) const {
+    const auto found = types_by_name_.find(name);
+    if (found == types_by_name_.end()) xml.refuse(node, fmt::format("there is no vType '{}'", name));
+    std::vector<double> shares;
+    for (const Share& share : found->second) shares.push_back(share.share);
+    return types_[found->second[pick_by_share(shares, random_number)].type];
+}
+
+}  // namespace stopline

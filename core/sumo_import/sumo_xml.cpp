@@ -1,0 +1,276 @@
+#include "sumo_import/sumo_xml.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#include <unistd.h>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <zlib.h>
+
+#include "base/input_error.h"
+
+namespace stopline {
+
+namespace {
+
+constexpr std::size_t kMaxBytes = std::size_t{1} << 31;
+
+// Throws InputError with the number of the last line that could be unpacked.
+[[noreturn]] void throw_damaged(const std::string& name, const std::string& unpacked) {
+    throw InputError(fmt::format("{}:{}: the gzip data are damaged or end too early here", name,
+                                 std::count(unpacked.begin(), unpacked.end(), '\n') + 1));
+}
+
+// Returns the unpacked text of a gzipped file, or the text of a plain file: zlib passes plain files through.
+std::string read_text(const std::filesystem::path& file, const std::string& name) {
+    if (const std::string problem = sumo_file_problem(file); !problem.empty()) throw InputError(name + ": " + problem);
+    struct Close {
+        void operator()(gzFile_s* opened) const { gzclose(opened); }
+    };
+    const std::unique_ptr<gzFile_s, Close> in(gzopen(file.c_str(), "rb"));
+    if (!in) throw InputError(name + ": the file cannot be opened");
+    constexpr unsigned kBuffer = 1U << 20;
+    gzbuffer(in.get(), kBuffer);
+    std::string text;
+    text.reserve(static_cast<std::size_t>(std::min<std::uintmax_t>(std::filesystem::file_size(file), kMaxBytes)) + 1);
+    std::vector<char> chunk(kBuffer);
+    for (;;) {
+        const int count = gzread(in.get(), chunk.data(), kBuffer);
+        if (count < 0) throw_damaged(name, text);
+        if (count == 0) break;
+        text.append(chunk.data(), static_cast<std::size_t>(count));
+        if (text.size() >= kMaxBytes) throw InputError(name + ": the text of the file is larger than 2 GiB");
+    }
+    int state = Z_OK;
+    gzerror(in.get(), &state);
+    if (state != Z_OK && state != Z_STREAM_END) throw_damaged(name, text);
+    return text;
+}
+
+std::uint64_t hash_of(const std::string& text) {
+    std::uint64_t hash = 0xcbf29ce484222325U;
+    for (const char c : text) {
+        hash ^= static_cast<unsigned char>(c);
+        hash *= 0x100000001b3U;
+    }
+    return hash;
+}
+
+// A comment, a CDATA section or a processing instruction.
+struct Section {
+    std::size_t begin = 0;
+    std::size_t end = 0;
+};
+
+Section next_section(std::string_view text, std::size_t from) {
+    constexpr std::array<std::array<std::string_view, 2>, 3> kKinds{
+        {{"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}}};
+    for (std::size_t k = text.find('<', from); k != std::string_view::npos; k = text.find('<', k + 1)) {
+        for (const auto& [opening, closing] : kKinds) {
+            if (text.substr(k, opening.size()) != opening) continue;
+            const std::size_t end = text.find(closing, k + opening.size());
+            return {k, end == std::string_view::npos ? text.size() : end + closing.size()};
+        }
+    }
+    return {text.size(), text.size()};
+}
+
+// Returns true if the text after a '&' begins with an entity that XML defines, or with a character number.
+bool is_entity(std::string_view text) {
+    constexpr std::array<std::string_view, 5> kNamed{"amp;", "lt;", "gt;", "quot;", "apos;"};
+    if (std::any_of(kNamed.begin(), kNamed.end(), [&](std::string_view name) { return text.starts_with(name); })) {
+        return true;
+    }
+    if (!text.starts_with('#')) return false;
+    const bool hexadecimal = text.substr(1).starts_with('x');
+    text.remove_prefix(hexadecimal ? 2 : 1);
+    const std::size_t end = text.find_first_not_of(hexadecimal ? "0123456789abcdefABCDEF" : "0123456789");
+    return end != 0 && end != std::string_view::npos && text[end] == ';';
+}
+
+// Returns the position of the first '&' that begins an unknown entity. pugixml does not report these.
+std::optional<std::size_t> unknown_entity(std::string_view text) {
+    constexpr std::size_t kMaxEntityLength = 12;
+    Section section;
+    for (std::size_t k = text.find('&'); k != std::string_view::npos; k = text.find('&', k + 1)) {
+        if (is_entity(text.substr(k + 1, kMaxEntityLength))) continue;
+        while (section.end <= k) section = next_section(text, section.end);
+        if (section.begin > k) return k;
+        k = section.end - 1;
+    }
+    return std::nullopt;
+}
+
+// Returns the name in the last tag that begins before the position.
+std::string_view element_before(std::string_view text, std::size_t position) {
+    const std::size_t begin = text.rfind('<', position);
+    if (begin == std::string_view::npos) return "";
+    return text.substr(begin + 1, std::min(text.find_first_of(" \t\r\n/>", begin + 1), position) - begin - 1);
+}
+
+std::string shortened(std::string_view text) {
+    constexpr std::size_t kMaxLength = 60;
+    return text.size() <= kMaxLength ? std::string(text) : std::string(text.substr(0, kMaxLength)) + "...";
+}
+
+}  // namespace
+
+std::string sumo_file_problem(const std::filesystem::path& file) {
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(file, error);
+    if (status.type() == std::filesystem::file_type::not_found) return "there is no such file";
+    if (std::filesystem::is_directory(status)) return "this is a folder; a file is needed";
+    if (!std::filesystem::is_regular_file(status)) return "this is a device or a pipe; a regular file is needed";
+    return ::access(file.c_str(), R_OK) == 0 ? "" : "the file cannot be opened; check its permissions";
+}
+
+std::optional<double> sumo_number(std::string_view text) {
+    double value = 0.0;
+    if (text.starts_with('+')) text.remove_prefix(1);
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+    return value;
+}
+
+std::vector<std::string_view> sumo_words(std::string_view text) {
+    constexpr std::string_view kBlanks = " \t\r\n";
+    std::vector<std::string_view> words;
+    for (std::size_t k = text.find_first_not_of(kBlanks); k != std::string_view::npos;) {
+        const std::size_t end = std::min(text.find_first_of(kBlanks, k), text.size());
+        words.push_back(text.substr(k, end - k));
+        k = text.find_first_not_of(kBlanks, end);
+    }
+    return words;
+}
+
+SumoXml::SumoXml(const std::filesystem::path& file, std::initializer_list<std::string_view> root_names)
+    : name_(file.lexically_normal().generic_string()), text_(read_text(file, name_)), hash_(hash_of(text_)) {
+    for (const char* at = text_.data(); at != nullptr;) {
+        at =
+            static_cast<const char*>(std::memchr(at, '\n', static_cast<std::size_t>(text_.data() + text_.size() - at)));
+        if (at == nullptr) break;
+        line_ends_.push_back(static_cast<std::uint32_t>(at - text_.data()));
+        ++at;
+    }
+    parse();
+    const auto is_root = [&](std::string_view name) { return name == root_.name(); };
+    if (std::none_of(root_names.begin(), root_names.end(), is_root)) {
+        refuse(root_, fmt::format("the root element is '{}'; it must be '{}'", shortened(root_.name()),
+                                  fmt::join(root_names, "' or '")));
+    }
+}
+
+void SumoXml::parse() {
+    std::string entity_problem;
+    if (const std::optional<std::size_t> position = unknown_entity(text_)) {
+        const std::string_view rest = std::string_view(text_).substr(*position);
+        entity_problem = fmt::format(
+            "{}:{}: element '{}': '{}' is not an XML entity; known are &amp; &lt; &gt; &quot; &apos; and character "
+            "numbers such as &#65;",
+            name_, line_of(static_cast<std::ptrdiff_t>(*position)), shortened(element_before(text_, *position)),
+            shortened(rest.substr(0, rest.find_first_of(" \t\r\n\"';<>", 1))));
+    }
+    document_ = std::make_unique<pugi::xml_document>();
+    const std::string_view beginning = std::string_view(text_).substr(0, 1 << 16);
+    if (beginning.find_first_not_of(" \t\r\n") == std::string_view::npos && text_.size() < beginning.size() + 1) {
+        throw InputError(name_ + ":1: the file is empty");
+    }
+    const unsigned options = pugi::parse_default | pugi::parse_doctype;
+    const pugi::xml_parse_result result =
+        document_->load_buffer_inplace(text_.data(), text_.size(), options, pugi::encoding_utf8);
+    if (!result) {
+        throw InputError(fmt::format("{}:{}: the file is not well-formed XML: {}", name_, line_of(result.offset),
+                                     result.description()));
+    }
+    for (const pugi::xml_node node : document_->children()) {
+        if (node.type() == pugi::node_doctype) {
+            refuse(node, "the file has a DOCTYPE; document type declarations are not supported");
+        }
+        if (node.type() != pugi::node_element) continue;
+        if (root_) refuse(node, "the file has a second root element; one is allowed");
+        root_ = node;
+    }
+    if (!root_) throw InputError(name_ + ":1: the file has no XML element");
+    if (!entity_problem.empty()) throw InputError(entity_problem);
+    refuse_duplicate_attributes();
+}
+
+// Throws InputError if an element has two attributes with the same name. pugixml keeps both and finds the first.
+void SumoXml::refuse_duplicate_attributes() const {
+    std::vector<std::string_view> names;
+    for (pugi::xml_node node = root_; node;) {
+        names.clear();
+        for (const pugi::xml_attribute attribute : node.attributes()) names.emplace_back(attribute.name());
+        std::sort(names.begin(), names.end());
+        if (const auto duplicate = std::adjacent_find(names.begin(), names.end()); duplicate != names.end()) {
+            refuse(node, fmt::format("element '{}': attribute '{}' is given twice; once is allowed", node.name(),
+                                     shortened(*duplicate)));
+        }
+        pugi::xml_node next = node.first_child();
+        while (!next && node != root_) {
+            next = node.next_sibling();
+            if (!next) node = node.parent();
+        }
+        node = next;
+    }
+}
+
+std::size_t SumoXml::line_of(std::ptrdiff_t offset) const {
+    const auto at = static_cast<std::uint32_t>(std::max<std::ptrdiff_t>(offset, 0));
+    return static_cast<std::size_t>(std::lower_bound(line_ends_.begin(), line_ends_.end(), at) - line_ends_.begin()) +
+           1;
+}
+
+std::string SumoXml::where(pugi::xml_node node) const {
+    return fmt::format("{}:{}", name_, line_of(node.offset_debug()));
+}
+
+void SumoXml::refuse(pugi::xml_node node, const std::string& message) const {
+    throw InputError(where(node) + ": " + message);
+}
+
+std::string SumoXml::text(pugi::xml_node node, const char* attribute) const {
+    const pugi::xml_attribute found = node.attribute(attribute);
+    if (!found || *found.value() == '\0') {
+        refuse(node, fmt::format("element '{}' has no attribute '{}'", node.name(), attribute));
+    }
+    return found.value();
+}
+
+std::optional<double> SumoXml::optional_number(pugi::xml_node node, const char* attribute) const {
+    const pugi::xml_attribute found = node.attribute(attribute);
+    if (!found) return std::nullopt;
+    const std::optional<double> value = sumo_number(found.value());
+    if (!value) {
+        refuse(node, fmt::format("element '{}': {}=\"{}\" is not a finite number", node.name(), attribute,
+                                 shortened(found.value())));
+    }
+    return value;
+}
+
+double SumoXml::number(pugi::xml_node node, const char* attribute) const {
+    text(node, attribute);
+    return *optional_number(node, attribute);
+}
+
+double SumoXml::number_or(pugi::xml_node node, const char* attribute, double fallback) const {
+    return optional_number(node, attribute).value_or(fallback);
+}
+
+int SumoXml::whole_number(pugi::xml_node node, const char* attribute) const {
+    constexpr double kMax = 1e9;
+    const double value = number(node, attribute);
+    if (value != std::floor(value) || value < 0.0 || value > kMax) {
+        refuse(node, fmt::format("element '{}': {}=\"{}\" must be a whole number from 0 to {}", node.name(), attribute,
+                                 shortened(node.attribute(attribute).value()), kMax));
+    }
+    return static_cast<int>(value);
+}
+
+}  // namespace stopline

@@ -1,0 +1,65 @@
+// Strict reader for SUMO's XML files, plain or gzipped. Every problem is an InputError that begins with file and line.
+//
+// The reader rejects document type declarations, files above 2 GiB when unpacked, XML that is not well-formed, and
+// numbers that are not finite. pugixml accepts duplicate attributes and unknown entities, so this reader checks for
+// both.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <initializer_list>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <pugixml.hpp>
+
+namespace stopline {
+
+class SumoXml {
+public:
+    // Reads and parses the file. Throws InputError unless the name of the root element is in `root_names`.
+    SumoXml(const std::filesystem::path& file, std::initializer_list<std::string_view> root_names);
+
+    pugi::xml_node root() const { return root_; }
+    // Returns file and line of the node, such as "scenarios/city.net.xml:12".
+    std::string where(pugi::xml_node node) const;
+    const std::string& name() const { return name_; }
+    std::size_t bytes() const { return text_.size(); }
+    // Returns the 64-bit FNV-1a hash of the unpacked text.
+    std::uint64_t hash() const { return hash_; }
+
+    // Throws InputError with file, line and message.
+    [[noreturn]] void refuse(pugi::xml_node node, const std::string& message) const;
+
+    // The functions below return the value of an attribute. They throw InputError if the value is malformed.
+    // text(), number() and whole_number() also throw if the attribute is missing.
+    std::string text(pugi::xml_node node, const char* attribute) const;
+    std::optional<double> optional_number(pugi::xml_node node, const char* attribute) const;
+    double number(pugi::xml_node node, const char* attribute) const;
+    double number_or(pugi::xml_node node, const char* attribute, double fallback) const;
+    int whole_number(pugi::xml_node node, const char* attribute) const;
+
+private:
+    void parse();
+    void refuse_duplicate_attributes() const;
+    std::size_t line_of(std::ptrdiff_t offset) const;
+
+    std::string name_;
+    std::string text_;                      // parsed in place
+    std::vector<std::uint32_t> line_ends_;  // byte offsets of the line breaks
+    std::uint64_t hash_ = 0;
+    std::unique_ptr<pugi::xml_document> document_;
+    pugi::xml_node root_;
+};
+
+// Returns the reason why the file cannot be read, or "" if it is a readable regular file.
+std::string sumo_file_problem(const std::filesystem::path& file);
+// Returns the number if the whole text is one finite decimal number.
+std::optional<double> sumo_number(std::string_view text);
+// Splits the text at white space.
+std::vector<std::string_view> sumo_words(std::string_view text);
+
+}  // namespace stopline

@@ -1,0 +1,213 @@
+#include "sweeps/run_store.h"
+
+#include <sqlite3.h>
+
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/input_error.h"
+#include "scenario/schema/quantity.h"
+
+namespace stopline {
+
+namespace {
+
+constexpr const char* kFormat = "stopline runs 1";
+
+// A prepared statement, finalised at the end of the scope.
+class Statement {
+public:
+    Statement(sqlite3* database, const char* sql)
+        : code_(sqlite3_prepare_v2(database, sql, -1, &statement_, nullptr)) {}
+    Statement(const Statement&) = delete;
+    Statement& operator=(const Statement&) = delete;
+    Statement(Statement&&) = delete;
+    Statement& operator=(Statement&&) = delete;
+    ~Statement() { sqlite3_finalize(statement_); }
+
+    void bind(int index, const std::string& text) {
+        if (code_ != SQLITE_OK) return;
+        // The null destructor tells SQLite not to copy the text, which outlives the statement.
+        code_ = sqlite3_bind_text64(statement_, index, text.data(), text.size(), nullptr, SQLITE_UTF8);
+    }
+    void bind(int index, std::size_t number) {
+        if (code_ == SQLITE_OK) code_ = sqlite3_bind_int64(statement_, index, static_cast<sqlite3_int64>(number));
+    }
+    // Returns SQLITE_ROW, SQLITE_DONE or an error. An error of an earlier call is returned again.
+    int step() { return code_ == SQLITE_OK ? sqlite3_step(statement_) : code_; }
+
+    std::string text(int column) const {
+        const void* const bytes = sqlite3_column_blob(statement_, column);
+        const auto size = static_cast<std::size_t>(sqlite3_column_bytes(statement_, column));
+        return bytes == nullptr ? std::string() : std::string(static_cast<const char*>(bytes), size);
+    }
+    std::size_t number(int column) const { return static_cast<std::size_t>(sqlite3_column_int64(statement_, column)); }
+
+private:
+    sqlite3_stmt* statement_ = nullptr;
+    int code_;
+};
+
+std::string reason(int code, sqlite3* database) {
+    const int kind = code & 0xff;
+    if (kind == SQLITE_BUSY || kind == SQLITE_LOCKED) return "another program has this store open; wait until it ends";
+    if (kind == SQLITE_NOTADB || kind == SQLITE_CORRUPT)
+        return "the file is not a store of stopline-sweep, or it is damaged";
+    if (kind == SQLITE_FULL) return "cannot write: the disk is full";
+    if (kind == SQLITE_READONLY || kind == SQLITE_CANTOPEN || kind == SQLITE_PERM || kind == SQLITE_IOERR) {
+        return fmt::format(
+            "cannot write to the store: the file or its folder is read-only, or the disk fails (SQLite: {}, {}). Copy "
+            "a read-only store to another folder first",
+            sqlite3_errstr(code), code);
+    }
+    const std::string message = database == nullptr ? sqlite3_errstr(code) : sqlite3_errmsg(database);
+    return fmt::format("the store cannot be used: {} ({})", message, code);
+}
+
+// Returns the difference between two identities as a text; empty if there is none.
+std::string difference_of(const StoreIdentity& has, const StoreIdentity& wanted) {
+    if (has.name != wanted.name) return fmt::format("it holds runs of the sweep '{}'", has.name);
+    if (has.sweep != wanted.sweep || has.points != wanted.points) {
+        return "the sweep, its scenario or a file that they use has changed since the store was created";
+    }
+    if (has.program != wanted.program) {
+        return fmt::format("another build of the program made its runs ({})", has.program);
+    }
+    if (has.shard != wanted.shard) {
+        return fmt::format("it holds shard {}", has.shard.empty() ? "1/1" : has.shard);
+    }
+    return {};
+}
+
+}  // namespace
+
+void RunStore::Close::operator()(sqlite3* database) const { sqlite3_close(database); }
+
+RunStore::RunStore(std::filesystem::path file, bool make) : file_(std::move(file)) {
+    sqlite3* database = nullptr;
+    const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_FULLMUTEX | (make ? SQLITE_OPEN_CREATE : 0);
+    const int code = sqlite3_open_v2(file_.c_str(), &database, flags, nullptr);
+    database_.reset(database);
+    if (code != SQLITE_OK) fail(code);
+    sqlite3_busy_timeout(database, 1000);  // a program that was just killed can hold the lock a little longer
+    execute("PRAGMA locking_mode = EXCLUSIVE");
+    execute("PRAGMA journal_mode = WAL");
+    execute("PRAGMA synchronous = NORMAL");
+    execute("BEGIN EXCLUSIVE");
+    execute("COMMIT");
+}
+
+RunStore RunStore::open_or_make(const std::filesystem::path& file, const StoreIdentity& identity) {
+    RunStore store(file, true);
+    if (!store.has_tables()) {
+        store.make_tables(identity);
+        return store;
+    }
+    store.read_identity();
+    const std::string difference = difference_of(store.identity_, identity);
+    if (!difference.empty()) {
+        throw InputError(fmt::format(
+            "{}: {}. Such runs are never mixed: choose another --output, or remove this store to start again",
+            file.string(), difference));
+    }
+    return store;
+}
+
+RunStore RunStore::open(const std::filesystem::path& file) {
+    if (!std::filesystem::exists(file)) throw InputError(fmt::format("{}: no such file", file.string()));
+    RunStore store(file, false);
+    if (!store.has_tables()) throw InputError(fmt::format("{}: the store holds no runs", file.string()));
+    store.read_identity();
+    return store;
+}
+
+void RunStore::fail(int code) const {
+    throw InputError(fmt::format("{}: {}", file_.string(), reason(code, database_.get())));
+}
+
+void RunStore::execute(const char* sql) const {
+    const int code = sqlite3_exec(database_.get(), sql, nullptr, nullptr, nullptr);
+    if (code != SQLITE_OK) fail(code);
+}
+
+bool RunStore::has_tables() const {
+    Statement statement(database_.get(), "SELECT count(*) FROM sqlite_master");
+    const int code = statement.step();
+    if (code != SQLITE_ROW) fail(code);
+    return statement.number(0) > 0;
+}
+
+void RunStore::make_tables(const StoreIdentity& identity) {
+    identity_ = identity;
+    const std::map<std::string, std::string> rows{{"format", kFormat},
+                                                  {"name", identity.name},
+                                                  {"sweep", identity.sweep},
+                                                  {"program", identity.program},
+                                                  {"points", fmt::format("{}", identity.points)},
+                                                  {"shard", identity.shard},
+                                                  {"provenance", identity.provenance}};
+    // One transaction: after a kill the store is either complete, or empty and created again.
+    execute("BEGIN");
+    execute("CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID");
+    execute("CREATE TABLE runs(point INTEGER PRIMARY KEY, result TEXT NOT NULL)");
+    for (const auto& [key, value] : rows) {
+        Statement statement(database_.get(), "INSERT INTO meta VALUES(?, ?)");
+        statement.bind(1, key);
+        statement.bind(2, value);
+        const int code = statement.step();
+        if (code != SQLITE_DONE) fail(code);
+    }
+    execute("COMMIT");
+}
+
+void RunStore::read_identity() {
+    std::map<std::string, std::string> rows;
+    Statement statement(database_.get(), "SELECT key, value FROM meta");
+    int code = statement.step();
+    for (; code == SQLITE_ROW; code = statement.step()) rows[statement.text(0)] = statement.text(1);
+    const ParsedWhole points = parse_whole(rows["points"]);
+    if (code != SQLITE_DONE || rows["format"] != kFormat || !points.problem.empty()) {
+        throw InputError(fmt::format("{}: the file is not a store of stopline-sweep", file_.string()));
+    }
+    identity_ = {rows["name"],  rows["sweep"],     rows["program"], static_cast<std::size_t>(points.value),
+                 rows["shard"], rows["provenance"]};
+}
+
+std::vector<bool> RunStore::done() const {
+    std::vector<bool> done(identity_.points, false);
+    Statement statement(database_.get(), "SELECT point FROM runs");
+    int code = statement.step();
+    for (; code == SQLITE_ROW; code = statement.step()) {
+        const std::size_t point = statement.number(0);
+        if (point >= done.size())
+            throw InputError(fmt::format("{}: the store holds a run beyond the end of the sweep", file_.string()));
+        done[point] = true;
+    }
+    if (code != SQLITE_DONE) fail(code);
+    return done;
+}
+
+void RunStore::put(std::size_t point, const std::string& result) {
+    Statement statement(database_.get(), "INSERT INTO runs VALUES(?, ?)");
+    statement.bind(1, point);
+    statement.bind(2, result);
+    const int code = statement.step();
+    if (code != SQLITE_DONE) fail(code);
+}
+
+void RunStore::put_in_one_transaction(const std::function<void()>& puts) {
+    execute("BEGIN");
+    puts();  // after an exception the open transaction is rolled back when the store is closed
+    execute("COMMIT");
+}
+
+void RunStore::for_each_run(const std::function<void(std::size_t, const std::string&)>& visit) const {
+    Statement statement(database_.get(), "SELECT point, result FROM runs ORDER BY point");
+    int code = statement.step();
+    for (; code == SQLITE_ROW; code = statement.step()) visit(statement.number(0), statement.text(1));
+    if (code != SQLITE_DONE) fail(code);
+}
+
+}  // namespace stopline

@@ -1,0 +1,40 @@
+#!/usr/bin/env bash
+# ctest-labels: slow
+# ctest-timeout: 900
+# The commands of the guides work as they are printed. tests/tools/guide_blocks.py says which blocks are run.
+set -u
+
+. "$STOPLINE_SOURCE/tests/tools/cli.sh"
+
+guides=(README.md scenarios/README.md scenarios/SWEEPS.md scenarios/SUMO.md core/README.md tests/README.md data/README.md)
+
+# run_guide GUIDE: runs its blocks, in order, in a folder that looks like the project after the build
+run_guide() {
+    local guide=$1 folder="$work/run/$1" blocks="$work/blocks/$1" block
+    [ -s "$STOPLINE_SOURCE/$guide" ] || { fail "$guide is missing"; return; }
+    mkdir -p "$folder/build/release" "$folder/out" "$blocks"
+    cp -r "$STOPLINE_SOURCE/scenarios" "$STOPLINE_SOURCE/data" "$folder"
+    ln -s "$STOPLINE_SOURCE/tests" "$folder/tests"
+    ln -s "$STOPLINE_BIN" "$folder/build/release/bin"
+    if ! python3 "$STOPLINE_SOURCE/tests/tools/guide_blocks.py" "$STOPLINE_SOURCE/$guide" "$folder" "$blocks" >"$work/list"; then
+        fail "$guide: its blocks cannot be read"
+        return
+    fi
+    [ -s "$work/list" ] || fail "$guide has no tested block"
+    while read -r block line needed; do
+        if [ -n "$needed" ] && ! command -v "$needed" >/dev/null; then
+            echo "$guide:$line: skipped, because there is no program '$needed'"
+            continue
+        fi
+        (cd "$folder" && PATH="$PWD/build/release/bin:$PATH" bash -eu -o pipefail "$block") >"$work/output" 2>&1 </dev/null ||
+            fail "$guide:$line: exit code $?: $(cat "$block")
+$(tail -n 15 "$work/output")"
+    done <"$work/list"
+}
+
+for guide in "${guides[@]}"; do
+    SECONDS=0
+    run_guide "$guide"
+    echo "$guide: $SECONDS s"
+done
+exit $((failures > 0))

@@ -1,0 +1,60 @@
+// What was measured is used again by the same program with the same scenario, and by nothing else.
+#include "paper/measurements.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "runs/short_scenario.h"
+#include "scenario/scenario_text.h"
+
+namespace stopline {
+namespace {
+
+Measurements sample() {
+    Measurements measured;
+    measured.set("passed CDG 15", 17);
+    measured.set("improvement, \"so\"", 1.0 / 3.0);
+    measured.set("tiny", 5e-324);
+    measured.set("not found", std::nan(""));
+    return measured;
+}
+
+TEST(Measurements, ReadBackToTheLastBit) {
+    const TemporaryFolder folder;
+    store_measurements(folder.path() / "m.csv", "key 1", sample());
+    const auto loaded = load_measurements(folder.path() / "m.csv", "key 1");
+    ASSERT_TRUE(loaded);
+    EXPECT_EQ(loaded->values().size(), 4U);
+    EXPECT_EQ(loaded->find("improvement, \"so\""), 1.0 / 3.0);
+    EXPECT_EQ(loaded->find("tiny"), 5e-324);
+    EXPECT_TRUE(std::isnan(*loaded->find("not found")));
+    EXPECT_FALSE(loaded->find("never measured"));
+}
+
+TEST(Measurements, AreNotUsedUnderAnotherKey) {
+    const TemporaryFolder folder;
+    store_measurements(folder.path() / "m.csv", "key 1", sample());
+    EXPECT_FALSE(load_measurements(folder.path() / "m.csv", "key 2"));
+    EXPECT_FALSE(load_measurements(folder.path() / "none.csv", "key 1"));
+}
+
+TEST(Measurements, AreNotUsedWhereTheFileIsDamaged) {
+    const TemporaryFolder folder;
+    for (const char* text : {"", "name,value\n", "name,value\nkey,key 1\na,seven\n", "name,value\nkey,key 1\na\n",
+                             "name\nkey\n", "\xff\xfe\"", "name,value\na,7\n"}) {
+        EXPECT_FALSE(load_measurements(folder.write("m.csv", text), "key 1")) << text;
+    }
+}
+
+TEST(ResultsKey, ChangesWithTheScenario) {
+    const auto plain = results_key(short_scenario());
+    ASSERT_TRUE(plain);
+    EXPECT_EQ(plain, results_key(short_scenario()));
+    EXPECT_NE(plain, results_key(short_scenario({"seed=2"})));
+    EXPECT_NE(plain, results_key(short_scenario({"policies[CDG].standstill_gap=3 m"})));
+    EXPECT_NE(plain, results_key(short_scenario({"vehicle.mass=1236 kg"})));
+}
+
+}  // namespace
+}  // namespace stopline

@@ -1,0 +1,81 @@
+// What a first look leaves out.
+#include "paper/reductions.h"
+
+#include <gtest/gtest.h>
+
+#include "scenario/load_scenario.h"
+#include "scenario/sweep_file/load_sweep.h"
+#include "scenario/scenario_text.h"
+
+namespace stopline {
+namespace {
+
+Reductions reductions_of(const std::string& rows) {
+    const TemporaryFolder folder;
+    return Reductions::load(folder.write("quick.csv", "what,field,value\n" + rows));
+}
+
+SweepSettings some_sweep() {
+    SweepSettings sweep;
+    sweep.name = "grid";
+    sweep.axes = {{"green", {"signal.green"}, {"5 s", "10 s", "15 s"}, {}}, {"population", {}, {}, {"all"}}};
+    sweep.repetitions = 6;
+    return sweep;
+}
+
+TEST(Reductions, KeepTheValuesThatTheyName) {
+    SweepSettings sweep = some_sweep();
+    reductions_of("sweeps/grid,axis green,5 s; 15 s\nsweeps/grid,repetitions,2\nsweeps/other,repetitions,1\n")
+        .apply(sweep);
+    EXPECT_EQ(sweep.axes[0].values, (std::vector<std::string>{"5 s", "15 s"}));
+    EXPECT_EQ(sweep.axes[1].populations, std::vector<std::string>{"all"});
+    EXPECT_EQ(sweep.repetitions, 2);
+}
+
+TEST(Reductions, LeaveAllElseAsItIs) {
+    SweepSettings sweep = some_sweep();
+    Reductions().apply(sweep);
+    EXPECT_EQ(sweep.axes[0].values.size(), 3U);
+    EXPECT_EQ(sweep.repetitions, 6);
+    EXPECT_TRUE(Reductions().settings("sweeps/grid").empty());
+    EXPECT_FALSE(Reductions().repetitions("sweeps/grid"));
+}
+
+TEST(Reductions, GiveOverridesOfTheirFileAlone) {
+    const Reductions reductions =
+        reductions_of("sweeps/grid,duration,600 s\nsweeps/grid,axis green,5 s\nscenarios/grid,duration,300 s\n");
+    EXPECT_EQ(reductions.settings("sweeps/grid"), std::vector<std::string>{"duration=600 s"});
+    EXPECT_EQ(reductions.settings("scenarios/grid"), std::vector<std::string>{"duration=300 s"});
+}
+
+TEST(Reductions, RefuseWhatTheSweepDoesNotHave) {
+    SweepSettings sweep = some_sweep();
+    const auto error = [&](const std::string& row) { return input_error_of([&] { reductions_of(row).apply(sweep); }); };
+    EXPECT_NE(error("sweeps/grid,axis gren,5 s\n").find("no axis 'gren'"), std::string::npos);
+    EXPECT_NE(error("sweeps/grid,axis green,7 s\n").find("no value '7 s'; its values: 5 s; 10 s; 15 s"), std::string::npos);
+    EXPECT_NE(error("sweeps/grid,repetitions,many\n").find("quick.csv:2: 'many' is not a number"), std::string::npos);
+    EXPECT_NE(error("sweeps/grid,repetitions,\n").find("quick.csv:2"), std::string::npos);
+}
+
+// The shipped file fits the shipped sweeps.
+TEST(Reductions, OfTheProjectFitItsSweeps) {
+    const Reductions reductions = Reductions::load(data_directory() / "paper" / "quick.csv");
+    const std::filesystem::path scenarios = data_directory().parent_path() / "scenarios";
+    ASSERT_FALSE(reductions.rows().empty());
+    for (const Reductions::Row& row : reductions.rows()) {
+        const bool sweep = row.what.starts_with("sweeps/");
+        ASSERT_TRUE(sweep || row.what.starts_with("scenarios/")) << row.what;
+        const std::string name = row.what.substr(row.what.find('/') + 1);
+        if (sweep) {
+            SweepSettings settings = load_sweep(scenarios / "sweeps" / (name + ".yaml"));
+            EXPECT_NO_THROW(reductions.apply(settings)) << row.what;
+        } else {
+            EXPECT_NO_THROW(
+                static_cast<void>(load_scenario(scenarios / (name + ".yaml"), reductions.settings(row.what))))
+                << row.what;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace stopline

@@ -1,0 +1,65 @@
+// The results page and the headlines, from rows that were made up.
+#include "paper/results_page.h"
+
+#include <gtest/gtest.h>
+
+#include "paper/headlines.h"
+#include "scenario/scenario_text.h"
+
+namespace stopline {
+namespace {
+
+ScoredRow row_of(const std::string& id, const std::string& section, const std::string& ours, Verdict verdict) {
+    ScoredRow row;
+    row.target.id = id;
+    row.target.section = section;
+    row.target.quantity = "improvement_over_ctg_ref";
+    row.target.condition = "CDG no_turns | mean";
+    row.target.value = "50";
+    row.target.unit = "%";
+    row.target.tolerance = "12";
+    row.target.tolerance_kind = "abs";
+    row.ours = ours;
+    row.verdict = verdict;
+    return row;
+}
+
+Scorecard some_scorecard() {
+    Scorecard scorecard;
+    scorecard.rows = {row_of("B04", "VII.C", "61.2", Verdict::inside), row_of("B05", "I", "", Verdict::open),
+                      row_of("A05", "VI.B", "80", Verdict::miss)};
+    scorecard.rows[2].explanation = "See <A11>.";
+    return scorecard;
+}
+
+TEST(Headlines, AreFiveAndNameWhatIsMissing) {
+    const std::vector<Headline> lines = headlines(some_scorecard());
+    ASSERT_EQ(lines.size(), 5u);
+    EXPECT_EQ(lines[0].text, "Not measured in these runs: vehicles in 15 s of green, gain with long greens.");
+    EXPECT_EQ(
+        lines[2].text,
+        "CDG gains 80 % on the arterial without turns from the major street. It gains 61 % in Berlin. Not measured in these "
+        "runs: grid.");
+    EXPECT_EQ(lines[4].text, "Of 3 rows 1 are inside their tolerance, 1 outside, and 1 open.");
+}
+
+TEST(Headlines, TakeAnAnswerThatIsNoNumberForMissing) {
+    Scorecard scorecard = some_scorecard();
+    scorecard.rows[0].ours = "none";
+    EXPECT_TRUE(contains(headlines(scorecard)[2].text, "grid, Berlin."));
+}
+
+TEST(ResultsPage, HasATableForEachSectionAndTheFindingsLast) {
+    const std::string page = results_markdown(some_scorecard(), "stopline-scorecard --markdown x.md", "## Findings\n");
+    EXPECT_TRUE(contains(page, "`stopline-scorecard --markdown x.md`"));
+    const std::size_t introduction = page.find("## Section I: numbers of the introduction");
+    EXPECT_LT(introduction, page.find("## Section VII: Berlin"));
+    EXPECT_TRUE(contains(page,
+                         "| A05 | improvement over ctg ref | CDG no\\_turns \\| mean | 50 | 80 | % | +30 | ±12 | "
+                         "**outside** | See \\<A11>. |"));
+    EXPECT_TRUE(contains(page, "| All | 3 | 1 | 1 | 1 |"));
+    EXPECT_TRUE(page.ends_with("\n## Findings\n"));
+}
+
+}  // namespace
+}  // namespace stopline

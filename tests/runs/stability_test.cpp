@@ -1,0 +1,104 @@
+// The verdict on runs that break down: gridlocks round a block, and networks in which nobody moves any more.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "runs/network/network_run.h"
+#include "scenario/load_scenario.h"
+
+namespace stopline {
+namespace {
+
+NetworkResult small_grid(std::vector<std::string> overrides) {
+    overrides.insert(overrides.begin(), {"network.grid.columns=3", "network.grid.rows=3", "signal.green=20 s"});
+    return run_network(load_scenario(STOPLINE_SOURCE_DIR "/scenarios/grid.yaml", overrides), 2);
+}
+
+// Streets round a block, each kept out of the next, have green one after the other.
+TEST(Stability, AGridlockRoundABlockIsSeenWhateverLightIsGreen) {
+    const double cycle_s = 2.0 * (20.0 + 8.0);
+    const NetworkResult figures =
+        small_grid({"rules={keep_clear: on}", "duration=1500 s", "measure={area_margin: 20 m, window: 600 s}"});
+    ASSERT_FALSE(figures.delays.gridlocks.empty());
+    const Gridlock& ring = figures.delays.gridlocks[0];
+    EXPECT_GT(ring.to_s - ring.from_s, 10.0 * cycle_s);
+    EXPECT_GE(ring.to_s, 1490.0) << "to the end";
+    for (const Gridlock& gridlock : figures.delays.gridlocks) EXPECT_GE(gridlock.vehicles.size(), 3u);
+    EXPECT_EQ(figures.stability, Stability::unstable);
+    EXPECT_NE(figures.unstable_by, InstabilityCause::none);
+    ASSERT_TRUE(figures.collapse_s.has_value());
+    EXPECT_LE(*figures.collapse_s, ring.from_s + 6.0 * cycle_s);
+}
+
+// Without rules all stand before the flow has settled: there is no level from which it could fall.
+TEST(Stability, ANetworkInWhichNobodyMovesIsUnstable) {
+    const NetworkResult figures =
+        small_grid({"rules={}", "duration=1500 s", "measure={area_margin: 20 m, window: 300 s}"});
+    EXPECT_EQ(figures.measured.exited, 0);
+    EXPECT_EQ(figures.stability, Stability::unstable);
+    EXPECT_TRUE(figures.collapse_s.has_value());
+}
+
+// How finely the series is wanted says nothing about traffic.
+TEST(Stability, TheIntervalOfTheSeriesHasNoSay) {
+    const std::vector<std::string> falls{"rules={keep_clear: on}", "duration=2000 s"};
+    std::vector<NetworkResult> runs;
+    for (const char* const interval : {"10 s", "60 s", "300 s"}) {
+        std::vector<std::string> settings = falls;
+        settings.push_back(std::string("measure={area_margin: 20 m, window: 900 s, interval: ") + interval + "}");
+        runs.push_back(small_grid(settings));
+    }
+    EXPECT_EQ(runs[0].unstable_by, InstabilityCause::throughput_drop);
+    EXPECT_LT(runs[0].collapse_s.value_or(1e9), 1500.0);
+    for (const NetworkResult& run : runs) {
+        EXPECT_EQ(run.stability, runs[0].stability);
+        EXPECT_EQ(run.unstable_by, runs[0].unstable_by);
+        EXPECT_EQ(run.collapse_s, runs[0].collapse_s);
+    }
+}
+
+TEST(Stability, WhoIsKeptOutIsToldOfOnce) {
+    const std::vector<std::string> short_run{"duration=600 s", "measure={area_margin: 20 m, window: 300 s}"};
+    std::vector<std::string> settings = short_run;
+    settings.emplace_back("rules={keep_clear: on}");
+    const NetworkResult kept = small_grid(settings);
+    ASSERT_FALSE(kept.delays.rule_uses.empty());
+    const RuleUse* before = nullptr;
+    for (const RuleUse& use : kept.delays.rule_uses) {
+        EXPECT_EQ(use.kind, RuleUse::Kind::keep_clear);
+        EXPECT_GE(use.vehicle, 0);
+        EXPECT_GE(use.blocker, 0);
+        EXPECT_NE(use.vehicle, use.blocker);
+        if (before != nullptr && before->vehicle == use.vehicle && before->lane == use.lane) {
+            EXPECT_GT(use.time_s - before->time_s, 0.15) << "not in every step";
+        }
+        before = &use;
+    }
+    settings.back() = "rules={}";
+    EXPECT_TRUE(small_grid(settings).delays.rule_uses.empty());
+}
+
+TEST(Stability, TimeLostOutsideTheAreaIsKnown) {
+    const auto run = [](const char* outside) {
+        return small_grid({"duration=900 s", std::string("measure={window: 300 s, area_margin: ") + outside + "}"});
+    };
+    const NetworkResult narrow = run("20 m");
+    const NetworkResult wide = run("90 m");
+    EXPECT_EQ(narrow.delays.delay_s, wide.delays.delay_s);
+    double all_s = 0.0;
+    for (std::size_t cause = 1; cause < kDelayCauseNames.size(); ++cause) all_s += narrow.delays.delay_s[cause];
+    EXPECT_LT(narrow.delays.delay_upstream_s, all_s);
+    EXPECT_LT(wide.delays.delay_upstream_s, 0.8 * narrow.delays.delay_upstream_s);
+    EXPECT_GT(wide.delays.delay_upstream_s, 0.0) << "queues reach back further";
+}
+
+TEST(Stability, ARunWithoutHindranceIsStable) {
+    const NetworkResult figures = small_grid({"signal.green=5 s", "demand.left=0 %", "demand.right=0 %",
+                                               "duration=1500 s", "measure={area_margin: 20 m, window: 600 s}"});
+    EXPECT_TRUE(figures.delays.gridlocks.empty());
+    EXPECT_EQ(figures.stability, Stability::stable);
+}
+
+}  // namespace
+}  // namespace stopline

@@ -1,0 +1,91 @@
+#include "sumo_export/compare.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/io/csv.h"
+#include "runs/tables/column_docs.h"
+
+namespace stopline {
+namespace {
+
+TEST(ComparedMetric, HasNoDifferenceInPercentOfNothing) {
+    EXPECT_NEAR((ComparedMetric{"a", {110.0, 130.0}, {90.0, 110.0}}.difference_percent()), 20.0, 1e-9);
+    EXPECT_TRUE(std::isnan((ComparedMetric{"a", {1.0}, {0.0}}.difference_percent())));
+    EXPECT_TRUE(std::isnan((ComparedMetric{"a", {0.0}, {0.0}}.difference_percent())));
+    EXPECT_NEAR((ComparedMetric{"a", {0.0}, {5.0}}.difference_percent()), -100.0, 1e-9);
+}
+
+TEST(Comparison, WaitingOutsideIsOfSumoAlone) {
+    Comparison comparison{"", "CTG-Ref", 0.0, 100.0, {}};
+    comparison.runs.emplace_back();
+    comparison.runs[0].ours.trips = {{50.0, 30.0, 0.0}};
+    comparison.runs[0].sumo.trips = {{60.0, 40.0, 7.0}};
+    for (const ComparedMetric& metric : comparison.metrics()) {
+        EXPECT_EQ(metric.sumo_only, metric.name == "departure_delay_s") << metric.name;
+        const double percent = metric.difference_percent();
+        if (metric.sumo_only) {
+            EXPECT_TRUE(std::isnan(percent));
+        } else if (metric.name == "travel_time_s") {
+            EXPECT_NEAR(percent, -25.0, 1e-9);
+        }
+    }
+}
+
+TEST(Comparison, OfImportedNetworksComparesWaitingOutside) {
+    Comparison comparison{"", "CTG-Ref", 0.0, 100.0};
+    comparison.imported = true;
+    comparison.has_stop_lines = false;
+    comparison.runs.emplace_back();
+    comparison.runs[0].ours.trips = {{50.0, 30.0, 2.0}};
+    comparison.runs[0].ours.instants = {{98.0, 1, 0, 5.0, 7}, {99.0, 1, 0, 5.0, 6}};
+    comparison.runs[0].sumo.trips = {{60.0, 40.0, 4.0}};
+    comparison.runs[0].sumo.instants = {{99.0, 1, 0, 5.0, 3}};
+    comparison.runs[0].sumo.teleported = 9;
+    std::map<std::string, ComparedMetric> metrics;
+    for (const ComparedMetric& metric : comparison.metrics()) metrics[metric.name] = metric;
+    EXPECT_NEAR(metrics.at("departure_delay_s").difference_percent(), -50.0, 1e-9);
+    EXPECT_NEAR(metrics.at("backlog").difference_percent(), 100.0, 1e-9);
+    EXPECT_EQ(metrics.at("teleported").sumo, std::vector<double>{9.0});
+    EXPECT_TRUE(std::isnan(metrics.at("stop_line_passages_veh_h").ours.at(0)));  // nowhere is counted
+}
+
+TEST(Comparison, HasDescribedColumns) {
+    Comparison comparison{"", "CTG-Ref", 0.0, 100.0};
+    comparison.runs.emplace_back();
+    for (const auto& [table, csv] : {std::pair{"compare/comparison.csv", comparison_csv(comparison)},
+                                     std::pair{"compare/stop_lines.csv", stop_lines_csv(comparison)}}) {
+        for (const std::string& column : parse_csv(csv, table).columns) {
+            EXPECT_NO_THROW(column_doc(table_docs(), table, column)) << table << ' ' << column;
+        }
+    }
+}
+
+// Two seeds: SUMO's arrivals at 10 and 20 s, and at 10 and 40 s.
+TEST(ComparisonFigures, ShowMeansOfTheSeedsAndTheirBand) {
+    Comparison comparison{"", "CTG-Ref", 0.0, 50.0};
+    comparison.has_stop_lines = false;
+    comparison.runs.resize(2);
+    comparison.runs[0].sumo.trips = {{10.0, 1.0, 0.0}, {20.0, 1.0, 0.0}};
+    comparison.runs[1].sumo.trips = {{40.0, 1.0, 0.0}, {10.0, 1.0, 0.0}};
+    comparison.runs[1].ours.trips = {{30.0, 1.0, 0.0}};
+    const std::vector<Figure> two = comparison_figures(comparison, "t");
+    ASSERT_EQ(two.size(), 2U);  // no stop lines
+    EXPECT_EQ(two[0].name, "arrivals");
+    const std::string& rows = two[0].data.at(0).second;
+    EXPECT_NE(rows.find("\n9,0.000,0.000,0.000,0.000\n"), std::string::npos) << rows;
+    EXPECT_NE(rows.find("\n10,0.000,1.000,1.000,1.000\n"), std::string::npos) << rows;
+    EXPECT_NE(rows.find("\n35,0.500,1.500,0.000,7.853\n"), std::string::npos) << rows;  // t = 12.706, s = 0.707
+    EXPECT_NE(two[0].body.find("filledcurves"), std::string::npos);
+    comparison.runs.resize(1);
+    const Figure one = comparison_figures(comparison, "t")[0];
+    EXPECT_EQ(one.body.find("filledcurves"), std::string::npos);
+    EXPECT_NE(one.data.at(0).second.find("\n35,0.000,2.000,,\n"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace stopline

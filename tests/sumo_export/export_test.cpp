@@ -1,0 +1,84 @@
+#include "sumo_export/export.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/input_error.h"
+#include "runs/interrupted.h"
+#include "base/io/output.h"
+#include "scenario/load_scenario.h"
+#include "scenario/scenario_text.h"
+
+namespace stopline {
+namespace {
+
+namespace fs = std::filesystem;
+
+Scenario small_grid(const std::string& more = "seed=1") {
+    return load_scenario(STOPLINE_SOURCE_DIR "/scenarios/grid.yaml",
+                         {"fidelity=meso", "duration=30 s", "network.grid.columns=2", "network.grid.rows=2", more});
+}
+
+std::vector<std::string> names_in(const fs::path& folder) {
+    std::vector<std::string> names;
+    for (const fs::directory_entry& each : fs::directory_iterator(folder)) names.push_back(each.path().filename());
+    std::sort(names.begin(), names.end());
+    std::erase(names, "net.net.xml");  // where SUMO is installed
+    return names;
+}
+
+TEST(Export, WritesAllFilesAndNothingElse) {
+    const TemporaryFolder folder;
+    const fs::path made = folder.path() / "new" / "sumo";
+    export_to_sumo(small_grid(), 0, made, {});
+    EXPECT_EQ(names_in(made),
+              (std::vector<std::string>{"connections.con.xml", "detectors.add.xml", "edges.edg.xml", "lights.tll.xml",
+                                        "nodes.nod.xml", "run.sumocfg", "vehicles.rou.xml"}));
+}
+
+TEST(Export, GivesSumoTheScenariosRules) {
+    const TemporaryFolder folder;
+    const auto configuration = [&](const std::string& rules) {
+        export_to_sumo(small_grid("rules=" + rules), 0, folder.path(), {});
+        return read_file(folder.path() / "run.sumocfg");
+    };
+    const std::string none = configuration("{teleport_cycles: 0, pass_blocker_greens: 0}");
+    EXPECT_NE(none.find("<time-to-teleport value=\"-1\"/>"), std::string::npos);
+    EXPECT_NE(none.find("<ignore-junction-blocker value=\"-1\"/>"), std::string::npos);
+    const std::string both = configuration("{teleport_cycles: 3, pass_blocker_greens: 2}");
+    EXPECT_NE(both.find("<time-to-teleport value=\"138\"/>"), std::string::npos) << both;
+    EXPECT_NE(both.find("<ignore-junction-blocker value=\"30\"/>"), std::string::npos) << both;
+}
+
+TEST(Export, LeavesNothingWhereItIsInterrupted) {
+    const TemporaryFolder folder;
+    const auto stop = [](double share) { return share < 0.3; };
+    EXPECT_THROW(export_to_sumo(small_grid(), 0, folder.path() / "new" / "sumo", stop), Interrupted);
+    EXPECT_FALSE(fs::exists(folder.path() / "new"));
+}
+
+TEST(Export, LeavesAnEarlierOneAsItWasWhereItIsInterrupted) {
+    const TemporaryFolder folder;
+    write_file(folder.path() / "nodes.nod.xml", "earlier");
+    const auto stop = [](double share) { return share < 0.3; };
+    EXPECT_THROW(export_to_sumo(small_grid(), 0, folder.path(), stop), Interrupted);
+    EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{"nodes.nod.xml"});
+    EXPECT_EQ(read_file(folder.path() / "nodes.nod.xml"), "earlier");
+    export_to_sumo(small_grid(), 0, folder.path(), {});
+    EXPECT_NE(read_file(folder.path() / "nodes.nod.xml"), "earlier");
+}
+
+TEST(Export, MakesNoFolderForWhatIsRefused) {
+    const TemporaryFolder folder;
+    Scenario scenario = small_grid();
+    scenario.network.kind = "sumo";
+    EXPECT_THROW(export_to_sumo(scenario, 0, folder.path() / "new", {}), InputError);
+    EXPECT_FALSE(fs::exists(folder.path() / "new"));
+}
+
+}  // namespace
+}  // namespace stopline

@@ -1,0 +1,468 @@
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "sumo_import/sumo_graph.h"
+#include "sumo_import/sumo_net.h"
+#include "support/sumo_files.h"
+
+namespace stopline {
+namespace {
+
+using testing::crossing_net;
+using testing::refusal;
+using testing::replaced;
+using testing::signal_net;
+using testing::SumoFiles;
+using testing::turnaround_net;
+using testing::two_phases;
+
+constexpr double kClearance_m = 2.0;
+
+SumoNetwork made_of(const std::string& text, const std::string& additional = "") {
+    const SumoFiles files;
+    SumoNet net = read_sumo_net(files.write("my.net.xml", text));
+    if (!additional.empty()) read_sumo_additional(files.write("my.add.xml", additional), net);
+    return make_sumo_network(std::move(net), kClearance_m);
+}
+
+int lane_of(const LaneGraph& graph, const std::string& name) {
+    const auto found =
+        std::find_if(graph.lanes.begin(), graph.lanes.end(), [&](auto& lane) { return lane.name == name; });
+    return found == graph.lanes.end() ? -1 : static_cast<int>(found - graph.lanes.begin());
+}
+
+const Lane& lane(const LaneGraph& graph, const std::string& name) {
+    return graph.lanes.at(static_cast<std::size_t>(lane_of(graph, name)));
+}
+
+const Conflict* conflict(const LaneGraph& graph, const std::string& of, const std::string& with) {
+    const int other = lane_of(graph, with);
+    for (const Conflict& c : graph.conflicts_of(lane_of(graph, of))) {
+        if (c.other == other) return &c;
+    }
+    return nullptr;
+}
+
+TEST(SumoNetwork, GreensOfALinkGoOnOverPhases) {
+    SumoNetwork made;
+    // The second link is green over three phases and the end of the cycle, the third throughout.
+    made.net.signals.push_back(
+        {"one", "0", 0.0, {{30.0, "GgG"}, {30.0, "rGG"}, {4.0, "ryG"}, {20.0, "rrg"}, {5.0, "rGG"}}, "", true});
+    EXPECT_DOUBLE_EQ(made.longest_cycle_s(), 89.0);
+    EXPECT_DOUBLE_EQ(made.longest_green_s(), 65.0);
+    made.net.signals[0].phases = {{30.0, "G"}};
+    EXPECT_DOUBLE_EQ(made.longest_green_s(), 40.0) << "none ends";
+}
+
+TEST(SumoNetwork, HasTheLanesOfCarsAndTheirNeighbours) {
+    const SumoNetwork made = made_of(crossing_net());
+    check(made.graph);
+    EXPECT_EQ(made.graph.lanes.size(), 6U + 4U);  // without the lane for bicycles
+    EXPECT_EQ(lane_of(made.graph, "n_out_0"), -1);
+    const Lane& left = lane(made.graph, "w_in_1");
+    EXPECT_EQ(left.right, lane_of(made.graph, "w_in_0"));
+    EXPECT_EQ(left.left, -1);
+    EXPECT_DOUBLE_EQ(left.stop_line_m, 190.0);
+    EXPECT_DOUBLE_EQ(left.limit_mps, 13.89);
+    EXPECT_EQ(left.next.size(), 2U);
+    EXPECT_EQ(lane(made.graph, "e_out_0").signal_group, -1);
+    EXPECT_EQ(left.signal_group, 0);  // always green
+}
+
+TEST(SumoNetwork, JoinsAChainOfViaToOneWay) {
+    const SumoNetwork made = made_of(crossing_net());
+    const Lane& turning = lane(made.graph, ":J_3_0");
+    EXPECT_EQ(turning.turn, Turn::left);
+    EXPECT_EQ(lane_of(made.graph, ":J_4_0"), -1);
+    EXPECT_EQ(turning.shape.size(), 5U);
+    EXPECT_NEAR(turning.length_m + turning.shape_start_m, length_m(turning.shape), 1e-9);
+    EXPECT_GT(turning.shape_start_m, 1.0);  // what it shares with the way straight on
+    EXPECT_DOUBLE_EQ(turning.shape_start_m, lane(made.graph, ":J_1_1").shape_start_m);
+    EXPECT_DOUBLE_EQ(turning.limit_mps, 7.0);
+}
+
+TEST(SumoNetwork, SharesWhatWaysOfALaneHaveInCommonAndTurnsRoundBeyond) {
+    const SumoNetwork made = made_of(turnaround_net());
+    const std::vector<int>& ways = lane(made.graph, "a_0").next;
+    ASSERT_EQ(ways.size(), 3U);
+    for (const int one : ways) {
+        const Lane& way = made.graph.lanes[static_cast<std::size_t>(one)];
+        EXPECT_NEAR(way.length_m + way.shape_start_m, length_m(way.shape), 1e-9) << way.name;
+        EXPECT_NEAR(way.shape_start_m, lane(made.graph, "a_0").length_m - 100.0, 1e-9);
+        EXPECT_LT(way.diverge_end_m, 0.5) << "the ways part further on than they begin";
+        for (const int two : ways) {
+            if (one == two) continue;
+            const Lane& other = made.graph.lanes[static_cast<std::size_t>(two)];
+            for (double m = way.shape_start_m + way.diverge_end_m; m <= length_m(way.shape); m += 0.1) {
+                EXPECT_GE(distance_m(other.shape, pose_along(way, m).point), kClearance_m - 0.05) << way.name << m;
+            }
+        }
+    }
+    EXPECT_LT(length_m(lane(made.graph, ":J_2_0").shape), 4.5 + 8.0) << "turns round too far ahead";
+}
+
+TEST(SumoNetwork, ScalesShapesToTheLengthsThatAreStated) {
+    const std::string longer = replaced(turnaround_net(), "id=\"d_0\" index=\"0\" speed=\"13.89\" length=\"100\"",
+                                        "id=\"d_0\" index=\"0\" speed=\"13.89\" length=\"125\"");
+    const SumoNetwork made = made_of(longer);
+    EXPECT_DOUBLE_EQ(lane(made.graph, "d_0").length_m, 125.0);
+    EXPECT_NEAR(pose_along(lane(made.graph, "d_0"), 125.0).point.y_m, -108.0, 1e-9);
+    EXPECT_NEAR(pose_along(lane(made.graph, "c_0"), 25.0).point.x_m, 39.0, 1e-9);
+}
+
+TEST(SumoNetwork, GivesWayAsTheMatrixSays) {
+    const LaneGraph graph = made_of(crossing_net()).graph;
+    const Conflict* const minor = conflict(graph, ":J_0_0", ":J_1_0");
+    ASSERT_NE(minor, nullptr);
+    EXPECT_TRUE(minor->yields);
+    EXPECT_FALSE(minor->other_yields);
+    EXPECT_NEAR(minor->from_m, 10.0 - 4.8 - kClearance_m, 0.3);
+    EXPECT_NEAR(minor->to_m, 10.0 - 4.8 + kClearance_m, 0.3);
+    const Conflict* const major = conflict(graph, ":J_1_0", ":J_0_0");
+    ASSERT_NE(major, nullptr);
+    EXPECT_FALSE(major->yields);
+    EXPECT_TRUE(major->other_yields);
+    EXPECT_NE(conflict(graph, ":J_0_0", ":J_3_0"), nullptr);  // they end on one lane
+    EXPECT_EQ(conflict(graph, ":J_1_0", ":J_1_1"), nullptr);
+}
+
+TEST(SumoNetwork, WhereBothAreAskedToWaitBothDo) {
+    const std::string text = replaced(crossing_net(), "index=\"1\" response=\"0000\"", "index=\"1\" response=\"0001\"");
+    const LaneGraph graph = made_of(text).graph;
+    EXPECT_TRUE(conflict(graph, ":J_0_0", ":J_1_0")->yields);
+    EXPECT_TRUE(conflict(graph, ":J_1_0", ":J_0_0")->yields);
+    EXPECT_TRUE(conflict(graph, ":J_0_0", ":J_1_1")->yields);
+}
+
+TEST(SumoNetwork, OfTwoLanesThatBecomeOneTheLeftGivesWay) {
+    const LaneGraph graph = made_of(testing::lane_drop_net()).graph;
+    int yielding = 0;
+    for (std::size_t k = 0; k < graph.lanes.size(); ++k) {
+        for (const Conflict& conflict : graph.conflicts_of(static_cast<int>(k))) {
+            EXPECT_NE(conflict.yields, conflict.other_yields);
+            if (!conflict.yields) continue;
+            ++yielding;
+            EXPECT_EQ(graph.lanes[static_cast<std::size_t>(graph.lanes[k].origin)].name, "a_1");
+        }
+    }
+    EXPECT_EQ(yielding, 1);
+}
+
+TEST(SumoNetwork, LinksThatAreNeverGreenTogetherDoNotYield) {
+    const LaneGraph apart = made_of(signal_net(two_phases())).graph;
+    EXPECT_FALSE(conflict(apart, ":J_0_0", ":J_1_0")->yields);
+    EXPECT_FALSE(conflict(apart, ":J_1_0", ":J_0_0")->yields);
+    const LaneGraph together = made_of(signal_net("<phase duration=\"30\" state=\"gGGG\"/>")).graph;
+    EXPECT_TRUE(conflict(together, ":J_0_0", ":J_1_0")->yields);
+    // Major and minor by letters, against the matrix.
+    const std::string text = replaced(signal_net("<phase duration=\"30\" state=\"GggG\"/>"),
+                                      "index=\"0\" response=\"1110\"", "index=\"0\" response=\"0000\"");
+    const LaneGraph letters = made_of(text).graph;
+    EXPECT_TRUE(conflict(letters, ":J_1_0", ":J_0_0")->yields);
+    EXPECT_FALSE(conflict(letters, ":J_0_0", ":J_1_0")->yields);
+}
+
+TEST(SumoNetwork, MovementsOfALaneCanHaveLightsOfTheirOwn) {
+    const LaneGraph same = made_of(signal_net(two_phases())).graph;
+    EXPECT_EQ(lane(same, ":J_3_0").movement_signal_group, -1);
+    EXPECT_EQ(lane(same, "w_in_0").signal_group, lane(same, "w_in_1").signal_group);
+    const LaneGraph own =
+        made_of(signal_net("<phase duration=\"20\" state=\"rGGr\"/><phase duration=\"9\" state=\"rrrG\"/>")).graph;
+    EXPECT_GE(lane(own, ":J_3_0").movement_signal_group, 1);
+    EXPECT_GE(lane(own, ":J_1_1").movement_signal_group, 1);
+    EXPECT_NE(lane(own, ":J_3_0").movement_signal_group, lane(own, ":J_1_1").movement_signal_group);
+}
+
+TEST(SumoNetwork, ShortLanesBeforeAStopLineAreEnteredSlowly) {
+    // n_out leads on to a light after 12 m: 2 * 3 m/s2 * 10 m.
+    std::string text = signal_net(two_phases());
+    for (int k = 0; k < 1; ++k)
+        text = replaced(text, "length=\"190.00\" shape=\"1.60,10.00 1.60,200.00\"",
+                        "length=\"12.00\" shape=\"1.60,10.00 1.60,22.00\"");
+    text = replaced(
+        text, "    <junction id=\"J\"",
+        "    <edge id=\"far\" from=\"N\" to=\"S\"><lane id=\"far_0\" index=\"0\" speed=\"13.89\" length=\"100\" "
+        "shape=\"1.6,30 1.6,130\"/></edge>\n    <junction id=\"J\"");
+    text = replaced(text, "</net>",
+                    "<connection from=\"n_out\" to=\"far\" fromLane=\"1\" toLane=\"0\" tl=\"J\" "
+                    "linkIndex=\"0\" dir=\"s\" state=\"o\"/></net>");
+    EXPECT_NEAR(lane(made_of(text).graph, ":J_0_0").limit_mps, std::sqrt(2.0 * 3.0 * 10.0), 1e-9);
+}
+
+TEST(SumoNetwork, AdditionalFilesReplaceProgrammesAndOffsets) {
+    const SumoNetwork offset = made_of(signal_net(two_phases()),
+                                       "<additional><tlLogic id=\"J\" programID=\"0\" "
+                                       "offset=\"7.5\"/></additional>");
+    EXPECT_DOUBLE_EQ(offset.net.signals[0].offset_s, 7.5);
+    EXPECT_EQ(offset.net.signals[0].phases.size(), 4U);
+    const SumoNetwork other =
+        made_of(signal_net(two_phases()),
+                "<additional><tlLogic id=\"J\" programID=\"b\" offset=\"1\"><phase duration=\"50\" state=\"GGrr\"/>"
+                "</tlLogic><e1Detector id=\"d\" lane=\"w_in_0\" pos=\"-10\" file=\"x\"/></additional>");
+    EXPECT_EQ(other.net.signals[0].phases.size(), 1U);
+    ASSERT_EQ(other.net.loops.size(), 1U);
+    EXPECT_DOUBLE_EQ(other.net.loops[0].position_m, 180.0);
+}
+
+// The net of signal_net, whose programme stands elsewhere.
+std::string without_programme() {
+    std::string text = signal_net(two_phases());
+    const std::size_t from = text.find("<tlLogic");
+    return text.erase(from, text.find("</tlLogic>") + 10 - from);
+}
+
+TEST(SumoNetwork, ProgrammesCanStandInAdditionalFilesAlone) {
+    const std::string offset = "<tlLogic id=\"J\" programID=\"a\" offset=\"7\"/>";
+    const std::string programme = "<tlLogic id=\"J\" programID=\"a\" offset=\"3\">" + two_phases() + "</tlLogic>";
+    const SumoNetwork made = made_of(without_programme(), "<additional>" + programme + "</additional>");
+    const SumoNetwork usual = made_of(signal_net(two_phases()));
+    ASSERT_EQ(made.net.signals.size(), 1U);
+    EXPECT_EQ(made.net.signals[0].phases.size(), 4U);
+    EXPECT_DOUBLE_EQ(made.net.signals[0].offset_s, 3.0);
+    EXPECT_EQ(made.lights.size(), usual.lights.size());
+    EXPECT_EQ(lane(made.graph, "s_in_0").signal_group, lane(usual.graph, "s_in_0").signal_group);
+    EXPECT_FALSE(conflict(made.graph, ":J_0_0", ":J_1_0")->yields);  // they are never green together
+    EXPECT_DOUBLE_EQ(
+        made_of(without_programme(), "<additional>" + programme + offset + "</additional>").net.signals[0].offset_s,
+        7.0);
+}
+
+TEST(SumoNetwork, LightsWithoutAProgrammeAreRefused) {
+    const auto says = [](const std::string& additional) {
+        return refusal([&] { made_of(without_programme(), "<additional>\n" + additional + "\n</additional>"); });
+    };
+    EXPECT_NE(says("").find("tl=\"J\": neither the network nor the additional files have a tlLogic with this id"),
+              std::string::npos)
+        << says("");
+    EXPECT_EQ(says(R"(<tlLogic id="J" programID="a" offset="1"/>)"),
+              "my.add.xml:2: tlLogic 'J' has no phase; it needs at least one");
+    EXPECT_EQ(says(R"(<tlLogic id="K"><phase duration="9" state="G"/></tlLogic>)"),
+              "my.add.xml:2: tlLogic 'K': the network has no signal with this id");
+    const std::string few = says(R"(<tlLogic id="J"><phase duration="9" state="Grr"/></tlLogic>)");
+    EXPECT_NE(few.find("linkIndex=\"3\" must be below 3, the number of letters in the phases of tlLogic 'J'"),
+              std::string::npos)
+        << few;
+}
+
+TEST(SumoNetwork, TellsWhatItDoesNotRead) {
+    const std::string text = replaced(signal_net(two_phases()), "type=\"static\"", "type=\"actuated\"");
+    const std::vector<std::string> lines = made_of(text).net.warnings.lines();
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_NE(lines[0].find("/my.net.xml:32: signals of type 'actuated' run as fixed-time signals"), std::string::npos)
+        << lines[0];
+}
+
+std::vector<std::string> told(const std::string& text, const std::string& additional = "") {
+    std::vector<std::string> lines = made_of(text, additional).net.warnings.lines();
+    std::transform(lines.begin(), lines.end(), lines.begin(), testing::without_folder);
+    return lines;
+}
+
+TEST(SumoNetwork, TellsOfWhatStandsOnAnyLaneOfAnEdge) {
+    const std::string left =
+        replaced(crossing_net(), "-1.60 -10.00,-1.60\"/>", "-1.60 -10.00,-1.60\"><neigh lane=\"s_in_0\"/></lane>");
+    EXPECT_EQ(told(left),
+              std::vector<std::string>{
+                  "my.net.xml:19: 'neigh' is ignored: vehicles do not use lanes of the opposite direction"});
+    const std::string edge =
+        replaced(crossing_net(), "<lane id=\"w_in_0\"", "<stopOffset value=\"2\"/><lane id=\"w_in_0\"");
+    EXPECT_EQ(told(edge), std::vector<std::string>{"my.net.xml:18: 'stopOffset' is ignored"});
+}
+
+TEST(SumoNetwork, InductionLoopsCountAllVehiclesWhereverTheyGo) {
+    const auto lines = told(crossing_net(),
+                            "<additional>\n<e1Detector id=\"d\" lane=\"w_in_0\" pos=\"9\" file=\"x\" "
+                            "vTypes=\"bus\" nextEdges=\"e_out\"/></additional>");
+    EXPECT_EQ(lines,
+              (std::vector<std::string>{"my.add.xml:2: 'vTypes' is ignored: the detector counts all vehicles",
+                                        "my.add.xml:2: 'nextEdges' is ignored: the detector counts all vehicles"}));
+}
+
+TEST(SumoNetwork, InductionLoopsBeyondTheLaneAreRefusedUnlessFriendly) {
+    const auto loop = [](const std::string& attributes) {
+        return made_of(crossing_net(),
+                       "<additional><e1Detector id=\"d\" lane=\"w_in_0\" file=\"x\" " + attributes + "/></additional>")
+            .net.loops.at(0)
+            .position_m;
+    };
+    for (const char* const beyond : {"pos=\"200\"", "pos=\"-200\"", "pos=\"200\" friendlyPos=\"false\""}) {
+        EXPECT_NE(refusal([&] { loop(beyond); }).find("must lie on the lane, which is 190.00 m long"),
+                  std::string::npos);
+    }
+    EXPECT_DOUBLE_EQ(loop("pos=\"200\" friendlyPos=\"true\""), 190.0);
+    EXPECT_DOUBLE_EQ(loop("pos=\"-200\" friendlyPos=\"1\""), 0.0);
+}
+
+TEST(SumoNetwork, LightsThatAreSwitchedOffAreRefused) {
+    const std::string message = refusal([] {
+        made_of(signal_net(two_phases()), "<additional>\n<tlLogic id=\"J\" programID=\"off\"/>\n</additional>");
+    });
+    EXPECT_EQ(message.find("my.add.xml:2: tlLogic 'J': programID=\"off\" switches the signal off"), 0U) << message;
+}
+
+std::string without_requests(std::string text) {
+    for (std::size_t from = text.find("<request"); from != std::string::npos; from = text.find("<request")) {
+        text.erase(from, text.find('\n', from) - from);
+    }
+    return text;
+}
+
+TEST(SumoNetwork, TellsWhereNobodyGivesWay) {
+    const std::string text = without_requests(crossing_net());
+    for (const std::string type : {"unregulated", "traffic_light_unregulated"}) {
+        const std::string of_type = replaced(text, "type=\"priority\"", "type=\"" + type + "\"");
+        EXPECT_EQ(told(of_type),
+                  std::vector<std::string>{"my.net.xml:32: junction 'J' of type '" + type +
+                                           "' has no requests: vehicles do not yield there, and drive through "
+                                           "each other where their paths cross"});
+    }
+    const std::string message = refusal([&] { made_of(text); });
+    EXPECT_NE(message.find("junction 'J' of type 'priority' has 4 links in 'intLanes' but 0 requests"),
+              std::string::npos)
+        << message;
+}
+
+TEST(SumoNetwork, WithoutRequestsTheLaterLinkOfThoseThatEndOnOneLaneGivesWay) {
+    const std::string text = without_requests(replaced(signal_net("<phase duration=\"30\" state=\"GGGG\"/>"),
+                                                       "type=\"traffic_light\"", "type=\"traffic_light_unregulated\""));
+    const LaneGraph graph = made_of(text).graph;
+    ASSERT_NE(conflict(graph, ":J_3_0", ":J_0_0"), nullptr);
+    EXPECT_TRUE(conflict(graph, ":J_3_0", ":J_0_0")->yields);
+    EXPECT_FALSE(conflict(graph, ":J_0_0", ":J_3_0")->yields);
+    EXPECT_EQ(conflict(graph, ":J_0_0", ":J_1_0"), nullptr);  // they cross
+}
+
+TEST(SumoNetwork, ReadsGzippedFiles) {
+    const SumoFiles files;
+    const std::string text = crossing_net();
+    const std::filesystem::path file = files.folder() / "my.net.xml.gz";
+    const gzFile out = gzopen(file.c_str(), "wb");
+    gzwrite(out, text.data(), static_cast<unsigned>(text.size()));
+    gzclose(out);
+    EXPECT_EQ(read_sumo_net(file).edges.size(), 8U);
+    EXPECT_EQ(read_sumo_net(file).hash, read_sumo_net(files.write("plain.net.xml", text)).hash);
+    std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
+    const std::string message = refusal([&] { read_sumo_net(file); });
+    EXPECT_EQ(message.find("my.net.xml.gz:"), 0U) << message;
+    EXPECT_NE(message.find(": the gzip data are damaged or end too early here"), std::string::npos) << message;
+}
+
+TEST(SumoNetwork, KnowsTheEntitiesOfXmlAndLeavesCommentsAlone) {
+    const std::string text =
+        replaced(signal_net(two_phases()), "<net version",
+                 "<!-- &up; a & b < c -->\n<?tool &up;?>\n<net title=\"&amp;&lt;&#65;&#x41;\" version");
+    EXPECT_EQ(made_of(text).net.edges.size(), 8U);
+    const std::string after = replaced(text, "programID=\"0\"", "programID=\"&up;\"");
+    EXPECT_EQ(refusal([&] { made_of(after); }).find("my.net.xml:34: "), 0U);
+}
+
+// netconvert writes 0 for the second of two lanes inside a junction on which vehicles wait.
+TEST(SumoNetwork, InternalLanesAreCountedByTheirIds) {
+    EXPECT_EQ(made_of(replaced(crossing_net(), "\":J_1_1\" index=\"1\"", "\":J_1_1\" index=\"0\"")).graph.lanes.size(),
+              10U);
+}
+
+struct Hostile {
+    const char* from;
+    const char* to;
+    const char* says;
+};
+
+class SumoNetworkErrors : public ::testing::TestWithParam<Hostile> {};
+
+TEST_P(SumoNetworkErrors, NameFileAndLine) {
+    const auto& [from, to, says] = GetParam();
+    const std::string text = replaced(signal_net(two_phases()), from, to);
+    const std::string message = refusal([&] { made_of(text); });
+    EXPECT_NE(message.find(says), std::string::npos) << message;
+    EXPECT_EQ(message.find("my.net.xml"), 0U) << message;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, SumoNetworkErrors,
+    ::testing::Values(
+        Hostile{"<net version", "<!DOCTYPE net [<!ENTITY a \"b\">]>\n<net version",
+                "my.net.xml:2: the file has a DOCTYPE"},
+        Hostile{"length=\"190.00\"", "length=\"190.00\" length=\"9\"",
+                ":18: element 'lane': attribute 'length' is given twice"},
+        Hostile{"programID=\"0\"", "programID=\"&up;\"", ":32: element 'tlLogic': '&up' is not an XML entity"},
+        Hostile{"programID=\"0\"", "programID=\"a & b\"", ":32: element 'tlLogic': '&' is not an XML entity"},
+        Hostile{"programID=\"0\"", "programID=\"&#x;\"", ":32: element 'tlLogic': '&#x' is not an XML entity"},
+        Hostile{"</net>", "", "my.net.xml:58: the file is not well-formed XML"},
+        Hostile{"<net ", "<sumo ", "my.net.xml:"}, Hostile{"length=\"190.00\"", "length=\"-1\"", ":18: length=\"-1\""},
+        Hostile{"length=\"190.00\"", "length=\"nan\"", ":18: element 'lane': length=\"nan\" is not a finite number"},
+        Hostile{"speed=\"13.89\" length=\"190.00\"", "speed=\"inf\" length=\"190.00\"", ":18: element 'lane': speed"},
+        Hostile{"length=\"190.00\"", "length=\"1e999\"", ":18: element 'lane'"},
+        Hostile{"-200.00,-4.80", "-200.00,x", ":18: 'shape' has a point"},
+        Hostile{"-200.00,-4.80 -10.00,-4.80", "1,1", ":18: 'shape' needs at least two different points"},
+        Hostile{"edge id=\"s_in\"", "edge id=\"w_in\"", ":25: there are two edges 'w_in'"},
+        Hostile{"<lane id=\"w_in_1\" index=\"1\"", "<lane id=\"w_in_1\" index=\"3\"", ":19: lanes of edge 'w_in'"},
+        Hostile{"junction id=\"E\"", "junction id=\"W\"", "there are two junctions 'W'"},
+        Hostile{"junction id=\"E\"", "junction id=\":J_4_0\"", "there are two junctions ':J_4_0'"},
+        Hostile{"from=\"W\"", "from=\"X\"", ":17: edge 'w_in': from=\"X\": there is no junction with this id"},
+        Hostile{"to=\"E\"", "to=\"X\"", ":21: edge 'e_out': to=\"X\": there is no junction with this id"},
+        Hostile{" from=\"W\"", "", ":17: element 'edge' has no attribute 'from'"},
+        Hostile{"lane id=\"w_in_1\"", "lane id=\"w_in_0\"", ":19: lane id=\"w_in_0\" must be 'w_in_1'"},
+        Hostile{"lane id=\":J_1_1\" index=\"1\"", "lane id=\":J_1_0\" index=\"0\"",
+                ":9: lane id=\":J_1_0\" must be ':J_1_1'"},
+        Hostile{"incLanes=\"s_in_0", "incLanes=\"s_in_1",
+                "junction 'J': 'incLanes' names the lane 's_in_1', which does not exist"},
+        Hostile{"incLanes=\"s_in_0", "incLanes=\"s_in",
+                "junction 'J': 'incLanes' names the lane 's_in', which does not exist"},
+        Hostile{"intLanes=\":J_0_0 ", "intLanes=\":J_0_9 ",
+                "junction 'J': 'intLanes' names the lane ':J_0_9', which does not exist"},
+        Hostile{"incLanes=\":J_3_0 ", "incLanes=\":J_3_1 ", "junction ':J_4_0': 'incLanes' names the lane ':J_3_1'"},
+        Hostile{"to=\"e_out\" fromLane=\"0\"", "to=\"nowhere\" fromLane=\"0\"", ": to: there is no edge 'nowhere'"},
+        Hostile{"fromLane=\"0\" toLane=\"0\" via=\":J_1_0\"", "fromLane=\"7\" toLane=\"0\" via=\":J_1_0\"",
+                "edge 'w_in' has no lane 7"},
+        Hostile{"via=\":J_1_0\"", "via=\":J_9_0\"", "via: there is no lane ':J_9_0'"},
+        Hostile{"<connection from=\":J_3\" to=\"n_out\"", "<connection from=\":J_3\" to=\"e_out\"",
+                "the chain of 'via' lanes does not lead to lane 1 of edge 'n_out'"},
+        Hostile{"tl=\"J\" linkIndex=\"0\"", "tl=\"K\" linkIndex=\"0\"",
+                "tl=\"K\": neither the network nor the additional files have"},
+        Hostile{"tl=\"J\" linkIndex=\"0\"", "tl=\"J\" linkIndex=\"4\"",
+                "linkIndex=\"4\" must be below 4, the number of letters"},
+        Hostile{"state=\"ryyy\"", "state=\"ryy\"", ":34: 'state' has 3 letters"},
+        Hostile{"state=\"ryyy\"", "state=\"ryXy\"", ":34: 'state' has the unknown letter 'X'"},
+        Hostile{"duration=\"4\"", "duration=\"-4\"", ":34: duration"},
+        Hostile{"response=\"1110\"", "response=\"110\"", "'response' and 'foes' of request 0 must have 4 bits"},
+        Hostile{"intLanes=\"", "intLanes=\":J_9_0 ", "has 5 links in 'intLanes' but 4 requests"},
+        Hostile{"request index=\"1\"", "request index=\"2\"", "requests must be numbered"},
+        Hostile{"<net version=\"1.20\"", "<net version=\"1.20\" lefthand=\"true\"", "left-hand"}));
+
+TEST(SumoNetwork, MessagesNameTheFileWithItsFolder) {
+    const SumoFiles files;
+    const std::filesystem::path file = files.write("my.net.xml", "<net/>");
+    try {
+        read_sumo_net(files.folder() / "." / "my.net.xml");
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_EQ(std::string(error.what()).find(file.string() + ":1: "), 0U) << error.what();
+    }
+}
+
+TEST(SumoNetwork, RefusesFilesThatAreNone) {
+    const SumoFiles files;
+    const auto says = [&](const std::string& text) {
+        return refusal([&] { read_sumo_net(files.write("my.net.xml", text)); });
+    };
+    EXPECT_EQ(says(""), "my.net.xml:1: the file is empty");
+    EXPECT_EQ(says(" \n "), "my.net.xml:1: the file is empty");
+    EXPECT_NE(says(std::string(100'000, 'x')).find("my.net.xml"), std::string::npos);
+    EXPECT_NE(says(std::string(1000, '\0')).find("my.net.xml"), std::string::npos);
+    EXPECT_NE(says("<net/>").find("the network has no lane for passenger cars"), std::string::npos);
+    std::string deep;
+    for (int k = 0; k < 200'000; ++k) deep += "<net>";
+    EXPECT_NE(says(deep).find("not well-formed"), std::string::npos);
+    EXPECT_EQ(refusal([&] { read_sumo_net(files.folder() / "none.net.xml"); }), "none.net.xml: there is no such file");
+    EXPECT_NE(refusal([&] { read_sumo_net(files.folder()); }).find("is a folder"), std::string::npos);
+    EXPECT_EQ(refusal([&] { read_sumo_net("/dev/zero"); }).find("/dev/zero: this is a device or a pipe"), 0U);
+}
+
+}  // namespace
+}  // namespace stopline

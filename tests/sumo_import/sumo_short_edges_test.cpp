@@ -1,0 +1,75 @@
+#include "sumo_import/sumo_short_edges.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace stopline {
+namespace {
+
+SumoEdge edge(const std::string& id, double from_m, double length_m) {
+    SumoEdge made{id, id[0] == ':'};
+    for (int lane = 0; lane < 2; ++lane) {
+        const double y_m = 3.2 * lane;
+        made.lanes.push_back({length_m, 13.89, true, {{from_m, y_m}, {from_m + length_m, y_m}}});
+    }
+    return made;
+}
+
+// a, 100 m, leads by a way of 3 m to s, 5 m, and that over a junction to b; lane by lane.
+SumoNet chain() {
+    SumoNet net;
+    net.edges = {edge("a", 0.0, 100.0), edge(":v", 100.0, 3.0), edge("s", 103.0, 5.0), edge(":x", 108.0, 10.0),
+                 edge("b", 118.0, 50.0)};
+    for (int lane = 0; lane < 2; ++lane) {
+        net.connections.push_back({0, lane, 2, lane, 1, lane});
+        net.connections.push_back({1, lane, 2, lane});
+        net.connections.push_back({2, lane, 4, lane, 3, lane});
+        net.connections.push_back({3, lane, 4, lane});
+    }
+    net.loops = {{"on s", 2, 1, 2.0}, {"on a", 0, 1, 20.0}, {"on b", 4, 0, 7.0}};
+    return net;
+}
+
+TEST(SumoShortEdges, BecomeTheEndOfTheEdgeBefore) {
+    SumoNet net = chain();
+    merge_short_edges(net);
+    EXPECT_EQ(net.edges[2].merged_into, 0);
+    int onward = 0;
+    for (const SumoConnection& c : net.connections) {
+        if (net.edges[static_cast<std::size_t>(c.from)].internal) continue;
+        EXPECT_FALSE(c.from == 2 || c.to == 2) << c.from << " to " << c.to;
+        onward += c.from == 0 && c.to == 4 && c.from_lane == c.to_lane && c.via == 3 ? 1 : 0;
+    }
+    EXPECT_EQ(onward, 2);
+    for (const SumoLane& lane : net.edges[0].lanes) {
+        EXPECT_DOUBLE_EQ(lane.length_m, 108.0);
+        EXPECT_DOUBLE_EQ(lane.shape.back().x_m, 108.0);
+    }
+}
+
+TEST(SumoShortEdges, KeepTheirDetectorsWhereTheyAre) {
+    SumoNet net = chain();
+    merge_short_edges(net);
+    EXPECT_EQ(net.loops[0].edge, 0);
+    EXPECT_EQ(net.loops[0].lane, 1);
+    EXPECT_DOUBLE_EQ(net.loops[0].position_m, 105.0);
+    EXPECT_DOUBLE_EQ(net.loops[1].position_m, 20.0);
+    EXPECT_EQ(net.loops[2].edge, 4);
+}
+
+TEST(SumoShortEdges, StayWhereALightOrAnotherEdgeLeadsToThem) {
+    SumoNet with_light = chain();
+    with_light.connections[0].tl = 0;
+    merge_short_edges(with_light);
+    EXPECT_EQ(with_light.edges[2].merged_into, -1);
+    SumoNet long_enough = chain();
+    for (SumoLane& lane : long_enough.edges[2].lanes) lane.length_m = kShortEdge_m;
+    merge_short_edges(long_enough);
+    EXPECT_EQ(long_enough.edges[2].merged_into, -1);
+    EXPECT_DOUBLE_EQ(long_enough.loops[0].position_m, 2.0);
+}
+
+}  // namespace
+}  // namespace stopline

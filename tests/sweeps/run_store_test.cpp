@@ -1,0 +1,112 @@
+// The store keeps what was put, for its own sweep and program only.
+#include "sweeps/run_store.h"
+
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+
+#include <map>
+
+#include "scenario/scenario_text.h"
+
+namespace stopline {
+namespace {
+
+StoreIdentity identity() { return {"green", "00ff", "stopline 0.1, program 1", 5, "", "{}\n"}; }
+
+std::map<std::size_t, std::string> all_of(const RunStore& store) {
+    std::map<std::size_t, std::string> runs;
+    store.for_each_run([&](std::size_t point, const std::string& result) { runs[point] = result; });
+    return runs;
+}
+
+class RunStoreTest : public ::testing::Test {
+protected:
+    std::string open_error(const StoreIdentity& wanted) const {
+        return input_error_of([&] { static_cast<void>(RunStore::open_or_make(file_, wanted)); });
+    }
+
+    TemporaryFolder folder_;
+    std::filesystem::path file_ = folder_.path() / "green.sqlite";
+};
+
+TEST_F(RunStoreTest, KeepsRuns) {
+    {
+        RunStore store = RunStore::open_or_make(file_, identity());
+        EXPECT_EQ(store.done(), std::vector<bool>(5, false));
+        store.put(3, "a=1\n");
+        store.put(0, std::string("b=\xc3\xa4 ' \n"));
+    }
+    const RunStore again = RunStore::open_or_make(file_, identity());
+    EXPECT_EQ(again.done(), (std::vector<bool>{true, false, false, true, false}));
+    EXPECT_EQ(all_of(again), (std::map<std::size_t, std::string>{{0, "b=\xc3\xa4 ' \n"}, {3, "a=1\n"}}));
+    EXPECT_EQ(again.identity().provenance, "{}\n");
+}
+
+TEST_F(RunStoreTest, IsNotUsedForAnythingElse) {
+    static_cast<void>(RunStore::open_or_make(file_, identity()));
+    StoreIdentity other = identity();
+    other.sweep = "0100";
+    EXPECT_TRUE(contains(open_error(other), "has changed since"));
+    EXPECT_TRUE(contains(open_error(other), file_.string()));
+    other = identity();
+    other.points = 6;
+    EXPECT_TRUE(contains(open_error(other), "has changed since"));
+    other = identity();
+    other.program = "stopline 0.1, program 2";
+    EXPECT_TRUE(contains(open_error(other), "another build of the program"));
+    other = identity();
+    other.name = "red";
+    EXPECT_TRUE(contains(open_error(other), "of the sweep 'green'"));
+    other = identity();
+    other.shard = "1/2";
+    EXPECT_TRUE(contains(open_error(other), "shard 1/1"));
+    EXPECT_EQ(open_error(identity()), "");
+}
+
+TEST_F(RunStoreTest, IsForOneProgramAtATime) {
+    const RunStore store = RunStore::open_or_make(file_, identity());
+    EXPECT_TRUE(contains(open_error(identity()), "another program has this store open"));
+    EXPECT_TRUE(contains(input_error_of([&] { static_cast<void>(RunStore::open(file_)); }), "another program"));
+}
+
+TEST_F(RunStoreTest, RefusesFilesThatAreNone) {
+    EXPECT_TRUE(contains(input_error_of([&] { static_cast<void>(RunStore::open(file_)); }), "no such file"));
+    folder_.write("green.sqlite", std::string(5000, 'x'));
+    EXPECT_TRUE(contains(open_error(identity()), "not a store"));
+    std::filesystem::remove(file_);
+    sqlite3* database = nullptr;
+    ASSERT_EQ(sqlite3_open(file_.c_str(), &database), SQLITE_OK);
+    sqlite3_exec(database, "CREATE TABLE meta(key TEXT, value TEXT)", nullptr, nullptr, nullptr);
+    sqlite3_close(database);
+    EXPECT_TRUE(contains(open_error(identity()), "not a store"));
+    std::filesystem::remove(file_);
+    std::filesystem::create_directory(file_);
+    EXPECT_TRUE(contains(open_error(identity()), file_.string()));
+}
+
+TEST_F(RunStoreTest, AnEmptyFileIsANewStore) {
+    folder_.write("green.sqlite", "");
+    EXPECT_EQ(open_error(identity()), "") << "what a program leaves that is killed before its first transaction";
+}
+
+TEST_F(RunStoreTest, PutAllIsAllOrNothing) {
+    {
+        RunStore store = RunStore::open_or_make(file_, identity());
+        EXPECT_THROW(store.put_in_one_transaction([&] {
+            store.put(1, "x=1\n");
+            throw std::runtime_error("half way");
+        }),
+                     std::runtime_error);
+    }
+    RunStore store = RunStore::open(file_);
+    EXPECT_TRUE(all_of(store).empty());
+    store.put_in_one_transaction([&] {
+        store.put(1, "x=1\n");
+        store.put(2, "x=2\n");
+    });
+    EXPECT_EQ(all_of(store).size(), 2U);
+    EXPECT_TRUE(contains(input_error_of([&] { store.put(1, "x=3\n"); }), "UNIQUE")) << "a run is never replaced";
+}
+
+}  // namespace
+}  // namespace stopline
