@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Installs the Debian packages that are missing; does nothing, and needs no network, when all are there.
-#   apps/install_packages.sh SECTION...      sections of apps/packages.txt: quickstart, tests
-# STOPLINE_SKIP_PACKAGES=1 turns it off, for systems that have the same things under other names.
+# Installs missing Debian packages. If no package is missing, the script does nothing and needs no network.
+#   apps/install_packages.sh SECTION...      sections of apps/packages.txt: quickstart, tests, sanitizers
+# With STOPLINE_SKIP_PACKAGES=1 the script installs nothing. This is for systems on which the packages have other names.
 set -euo pipefail
 
 directory="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
@@ -13,7 +13,7 @@ fail() {
     exit 1
 }
 
-# The packages of one section of the list.
+# section NAME: prints the packages in section NAME of packages.txt
 section() {
     local line current=""
     while read -r line; do
@@ -30,7 +30,7 @@ is_installed() {
 }
 
 if [[ $# -eq 0 ]]; then
-    fail "name at least one section of $list"
+    fail "no section given; the sections are in $list"
 fi
 wanted=()
 for name in "$@"; do
@@ -45,8 +45,8 @@ if [[ "${STOPLINE_SKIP_PACKAGES:-}" == 1 ]]; then
     exit 0
 fi
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
-    fail "this is not a Debian system, so install the equivalents of these packages yourself: ${wanted[*]}" \
-        "then run again with STOPLINE_SKIP_PACKAGES=1"
+    fail "this is not a Debian system. Install the equivalents of these packages: ${wanted[*]}" \
+        "Then run the script again with STOPLINE_SKIP_PACKAGES=1."
 fi
 
 missing=()
@@ -64,10 +64,10 @@ if [[ "$(id -u)" != 0 ]]; then
     if command -v sudo >/dev/null && sudo -n true 2>/dev/null; then
         as_root=(sudo -n)
     elif command -v sudo >/dev/null && [[ -t 0 ]]; then
-        as_root=(sudo) # asks for the password
+        as_root=(sudo) # sudo asks for the password
     else
-        fail "these packages are missing, and installing them takes root or sudo: ${missing[*]}" \
-            "as root: apt-get install --no-install-recommends ${missing[*]}"
+        fail "packages are missing, and only root or sudo can install them. Run as root:" \
+            "apt-get install --no-install-recommends ${missing[*]}"
     fi
 fi
 
@@ -80,22 +80,22 @@ echo "Installing ${#missing[@]} missing packages: ${missing[*]}"
 log="$(mktemp)"
 trap 'rm -f "$log"' EXIT
 for attempt in 1 2 3; do
-    # Without Error-Mode=any a list that could not be fetched is only a warning.
+    # Without Error-Mode=any, apt-get reports success although it could not fetch a package list.
     if apt_get update -o APT::Update::Error-Mode=any -qq >"$log" 2>&1; then
         break
     fi
     if [[ $attempt == 3 ]]; then
-        # A mirror that has nothing to do with these packages may be the one that fails: let the installation decide.
-        echo "The package lists could not be brought up to date; going on with those at hand. apt-get update says:" >&2
+        # The mirror that failed may not hold these packages, so the script tries to install them anyway.
+        echo "apt-get could not update the package lists and continues with the old ones. Its message:" >&2
         cat "$log" >&2
     else
         echo "apt-get update failed (attempt $attempt of 3); trying again in $((5 * attempt)) s" >&2
         sleep $((5 * attempt))
     fi
 done
-# Its output is long and of interest only when it fails.
+# The output of apt-get is long, so the script prints it only after a failure.
 if ! apt_get install --yes --no-install-recommends "${missing[@]}" >"$log" 2>&1; then
     cat "$log" >&2
     fail "apt-get could not install: ${missing[*]}" \
-        "(no network, no mirror in /etc/apt, or not Debian 12? its own message is above)"
+        "Its message is above. Common causes: no network, no mirror in /etc/apt, not Debian 12."
 fi

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# From a bare Debian 12 to a first picture, and then to a first look at the whole paper. Missing packages are installed as
-# root or through sudo. Stops at the first failure.
+# Builds Stopline on a bare Debian 12, draws a first figure, and repeats all experiments of the paper in a short
+# version. Installs missing packages as root or through sudo. Stops at the first failure.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -22,7 +22,7 @@ step "2 of 5: building stopline-run into $bin"
 cmake --preset release -DSTOPLINE_BUILD_TESTS=OFF --log-level=WARNING
 cmake --build --preset release --target stopline-run -j "$jobs"
 
-step "3 of 5: a queue of 60 vehicles at one traffic light, with eight spacing policies"
+step "3 of 5: a queue of 60 vehicles at one traffic light, with seven spacing policies and a mix"
 $bin/stopline-run scenarios/single_light.yaml --output out/single_light
 printf '\nThe first picture is ready (%d s): vehicles past the stop line over time.\nfile://%s\n' \
     "$SECONDS" "$PWD/out/single_light/counters.svg"

@@ -1,5 +1,6 @@
 // stopline-calibrate: step I fits the mesoscale mode to the times at which vehicles pass detectors in full dynamics.
-// Step II checks throughput, density and travel time against the confidence bands of full dynamics.
+// Step II checks if throughput, density and travel time of the mesoscale mode lie in the confidence bands of full
+// dynamics.
 #include <filesystem>
 #include <optional>
 #include <sstream>
@@ -38,7 +39,7 @@ struct CalibrateCliOptions {
     std::string metrics_sweep;
     std::string start = "start";
     std::string reference = "table2";
-    std::string parameters;  // evaluated without a fit; empty: fit
+    std::string parameters;  // parameters to evaluate instead of a fit; empty: fit
     std::string accepted;
     std::string step = "both";
     std::vector<std::string> metrics;
@@ -53,33 +54,28 @@ std::string scenario_file(const char* name) {
 
 void declare(Options& app, CalibrateCliOptions& options) {
     app.add("SWEEP", options.timing_sweep,
-                   "Sweep file of step I; its scenario needs detectors (default: scenarios/sweeps/calibration.yaml)");
-    app.add(
-           "--metrics-sweep", options.metrics_sweep,
-           "Sweep file of step II, with at least three repetitions (default: scenarios/sweeps/intersection.yaml)")
+            "Sweep file of step I; its scenario needs detectors (default: scenarios/sweeps/calibration.yaml)");
+    app.add("--metrics-sweep", options.metrics_sweep,
+            "Sweep file of step II, with at least three repetitions (default: scenarios/sweeps/intersection.yaml)")
         .type_name("FILE");
-    app.add("--step", options.step, "Step to run: I, II or both (default: both)")
-        .one_of({"I", "II", "both"});
-    app.add("--start", options.start, "Parameters at which the fit starts (default: start)")
-        .type_name("NAME|FILE");
+    app.add("--step", options.step, "Step to run: I, II or both (default: both)").one_of({"I", "II", "both"});
+    app.add("--start", options.start, "Parameters at which the fit starts (default: start)").type_name("NAME|FILE");
     app.add("--reference,--beside", options.reference,
-                   "Parameters to compare the result with (default: table2, from the paper)")
+            "Parameters to compare the result with (default: table2, from the paper)")
         .type_name("NAME|FILE");
-    app.add("--parameters", options.parameters, "Evaluate these parameters instead of fitting")
-        .type_name("NAME|FILE");
+    app.add("--parameters", options.parameters, "Evaluate these parameters instead of fitting").type_name("NAME|FILE");
     app.add("--accepted", options.accepted, "List of reviewed differences that count as valid (YAML)")
         .type_name("FILE");
     app.add("--metric", options.metrics,
-                   "Result column to check in step II (repeatable; default: throughput, density and travel time)")
+            "Result column to check in step II (repeatable; default: throughput, density and travel time)")
         .type_name("COLUMN");
-    app.add("--starts", options.fit.starts,
-                   "Number of starts of the search for each car-following model (default: 3)")
+    app.add("--starts", options.fit.starts, "Number of starts of the search for each car-following model (default: 3)")
         .range(1, 100);
     app.add("--evaluations", options.fit.joint_evaluations,
-                   "Evaluations of the last search, for all models together (default: 800)")
+            "Evaluations of the last search, for all models together (default: 800)")
         .range(1, 100'000);
     app.add("--evaluations-per-start,--evaluations-apart", options.fit.evaluations_per_start,
-                   "Evaluations from each start, for one model (default: 250)")
+            "Evaluations from each start, for one model (default: 250)")
         .range(1, 100'000);
     add_common_options(app, options.common, "Folder for stored runs, tables and figures (default: out/calibration)");
     add_set_option(app, options.common);
@@ -108,7 +104,7 @@ RunStore open_store(const std::filesystem::path& file, const std::string& name, 
     return RunStore::open_or_make(file, identity);
 }
 
-// Loads parameters of the mesoscale mode and prints the warnings of loading.
+// Loads parameters of the mesoscale mode and prints the warnings that loading returns.
 MesoSettings load_meso_file(const std::string& name_or_path) {
     std::vector<std::string> warnings;
     MesoSettings settings = load_meso(name_or_path, ".", &warnings);
@@ -116,7 +112,7 @@ MesoSettings load_meso_file(const std::string& name_or_path) {
     return settings;
 }
 
-// One sweep of a calibration with all its results.
+// One sweep of the calibration, with all its results.
 struct CompletedSweep {
     Sweep sweep;
     RunStore store;
@@ -157,7 +153,8 @@ CompletedSweep run_sweep(const CalibrateCliOptions& options, const std::string& 
     return {std::move(sweep), std::move(store), totals};
 }
 
-// Reads the evaluations of earlier sessions from the store. Each is a text "loss value value ...".
+// Reads the evaluations of earlier sessions from the store, by their number. The store has each as a text: the loss,
+// then all parameter values.
 std::vector<std::optional<FitEvaluation>> stored_evaluations(const RunStore& store) {
     std::vector<std::optional<FitEvaluation>> stored(store.identity().points);
     store.for_each_run([&](std::size_t index, const std::string& text) {
@@ -249,7 +246,8 @@ void write_all(const std::vector<std::pair<std::string, std::string>>& files, co
     }
 }
 
-// Fits or evaluates parameters and returns them. Sets `no_violations` to false if a run has violations.
+// Carries out step I: fits or evaluates parameters and returns them. Sets `no_violations` to false if a run has
+// violations.
 MesoSettings step_one(const CalibrateCliOptions& options, const std::filesystem::path& folder, bool& no_violations) {
     const std::string file = options.timing_sweep.empty() ? scenario_file("calibration.yaml") : options.timing_sweep;
     const AcceptedFile accepted = options.accepted.empty() ? AcceptedFile{} : load_accepted(options.accepted);
@@ -303,7 +301,7 @@ void print_bands(const std::string& name, const BandCheck& check) {
     fmt::print("\n{}", table.text());
 }
 
-// Returns the metrics of --metric under their current names. Warns of old names on standard error.
+// Returns the values of --metric with the current column names. Prints a warning for each old name.
 std::vector<std::string> current_metrics(std::vector<std::string> metrics) {
     OldNameReader old_names("sweep/NAME.csv");
     for (std::string& metric : metrics) metric = old_names.column(metric);
@@ -341,7 +339,8 @@ void step_two(const CalibrateCliOptions& options, const std::filesystem::path& f
     no_violations = no_violations && full.totals.runs_with_violations == 0;
 }
 
-// Returns a path as absolute path, because --set takes paths relative to the folder of the scenario.
+// Returns a path as an absolute path, and any other name unchanged. A relative path in --set would refer to the folder
+// of the scenario.
 std::string name_or_absolute_path(const std::string& text) {
     const bool is_path = text.find('/') != std::string::npos || text.ends_with(".yaml");
     return is_path ? std::filesystem::absolute(text).lexically_normal().string() : text;
@@ -373,7 +372,7 @@ ExitCode calibrate(const CalibrateCliOptions& options) {
 int main(int argc, char** argv) {
     return run_program("stopline-calibrate", [&] {
         Options app("Fits the mesoscale mode to full dynamics and checks that both give the same results.",
-                     "stopline-calibrate");
+                    "stopline-calibrate");
         CalibrateCliOptions options;
         declare(app, options);
         const std::optional<ExitCode> end = app.parse(argc, argv);

@@ -36,8 +36,7 @@ void declare(Options& app, CompareCliOptions& options) {
         .range(1, 1000);
     app.add_flag("--no-figures", options.no_figures, "Do not draw figures");
     app.add("--seed", options.common.seed, "Seed of the first run (default: the scenario's)");
-    app.add("--output", options.common.output, "Folder for the results (default: out/NAME_sumo)")
-        .type_name("DIR");
+    app.add("--output", options.common.output, "Folder for the results (default: out/NAME_sumo)").type_name("DIR");
     add_set_option(app, options.common);
     app.footer(
         runnable("\nBoth programs get the same network, signals and vehicles: the vehicles that entered our run, at\n"
@@ -55,7 +54,7 @@ void declare(Options& app, CompareCliOptions& options) {
         kExitCodesText);
 }
 
-// Returns the index of the population to run: the named one, else CTG-Ref, else the first.
+// Returns the index of the population to compare: the one that --population names, else CTG-Ref, else the first.
 std::size_t chosen_population(const CompareCliOptions& options, const Scenario& scenario) {
     if (!options.population.empty()) return population_index(scenario, options.population);
     for (std::size_t k = 0; k < scenario.populations.size(); ++k) {
@@ -66,7 +65,8 @@ std::size_t chosen_population(const CompareCliOptions& options, const Scenario& 
 
 std::string number(double value) { return std::isnan(value) ? "-" : fmt::format("{:.2f}", value); }
 
-// Returns the confidence band of SUMO's mean as text. Sets `inside` to yes, no or "-": our mean lies in the band.
+// Returns the confidence band of SUMO's mean as text. Sets `inside` to "yes" if our mean lies in the band, to "no" if
+// it does not, and to "-" if there is no band.
 std::string band_text(const ComparedMetric& metric, Band band, std::string& inside) {
     const std::size_t min_runs = band == Band::paper ? 3 : 2;
     inside = "-";
@@ -176,7 +176,7 @@ ExitCode run(const CompareCliOptions& options) {
 int main(int argc, char** argv) {
     return run_program("stopline-compare", [&] {
         Options app("Runs SUMO and the mesoscale mode on the same inputs and compares the results.",
-                     "stopline-compare");
+                    "stopline-compare");
         CompareCliOptions options;
         declare(app, options);
         const std::optional<ExitCode> end = app.parse(argc, argv);

@@ -25,9 +25,7 @@ struct ExportCliOptions {
 
 void declare(Options& app, ExportCliOptions& options) {
     app.add("SCENARIO", options.file, "Scenario file").required();
-    app.add("--sumo", options.folder, "Folder for SUMO's files (created if missing)")
-        .required()
-        .type_name("DIR");
+    app.add("--sumo", options.folder, "Folder for SUMO's files (created if missing)").required().type_name("DIR");
     app.add("--population", options.population, "Population to export (default: the first of the scenario)")
         .type_name("NAME");
     app.add("--seed", options.common.seed, "Seed of all random numbers (default: the scenario's)");

@@ -25,14 +25,12 @@ struct ReplayCliOptions {
 
 void declare(Options& app, ReplayCliOptions& options) {
     app.add("FILE", options.file, "Recording, written by stopline-run --record").required();
-    app.add("--output", options.output, "Page to write (default: FILE with the extension .html)")
-        .type_name("PAGE");
-    app.add(
-           "--from", options.from,
-           "Start of the page in simulated time, rounded down to about a minute (default: start of the recording)")
+    app.add("--output", options.output, "Page to write (default: FILE with the extension .html)").type_name("PAGE");
+    app.add("--from", options.from,
+            "Start of the page in simulated time, rounded down to about a minute (default: start of the recording)")
         .type_name("TIME");
     app.add("--until", options.until,
-                   "End of the page in simulated time, rounded up to about a minute (default: end of the recording)")
+            "End of the page in simulated time, rounded up to about a minute (default: end of the recording)")
         .type_name("TIME");
     app.footer(
         runnable("\nExamples:\n"
@@ -77,7 +75,7 @@ ExitCode run(const ReplayCliOptions& options) {
 int main(int argc, char** argv) {
     return run_program("stopline-replay", [&] {
         Options app("Turns a recording into one HTML page with moving vehicles, signals and a time-space diagram.",
-                     "stopline-replay");
+                    "stopline-replay");
         ReplayCliOptions options;
         declare(app, options);
         const std::optional<ExitCode> end = app.parse(argc, argv);

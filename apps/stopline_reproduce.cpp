@@ -1,4 +1,5 @@
-// stopline-reproduce: repeats all experiments of the paper and writes a report that compares the results with it.
+// stopline-reproduce: repeats all experiments of the paper and writes a report that compares our results with the
+// paper.
 #include <filesystem>
 #include <string>
 
@@ -27,18 +28,15 @@ struct ReproduceCliOptions {
 };
 
 void declare(Options& app, ReproduceCliOptions& options) {
-    app.add(
-           "--section", options.section,
-           fmt::format("Section of the paper to reproduce: {} (default: all)", fmt::join(known_sections(), ", ")))
+    app.add("--section", options.section,
+            fmt::format("Section of the paper to reproduce: {} (default: all)", fmt::join(known_sections(), ", ")))
         .type_name("S");
     app.add_flag(
         "--quick", options.quick,
         "First look within minutes: fewer combinations and shorter runs, marked as reduced (data/paper/quick.csv)");
-    app.add("--output", options.output,
-                   "Folder for the report (default: out/paper; with --quick: out/paper_quick)")
+    app.add("--output", options.output, "Folder for the report (default: out/paper; with --quick: out/paper_quick)")
         .type_name("DIR");
-    app.add("--threads", options.threads,
-                   "Number of threads (default: all processors). Results do not depend on it")
+    app.add("--threads", options.threads, "Number of threads (default: all processors). Results do not depend on it")
         .range(1, 1024)
         .type_name("N");
     app.footer(
@@ -103,7 +101,7 @@ ExitCode run(const ReproduceCliOptions& user) {
 int main(int argc, char** argv) {
     return run_program("stopline-reproduce", [&] {
         Options app("Repeats the experiments of the paper and writes a report with scorecard, figures and tables.",
-                     "stopline-reproduce");
+                    "stopline-reproduce");
         ReproduceCliOptions options;
         declare(app, options);
         const std::optional<ExitCode> end = app.parse(argc, argv);

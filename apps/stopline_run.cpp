@@ -44,7 +44,7 @@ struct RunCliOptions {
     CommonOptions common;
     RunFilesOptions files;
     std::string file;
-    std::string interval = "0.1 s";  // of --trajectories
+    std::string interval = "0.1 s";  // time between the samples of --trajectories
     bool trajectories = false;
     bool old_column_names = false;
     bool no_figures = false;
@@ -109,9 +109,9 @@ double trajectory_interval_s(const RunCliOptions& options, const Scenario& scena
 
 using NamedText = std::pair<std::string, std::string>;
 
-using StateHashes = std::vector<std::pair<std::string, std::string>>;  // population and hash
+using StateHashes = std::vector<std::pair<std::string, std::string>>;  // name and final state hash of each population
 
-// Writes the tables and their provenance.
+// Writes the tables and the provenance file, and prints their names.
 void write_tables(const RunCliOptions& options, const Scenario& scenario, std::vector<NamedText> files,
                   StateHashes state_hashes, const std::filesystem::path& folder) {
     Provenance provenance;
@@ -159,7 +159,7 @@ void write_results(const RunCliOptions& options, const IntersectionReport& repor
     write_tables(options, report.scenario, std::move(files), std::move(hashes), folder);
 }
 
-// Returns the title and the settings: "Grid of 25 intersections, with network.grid.columns=3".
+// Returns the title and the values of --set, such as "Grid of 25 intersections, with network.grid.columns=3".
 std::string heading(const Scenario& scenario, const CommonOptions& options) {
     const std::string& title = scenario.title.empty() ? scenario.name : scenario.title;
     return options.settings.empty() ? title : fmt::format("{}, with {}", title, fmt::join(options.settings, ", "));
@@ -300,7 +300,7 @@ ExitCode run(const RunCliOptions& options) {
 int main(int argc, char** argv) {
     return run_program("stopline-run", [&] {
         Options app("Runs a scenario, once for each of its populations, and writes tables, CSV files and figures.",
-                     "stopline-run");
+                    "stopline-run");
         RunCliOptions options;
         declare(app, options);
         const std::optional<ExitCode> end = app.parse(argc, argv);

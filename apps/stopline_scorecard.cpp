@@ -30,11 +30,11 @@ struct ScorecardCliOptions {
 
 void declare(Options& app, ScorecardCliOptions& options) {
     app.add("--section", options.section,
-                   "Only rows of this section of the paper and its subsections, such as III or III.E")
+            "Only rows of this section of the paper and its subsections, such as III or III.E")
         .type_name("S");
     app.add_flag("--csv", options.csv, "Print CSV instead of a table");
     app.add("--markdown", options.markdown,
-                   "Also write the results page to this file: one table per section, causes of deviations, findings")
+            "Also write the results page to this file: one table per section, causes of deviations, findings")
         .type_name("FILE");
     app.add_flag("--strict", options.strict, "Exit with code 1 if a row is outside its tolerance");
     add_common_options(app, options.common, "Folder for scorecard.csv and the measurements (default: out/scorecard)");
@@ -62,7 +62,7 @@ std::string table_text(const Scorecard& scorecard) {
     return table.text("");
 }
 
-// Returns the claims of the paper with our findings, and the reason of each miss.
+// Returns the claims of the paper with our findings, and the reason why a row misses its tolerance.
 std::string remarks_text(const Scorecard& scorecard) {
     constexpr std::size_t kWidth = 110;
     std::string text;
@@ -98,7 +98,7 @@ std::string command_of(const ScorecardCliOptions& options) {
     return command;
 }
 
-// The findings cover all sections, so a page of one section does not include them.
+// Writes the results page. The findings cover all sections, so a page of a single section does not include them.
 void write_results_page(const ScorecardCliOptions& options, const Scorecard& scorecard) {
     const std::filesystem::path findings = data_directory() / "paper" / "FINDINGS.md";
     const bool append = options.section.empty() && std::filesystem::exists(findings);
@@ -141,7 +141,7 @@ ExitCode run(const ScorecardCliOptions& options) {
 int main(int argc, char** argv) {
     return run_program("stopline-scorecard", [&] {
         Options app("Compares our results with the numbers of the paper, row by row, and judges each.",
-                     "stopline-scorecard");
+                    "stopline-scorecard");
         ScorecardCliOptions options;
         declare(app, options);
         const std::optional<ExitCode> end = app.parse(argc, argv);

@@ -1,5 +1,5 @@
-// stopline-startup: compares the simulated start of a platoon leader with measured starts, and can fit its driver to
-// them (Section III.B of the paper).
+// stopline-startup: compares the simulated start of a platoon leader with measured starts (Section III.B of the paper).
+// It can fit the driver to the measured starts.
 #include <filesystem>
 #include <string>
 
@@ -38,17 +38,15 @@ struct StartupCliOptions {
 
 void declare(Options& app, StartupCliOptions& options) {
     app.add("FILE", options.file,
-                   "Scenario that gives the vehicle and the driver (default: scenarios/single_light.yaml)");
-    app.add(
-        "--measured", options.measured,
-        std::string(
-            "Measured starts: CSV with columns t_s and mean_kmh, and optionally ci95_of_mean, p2.5, p97.5 and n "
-            "(default: data/") +
-            kMeasuredStarts + ")");
+            "Scenario that gives the vehicle and the driver (default: scenarios/single_light.yaml)");
+    app.add("--measured", options.measured,
+            std::string(
+                "Measured starts: CSV with columns t_s and mean_kmh, and optionally ci95_of_mean, p2.5, p97.5 and n "
+                "(default: data/") +
+                kMeasuredStarts + ")");
     app.add_flag("--fit", options.fit,
                  "Fit the acceleration profile and the speed gain of the driver to the mean of the measured starts");
-    app.add("--write", options.write, "With --fit: write the fitted driver to this file (YAML)")
-        .type_name("FILE");
+    app.add("--write", options.write, "With --fit: write the fitted driver to this file (YAML)").type_name("FILE");
     app.add_flag("--no-figures", options.no_figures, "Do not draw figures");
     add_common_options(app, options.common, "Folder for the results (default: out/startup)");
     add_set_option(app, options.common);
@@ -147,7 +145,7 @@ ExitCode run(const StartupCliOptions& options) {
 int startup_main(int argc, const char* const* argv) {
     return run_program("stopline-startup", [&] {
         Options app("Compares the simulated start of a platoon leader with measured starts at traffic lights.",
-                     "stopline-startup");
+                    "stopline-startup");
         StartupCliOptions options;
         declare(app, options);
         const std::optional<ExitCode> end = app.parse(argc, argv);

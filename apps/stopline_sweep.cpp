@@ -46,7 +46,7 @@ struct SweepCliOptions {
     bool list = false;
     bool describe = false;
 
-    Options* merge = nullptr;  // the subcommand
+    Options* merge = nullptr;  // options of the subcommand merge
     std::string merge_output;
     std::vector<std::string> stores;
 };
@@ -59,7 +59,7 @@ void declare(Options& app, SweepCliOptions& options) {
     app.add("--shard", options.shard, "Run only part K of N, for job arrays (join the parts with merge)")
         .type_name("K/N");
     app.add("--rank-timeout", options.rank_timeout,
-                   "With mpirun --enable-recovery: silence after which a rank counts as dead (default: 60 s)")
+            "With mpirun --enable-recovery: silence after which a rank counts as dead (default: 60 s)")
         .type_name("TIME");
     app.add_flag("--old-column-names", options.old_column_names,
                  "Write tables with the column names of the last release (removed in the next release)");
@@ -128,7 +128,7 @@ RunStore open_store(const Sweep& sweep, const Shard& shard, const SweepFiles& fi
     return RunStore::open_or_make(files.store, identity);
 }
 
-// A sweep with its opened store and the runs that are missing there.
+// A sweep with its open store. `todo` holds the points (numbers of runs) that the store lacks.
 struct PreparedSweep {
     Sweep sweep;
     Shard shard;
@@ -155,7 +155,7 @@ std::size_t count_runs(const Sweep& sweep, const Shard& shard) {
     return runs;
 }
 
-// Removes the table of an earlier sweep: it must not stand beside a store with missing runs.
+// Removes the table of an earlier sweep, because it does not match a store with missing runs.
 void remove_old_table(const SweepFiles& files) {
     std::error_code ignored;
     std::filesystem::remove(files.table, ignored);
@@ -216,7 +216,7 @@ std::string totals_text(const SweepTotals& totals) {
     return text;
 }
 
-// `workers` names the threads or ranks: "4 threads".
+// Prints the number, duration and speed of the runs of this session. `workers` is a text such as "4 threads".
 void print_session(const SweepSession& session, const std::string& workers) {
     if (session.runs == 0) return fmt::print("All runs were done before.\n");
     fmt::print("{} runs now, in {} on {}: {:.1f} million vehicle updates per second\n", session.runs,
@@ -233,14 +233,14 @@ ExitCode report_failures(const PreparedSweep& work, const SweepSession& session)
     return ExitCode::check_failed;
 }
 
-void print_orders(const Orders& orders) {
+void print_throughput_trends(const ThroughputTrends& trends) {
     const std::string largest =
-        orders.rises == 0 ? ""
-                          : fmt::format(", by up to {:.1f} % ({})", orders.largest_rise_percent, orders.largest_rise);
+        trends.rises == 0 ? ""
+                          : fmt::format(", by up to {:.1f} % ({})", trends.largest_rise_percent, trends.largest_rise);
     fmt::print("  throughput: falls in {} of {} steps to a larger turn ratio, rises in {}{}\n",
-               orders.steps - orders.rises, orders.steps, orders.rises, largest);
+               trends.steps - trends.rises, trends.steps, trends.rises, largest);
     fmt::print("  throughput: grows more than in proportion to the share of CDG at {} of {} points\n",
-               orders.points - orders.above_line, orders.points);
+               trends.points - trends.above_line, trends.points);
 }
 
 ColumnNames column_names(const SweepCliOptions& options) {
@@ -249,7 +249,8 @@ ColumnNames column_names(const SweepCliOptions& options) {
     return ColumnNames::old;
 }
 
-// Writes means over seeds, figures, and the paper's Table 1, as far as the axes of the sweep allow it.
+// Writes the means over seeds, the figures, and Table 1 of the paper. Leaves out those for which the sweep lacks the
+// axes.
 void draw_results(const Sweep& sweep, const std::string& csv, const std::filesystem::path& file, ColumnNames names) {
     const CsvTable results = parse_csv(csv, file.string());
     if (has_seeds(results)) {
@@ -265,7 +266,7 @@ void draw_results(const Sweep& sweep, const std::string& csv, const std::filesys
     if (!has_turns(results)) return;
     write_file(file.parent_path() / "table1.csv", table1_csv(results, load_targets()));
     fmt::print("  table1.csv\n");
-    print_orders(orders_of(results));
+    print_throughput_trends(throughput_trends(results));
     draw_figures(turn_figures(results), file.parent_path());
 }
 
@@ -282,7 +283,7 @@ ExitCode finish(PreparedSweep& work, const SweepSession& session, const std::str
     for (const auto& file : {work.files.table, work.files.provenance, work.files.store}) {
         fmt::print("  {}\n", file.filename().string());
     }
-    if (work.shard.count > 1) {  // no figures: some of the runs alone would mislead
+    if (work.shard.count > 1) {  // no figures, because figures of a part of the runs would mislead
         const std::string folder = work.files.table.parent_path().string();
         fmt::print("\nNext: when all {} shards are done, join them\n  {} merge --output {} {}/*.sqlite\n",
                    work.shard.count, program_command("stopline-sweep"), shell_word(folder + "_joined"),
@@ -378,7 +379,7 @@ ExitCode run(const SweepCliOptions& options, Ranks& ranks) {
     return ExitCode::done;
 }
 
-// Turns off the output of a rank other than 0, which would repeat the messages of rank 0.
+// Discards all output of this process. Ranks other than 0 do this, because they would repeat the messages of rank 0.
 void silence_output() {
     if (std::freopen("/dev/null", "w", stdout) == nullptr || std::freopen("/dev/null", "w", stderr) == nullptr) return;
 }
@@ -389,9 +390,8 @@ int main(int argc, char** argv) {
     Ranks ranks;
     if (ranks.rank() != 0) silence_output();
     const int exit_code = run_program("stopline-sweep", [&] {
-        Options app(
-            "Runs all combinations of the axes of a sweep file, each with several seeds, and writes one table.",
-            "stopline-sweep");
+        Options app("Runs all combinations of the axes of a sweep file, each with several seeds, and writes one table.",
+                    "stopline-sweep");
         SweepCliOptions options;
         declare(app, options);
         const std::optional<ExitCode> end = app.parse(argc, argv);

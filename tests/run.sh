@@ -5,8 +5,8 @@
 #   tests/run.sh --all     adds the slow tests and the fast tests under the address, undefined-behaviour and thread
 #                          sanitizers, and compares the release version with an unoptimised one
 # Three environment variables hold regular expressions for ctest and limit what runs under the sanitizers:
-# STOPLINE_ASAN_LABELS (default: unit|threads|cli), STOPLINE_TSAN_LABELS (default: threads) and STOPLINE_SANITIZER_EXCLUDE
-# (default: Slow). Scripts with the label slow never run under a sanitizer.
+# STOPLINE_ASAN_LABELS (default: unit|threads|cli), STOPLINE_TSAN_LABELS (default: threads) and
+# STOPLINE_SANITIZER_EXCLUDE (default: Slow). Scripts with the label slow never run under a sanitizer.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -77,8 +77,8 @@ run_fast_tests asan-ubsan "${STOPLINE_ASAN_LABELS:-unit|threads|cli}"
 step "Thread sanitizer: building"
 build tsan ON stopline_programs stopline_threaded_tests
 step "Thread sanitizer: fast tests"
-# Archer is the plug-in through which clang's OpenMP runtime informs the thread sanitizer. The runtime itself was not built
-# with the sanitizer, so ignore_noninstrumented_modules leaves it out.
+# Archer is the plug-in through which clang's OpenMP runtime informs the thread sanitizer. The runtime itself was not
+# built with the sanitizer, so ignore_noninstrumented_modules leaves it out.
 export OMP_TOOL_LIBRARIES=/usr/lib/llvm-14/lib/libarcher.so
 export TSAN_OPTIONS=ignore_noninstrumented_modules=1
 # The sanitizer of clang 14 does not know the address layout that newer kernels randomise to.

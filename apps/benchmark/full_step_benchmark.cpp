@@ -23,7 +23,7 @@ constexpr double kGreen_s = 120.0;  // start of green; all queues have formed by
 constexpr double kHeadway_s = 0.9;
 constexpr double kDriving_s = 10.0;  // from the start of green to the measurement; by then all vehicles move
 constexpr int kWarmUpSteps = 10;
-constexpr int kSteps = 100;  // measured steps, 1 s; no vehicle leaves the network during them
+constexpr int kSteps = 100;  // number of measured steps, 1 s in total; no vehicle leaves the network meanwhile
 
 Model queue_model(int vehicles) {
     Scenario scenario = load_scenario(data_directory() / "../scenarios/single_light.yaml");
@@ -37,7 +37,7 @@ Model queue_model(int vehicles) {
     return model;
 }
 
-// A simulation of moving platoons. It is built once for each number of vehicles.
+// A simulation of moving platoons. It is built once for each number of vehicles and each kind of kernels.
 struct DrivingPlatoons {
     explicit DrivingPlatoons(int vehicles, bool scalar) : model(queue_model(vehicles)), simulation(model) {
         simulation.run_until(kGreen_s + kDriving_s);
@@ -54,8 +54,8 @@ const DrivingPlatoons& driving_platoons(int vehicles, bool scalar) {
     return *platoons;
 }
 
-// Measures the same second of simulated time in every iteration. Copying the simulation and the warm-up steps are not
-// timed.
+// Measures the same second of simulated time in every iteration. The time excludes copying the simulation and the
+// warm-up steps.
 void full_dynamics(benchmark::State& state, bool scalar) {
     const DrivingPlatoons& initial = driving_platoons(static_cast<int>(state.range(0)), scalar);
     std::int64_t updates = 0;

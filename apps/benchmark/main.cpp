@@ -29,8 +29,8 @@ constexpr const char* kFooter =
     "All options of Google Benchmark (--benchmark_...) work too. The benchmarks use one thread unless\n"
     "the name says otherwise.\n\n";
 
-// Prints the table of Google Benchmark and keeps the minimum time of each benchmark. Other work of the machine
-// disturbs the minimum least.
+// Prints the table of Google Benchmark and keeps the minimum time over the repetitions of each benchmark. Other work of
+// the machine affects the minimum least.
 class TableReporter : public benchmark::ConsoleReporter {
 public:
     void ReportRuns(const std::vector<Run>& runs) override {
@@ -57,7 +57,8 @@ private:
     std::map<std::string, double> min_ns_;
 };
 
-// Returns what the times say about the limits of the step in full dynamics, or "" if a benchmark did not run.
+// Returns a text on what limits the speed of full dynamics: arithmetic, memory, or work per step and lane. Returns an
+// empty text if one of the benchmarks did not run.
 std::string limits_text(const TableReporter& table) {
     const std::optional<double> small = table.min_ns(kBatch, 16);
     const std::optional<double> batch = table.min_ns(kBatch, 160);
@@ -127,7 +128,7 @@ std::string network_limits_text(const TableReporter& table) {
     return text;
 }
 
-// Throws InputError for an option that Google Benchmark does not know. Google Benchmark itself would end the program.
+// Throws InputError for an option that does not begin with --benchmark_. Google Benchmark itself would end the program.
 void check_flags(const std::vector<std::string>& flags) {
     for (const std::string& flag : flags) {
         if (!flag.starts_with("--benchmark_")) throw InputError(fmt::format("unknown option '{}'; see --help", flag));
@@ -162,7 +163,7 @@ ExitCode run(std::vector<std::string> flags) {
 int benchmark_main(int argc, const char* const* argv) {
     return run_program("stopline-benchmark", [&] {
         Options app("Measures the time per vehicle update in both fidelities and explains what limits it.",
-                     "stopline-benchmark");
+                    "stopline-benchmark");
         app.footer(runnable(kFooter) + kExitCodesText);
         const std::vector<std::string>& others = app.accept_others();
         const std::optional<ExitCode> end = app.parse(argc, argv);

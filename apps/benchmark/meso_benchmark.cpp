@@ -22,15 +22,15 @@ namespace stopline {
 
 namespace {
 
-constexpr int kPasses = 1600;      // passes over all followers in one iteration
-constexpr int kSteps = 1000;       // steps of the intersection, 100 s, about two cycles
-constexpr double kWarmUp_s = 100;  // by then all legs are full
+constexpr int kPasses = 1600;      // number of passes over all followers in one iteration
+constexpr int kSteps = 1000;       // number of measured steps: 100 s, about two signal cycles
+constexpr double kWarmUp_s = 100;  // by then vehicles fill all legs of the intersection
 
 Model intersection_model() {
     return build_model(load_scenario(data_directory() / "../scenarios/intersection.yaml", {"fidelity=meso"}), 0);
 }
 
-// A platoon whose step the benchmarks repeat.
+// A platoon of kFollowers vehicles. The benchmarks compute its step again and again.
 struct Platoon {
     explicit Platoon(const Model& model, const MesoKernels& kernels) : step(meso_step(model, 0)) {
         v.grow(kSimdWidth + kFollowers);
@@ -79,7 +79,7 @@ void kernel_step(benchmark::State& state, bool scalar) {
     });
 }
 
-// Measures the car-following equation alone: the speeds of the next step from gaps and speeds of this step.
+// Measures the car-following equation alone: it computes the speeds of the next step from gaps and speeds of this step.
 void following(benchmark::State& state, bool scalar) {
     const Model model = intersection_model();
     const MesoKernels& kernels = meso_kernels(scalar);

@@ -24,9 +24,9 @@ namespace {
 
 constexpr double kWarmUp_s = 600.0;    // by then the grid is in steady state
 constexpr double kMeasured_s = 120.0;  // more than two signal cycles
-constexpr double kSignalCycle_s =
-    46.0;                            // large grids: all signals change together, so only whole cycles are comparable
-constexpr int kQueuedVehicles = 12;  // queued vehicles on each lane between two intersections
+constexpr int kQueuedVehicles = 12;    // queued vehicles on each lane between two intersections
+// Measured time of the large grids: one signal cycle. All signals change together, so only whole cycles are comparable.
+constexpr double kSignalCycle_s = 46.0;
 
 Scenario grid_scenario(int side) {
     return load_scenario(data_directory() / "../scenarios/grid.yaml",
@@ -57,7 +57,8 @@ void measure(benchmark::State& state, Simulation& simulation, double duration_s)
         state.SkipWithError("vehicles overlap, enter on red or are lost");
 }
 
-// A run that all repetitions of a benchmark continue, because filling the network takes longer than the measurement.
+// A simulation that all repetitions of a benchmark share and continue. Filling the network anew would take longer than
+// the measurement.
 struct KeptRun {
     std::unique_ptr<Model> model;
     std::unique_ptr<Simulation> simulation;
@@ -65,7 +66,7 @@ struct KeptRun {
 };
 KeptRun& kept_run(const std::string& name) {
     static std::map<std::string, KeptRun> runs;
-    if (!runs.contains(name)) runs.clear();  // free the memory of the benchmark before
+    if (!runs.contains(name)) runs.clear();  // frees the memory of the previous benchmark
     return runs[name];
 }
 
@@ -79,7 +80,7 @@ void grid(benchmark::State& state, int population) {
     measure(state, *run.simulation, kMeasured_s);
 }
 
-// Returns a grid with queues on all roads, as in a saturated network.
+// Returns the model of a grid that starts with queues on all roads, as in a saturated network.
 Model queued_model(int side) {
     Model model = network_model(grid_scenario(side), 0);
     model.demand.starts_queued = true;

@@ -40,8 +40,7 @@ void append_names(std::string& text, const std::string& heading, const std::stri
 }  // namespace
 
 void add_common_options(Options& app, CommonOptions& options, const std::string& output_help) {
-    app.add("--threads", options.threads,
-                   "Number of threads (default: all processors). Results do not depend on it")
+    app.add("--threads", options.threads, "Number of threads (default: all processors). Results do not depend on it")
         .range(1, 1024)
         .type_name("N");
     app.add("--seed", options.seed, "Seed of all random numbers (default: the scenario's)").type_name("S");
@@ -50,8 +49,8 @@ void add_common_options(Options& app, CommonOptions& options, const std::string&
 
 void add_set_option(Options& app, CommonOptions& options) {
     app.add("--set", options.settings,
-                   runnable("Set a field of the scenario, such as 'signal.green=20 s' (repeatable). "
-                            "stopline-run --describe lists all fields"))
+            runnable("Set a field of the scenario, such as 'signal.green=20 s' (repeatable). "
+                     "stopline-run --describe lists all fields"))
         .type_name("PATH=VALUE")
         .one_value_each();
 }

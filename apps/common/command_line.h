@@ -7,14 +7,13 @@
 #include <string>
 #include <vector>
 
-
 #include "common/options.h"
 #include "scenario/scenario.h"
 
 namespace stopline {
 
 struct CommonOptions {
-    int threads = 0;  // 0: all processors
+    int threads = 0;  // number of threads; 0: one per processor
     std::optional<std::uint64_t> seed;
     std::string output;
 
@@ -27,10 +26,11 @@ void add_common_options(Options& app, CommonOptions& options, const std::string&
 // Adds --set, which can be repeated.
 void add_set_option(Options& app, CommonOptions& options);
 
-// Prints each warning once per program run on standard error, with "warning: " before it.
+// Prints warnings on standard error, with "warning: " before each. Skips warnings that it has printed before.
 void print_warnings(const std::vector<std::string>& warnings);
 
-// Loads the scenario, applies --set and --seed, and prints the warnings of loading. Throws InputError.
+// Loads the scenario, applies --set and --seed, and prints the warnings of loading. Throws InputError if the scenario
+// is invalid.
 Scenario load_with_options(const std::string& file, const CommonOptions& options);
 
 // Adds the setting fidelity=meso. Warns on standard error if --set asks for another fidelity.
@@ -39,11 +39,11 @@ void set_mesoscale(const char* program, CommonOptions& options);
 // Returns `text` quoted for a shell.
 std::string shell_word(const std::string& text);
 
-// Returns the command that reproduces the results. It omits --threads and --output, which do not affect them.
+// Returns the command that reproduces the results. It omits --threads and --output, which do not affect the results.
 std::string command_text(const std::string& program, const std::string& file, const CommonOptions& options);
 
-// Returns the names that a scenario can use: policies, spacing laws, vehicles, drivers and streets.
-// If `file` is not empty, its policies and populations are listed as well.
+// Returns a list of names for scenario files: policies, spacing laws, vehicles, drivers and streets. If `file` is not
+// empty, the list shows the policies and populations of that scenario.
 std::string list_text(const std::string& file, const CommonOptions& options);
 
 }  // namespace stopline

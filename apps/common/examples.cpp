@@ -13,7 +13,7 @@ namespace stopline {
 
 namespace {
 
-// Characters that end a word of an example. Quotes and brackets are among them.
+// Characters that separate the words of an example.
 constexpr std::string_view kSeparators = " \n'\"(),;:";
 
 bool is_program(const std::string& word) {
@@ -25,7 +25,7 @@ bool is_program(const std::string& word) {
 
 bool is_shipped_scenario(const std::string& word) { return word.starts_with("scenarios/") && word.ends_with(".yaml"); }
 
-// Returns the absolute path of a shipped scenario that is not below the current folder.
+// Returns the word if this file exists below the current folder, else the absolute path of the shipped scenario.
 std::string scenario_path(const std::string& word) {
     std::error_code ignored;
     if (std::filesystem::exists(word, ignored)) return word;

@@ -17,7 +17,7 @@ std::string number(double value, int decimals) {
 // Returns the share of one cause in the delay of all causes, in percent.
 std::string share_text(const DelayLog& log, DelayCause cause) {
     double total_s = 0.0;
-    for (std::size_t k = 1; k < kDelayCauseNames.size(); ++k) total_s += log.delay_s[k];  // 0 is DelayCause::none
+    for (std::size_t k = 1; k < kDelayCauseNames.size(); ++k) total_s += log.delay_s[k];  // cause 0 is DelayCause::none
     const double delay_s = log.delay_s[static_cast<std::size_t>(cause)];
     return number(total_s > 0.0 ? 100.0 * delay_s / total_s : 0.0, 1);
 }
@@ -60,7 +60,7 @@ std::string breakdown_text(const NetworkResult& f) {
     return "";
 }
 
-// Returns warnings about results that need care: unusual travel times, and runs too short to judge stability.
+// Returns warnings about biased travel times, and about runs too short to detect a drop of throughput.
 std::string warnings_text(const NetworkReport& report) {
     constexpr int kMinCycles = static_cast<int>(kMinCollapseValues);
     std::string text;
@@ -100,7 +100,7 @@ std::string first_violation_text(const NetworkResult& f, const std::vector<std::
         f.population, first.time_s, what, first.time_s, first.vehicle);
 }
 
-// Returns the table of the traffic in the measured area.
+// Returns the table of throughput, travel time, density and stability.
 std::string traffic_text(const NetworkReport& report) {
     TextTable table;
     table.add_row({"", "throughput", "gain", "travel time", "time saved", "density", "vehicles", "stability"});
@@ -116,7 +116,7 @@ std::string traffic_text(const NetworkReport& report) {
     return table.text();
 }
 
-// Returns the table of delay causes, gridlocks and uses of the rules.
+// Returns the table of delay causes, gridlocks, teleported vehicles and passed blockers.
 std::string congestion_text(const NetworkReport& report) {
     TextTable table;
     table.add_row({"", "junction", "turn", "", "", "wrong", "|", "", "", "passed"});

@@ -1,7 +1,7 @@
 #include "common/options.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "base/version.h"
 #include "common/examples.h"
@@ -11,7 +11,7 @@ namespace stopline {
 
 namespace {
 
-// CLI11 accepts -1 and too large numbers for an unsigned integer, so seeds are read as text.
+// Parses a seed. CLI11 would accept -1 and too large numbers, so the program reads the seed as text.
 std::uint64_t parse_seed(const std::string& names, const std::string& text) {
     const ParsedWhole seed = parse_whole(text);
     if (!seed.problem.empty()) {

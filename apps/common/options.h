@@ -1,4 +1,4 @@
-// Command-line options of a program. CLI11 parses them; it is hidden here because it compiles slowly.
+// Command-line options of a program. This header hides CLI11, which parses them, because CLI11 compiles slowly.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ class Option;
 
 namespace stopline {
 
-// An option that has been added, to set its details. Each function returns the option itself.
+// Handle to one option, to set its details. Each function returns the handle itself.
 class Option {
 public:
     explicit Option(CLI::Option* option) : option_(option) {}
@@ -24,20 +24,21 @@ public:
     Option& required();
     // Sets the placeholder of the value in the help text, such as FILE.
     Option& type_name(const std::string& name);
-    // Accepts whole numbers from `low` to `high` only.
+    // Accepts only whole numbers from `low` to `high`.
     Option& range(int low, int high);
-    // Accepts these texts only.
+    // Accepts only the given texts as value.
     Option& one_of(const std::vector<std::string>& texts);
-    // Takes one value each time the option is given.
+    // Takes exactly one value each time the user gives the option.
     Option& one_value_each();
-    // Shows the present value as default in the help text.
+    // Shows the initial value of the variable as default in the help text.
     Option& show_default();
 
 private:
     CLI::Option* option_;
 };
 
-// The options of a program or of one of its subcommands. Variables must outlive the object; parsing fills them.
+// The options of a program or of one of its subcommands. Parsing stores values in the variables passed to add(), which
+// must outlive this object.
 class Options {
 public:
     // Makes the options of a program, with --help and --version.
@@ -46,26 +47,27 @@ public:
     Options(const Options&) = delete;
     Options& operator=(const Options&) = delete;
 
-    // Adds an option or a positional argument, as CLI11 names them: "--output", "FILE", "-n,--name".
+    // Adds an option or a positional argument. `names` follows CLI11: "--output", "FILE", "-n,--name".
     Option add(const std::string& names, std::string& value, const std::string& help);
     Option add(const std::string& names, int& value, const std::string& help);
     Option add(const std::string& names, std::optional<std::uint64_t>& value, const std::string& help);
     Option add(const std::string& names, std::vector<std::string>& values, const std::string& help);
-    // Adds an option that is true if it is given.
+    // Adds an option without a value. `value` becomes true if the user gives the option.
     Option add_flag(const std::string& names, bool& value, const std::string& help);
 
-    // Adds a subcommand. The object belongs to this one.
+    // Adds a subcommand and returns its options, which this object owns.
     Options& add_subcommand(const std::string& name, const std::string& help);
     // Returns true if the command line named this subcommand.
     bool parsed() const;
 
-    // Accepts options that are not known here. The returned list holds them after parsing.
+    // Accepts options that have not been added. parse() stores them in the returned list.
     const std::vector<std::string>& accept_others();
 
-    // Sets the text below the options in the help.
+    // Sets the text below the options in the help text.
     void footer(const std::string& text);
 
-    // Parses the command line. Returns an exit code if the program must end now: after --help, --version or wrong usage.
+    // Parses the command line. Returns an exit code if the program must end now: after --help, --version or a wrong
+    // command line.
     std::optional<ExitCode> parse(int argc, const char* const* argv);
 
 private:

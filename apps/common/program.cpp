@@ -15,7 +15,7 @@ namespace stopline {
 
 namespace {
 
-// Globals, because a signal handler can access nothing else.
+// These variables are global, because a signal handler can access nothing else.
 volatile std::sig_atomic_t interrupt_received = 0;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 volatile std::sig_atomic_t interrupt_time_s = 0;    // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 
@@ -25,8 +25,8 @@ std::sig_atomic_t monotonic_time_s() {
     return static_cast<std::sig_atomic_t>(now.tv_sec);
 }
 
-// The first Ctrl-C asks the program to stop; another one kills it. Wrappers such as timeout(1) send each interrupt
-// twice, so a repetition within two seconds is ignored.
+// The first Ctrl-C asks the program to stop, the next one kills it. Wrappers such as timeout(1) send each interrupt
+// twice, so the handler ignores a repetition within about two seconds.
 extern "C" void on_interrupt(int signal) {
     const std::sig_atomic_t now = monotonic_time_s();
     if (interrupt_received == 0) {
@@ -48,7 +48,7 @@ ExitCode run_guarded(const std::string& name, const std::function<ExitCode()>& b
     try {
         return body();
     } catch (const InputError& error) {
-        // Child processes such as gnuplot get the same Ctrl-C. Their failure is not an error of the user.
+        // Child processes such as gnuplot receive the same Ctrl-C and fail. This is no error of the input.
         if (interrupted()) return report_interrupt(name);
         fmt::print(stderr, "{}: {}\n", name, error.what());
         return ExitCode::bad_input;
@@ -57,7 +57,7 @@ ExitCode run_guarded(const std::string& name, const std::function<ExitCode()>& b
     } catch (const std::bad_alloc&) {
         fmt::print(stderr, "{}: out of memory; try fewer threads (--threads) or a shorter run\n", name);
     } catch (const std::system_error& error) {
-        if (std::ferror(stdout) != 0) return ExitCode::bad_input;  // run_program prints the message
+        if (std::ferror(stdout) != 0) return ExitCode::bad_input;  // run_program() reports the failed output
         fmt::print(stderr, "{}: internal error (a bug in this program): {}\n", name, error.what());
     } catch (const std::exception& error) {
         fmt::print(stderr, "{}: internal error (a bug in this program): {}\n", name, error.what());
@@ -69,7 +69,7 @@ ExitCode run_guarded(const std::string& name, const std::function<ExitCode()>& b
 
 int run_program(const std::string& name, const std::function<ExitCode()>& body) {
     std::signal(SIGINT, on_interrupt);
-    std::signal(SIGXFSZ, SIG_IGN);  // exceeding a file size limit is an error of the write, not a crash
+    std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the file size limit then fails instead of killing the program
     const ExitCode code = run_guarded(name, body);
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
         fmt::print(stderr, "{}: cannot write to standard output\n", name);

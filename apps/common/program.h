@@ -1,4 +1,4 @@
-// The frame of every program: exit codes, Ctrl-C, and the one place that turns exceptions into messages.
+// The common frame of all programs: exit codes, Ctrl-C, and messages for exceptions.
 #pragma once
 
 #include <functional>
@@ -19,14 +19,14 @@ enum class ExitCode : int {
 inline constexpr const char* kExitCodesText =
     "Exit codes: 0 done, 1 a check failed, 2 bad input or output that cannot be written, 130 interrupted.\n";
 
-// Runs `body` and returns the exit code of the program. Installs the handler of Ctrl-C first.
-// Prints each exception, and a failure to write standard output, as a message on standard error.
+// Installs the handler of Ctrl-C, runs `body` and returns the exit code of the program. Prints a message on standard
+// error for an exception from `body` and for a failure to write standard output.
 int run_program(const std::string& name, const std::function<ExitCode()>& body);
 
-// Returns true once the user has pressed Ctrl-C. Long work polls it.
+// Returns true once the user has pressed Ctrl-C. Long-running code must poll this function.
 bool interrupted();
 
-// Returns `requested`, or the number of processors if that is 0.
+// Returns `requested`, or the default of OpenMP (all processors) if `requested` is 0.
 int thread_count(int requested);
 
 }  // namespace stopline

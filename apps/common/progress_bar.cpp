@@ -35,7 +35,7 @@ bool ProgressBar::update(double share) { return update(share, label_, std::nullo
 
 bool ProgressBar::update(double share, const std::string& label, std::optional<double> remaining_s) {
     const Clock::time_point now = Clock::now();
-    // A large drop of the share means that a new task has begun: its remaining time is estimated afresh.
+    // A large drop of the share means that a new task has begun, so the estimate of the remaining time starts anew.
     constexpr double kNewTaskDrop = 0.5;
     if (share < last_share_ - kNewTaskDrop) begin_ = now;
     last_share_ = share;

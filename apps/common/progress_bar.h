@@ -1,5 +1,5 @@
-// Progress of long work on standard error, with share and remaining time. On a terminal it is one line that is redrawn;
-// otherwise a plain line appears every ten seconds. Work of less than two seconds shows nothing.
+// Shows the progress of long work on standard error: the share done and the remaining time. On a terminal, one line is
+// redrawn. Otherwise a new line is printed every ten seconds. Nothing is shown in the first two seconds.
 #pragma once
 
 #include <chrono>
@@ -17,12 +17,12 @@ public:
     ProgressBar& operator=(ProgressBar&&) = delete;
     ~ProgressBar();  // clears the line
 
-    // Shows the share done (0..1). Returns false after Ctrl-C, as the on_progress callbacks require.
-    // Only one thread at a time may call it.
+    // Shows the share of the work that is done, 0 .. 1. Returns false after Ctrl-C, which tells the caller to stop.
+    // Only one thread at a time may call this function.
     bool update(double share);
-    // The same with another label. `remaining_s` replaces the estimate from the share.
+    // Does the same with another label. If `remaining_s` is given, it replaces the estimate of the remaining time.
     bool update(double share, const std::string& label, std::optional<double> remaining_s);
-    // Removes the line so that other text can be printed. The next update draws it again.
+    // Removes the line so that other text can be printed. The next update() draws the line again.
     void clear();
 
 private:
@@ -36,12 +36,13 @@ private:
     bool on_screen_ = false;
 };
 
-// Returns "label [#####.....]  42 %, 12 s left". The remaining time is estimated from share and elapsed time.
+// Returns a text such as "label [#####.....]  42 %, 12 s left". The remaining time is estimated from share and elapsed
+// time.
 std::string progress_text(const std::string& label, double share, double elapsed_s);
-// Returns the same text for a known remaining time.
+// Returns a text of the same form for a known remaining time.
 std::string progress_text_with_remaining(const std::string& label, double share, double remaining_s);
 
-// Returns "8 s", "2 min 05 s" or "1 h 02 min".
+// Returns a duration as text, such as "8 s", "2 min 05 s" or "1 h 02 min".
 std::string duration_text(double seconds);
 
 }  // namespace stopline

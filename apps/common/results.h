@@ -1,4 +1,4 @@
-// Helpers of programs that store results or draw figures.
+// Helpers for programs that store results or draw figures.
 #pragma once
 
 #include <filesystem>
@@ -9,11 +9,13 @@
 
 namespace stopline {
 
-// Returns program_identity(). Throws InputError if the program cannot read its own file.
+// Returns program_identity(), a hash of this program that is stored with its runs. Throws InputError if the program
+// cannot read its own file.
 std::string required_program_identity();
 
-// Draws the figures as SVG and PNG into `folder` and prints their names. Prints why a figure is left out.
-// A figure that fails does not stop the others: the first error is thrown at the end. Throws Interrupted after Ctrl-C.
+// Draws the figures as SVG and PNG into `folder` and prints their names. If there is nothing to draw, prints the
+// reason. If a figure fails, the others are still drawn and the first error is thrown at the end. Throws Interrupted
+// after Ctrl-C.
 void draw_figures(const std::vector<Figure>& figures, const std::filesystem::path& folder);
 
 }  // namespace stopline

@@ -1,4 +1,4 @@
-// Result tables of a single light for the terminal.
+// Result tables of runs with a single signal, for the terminal.
 #pragma once
 
 #include <string>
@@ -7,10 +7,15 @@
 
 namespace stopline {
 
-std::string counts_text(const SingleLightReport& result);    // vehicles passed and improvement, per green time
-std::string ideal_text(const SingleLightReport& result);     // the same for ideal platoons, and mean improvements
-std::string headways_text(const SingleLightReport& result);  // gaps and headways in steady state, and at the stop line
-std::string queue_text(const SingleLightReport& result);     // populations with an open queue; empty if there are none
-std::string violations_text(const SingleLightReport& result);  // a table, or one line if there are none
+// Returns the vehicles past the stop line and the improvement over the baseline, for each green time.
+std::string counts_text(const SingleLightReport& result);
+// Returns the vehicle counts of ideal platoons for each green time, and mean improvements.
+std::string ideal_text(const SingleLightReport& result);
+// Returns gaps and headways in steady state, and headways and speeds at the stop line.
+std::string headways_text(const SingleLightReport& result);
+// Returns a list of populations whose queue has not closed up at the start of green; empty if there are none.
+std::string queue_text(const SingleLightReport& result);
+// Returns a table of the violations, or one line if there are none.
+std::string violations_text(const SingleLightReport& result);
 
 }  // namespace stopline

@@ -9,7 +9,7 @@ namespace stopline {
 
 class TextTable {
 public:
-    // `alignment` has one letter per column, l (left) or r (right). Its last letter is for all further columns.
+    // `alignment` has one letter per column, l (left) or r (right). The last letter applies to all further columns.
     explicit TextTable(std::string alignment = "lr") : alignment_(std::move(alignment)) {}
 
     void add_row(std::vector<std::string> cells);
@@ -21,8 +21,8 @@ private:
     std::vector<std::vector<std::string>> rows_;
 };
 
-// Returns `text` broken at spaces into lines of at most `width` characters.
-// `indent` spaces begin each line but the first.
+// Returns `text` broken at spaces into lines of at most `width` characters. Each line except the first begins with
+// `indent` spaces.
 std::string wrap_text(const std::string& text, std::size_t width, std::size_t indent);
 
 // Returns the number of characters, not bytes, of UTF-8 text.

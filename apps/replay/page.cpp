@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::size_t kMaxBytes = 400'000'000;  // below the limit of about 500 MB for strings in browsers
 
-// Counts vehicles and stop-line passages from the first frame of the recording.
+// Counts vehicles and passages of stop lines, from the first frame of the recording on.
 class VehicleCounter {
 public:
     explicit VehicleCounter(const RecordedRun& run) : run_(run) {}
@@ -45,7 +45,8 @@ public:
     }
 
     std::uint32_t present() const { return present_; }
-    // Appends the vehicles in the network and the totals of entries, exits and passages, 32 bits each.
+    // Appends four numbers of 32 bits to `series`: vehicles in the network, and the totals of entries, exits and
+    // passages.
     void append_to(std::string& series) const {
         put_number(series, present_);
         for (const std::int64_t count : {entered_, exited_, passages_}) {
@@ -58,7 +59,7 @@ private:
         int lane;
         int position;
     };
-    // Returns true if a vehicle passed the stop line of its lane from one frame to the next.
+    // Returns true if a vehicle passed the stop line of its lane between two successive frames.
     bool passes(const Position& before, const Position& now) const {
         const RecordedRun::RecordedLane& lane = run_.lanes[static_cast<std::size_t>(before.lane)];
         if (lane.signal_group < 0) return false;
@@ -69,7 +70,7 @@ private:
     }
 
     const RecordedRun& run_;
-    std::unordered_map<int, Position> last_positions_;  // [vehicle] in the frame before
+    std::unordered_map<int, Position> last_positions_;  // [vehicle] position in the previous frame
     std::uint32_t present_ = 0;
     std::int64_t entered_ = 0;
     std::int64_t exited_ = 0;
@@ -80,8 +81,8 @@ std::string data_element(const std::string& id, std::string_view bytes) {
     return fmt::format("<script type=\"text/plain\" id=\"{}\">{}</script>\n", id, encode_base64(compress_zlib(bytes)));
 }
 
-// Replaces `@NAME@` in the template by the text of that name, in the given order. Names inside the texts are not
-// replaced.
+// Replaces each placeholder `@NAME@` in the template with the text of that name. The placeholders must be in the order
+// of `texts`. Placeholders inside the texts are not replaced.
 std::string fill_template(std::string_view text_template,
                           const std::vector<std::pair<std::string, std::string_view>>& texts) {
     std::string page;

@@ -1,5 +1,5 @@
-// Builds one HTML page from a recording. The page contains the files of apps/replay/page and sections of the
-// recording, and needs no network.
+// Builds one HTML page from a recording. The page contains the files of apps/replay/page and the recorded data, and
+// needs no network connection.
 #pragma once
 
 #include <cstdint>
@@ -25,9 +25,10 @@ struct ReplayPage {
     std::uint32_t max_present = 0;  // maximum number of vehicles in the network
 };
 
-// Reads the whole recording and checks every frame. The page gets all sections that have a frame within the window.
-// `on_frames` gets the number of frames read and returns false to stop; then the function throws Interrupted. Throws
-// InputError if the recording is damaged or the page would be too large for a browser.
+// Reads the whole recording and checks every frame. A recording consists of sections of up to 128 frames. The page gets
+// all sections that have a frame within the window. `on_frames` gets the number of frames read. If it returns false,
+// the function throws Interrupted. Throws InputError if the recording is damaged or the page would be too large for a
+// browser.
 ReplayPage make_replay_page(RecordingReader& reader, const ReplayWindow& window,
                             const std::function<bool(std::int64_t)>& on_frames);
 

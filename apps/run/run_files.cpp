@@ -24,8 +24,8 @@ double parse_time_s(const char* option, const std::string& text) {
     return time.si;
 }
 
-// Parses an interval, which must be a whole number of simulation steps. If no file uses the interval (`is_used` false),
-// that is not checked, because the default interval does not fit every step.
+// Parses an interval, which must be a whole number of simulation steps. If no file uses the interval (`is_used` is
+// false), this is not checked, because the default interval is not a multiple of every step length.
 double parse_interval_s(const char* option, const std::string& text, const Scenario& scenario, bool is_used) {
     const double time_s = parse_time_s(option, text);
     if (!is_used) return time_s;
@@ -54,7 +54,7 @@ RecordingWindow window_of(const RunFilesOptions& options, const Scenario& scenar
     return window;
 }
 
-// Returns the path of one population's file: NAME.ext, or NAME.POPULATION.ext if there are several populations.
+// Returns the path of a population's file: NAME.ext, or NAME.POPULATION.ext if there are several populations.
 std::filesystem::path population_file(const std::filesystem::path& file, const Scenario& scenario,
                                       std::size_t population) {
     if (scenario.populations.size() == 1) return file;
@@ -63,7 +63,7 @@ std::filesystem::path population_file(const std::filesystem::path& file, const S
     return file.parent_path() / name;
 }
 
-// Makes the folder of `file` before the runs, so that a wrong path is found at once.
+// Creates the folder of `file`. This happens before the runs, so that the user learns of a wrong path at once.
 void prepare_folder_of(const std::string& file) {
     const std::filesystem::path path(file);
     if (path.filename().empty()) throw InputError(fmt::format("'{}' is a folder; add the name of a file to it", file));

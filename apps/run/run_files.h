@@ -1,5 +1,5 @@
-// Files that stopline-run writes while the simulation runs, one per population: recordings for stopline-replay,
-// tables for SUMO's tools, and trajectories of networks.
+// Files that stopline-run writes during the simulation: recordings for stopline-replay, output files in formats of
+// SUMO, and trajectories of networks. Each population gets a file of its own.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,6 @@
 #include <memory>
 #include <string>
 #include <vector>
-
 
 #include "common/options.h"
 #include "record/recording/frame_clock.h"
@@ -20,26 +19,27 @@
 namespace stopline {
 
 struct RunFilesOptions {
-    // Paths of the files. An empty path turns a file off.
+    // Paths of the files. If a path is empty, that file is not written.
     std::string record;
     std::string fcd;
     std::string tripinfo;
     std::string loops;
-    std::string trajectories;  // only of networks
-    // Times of --record and --fcd.
+    std::string trajectories;  // only for networks of several intersections
+    // Times of the frames in the files of --record and --fcd.
     std::string interval = "1 s";
     std::string from = "0 s";
-    std::string until;                   // empty: end of the run
-    std::string loop_interval = "60 s";  // of --e1
+    std::string until;                   // time of the last frame; empty: end of the run
+    std::string loop_interval = "60 s";  // counting interval of --e1
     double trajectory_interval_s = 0.1;
-    ColumnNames column_names = ColumnNames::current;  // of the trajectories
+    ColumnNames column_names = ColumnNames::current;  // column names in the trajectories
 };
 
 void add_run_files_options(Options& app, RunFilesOptions& options);
 
 class RunFiles {
 public:
-    // `command` reproduces the run. Throws InputError that names the wrong option.
+    // `command` is the command line of the run, which recordings store. Throws InputError that names an option with a
+    // wrong value.
     RunFiles(const RunFilesOptions& options, const Scenario& scenario, const std::string& command);
 
     // Returns the observer to pass to the runs. It must not outlive this object.
@@ -53,8 +53,8 @@ private:
         std::unique_ptr<RunWriter> writer;
     };
     struct FileKind {
-        std::string path;  // as the user gave it
-        // Creates the writer of one population's file.
+        std::string path;  // path from the command line
+        // Creates the writer for the file of one population.
         std::function<std::unique_ptr<RunWriter>(const std::filesystem::path&, std::size_t, const Model&)> make_writer;
     };
     void add_recording(const RunFilesOptions& options, const Scenario& scenario, const std::string& command);

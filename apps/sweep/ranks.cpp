@@ -26,8 +26,8 @@ namespace stopline {
 
 namespace {
 
-// Message types. A worker sends ready, alive (during a run), done, failed (this run), broken (no run can work) and bye.
-// Rank 0 sends run and stop.
+// Message types. A worker sends `ready`, then for each run `alive` (every second), `done` or `failed`, and at the end
+// `bye`. It sends `broken` if an exception makes all runs impossible. Rank 0 sends `run` with a point, or `stop`.
 enum Tag : int { ready, alive, done, failed, broken, bye, run, stop };
 
 using Clock = std::chrono::steady_clock;
@@ -66,16 +66,16 @@ bool has_message(int from, int tag) {
     return found != 0;
 }
 
-// Returns true if mpirun or srun started this program; both set environment variables. Otherwise MPI is not started:
-// starting it takes time, and aborts the program on machines where MPI is not set up.
+// Returns true if mpirun or srun started this program; both set environment variables. Otherwise the program must not
+// start MPI: this takes time, and it aborts the program on machines where MPI is not set up.
 bool started_by_launcher() {
     constexpr std::array kVariables{"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "PMI_SIZE"};
     return std::any_of(kVariables.begin(), kVariables.end(), [](const char* name) {
-        return std::getenv(name) != nullptr;  // NOLINT(concurrency-mt-unsafe): before any thread
+        return std::getenv(name) != nullptr;  // NOLINT(concurrency-mt-unsafe): no other thread exists yet
     });
 }
 
-// Rank 0: assigns points to the workers and stores their results.
+// Assigns points to the workers and stores their results. Exists on rank 0 only.
 class Server {
 public:
     Server(int ranks, const std::vector<std::size_t>& points, RunStore& store, std::function<bool(double)> on_progress,
@@ -85,7 +85,7 @@ public:
           silence_max_s_(silence_max_s),
           workers_(static_cast<std::size_t>(ranks)) {
         for (Worker& worker : workers_) worker.last_contact = Clock::now();
-        workers_.front().state = State::gone;  // rank 0 itself
+        workers_.front().state = State::gone;  // rank 0 is no worker
     }
 
     SweepSession serve() {
@@ -93,7 +93,7 @@ public:
             if (has_message(MPI_ANY_SOURCE, MPI_ANY_TAG)) {
                 handle_message(receive(MPI_ANY_SOURCE));
             } else {
-                // A blocking MPI call would spin on a processor that a worker could use.
+                // A blocking MPI call would keep a processor busy that a worker could use.
                 std::this_thread::sleep_for(std::chrono::milliseconds(1));
                 if (!recorder_.keep_going()) stopping_ = true;
                 detect_lost_workers();
@@ -110,12 +110,12 @@ public:
 
 private:
     enum class State {
-        starting,   // nothing received yet
-        waiting,    // expects a point
-        busy,       // runs its point
-        dismissed,  // was sent the stop message
-        gone,       // has said bye
-        lost        // was silent for too long
+        starting,   // has sent nothing yet
+        waiting,    // waits for a point
+        busy,       // executes the run of its point
+        dismissed,  // has been sent the stop message
+        gone,       // has sent the message bye
+        lost        // counts as dead, because it was silent for too long
     };
     struct Worker {
         State state = State::starting;
@@ -134,7 +134,7 @@ private:
         Worker& worker = workers_[static_cast<std::size_t>(message.rank)];
         worker.last_contact = Clock::now();
         if (message.tag == alive) return;
-        // A result of a lost worker is ignored: its point has been assigned to another one.
+        // The result of a lost worker is ignored, because its point has been assigned to another worker.
         const bool expected = worker.state == State::busy || worker.state == State::dismissed;
         worker.state = message.tag == bye ? State::gone : State::waiting;
         if (error_ || !expected || message.tag == ready || message.tag == bye) return;
@@ -148,7 +148,8 @@ private:
         stopping_ = stopping_ || error_ || recorder_.stopped();
     }
 
-    // Answers the waiting workers. Idle workers stay while others are busy, because a busy one may die.
+    // Sends points or the stop message to the workers. A worker without a point is kept waiting while others are busy,
+    // because a busy worker may die and its point must then be assigned again.
     void assign_points() {
         const bool finished = !points_left() && count(State::busy) == 0;
         for (std::size_t rank = 1; rank < workers_.size(); ++rank) {
@@ -192,12 +193,13 @@ private:
     double silence_max_s_;
     std::vector<Worker> workers_;          // [rank]
     std::size_t next_ = 0;                 // index into points_
-    std::vector<std::size_t> reassigned_;  // points of lost workers
+    std::vector<std::size_t> reassigned_;  // points of lost workers, to be assigned again
     bool stopping_ = false;
     std::exception_ptr error_;
 };
 
-// Called regularly during a worker's run. Sends sign-of-life messages to rank 0 and checks for its stop message.
+// Keeps in contact with rank 0 during a run of a worker. keep_going() must be called regularly. It sends the message
+// `alive` every second and returns false after the stop message of rank 0.
 class Heartbeat {
 public:
     bool keep_going() {
@@ -265,7 +267,8 @@ void Ranks::work(const Sweep& sweep) const {
     for (Message message = receive(0); message.tag == run; message = receive(0)) {
         try {
             const PointResult result = runner.run(message.point, [&heartbeat] { return heartbeat.keep_going(); });
-            if (result.state == PointResult::State::interrupted) continue;  // the next message is the stop of rank 0
+            // The next message is the stop message of rank 0.
+            if (result.state == PointResult::State::interrupted) continue;
             send(0, result.state == PointResult::State::done ? done : failed, message.point, result.text);
         } catch (const std::exception& error) {
             send(0, broken, message.point, error.what());

@@ -1,9 +1,11 @@
-// A sweep over the ranks of `mpirun -n R stopline-sweep FILE`. Rank 0 owns the store and assigns points one at a time;
-// the other ranks, the workers, run them. Without MPI or mpirun there is one rank.
+// Distributes the runs of a sweep over the ranks of `mpirun -n R stopline-sweep FILE`. A point is the number of one
+// run. Rank 0 owns the store of results and assigns points to the other ranks, the workers, one at a time. Without MPI
+// or mpirun there is one rank.
 //
-// Rank 0 runs no point itself, because workers would have to wait for its answers. If a worker dies, plain mpirun ends
-// the job; finished runs are stored and the same command continues. Under `mpirun --enable-recovery` the other workers
-// go on: a worker that is silent for too long counts as dead, and its point is assigned again.
+// Rank 0 executes no run itself, because workers would have to wait for its answers. If a worker dies, plain mpirun
+// ends the job. Finished runs are stored, and the same command continues with the missing ones. Under `mpirun
+// --enable-recovery` the other workers go on. Rank 0 then counts a worker as dead if it sends no message for too long,
+// and assigns the point of this worker again.
 #pragma once
 
 #include <cstddef>
@@ -27,19 +29,22 @@ public:
     int rank() const { return rank_; }
     int count() const { return count_; }
 
-    // Compares `key` over all ranks. An empty key means that this rank has met an error. Returns true if all keys are
-    // equal and not empty. Otherwise rank 0 throws InputError, unless its own key is empty.
+    // Compares `key` over all ranks, which must all call this function. A rank passes an empty key if it has met an
+    // error. Returns true if all keys are equal and not empty. Otherwise rank 0 throws InputError, unless its own key
+    // is empty.
     bool agree_on(const std::string& key) const;
 
-    // On rank 0: does what run_points does, through the workers.
+    // Must be called on rank 0. Lets the workers run the points and stores their results, as run_points() does without
+    // ranks. A worker counts as dead after `silence_max_s` without a message.
     SweepSession serve(const std::vector<std::size_t>& points, RunStore& store,
                        const std::function<bool(double)>& on_progress, double silence_max_s);
-    // On a worker: runs the points that rank 0 assigns, until its stop message.
+    // Must be called on a worker. Runs the points that rank 0 assigns, until rank 0 sends the stop message.
     void work(const Sweep& sweep) const;
 
     // Returns the number of workers that have died.
     int lost() const { return lost_; }
-    // Ends the program if workers have died, because MPI cannot shut down in order without them. Call it last.
+    // Ends the program if workers have died, because MPI cannot shut down normally without them. This must be the last
+    // call.
     void leave(int exit_code) const;
 
 private:

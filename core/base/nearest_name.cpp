@@ -7,12 +7,12 @@ namespace stopline {
 namespace {
 
 constexpr std::size_t kMaxShownCharacters = 60;
-constexpr std::size_t kMaxComparedCharacters = 100;  // a longer text is not a misspelt name
+constexpr std::size_t kMaxComparedCharacters = 100;  // a longer text is not compared: it is no misspelt name
 
 char lower(char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); }
 
-// Returns the optimal string alignment distance, computed row by row: the number of edits that turn `a` into `b`. An
-// edit inserts, deletes or replaces one character, or swaps two neighbours.
+// Returns the smallest number of edits that turn `a` into `b`, ignoring case (optimal string alignment distance). An
+// edit inserts, deletes or replaces one character, or swaps two adjacent characters.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> before_last(b.size() + 1);
     std::vector<std::size_t> last(b.size() + 1);
@@ -75,7 +75,7 @@ std::string shortened(std::string_view text) {
         shown += byte < 0x20 || byte == 0x7F ? ' ' : c;
     }
     if (text.size() <= kMaxShownCharacters) return shown;
-    // Do not cut within a UTF-8 sequence.
+    // Remove the rest of a UTF-8 character that the limit has cut in two.
     while (!shown.empty() && (static_cast<unsigned char>(text[shown.size()]) & 0xC0u) == 0x80u) shown.pop_back();
     return shown + "...";
 }

@@ -1,10 +1,10 @@
-// Counter-based random numbers, keyed by (seed, vehicle, tick, purpose). A number depends on its key alone and not on
-// the thread count, the spacing policy or the order of the calls. Two policies can be compared on common random
-// numbers.
+// Counter-based random numbers. A number is a function of its key (seed, vehicle, tick, purpose) alone. The thread
+// count, the spacing policy and the order of the calls do not change it. So two spacing policies can be compared with
+// the same random numbers.
 //
-// The mixer is the 64-bit finaliser of SplitMix64 (Steele, Lea, Flood 2014, "Fast splittable pseudorandom number
-// generators"), applied once per key word. It uses integer arithmetic only, so it vectorises and gives the same bits on
-// every machine.
+// The function is the 64-bit finaliser of SplitMix64 (Steele, Lea, Flood 2014, "Fast splittable pseudorandom number
+// generators"), applied once for each part of the key. It uses integer arithmetic only, so compilers can vectorise it
+// and it gives the same bits on every machine.
 #pragma once
 
 #include <bit>
@@ -12,10 +12,10 @@
 
 namespace stopline {
 
-// The purpose of a random number. The values enter the key: append new purposes, never renumber.
+// The purpose of a random number. Its value is part of the key, so append new purposes and never renumber old ones.
 enum class Purpose : std::uint64_t { policy = 1, turn = 2, dawdle = 3, insertion = 4, vehicle_type = 5, fit_start = 6 };
 
-// The SplitMix64 finaliser. `Words` is std::uint64_t or a vector of std::uint64_t.
+// Returns the SplitMix64 finaliser of z. `Words` is std::uint64_t or a vector of std::uint64_t.
 template <class Words>
 [[gnu::always_inline]] constexpr Words mix_bits(Words z) {
     z += std::uint64_t{0x9e3779b97f4a7c15};
@@ -25,7 +25,7 @@ template <class Words>
 }
 constexpr std::uint64_t mix64(std::uint64_t z) { return mix_bits(z); }
 
-// Returns 64 random bits.
+// Returns the 64 random bits that belong to a key.
 constexpr std::uint64_t random_bits(std::uint64_t seed, std::uint64_t vehicle, std::uint64_t tick, Purpose purpose) {
     return mix64(mix64(mix64(seed ^ (static_cast<std::uint64_t>(purpose) << 56)) ^ vehicle) ^ tick);
 }
@@ -35,12 +35,13 @@ constexpr double random_uniform(std::uint64_t seed, std::uint64_t vehicle, std::
     return static_cast<double>(random_bits(seed, vehicle, tick, purpose) >> 11) * 0x1.0p-53;
 }
 
-// Random numbers for dawdling. The part of the key that all vehicles share is computed once, by dawdle_key(). The
-// numbers have 52 random bits, because every instruction set can vectorise this conversion.
+// The next functions make the random numbers for dawdling in Krauss's model. dawdle_key() computes the part of the key
+// that all vehicles share. The numbers have 52 random bits, because every instruction set can vectorise the conversion
+// of 52 bits to a double.
 constexpr std::uint64_t dawdle_key(std::uint64_t seed) {
     return mix64(seed ^ (static_cast<std::uint64_t>(Purpose::dawdle) << 56));
 }
-// Returns the bit pattern of a double in [1, 2).
+// Returns the bit pattern of a uniform number in [1, 2), a double.
 template <class Words>
 [[gnu::always_inline]] constexpr Words dawdle_bits(std::uint64_t key, Words vehicle, std::uint64_t tick) {
     return std::uint64_t{0x3ff0000000000000} | (mix_bits(mix_bits(key ^ vehicle) ^ tick) >> 12);

@@ -1,4 +1,4 @@
-// A 64-bit hash over the bits of a simulation's state. Two runs with identical states have equal hashes.
+// A 64-bit hash of the state of a simulation. Two runs whose states are equal to the last bit have equal hashes.
 #pragma once
 
 #include <bit>

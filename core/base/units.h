@@ -1,5 +1,5 @@
-// Unit conversions and physical constants. Inside Stopline every quantity is in SI units. Scenario files, tables and
-// figures also use other units, which are converted once, on reading or writing.
+// Unit conversions and physical constants. Inside Stopline every quantity is in SI units. Quantities in other units
+// occur in scenario files, tables and figures. They are converted on reading or writing.
 #pragma once
 
 namespace stopline {

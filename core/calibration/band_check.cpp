@@ -16,7 +16,7 @@ namespace stopline {
 
 namespace {
 
-// Returns one result column, indexed by sweep point. A run without this result gives NaN.
+// Returns one result column, in the order of the runs in the sweep. The value is NaN if a run lacks this result.
 std::vector<double> column_of(const RunStore& store, const std::string& column, std::size_t points) {
     std::vector<double> values(points, std::nan(""));
     store.for_each_run([&](std::size_t point, const std::string& result) {
@@ -30,7 +30,8 @@ const Interval& interval_of(const BandPoint& point, Band band) {
     return band == Band::paper ? point.paper : point.student;
 }
 
-// Allows for rounding: if all runs agree, the band has no width, and a rounded mean must still count as inside.
+// Returns true if the mean of the mesoscale mode lies in the band. If all runs of full dynamics agree, the band has no
+// width, so a tolerance allows for rounding.
 bool inside(const BandPoint& point, Band band) {
     const double rounding = 1e-9 * std::max(1.0, std::abs(point.full_mean));
     const Interval& interval = interval_of(point, band);

@@ -1,5 +1,6 @@
-// Step II of the calibration (Section V.B). It checks for each permutation if the mean of the mesoscale mode lies in
-// the confidence band of full dynamics. Both fidelities run the same sweep with the same seeds.
+// Step II of the calibration (Section V.B). It checks for each permutation (combination of axis values) if the mean of
+// the mesoscale mode lies in the confidence band of full dynamics. Both fidelities run the same sweep with the same
+// seeds.
 #pragma once
 
 #include <string>
@@ -11,13 +12,13 @@
 
 namespace stopline {
 
-// One metric in one permutation, means over all seeds.
+// One metric in one permutation. Means and confidence bands are over all seeds.
 struct BandPoint {
     std::string permutation;  // axis values as text
     double full_mean = 0.0;
     double meso_mean = 0.0;
-    Interval paper;
-    Interval student;
+    Interval paper;    // band of full dynamics, by the formula of the paper
+    Interval student;  // band of full dynamics, by Student's distribution
 };
 
 struct MetricBands {
@@ -25,9 +26,10 @@ struct MetricBands {
     std::vector<BandPoint> points;
 
     double share_inside(Band band) const;
-    double mean_relative_difference() const;    // mean of |meso / full - 1|
-    double mean_relative_bias() const;          // mean of meso / full - 1, signed
-    double median_relative_half_width() const;  // half width of the paper's band over the mean of full dynamics
+    double mean_relative_difference() const;  // mean of |meso / full - 1|
+    double mean_relative_bias() const;        // mean of meso / full - 1, signed
+    // Median of the half width of the paper's band over the mean of full dynamics.
+    double median_relative_half_width() const;
 };
 
 struct BandCheck {
@@ -38,11 +40,11 @@ struct BandCheck {
     double share_inside(Band band) const;
 };
 
-// Returns the result columns to check: the named ones, or throughput, density and travel time of the first zone.
-// Throws InputError if a named column does not exist, or if none is named and the runs have no such results.
+// Returns the result columns to check: those in `named`, or by default throughput, density and travel time of the first
+// zone. Throws InputError if a named column does not exist, or if none is named and the runs have no such results.
 std::vector<std::string> band_metrics(const RunStore& full, const std::vector<std::string>& named);
 
-// Compares two stores that hold all points of `sweep`. Throws InputError for fewer than three repetitions.
+// Compares two stores that hold all runs of `sweep`. Throws InputError for fewer than three repetitions.
 BandCheck check_bands(const Sweep& sweep, const RunStore& full, const RunStore& meso,
                       const std::vector<std::string>& metrics);
 

@@ -15,7 +15,7 @@ namespace stopline {
 
 namespace {
 
-// Returns the last population if `name` is not found.
+// Returns the index of the population `name`, or the last index if there is none with this name.
 std::size_t index_of_population(const Scenario& scenario, const std::string& name) {
     std::size_t k = 0;
     while (k + 1 < scenario.populations.size() && scenario.populations[k].name != name) ++k;
@@ -26,7 +26,7 @@ bool is_in(const CalibrationCase& c, CaseSubset subset) {
     return subset == CaseSubset::all || c.fit.held_out == (subset == CaseSubset::held_out);
 }
 
-// Describes the point by its axis values. The seed is left out if the sweep has only one.
+// Returns the axis values of a run as text. The seed is left out if the sweep has only one.
 std::string permutation_text(const Sweep& sweep, std::size_t point) {
     const std::string text = sweep.describe(point);
     return sweep.settings().repetitions > 1 ? text : text.substr(0, text.rfind(", seed"));
@@ -36,8 +36,8 @@ double cycle_of(const Scenario& scenario) {
     return scenario.network.has_intersections() ? scenario.intersection_cycle_s() : scenario.signal.cycle_s;
 }
 
-// Says why two runs differ at a detector. A difference of half a cycle or more means that the vehicle used another
-// green. A smaller difference means that the vehicle is late or early within the same green.
+// Returns the cause of the difference at a detector as text. A difference of half a cycle or more means that the
+// vehicle used another green. A smaller difference means that the vehicle is late or early within the same green.
 std::string cause_of(const TimingMiss& miss, double cycle_s) {
     if (miss.pairs_beyond_limit == 0) return "one mode has more passages than the other";
     if (cycle_s > 0.0 && std::abs(miss.largest_s) >= 0.5 * cycle_s) {

@@ -1,8 +1,9 @@
 // Step I of the calibration (Section V.B). It compares the times at which vehicles pass detectors in both fidelities,
-// for every permutation of a sweep and any set of mesoscale parameters.
+// for every permutation of a sweep and any set of mesoscale parameters. The k-th passages of a detector in both
+// fidelities form a pair.
 //
-// The criterion is that no pair of passages differs by more than one second. A reviewed difference can be marked as
-// accepted (load_accepted.h): it then counts as valid and is listed. Every third permutation is held out of the fit.
+// The criterion is that the passages of no pair differ by more than one second. A user can mark a reviewed difference
+// as accepted (load_accepted.h); it then counts as valid. Every third permutation is held out of the fit.
 #pragma once
 
 #include <functional>
@@ -26,17 +27,17 @@ struct CalibrationCase {
     FitCase fit;
 };
 
-// Builds the cases from a store that holds all points of the sweep, written by detector_metrics. `settings` are the
-// mesoscale parameters of every case.
+// Builds one case for each run of the sweep. The store must hold the results of detector_metrics() for all runs in full
+// dynamics. `settings` are the mesoscale parameters of every case.
 std::vector<CalibrationCase> calibration_cases(const Sweep& sweep, const RunStore& full, const MesoSettings& settings);
 
 // Results of one set of parameters on all permutations.
 struct TimingResult {
     std::string name;
     MesoSettings settings;
-    std::vector<PairedTimes> pairs;  // [case]
+    std::vector<PairedTimes> pairs;  // [case] pairs of passages
     Violations violations;           // sum over all runs
-    std::int64_t updates = 0;        // vehicle updates
+    std::int64_t updates = 0;        // number of vehicle updates (one vehicle in one step)
 };
 // Runs every case in the mesoscale mode and pairs its passages with those of full dynamics.
 TimingResult evaluate_timing(const std::string& name, const std::vector<CalibrationCase>& cases,
@@ -46,26 +47,27 @@ TimingResult evaluate_timing(const std::string& name, const std::vector<Calibrat
 enum class CaseSubset { fitted, held_out, all };
 Agreement timing_agreement(const TimingResult& result, const std::vector<CalibrationCase>& cases, CaseSubset subset);
 
-// A detector in one permutation at which passages differ by more than the limit or lack a partner.
+// A detector in one permutation at which passages differ by more than the limit or lack a counterpart in the other
+// fidelity.
 struct TimingMiss {
-    std::size_t permutation;
+    std::size_t permutation;  // index of the case
     int detector;
     int pairs_beyond_limit;
     int pairs_compared;
-    int unpaired;          // passages without a partner
-    double largest_s;      // largest difference in amount, signed
+    int unpaired;          // number of passages without counterpart
+    double largest_s;      // difference with the largest amount, signed
     int first_passage;     // number of the first passage beyond the limit, from 1
-    std::string cause;     // in words
-    std::string accepted;  // reason given in the file of accepted differences; empty: not accepted
+    std::string cause;     // cause of the difference, as text
+    std::string accepted;  // reason why the user accepts the difference; empty: not accepted
 };
 std::vector<TimingMiss> timing_misses(const TimingResult& result, const std::vector<CalibrationCase>& cases,
                                       const AcceptedFile& accepted);
 
-// Returns the share of pairs that are within the limit or accepted.
+// Returns the share of pairs and unpaired passages that are within the limit or accepted.
 double valid_share(const TimingResult& result, const std::vector<CalibrationCase>& cases,
                    const std::vector<TimingMiss>& misses, CaseSubset subset);
 
-// The tables as CSV.
+// Return result tables as CSV.
 std::string differences_csv(const TimingResult& result, const std::vector<CalibrationCase>& cases);
 std::string misses_csv(const std::vector<TimingMiss>& misses, const std::vector<CalibrationCase>& cases);
 std::string permutations_csv(const std::vector<TimingResult>& results, const std::vector<CalibrationCase>& cases);

@@ -1,5 +1,5 @@
-// Times at which vehicles pass the detectors of a scenario, and the differences between two runs of it (Section V.B,
-// step I).
+// Times at which vehicles pass the detectors of a scenario, and the differences between these times in two runs of the
+// scenario (Section V.B, step I).
 #pragma once
 
 #include <cstdint>
@@ -22,24 +22,24 @@ std::string detector_name(const Model& model, std::size_t detector);
 struct DetectorRun {
     DetectorTimes times;
     Violations violations;
-    std::int64_t updates = 0;  // vehicle updates
+    std::int64_t updates = 0;  // number of vehicle updates (one vehicle in one step)
     bool complete = false;     // false: stopped by keep_going
 };
 
 // Runs the model until all vehicles have exited or the scenario ends. Stops early if `keep_going` returns false.
 DetectorRun run_detectors(const Scenario& scenario, const Model& model, const std::function<bool()>& keep_going = {});
 
-// Runs the scenario and returns the rows that a sweep stores: for each detector its times, separated by spaces.
-// Returns nothing if `keep_going` stopped the run.
+// Runs the scenario and returns one result for each detector, which a sweep stores: its passage times, separated by
+// spaces. Returns an empty list if `keep_going` stopped the run.
 std::vector<RunMetric> detector_metrics(const Scenario& scenario, std::size_t population,
                                         const std::function<bool()>& keep_going);
-// Reads the times back from a stored result.
+// Reads the passage times from a stored result of detector_metrics().
 DetectorTimes parse_detector_times(const std::string& result, const Model& model);
 
 // The k-th passage of a detector in two runs.
 struct PassagePair {
     int detector;
-    int k;  // from 0
+    int k;  // number of the passage, from 0
     double reference_s;
     double other_s;
     double difference_s() const { return other_s - reference_s; }
@@ -47,7 +47,7 @@ struct PassagePair {
 
 struct PairedTimes {
     std::vector<PassagePair> pairs;
-    std::map<int, int> unpaired;  // detector -> surplus passages of one run; only detectors that have some
+    std::map<int, int> unpaired;  // by detector: number of passages that only one run has; absent if there are none
     int unpaired_count() const;   // sum over all detectors
 };
 PairedTimes pair_up(const DetectorTimes& reference, const DetectorTimes& other);
@@ -56,13 +56,13 @@ PairedTimes pair_up(const DetectorTimes& reference, const DetectorTimes& other);
 struct Agreement {
     std::size_t pairs = 0;
     std::size_t unpaired = 0;
-    double within_share = 0.0;  // pairs within the limit over pairs and unpaired passages
-    double median_s = 0.0;      // median of the absolute differences
-    double p95_s = 0.0;         // 95th percentile
-    double largest_s = 0.0;
-    std::size_t other_green = 0;  // pairs that differ by half a cycle or more and so used different greens
+    double within_share = 0.0;    // number of pairs within the limit, over the number of pairs and unpaired passages
+    double median_s = 0.0;        // median of the absolute differences
+    double p95_s = 0.0;           // 95th percentile of the absolute differences
+    double largest_s = 0.0;       // largest absolute difference
+    std::size_t other_green = 0;  // pairs that differ by at least half a cycle, so the vehicles used different greens
 };
-// The pairs of one permutation and its cycle time.
+// The pairs of passages in one permutation, and its cycle time.
 struct PermutationPairs {
     const PairedTimes* times;
     double cycle_s;

@@ -12,11 +12,12 @@ namespace stopline {
 namespace {
 
 constexpr int kBins = 48;
-constexpr double kBin_mps = 1.25 * kMpsPerKmh;  // up to 60 km/h
+constexpr double kBin_mps = 1.25 * kMpsPerKmh;  // width of a bin; the bins reach up to 60 km/h
 constexpr double kSample_s = 0.01;
 constexpr double kLast_s = 120.0;
 
-// Returns a single lane with one signal. Its speed limit is too high to end the acceleration.
+// Returns the scenario of a single lane with one signal. Its speed limit is so high that it does not limit the
+// acceleration.
 Scenario straight_road_scenario(const Scenario& scenario) {
     Scenario road = scenario;
     road.fidelity = "full";

@@ -1,5 +1,5 @@
 // Acceleration of platoon leaders over speed, measured in full dynamics for the mesoscale mode. A single vehicle starts
-// at a signal. Each speed bin gets the mean acceleration from its lower to its upper end, gear changes included.
+// at a signal. Each bin of speed gets the mean acceleration from its lower to its upper end, gear changes included.
 #pragma once
 
 #include "scenario/scenario.h"

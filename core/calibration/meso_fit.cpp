@@ -19,7 +19,7 @@ namespace {
 
 enum class LawSubset { constant_time, constant_distance, all };
 
-// Returns true if all vehicles of the case follow laws of this family.
+// Returns true if all spacing policies of the case use the constant-distance model, or all use the time-gap model.
 bool has_law(const FitCase& c, bool constant_distance) {
     return std::all_of(c.model.krauss.begin(), c.model.krauss.end(),
                        [&](const Krauss& k) { return k.constant_distance == constant_distance; });
@@ -30,16 +30,16 @@ bool is_in(const FitCase& c, LawSubset subset) {
     return subset == LawSubset::all || has_law(c, subset == LawSubset::constant_distance);
 }
 
-// One search and its state.
+// One search of the minimum loss, and its state.
 struct Search {
     std::vector<const FitCase*> cases;
     std::vector<std::size_t> free;  // indices of the fitted parameters in fit_parameters()
-    std::vector<double> values;     // all parameters; the free ones hold the values tried last
+    std::vector<double> values;     // values of all parameters; the fitted ones have the values of the last evaluation
     std::string stage;
     const FitOptions& options;
     MesoSettings settings;
     std::vector<FitEvaluation>& history;
-    std::size_t planned;  // evaluations of all searches together
+    std::size_t planned;  // planned number of evaluations, all searches together
     std::exception_ptr error = {};
 
     double best_loss = 2.0;
@@ -57,7 +57,7 @@ struct Search {
 
 MesoSettings with_values(MesoSettings settings, const std::vector<double>& values) {
     for (std::size_t k = 0; k < values.size(); ++k) fit_parameters()[k].value(settings) = values[k];
-    // The vehicles keep the standstill gap of the policy.
+    // The gap at rest is s_0 + s_t, so s_0 makes up for a change of s_t.
     settings.constant_distance.standstill_gap_m = settings.calibrated_standstill_gap_m - settings.band_m;
     return settings;
 }
@@ -96,7 +96,8 @@ double evaluate(Search& search) {
     return loss;
 }
 
-// Stores any exception in the search, because NLopt passes on no exception but its own.
+// Returns the loss to NLopt. Stores any exception in the search, because NLopt does not pass on exceptions of other
+// libraries.
 double loss_of(const std::vector<double>& x, std::vector<double>& /*gradient*/, void* data) {
     auto& search = *static_cast<Search*>(data);
     try {
@@ -108,8 +109,8 @@ double loss_of(const std::vector<double>& x, std::vector<double>& /*gradient*/, 
     }
 }
 
-// Searches with Rowan's subspace simplex (NLopt's SBPLX). The loss is not smooth: it jumps when one more vehicle passes
-// in a green.
+// Improves the values with Rowan's subspace simplex (NLopt's SBPLX), which needs no gradient. The loss is not smooth:
+// it jumps when one more vehicle passes in a green.
 void improve(Search& search, double first_step, int evaluations) {
     nlopt::opt nlopt(nlopt::LN_SBPLX, static_cast<unsigned>(search.free.size()));
     nlopt.set_lower_bounds(0.0);
@@ -129,8 +130,8 @@ void improve(Search& search, double first_step, int evaluations) {
     }
 }
 
-// Returns the values of a start of the search. Start 0 uses the given values, other starts are random within the
-// bounds.
+// Returns the parameter values at which search number `start` begins. Search 0 begins with the given values, the others
+// with random values within the bounds.
 std::vector<double> start_values(std::vector<double> values, const std::vector<std::size_t>& free, int start) {
     if (start == 0) return values;
     for (const std::size_t k : free) {
@@ -144,10 +145,11 @@ std::vector<double> start_values(std::vector<double> values, const std::vector<s
 }  // namespace
 
 // The bounds have these reasons:
-// - Braking is at most 7 m/s2, the limit on a dry road. Without reaction time the limit is 5 m/s2, so that
-//   vehicles still stop at the line.
-// - Anticipation is at most one step of 100 ms. Policies whose gap grows with speed oscillate beyond it.
-// - The standstill gap s_0 is not fitted. Time-gap models take it from the policy, and equation (1) uses s_0 minus s_t.
+// - Deceleration: at most 7 m/s2, the limit on a dry road. The constant-distance model, whose reaction time is almost
+//   0, gets at most 5 m/s2, so that its vehicles still stop at the line.
+// - Anticipation: at most one step of 100 ms. With more, policies whose gap grows with speed oscillate.
+// - Standstill gap s_0: not fitted. Time-gap models take it from the policy, and equation (1) uses that of the policy
+//   minus s_t.
 const std::vector<FitParameter>& fit_parameters() {
     using S = MesoSettings;
     constexpr auto kNoProfile = [](const S& s) { return s.leader_profile_mps.empty(); };

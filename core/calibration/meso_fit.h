@@ -4,7 +4,7 @@
 //
 // First, each model of the Krauss family is fitted alone, from several starts, to the permutations that have only its
 // vehicles. Then all parameters are fitted together to all permutations. The search depends on nothing but its inputs.
-// An interrupted search that gets its stored evaluations back therefore continues on the same path.
+// An interrupted search therefore continues on the same path if it gets the losses of its finished evaluations back.
 #pragma once
 
 #include <functional>
@@ -17,22 +17,23 @@
 
 namespace stopline {
 
-// One parameter of the mesoscale mode. Start delay and leader acceleration are shared by all vehicles and fitted with
-// the time-gap models.
+// One parameter of the mesoscale mode. All vehicles share start delay and leader acceleration, which are fitted
+// together with the parameters of the time-gap model.
 struct FitParameter {
-    const char* name = "";  // path in the parameter file
+    const char* name = "";  // name in the parameter file, such as constant_time.reaction
     const char* unit = "";
-    bool constant_distance = false;  // fitted with the constant-distance model
-    double low = 0.0;                // bounds of the search, SI units; equal bounds: not fitted
+    bool constant_distance = false;  // true: fitted with the constant-distance model; false: with the time-gap model
+    double low = 0.0;                // bounds of the search, SI units; equal bounds: the parameter is not fitted
     double high = 0.0;
     double& (*value)(MesoSettings&) = nullptr;
-    bool (*is_used)(const MesoSettings&) = nullptr;  // false: other settings make it irrelevant; null: always used
+    // Returns false if other settings make the parameter irrelevant. Null: the parameter is always used.
+    bool (*is_used)(const MesoSettings&) = nullptr;
 
     bool is_free(const MesoSettings& settings) const { return low < high && (is_used == nullptr || is_used(settings)); }
 };
 const std::vector<FitParameter>& fit_parameters();
 
-// One permutation: the mesoscale model and the passages in full dynamics.
+// One permutation: its model in the mesoscale mode, and its passages in full dynamics.
 struct FitCase {
     Scenario scenario;
     Model model;
@@ -43,22 +44,22 @@ struct FitCase {
 // Runs the case with the given parameters and returns its passages.
 DetectorRun run_case(const FitCase& fit_case, const MesoSettings& settings);
 
-// Returns the mean over all pairs of d^2 / (d^2 + limit^2), where d is the difference. An unpaired passage counts 1.
+// Returns the mean over all pairs of d^2 / (d^2 + limit^2), where d is the difference. An unpaired passage counts as 1.
 double fit_loss(const PairedTimes& pairs, double limit_s);
 
 struct FitEvaluation {
-    std::string stage;           // name of the search: "constant_time 2", "all"
-    std::vector<double> values;  // in the order of fit_parameters()
+    std::string stage;           // name of the search: "constant_time 2" (its second start), or "all"
+    std::vector<double> values;  // values of all parameters, in the order of fit_parameters()
     double loss = 0.0;
 };
 
 struct FitOptions {
     int threads = 1;
     int starts = 3;
-    int evaluations_per_start = 250;  // evaluations from one start, for one model alone
-    int joint_evaluations = 800;      // evaluations of the last search, for all parameters together
+    int evaluations_per_start = 250;  // highest number of evaluations from one start, for one model alone
+    int joint_evaluations = 800;      // highest number of evaluations for all parameters together
     double limit_s = 1.0;
-    // Returns the stored loss of evaluation `index` from an earlier session if it was made with these values.
+    // Returns the stored loss of evaluation `index` from an earlier session if it had the same parameter values.
     std::function<std::optional<double>(std::size_t index, const std::vector<double>& values)> stored_loss;
     std::function<void(std::size_t index, const FitEvaluation&)> on_evaluation;
     std::function<bool(double)> on_progress;  // gets the share done; false: fit_meso throws Interrupted
@@ -69,8 +70,8 @@ struct MesoFit {
     std::vector<FitEvaluation> history;
 };
 
-// Fits the parameters to the cases that are not held out. `start` is the first start of the search and gives the values
-// of all parameters that are not fitted.
+// Fits the parameters to the cases that are not held out. `start` holds the values at which the first search starts,
+// and the values of all parameters that are not fitted.
 MesoFit fit_meso(const std::vector<FitCase>& cases, const MesoSettings& start, const FitOptions& options);
 
 }  // namespace stopline

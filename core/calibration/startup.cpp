@@ -17,9 +17,9 @@ namespace {
 
 constexpr double kGreenStart_s = 60.0;
 constexpr double kSample_s = 0.01;
-constexpr double kLowerBound = 0.02;  // of all fitted parameters, m/s2 or 1/s
+constexpr double kLowerBound = 0.02;  // lower bound of all fitted parameters, m/s2 or 1/s
 
-// Returns a scenario with one vehicle at one signal. Its green lasts longer than the start.
+// Returns a scenario with one vehicle at one signal. The green lasts longer than the start.
 Scenario single_start_scenario(const Scenario& scenario, double last_s) {
     Scenario lone = scenario;
     lone.demand.vehicles = 1;
@@ -34,7 +34,7 @@ Scenario single_start_scenario(const Scenario& scenario, double last_s) {
     return lone;
 }
 
-// Interpolates a member of the trajectory linearly.
+// Returns a value of the trajectory at a time, interpolated linearly.
 double value_at(const std::vector<TrajectoryPoint>& points, double time_s, double TrajectoryPoint::*member) {
     const auto later = std::lower_bound(points.begin(), points.end(), time_s,
                                         [](const TrajectoryPoint& p, double t) { return p.time_s < t; });
@@ -53,8 +53,9 @@ std::vector<double> knots_mps() {
     return knots;
 }
 
-// Returns the start of the search: the accelerations at the knots, then the gain toward the desired speed. The
-// accelerations are the slope of the measured mean, so the result of the fit does not depend on the given driver.
+// Returns the parameters at which the search starts: the accelerations at the knots, then the gain toward the desired
+// speed. The accelerations are the slope of the measured mean times `factor`, so the result of the fit does not depend
+// on the given driver.
 std::vector<double> initial_parameters(const StartupCurve& curve, const std::vector<double>& knots, double factor,
                                        double gain_1ps) {
     SampledCurve slope;  // m/s2 over m/s
@@ -83,7 +84,8 @@ struct FitTask {
     std::exception_ptr error = {};  // exception that ended the search
 };
 
-// Stores any exception in the task, because NLopt passes on no exception but its own.
+// Returns the deviation to NLopt. Stores any exception in the task, because NLopt does not pass on exceptions of other
+// libraries.
 double deviation(const std::vector<double>& parameters, std::vector<double>& /*gradient*/, void* data) {
     auto& task = *static_cast<FitTask*>(data);
     try {
@@ -98,7 +100,7 @@ double deviation(const std::vector<double>& parameters, std::vector<double>& /*g
     }
 }
 
-// Improves the parameters and returns the rms deviation reached, m/s.
+// Improves the parameters by one search and returns the rms deviation reached, m/s.
 double search_from(std::vector<double>& parameters, FitTask& task) {
     constexpr int kMaxEvaluations = 500;
     nlopt::opt search(nlopt::LN_BOBYQA, static_cast<unsigned>(parameters.size()));
@@ -161,7 +163,8 @@ StartupFit fit_startup(const Scenario& scenario, const StartupCurve& curve,
     fit.rms_before_mps = rms_deviation_mps(curve, simulate_start(scenario, curve.time_s));
     free.speed_mps = knots;
 
-    // The deviation has several minima, because gear changes move with the profile. The best of several starts is kept.
+    // The deviation has several minima, because gear changes move with the profile. The search therefore starts at
+    // several points, and the best result is kept.
     std::vector<double> best_parameters;
     double best = 1e9;
     for (const double factor : {0.95, 1.0, 1.05, 1.1, 1.15, 1.2}) {
@@ -178,7 +181,8 @@ StartupFit fit_startup(const Scenario& scenario, const StartupCurve& curve,
         }
     }
     std::vector<double>& parameters = best_parameters;
-    for (double& value : parameters) value = std::round(value * 1e3) / 1e3;  // precision of the driver file
+    // Rounded to the precision of the driver file.
+    for (double& value : parameters) value = std::round(value * 1e3) / 1e3;
     set_parameters(parameters, free);
     fit.driver = task.scenario.driver;
     fit.rms_after_mps = rms_deviation_mps(curve, simulate_start(task.scenario, curve.time_s));

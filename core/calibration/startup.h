@@ -1,5 +1,5 @@
-// Calibration of the start-up (Section III.B). The leader's acceleration over speed is fitted so that the simulated
-// start in full dynamics follows the mean of measured starts.
+// Calibration of the start-up (Section III.B). The fit chooses the acceleration of platoon leaders as a function of
+// speed, so that the simulated start in full dynamics follows the mean of the measured starts.
 #pragma once
 
 #include <filesystem>
@@ -12,22 +12,23 @@
 
 namespace stopline {
 
-// Measured starts: speed over the time since the car moves. A quantity that the file lacks is empty.
+// Measured starts: speed over the time since the car began to move. A quantity that the file lacks is empty.
 struct StartupCurve {
     std::vector<double> time_s;  // rising from 0
     std::vector<double> mean_mps;
     std::vector<double> mean_ci_mps;  // half width of the 95 % confidence interval of the mean
-    std::vector<double> low_mps;      // 2.5th and 97.5th percentile of single starts; both present or both empty
-    std::vector<double> high_mps;
-    std::vector<double> starts;  // number of starts behind each mean
+    // 2.5th percentile of single starts; low_mps and high_mps are both present or both empty.
+    std::vector<double> low_mps;
+    std::vector<double> high_mps;  // 97.5th percentile of single starts
+    std::vector<double> starts;    // [time] number of starts in the mean
 };
 
 // Reads the columns t_s and mean_kmh, and the optional columns ci95_of_mean, p2.5, p97.5 and n. Throws InputError with
 // file and line.
 StartupCurve load_startup_curve(const std::filesystem::path& file);
 
-// Speed from which the car counts as moving. The measurements use the same value (OBD reports whole km/h,
-// interpolated).
+// Speed from which the car counts as moving. The measured curves use the same speed. The cars reported whole km/h
+// (OBD), so the time of this speed is interpolated.
 inline constexpr double kMoving_mps = kStoppedSpeed_mps;
 
 // A simulated start of one vehicle at a signal, sampled at given times after it begins to move.
@@ -45,18 +46,18 @@ struct StartupFit {
     double rms_after_mps = 0.0;
     int evaluations = 0;
 };
-// Fits with NLopt's BOBYQA (Powell 2009). `on_progress` gets the number of evaluations; if it returns false, the fit
-// throws Interrupted.
+// Fits the driver with NLopt's BOBYQA (Powell 2009). `on_progress` gets the number of evaluations; if it returns false,
+// the fit throws Interrupted.
 StartupFit fit_startup(const Scenario& scenario, const StartupCurve& curve,
                        const std::function<bool(int)>& on_progress = {});
 
-// A time interval in which a start is outside a band, on one side. Between measured points the band is interpolated.
+// A time interval in which a start is above or below a band. Between measured points the band is interpolated.
 struct BandExit {
     double from_s, to_s;
-    double largest_deviation_mps;  // largest deviation from the mean in amount, signed
+    double largest_deviation_mps;  // deviation from the mean with the largest amount, signed
 };
-// Returns the exits from the confidence band of the mean (`of_mean`) or from the band of single starts. Returns nothing
-// if the curve does not have that band.
+// Returns the exits from the confidence band of the mean (`of_mean` true) or from the band of single starts (false).
+// Returns nothing if the curve does not have that band.
 std::vector<BandExit> band_exits(const StartupCurve& curve, const StartupRun& run, bool of_mean);
 
 double rms_deviation_mps(const StartupCurve& curve, const StartupRun& run);

@@ -27,9 +27,9 @@ std::vector<GearChange> gear_changes(const StartupRun& run) {
     return changes;
 }
 
-// Explains an exit from a band by the definition of time 0 and by gear changes. If the start is ahead of the band, a
-// gear change in the exit or right after it ends the exit. If it is behind, a gear change in the exit or shortly before
-// it is the cause.
+// Returns an explanation of an exit from a band: the definition of time 0, or gear changes. If the simulated car is
+// faster than the band, a gear change during the exit or right after it ends the exit. If the car is slower, a gear
+// change during the exit or shortly before it is the cause.
 std::string remark(const StartupReport& report, const BandExit& exit) {
     constexpr double kBefore_s = 1.0;
     constexpr double kBehind_s = 2.5 * kFine_s;
@@ -77,7 +77,7 @@ std::string bands_text(const StartupReport& report) {
     return text;
 }
 
-// Returns a value of a band in km/h, or NaN if the curve has no such band.
+// Returns value k of a band in km/h, or NaN if the curve has no such band.
 double band_kmh(const std::vector<double>& band_mps, std::size_t k) {
     return band_mps.empty() ? std::nan("") : band_mps[k] * kKmhPerMps;
 }

@@ -18,14 +18,14 @@ struct StartupReport {
 // Simulates the start of the scenario's vehicle and compares it with the curve.
 StartupReport report_startup(const Scenario& scenario, const StartupCurve& curve);
 
-// Returns time, simulated and measured speed, both bands, gear and distance as CSV. A band that the curve lacks is
-// empty.
+// Returns time, simulated and measured speed, both bands, gear and distance as CSV. The columns of a band that the
+// curve lacks are empty.
 std::string startup_csv(const StartupReport& report);
 
-// Returns a table of speeds and the exits from the bands as text.
+// Returns a table of speeds, and the times at which the start leaves the bands, as text.
 std::string startup_text(const StartupReport& report);
 
-// Returns how many measured starts the curve has, as text; empty if unknown.
+// Returns the number of measured starts as text, such as "20 to 22 starts"; empty if the curve lacks it.
 std::string starts_text(const StartupCurve& curve);
 
 }  // namespace stopline

@@ -12,7 +12,10 @@ namespace stopline {
 
 namespace {
 
-// Returns the index of the component that a number in [0, 1) falls into.
+// The functions below draw a component, which is a spacing policy or a route, according to the shares of all
+// components.
+
+// Returns the index of the component that `number`, in [0, 1), selects. The shares sum to 1.
 std::size_t pick(std::span<const double> shares, double number) {
     std::size_t k = 0;
     double upper = shares[0];
@@ -20,8 +23,9 @@ std::size_t pick(std::span<const double> shares, double number) {
     return k;
 }
 
-// Returns the component that is furthest behind its share after n vehicles, and counts it in `drawn`. The shares then
-// hold in every part of the sequence. Equal shares alternate, beginning with the first component.
+// Returns the component whose number of draws is furthest below its share after n vehicles. Adds the new draw to
+// `drawn`. So the shares hold in every part of the sequence. Equal shares alternate, beginning with the first
+// component.
 std::size_t draw_most_behind(std::span<const double> shares, std::int64_t n, std::vector<double>& drawn) {
     std::size_t chosen = 0;
     for (std::size_t c = 1; c < shares.size(); ++c) {
@@ -45,8 +49,9 @@ std::uint64_t vehicle_key(int inlet, std::int64_t k) {
     return (static_cast<std::uint64_t>(inlet) << 40) + static_cast<std::uint64_t>(k);
 }
 
-// Returns a number in [0, 1) for the k-th vehicle of an inlet. In each block of 20 vehicles one number falls into each
-// twentieth of the interval, in random order. The shares therefore also hold in short runs, to within a twentieth.
+// Returns a number in [0, 1) for the k-th vehicle of an inlet. Vehicles form blocks of 20. Within a block, each vehicle
+// gets a number from a different twentieth of the interval, in random order. So the shares hold in each block to within
+// a twentieth.
 double balanced_number(std::uint64_t seed, int inlet, std::int64_t k, Purpose purpose) {
     constexpr std::int64_t kBlock = 20;
     const std::int64_t first = k / kBlock * kBlock;
@@ -73,8 +78,8 @@ std::size_t draw(DemandPlan::Pattern pattern, std::span<const double> shares, st
 
 void DemandPlan::draw_trip_policies() {
     trip_policies.clear();
-    std::unordered_map<int, std::int64_t> drawn_trips;  // by approach
-    std::unordered_map<int, std::vector<double>> drawn_components;
+    std::unordered_map<int, std::int64_t> drawn_trips;              // [approach] number of trips drawn so far
+    std::unordered_map<int, std::vector<double>> drawn_components;  // [approach][component] number of trips drawn
     for (const Trip& trip : trips) {
         const std::int64_t k = drawn_trips[trip.approach]++;
         if (pattern != Pattern::alternating || policies.size() == 1) {

@@ -10,21 +10,21 @@ namespace stopline {
 struct SumoTraffic;  // sumo_import/sumo_routes.h
 
 struct DemandSettings {
-    // - queue: `vehicles` per lane enter as soon as there is room, then no more.
+    // - queue: `vehicles` vehicles enter on each entry lane as soon as there is room. Then no more vehicles enter.
     // - saturated: the backlog of every entry lane is endless.
     // - rate: `inflow_1ps` vehicles per second arrive on each leg, spread over its lanes. They form a backlog if there
     //   is no room.
     std::string kind = "queue";
     int vehicles = 60;
     double inflow_1ps = 600.0 / 3600.0;
-    // Only for saturated demand: inflow of the legs in the south and north. 0: they are saturated as well.
+    // Only for saturated demand: inflow of the legs in the south and north. 0: these legs are saturated, too.
     double cross_inflow_1ps = 0.0;
     std::vector<std::string> approaches = {};  // prefixes of lane names where vehicles enter; empty: all entries
     double entry_speed_mps = 50.0 / 3.6;
     // Turn shares, 0 .. 1, of the vehicles on each lane that allows this turn and another movement.
     double right_share = 0.0;
     double left_share = 0.0;
-    // The same for the legs in the south and north, if they have shares of their own.
+    // Turn shares of the legs in the south and north. They apply if cross_turns is `separate`.
     std::string cross_turns = "same";  // same | separate
     double cross_right_share = 0.0;
     double cross_left_share = 0.0;

@@ -14,13 +14,13 @@ namespace {
 
 constexpr std::array<Turn, 3> kTurns{Turn::straight, Turn::right, Turn::left};  // in the order of TurnShares
 
-constexpr double kMinShare = 1e-12;  // a smaller share counts as none
+constexpr double kMinShare = 1e-12;  // a smaller share counts as 0
 
 TurnShares shares_of(const Approach& approach) {
     return {1.0 - approach.right_share - approach.left_share, approach.right_share, approach.left_share};
 }
 
-// The routes by approach lane and turn.
+// Finds routes by approach lane and turn.
 class Routes {
 public:
     explicit Routes(const LaneGraph& graph) : graph_(graph), of_(graph.lanes.size(), {-1, -1, -1}) {
@@ -32,10 +32,11 @@ public:
         }
     }
 
-    // Returns the route with the turn that begins on the lane, or -1.
+    // Returns the route with this turn that begins on the lane, or -1 if there is none.
     int on(int lane, std::size_t turn) const { return of_[at(lane)][turn]; }
 
-    // Returns the route with the turn on the nearest lane of the approach that allows it, or -1 if no lane does.
+    // Returns the route with this turn that begins on the nearest lane of the same approach, or -1 if no lane of the
+    // approach allows the turn.
     int nearest(int lane, std::size_t turn) const {
         const std::vector<int>& lanes = graph_.approaches[at(graph_.lanes[at(lane)].approach)].lanes;
         const auto own = static_cast<int>(std::find(lanes.begin(), lanes.end(), lane) - lanes.begin());
@@ -64,8 +65,9 @@ DemandPlan::Inlet inlet_of(const Routes& routes, int lane, const TurnShares& sha
     return inlet;
 }
 
-// Returns the turn shares of those lanes of an approach that are in `inlet_lanes`. These lanes are adjacent; the
-// movements of a pocket count for the nearest of them.
+// Returns the turn shares for the inlet lanes of an approach, from the left. `inlet_lanes` lists the inlet lanes of the
+// network. Inlet lanes of one approach are adjacent. Other lanes, such as pockets, lie beside them, and their movements
+// count for the nearest inlet lane.
 std::vector<TurnShares> lane_shares(const std::vector<int>& inlet_lanes, const Routes& routes,
                                     const Approach& approach) {
     const auto is_inlet = [&](int lane) {
@@ -91,8 +93,8 @@ std::vector<TurnShares> lane_shares(const std::vector<int>& inlet_lanes, const R
 std::vector<DemandPlan::Inlet> street_inlets(const LaneGraph& graph) {
     const Routes routes(graph);
     std::vector<DemandPlan::Inlet> inlets;
-    // Calls add(lane, shares of the lane, shares of its approach) for each lane. Lanes of one approach must be
-    // consecutive.
+    // Calls add(lane, turn shares of the lane, turn shares of its approach) for each lane of the list. Lanes of the
+    // same approach must be consecutive in the list.
     const auto for_each = [&](const std::vector<int>& lanes, auto add) {
         std::vector<TurnShares> shares;
         int approach = -1;

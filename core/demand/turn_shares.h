@@ -1,5 +1,5 @@
-// Distribution of the turn shares of an approach over its lanes. All lanes carry the same traffic, and together they
-// have the shares of the approach.
+// Distribution of the turn shares of an approach over its lanes. All lanes carry equal traffic, and the turns of all
+// lanes together have the shares of the approach.
 #pragma once
 
 #include <array>
@@ -10,14 +10,14 @@ namespace stopline {
 using TurnShares = std::array<double, 3>;  // straight, right, left
 using TurnsAllowed = std::array<bool, 3>;
 
-// Returns the turn shares of the vehicles on each lane, from the left. `shares` are those of the approach; each turn
-// with a share must be allowed on at least one lane.
+// Returns the turn shares of the vehicles on each lane, from the left. `shares` are the turn shares of the approach.
+// Each turn with a share above 0 must be allowed on at least one lane.
 //
-// The method is iterative proportional fitting (Deming and Stephan, 1940) of a matrix over lanes and turns. Each of the
-// n rows shall sum to 1/n, and each column to the share of its turn. The fit starts from equal entries for all allowed
-// turns. If no such matrix exists, the rows of the fit are scaled to 1, and the shares of the approach are met only
-// roughly. A lane that allows none of the turns with a share gets the shares of the approach: its vehicles must change
-// lanes.
+// The method is iterative proportional fitting (Deming and Stephan, 1940). It fits a matrix with one row per lane and
+// one column per turn. Each of the n rows shall sum to 1/n, and each column to the share of its turn. The fit starts
+// from equal entries for all allowed turns. In the result each row is scaled to the sum 1. If no such matrix exists,
+// the shares of the approach are met only approximately. A lane that allows no turn with a share above 0 gets the
+// shares of the approach, so its vehicles must change lanes.
 std::vector<TurnShares> turns_by_lane(const std::vector<TurnsAllowed>& allowed, const TurnShares& shares);
 
 }  // namespace stopline

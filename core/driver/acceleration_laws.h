@@ -1,10 +1,13 @@
 // The laws of the longitudinal controller in full dynamics. Each law (driving freely, following, stopping, emergency
-// braking, keeping room) returns a desired acceleration, and the smallest one applies. The laws are pure functions
-// without branches, over double or Batch (base/simd/simd.h). The loops over vehicles are in
+// braking, keeping room to brake) returns a desired acceleration, and the smallest one applies. The laws are pure
+// functions without branches per vehicle, over double or Batch (base/simd/simd.h). The loops over vehicles are in
 // sim/full_dynamics/full_kernels.inl.
 //
 // Following is the cascade of Fig. 3: PD feedback on the gap measured by radar, and feedforward of the leader's state
-// from V2V. In the time domain, with gap error e = gap - d(v), H = 1 + h s, and the leader's values marked with _p:
+// from V2V. Symbols: e = gap - d(v) is the error of the gap against the desired gap d, h is the time gap (slope of d),
+// u the requested and a the realised acceleration, tau the lag of the powertrain. Values of the leader have the suffix
+// _p. The spacing policy is H = 1 + h s, with s the variable of the Laplace transform. In the time domain the request
+// follows
 //     CTG  (h > 0):  h du/dt = -u + kp e + kd de/dt + a_p + (tau / tau_p) (u_p - a_p)
 //     CDG  (h = 0):        u =      kp e + kd de/dt + predictive_feedforward(...)
 // (Ploeg et al. 2011, reference [31] of the paper.) The factor tau / tau_p inverts the lag of the vehicle and applies
@@ -22,30 +25,30 @@ namespace stopline {
 // The result of a law that demands nothing. It is higher than any acceleration, so it is never the minimum.
 inline constexpr double kUnconstrained_mps2 = 1e3;
 
-// The settings, compiled for the kernels.
+// The settings of the driver, prepared for the kernels (the loops over vehicles).
 template <class Number>
 struct DriverTablesOf {
     static constexpr int kProfileNodes = 32;
     CaccSettingsOf<Number> cacc;
     StopSettingsOf<Number> stop;
     Number speed_gain_1ps = 0.0;
-    Number deceleration_mps2 = 0.0;  // before a lower speed limit
+    Number deceleration_mps2 = 0.0;  // braking before a lower speed limit
     Number profile_nodes_per_mps = 0.0;
-    std::array<Number, kProfileNodes> profile_mps2{};  // acceleration of free driving over speed
+    std::array<Number, kProfileNodes> profile_mps2{};  // [node] acceleration of free driving, from speed 0
 };
 using DriverTables = DriverTablesOf<double>;
 
 // Compiles the settings. Throws InputError if the acceleration profile is empty or incomplete.
 DriverTables compile_driver(const DriverSettings& settings);
 
-// The data of a vehicle about its leader.
+// The measured and received data of a vehicle about its leader.
 template <class R>
 struct LeaderView {
     R gap_m;              // net gap, from the delayed radar
     R closing_mps;        // own speed minus the leader's, from the delayed radar
-    R acceleration_mps2;  // from V2V, delayed
+    R acceleration_mps2;  // realised acceleration a_p, from V2V, delayed
     R request_mps2;       // requested acceleration u_p, from V2V, delayed
-    R rate_1ps;           // 1 / tau_p, from V2V, delayed
+    R rate_1ps;           // 1 / tau_p (inverse lag of the leader), from V2V, delayed
 };
 
 // Returns the acceleration of a vehicle without leader: the calibrated start-up profile, up to the desired speed.
@@ -56,8 +59,8 @@ STOPLINE_INLINE R free_acceleration(const DriverTablesOf<Number>& d, const R& sp
     return min_of(profile, d.speed_gain_1ps * (desired_mps - speed_mps));
 }
 
-// Returns the highest acceleration of a follower. To close its gap, it may exceed the start-up profile and, slightly,
-// the desired speed.
+// Returns the upper limit of a follower's acceleration. To close its gap, a follower may exceed the start-up profile
+// and, slightly, the desired speed.
 template <class R, class Number>
 STOPLINE_INLINE R catch_up_acceleration(const DriverTablesOf<Number>& d, const R& speed_mps,
                                         const std::type_identity_t<R>& desired_mps) {
@@ -65,8 +68,8 @@ STOPLINE_INLINE R catch_up_acceleration(const DriverTablesOf<Number>& d, const R
     return min_of(towards_limit, d.cacc.acceleration_max_mps2);
 }
 
-// Returns the acceleration before a lower speed limit `end_mps` that begins `distance_m` ahead. It follows the curve
-// v^2 = end_mps^2 + 2 b distance.
+// Returns the acceleration before a lower speed limit `end_mps` that begins `distance_m` ahead. The vehicle follows the
+// speed curve v^2 = end_mps^2 + 2 b distance, with the deceleration b.
 template <class R, class Number>
 STOPLINE_INLINE R slow_down_acceleration(const DriverTablesOf<Number>& d, const R& speed_mps, const R& end_mps,
                                          const R& distance_m) {
@@ -77,13 +80,14 @@ STOPLINE_INLINE R slow_down_acceleration(const DriverTablesOf<Number>& d, const 
 
 inline constexpr double kLandingTime_s = 0.5;  // tau of stop_acceleration()
 
-// Returns the acceleration for a stop after `distance_m`. It follows the speed from which braking with b after the time
-// tau stops there, v_s = -b tau + sqrt((b tau)^2 + 2 b distance). This is the safe speed of Krauss 1998 for a stopped
-// obstacle, and it ends without overshoot. The braking along the curve is b v / (v_s + b tau).
+// Returns the acceleration for a stop after `distance_m`. The vehicle follows the speed curve
+//     v_s = -b tau + sqrt((b tau)^2 + 2 b distance).
+// From v_s, braking with b after the time tau ends at that distance. This is the safe speed of Krauss 1998 for a
+// stopped obstacle, and the stop has no overshoot. Along the curve, the deceleration is b v / (v_s + b tau).
 //
 // Our choices: tau covers the lag of the brake (0.2 s) and the time that the request needs to change. The gain returns
-// the vehicle to the curve within 1 / gain = 0.7 s. This is slower than the brake responds, so the speed does not
-// oscillate.
+// the vehicle to the curve within 1 / gain = 0.7 s. This is slower than the response of the brake, so the speed does
+// not oscillate.
 template <class R, class Number>
 STOPLINE_INLINE R stop_acceleration(const DriverTablesOf<Number>& d, const R& speed_mps, const R& distance_m) {
     constexpr double kSpeedGain_1ps = 1.5;
@@ -94,15 +98,15 @@ STOPLINE_INLINE R stop_acceleration(const DriverTablesOf<Number>& d, const R& sp
     return late + kSpeedGain_1ps * (curve_mps - speed_mps) - b * speed_mps / (curve_mps + bt);
 }
 
-// Returns the acceleration for a stop at a line that the vehicle learns of late. If the curve above is out of reach,
-// the vehicle brakes with the constant deceleration that is needed.
+// Returns the acceleration for a stop at a line, also if the vehicle learns of the stop late. If it is too late to
+// follow the curve of stop_acceleration(), the vehicle brakes with the constant deceleration that is needed.
 inline double stop_at_line_acceleration(const DriverTables& d, double speed_mps, double distance_m) {
     const double needed_mps2 = 0.5 * square(speed_mps) / max_of(distance_m, 0.1);
     const double on_curve_mps2 = stop_acceleration(d, speed_mps, distance_m);
     return needed_mps2 > d.stop.deceleration_mps2 ? min_of(on_curve_mps2, -needed_mps2) : on_curve_mps2;
 }
 
-// Returns the stopping distance along that curve: v^2 / (2 b) + v tau.
+// Returns the stopping distance along the curve of stop_acceleration(): v^2 / (2 b) + v tau.
 template <class R, class Number>
 STOPLINE_INLINE R stopping_distance_m(const DriverTablesOf<Number>& d, const R& speed_mps) {
     return speed_mps * (speed_mps * (0.5 / d.stop.deceleration_mps2) + kLandingTime_s);
@@ -112,7 +116,7 @@ inline constexpr double kStoppingLeader_mps = 5.0;
 inline constexpr double kStoppingLeaderBraking_mps2 = 0.2;
 
 // Returns the acceleration for a stop behind a leader that is about to stop, or kUnconstrained_mps2 for any other
-// leader. A leader is about to stop if it is slower than kStoppingLeader_mps and brakes at least with
+// leader. A leader is about to stop if it is slower than kStoppingLeader_mps and requests a deceleration of at least
 // kStoppingLeaderBraking_mps2. A stopped leader counts as well until it requests to start.
 template <class R, class Number>
 STOPLINE_INLINE R stop_behind_acceleration(const DriverTablesOf<Number>& d, const R& speed_mps,
@@ -130,15 +134,15 @@ STOPLINE_INLINE R stop_behind_acceleration(const DriverTablesOf<Number>& d, cons
 
 // Returns the predictive feedforward of Fig. 4: the constant request u that brings the own acceleration to that of the
 // leader. It minimises the squared differences at three times in the prediction horizon, and is limited to the allowed
-// range. With first-order lags
+// range. With first-order lags, the accelerations at the time th from now are
 //     a_p(t + th) = u_p + (a_p - u_p) exp(-(th + delay) / tau_p),   a(t + th) = u + (a - u) exp(-th / tau),
-// so each time gives one equation w u = a_p(t + th) - (1 - w) a with w = 1 - exp(-th / tau).
+// Each time thus gives one equation w u = a_p(t + th) - (1 - w) a with w = 1 - exp(-th / tau).
 template <class R, class Number>
 STOPLINE_INLINE R predictive_feedforward(const CaccSettingsOf<Number>& c, const R& acceleration_mps2, const R& rate_1ps,
                                          const LeaderView<R>& p) {
     const double middle_s = 0.5 * (c.prediction_start_s + c.prediction_end_s);
     const double half_s = middle_s - c.prediction_start_s;
-    // To save time, exp is computed only for the first time and for the step between times.
+    // To save time, exp is computed only for the first of the three times and for the step between two times.
     R own = exp_negative<R>(c.prediction_start_s * rate_1ps);
     const R own_step = exp_negative<R>(half_s * rate_1ps);
     R other = exp_negative<R>((c.prediction_start_s + c.v2v_delay_s) * p.rate_1ps);
@@ -162,10 +166,10 @@ inline constexpr double kHardBraking_mps2 = 2.0;
 // Returns the acceleration of the spacing controller. `desired_gap_m` and `slope_s` come from the spacing law at the
 // current speed. `request_mps2` is the request of the last step, which is the state of the filter 1 / H.
 //
-// The filter delays braking. A time gap normally leaves room for this delay. The room is `gap_growth_m`, the desired
-// gap minus the standstill gap, reduced by any missing gap. If the room is shorter than kMinFilterRoom_s at the own
-// speed and the leader requests more than kHardBraking_mps2, the vehicle brakes at least as hard as with a constant
-// distance. Both values are our choice; only a stop needs braking that hard.
+// The filter delays braking. A time gap normally leaves room for this delay: `gap_growth_m` (the desired gap minus the
+// standstill gap), less any gap that is missing. If this room is shorter than kMinFilterRoom_s at the own speed and the
+// leader requests a deceleration above kHardBraking_mps2, the vehicle brakes at least as hard as with a constant
+// distance. Both thresholds are our choice. Only a stop makes a leader brake that hard.
 template <class R, class Number>
 STOPLINE_INLINE R follow_acceleration(const CaccSettingsOf<Number>& c, const R& speed_mps, const R& acceleration_mps2,
                                       const R& lag_s, const R& rate_1ps, const R& request_mps2, const R& desired_gap_m,
@@ -191,14 +195,17 @@ STOPLINE_INLINE R follow_acceleration(const CaccSettingsOf<Number>& c, const R& 
 
 inline constexpr double kEmergencyMargin = 1.15;
 
-// Returns the emergency braking, or kUnconstrained_mps2 while the needed deceleration is below the threshold. The
-// needed deceleration is the smallest constant one that avoids hitting the leader, which brakes constantly with b_p.
+// Returns the emergency braking, or kUnconstrained_mps2 while the needed deceleration is below the threshold of the
+// settings. The needed deceleration is the smallest constant one that avoids a collision if the leader brakes
+// constantly with b_p.
 //
-// If both speeds become equal before the leader stops (if 2 room / closing < v_p / b_p), it is b_p + closing^2 / (2
-// room). Else it is v^2 / (2 (room + v_p^2 / (2 b_p))), which stops the vehicle behind the stopped leader.
+// Here `room` is the net gap less the gap that must remain, and `closing` the closing speed. If the vehicle reaches the
+// speed of the leader before the leader stops (if 2 room / closing < v_p / b_p), the needed deceleration is b_p +
+// closing^2 / (2 room). Otherwise it is v^2 / (2 (room + v_p^2 / (2 b_p))), which stops the vehicle behind the stopped
+// leader.
 //
-// The request is 15 % stronger than needed (our choice), because the brake lags. Otherwise the braking would always
-// come late, and the need would grow.
+// The factor kEmergencyMargin makes the request stronger than needed (our choice), because the brake lags. Without it,
+// the braking would always come late, and the needed deceleration would grow.
 template <class R, class Number>
 STOPLINE_INLINE R emergency_acceleration(const CaccSettingsOf<Number>& c, const R& speed_mps, const LeaderView<R>& p) {
     const R closing = max_of(p.closing_mps, 0.0);
@@ -217,27 +224,28 @@ STOPLINE_INLINE R emergency_acceleration(const CaccSettingsOf<Number>& c, const 
     return choose(urgent, 0.0 - braking, unconstrained);
 }
 
-// Reserves of keep_room_acceleration(). All three values are our choice.
-inline constexpr double kBrakeReserve_s = 0.3;       // lag of the brake (0.2 s), and 0.1 s for the request to change
-inline constexpr double kReservedGrowthShare = 0.5;  // with 1, SWITCH-2 would brake in every start
-inline constexpr double kMinReserve_s = 0.15;        // a larger value would slow down the starts of Section III
+// Reserves of keep_room_acceleration(), which explains them. All three values are our choice. With a growth share of 1,
+// vehicles with SWITCH-2 would brake in every start. A larger minimum would slow down the starts of Section III.
+inline constexpr double kBrakeReserve_s = 0.3;  // lag of the brake (0.2 s), and 0.1 s for the request to change
+inline constexpr double kReservedGrowthShare = 0.5;
+inline constexpr double kMinReserve_s = 0.15;
 
-// Returns the braking that keeps enough room for a full brake of the leader, or kUnconstrained_mps2 below the safe
-// speed. If the leader brakes with the maximum b at once, braking with b must suffice:
+// Returns the braking that keeps room for the case that the leader brakes with the maximum deceleration b at once.
+// Returns kUnconstrained_mps2 up to the safe speed, from which braking with b as well just avoids a collision:
 //     v_safe^2 = v_p^2 + 2 b room
-// This is the safe speed of Gipps 1981 for two vehicles that begin to brake at the same time. A faster vehicle lets its
-// speed follow d v_safe / dt = (v_p a_p - b closing) / v_safe and returns to v_safe.
+// This is the safe speed of Gipps 1981 for two vehicles that begin to brake at the same time. A faster vehicle follows
+// the change of v_safe, d v_safe / dt = (v_p a_p - b closing) / v_safe, and brakes in addition to return to v_safe.
 //
-// Two reserves reduce the room. The first one, kBrakeReserve_s at the closing speed, covers the delay of the own brake.
-// The second one is for policies with a time gap: their filter (H = 1 + h s) also delays braking, so a vehicle with a
-// short gap would use up its room. It is kBrakeReserve_s at the own speed, but at most kReservedGrowthShare of
-// `gap_growth_m`, the desired gap minus the standstill gap. Just above a switch speed gap_growth_m is almost 0, so the
-// reserve is at least kMinReserve_s at the own speed. With a constant distance gap_growth_m is 0 and there is no second
-// reserve, because the feedforward reports braking in time.
+// Two reserves reduce the room. The first reserve, kBrakeReserve_s at the closing speed, covers the delay of the own
+// brake. The second reserve is for policies with a time gap: their filter (H = 1 + h s) also delays braking, so a
+// vehicle with a short gap would use up its room. The second reserve is kBrakeReserve_s at the own speed, but at most
+// kReservedGrowthShare of `gap_growth_m`, the desired gap minus the standstill gap. Just above a switch speed
+// gap_growth_m is almost 0, so this reserve is at least kMinReserve_s at the own speed. With a constant distance
+// gap_growth_m is 0 and there is no second reserve, because the feedforward reports the leader's braking in time.
 template <class R, class Number>
 STOPLINE_INLINE R keep_room_acceleration(const CaccSettingsOf<Number>& c, const R& speed_mps, const R& gap_growth_m,
                                          const LeaderView<R>& p) {
-    constexpr double kSpeedGain_1ps = 2.0;  // our choice: slower than the brake responds
+    constexpr double kSpeedGain_1ps = 2.0;  // our choice: a slower response than that of the brake
     const double b = c.deceleration_emergency_mps2;
     const R delay_m = (c.radar_delay_s + kBrakeReserve_s) * max_of(p.closing_mps, 0.0);
     const R reserve_m = max_of(min_of(kBrakeReserve_s * speed_mps, kReservedGrowthShare * gap_growth_m),
@@ -255,8 +263,8 @@ STOPLINE_INLINE R keep_room_acceleration(const CaccSettingsOf<Number>& c, const 
 }
 
 // Returns the braking for a hidden leader: the next vehicle on the own route while a diverging vehicle drives in
-// between. The vehicle must not hit it after the diverging vehicle has left. Returns kUnconstrained_mps2 or more if no
-// braking is needed. `gap_growth_m` is that of keep_room_acceleration().
+// between. The vehicle must not hit the hidden leader after the diverging vehicle has left. Returns kUnconstrained_mps2
+// or more if no braking is needed. `gap_growth_m` is the desired gap minus the standstill gap.
 inline double hidden_leader_acceleration(const DriverTables& d, double speed_mps, double standstill_gap_m,
                                          double gap_growth_m, const LeaderView<double>& p) {
     const double collision_free_mps2 = min_of(emergency_acceleration(d.cacc, speed_mps, p),

@@ -7,24 +7,25 @@
 
 namespace stopline {
 
-// A structure of settings that kernels read is a template over the number type (base/simd/narrowed.h).
+// Settings that kernels read are templates over the number type, so that kernels can use float (base/simd/narrowed.h).
 
-// CACC: the gains of feedback and feedforward (Fig. 3 and Fig. 4), and the delays of the sensors.
+// Cooperative adaptive cruise control (CACC): gains of feedback and feedforward (Fig. 3 and Fig. 4), delays of the
+// sensors, and limits of the acceleration.
 template <class Number>
 struct CaccSettingsOf {
     Number feedback_kp_1ps2 = 0.2;  // gain on the gap error (Ploeg et al. 2011, reference [31] of the paper)
     Number feedback_kd_1ps = 0.7;   // gain on the rate of the gap error
-    Number radar_delay_s = 0.15;    // Section III.D
+    Number radar_delay_s = 0.15;    // Section III.D of the paper
     Number radar_range_m = 150.0;
     Number v2v_delay_s = 0.02;
     Number prediction_start_s = 0.1;           // start of the prediction horizon, from now (Fig. 4)
     Number prediction_end_s = 0.5;             // end of the prediction horizon, from now
     Number acceleration_max_mps2 = 2.5;        // comfort limit of followers
-    Number deceleration_comfort_mps2 = 3.5;    // limit of ISO 15622 for ACC, without an emergency
+    Number deceleration_comfort_mps2 = 3.5;    // limit without an emergency (ISO 15622 for ACC)
     Number deceleration_emergency_mps2 = 7.0;  // maximum braking
     Number emergency_threshold_mps2 = 3.0;     // emergency braking begins when this deceleration is needed
     Number emergency_gap_m = 0.5;              // remaining gap after emergency braking
-    Number jerk_up_mps3 = 6.0;                 // limits of the change of the request, so that switches are smooth
+    Number jerk_up_mps3 = 6.0;                 // limits of the jerk of the requested acceleration
     Number jerk_down_mps3 = 25.0;
     Number catch_up_factor = 1.05;  // a follower may exceed the speed limit by this factor to close its gap
 };
@@ -33,10 +34,10 @@ using CaccSettings = CaccSettingsOf<double>;
 // Driving without a leader: the acceleration as a function of speed (the calibrated start-up of Section III.B).
 struct FreeDriveSettings {
     std::vector<double> speed_mps;          // nodes of the profile, rising from 0
-    std::vector<double> acceleration_mps2;  // at the nodes; constant beyond the last one
-    double speed_gain_1ps = 0.35;           // upper limit of the acceleration: gain x (desired speed - speed)
-    double deceleration_mps2 = 1.5;         // deceleration before a lower speed limit, such as a turn
-    double hesitation_s = 0.0;              // first vehicle at the stop line: from green to the release of the brake
+    std::vector<double> acceleration_mps2;  // at these speeds; constant beyond the last one
+    double speed_gain_1ps = 0.35;           // limit of the acceleration: gain x (desired speed - speed)
+    double deceleration_mps2 = 1.5;         // deceleration before a lower speed limit, such as in a turn
+    double hesitation_s = 0.0;              // reaction time of the first vehicle at the stop line
 };
 
 // Stopping at a stop line.
@@ -52,33 +53,33 @@ using StopSettings = StopSettingsOf<double>;
 struct GiveWaySettings {
     double critical_gap_s = 5.0;  // shortest accepted time to the next vehicle with priority
     double margin_m = 0.5;        // distance from the front to the conflict area while waiting
-    // Assumed acceleration, up to the limit, of approaching vehicles that have priority.
+    // Acceleration that a yielding driver assumes of approaching vehicles with priority, up to the speed limit.
     double approach_acceleration_mps2 = 2.0;
 };
 
 // Lane changes (sim/lane_change/lane_change.cpp).
 struct LaneChangeSettings {
-    // Mandatory changes. The search for a target lane begins strategic_m before the stop line, times the number of
-    // changes needed. From urgent_m on the speed is adapted to gaps in the target lane.
+    // Mandatory changes. A vehicle looks for a gap from strategic_m before the stop line on, or earlier if it needs
+    // several changes: strategic_m for each of them. From urgent_m on it adapts its speed to gaps in the target lane.
     double strategic_m = 300.0;
     double urgent_m = 200.0;
-    // Smallest accepted lead gap and lag gap, as a share of the gap that the policy keeps. The share falls linearly
+    // Smallest accepted lead gap and lag gap, as a share of the gap of the spacing policy. The share falls linearly
     // from gap_share at urgent_m to urgent_gap_share at the stop line.
     double gap_share = 1.0;
-    // Default: at equal speeds the median critical gap of mandatory changes is 4 m (Toledo, Koutsopoulos, Ben-Akiva
-    // 2003, "Modeling integrated lane-changing behavior", Transportation Research Record 1857). This is 0.3 of a time
-    // gap of 0.87 s at 50 km/h.
+    // The default follows measurements: at equal speeds the median critical gap of mandatory changes is 4 m (Toledo,
+    // Koutsopoulos, Ben-Akiva 2003, "Modeling integrated lane-changing behavior", Transportation Research Record 1857).
+    // This is 0.3 of a time gap of 0.87 s at 50 km/h.
     double urgent_gap_share = 0.3;
     std::string look_ahead = "on";  // off | on: choose a lane also for the turn at the intersection after the next one
     std::string gap_opening = "off";  // off | on: followers on the target lane open a gap for mandatory changes
     // Discretionary changes: MOBIL (Kesting, Treiber, Helbing 2007). It rates a change by the accelerations of the
     // intelligent driver model (IDM) with the gap of the policy.
-    double threshold_mps2 = 0.1;     // smallest gain in acceleration
+    double threshold_mps2 = 0.1;     // smallest gain in acceleration that justifies a change
     double politeness = 0.0;         // weight of the gains and losses of other vehicles
     double keep_right_mps2 = 0.0;    // bonus of a change to the right
     double acceleration_mps2 = 1.5;  // maximum acceleration of the IDM
     double deceleration_mps2 = 2.0;  // comfortable deceleration of the IDM
-    double pause_s = 5.0;            // shortest time from a change to the next discretionary change
+    double pause_s = 5.0;            // shortest time from any change to a discretionary change
 };
 
 struct DriverSettings {
@@ -92,41 +93,42 @@ struct DriverSettings {
 
 // A car-following model of the Krauss family (krauss.h), with the parameters of Table 2 of the paper.
 struct KraussSettings {
-    double acceleration_mps2 = 1.7;                 // a
-    double constant_power_speed_mps = 500.0 / 3.6;  // above it the power is constant: the acceleration falls with 1 / v
-    double catch_up_factor = 1.0;                   // factor on the acceleration of a vehicle close behind its leader
+    double acceleration_mps2 = 1.7;  // a, maximum acceleration
+    // Above this speed the power is constant: the acceleration falls with 1 / v.
+    double constant_power_speed_mps = 500.0 / 3.6;
+    double catch_up_factor = 1.0;    // factor on the acceleration of a vehicle close behind its leader
     double gap_tracking = 0.0;       // 1: keep the time gap behind a leader that draws away; 0: v_safe alone applies
     double anticipation_s = 0.0;     // the speed of an accelerating leader is extrapolated over this time
     double transient_gap_s2 = 0.0;   // extra gap per acceleration of the leader
-    double deceleration_mps2 = 4.7;  // b
-    double reaction_s = 0.9;         // tau
-    double standstill_gap_m = 2.95;  // s_0, minGap in SUMO
+    double deceleration_mps2 = 4.7;  // b, expected deceleration of both vehicles
+    double reaction_s = 0.9;         // tau, reaction time
+    double standstill_gap_m = 2.95;  // s_0 (minGap in SUMO)
     double dawdling = 0.4;           // sigma, 0 .. 1
 };
 
-// The mesoscale mode: one car-following model for policies with a time gap, and one for all other policies.
+// The mesoscale mode: one car-following model for policies with the law constant_time, and one for all other policies.
 struct MesoSettings {
-    std::string name;  // default: the name of the file in data/meso
+    std::string name;  // name of this set of values; default: the name of the file in data/meso
     double step_s = 0.1;
     double leader_speed_share = 0.95;  // speed of a vehicle without leader, as a share of the limit (Section V.A)
     double speed_factor = 1.0;         // factor on every speed limit
-    double speed_gain_1ps = 1000;      // acceleration per m/s below the limit
-    double turn_gain_1ps = 1000;       // acceleration per m/s below the speed that allows braking in time for a turn
-    // Acceleration of platoon leaders. leader_mps2 applies up to the constant-power speed; 0: the model of the policy
-    // decides. A profile replaces both values; it consists of speeds and the accelerations at them.
+    double speed_gain_1ps = 1000;      // acceleration per m/s below the speed limit
+    double turn_gain_1ps = 1000;       // acceleration per m/s below the safe speed before a turn
+    // Acceleration of platoon leaders. leader_mps2 applies up to the constant-power speed. If it is 0, the model of the
+    // policy decides. A profile (speeds, and the accelerations at these speeds) replaces both values.
     double leader_mps2 = 0.0;
     double leader_constant_power_speed_mps = 500.0 / 3.6;
     std::vector<double> leader_profile_mps;
     std::vector<double> leader_profile_mps2;
     // Queue discharge: number of stopped vehicles that a start message reaches in one step.
     int start_relay_vehicles = 0;
-    double start_delay_s = 0.0;  // start-up delay of the first vehicle at a stop line, from its powertrain
+    double start_delay_s = 0.0;  // start-up delay of the first vehicle at a stop line, due to its powertrain
     KraussSettings constant_time;
     KraussSettings constant_distance;
-    double band_m = 0.5;                   // s_t of equation (1)
-    double below_band_speed_share = 0.95;  // d of equation (1)
-    // The policy that the models were calibrated for. Another time gap or standstill gap changes tau or s_0 by the
-    // difference.
+    double band_m = 0.5;                   // s_t of equation (1) of the paper
+    double below_band_speed_share = 0.95;  // d of equation (1) of the paper
+    // Gaps of the policy for which the models were calibrated. For a policy with another time gap or standstill gap,
+    // tau or s_0 changes by the difference.
     double calibrated_time_gap_s = 0.87;
     double calibrated_standstill_gap_m = 2.95;
 };

@@ -1,22 +1,25 @@
 // Car following of the mesoscale mode: computes the speed of the next step from the state at the start of the step.
 //
-// For policies with a time gap this is the model of Krauss (1998, "Microscopic modeling of traffic flow", chapter 5).
-// Its safe speed is solved for the gap s as in SUMO, with v_l the speed of the leader:
+// For policies with the law constant_time this is the model of Krauss (1998, "Microscopic modeling of traffic flow",
+// chapter 5). Its safe speed is solved for the gap s as in SUMO, with v_l the speed of the leader:
 //
 //   v_safe = -b tau + sqrt(b^2 tau^2 + v_l^2 + 2 b (s - s_0))
 //
-// All other policies use equation (1) of the paper, with its missing plus sign restored:
+// All other policies use equation (1) of the paper. As printed, it jumps at s_0; here its missing plus sign is
+// restored:
 //
 //   s > s_0               v_safe as above, with s_0 + s_t in place of s_0
 //   s_0 - s_t < s <= s_0  v_safe = v_l
 //   s <= s_0 - s_t        v_safe = d v_l
 //
-// As printed, equation (1) jumps at s_0. In equilibrium at speed v the gap is s_0 (+ s_t) + tau v in both models.
+// In equilibrium at speed v the gap is s_0 + tau v in the first model and s_0 + s_t + tau v in equation (1). With the
+// maximum acceleration a, speed and position after a step dt are
 //
 //   v' = min(v_safe, v + a(v) dt, cap),  v <- max(0, v' - sigma dt xi min(v', a 1 s)),  x <- x + v dt
 //
-// Here xi is uniform in [0, 1). Slow vehicles dawdle less, so that dawdling never prevents a start (as in SUMO). Below
-// 1 cm/s v' is set to 0. Switching policies (SWITCH) raise s_0 by the gap that they add at the current speed.
+// Here xi is uniform in [0, 1), and `cap` is the highest speed that the speed limit and the stop line allow. Slow
+// vehicles dawdle less, so that dawdling never prevents a start (as in SUMO). A v' below 1 cm/s is set to 0. Switching
+// policies (SWITCH) raise s_0 by the gap that they add at the current speed.
 //
 // The following extensions are off in the models of the paper:
 //   constant power   a(v) = a min(1, v_p / v); in the paper v_p is above all speed limits
@@ -39,24 +42,24 @@ namespace stopline {
 
 // The model of one spacing policy, ready for use. SI units.
 struct Krauss {
-    double acceleration_mps2 = 0.0;         // a
-    double constant_power_speed_mps = 1e9;  // v_p
-    double transient_gap_s2 = 0.0;          // extra gap per acceleration of the leader; no effect if it brakes
+    double acceleration_mps2 = 0.0;         // a, maximum acceleration
+    double constant_power_speed_mps = 1e9;  // v_p, speed from which on the power is constant
+    double transient_gap_s2 = 0.0;          // extra gap per acceleration of the leader; 0 if the leader brakes
     double catch_up_factor = 1.0;           // factor on the acceleration close behind the leader
     double gap_tracking = 0.0;              // 0 .. 1, see track_time_gap()
-    double anticipation_s = 0.0;            // T
-    double deceleration_mps2 = 0.0;         // b
-    double reaction_s = 0.0;                // tau
+    double anticipation_s = 0.0;            // T, time over which the leader's speed is extrapolated
+    double deceleration_mps2 = 0.0;         // b, expected deceleration of both vehicles
+    double reaction_s = 0.0;                // tau, reaction time
     double standstill_gap_m = 0.0;          // s_0
     double dawdling = 0.0;                  // sigma, 0 .. 1
     bool constant_distance = false;         // true: equation (1); false: Krauss
-    double band_m = 0.0;                    // s_t; 0 for Krauss
-    double below_band_speed_share = 1.0;    // d
+    double band_m = 0.0;                    // s_t of equation (1); 0 for Krauss
+    double below_band_speed_share = 1.0;    // d of equation (1)
 
     double equilibrium_gap_m(double speed_mps) const { return standstill_gap_m + band_m + reaction_s * speed_mps; }
 };
 
-// The parameters of several vehicles, which may have different policies. Names as in Krauss.
+// The parameters of several vehicles, which may have different policies. The members mean the same as in Krauss.
 template <class R>
 struct KraussPerVehicle {
     R acceleration_mps2, constant_power_speed_mps, transient_gap_s2, catch_up_factor, gap_tracking, anticipation_s;
@@ -68,8 +71,8 @@ struct KraussPerVehicle {
 // The functions below compute one vehicle or several at a time (base/simd/simd.h). `Model` is Krauss or
 // KraussPerVehicle.
 
-// Returns the highest speed from which a vehicle can stop behind its leader. Both brake with b [m/s2], the vehicle
-// after the time tau [s]. `gap_m` is the part of the net gap that may be used up.
+// Returns the highest speed from which a vehicle can stop behind its leader. The leader brakes with b [m/s2] at once,
+// the vehicle brakes with b after the time tau [s]. `gap_m` is the part of the net gap that may be used up.
 template <class R, class Parameter>
 STOPLINE_INLINE R braking_speed_mps(const Parameter& b, const Parameter& tau, const R& gap_m,
                                     const R& leader_speed_mps) {
@@ -87,7 +90,8 @@ STOPLINE_INLINE R safe_speed_mps(const Model& k, const R& gap_m, const R& leader
     return select(k.constant_distance, select(spare_gap_m <= 0.0, close, braking), braking);
 }
 
-// Returns 0 for speeds below 1 cm/s. Otherwise a follower would close its gap ever more slowly and never come to rest.
+// Returns the speed, or 0 if it is below 1 cm/s. Without this, a follower would close its gap ever more slowly and
+// never come to rest.
 template <class R>
 STOPLINE_INLINE R snap_to_standstill(const R& speed_mps) {
     return select(speed_mps < kMesoStopSpeed_mps, R(0.0), speed_mps);
@@ -97,7 +101,7 @@ STOPLINE_INLINE R snap_to_standstill(const R& speed_mps) {
 template <class R>
 struct KraussInputOf {
     R speed_mps;
-    R gap_m;  // net gap
+    R gap_m;  // net gap to the leader
     R leader_speed_mps;
     R leader_acceleration_mps2;  // in the last step; 0 if the leader brakes
     R extra_gap_m;               // see safe_speed_mps()
@@ -106,8 +110,8 @@ struct KraussInputOf {
 using KraussInput = KraussInputOf<double>;
 
 // Returns v_safe, reduced so that the vehicle keeps its time gap. v_safe allows a shorter gap while the leader is
-// faster, because a faster leader needs longer to stop. Full tracking limits the speed to (s - s_0) / tau. With partial
-// tracking the speed lies between that limit and v_safe.
+// faster, because a faster leader needs longer to stop. Full tracking (gap_tracking = 1) limits the speed to (s - s_0)
+// / tau. With partial tracking the speed lies between that limit and v_safe.
 template <class R, class Model>
 STOPLINE_INLINE R track_time_gap(const Model& k, const KraussInputOf<R>& in, const R& extra_gap_m, const R& safe_mps) {
     const R time_gap_mps = (in.gap_m - k.standstill_gap_m - extra_gap_m) * (1.0 / max_of(R(k.reaction_s), R(0.05)));
@@ -124,15 +128,16 @@ STOPLINE_INLINE R anticipated_safe_speed_mps(const Model& k, const KraussInputOf
     return safe_speed_mps(k, in.gap_m, R(in.leader_speed_mps + k.anticipation_s * in.leader_acceleration_mps2),
                           extra_gap_m);
 }
-// The same, with the transient gap added.
+// Returns the same with the transient gap added to the extra gap.
 template <class R, class Model>
 STOPLINE_INLINE R anticipated_safe_speed_mps(const Model& k, const KraussInputOf<R>& in) {
     return anticipated_safe_speed_mps(k, in, R(in.extra_gap_m + k.transient_gap_s2 * in.leader_acceleration_mps2));
 }
 
 // Returns the speed of the next step. `safe_mps` is the result of anticipated_safe_speed_mps(), `random` is uniform in
-// [0, 1), and `power_limit` is the result of has_power_limit(). Braking does not go below `lowest_mps` except to avoid
-// contact. The limit matters only after lane changes; otherwise the models do not demand such hard braking.
+// [0, 1), and `power_limit` is the result of has_power_limit(). The leader does not make the vehicle brake below
+// `lowest_mps`, except to avoid contact. This matters only after lane changes; otherwise the models do not demand such
+// hard braking.
 template <bool power_limit, class R, class Model>
 STOPLINE_INLINE R speed_after_mps(const Model& k, const KraussInputOf<R>& in, const R& safe_mps, const R& random,
                                   double dt, const R& lowest_mps = R(0.0)) {
@@ -141,12 +146,12 @@ STOPLINE_INLINE R speed_after_mps(const Model& k, const KraussInputOf<R>& in, co
     R acceleration = k.acceleration_mps2;
     if constexpr (power_limit)
         acceleration = acceleration * min_of(R(1.0), R(k.constant_power_speed_mps / max_of(in.speed_mps, R(1e-3))));
-    constexpr double kCatchUp_m = 2.0;  // catching up applies within this distance of the equilibrium gap
+    constexpr double kCatchUp_m = 2.0;  // catch_up_factor applies if the gap exceeds the equilibrium gap by less
     const R equilibrium_m = k.standstill_gap_m + k.band_m + k.reaction_s * in.speed_mps;
     const R factor = select(in.gap_m - in.extra_gap_m < equilibrium_m + kCatchUp_m, R(k.catch_up_factor), R(1.0));
     const R accelerated = in.speed_mps + acceleration * factor * dt;
-    // The vehicle drives at most to the present rear of its leader. Models with anticipation or short gaps can brake
-    // too little if the leader stops harder than the model expects, as before a conflict area.
+    // The vehicle moves at most to the current position of its leader's rear. Models with anticipation or short gaps
+    // can brake too little if the leader stops harder than the model expects, such as before a conflict area.
     const R contact = max_of(in.gap_m, R(0.0)) * (1.0 / dt);
     const R desired =
         snap_to_standstill(min_of(min_of(max_of(min_of(safe, accelerated), lowest_mps), contact), in.speed_cap_mps));
@@ -160,7 +165,8 @@ struct LeaderProfile {
     double bins_per_mps = 0.0;  // 0: no profile
     std::array<double, kBins> acceleration_mps2{};
 };
-// Returns the profile of the settings. Each bin takes the acceleration of the nearest speed.
+// Returns the profile of platoon leaders in the settings. Each bin gets the acceleration at the listed speed that is
+// nearest to the middle of the bin.
 LeaderProfile leader_profile(const MesoSettings& settings);
 
 // Returns the next speed of one vehicle.

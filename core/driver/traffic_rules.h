@@ -8,19 +8,20 @@ namespace stopline {
 
 struct TrafficRules {
     // The keep-clear rule. A vehicle passes the stop line only if its exit lane has room for it and for the vehicles
-    // between it and the exit lane. Room ends at the rearmost vehicle within sight_m that is slower than 1 m/s. The
+    // between it and the exit lane. The room ends at the rearmost vehicle within sight_m that is slower than 1 m/s. The
     // vehicle also waits while such a slow vehicle from a crossing street blocks its path. The rule can fail, because a
     // moving vehicle in the exit lane may still stop.
     std::string keep_clear = "off";  // off | on
     double sight_m = 300.0;          // distance into the exit lane that drivers see; SUMO considers the whole lane
-    // on: while the signal at the end of the exit lane is not green, moving vehicles on that lane count as already
-    // stopped at it. SUMO likewise counts a lane as occupied if its last vehicle must wait at the end.
+    // on: while the signal at the end of the exit lane is not green, moving vehicles on the exit lane count as already
+    // stopped at that signal. SUMO has a similar rule: a lane counts as occupied if its last vehicle must wait at the
+    // end.
     std::string count_queue_at_red_exit = "on";  // off | on
-    // The first vehicle of a lane that has been stopped for this many signal cycles is teleported past the
-    // intersection, as soon as there is room (SUMO: teleport). 0: never.
+    // If the first vehicle of a lane has been stopped for this many signal cycles, it is teleported past the
+    // intersection as soon as there is room (SUMO: teleport). 0: never.
     double teleport_cycles = 0.0;
-    // A vehicle that has been stopped inside an intersection for this many greens no longer blocks crossing vehicles
-    // (SUMO: ignore-junction-blocker). If the greens differ, the longest counts. 0: never.
+    // If a vehicle has been stopped inside an intersection for the duration of this many greens, it no longer blocks
+    // crossing vehicles (SUMO: ignore-junction-blocker). If the green times differ, the longest counts. 0: never.
     double pass_blocker_greens = 0.0;
 };
 

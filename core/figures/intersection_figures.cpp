@@ -45,8 +45,8 @@ std::string vehicles_data(const std::vector<DrawnVehicle>& vehicles, int policy)
     return found ? text : text + "NaN NaN NaN NaN\n";
 }
 
-constexpr std::array<const char*, 3> kLightColours{"#d55e00", "#009e73",
-                                                   "#e69f00"};  // indexed by Light: red, green, yellow
+// Colours by Light: red, green, yellow.
+constexpr std::array<const char*, 3> kLightColours{"#d55e00", "#009e73", "#e69f00"};
 
 }  // namespace
 
@@ -89,7 +89,8 @@ Figure intersection_picture(const IntersectionReport& report, std::size_t popula
     for (std::size_t k = 0; k < components.size(); ++k) {
         figure.body += fmt::format(
             ", 'intersection_vehicles_{}.dat' with vectors head filled size 1.2,18 lw 5 lc rgb '{}' title {}", k,
-            line_style(2 * k).colour, gnuplot_text("  " + components[k].policy));  // spaces: clear of the arrow head
+            // The spaces keep the arrow head off the text.
+            line_style(2 * k).colour, gnuplot_text("  " + components[k].policy));
     }
     figure.body += "\n";
     return figure;
@@ -97,9 +98,9 @@ Figure intersection_picture(const IntersectionReport& report, std::size_t popula
 
 namespace {
 
-// Returns nothing if no queue position has enough samples.
+// Returns the mean headways by queue position, or nothing if no position has enough samples.
 std::optional<Figure> headway_figure(const IntersectionReport& report) {
-    constexpr int kMinSamples = 8;  // for a point
+    constexpr int kMinSamples = 8;  // fewest headways behind a point of the figure
     Figure figure;
     figure.name = "headways";
     std::string plots;
@@ -132,7 +133,8 @@ std::optional<Figure> headway_figure(const IntersectionReport& report) {
 }  // namespace
 
 std::vector<Figure> intersection_figures(const IntersectionReport& report) {
-    // The picture shows the population whose smallest share of a policy is the largest.
+    // The picture shows the population with the most even mix of policies. The evenness is the smallest share of a
+    // policy in the population, or 0 if the population has only one policy.
     const std::vector<PopulationSettings>& all = report.scenario.populations;
     std::size_t mixed = 0;
     double evenness = -1.0;

@@ -1,4 +1,4 @@
-// Figures of the runs of one intersection: a picture of one moment (Fig. 8 of the paper) and headways by queue
+// Figures of the runs at one intersection: a picture of one moment (Fig. 8 of the paper) and headways by queue
 // position.
 #pragma once
 

@@ -8,13 +8,14 @@
 
 namespace stopline {
 
-// Returns five, which hides the greens of single cycles. Returns one for a run with fewer than two such points.
+// Returns the number of measured intervals that form one point: five, so that the greens of single cycles do not show,
+// or one for a run with fewer than ten intervals.
 std::size_t intervals_per_point(std::size_t intervals);
 
-// Describes the points, such as "means of 5 intervals of 60 s".
+// Returns a description of the points, such as "means of 5 intervals of 60 s".
 std::string points_text(std::size_t intervals, double interval_s);
 
-// Says that the run has no whole interval and therefore no point.
+// Returns the text that the run has no whole interval, and therefore no point.
 std::string no_interval_text(const Scenario& scenario);
 
 // Returns the gnuplot plotting style for this number of points. Few points are also marked, because a line alone is

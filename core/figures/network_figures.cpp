@@ -17,10 +17,10 @@ namespace {
 constexpr std::array<const char*, 4> kPanels{"throughput [veh/h]", "travel time [s]", "density [%]",
                                              "teleported [veh]"};
 
-// One point of the curves.
+// One point of the curves of a population.
 struct SeriesPoint {
     double hours = 0.0;
-    std::array<double, kPanels.size()> values{};  // NaN: no vehicle left the area
+    std::array<double, kPanels.size()> values{};  // [panel] NaN if no vehicle left the area
 };
 
 std::vector<SeriesPoint> points_of(const std::vector<NetworkInterval>& series) {
@@ -61,7 +61,7 @@ std::string data_of(const std::vector<SeriesPoint>& points) {
     return text;
 }
 
-// gnuplot needs an explicit range if no value is a number.
+// Returns the y range of a panel. gnuplot needs an explicit range if no value is a number.
 std::string range_of(const std::vector<std::vector<SeriesPoint>>& all, std::size_t panel) {
     for (const std::vector<SeriesPoint>& points : all) {
         const auto has_value = [&](const SeriesPoint& point) { return !std::isnan(point.values[panel]); };
@@ -70,7 +70,8 @@ std::string range_of(const std::vector<std::vector<SeriesPoint>>& all, std::size
     return "[0:1]";
 }
 
-// Names the population whose measured window is shaded, if the windows differ.
+// Returns " of NAME", where NAME is the population whose measured window is shaded. Returns "" if all populations have
+// the same window.
 std::string window_owner(const NetworkReport& report) {
     const auto& all = report.populations;
     const auto other = [&](const NetworkResult& f) {
@@ -103,7 +104,7 @@ std::string marks_of(const NetworkReport& report) {
 }  // namespace
 
 Figure network_series_figure(const NetworkReport& report) {
-    constexpr std::size_t kNamesPerPanel = 9;  // more populations are named beside the next panels
+    constexpr std::size_t kNamesPerPanel = 9;  // further populations are named beside the next panels
     Figure figure;
     figure.name = "series";
     figure.width_px = 900;

@@ -6,7 +6,7 @@
 
 namespace stopline {
 
-// Draws throughput, travel time, density and teleported vehicles over time (Fig. 22 of the paper).
+// Draws throughput, travel time, density and the number of teleported vehicles over time (Fig. 22 of the paper).
 Figure network_series_figure(const NetworkReport& report);
 
 // Draws the share of each delay cause in the time that vehicles are stopped.

@@ -13,7 +13,7 @@ namespace stopline {
 
 namespace {
 
-// Numbers of the first lane before and behind its stop line (see make_approach).
+// Numbers of the first approach lane and of its exit lane (see make_approach).
 constexpr int kApproachLane = 0;
 constexpr int kExitLane = 1;
 
@@ -29,7 +29,7 @@ double last_shown_s(const SingleLightReport& result) {
     return std::min({kShown_s, run_s, result.scenario.signal.green_s + kTrajectoryAfter_s});
 }
 
-// Returns the points of the first lane that the figure shows, by vehicle from the front of the queue.
+// Returns the trajectory points on the first lane that the figure shows, by vehicle from the front of the queue.
 std::vector<std::pair<int, std::vector<TrajectoryPoint>>> by_vehicle(const SingleLightReport& result,
                                                                      std::size_t population, double interval_s) {
     const RunResult& run = result.runs[population];
@@ -48,7 +48,8 @@ std::vector<std::pair<int, std::vector<TrajectoryPoint>>> by_vehicle(const Singl
     return ordered;
 }
 
-// Draws the signal on the stop line for one interval. Dashes and words distinguish the colours too.
+// Returns the commands that draw the light on the stop line for one interval. Dashes and words distinguish the lights
+// even without colours.
 std::string light_line(const std::string& light, double from_s, double to_s) {
     const bool green = light == "green";
     const std::string colour = green ? "#009E73" : light == "red" ? "#D55E00" : "#F0C000";
@@ -62,7 +63,7 @@ std::string light_line(const std::string& light, double from_s, double to_s) {
     return text;
 }
 
-// Draws the signal over time: red, then green, yellow and red, once or in every cycle.
+// Returns the commands that draw the signal over time: red, then green, yellow and red, once or in every cycle.
 std::string signal_lines(const SingleLightReport& result) {
     const SignalSettings& signal = result.scenario.signal;
     const double end_s = last_shown_s(result);
@@ -92,7 +93,7 @@ std::string time_space_data(const SingleLightReport& result, std::size_t populat
             text += fmt::format("{:.2f} {:.2f} \"{}\" {}\n", point.time_s, point.distance_m,
                                 settings.components[static_cast<std::size_t>(point.policy)].policy, position);
         }
-        text += "\n";  // interrupts the line
+        text += "\n";  // an empty line interrupts the curve
     }
     return text;
 }
@@ -132,7 +133,7 @@ std::string platoon_data(const SingleLightReport& result, std::size_t population
 
 std::string platoon_panel(const std::string& file, std::size_t curves, int column,
                           const std::vector<std::size_t>& titles) {
-    // The platoon leader has no gap.
+    // The gap panel (column 3) shows no curve of the platoon leader, because it has no gap.
     if (column == 3 && curves < 2) return "plot NaN notitle\n";
     std::string text = "plot";
     for (std::size_t k = column == 3 ? 1 : 0; k < curves; ++k) {

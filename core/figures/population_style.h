@@ -1,6 +1,6 @@
 // Line style of a population in all figures of a run. It depends on the position of the population in the scenario, so
-// it does not change with the populations that a figure shows. Vehicles of a policy have the style of the population of
-// that name.
+// it is the same in figures that show only some populations. The vehicles of a policy have the style of the population
+// with the name of the policy.
 #pragma once
 
 #include <string>
@@ -10,7 +10,8 @@
 
 namespace stopline {
 
-// Returns the style of a population or a policy. Policies without a population of their name follow the populations.
+// Returns the style of a population or a policy. A policy without a population of its name gets one of the styles after
+// those of the populations.
 LineStyle style_of(const Scenario& scenario, const std::string& name);
 
 }  // namespace stopline

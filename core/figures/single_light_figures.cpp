@@ -14,7 +14,7 @@ namespace stopline {
 
 namespace {
 
-// The curves end shortly after the last reported green time.
+// Returns the time at which the curves end: shortly after the last reported green time.
 double last_shown_s(const SingleLightReport& result) {
     const std::vector<double>& green_s = result.scenario.measure.green_s;
     const double signal_s = result.scenario.signal.green_s;
@@ -35,7 +35,7 @@ std::string green_lines(const SingleLightReport& result) {
     return "set grid noxtics ytics\n" + ticks + ")\n" + lines;
 }
 
-// Returns the populations from the highest curve to the lowest, in the order of the legend.
+// Returns the populations from the highest curve to the lowest. The legend has the same order.
 std::vector<std::size_t> by_count(const SingleLightReport& result) {
     std::vector<std::size_t> order(result.populations.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -74,7 +74,7 @@ std::string paper_data(const std::vector<PaperPoint>& points) {
     return text;
 }
 
-// Plots the points of the paper in the colour of their curve, with one common legend entry.
+// Returns the commands that plot points of the paper in the colours of their curves, with one common legend entry.
 std::string plot_paper(const SingleLightReport& result, const std::vector<PaperPoint>& points, const std::string& file,
                        const std::string& legend) {
     std::string text;
@@ -101,7 +101,8 @@ std::string counter_data(const SingleLightReport& result, const std::vector<std:
     return text;
 }
 
-// The ratio is shown from the second vehicle of the baseline on. Earlier ratios are meaningless.
+// Returns the time from which on the improvement is shown: the passage of the second vehicle of the baseline. Earlier
+// ratios are meaningless.
 double first_ratio_s(const SingleLightReport& result) {
     const Counter& baseline = result.populations[*result.baseline].counter;
     return baseline.total() < 2 ? result.scenario.signal.green_s : baseline.times_s()[1];
@@ -138,7 +139,8 @@ std::string improvement_data(const SingleLightReport& result, const std::vector<
     return text;
 }
 
-// Writes the improvements from whole vehicle counts, as in the table. A value is left out if a queue is empty by then.
+// Returns the improvements computed from whole vehicle counts. A value is NaN if the queue of the population is empty
+// before the green time ends.
 std::string whole_count_data(const SingleLightReport& result, const std::vector<std::size_t>& order) {
     std::string text = "# green_s improvement_percent, one block for each population\n";
     for (const std::size_t k : order) {

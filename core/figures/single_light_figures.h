@@ -10,13 +10,13 @@
 
 namespace stopline {
 
-// Returns all figures that the results allow. Numbers of the paper in `targets` are shown if they belong to this
-// scenario.
+// Returns all figures that the results allow. The figures show those numbers of the paper in `targets` that belong to
+// this scenario.
 std::vector<Figure> single_light_figures(const SingleLightReport& result, const std::vector<Target>& targets);
 
 Figure counters_figure(const SingleLightReport& result, const std::vector<Target>& targets);
 Figure improvement_figure(const SingleLightReport& result, const std::vector<Target>& targets);
-// These two show the baseline and the first other population, or the first two populations if there is no baseline.
+// The next two figures show the baseline and the first other population, or the first two populations without baseline.
 Figure time_space_figure(const SingleLightReport& result);
 Figure platoon_figure(const SingleLightReport& result);
 

@@ -14,7 +14,7 @@ namespace stopline {
 
 namespace {
 
-// Writes the inflow from west, from east and from the crossing streets, veh/min.
+// Returns the inflow from west, from east and from the crossing streets over time, veh/min.
 std::string inflow_data(const NetworkResult& f, double interval_s) {
     std::string text = "# minutes west east crossing\n";
     const std::size_t group = intervals_per_point(f.inflow.size());

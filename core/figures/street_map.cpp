@@ -16,16 +16,17 @@ namespace stopline {
 
 namespace {
 
-constexpr double kRow_m = 560.0;       // length of the corridor in one row
-constexpr double kRow_px = 1520.0;     // width of one row
-constexpr double kMajorLeg_m = 130.0;  // drawn length of a leg to the border, from the centre of the intersection
+constexpr double kRow_m = 560.0;    // longest part of the corridor in one row
+constexpr double kRow_px = 1520.0;  // width of one row
+// Drawn length of a leg to the border of the network, from the centre of its intersection: major and minor street.
+constexpr double kMajorLeg_m = 130.0;
 constexpr double kMinorLeg_m = 55.0;
-constexpr double kBelow_m = 57.0;      // drawn height below the lowest centre
-constexpr double kAbove_m = 95.0;      // drawn height above the highest centre
+constexpr double kBelow_m = 57.0;      // drawn height below the centre of the southernmost intersection
+constexpr double kAbove_m = 95.0;      // drawn height above the centre of the northernmost intersection
 constexpr double kBarLength_m = 60.0;  // length of a bar that shows a signal cycle
 constexpr double kBarHeight_m = 4.0;
 
-// Returns the point at `ahead_m` from the end of the lane in driving direction and `right_m` to the right.
+// Returns the point `ahead_m` beyond the end of the lane, in driving direction, and `right_m` to the right.
 Point beside(const Lane& lane, double ahead_m, double right_m) {
     const Pose pose = pose_at(lane.shape, length_m(lane.shape) + ahead_m);
     return {pose.point.x_m + right_m * pose.sine, pose.point.y_m - right_m * pose.cosine};
@@ -55,8 +56,7 @@ Polyline band(const Polyline& line, double half_m) {
     return right;
 }
 
-// Returns the drawn part of a lane outside the intersections. Lanes to the border are cut, other lanes are drawn in
-// full.
+// Returns the drawn part of a lane outside the intersections. Lanes from or to the border of the network are shortened.
 Polyline shown_part(const LaneGraph& graph, int number, double radius_m) {
     const Lane& lane = graph.lanes[at(number)];
     const bool minor = std::abs(lane.shape.front().x_m - lane.shape.back().x_m) <
@@ -69,7 +69,7 @@ Polyline shown_part(const LaneGraph& graph, int number, double radius_m) {
     return {pose_at(lane.shape, exit ? 0.0 : cut_m).point, pose_at(lane.shape, exit ? whole_m - cut_m : whole_m).point};
 }
 
-// Returns the radius of the intersection that an exit lane leaves: the nearest one.
+// Returns the radius of the intersection at the start of an exit lane, which is the nearest intersection.
 double radius_behind_m(const StreetSettings& streets, const Lane& exit) {
     const auto apart_m = [&](const StreetIntersection& node) {
         return std::hypot(node.x_m - exit.shape.front().x_m, node.y_m - exit.shape.front().y_m);
@@ -80,7 +80,7 @@ double radius_behind_m(const StreetSettings& streets, const Lane& exit) {
         ->radius_m;
 }
 
-// The data files of the map.
+// The contents of the data files of the map.
 struct MapData {
     std::string inside = "# x_m y_m, surfaces of connections inside intersections\n";
     std::string lanes = "# x_m y_m, surfaces of lanes\n";
@@ -90,7 +90,7 @@ struct MapData {
     std::array<std::string, 3> lines{"# x_m y_m, stop lines\n", "# x_m y_m, stop lines\n", "# x_m y_m, stop lines\n"};
 };
 
-// Adds the direction arrows of a lane. They are long and as wide as the lane, because a lane is only a few dots wide.
+// Adds the direction arrows of a lane. They are long and as wide as the lane, because a lane is only a few pixels wide.
 void add_arrow(const LaneGraph& graph, const Lane& lane, MapData& drawn) {
     constexpr double kBegin_m = -29.0;
     constexpr double kBend_m = -19.0;
@@ -114,7 +114,8 @@ void add_arrow(const LaneGraph& graph, const Lane& lane, MapData& drawn) {
 }
 
 MapData draw_lanes(const StreetSettings& streets, const NetworkSettings& network, const LaneGraph& graph) {
-    constexpr double kHalfWidth = 0.46;  // share of the lane width; the rest shows as a line between lanes
+    // Half width of a drawn lane over the lane width; the rest shows as a line between lanes.
+    constexpr double kHalfWidth = 0.46;
     const double half_m = kHalfWidth * streets.lane_width_m;
     MapData drawn;
     for (int number = 0; number < static_cast<int>(graph.lanes.size()); ++number) {
@@ -135,12 +136,13 @@ MapData draw_lanes(const StreetSettings& streets, const NetworkSettings& network
     return drawn;
 }
 
-// Rectangles that show the signals over a cycle: one bar for each signal group, by colour.
+// Rectangles that show the signals over a cycle, by light. Each signal group has one bar.
 struct Bars {
     std::array<std::string, 3> by_light{"# x_m y_m, red\n", "# x_m y_m, green\n", "# x_m y_m, yellow\n"};
 };
 
-// Returns which signal groups of an intersection control a lane: major street, its left turns, minor street.
+// Returns for each signal group of an intersection if it controls a lane. The groups are the major street, its left
+// turns, and the minor street.
 std::array<bool, 3> used_groups(const LaneGraph& graph, std::size_t node) {
     std::array<bool, 3> used{};
     for (const Lane& lane : graph.lanes) {
@@ -166,7 +168,7 @@ void add_bars(const StreetIntersection& node, const std::array<bool, 3>& used, B
         for (std::int64_t tick = 1; tick <= programme.cycle_ticks(); ++tick) {
             const Light light = programme.light(from);
             if (tick < programme.cycle_ticks() && programme.light(tick) == light) continue;
-            const double inset_m = light == Light::red ? 0.35 * kBarHeight_m : 0.0;  // red is a thin line
+            const double inset_m = light == Light::red ? 0.35 * kBarHeight_m : 0.0;  // red is drawn as a thin line
             const double x0 = node.x_m - 0.5 * kBarLength_m + static_cast<double>(from) * m_per_tick;
             const double x1 = node.x_m - 0.5 * kBarLength_m + static_cast<double>(tick) * m_per_tick;
             bars.by_light[static_cast<std::size_t>(light)] += line_of({{x0, row_m - inset_m},
@@ -192,7 +194,7 @@ std::vector<Row> rows_of(const StreetSettings& streets) {
     const double first_m = centres_m.front() - kMajorLeg_m - 10.0;
     const double whole_m = centres_m.back() + kMajorLeg_m + 10.0 - first_m;
     if (whole_m <= kRow_m) return {{first_m, first_m + whole_m}};
-    constexpr double kFree_m = 60.0;  // needed on each side of a centre
+    constexpr double kFree_m = 60.0;  // length that a row needs on each side of an intersection's centre
     std::vector<Row> rows{{first_m, first_m + kRow_m}};
     for (std::size_t k = 0; k < centres_m.size(); ++k) {
         if (centres_m[k] + kFree_m <= rows.back().to_m) continue;
@@ -210,7 +212,7 @@ struct Span {
     double high_m = -std::numeric_limits<double>::infinity();
 };
 
-// Labels each bar with its signal group.
+// Returns the commands that label each bar with its signal group.
 std::string bar_labels(const StreetIntersection& node, const std::array<bool, 3>& used) {
     constexpr std::array<const char*, 3> kNames{"major", "left", "minor"};
     std::string text;

@@ -7,7 +7,8 @@
 
 namespace stopline {
 
-// Draws the figure `network`. A corridor from west to east is split into several rows. Legs to the border are cut.
+// Draws the figure `network`. A long corridor from west to east is split into several rows. Legs that lead to the
+// border of the network are shortened.
 Figure street_map(const Scenario& scenario);
 
 }  // namespace stopline

@@ -12,7 +12,8 @@ namespace stopline {
 
 namespace {
 
-// Writes one line for each vehicle. The line is interrupted while the vehicle is not on the street.
+// Returns the data of one curve for each vehicle with this policy. A curve is interrupted while its vehicle is not on
+// the street.
 std::string lines_of(const StreetTrace& trace, int policy) {
     std::map<int, std::vector<const StreetPoint*>> by_vehicle;
     for (const StreetPoint& point : trace.points) {

@@ -1,4 +1,4 @@
-// Time-space diagrams of a street, a panel for each population (Fig. 16 of the paper).
+// Time-space diagrams of a street, with one panel for each population (Fig. 16 of the paper).
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@
 
 namespace stopline {
 
-// Draws one panel for each population.
+// Draws `traces[k]` as the panel of `populations[k]`.
 Figure time_space_figure(const Scenario& scenario, const std::vector<std::string>& populations,
                          const std::vector<StreetTrace>& traces);
 
-// The same for the populations of a report.
+// Draws the panels of all populations of a report.
 Figure time_space_figure(const NetworkReport& report);
 
 }  // namespace stopline

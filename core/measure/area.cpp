@@ -22,7 +22,8 @@ int heading(const Lane& lane) {
     return y_m >= 0.0 ? 1 : 3;
 }
 
-constexpr std::array<Side, 4> kOrigin{Side::west, Side::south, Side::east, Side::north};  // [heading]
+// Sides that traffic comes from, by heading().
+constexpr std::array<Side, 4> kOrigin{Side::west, Side::south, Side::east, Side::north};
 
 }  // namespace
 
@@ -36,9 +37,9 @@ std::vector<AreaResult> area_series(std::span<const Detector> detectors, std::sp
     for (int window = 0; window < windows; ++window) {
         series.push_back({{window * interval_s, (window + 1) * interval_s}, 0, 0.0, 0.0, 0.0});
     }
-    std::unordered_map<int, double> entry_s;  // [vehicle]
+    std::unordered_map<int, double> entry_s;  // [vehicle] time of entry
     int inside = 0;
-    double inside_m = 0.0;  // length of the vehicles inside
+    double inside_m = 0.0;  // total length of the vehicles inside
     double now_s = 0.0;
     std::size_t k = 0;  // index of the window that contains now_s
     const auto advance = [&](double to_s) {
@@ -116,7 +117,7 @@ std::vector<OriginDestinationResult> origin_destination_results(const LaneGraph&
 std::vector<std::array<int, 4>> inflow_series(const LaneGraph& graph, std::span<const Detector> detectors,
                                               std::span<const Crossing> crossings, double interval_s, double end_s) {
     std::vector<std::array<int, 4>> series(static_cast<std::size_t>(std::floor(end_s / interval_s + 1e-9)));
-    std::unordered_set<int> inside;  // vehicles
+    std::unordered_set<int> inside;  // ids of the vehicles inside
     for (const Crossing& crossing : crossings) {
         const Detector& detector = detectors[at(crossing.detector)];
         if (detector.kind != Detector::Kind::zone) continue;

@@ -1,6 +1,6 @@
-// Throughput, travel time and density of an area over time, from the fronts that enter and leave it (Edie 1963, see
-// measure/zones.h). Throughput and travel time are also measured by side of entry and exit. An entry of a vehicle that
-// is already inside is ignored.
+// Throughput, travel time and density of an area over time, from the times at which vehicle fronts enter and leave it
+// (Edie 1963, see measure/zones.h). Throughput and travel time are also measured by side of entry and side of exit. A
+// second entry of a vehicle that has not left is ignored.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ namespace stopline {
 enum class Side : int { west = 0, south = 1, east = 2, north = 3 };
 inline constexpr std::array<const char*, 4> kSideNames{"west", "south", "east", "north"};
 
-// Returns the side of that name, which must be one of kSideNames.
+// Returns the side with this name, which must be one of kSideNames.
 Side side_named(std::string_view name);
 
 // Return the side that the traffic of a straight lane comes from, and the side that it goes to.
@@ -26,7 +26,7 @@ Side goes_to(const Lane& lane);
 struct AreaResult {
     TimeWindow window;
     int exited = 0;              // vehicles that left the area within the window
-    double travel_time_s = 0.0;  // mean of these vehicles; NaN: none
+    double travel_time_s = 0.0;  // mean of these vehicles; NaN if there are none
     double vehicles = 0.0;       // mean number of vehicles in the area
     double occupied = 0.0;       // share of the lane length that vehicles cover, 0 .. 1
 
@@ -37,7 +37,7 @@ struct OriginDestinationResult {
     Side from = Side::west;
     Side to = Side::west;
     int exited = 0;              // vehicles that left the area within the window
-    double travel_time_s = 0.0;  // mean of these vehicles; NaN: none
+    double travel_time_s = 0.0;  // mean of these vehicles; NaN if there are none
 };
 
 // In the functions below, crossings must be in order of time. Only detectors of the kind `zone` count.
@@ -47,11 +47,12 @@ struct OriginDestinationResult {
 std::vector<AreaResult> area_series(std::span<const Detector> detectors, std::span<const Crossing> crossings,
                                     double interval_s, double end_s, double lane_m);
 
-// Counts the vehicles that entered the area, by window and side: [window][Side]. Windows as in area_series().
+// Counts the vehicles that entered the area, by window and side: [window][Side]. The windows are those of
+// area_series().
 std::vector<std::array<int, 4>> inflow_series(const LaneGraph& graph, std::span<const Detector> detectors,
                                               std::span<const Crossing> crossings, double interval_s, double end_s);
 
-// Returns the results of all 16 pairs of sides.
+// Returns the results for all 16 pairs of entry side and exit side.
 std::vector<OriginDestinationResult> origin_destination_results(const LaneGraph& graph,
                                                                 std::span<const Detector> detectors,
                                                                 std::span<const Crossing> crossings,

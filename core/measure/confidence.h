@@ -1,4 +1,4 @@
-// Confidence intervals of 95 % for a mean of a few runs.
+// Confidence intervals of 95 % for the mean of a few runs.
 //
 //   student   mean -+ t(0.975, n - 1) s / sqrt(n): the usual two-sided interval
 //   paper     mean -+ t(0.95, n) s / sqrt(n / 2 - 1): equation (2) of the paper as printed, with nu = n. For six runs

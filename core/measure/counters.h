@@ -1,5 +1,5 @@
-// A vehicle counter at a line, and the comparison of two counters. A counter gives the number of fronts that have
-// passed up to a time. The resolution of an experiment with one queue is one vehicle.
+// Counts of vehicle fronts that pass a line over time, and the comparison of two such counts. A count is a whole number
+// of vehicles; interpolation refines it.
 #pragma once
 
 #include <vector>
@@ -15,7 +15,7 @@ public:
     int passed(double time_s) const;
 
     // Returns the count interpolated between passages. It is k at the k-th passage, grows linearly in between (from 0
-    // at time 0) and is constant after the last passage. It distinguishes policies with equal whole counts.
+    // at time 0) and is constant after the last passage. It can distinguish two policies with equal whole counts.
     double interpolated(double time_s) const;
 
     int total() const { return static_cast<int>(times_s_.size()); }
@@ -29,8 +29,8 @@ private:
 double improvement_percent(double passed, double baseline);
 
 // Returns the improvement of a counter over the baseline in percent, averaged over the time from `from_s` to `to_s`
-// (Fig. 6). It uses interpolated counts, because rounding both down to whole vehicles would increase the ratio. Returns
-// NaN if the interval is empty or the baseline is 0 at its start.
+// (Fig. 6). It uses interpolated counts, because rounding both counts down to whole vehicles would increase the ratio.
+// Returns NaN if the interval is empty or the baseline is 0 at its start.
 double mean_improvement_percent(const Counter& counter, const Counter& baseline, double from_s, double to_s);
 
 }  // namespace stopline

@@ -9,12 +9,12 @@ namespace stopline {
 
 namespace {
 
-constexpr std::size_t kLostPositions = 4;  // vehicles whose additional headways are lost time
+constexpr std::size_t kLostPositions = 4;  // number of vehicles at the front whose additional headways are lost time
 
 // The latest green of a lane.
 struct Green {
     double start_s = -1.0;
-    double last_s = 0.0;       // last passage, or the start of green
+    double last_s = 0.0;       // time of the last passage, or the start of green
     std::size_t position = 0;  // position in the queue of the next vehicle
 };
 

@@ -17,17 +17,17 @@ struct LinePassage {
     int vehicle = 0;
     int policy = 0;
     double speed_mps = 0.0;
-    double headway_s = 0.0;  // since the passage before on the same lane; NaN for the first one
+    double headway_s = 0.0;  // since the previous passage on the same lane; NaN for the first one
 };
 
-// Returns the passages of stop lines from the start of green on, lane by lane and in order of time.
+// Returns the passages of stop lines from the start of green on, ordered by lane and then by time.
 std::vector<LinePassage> line_passages(const LaneGraph& graph, const std::vector<Passage>& passages,
                                        double green_start_s);
 
 // Returns the passages within the green time.
 std::vector<LinePassage> within_green(const std::vector<LinePassage>& passages, double green_s);
 
-// The flow at the end of the queue: means over the last `positions` passages of each lane.
+// The flow at the end of the queue: means over the last `positions` vehicles of each lane.
 struct LastPositionsFlow {
     int vehicles = 0;        // number of passages in the means
     double headway_s = 0.0;  // NaN if there are no passages

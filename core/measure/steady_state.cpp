@@ -66,7 +66,7 @@ std::size_t rise_end(std::span<const double> values) {
 }
 
 std::optional<Collapse> find_collapse(std::span<const double> values, double share) {
-    constexpr std::size_t kMinSide = kMinCollapseValues / 2;  // values on each side of the cut
+    constexpr std::size_t kMinSide = kMinCollapseValues / 2;  // fewest values on each side of the cut
     if (values.size() < kMinCollapseValues) return std::nullopt;
     const Sums sums(values);
     double smallest = std::numeric_limits<double>::infinity();

@@ -10,12 +10,12 @@ namespace stopline {
 // Returns the number of values at the beginning that belong to the warm-up: a multiple of 5, and 0 for short series.
 //
 // The method is the marginal standard error rule with means of five values (MSER-5: White 1997, Simulation 69(6);
-// White, Cobb and Spratt 2000, Winter Simulation Conference). It tries all cuts within the first half. For each cut it
-// divides the sum of squared deviations of the remaining values by the square of their count. The smallest ratio wins,
-// because the mean of the remaining values is then estimated best.
+// White, Cobb and Spratt 2000, Winter Simulation Conference). It tries all cuts within the first half of the series.
+// For each cut it divides the sum of squared deviations of the values after the cut by the square of their number. The
+// cut with the smallest ratio wins, because it gives the best estimate of the mean.
 std::size_t warm_up(std::span<const double> values);
 
-// Returns the index of the first value that is at least 90 % of the highest value: the end of the initial rise.
+// Returns the index of the first value that is at least 90 % of the highest value, which ends the initial rise.
 std::size_t rise_end(std::span<const double> values);
 
 // A permanent drop of the level of a series.
@@ -26,9 +26,10 @@ struct Collapse {
 };
 inline constexpr std::size_t kMinCollapseValues = 10;
 
-// Finds a collapse: the cut of the series into two levels with the smallest squared deviations. The mean must drop by
-// at least `share`, and by more than three standard errors. The mean of the last tenth (at least five values) must be
-// as low. Returns nothing if there is no collapse, or for fewer than kMinCollapseValues values.
+// Finds a collapse: the cut of the series into two levels with the smallest squared deviations. The mean after the cut
+// must be lower by at least `share` of the mean before it, and by more than three standard errors. The mean of the last
+// tenth of the series (at least five values) must also be lower by `share`. Returns nothing if there is no collapse, or
+// for fewer than kMinCollapseValues values.
 std::optional<Collapse> find_collapse(std::span<const double> values, double share);
 
 }  // namespace stopline

@@ -18,14 +18,16 @@ struct Stretch {
     double to_m;
 };
 
-// Returns the part of `a` that is closer to `b` than the clearance. Over a step along `a` the distance to `b` changes
-// by at most the length of the step. A sample that is far from `b` therefore allows skipping the following samples.
+// Returns the stretch of `a` from the first to the last sample that is closer to `b` than the clearance. After a step
+// along `a`, the distance to `b` has changed by at most the length of the step. So the search can skip the samples next
+// to a sample that is far from `b`.
 std::optional<Stretch> near_part(const Polyline& a, const Polyline& b, double clearance_m) {
     const double end_m = length_m(a);
     const int samples = static_cast<int>(std::ceil(end_m / kSample_m));
     const auto position_m = [&](int k) { return std::min(k * kSample_m, end_m); };
     const auto excess_m = [&](int k) { return distance_m(b, pose_at(a, position_m(k)).point) - clearance_m; };
-    // Returns the next sample from k on that is closer than the clearance, in the direction +1 or -1.
+    // Returns the first sample that is closer to `b` than the clearance. The search starts at sample k and has the
+    // direction +1 or -1. The result is outside 0 .. samples if there is no such sample.
     const auto search = [&](int k, int direction) {
         while (k >= 0 && k <= samples) {
             const double too_far_m = excess_m(k);
@@ -53,7 +55,7 @@ Box box_of(const Polyline& line) {
     return box;
 }
 
-// Returns true if the boxes are further apart than the clearance, in x or in y.
+// Returns true if the distance of the boxes in x or in y exceeds the clearance.
 bool apart(const Box& a, const Box& b, double clearance_m) {
     const auto beyond = [&](const Box& one, const Box& other) {
         return one.low.x_m > other.high.x_m + clearance_m || one.low.y_m > other.high.y_m + clearance_m;
@@ -61,7 +63,8 @@ bool apart(const Box& a, const Box& b, double clearance_m) {
     return beyond(a, b) || beyond(b, a);
 }
 
-// Returns the conflict area with positions from the starts of the lanes. `other` and the yielding flags are not set.
+// Returns the conflict area of two connections, with positions measured from the starts of the lanes. The members
+// `other`, `yields` and `other_yields` are not set.
 std::optional<Conflict> areas_of(const Lane& one, const Lane& two, double clearance_m) {
     const auto on_one = near_part(one.shape, two.shape, clearance_m);
     const auto on_two = on_one ? near_part(two.shape, one.shape, clearance_m) : std::nullopt;
@@ -73,7 +76,7 @@ std::optional<Conflict> areas_of(const Lane& one, const Lane& two, double cleara
                     position_m(two, on_two->to_m)};
 }
 
-// Returns the rank of the movement; a higher rank yields to a lower one.
+// Returns the rank of a movement in right of way. Movements of a higher rank yield to movements of a lower rank.
 int rank(Turn turn) { return turn == Turn::left ? 2 : turn == Turn::right ? 1 : 0; }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Detectors: positions on lanes where the passage of fronts is recorded.
+// Detectors: positions on lanes at which the simulation records every vehicle whose front passes.
 #pragma once
 
 #include <cstdint>
@@ -8,17 +8,17 @@ namespace stopline {
 struct Detector {
     enum class Kind : std::uint8_t {
         stop_line,
-        zone,    // border of a measuring zone
-        exit,    // behind an intersection
-        middle,  // middle of a link
-        loop     // named detector of the scenario
+        zone,    // on the border of a zone in which traffic is measured
+        exit,    // at the start of an exit lane, behind an intersection
+        middle,  // in the middle of a lane between two intersections
+        loop     // induction loop of an imported network; it has a name
     };
-    int lane = -1;
+    int lane = -1;  // -1: no position; the detector counts the starts or ends of trips
     double position_m = 0.0;
     Kind kind = Kind::stop_line;
-    int zone = -1;             // index of the zone that it borders
-    bool leaves_zone = false;  // vehicles leave the zone here; false: they enter it
-    int loop = -1;             // index of the name of a loop
+    int zone = -1;             // index of the zone; -1: the detector belongs to no zone
+    bool leaves_zone = false;  // true: vehicles leave the zone at this detector; false: they enter the zone
+    int loop = -1;             // index in Model::loop_names; -1: no induction loop
 };
 
 }  // namespace stopline

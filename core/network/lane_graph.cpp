@@ -45,8 +45,8 @@ const std::vector<Conflict>& LaneGraph::conflicts_of(int lane) const {
 
 namespace {
 
-// Throws InputError unless the lanes of the approach are neighbours in its order and have their stop lines side by
-// side.
+// Throws InputError unless the lanes of the approach are linked as neighbours in the order of Approach::lanes, their
+// stop lines lie side by side, and the turn shares are valid.
 void check_approach(const LaneGraph& graph, int index) {
     const Approach& approach = graph.approaches[static_cast<std::size_t>(index)];
     const auto count = static_cast<int>(graph.lanes.size());

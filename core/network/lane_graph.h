@@ -1,10 +1,10 @@
-// The network for the simulation: lanes, their successors, routes and conflict areas. A generator or importer builds
-// the lane graph, and it is constant afterwards.
+// The network for the simulation: lanes, their successors, routes and conflict areas. A generator or the SUMO import
+// builds the lane graph, which is constant afterwards.
 //
 // There are three kinds of lanes. An approach lane leads to a stop line. It ends where its movements diverge, which may
 // be beyond the stop line. A connection leads through an intersection, from one approach lane to one exit lane. An exit
-// lane leads away from an intersection. A link lane is an exit lane of one intersection and an approach lane of the
-// next one.
+// lane leads away from an intersection. A link lane leads from one intersection to the next, so it is an exit lane and
+// an approach lane.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +16,10 @@
 
 namespace stopline {
 
-// The movement of a connection. An approach of an imported network can have more than three movements; the further ones
-// have the values from left + 1 up to kMaxTurns - 1.
+// The movement of a connection. An approach of an imported network can have more than three movements. The additional
+// movements have the values left + 1 .. kMaxTurns - 1.
 enum class Turn : std::uint8_t { none, straight, right, left };
-inline constexpr int kMaxTurns = 12;  // number of values, `none` included
+inline constexpr int kMaxTurns = 12;  // number of values, including `none`
 
 struct Lane {
     std::string name = {};
@@ -32,26 +32,27 @@ struct Lane {
     double stop_line_m = 0.0;    // position of the stop line
     double shape_start_m = 0.0;  // connection: length of `shape` that lies on the approach lane, beyond its stop line
     double shape_scale = 1.0;    // metres of `shape` per metre of the lane; 1 except in imported networks
-    double diverge_end_m = 0.0;  // connection: a rear beyond it is clear of the approach lane's other connections
-    Turn turn = Turn::none;      // connection: its movement; else none
-    int origin = -1;             // connection: the approach lane that leads to it
-    int left = -1;               // adjacent lane for lane changes before the stop line; -1: none
-    int right = -1;
-    double start_offset_m = 0.0;     // distance from the start of the approach's longest lane; > 0 for a turn pocket
-    int approach = -1;               // index of its approach; -1: none
-    int movement_signal_group = -1;  // connection: signal group of its movement; -1: that of the stop line
+    // Connection: a vehicle whose rear is beyond this position is clear of the other connections of its approach lane.
+    double diverge_end_m = 0.0;
+    Turn turn = Turn::none;          // connection: its movement; else none
+    int origin = -1;                 // connection: the approach lane that leads to it
+    int left = -1;                   // adjacent lane to the left, for lane changes before the stop line; -1: none
+    int right = -1;                  // adjacent lane to the right; -1: none
+    double start_offset_m = 0.0;     // distance of its start from the start of the approach; > 0 for a turn pocket
+    int approach = -1;               // index in LaneGraph::approaches; -1: none
+    int movement_signal_group = -1;  // connection: signal group of its movement; -1: the group of the stop line applies
     bool waits_inside = true;  // connection: yielding vehicles wait before the conflict area; false: at the stop line
-    bool keep_clear = true;    // connection: the keep-clear rule applies (TrafficRules)
+    bool keep_clear = true;    // connection: the keep-clear rule (TrafficRules) applies
 };
 
 // A conflict area: the part of two connections where vehicles can touch. The bounds are positions on the centre lines.
 // A vehicle occupies the area while its front is beyond `from_m` and its rear is not beyond `to_m`.
 struct Conflict {
-    int other = -1;       // the other connection
-    double from_m = 0.0;  // on this connection; below 0: on the approach lane, beyond its stop line
-    double to_m = 0.0;
-    double other_from_m = 0.0;  // on the other connection
-    double other_to_m = 0.0;
+    int other = -1;       // lane index of the other connection
+    double from_m = 0.0;  // start of the area on this connection; below 0: on the approach lane, beyond its stop line
+    double to_m = 0.0;    // end of the area on this connection
+    double other_from_m = 0.0;  // start of the area on the other connection
+    double other_to_m = 0.0;    // end of the area on the other connection
     bool yields = false;        // this connection gives way to the other
     bool other_yields = false;  // the other connection gives way to this one
 };
@@ -77,23 +78,23 @@ struct LaneGraph {
     std::vector<Route> routes;
     std::vector<Approach> approaches;  // empty in a network without lane changes
     std::vector<int> entries;          // lanes where vehicles enter the network
-    std::vector<int> links;            // lanes from one intersection to the next; routes start at entries and links
+    std::vector<int> links;            // lanes from one intersection to the next; routes begin on entries and links
     int signal_groups = 0;
-    // [signal group] stage. Groups of one stage have green together. Empty: each group is a stage of its own.
+    // [signal group] number of its stage. Groups of the same stage have green together. Empty: each group is a stage.
     std::vector<int> stage_of;
-    std::vector<std::vector<Conflict>> conflicts;  // [lane] in the order of from_m; empty if no lane has conflicts
+    std::vector<std::vector<Conflict>> conflicts;  // [lane] conflicts sorted by from_m; empty if no lane has conflicts
 
     const std::vector<Conflict>& conflicts_of(int lane) const;
 };
 
-// Returns the pose at a distance from the start of the lane's shape. The distance is in metres of the lane, not of the
-// shape.
+// Returns the pose at a distance from the start of the lane's shape. The distance is in metres of the lane, which
+// shape_scale converts to metres of the shape.
 inline Pose pose_along(const Lane& lane, double distance_m) {
     return pose_at(lane.shape, distance_m * lane.shape_scale);
 }
 
-// Builds a straight road of adjacent lanes without lane changes. All stop lines have signal group 0. Entry lane k is
-// lane 2 k, its exit lane is lane 2 k + 1, and its route has index k.
+// Builds a straight road of adjacent lanes without lane changes. All stop lines have signal group 0. The k-th entry
+// lane is lane 2 k, its exit lane is lane 2 k + 1, and its route has the index k.
 LaneGraph make_approach(const ApproachSettings& settings);
 
 // Builds an intersection of four equal legs at right angles. Legs 0 .. 3 lie in the west, south, east and north. Signal
@@ -101,24 +102,26 @@ LaneGraph make_approach(const ApproachSettings& settings);
 // movements diverge. Connections lead from there to the exit lanes, which begin `radius_m` from the centre.
 LaneGraph make_intersection(const IntersectionSettings& settings);
 
-// Builds the same intersection at every node of a grid. Intersections are numbered row by row from the south-west.
-// Intersection n has the signal groups 2 n and 2 n + 1. Names of lanes begin with column and row, such as
-// c1r0_south_in_0, except in a grid of one intersection.
+// Builds a grid of equal intersections, as make_intersection() builds a single one. Intersections are numbered row by
+// row from the south-west. Intersection n has the signal groups 2 n and 2 n + 1. Names of lanes begin with column and
+// row, such as c1r0_south_in_0, except in a grid of one intersection.
 LaneGraph make_grid(const GridSettings& grid, const IntersectionSettings& settings);
 
-// Column and row of an intersection. grid_positions() returns those of all intersections, by number.
+// The position of an intersection in the grid. Column 0 is in the west and row 0 in the south.
 struct GridPosition {
     int column;
     int row;
 };
+// Returns the positions of all intersections, in the order of their numbers.
 std::vector<GridPosition> grid_positions(const GridSettings& grid);
 
 // Builds the streets that the user describes. Intersection n has three signal groups: 3 n for the major street, 3 n + 1
-// for its left-turn lanes with a protected green, 3 n + 2 for the minor street. The first two form one stage.
+// for the left-turn lanes of the major street that have a protected green, and 3 n + 2 for the minor street. The groups
+// 3 n and 3 n + 1 form one stage.
 //
 // A lane name begins with the name of its intersection, such as suarezstr_west_in_0 or suarezstr_east_out_0. Lanes are
-// counted from the left, turn pockets included. An exit lane to another intersection is an approach lane there and has
-// that name. Throws InputError if street_problems() finds a problem (street_checks.h).
+// counted from the left, turn pockets included. An exit lane that leads to another intersection is named as an approach
+// lane of that intersection. Throws InputError if street_problems() finds a problem (street_checks.h).
 LaneGraph make_streets(const StreetSettings& streets);
 
 // Throws InputError if lanes, approaches, routes or signal groups are inconsistent.

@@ -32,17 +32,18 @@ struct IntersectionSettings {
     double exit_length_m = 100.0;           // from the intersection to the end of the network
     double lane_width_m = 3.5;
     double speed_limit_mps = 50.0 / 3.6;
-    double turn_speed_mps = 7.0;  // lateral acceleration of 2.5 m/s2 on a radius of 20 m (Section IV.A)
-    double clearance_m =
-        2.0;  // vehicles touch where their centre lines are closer than this; a bit above a car's width
+    double turn_speed_mps = 7.0;  // lateral acceleration of 2.5 m/s2 on a radius of 20 m (the paper, Section IV.A)
+    // Vehicles can touch where the centre lines of their lanes are closer than this. The default is slightly more than
+    // the width of a car.
+    double clearance_m = 2.0;
 };
 
 // A grid of equal intersections, where `columns` streets from south to north cross `rows` streets from west to east.
 struct GridSettings {
     int columns = 1;
     int rows = 1;
-    double column_spacing_m = 276.5;  // between the centres of neighbouring intersections (Section VI)
-    double row_spacing_m = 192.5;
+    double column_spacing_m = 276.5;  // between the centres of intersections in a row (the paper, Section VI)
+    double row_spacing_m = 192.5;     // between the centres of intersections in a column
     std::string shape = "rectangle";  // rectangle | without_corners: no intersections in the four corners
 
     bool has_corners() const { return shape == "rectangle"; }
@@ -56,7 +57,7 @@ struct NetworkSettings {
     IntersectionSettings intersection;
     GridSettings grid;
     StreetSettings streets;
-    // For the kind `sumo`: the paths of the files as the user wrote them, and the network that was read from them.
+    // For the kind `sumo`: the paths of the files as the user wrote them, and the network that was read from the files.
     std::string net = {};
     std::vector<std::string> routes = {};
     std::vector<std::string> additional = {};

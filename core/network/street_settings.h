@@ -13,20 +13,21 @@ struct StreetLane {
     double pocket_m = 0.0;  // length of a turn pocket, to the stop line; 0: the lane is as long as the approach
 };
 
-// One side of an intersection: the approach lanes and the exit lanes there.
+// One side of an intersection with its approach lanes and exit lanes.
 struct StreetLeg {
-    std::string from = "west";           // west, south, east or north: the side where its traffic comes from
+    std::string from = "west";           // side of the intersection: west, south, east or north
     std::vector<StreetLane> lanes = {};  // approach lanes, from the left
     int exits = 0;                       // number of exit lanes
     double speed_limit_mps = 50.0 / 3.6;
     double right_share = 0.0;  // share of right turns, 0 .. 1
     double left_share = 0.0;   // share of left turns, 0 .. 1; the rest goes straight on
-    // Only for a leg that leads to the border of the network:
+    // The next two members are used only for a leg that leads to the border of the network.
     double length_m = 300.0;       // from the border to the stop line
     double exit_length_m = 100.0;  // from the intersection to the border
 };
 
-// The signal programme in seven steps of Table 3. The major street is the one from west to east.
+// The durations of the seven steps of a signal programme (Table 3 of the paper). The major street leads from west to
+// east, and the minor street from south to north.
 struct SevenSteps {
     double major_green_s = 24.0;
     double major_yellow_s = 3.0;
@@ -49,23 +50,23 @@ struct SevenSteps {
 
 struct StreetIntersection {
     std::string name;
-    double x_m = 0.0;        // centre, to the east
-    double y_m = 0.0;        // centre, to the north
+    double x_m = 0.0;        // coordinate of the centre, increasing to the east
+    double y_m = 0.0;        // coordinate of the centre, increasing to the north
     double radius_m = 20.0;  // from the centre to the stop lines
     std::vector<StreetLeg> legs = {};
     SevenSteps programme;
-    double offset_s = 0.0;  // start of the green of the major street, in every cycle
+    double offset_s = 0.0;  // start of the major street's green within each cycle
 };
 
-// Two legs of different intersections that face each other on one line are the ends of one road. The exit lanes of the
-// one intersection are then approach lanes of the other.
+// If two legs of neighbouring intersections face each other on one line, a road joins them. The exit lanes of each
+// intersection are then approach lanes of the other.
 struct StreetSettings {
     std::string name;
-    double median_m = 0.0;        // width between the two directions of streets from west to east
-    double minor_median_m = 0.0;  // the same for streets from south to north
+    double median_m = 0.0;        // width of the median in streets from west to east
+    double minor_median_m = 0.0;  // width of the median in streets from south to north
     double lane_width_m = 3.5;
     double turn_speed_mps = 7.0;
-    double clearance_m = 2.0;  // vehicles touch where their centre lines are closer than this
+    double clearance_m = 2.0;  // vehicles can touch where the centre lines of their lanes are closer than this
     std::vector<StreetIntersection> intersections = {};
 
     double longest_green_s() const {

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "paper/scorecard_section6.h"
+#include "paper/sections/scorecard_section6.h"
 
 namespace stopline {
 

@@ -81,14 +81,14 @@ std::vector<Headline> headlines(const Scorecard& scorecard) {
         {{"G06"},
          "A mix with half CDG gains {} % on this grid, mean of all greens and offsets.",
          "gain of a mix on the grid with turns"}};
-    return {{"One signal", text_of(scorecard, signal)},
-            {"One intersection", text_of(scorecard, intersection)},
-            {"Networks", text_of(scorecard, networks)},
-            {"Cost", text_of(scorecard, cost)},
-            {"Agreement with the paper",
-             fmt::format("Of {} rows {} are inside their tolerance, {} outside, and {} open.", scorecard.rows.size(),
-                         scorecard.count(Verdict::inside), scorecard.count(Verdict::miss),
-                         scorecard.count(Verdict::open))}};
+    return {
+        {"One signal", text_of(scorecard, signal)},
+        {"One intersection", text_of(scorecard, intersection)},
+        {"Networks", text_of(scorecard, networks)},
+        {"Cost", text_of(scorecard, cost)},
+        {"Agreement with the paper", fmt::format("Of {} rows {} are inside their tolerance, {} outside, and {} open.",
+                                                 scorecard.rows.size(), scorecard.count(Verdict::inside),
+                                                 scorecard.count(Verdict::miss), scorecard.count(Verdict::open))}};
 }
 
 }  // namespace stopline

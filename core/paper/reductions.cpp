@@ -52,7 +52,8 @@ void keep(SweepSettings& sweep, const Reductions::Row& row) {
 
 Reductions Reductions::load(const std::filesystem::path& file) {
     const CsvTable table = parse_csv(read_file(file), file.string());
-    const std::size_t what = table.column("applies_to"), field = table.column("field"), value = table.column("value");
+    const std::size_t applies_to = table.column("applies_to"), field = table.column("field"),
+                      value = table.column("value");
     Reductions reductions;
     for (std::size_t k = 0; k < table.rows.size(); ++k) {
         const std::vector<std::string>& row = table.rows[k];
@@ -61,27 +62,27 @@ Reductions Reductions::load(const std::filesystem::path& file) {
             throw InputError(fmt::format("{}:{}: '{}' is not a number of repetitions (allowed: 1 to 1000)", table.label,
                                          table.lines[k], row[value]));
         }
-        if (row[what].empty() || row[field].empty() || row[value].empty()) {
+        if (row[applies_to].empty() || row[field].empty() || row[value].empty()) {
             throw InputError(fmt::format("{}:{}: a field is empty", table.label, table.lines[k]));
         }
-        reductions.rows_.push_back({row[what], row[field], row[value]});
+        reductions.rows_.push_back({row[applies_to], row[field], row[value]});
     }
     return reductions;
 }
 
-std::vector<std::string> Reductions::settings(const std::string& what) const {
+std::vector<std::string> Reductions::settings(const std::string& applies_to) const {
     std::vector<std::string> settings;
     for (const Row& row : rows_) {
-        if (row.what == what && row.field != kRepetitions && !is_axis(row)) {
+        if (row.applies_to == applies_to && row.field != kRepetitions && !is_axis(row)) {
             settings.push_back(row.field + "=" + row.value);
         }
     }
     return settings;
 }
 
-std::optional<int> Reductions::repetitions(const std::string& what) const {
+std::optional<int> Reductions::repetitions(const std::string& applies_to) const {
     for (const Row& row : rows_) {
-        if (row.what == what && row.field == kRepetitions) {
+        if (row.applies_to == applies_to && row.field == kRepetitions) {
             return static_cast<int>(parse_number(row.value).value_or(1.0));
         }
     }
@@ -89,11 +90,11 @@ std::optional<int> Reductions::repetitions(const std::string& what) const {
 }
 
 void Reductions::apply(SweepSettings& sweep) const {
-    const std::string what = "sweeps/" + sweep.name;
+    const std::string applies_to = "sweeps/" + sweep.name;
     for (const Row& row : rows_) {
-        if (row.what == what && is_axis(row)) keep(sweep, row);
+        if (row.applies_to == applies_to && is_axis(row)) keep(sweep, row);
     }
-    if (const std::optional<int> reduced = repetitions(what)) sweep.repetitions = *reduced;
+    if (const std::optional<int> reduced = repetitions(applies_to)) sweep.repetitions = *reduced;
 }
 
 }  // namespace stopline

@@ -1,5 +1,5 @@
 // Reductions of the paper's experiments for a quick run. They are a table that users can change: data/paper/quick.csv
-// with the columns what,field,value. `what` is sweeps/NAME or scenarios/NAME. `field` is one of:
+// with the columns applies_to,field,value. `applies_to` is sweeps/NAME or scenarios/NAME. `field` is one of:
 //     repetitions   number of seeds of each combination
 //     axis NAME     values of that axis to keep, separated by ';'
 //     PATH          field of the scenario, as for --set
@@ -17,7 +17,7 @@ namespace stopline {
 class Reductions {
 public:
     struct Row {
-        std::string what;
+        std::string applies_to;
         std::string field;
         std::string value;
     };
@@ -29,8 +29,8 @@ public:
     const std::vector<Row>& rows() const { return rows_; }
 
     // Returns overrides for load_scenario.
-    std::vector<std::string> settings(const std::string& what) const;
-    std::optional<int> repetitions(const std::string& what) const;
+    std::vector<std::string> settings(const std::string& applies_to) const;
+    std::optional<int> repetitions(const std::string& applies_to) const;
     // Reduces axes and repetitions of a sweep. Throws InputError for an axis or a value that the sweep does not have.
     void apply(SweepSettings& sweep) const;
 

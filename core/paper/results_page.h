@@ -7,8 +7,8 @@
 
 namespace stopline {
 
-// Writes the page: the answer, the rows met by section, and one table for each section. `command` makes the page. `findings`
-// is Markdown that is appended, and may be empty.
+// Writes the page: the answer, the rows met by section, and one table for each section. `command` makes the page.
+// `findings` is Markdown that is appended, and may be empty.
 std::string results_markdown(const Scorecard& scorecard, const std::string& command, const std::string& findings);
 
 }  // namespace stopline

@@ -15,13 +15,12 @@ namespace stopline {
 std::string main_section(const std::string& section) { return section.substr(0, section.find_first_of(". ")); }
 
 std::string section_title(const std::string& main) {
-    constexpr std::array<std::pair<const char*, const char*>, 6> kTitles{
-        {{"I", "numbers of the introduction"},
-         {"III", "one signal"},
-         {"IV", "one intersection"},
-         {"V", "calibration of the mesoscale mode"},
-         {"VI", "arterial and grid"},
-         {"VII", "Berlin"}}};
+    constexpr std::array<std::pair<const char*, const char*>, 6> kTitles{{{"I", "numbers of the introduction"},
+                                                                          {"III", "one signal"},
+                                                                          {"IV", "one intersection"},
+                                                                          {"V", "calibration of the mesoscale mode"},
+                                                                          {"VI", "arterial and grid"},
+                                                                          {"VII", "Berlin"}}};
     for (const auto& [name, title] : kTitles) {
         if (main == name) return fmt::format("Section {}: {}", main, title);
     }
@@ -41,6 +40,11 @@ std::vector<std::string> main_sections(const std::vector<ScoredRow>& rows) {
 std::string quantity_text(const ScoredRow& row) {
     std::string quantity = row.target.quantity;
     std::replace(quantity.begin(), quantity.end(), '_', ' ');
+    constexpr std::array<std::pair<const char*, const char*>, 2> kNames{{{"ctg ref", "CTG-Ref"}, {"50kmh", "50 km/h"}}};
+    for (const auto& [written, name] : kNames) {
+        const std::size_t found = quantity.find(written);
+        if (found != std::string::npos) quantity.replace(found, std::char_traits<char>::length(written), name);
+    }
     return quantity;
 }
 

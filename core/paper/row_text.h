@@ -17,7 +17,7 @@ std::string section_title(const std::string& main);
 // Returns the main sections of the rows in order, each once. Section I comes first.
 std::vector<std::string> main_sections(const std::vector<ScoredRow>& rows);
 
-// Returns the quantity of a row in words: "travel time" for travel_time.
+// Returns the quantity of a row in words: "improvement over CTG-Ref" for improvement_over_ctg_ref.
 std::string quantity_text(const ScoredRow& row);
 
 // Returns ours minus paper, also in percent of the paper where the unit is not percent. Empty unless both are numbers.

@@ -14,7 +14,7 @@
 #include "base/io/csv.h"
 #include "base/io/output.h"
 #include "paper/comparison_figure.h"
-#include "paper/scorecard_sections.h"
+#include "paper/sections/scorecard_sections.h"
 #include "scenario/load_scenario.h"
 
 namespace stopline {
@@ -91,7 +91,7 @@ std::map<std::string, Measurements> measure_for(const std::vector<Target>& targe
 
 }  // namespace
 
-// One line for each section.
+// The next two functions join the lists of all sections. A new section adds its lists here.
 std::span<const Experiment> experiments() {
     static const std::vector<Experiment> kAll =
         concatenated<Experiment>({section3_experiments(), section4_experiments(), section5_experiments(),

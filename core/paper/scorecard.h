@@ -1,8 +1,8 @@
 // The scorecard compares our numbers with those of the paper, row by row of data/paper/targets.csv. Each row has a
 // function that reads our answer from the measurements of one experiment. A row without such a function is open.
 //
-// Each section of the paper has a file scorecard_section<N>.cpp with its experiments and row functions, and two lines
-// in scorecard.cpp.
+// Each section of the paper has a file sections/scorecard_section<N>.cpp with its experiments and row functions.
+// scorecard.cpp joins the lists of experiments and of rows.
 #pragma once
 
 #include <filesystem>

@@ -65,7 +65,7 @@ private:
 
     std::string name_of_loop(const Detector& detector) const {
         if (detector.loop >= 0) return model_.loop_names[static_cast<std::size_t>(detector.loop)];
-        if (detector.lane < 0) return {};  // it counts entries or exits of the network and has no position
+        if (detector.lane < 0) return {};  // this detector counts the starts or ends of trips and has no position
         const std::string zone = detector.zone >= 0 ? std::to_string(detector.zone) : "";
         return fmt::format("{}_{}{}", model_.graph.lanes[static_cast<std::size_t>(detector.lane)].name,
                            name_of(detector.kind), zone);
@@ -81,8 +81,8 @@ private:
         loop.sum_of_lengths_m += static_cast<double>(crossing.length_m);
     }
 
-    // Returns true if a vehicle covers the detector: its front is beyond it, on this lane or the next, and its rear
-    // before it.
+    // Returns true if a vehicle covers the detector: the front of the vehicle is beyond the detector, on the same lane
+    // or on a successor lane, and the rear is before the detector.
     bool is_covered(const State& state, std::size_t detector) const {
         const VehicleArrays& v = state.vehicles;
         const double line_m = model_.detectors[detector].position_m;
@@ -132,8 +132,8 @@ private:
     XmlFile xml_;
     std::vector<Loop> loops_;  // [detector]
     std::vector<std::string> names_;
-    std::size_t next_crossing_ = 0;    // index of the first crossing that was not added
-    std::int64_t interval_begin_ = 0;  // tick
+    std::size_t next_crossing_ = 0;    // index of the first crossing that is not counted yet
+    std::int64_t interval_begin_ = 0;  // tick at which the current interval began
     std::int64_t last_tick_ = 0;
     std::int64_t rows_ = 0;
 };

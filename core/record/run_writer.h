@@ -1,4 +1,4 @@
-// Interface for files that are written during a run, from the state between two steps.
+// Interface of the writers that record the state of a run in a file, step by step.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
 // Writers for result files in SUMO's formats, so that tools for SUMO can read them. The schemas fcd_file.xsd,
-// tripinfo_file.xsd and det_e1_file.xsd are in SUMO's data/xsd. Lanes have our names; as in SUMO, names of connections
-// begin with a colon.
+// tripinfo_file.xsd and det_e1_file.xsd are in SUMO's folder data/xsd. Lanes have the names of the lane graph. As in
+// SUMO, names of connections begin with a colon.
 #pragma once
 
 #include <filesystem>
@@ -11,17 +11,18 @@
 
 namespace stopline {
 
-// Returns a writer for floating car data: every vehicle at every frame. x, y and pos refer to the front of the vehicle.
-// Angles count clockwise from north.
+// Returns a writer for floating car data. Each frame of the window lists every vehicle in the network. The attributes
+// x, y and pos refer to the front of the vehicle. Angles are clockwise from north, in degrees.
 std::unique_ptr<RunWriter> make_fcd_writer(const std::filesystem::path& file, const RecordingWindow& window,
                                            const Model& model);
 
-// Returns a writer for completed trips, one row for each vehicle that left the network. A teleported vehicle continues
-// its trip. Departure delays need planned trips; without them they are 0.
+// Returns a writer for completed trips, with one row for each vehicle that left the network. A teleported vehicle
+// continues its trip. The departure delay of a vehicle without a planned departure is 0.
 std::unique_ptr<RunWriter> make_tripinfo_writer(const std::filesystem::path& file, const Model& model);
 
-// Returns a writer for all detectors as induction loops. A row has the passages of fronts in one interval, their mean
-// speed, and the occupancy: the share of steps in which a vehicle covers the detector. Needs Model::records_detectors.
+// Returns a writer for the counts of all detectors, in the format of SUMO's induction loops. A row holds, for one
+// detector and one interval, the number of passing vehicles, their mean speed, and the occupancy. The occupancy is the
+// share of steps in which a vehicle covers the detector. Model::records_detectors must be set.
 std::unique_ptr<RunWriter> make_loop_writer(const std::filesystem::path& file, double interval_s, const Model& model);
 
 }  // namespace stopline

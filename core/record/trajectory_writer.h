@@ -1,4 +1,5 @@
-// Writer for trajectories as CSV. It writes during the run, because a long run has too many rows for a table in memory.
+// Writer for trajectories as CSV. It writes the rows during the run, because the table of a long run would not fit into
+// memory.
 #pragma once
 
 #include <filesystem>
@@ -13,8 +14,9 @@ namespace stopline {
 inline constexpr const char* kTrajectoryHeader =
     "population,time_s,vehicle,policy,lane,position_m,x_m,y_m,speed_mps,acceleration_mps2\n";
 
-// Returns a writer for one row per vehicle and frame. `header` is the first line of the file: kTrajectoryHeader, or the
-// same columns under other names. Names of the run must not contain commas, quotes or line breaks.
+// Returns a writer that writes one row per vehicle and frame. `header` is the first line of the file:
+// kTrajectoryHeader, or other names for the same columns. The names of population, policies and lanes must not contain
+// commas, quotes or line breaks, because they are not quoted.
 std::unique_ptr<RunWriter> make_trajectory_writer(const std::filesystem::path& file, const RecordingWindow& window,
                                                   const std::string& population, const Model& model,
                                                   const std::string& header = kTrajectoryHeader);

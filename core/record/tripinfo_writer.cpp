@@ -17,14 +17,14 @@ struct Trip {
     double depart_mps = 0.0;
     int depart_lane = -1;
     int policy = 0;
-    int number = -1;  // index in the demand; -1: the vehicle has no planned trip
-    // State in the last step.
+    int number = -1;  // index in DemandPlan::trips; -1: the vehicle has no planned trip
+    // State of the vehicle in the latest step:
     int lane = -1;
     double position_m = 0.0;
     double speed_mps = 0.0;
     std::int64_t last_tick = -1;
     bool is_stopped = false;
-    // Totals.
+    // Totals of the trip so far:
     double distance_m = 0.0;
     double stopped_s = 0.0;
     double time_loss_s = 0.0;
@@ -81,7 +81,8 @@ private:
         trip.last_tick = state.tick;
     }
 
-    // Writes and removes all trips that ended, sorted by vehicle. The order of the hash map must not reach the file.
+    // Writes all trips that have ended and removes them from the map. The rows are sorted by vehicle, so the file does
+    // not depend on the order of the hash map.
     void write_ended_trips(std::int64_t tick) {
         std::vector<int> exited;
         for (const auto& [vehicle, trip] : trips_) {
@@ -112,7 +113,7 @@ private:
         ++ended_;
     }
 
-    // Returns the delay of the insertion, or 0 without a planned departure.
+    // Returns the time from the planned departure to the insertion, or 0 if the vehicle has no planned departure.
     double departure_delay_s(const Trip& trip) const {
         if (trip.number < 0) return 0.0;
         return std::max(trip.depart_s - model_.demand.trips[static_cast<std::size_t>(trip.number)].depart_s, 0.0);

@@ -7,8 +7,7 @@
 
 namespace stopline {
 
-// Returns the name of the vehicle's trip, or the number of the vehicle if its trip has no name. The name is escaped
-// for XML.
+// Returns the name of the vehicle's trip, escaped for XML, or the number of the vehicle if it has no trip with a name.
 std::string vehicle_name(const Model& model, int trip, int vehicle);
 
 }  // namespace stopline

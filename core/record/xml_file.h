@@ -1,4 +1,4 @@
-// Writer for XML files in SUMO's formats. It writes in blocks, so the memory does not grow with the file.
+// Writer for XML files in SUMO's formats. It writes the file in blocks, so its memory does not grow with the file.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,8 @@
 
 namespace stopline {
 
-// Returns the name of a lane in SUMO's style, escaped for XML: edge and index, with a colon in front for connections.
+// Returns the name of a lane in SUMO's style, escaped for XML: the name of the edge, '_' and the index of the lane. The
+// name of a connection begins with a colon.
 std::string sumo_lane_name(const Lane& lane);
 
 class XmlFile {
@@ -27,7 +28,8 @@ public:
         fmt::format_to(std::back_inserter(text_), format, std::forward<Arguments>(arguments)...);
         if (text_.size() > kBlockBytes) flush();
     }
-    // Closes the root element and puts the file in its place. Throws InputError if the file cannot be written.
+    // Closes the root element and completes the file, which replaces an older file of the same name. Throws InputError
+    // if the file cannot be written.
     void finish();
     const std::filesystem::path& path() const { return file_.path(); }
 

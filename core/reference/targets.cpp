@@ -59,7 +59,7 @@ std::optional<TurnCondition> parse_turn_condition(const std::string& condition) 
     TurnCondition result;
     if (!(words >> result.population)) return std::nullopt;
     if (result.population == "MIX") result.population = "P50";
-    // Reads the next word, which must be NAME=NUMBER.
+    // Returns the number in the next word, which must have the form name=NUMBER; std::nullopt otherwise.
     const auto number = [&](const std::string& name) {
         std::string word;
         if (!(words >> word) || !word.starts_with(name + "=")) return std::optional<double>();

@@ -1,4 +1,4 @@
-// The inputs, results and claims of the paper from data/paper/targets.csv, one per row.
+// Loads the file data/paper/targets.csv. Each row holds one input, result or claim of the paper.
 #pragma once
 
 #include <filesystem>
@@ -8,46 +8,48 @@
 
 namespace stopline {
 
+// One row of the file.
 struct Target {
-    std::string id;        // such as L01
+    std::string id;        // identifier of the row, such as L01
     std::string section;   // section of the paper, such as III.E or IV Table 1
-    std::string scenario;  // scenario in which the row is measured
+    std::string scenario;  // scenario or experiment that gives the value; '-': none
     std::string kind;      // input, target, claim
     std::string quantity;
-    std::string condition;  // population and settings; for an input: what it applies to
+    std::string condition;  // population and settings; for an input: the objects that have the value
     std::string value;      // value in the paper: a number, a range 'low..high', or the text of a claim
     std::string unit;
-    std::string tolerance;       // a number or empty
-    std::string tolerance_kind;  // abs (in the unit), % (of the value), max (the value must not be exceeded)
+    std::string tolerance;       // allowed difference: a number, or empty
+    std::string tolerance_kind;  // abs (in the unit), % (of the value) or max (the value is an upper limit)
     std::string note;
 };
 
-// Loads the rows. Throws InputError if the file cannot be read, a column is missing or an id appears twice.
+// Loads the rows of a file. Throws InputError if the file cannot be read, a column is missing or an id appears twice.
 std::vector<Target> load_targets(const std::filesystem::path& file);
-// Loads data/paper/targets.csv.
+// Loads the rows of data/paper/targets.csv.
 std::vector<Target> load_targets();
 
-// Returns true if the row is in the section or in a part of it. Section III includes III.B, and section IV includes
-// IV Table 1; section I includes neither.
+// Returns true if the row belongs to the section of the paper or to a part of it. Section III includes III.B, and
+// section IV includes IV Table 1. Section I does not include III or IV.
 bool in_section(const Target& target, const std::string& section);
 
-// A condition such as "CDG green=15" or "SWITCH-1 green>=20". The word "alternating" after the population is dropped.
+// A condition such as "CDG green=15" or "SWITCH-1 green>=20". The word "alternating" after the population is ignored.
 struct GreenCondition {
     std::string population;
     double green_s = 0.0;
-    bool and_above = false;  // green>=
+    bool and_above = false;  // true for green>=, false for green=
 };
-// Returns the parsed condition, or nothing if the text has another form.
+// Parses the condition of a row. Returns std::nullopt if the text has another form.
 std::optional<GreenCondition> parse_green_condition(const std::string& condition);
 
-// A condition such as "CDG green=15 left=0 right=30", with turn shares in percent. MIX becomes the population P50.
+// A condition such as "CDG green=15 left=0 right=30", with turn shares in percent. The population MIX is renamed to
+// P50.
 struct TurnCondition {
     std::string population;
     double green_s = 0.0;
     double left_percent = 0.0;
     double right_percent = 0.0;
 };
-// Returns the parsed condition, or nothing if the text has another form.
+// Parses the condition of a row. Returns std::nullopt if the text has another form.
 std::optional<TurnCondition> parse_turn_condition(const std::string& condition);
 
 }  // namespace stopline

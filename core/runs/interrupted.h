@@ -1,4 +1,4 @@
-// The exception for work that the user has stopped. Programs then end with exit code 130.
+// The exception for a computation that the user has stopped. The program then ends with exit code 130.
 #pragma once
 
 #include <stdexcept>

@@ -1,4 +1,4 @@
-// Observes runs from outside, for files that are written during a run: recordings and tables for other programs.
+// Lets a program observe a run step by step, for instance to write a recording during the run.
 #pragma once
 
 #include <cstddef>
@@ -9,12 +9,12 @@
 namespace stopline {
 
 struct Observation {
-    // Called before each step of each population's run, and once after its last step. Populations run in several
-    // threads.
+    // Called before each step of a run, and once after its last step. The runs of several populations may call it from
+    // several threads at the same time.
     std::function<void(std::size_t population, const Simulation& simulation)> look;
-    bool all_detectors = false;  // record the crossings of all detectors
+    bool all_detectors = false;  // true: the run records the crossings of all detectors
 
-    // Switches on what the model has to record for the observer. The movement of vehicles does not change.
+    // Makes the model record the data that the observer needs. This does not change the movement of vehicles.
     void prepare(Model& model) const;
     // Calls `look` if there is one.
     void call(std::size_t population, const Simulation& simulation) const {

@@ -1,4 +1,4 @@
-// Runs several simulations side by side in threads and joins their progress.
+// Runs several simulations at the same time in threads, and reports their mean progress.
 #pragma once
 
 #include <cstddef>
@@ -6,9 +6,10 @@
 
 namespace stopline {
 
-// Calls work(run, report) for each run from 0 to runs - 1. A run calls report(share) with the share that it has done,
-// and stops when it returns false. Throws the exception of the first run that failed, and Interrupted if the user
-// stopped.
+// Calls work(run, report) for each run number from 0 to `runs` - 1, in up to `threads` threads. `work` must call
+// report(share) with the completed share of its run, 0 .. 1, and must end when report() returns false. `on_progress`
+// gets the mean of these shares over all runs, and returns false to stop all runs. Throws the exception of the failed
+// run with the lowest number. Throws Interrupted if `on_progress` has returned false.
 void run_side_by_side(std::size_t runs, int threads, const std::function<bool(double)>& on_progress,
                       const std::function<void(std::size_t, const std::function<bool(double)>&)>& work);
 

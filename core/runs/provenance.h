@@ -1,5 +1,5 @@
-// Provenance of results: scenario, parameters, program version and command. It is written beside the results as
-// NAME.provenance.json. It contains no date and no path of the machine, so the same run gives the same bytes.
+// Provenance of results: scenario, parameters, program version and command. Programs write it as NAME.provenance.json
+// into the folder of the results. It contains no date and no path of the machine, so the same run gives the same bytes.
 #pragma once
 
 #include <cstdint>
@@ -13,15 +13,16 @@
 namespace stopline {
 
 struct Provenance {
-    std::string command;                                            // command that makes the results again
+    std::string command;                                            // command line that reproduces the results
     std::vector<std::string> files;                                 // names of the result files
-    std::vector<std::pair<std::string, std::string>> state_hashes;  // population, state hash at the end of its run
+    std::vector<std::pair<std::string, std::string>> state_hashes;  // population and hash of its final state
 };
 
-// Returns the provenance as JSON text. It contains all parameters of the scenario as canonical YAML lines.
+// Returns the provenance as JSON text. It contains all parameters of the scenario as lines of canonical_text().
 std::string provenance_json(const Scenario& scenario, const Provenance& provenance);
 
-// Returns the provenance of a table over several scenarios. `scenario_hashes` maps their names to their hashes.
+// Returns the provenance of a table with results of several scenarios as JSON text. `scenario_hashes` maps the name of
+// each scenario to its hash.
 std::string table_provenance_json(const std::string& command, const std::string& file,
                                   const std::map<std::string, std::uint64_t>& scenario_hashes);
 

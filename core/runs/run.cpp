@@ -22,8 +22,8 @@ double lane_start_m(const Model& model, int route, int route_index) {
     return distance_m;
 }
 
-// Returns the net gap to the leader, m; NaN without a leader. The first vehicle of a lane looks ahead as far as its
-// radar reaches.
+// Returns the net gap to the leader, m; NaN without a leader. The leader of the first vehicle on a lane is on another
+// lane. It is searched within the range of the radar.
 double net_gap_m(const Model& model, const State& state, int lane, int slot) {
     const VehicleArrays& v = state.vehicles;
     const bool first = slot == state.blocks[at(lane)].first;

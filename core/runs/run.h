@@ -1,4 +1,4 @@
-// Runs one population of a scenario to its end, and keeps its events and trajectory.
+// Runs a scenario with one of its populations, and keeps the events and the trajectories of the run.
 #pragma once
 
 #include <cstdint>
@@ -18,25 +18,26 @@ namespace stopline {
 struct TrajectoryPoint {
     double time_s;
     int vehicle;
-    int policy;         // index into the population's components
+    int policy;         // index into PopulationSettings::components
     int lane;           // index into the lane graph
-    double distance_m;  // front, from the start of the route
-    double position_m;  // front, from the start of the lane
+    double distance_m;  // position of the front, from the start of the route
+    double position_m;  // position of the front, from the start of the lane
     double speed_mps;
     double acceleration_mps2;
-    double request_mps2;  // acceleration that the controller requests
-    double net_gap_m;     // to the leader; NaN without a leader
-    int gear;             // from 1; 0 in the mesoscale mode
+    double request_mps2;  // acceleration that the controller requests; mesoscale mode: acceleration_mps2
+    double net_gap_m;     // net gap to the leader; NaN without a leader
+    int gear;             // engaged gear, from 1; 0 in the mesoscale mode
 };
 
-// Appends a point for each vehicle in the network, lane by lane.
+// Appends one point for each vehicle in the network, lane by lane.
 void sample_vehicles(const Simulation& simulation, std::vector<TrajectoryPoint>& points);
 
 struct RunOptions {
-    double trajectory_interval_s = 0.0;  // 0: no trajectories
+    double trajectory_interval_s = 0.0;  // sampling interval; 0: no trajectories
     double trajectory_from_s = 0.0;
     double trajectory_until_s = std::numeric_limits<double>::infinity();
-    // Called every 1000 steps with the share done, 0 .. 1. Return false to stop early; the result is then incomplete.
+    // Called every 1000 steps with the completed share of the run, 0 .. 1. If it returns false, the run stops early and
+    // the result is incomplete.
     std::function<bool(double)> on_progress;
     Observation observation = {};
 };
@@ -44,23 +45,23 @@ struct RunOptions {
 struct RunResult {
     std::string population;
     double green_start_s = 0.0;             // start of the first green
-    std::vector<Passage> passages;          // all passages of the run
-    std::vector<double> stop_line_times_s;  // passages of stop lines, from green_start_s, sorted
+    std::vector<Passage> passages;          // passages of vehicles from lane to lane
+    std::vector<double> stop_line_times_s;  // times of passages over stop lines, counted from green_start_s, sorted
     std::vector<TrajectoryPoint> trajectory;
-    std::vector<double> queue_gaps_m;  // net gaps in the queue at the start of green
+    std::vector<double> queue_gaps_m;  // net gaps in the queue of the first lane at the start of green
     Violations violations;
     std::int64_t vehicles_entered = 0;
     std::int64_t vehicles_exited = 0;
-    std::int64_t updates = 0;  // vehicles times steps
+    std::int64_t updates = 0;  // number of vehicles in the network, summed over all steps
     double wall_s = 0.0;       // wall-clock time of the step loop
     std::uint64_t state_hash = 0;
     bool complete = false;  // false: the run was stopped early
 
-    // Returns the number of vehicles that passed a stop line within `green_s` after the start of green.
+    // Returns the number of vehicles that passed a stop line up to `green_s` after green_start_s.
     int passed_within(double green_s) const;
 };
 
-// Builds the model of a population and runs it.
+// Builds the model for scenario.populations[population] and runs it.
 RunResult run_population(const Scenario& scenario, std::size_t population, const RunOptions& options = {});
 
 }  // namespace stopline

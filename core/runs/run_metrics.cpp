@@ -19,7 +19,7 @@ namespace stopline {
 
 namespace {
 
-// Returns the multiple of the step that is closest to kSampleInterval_s, one step at least.
+// Returns the whole number of steps that is closest to kSampleInterval_s, as a time in s. It is at least one step.
 double sample_interval_s(const Scenario& scenario) {
     const std::int64_t ticks = std::max<std::int64_t>(1, to_ticks(kSampleInterval_s, scenario.tick_s()));
     return static_cast<double>(ticks) * scenario.tick_s();
@@ -170,7 +170,8 @@ std::vector<RunMetric> run_metrics(const Scenario& scenario, std::size_t populat
 
 namespace {
 
-// Returns a result without data that has an entry for each value that the runs of the scenario have.
+// Returns a result without data. Its lists have as many entries as the lists of a real run, so that metrics_of() gives
+// the same columns.
 NetworkResult empty_network_result(const Scenario& scenario) {
     NetworkResult none;
     if (scenario.network.is_sumo()) return none;

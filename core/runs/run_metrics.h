@@ -1,5 +1,5 @@
-// The results of one run as a flat list of named values, as sweeps store them. They do not depend on the machine, the
-// number of threads or the time of day.
+// The results of one run as a list of named values. Sweeps store these lists. The values do not depend on the machine,
+// the number of threads or the time of day.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,12 @@
 
 namespace stopline {
 
-// A value is a text, so that counts, hashes and rounded numbers are written to the result table unchanged.
+// One named value. The value is stored as text, so that counts, hashes and rounded numbers reach the result table
+// unchanged.
 struct RunMetric {
     std::string name;
-    std::string unit;   // end of the column name: "s", "m", "veh_h", "percent"; empty for counts and texts
-    std::string value;  // empty: no value
+    std::string unit;   // suffix of the column name: "s", "m", "veh_h", "percent"; empty for counts and texts
+    std::string value;  // empty: the run has no such value
 
     // Returns the name of the column in the result table.
     std::string column() const { return unit.empty() ? name : name + "_" + unit; }
@@ -24,12 +25,13 @@ struct RunMetric {
 RunMetric number_metric(std::string name, std::string unit, double value, int decimals);
 RunMetric count_metric(std::string name, std::string unit, std::int64_t value);
 
-// Runs one population of the scenario. The run ends early, with an empty result, once `keep_going` returns false. All
-// kinds of networks have the metrics overlaps, red_entries, lost_vehicles and updates.
+// Runs scenario.populations[population] and returns the metrics of the run. `keep_going` is called repeatedly during
+// the run. If it returns false, the run ends early and the result is empty. The metrics overlaps, red_entries,
+// lost_vehicles and updates exist for all kinds of networks.
 std::vector<RunMetric> run_metrics(const Scenario& scenario, std::size_t population,
                                    const std::function<bool()>& keep_going = {});
 
-// Returns the columns that a run of the scenario would give, without running it.
+// Returns the names of the result columns of the scenario, without running it.
 std::vector<std::string> result_columns(const Scenario& scenario);
 
 }  // namespace stopline

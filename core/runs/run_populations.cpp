@@ -9,10 +9,10 @@ namespace stopline {
 
 namespace {
 
-// Joins the progress of several runs.
-class JoinedProgress {
+// Collects the progress of runs in several threads and reports the mean progress.
+class MeanProgress {
 public:
-    JoinedProgress(std::size_t runs, const std::function<bool(double)>& report) : shares_(runs), report_(report) {}
+    MeanProgress(std::size_t runs, const std::function<bool(double)>& report) : shares_(runs), report_(report) {}
 
     // Returns false once the user wants to stop.
     bool update(std::size_t run, double share) {
@@ -41,7 +41,7 @@ std::vector<RunResult> run_populations(const Scenario& scenario, const RunAllOpt
     const std::size_t runs = scenario.populations.size();
     std::vector<RunResult> results(runs);
     std::vector<std::exception_ptr> errors(runs);
-    JoinedProgress progress(runs, options.on_progress);
+    MeanProgress progress(runs, options.on_progress);
 #pragma omp parallel for schedule(dynamic) num_threads(std::max(1, options.threads))
     for (std::size_t k = 0; k < runs; ++k) {
         if (progress.stopped()) continue;

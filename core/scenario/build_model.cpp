@@ -35,10 +35,12 @@ void add_policies(const Scenario& scenario, const PopulationSettings& population
                                                                      : DemandPlan::Pattern::alternating;
 }
 
-// Returns true for an approach from south or north. An intersection has two signal groups; the odd one is for these.
+// Returns true for an approach lane from south or north. In grids and single intersections, these lanes have the odd
+// signal group of their intersection.
 bool from_south_or_north(const LaneGraph& graph, int lane) { return graph.lanes[at(lane)].signal_group % 2 == 1; }
 
-// Returns the share of the vehicles on an entry lane that take the route. The demand gives the turn shares.
+// Returns the share of the vehicles on the first lane of a route that take this route, 0 .. 1. It follows from the turn
+// shares of the demand.
 double share_of(const Scenario& scenario, const Model& model, const Route& route) {
     const LaneGraph& graph = model.graph;
     const std::vector<int>& connections = graph.lanes[at(route.lanes[0])].next;
@@ -61,7 +63,7 @@ double share_of(const Scenario& scenario, const Model& model, const Route& route
     return 1.0 - left - (allows(Turn::right) ? right : 0.0);
 }
 
-// Returns the routes that begin on each lane, sorted by index.
+// Returns the indices of the routes that begin on each lane, in ascending order.
 std::vector<std::vector<int>> routes_by_first_lane(const LaneGraph& graph) {
     std::vector<std::vector<int>> routes(graph.lanes.size());
     for (std::size_t k = 0; k < graph.routes.size(); ++k) {
@@ -76,7 +78,7 @@ DemandPlan::Inlet inlet_of(const Scenario& scenario, const Model& model, int lan
     return inlet;
 }
 
-// Returns true if the demand lets vehicles enter on the lane.
+// Returns true if demand.approaches allows vehicles to enter the network on the lane. `lane` is its name.
 bool has_demand(const DemandSettings& demand, const std::string& lane) {
     const auto matches = [&](const std::string& approach) { return lane.starts_with(approach + "_"); };
     return demand.approaches.empty() || std::any_of(demand.approaches.begin(), demand.approaches.end(), matches);
@@ -119,7 +121,7 @@ void add_demand(const Scenario& scenario, Model& model) {
     }
 }
 
-// Adds detectors at the boundaries of the zones, measure.zones.
+// Adds a detector on the lane at the boundary of each zone (measure.zones).
 void add_zones(const Scenario& scenario, int lane, Model& model) {
     const Lane& road = model.graph.lanes[at(lane)];
     const bool entry = road.signal_group >= 0;
@@ -131,8 +133,8 @@ void add_zones(const Scenario& scenario, int lane, Model& model) {
     }
 }
 
-// Adds a detector behind each intersection, one vehicle length after the start of the exit lane, and one in the middle
-// of each link between two intersections.
+// Adds a detector to an exit lane of an intersection, one vehicle length after its start. If the lane leads to another
+// intersection, adds a second detector in its middle.
 void add_counters(const Scenario& scenario, int lane, Model& model) {
     const Lane& road = model.graph.lanes[at(lane)];
     const std::vector<int>& entries = model.graph.entries;
@@ -195,7 +197,7 @@ void add_network(const Scenario& scenario, Model& model) {
     } else if (network.kind == "grid") {
         for (const GridPosition& place : grid_positions(network.grid)) {
             SignalSettings signal = scenario.signal;
-            // Without whole cycles in the offset, the initial red is not longer than necessary.
+            // Whole cycles are removed from the offset, so that the initial red is as short as possible.
             signal.first_green_s +=
                 std::fmod((place.column + place.row) * signal.offset_s, signal.intersection_cycle_s());
             for (GroupProgramme& one : make_stage_programmes(signal, 2, scenario.tick_s())) {
@@ -234,10 +236,11 @@ Model build_model(const Scenario& scenario, std::size_t population) {
     model.vehicles.push_back(compile_powertrain(scenario.vehicle));
     model.driver = compile_driver(scenario.driver);
     model.hesitation_ticks = to_ticks(scenario.driver.free_drive.hesitation_s, scenario.tick_s());
-    // A command planned in a step takes effect at the end of the step. So the delay is one step shorter.
+    // The command of a step takes effect at the end of the step. This delay is a part of radar_delay_s, so it is
+    // subtracted.
     model.radar = make_delay(std::max(scenario.driver.cacc.radar_delay_s - scenario.tick_s(), 0.0), scenario.tick_s());
     model.v2v = make_delay(scenario.driver.cacc.v2v_delay_s, scenario.tick_s());
-    if (scenario.is_meso()) {  // its models use the present state only
+    if (scenario.is_meso()) {  // mesoscale car following has no radar delay
         model.meso = true;
         model.radar = make_delay(0.0, model.step_s);
         model.v2v = make_delay(model.step_s, model.step_s);

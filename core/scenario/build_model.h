@@ -1,4 +1,4 @@
-// Builds the constant Model of a run from a scenario and one of its populations.
+// Builds the Model of a run from a scenario and one of its populations. A Model does not change during the run.
 #pragma once
 
 #include "scenario/scenario.h"
@@ -6,10 +6,11 @@
 
 namespace stopline {
 
-// `population` is an index into scenario.populations. Throws InputError if parts of the scenario do not fit together.
+// Builds the model for scenario.populations[population]. Throws InputError if the scenario contradicts
+// itself, for instance by the name of an unknown policy.
 Model build_model(const Scenario& scenario, std::size_t population);
 
-// Replaces the parameters of the mesoscale mode in a model, for instance during a calibration.
+// Replaces the parameters of the mesoscale mode in a model. A calibration uses it to try parameters.
 void set_meso(const Scenario& scenario, const MesoSettings& settings, Model& model);
 
 }  // namespace stopline

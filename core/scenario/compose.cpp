@@ -14,11 +14,12 @@
 namespace stopline {
 namespace {
 
-constexpr int kBasesMax = 8;  // longest chain of files that name each other as base
+constexpr int kBasesMax = 8;  // largest number of data files in a chain of `base` references
 
 using Kind = SourceNode::Kind;
 
-// Puts own values over those of the base. Sections are merged field by field; any other value is replaced as a whole.
+// Overwrites values in `base` with the values in `own`. Sections are merged field by field. Any other value is replaced
+// as a whole.
 void merge(const Table& table, SourceNode& base, SourceNode own) {
     for (std::size_t i = 0; i < own.keys.size(); ++i) {
         SourceNode* const base_value = base.find(own.keys[i].text);
@@ -52,7 +53,7 @@ SourceNode scalar_at(const Place& place, std::string text) {
     return node;
 }
 
-// `bases`: number of files already read in this chain.
+// Implements resolve_base(). `bases` is the number of data files that have already been read for this node.
 void resolve(const Table& table, const std::string& folder, SourceNode& node, const std::string& path, int bases,
              Report& report) {
     const SourceNode* const inner = node.kind == Kind::map ? node.find("base") : nullptr;
@@ -84,8 +85,8 @@ void resolve(const Table& table, const std::string& folder, SourceNode& node, co
 
 const SourceNode* name_of(const SourceNode& item) { return item.kind == Kind::map ? item.find("name") : nullptr; }
 
-// Merges a list into the list of a library file "folder/name": replaces entries with the same name and appends the
-// others.
+// Replaces `list` by the list in the library file "folder/name", combined with the entries of `list`. An entry of
+// `list` replaces the library entry of the same name. All other entries of `list` are appended.
 void merge_library_list(const Field& field, const std::string& library, SourceNode& list, Report& report) {
     if (list.kind != Kind::list) return;
     const auto slash = library.find('/');
@@ -102,8 +103,9 @@ void merge_library_list(const Field& field, const std::string& library, SourceNo
         return;
     }
     replace_old_names(field, *known, field.name, report);
-    std::vector<bool> own_entry(known->items.size(),
-                                false);  // keeps a name that the scenario gives twice, to report it
+    // Marks the entries that come from the scenario. They are not replaced, so that a name that the scenario gives
+    // twice is reported later.
+    std::vector<bool> own_entry(known->items.size(), false);
     for (SourceNode& own : list.items) {
         const SourceNode* const name = name_of(own);
         std::size_t i = 0;
@@ -121,7 +123,7 @@ void merge_library_list(const Field& field, const std::string& library, SourceNo
     list.items = std::move(known->items);
 }
 
-// Completes the value of one field, but nothing inside it.
+// Inserts the default, the data file or the library list of one field. Does not complete the fields inside its value.
 void complete_field(const Field& field, SourceNode& map, const std::string& path, Report& report) {
     SourceNode* value = map.find(field.name);
     const auto* const section = std::get_if<SectionField>(&field.kind);
@@ -142,7 +144,8 @@ void complete_field(const Field& field, SourceNode& map, const std::string& path
     }
 }
 
-// Returns the choice at a path of names joined by dots: the value in the file, or the default.
+// Returns the value of the choice at `path`, which is field names joined by dots: the value in `map`, or else the
+// default.
 std::string choice_at(const Table& table, const SourceNode* map, const std::string& path) {
     const auto dot = path.find('.');
     const std::string name = path.substr(0, dot);
@@ -154,7 +157,7 @@ std::string choice_at(const Table& table, const SourceNode* map, const std::stri
     return value != nullptr ? value->text : std::get<ChoiceField>(kind).get(table.make_default().get());
 }
 
-// Returns true if the field exists with the choices of this file, see Field::condition_field.
+// Returns true if the choices in `map` fulfil the condition of the field, see Field::condition_field.
 bool exists(const Table& table, const Field& field, const SourceNode& map) {
     if (field.condition_field.empty()) return true;
     const std::string choice = choice_at(table, &map, field.condition_field);
@@ -162,7 +165,7 @@ bool exists(const Table& table, const Field& field, const SourceNode& map) {
            field.condition_values.end();
 }
 
-// Finds a list entry by index or by name; null if there is none.
+// Returns the list entry with the index or the name `entry`; null if there is none.
 SourceNode* find_entry(SourceNode& list, const std::string& entry) {
     const ParsedWhole index = parse_whole(entry);
     if (index.problem.empty()) return index.value < list.items.size() ? &list.items[index.value] : nullptr;
@@ -181,7 +184,7 @@ std::string entries_text(const SourceNode& list) {
            (names.empty() ? "" : " (" + joined(names) + ")");
 }
 
-// Puts a value at the place that the steps of a path lead to.
+// Sets the field at a path to a value. Reports an error if the path does not exist.
 class Setter {
 public:
     Setter(SourceNode value, Report& report) : value_(std::move(value)), report_(report) {}
@@ -261,7 +264,7 @@ void complete(const Table& table, SourceNode& map, const std::string& path, Repo
         SourceNode* value = map.find(field.name);
         if (value == nullptr && std::holds_alternative<SectionField>(field.kind) && !field.required &&
             exists(table, field, map)) {
-            SourceNode empty;  // fields inside may have default texts
+            SourceNode empty;  // fields inside the section may have a Field::fallback
             empty.kind = Kind::map;
             empty.place = map.place;
             value = &map.add({field.name, map.place}, std::move(empty));

@@ -1,5 +1,5 @@
-// Completes the tree of a scenario before it is read. Inserts default texts, named data files, single-word list entries
-// and overrides. The reader then meets one complete form, and checks inherited and own values alike.
+// Completes the YAML tree of a scenario before read_fields.h reads it. Applies overrides, and inserts defaults and the
+// contents of named data files. read_fields.h then checks all values, wherever they come from.
 #pragma once
 
 #include <filesystem>
@@ -9,16 +9,19 @@
 
 namespace stopline {
 
-// Applies an override `path=value` (see load_scenario.h) to the map `root`. Completes each section on the path first,
-// so that an override also reaches fields of a vehicle that the file gives by name only.
+// Applies an override `path=value` (see load_scenario.h) to the map `root`. First completes each section on the path,
+// so that vehicle.mass can be set even if the file gives only the name of a vehicle. Relative file names in the value
+// start at `directory`.
 void apply_override(const Table& table, SourceNode& root, const std::string& text,
                     const std::filesystem::path& directory, Report& report);
 
-// Completes a map and everything inside it.
+// Inserts the defaults and the data files of a map and of all maps inside it. `path` is the path of the map, for
+// messages.
 void complete(const Table& table, SourceNode& map, const std::string& path, Report& report);
 
-// Replaces the name of a data file by the content of that file. Merges a map with the data file that its `base` names.
-// `folder` is a folder of the data directory.
+// Resolves a reference to a data file in `folder`, a folder of the data directory. If `node` is a file name, replaces
+// it by the content of the file. If `node` is a map with the key `base`, reads the file that `base` names, and
+// overwrites its fields with the other fields of the map.
 void resolve_base(const Table& table, const std::string& folder, SourceNode& node, const std::string& path,
                   Report& report);
 

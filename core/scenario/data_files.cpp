@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
+#include <system_error>
 #include <vector>
 
 #include "base/input_error.h"
@@ -16,10 +18,20 @@
 namespace stopline {
 namespace {
 
-constexpr std::size_t kReferenceMax = 1000;  // characters; a longer text is neither a name nor a path
+constexpr std::size_t kReferenceMax = 1000;  // longest accepted name or path, in bytes
 
 bool is_path(const std::string& reference) {
     return reference.find('/') != std::string::npos || reference.ends_with(".yaml");
+}
+
+// Returns the folder PREFIX/share/stopline/data of a program that is installed in PREFIX/bin. Returns an empty path if
+// this folder does not exist.
+std::filesystem::path installed_data_directory() {
+    std::error_code error;
+    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+    if (error) return {};
+    const std::filesystem::path folder = program.parent_path().parent_path() / "share" / "stopline" / "data";
+    return std::filesystem::is_directory(folder, error) ? folder : std::filesystem::path();
 }
 
 }  // namespace
@@ -27,7 +39,9 @@ bool is_path(const std::string& reference) {
 std::filesystem::path data_directory() {
     // No thread changes the environment, so reading it is safe.
     const char* const chosen = std::getenv("STOPLINE_DATA");  // NOLINT(concurrency-mt-unsafe)
-    return chosen != nullptr && *chosen != '\0' ? chosen : STOPLINE_SOURCE_DATA_DIR;
+    if (chosen != nullptr && *chosen != '\0') return chosen;
+    static const std::filesystem::path kInstalled = installed_data_directory();
+    return kInstalled.empty() ? STOPLINE_SOURCE_DATA_DIR : kInstalled;
 }
 
 std::vector<std::string> data_names(const std::string& folder) {

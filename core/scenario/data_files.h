@@ -1,4 +1,4 @@
-// Finds data files that a scenario names: vehicles, drivers, policies and others. load_scenario.h describes the names.
+// Reads the data files that a scenario names, such as vehicles, drivers and policies.
 #pragma once
 
 #include <filesystem>
@@ -14,8 +14,9 @@ struct DataFile {
     std::string stem;  // file name without extension
 };
 
-// Reads the file that the scalar `reference` names: a file in a folder of the data directory, or a path. `field` is the
-// path of the field in messages. On failure it reports an error and returns a broken tree.
+// Reads the data file that the scalar `reference` gives, either as a path or as the name of a file in `folder` of the
+// data directory. `field` is the path of the scenario field, for messages. On failure, reports an error and returns a
+// tree of the kind `broken`.
 DataFile read_data_file(const std::string& folder, const SourceNode& reference, const std::string& field,
                         Report& report);
 

@@ -1,4 +1,4 @@
-// Default names of scenarios and sweeps, made from their file names.
+// Makes the default name of a scenario or a sweep from its file name.
 #pragma once
 
 #include <filesystem>
@@ -6,8 +6,8 @@
 
 namespace stopline {
 
-// Returns the file name without extension, with '_' for each character that a name may not have. Returns `otherwise` if
-// the file name is empty.
+// Returns the file name without extension, cut to 64 characters. Replaces each character that names must not contain by
+// '_'. Returns `otherwise` if the file name is empty.
 inline std::string name_from_file(const std::string& label, const std::string& otherwise) {
     std::string name;
     for (const char c : std::filesystem::path(label).stem().string().substr(0, 64)) {

@@ -56,7 +56,7 @@ void add_sumo_trips(const Scenario& scenario, DemandPlan& plan) {
     plan.trips = traffic.trips;
     plan.trip_turns = traffic.turns;
     plan.trip_names = {scenario.demand.sumo, &traffic.ids};
-    plan.shortest_trip_m = traffic.shortest_vehicle_m();
+    plan.shortest_vehicle_m = traffic.shortest_vehicle_m();
     plan.seed = scenario.seed;
     plan.draw_trip_policies();
 }

@@ -13,36 +13,38 @@ namespace stopline {
 
 struct DemandPlan;
 
-// The path of a scenario field, and the error in it.
+// The path of a scenario field, and the text of the error in this field.
 using FieldProblem = std::pair<std::string, std::string>;
 
-// Returns an entry for each SUMO file that does not exist or cannot be read. Relative paths start at `directory`.
+// Returns one entry for each SUMO file of the scenario that does not exist or cannot be read. Relative paths start at
+// `directory`.
 std::vector<FieldProblem> sumo_file_problems(const Scenario& scenario, const std::filesystem::path& directory);
 
-// Reads network, additional and route files into the scenario. Does nothing for other network kinds. Throws InputError
-// with file and line.
+// Reads the SUMO network, additional and route files of the scenario into it. Does nothing if network.kind is not
+// `sumo`. Throws InputError with file and line.
 void import_sumo(Scenario& scenario, const std::filesystem::path& directory);
 
-// Adds the imported trips to the demand plan, and draws their policies from the population of the plan.
+// Adds the imported trips to the demand plan. Draws the spacing policy of each trip by the policy shares in the plan.
 void add_sumo_trips(const Scenario& scenario, DemandPlan& plan);
 
-// An imported induction loop on a lane of the graph.
+// An imported induction loop.
 struct SumoLoopPlace {
     std::string name;
-    int lane = -1;
+    int lane = -1;  // index into the lane graph
     double position_m = 0.0;
 };
 std::vector<SumoLoopPlace> sumo_loops(const Scenario& scenario);
 
-// Returns one line per ignored part of the files: "city.net.xml:12: ...".
+// Returns the warnings of the import, one line each, such as "city.net.xml:12: ...". Most of them name a part of the
+// files that the import ignores.
 std::vector<std::string> sumo_warnings(const Scenario& scenario);
 
-// Returns an error if the files have no vehicle, trip or flow.
+// Returns an error if the SUMO files have no vehicle, trip or flow.
 std::vector<FieldProblem> sumo_demand_problems(const Scenario& scenario);
 // Returns the reason why no vehicle departs within the run, or "" if one departs.
 std::string sumo_demand_warning(const Scenario& scenario);
 
-// Returns the hash of the contents of all files, or 0 for other network kinds.
+// Returns a hash of the contents of all SUMO files; 0 if network.kind is not `sumo`.
 std::uint64_t sumo_files_hash(const Scenario& scenario);
 
 }  // namespace stopline

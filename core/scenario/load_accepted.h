@@ -1,5 +1,5 @@
-// Loads the file of accepted differences between full dynamics and the mesoscale mode. A user has reviewed and accepted
-// them, which is the paper's subjective criterion (Section V.B).
+// Loads a file of accepted differences. Each entry names a detector at which full dynamics and the mesoscale mode give
+// different passages, and the reason why a user accepts this (the subjective criterion in Section V.B of the paper).
 //
 //     accepted:
 //     - permutation: green = 15 s, offset = 0 s, population = CDG
@@ -14,9 +14,9 @@
 namespace stopline {
 
 struct AcceptedDifference {
-    std::string permutation;  // values of the axes, as in the report
-    std::string detector;
-    std::string reason;
+    std::string permutation;  // axis values, as text in the report of stopline-calibrate
+    std::string detector;     // name of the detector in this report
+    std::string reason;       // reason why the difference is accepted
 };
 
 struct AcceptedFile {

@@ -27,10 +27,11 @@ void require_map(const SourceNode& root) {
                      " needs 'field: value' lines (fields: " + joined(scenario_table().names()) + ")");
 }
 
-// Applies the overrides from left to right. Reports an error if a field is set by its old and by its new name.
+// Applies the overrides in their order. Reports an error if one override uses the old and another one the new name of
+// the same field.
 void apply_overrides(SourceNode& root, const std::vector<std::string>& overrides,
                      const std::filesystem::path& directory, Report& report) {
-    std::map<std::string, std::string> written_paths;  // by current path
+    std::map<std::string, std::string> written_paths;  // current path -> path in the first override of the field
     for (const std::string& text : overrides) {
         apply_override(scenario_table(), root, text, directory, report);
         const std::string written = text.substr(0, text.find('='));
@@ -75,7 +76,7 @@ Scenario scenario_from(SourceNode root, const std::vector<std::string>& override
     return scenario;
 }
 
-// Loads a data file by name or path.
+// Loads the data file with this name or path into settings of type S.
 template <class S>
 S load_data(const Table& table, const std::string& folder, const std::string& name_or_path,
             const std::filesystem::path& directory, std::vector<std::string>* warnings) {

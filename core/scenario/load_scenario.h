@@ -1,7 +1,8 @@
-// Loads YAML files into settings: complete, checked and in SI units. Throws InputError for any bad input.
+// Loads YAML files into settings structs, with all defaults filled in, checked, and in SI units. Throws InputError for
+// any bad input.
 //
 // One table of fields (schema/field_table.h, rows in schema/fields_*.cpp) drives parsing, error messages, the list of
-// fields, the JSON schema and the canonical text. A new parameter is one row, bound to a struct member.
+// fields, the JSON schema and canonical_text(). A new parameter needs a struct member and one row that names it.
 //
 // The text of an InputError has one line per error, at most 20 lines:
 //     file:line:column: field 'signal.green': value '15' has no unit: write e.g. '15 s' (allowed: 0.1 s to 7200 s)
@@ -17,8 +18,8 @@
 
 namespace stopline {
 
-// Loads a scenario. An override is `path=value`, with the value written as in a file. Overrides apply from left to
-// right:
+// Loads a scenario and applies the overrides in their order. An override has the form `path=value`, with the value
+// written as in a scenario file. Examples:
 //     signal.green=20 s    vehicle=diesel_eu4_103kw    vehicle.mass=1.4 t    measure.green=[5 s, 10 s]
 //     populations[0].components[1].share=25 %    policies[CTG-Ref].time_gap=0.6 s
 // Scenario::warnings lists old names of fields that the files or the overrides use.
@@ -28,8 +29,9 @@ Scenario load_scenario(const std::filesystem::path& file, const std::vector<std:
 Scenario parse_scenario(std::string_view text, const std::string& label, const std::vector<std::string>& overrides = {},
                         const std::filesystem::path& directory = ".");
 
-// Load a data file. A plain name is looked up in the data directory, such as vehicles/NAME.yaml. A text with a '/' or
-// with the ending .yaml is a path, relative to `directory`. Old names of fields are added to `warnings`, one line each.
+// These functions load one data file. A text with a '/' or with the ending .yaml is a path, relative to `directory`.
+// Any other text is the name of a file in the data directory, such as vehicles/NAME.yaml. Each old name of a field adds
+// one line to `warnings`.
 PowertrainSettings load_vehicle(const std::string& name_or_path, const std::filesystem::path& directory = ".",
                                 std::vector<std::string>* warnings = nullptr);
 DriverSettings load_driver(const std::string& name_or_path, const std::filesystem::path& directory = ".",
@@ -40,31 +42,32 @@ std::vector<GapPolicySettings> load_policies(const std::string& name_or_path = "
 MesoSettings load_meso(const std::string& name_or_path, const std::filesystem::path& directory = ".",
                        std::vector<std::string>* warnings = nullptr);
 
-// Returns the environment variable STOPLINE_DATA, or the data folder of the source tree if the variable is not set.
+// Returns the folder of the shipped data: the environment variable STOPLINE_DATA if it is set, else the data folder of
+// the installation, else that of the source tree.
 std::filesystem::path data_directory();
 
 // Returns the sorted names of the files in a folder of the data directory, such as "vehicles", without extension.
 std::vector<std::string> data_names(const std::string& folder);
 
-// The file in data/meso with the parameters that stopline-calibrate fitted to full dynamics. Section V judges it;
-// Sections VI and VII use it.
+// Name of the file in data/meso with the parameters that stopline-calibrate fitted to full dynamics. They are evaluated
+// as in Section V of the paper, and used for the networks of Sections VI and VII.
 inline constexpr const char* kCalibratedMeso = "passages";
 
-// Return the text of a data file that begins with `comment`, which may have several lines. Loading the text gives the
-// same numbers, bit for bit.
+// These functions return the text of a data file with the settings. `comment`, which may have several lines, becomes a
+// YAML comment at the top. Loading the text gives the same numbers, bit for bit.
 std::string driver_yaml(const DriverSettings& driver, const std::string& comment);
 std::string meso_yaml(const MesoSettings& meso, const std::string& comment);
 
-// Returns every field with full precision, including vehicle, driver and policies. The text is a scenario file itself
-// and loads as the same scenario.
+// Returns the scenario as YAML text with every field in full precision, including those of the vehicle, the driver and
+// the policies. Loading the text gives the same scenario.
 std::string canonical_text(const Scenario& scenario);
-// Returns the 64-bit FNV-1a hash of the canonical text, combined with the hash of imported SUMO files.
+// Returns the 64-bit FNV-1a hash of canonical_text(), combined with the hash of imported SUMO files.
 std::uint64_t scenario_hash(const Scenario& scenario);
 
-// Returns the list of all fields of a scenario file for a terminal: name, unit, default, range and meaning.
+// Returns a list of all fields of a scenario file for a terminal: name, unit, default, range and meaning.
 std::string describe_fields();
 
-// Returns scenarios/FIELDS.md: all fields of scenario and sweep files.
+// Returns the text of scenarios/FIELDS.md, which lists all fields of scenario and sweep files.
 std::string fields_markdown();
 
 // Returns the JSON schema (draft 07) of a scenario file, for editors.

@@ -15,8 +15,8 @@ LaneGraph make_network(const NetworkSettings& network) {
 }
 
 double radius_beyond_m(const NetworkSettings& network, const Lane& lane) {
-    if (network.is_sumo()) return 0.0;         // connections have lengths of their own
-    constexpr int kGroupsPerIntersection = 3;  // signal groups, see make_streets()
+    if (network.is_sumo()) return 0.0;
+    constexpr int kGroupsPerIntersection = 3;  // signal groups of one intersection of streets, see make_streets()
     if (!network.is_streets()) return network.intersection.radius_m;
     return network.streets.intersections[static_cast<std::size_t>(lane.signal_group / kGroupsPerIntersection)].radius_m;
 }

@@ -1,4 +1,4 @@
-// Builds the lane graph of a scenario's network, whatever its kind.
+// Builds the lane graph of a scenario's network, for all values of network.kind.
 #pragma once
 
 #include "network/lane_graph.h"
@@ -6,11 +6,11 @@
 
 namespace stopline {
 
-// Builds the lane graph of the chosen network kind. An imported network must have been read before.
+// Builds the lane graph for network.kind. For `sumo`, import_sumo() must have read the files before.
 LaneGraph make_network(const NetworkSettings& network);
 
-// Returns the distance from the stop line at the end of `lane` to the centre of its intersection, in m.
-// Imported networks give 0: their connections have lengths of their own.
+// Returns the distance from the stop line at the end of `lane` to the centre of the intersection, m. Returns 0 for
+// imported networks, whose intersections have no radius.
 double radius_beyond_m(const NetworkSettings& network, const Lane& lane);
 
 }  // namespace stopline

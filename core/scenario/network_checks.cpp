@@ -7,7 +7,7 @@
 #include "base/nearest_name.h"
 #include "base/simd/arithmetic.h"
 #include "network/generators/outer_legs.h"
-#include "scenario/arm_names.h"
+#include "scenario/approach_names.h"
 #include "scenario/schema/quantity.h"
 
 namespace stopline {
@@ -17,7 +17,7 @@ constexpr double kRounding_m = 1e-9;
 
 std::string metres(double value) { return short_text(value, unit("m")); }
 
-// Returns the longest standstill gap of the policies that the populations use.
+// Returns the longest standstill gap of the policies that the populations use, m.
 double longest_standstill_gap_m(const Scenario& scenario) {
     double longest_m = 0.0;
     for (const GapPolicySettings& policy : scenario.policies) {
@@ -30,14 +30,14 @@ double longest_standstill_gap_m(const Scenario& scenario) {
     return longest_m;
 }
 
-// Returns the length that a stopped vehicle needs in a queue.
+// Returns the length that a stopped vehicle needs in a queue, m: vehicle length and standstill gap.
 double queue_space_m(const Scenario& scenario) {
     return scenario.vehicle.length_m + longest_standstill_gap_m(scenario);
 }
 
-// Returns the stopping distance with the deceleration that drivers accept on yellow, including the lag of the brake and
-// the rise of the deceleration (sim/junction/stop_lines.cpp). Rounded up to 0.1 m, so that the value in a message is
-// accepted.
+// Returns the stopping distance with the deceleration that drivers accept on yellow, m. It includes the lag of the
+// brake and the rise of the deceleration (sim/junction/stop_lines.cpp). It is rounded up to 0.1 m, so that a user can
+// enter the minimum that a message names.
 double stopping_m(const Scenario& scenario, double speed_mps) {
     const double b = scenario.driver.stop.decision_deceleration_mps2;
     const double delay_s = scenario.vehicle.brake_lag_s + 0.5 * b / scenario.driver.cacc.jerk_down_mps3;

@@ -7,15 +7,15 @@
 
 namespace stopline {
 
-// Checks that the queue of a single light fits between the entry and the stop line.
+// Checks that the queue of a single light (demand.vehicles in each lane) fits between the entry and the stop line.
 void check_queue(const Scenario& scenario, Checker& check);
-// Checks that the streets between the intersections of a grid are long enough for a vehicle and for stopping.
+// Checks that the road between two intersections of a grid holds a vehicle and is long enough to stop on.
 void check_grid_links(const Scenario& scenario, Checker& check);
-// Checks that a vehicle fits into each turning pocket.
+// Checks that each turning pocket holds a vehicle.
 void check_pockets(const Scenario& scenario, Checker& check);
-// Checks that a vehicle can stop between the entry and the stop line.
+// Checks that a vehicle that enters the network can stop before the stop line of its entry lane.
 void check_entries(const Scenario& scenario, Checker& check);
-// Checks that the network has the approaches of demand.approaches.
+// Checks that each name in demand.approaches belongs to an approach of the network.
 void check_approaches(const Scenario& scenario, Checker& check);
 // Checks that the measured area of a grid or of streets lies inside the network.
 void check_measured_area(const Scenario& scenario, Checker& check);

@@ -16,44 +16,44 @@ namespace stopline {
 
 struct MeasureSettings {
     std::vector<double> green_s;  // single light: times after the start of green at which passed vehicles are counted
-    std::string baseline;         // reference population for improvements; empty: none
-    // Single intersection.
+    std::string baseline;         // name of the reference population for improvements; empty: none
+    // For single intersections only:
     int warmup_cycles = 1;                   // signal cycles before the measurement
     int cycles = 5;                          // measured signal cycles
-    std::vector<double> zone_radius_m = {};  // radii for travel time and density
-    // Networks of several intersections.
-    double area_margin_m = 20.0;           // distance of the measured area's boundary from the outer intersections
+    std::vector<double> zone_radius_m = {};  // radii of the zones for travel time and density (measure.zones)
+    // For networks of several intersections only:
+    double area_margin_m = 20.0;           // distance from the outer intersections to the boundary of the measured area
     double interval_s = 60.0;              // interval of the time series
     double window_s = 18000.0;             // length of the measuring window at the end of the run
     double time_space_s = 0.0;             // length of the time-space diagram at the end of the run; 0: none
-    std::string time_space_side = "west";  // side from which the diagram follows a street: west | east | south | north
+    std::string time_space_side = "west";  // side where the street of this diagram begins: west | east | south | north
 };
 
 struct Scenario {
     std::string name;
     std::string title;
     std::string fidelity = "full";  // full | meso
-    double step_s = 0.01;           // full dynamics only, the mesoscale mode uses meso.step_s
-    double duration_s = 200.0;      // 0: the time that the measured cycles take
+    double step_s = 0.01;           // time step of full dynamics; the mesoscale mode uses meso.step_s
+    double duration_s = 200.0;      // 0: until the end of the measured cycles (single intersections only)
     std::uint64_t seed = 1;
     NetworkSettings network;
     SignalSettings signal;
     DemandSettings demand;
-    std::string vehicle_name;  // file stem in data/vehicles
-    std::string driver_name;   // file stem in data/drivers
+    std::string vehicle_name;  // name of the vehicle, by default its file name in data/vehicles without extension
+    std::string driver_name;   // name of the driver, by default its file name in data/drivers without extension
     PowertrainSettings vehicle;
     DriverSettings driver;
     TrafficRules rules;
     MesoSettings meso;
     std::vector<GapPolicySettings> policies;      // all policies that a population may name
-    std::vector<PopulationSettings> populations;  // each makes one run
+    std::vector<PopulationSettings> populations;  // one run is made for each of them
     MeasureSettings measure;
-    std::uint64_t hash = 0;                  // of the canonical text, see scenario_hash()
-    std::vector<std::string> warnings = {};  // of loading, one line each, such as old names of fields
+    std::uint64_t hash = 0;                  // result of scenario_hash()
+    std::vector<std::string> warnings = {};  // warnings from loading, one line each, such as old names of fields
 
     bool is_meso() const { return fidelity == "meso"; }
     double tick_s() const { return is_meso() ? meso.step_s : step_s; }
-    // Returns the cycle of all intersections; for an imported network, the longest cycle.
+    // Returns the signal cycle that all intersections have; for an imported network, the longest cycle.
     double intersection_cycle_s() const;
     double longest_green_s() const;
 };

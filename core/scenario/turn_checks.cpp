@@ -12,7 +12,7 @@ namespace {
 
 using Lane = IntersectionSettings::LaneMovements;
 
-// Turn shares of a group of approaches, with the names of their fields.
+// Shares of left and right turns, with the names of the demand fields that set them.
 struct Shares {
     std::string left_field;
     double left = 0.0;
@@ -22,7 +22,7 @@ struct Shares {
 
 bool allows_several(const Lane& lane) { return lane.movements.find('+') != std::string::npos; }
 
-// Reports an error for a share that no lane uses.
+// Reports an error for a turn share above 0 if no lane allows this turn together with another movement.
 void check_served(const std::vector<Lane>& lanes, const std::string& turn, const std::string& field, double share,
                   Checker& check) {
     const auto serves = [&](const Lane& lane) { return allows_several(lane) && lane.allows(turn); };
@@ -45,7 +45,8 @@ void check_lane(const Lane& lane, const Shares& shares, Checker& check) {
     }
 }
 
-// Reports an error for each turn share of a network that has no turns or that has its own turn shares.
+// Reports an error for each turn share that the demand sets. It is called for networks in which these shares have no
+// effect; `network` says why.
 void refuse_all(const DemandSettings& demand, const std::string& network, Checker& check) {
     const auto refuse = [&](const std::string& field, bool used) {
         if (used) check.error("demand." + field, "has no effect on " + network);

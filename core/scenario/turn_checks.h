@@ -1,4 +1,4 @@
-// Checks that the lanes of a network allow the turns of the demand.
+// Checks that the turn shares of the demand fit the movements that the lanes of the network allow.
 #pragma once
 
 #include "scenario/scenario.h"

@@ -1,5 +1,5 @@
 // Fixed-time signal programmes. Each signal group runs through stages of green, yellow and red, either once or in every
-// cycle. Times are in ticks of the simulation step.
+// cycle. Times and durations are in ticks, which are simulation steps. Tick 0 is the beginning of the run.
 #pragma once
 
 #include <array>
@@ -14,21 +14,22 @@ namespace stopline {
 enum class Light : std::uint8_t { red, green, yellow };
 
 struct Stage {
-    std::int64_t ticks = 0;
+    std::int64_t ticks = 0;  // duration
     Light light = Light::red;
 };
 
-// The light of one signal group over time. It is red before the offset; then its stages follow. After the last stage
-// the programme starts again, or stays red if it does not repeat.
+// The light of one signal group over time. Before the offset the light is red. Then the stages follow. After the last
+// stage the programme starts again, or the light stays red if the programme does not repeat.
 class GroupProgramme {
 public:
     // Throws InputError if there is no stage or if a stage lasts less than one tick.
     GroupProgramme(std::vector<Stage> stages, std::int64_t offset_ticks, bool repeats);
 
     Light light(std::int64_t tick) const;
-    // Returns the first tick of the light that is shown at `tick`. It can be negative. Before the offset it is 0.
+    // Returns the tick at which the light that is on at `tick` began. The result can be negative. For the red before
+    // the offset it is 0.
     std::int64_t light_start_tick(std::int64_t tick) const;
-    // Returns the first tick of the latest green that began at or before `tick`, or -1 if there was none.
+    // Returns the tick at which the latest green up to `tick` began, or -1 if there was no green.
     std::int64_t last_green_start_tick(std::int64_t tick) const;
     std::int64_t cycle_ticks() const { return cycle_; }
 
@@ -37,7 +38,8 @@ private:
         std::size_t stage;
         std::int64_t tick;
     };
-    // Returns the stage at `tick` and its first tick, for a programme that repeats.
+    // Returns the stage at `tick`, and the tick at which this stage began. `tick` must not be before the offset. The
+    // function treats every programme as repeating.
     StageStart stage_at(std::int64_t tick) const;
 
     std::vector<Stage> stages_;
@@ -46,23 +48,23 @@ private:
     bool repeats_;
 };
 
-// Makes a programme of green, yellow, and red for the rest of the cycle. Throws InputError if green, yellow and all red
-// are longer than the cycle.
+// Makes a programme of green, yellow, and red for the rest of the cycle. If `cycle_s` is 0, the programme does not
+// repeat. Throws InputError if green, yellow and all red together are longer than the cycle.
 GroupProgramme make_single_light(const SignalSettings& settings, double step_s);
 
-// Makes the programmes of `groups` signal groups that have green one after the other. The cycle is the sum of their
-// green, yellow and all-red times; the field `cycle_s` is not used.
+// Makes the programmes of `groups` signal groups that have green one after the other. The cycle is the sum of the
+// green, yellow and all-red times of all groups. The setting `cycle_s` is ignored.
 std::vector<GroupProgramme> make_stage_programmes(const SignalSettings& settings, int groups, double step_s);
 
-// Makes the seven-step programme of an intersection (Table 3) for the signal groups of make_streets(): the major
-// street, its left-turn lanes and the minor street. Left-turn lanes have a permissive green together with the major
-// street, and later a protected green. The programmes run from time 0 on, as if they had been started at the offset of
-// an earlier cycle.
+// Makes the seven-step programme of an intersection (Table 3 of the paper). The three signal groups are those of
+// make_streets(): the major street, its left-turn lanes and the minor street. Left-turn lanes have a permissive green
+// together with the major street, and later a protected green. A cycle begins at `offset_s`. The programmes already run
+// at time 0, because earlier cycles precede it.
 std::array<GroupProgramme, 3> make_seven_steps(const SevenSteps& steps, double offset_s, double step_s);
-// Makes the programmes of all signal groups of make_streets(), in order.
+// Makes the programmes of all signal groups of make_streets(), in the order of the groups.
 std::vector<GroupProgramme> make_street_signals(const StreetSettings& streets, double step_s);
 
-// Converts seconds to ticks, rounded to the nearest.
+// Converts seconds to the nearest number of ticks.
 std::int64_t to_ticks(double seconds, double step_s);
 
 }  // namespace stopline

@@ -4,15 +4,16 @@
 namespace stopline {
 
 struct SignalSettings {
-    double first_green_s = 120.0;  // start of the first green; the signal is red before, while the queue forms
+    double first_green_s = 120.0;  // start of the first green; before it the signal is red and a queue forms
     double green_s = 60.0;
     double yellow_s = 3.0;
     double all_red_s = 5.0;
-    double cross_green_s = 0.0;  // green of the streets from south to north; 0: green_s
-    double offset_s = 0.0;       // grid: delay of the green from one intersection to the next
-    double cycle_s = 0.0;        // only for a single signal; 0: one green, then red for the rest of the run
+    double cross_green_s = 0.0;  // green of the streets from south to north; 0: the same as green_s
+    double offset_s = 0.0;       // grid: delay of the green per column to the east and per row to the north
+    double cycle_s = 0.0;        // network kind `approach`: the cycle; 0: one green, then red for the rest of the run
 
-    // Intersections and grids: even groups serve the streets from west to east, odd groups those from south to north.
+    // The next functions are for intersections and grids. Even signal groups serve the streets from west to east, and
+    // odd signal groups serve the streets from south to north.
     double group_green_s(int group) const { return group % 2 == 1 && cross_green_s > 0.0 ? cross_green_s : green_s; }
     double stage_s(int group) const { return group_green_s(group) + yellow_s + all_red_s; }
     double intersection_cycle_s() const { return stage_s(0) + stage_s(1); }

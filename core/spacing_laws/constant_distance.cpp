@@ -1,4 +1,4 @@
-// CDG, constant distance gap: the standstill gap at every speed (Section III.C.1).
+// CDG, constant distance gap: the standstill gap at every speed (Section III.C.1 of the paper).
 #include "spacing_laws/gap_policy.h"
 
 namespace stopline {

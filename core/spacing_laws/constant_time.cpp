@@ -1,4 +1,5 @@
-// CTG, constant time gap: standstill gap plus time gap times speed, d = r + h v (Sections III.C.2 and III.D.1).
+// CTG, constant time gap: standstill gap plus time gap times speed, d = r + h v (Sections III.C.2 and III.D.1 of the
+// paper).
 #include "spacing_laws/gap_policy.h"
 
 namespace stopline {

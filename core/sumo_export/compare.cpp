@@ -22,7 +22,7 @@ namespace stopline {
 
 namespace {
 
-// Returns the start of the time that the scenario measures.
+// Returns the start of the period that the scenario measures, s.
 double measured_from_s(const Scenario& scenario, double end_s) {
     if (scenario.network.kind == "intersection") return measured_window(scenario).from_s;
     if (scenario.network.has_several_intersections()) return std::max(0.0, end_s - scenario.measure.window_s);
@@ -35,13 +35,14 @@ void run_sumo(const std::filesystem::path& folder, std::uint64_t seed) {
                      "trips.out.xml", "--summary-output", "summary.out.xml", "--summary-output.period", "1"},
                     folder);
     if (!ended.failed()) return;
-    constexpr std::size_t kMaxOutput = 2000;  // characters; SUMO may repeat a warning for every vehicle
+    constexpr std::size_t kMaxOutput = 2000;  // characters; SUMO can repeat the same warning for every vehicle
     const std::string output =
         ended.output.size() > kMaxOutput ? ended.output.substr(0, kMaxOutput) + "\n(output cut off)" : ended.output;
     throw InputError(fmt::format("SUMO failed in {}:\n{}", folder.string(), output));
 }
 
-// Throws InputError if only an additional file defines a signal of the network. SUMO does not load such a network.
+// Throws InputError if a signal has a programme in an additional file but none in the network file. SUMO does not load
+// such a network.
 void check_lights(const SumoNetwork& network) {
     for (const SumoLight& light : network.lights) {
         if (light.signal < 0) continue;
@@ -66,7 +67,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// Returns the name of every stop line of a generated network by lane; lanes without a stop line have the name "".
+// Returns, for each lane of a generated network, the name of its stop line, or "" if the lane has no stop line.
 std::vector<std::string> own_stop_lines(const Model& model, const PlainNetwork& network) {
     std::vector<std::string> names(model.graph.lanes.size());
     for (const Detector& detector : model.detectors) {
@@ -76,7 +77,7 @@ std::vector<std::string> own_stop_lines(const Model& model, const PlainNetwork& 
     return names;
 }
 
-// Replaces the names of SUMO's lanes in `passed_s` by the names of their stop lines.
+// Replaces the keys of `passed_s`, which are names of SUMO's lanes, by the names of the stop lines of these lanes.
 void rename_stop_lines(const std::map<std::string, std::string>& names, RunFacts& facts) {
     std::map<std::string, std::vector<double>> renamed;
     for (const auto& [lane, times_s] : facts.passed_s) {
@@ -142,7 +143,8 @@ std::vector<ComparedMetric> Comparison::metrics() const {
         {"departure_delay_s", &RunSummary::departure_delay_s}};
     std::vector<ComparedMetric> metrics;
     for (const auto& [name, field] : fields) {
-        // On a generated network SUMO gets the vehicles that entered our run. Only SUMO can delay their insertion then.
+        // On a generated network, SUMO gets the vehicles at the times when they entered our run. So only SUMO can delay
+        // their insertion.
         const bool sumo_only = field == &RunSummary::departure_delay_s && !imported;
         metrics.push_back({name, column(*this, true, field), column(*this, false, field), sumo_only});
         if (field != &RunSummary::passages_veh_h || has_stop_lines) continue;

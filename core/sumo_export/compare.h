@@ -1,4 +1,5 @@
-// Runs SUMO and the mesoscale mode on the same network, signals and vehicles, and compares the results seed by seed.
+// Runs SUMO and the mesoscale mode of Stopline on the same network, signals and vehicles, and compares the results for
+// each seed. `ours` and 'our run' mean the run of Stopline.
 #pragma once
 
 #include <array>
@@ -25,47 +26,50 @@ struct ComparedRun {
 };
 
 struct ComparedMetric {
-    std::string name;          // name of the column, with its unit
-    std::vector<double> ours;  // [run]
-    std::vector<double> sumo;  // [run]
-    bool sumo_only = false;    // our runs do not have this metric, so it is not compared
+    std::string name;          // name in the tables, with its unit
+    std::vector<double> ours;  // [run] value of the metric in our run
+    std::vector<double> sumo;  // [run] value of the metric in SUMO's run
+    bool sumo_only = false;    // only SUMO's runs have this metric, so there is nothing to compare
 
-    // Returns the difference of our mean from SUMO's mean in percent, or NaN if it is undefined.
+    // Returns by how many percent our mean exceeds SUMO's mean. Returns NaN if the metric cannot be compared or SUMO's
+    // mean is 0.
     double difference_percent() const;
-    // Returns the confidence band of SUMO's mean. Needs at least three runs for the paper's band, two for Student's.
+    // Returns the confidence band of SUMO's mean. Band::paper needs at least three runs, and Band::student two.
     Interval band(Band kind) const;
 };
 
 struct Comparison {
-    std::string note = {};  // features of the population that SUMO lacks
+    std::string note = {};  // sentence for the user about features of the population that SUMO lacks, or ""
     std::string population;
-    double from_s = 0.0;  // start of the compared time
-    double to_s = 0.0;
+    double from_s = 0.0;  // start of the compared period
+    double to_s = 0.0;    // end of the compared period
     std::vector<ComparedRun> runs = {};
-    bool imported = false;       // both programs have the same planned departures, so departure delays are comparable
-    bool has_stop_lines = true;  // passages of stop lines are counted
+    bool imported = false;       // the network is imported: both programs have the same planned departures
+    bool has_stop_lines = true;  // the network has stop lines with a signal, at which passages are counted
 
     std::vector<ComparedMetric> metrics() const;
 };
 
 struct CompareOptions {
-    int repetitions = 3;   // number of runs; run k has the scenario's seed + k
-    double from_s = -1.0;  // start of the compared time; below 0: the time that the scenario measures
-    std::function<bool(double)> on_progress;  // gets the share done; returns false to stop
+    int repetitions = 3;   // number of runs; run k, counted from 0, has the scenario's seed + k
+    double from_s = -1.0;  // start of the compared period; below 0: start of the period that the scenario measures
+    std::function<bool(double)> on_progress;  // gets the share of the work done, 0 .. 1; returns false to stop
 };
 
-// Runs both programs. On an imported network SUMO runs the scenario's own network with the planned vehicles
-// (imported.h). On other networks SUMO gets the vehicles that entered our run (inputs.h). The files of each seed stay
-// in FOLDER/seed_N. Throws InputError if SUMO is missing or fails, and Interrupted. A comparison that is rejected
-// creates no folder.
+// Runs both programs. On an imported network, SUMO runs the network file of the scenario with the planned vehicles
+// (imported.h). On other networks, SUMO gets the vehicles that entered our run (inputs.h). The files of each seed stay
+// in FOLDER/seed_N. Throws InputError if SUMO is missing or fails. Throws Interrupted if on_progress returns false. If
+// the comparison is rejected before a file is written, no new folder remains.
 Comparison compare_with_sumo(const Scenario& scenario, std::size_t population, const std::filesystem::path& folder,
                              const CompareOptions& options);
 
+// Returns all metrics of all runs as CSV.
 std::string comparison_csv(const Comparison& comparison);
-// Returns the mean number of passages of every stop line in both programs as CSV.
+// Returns, for every stop line, the mean number of passages in our runs and in SUMO's runs as CSV.
 std::string stop_lines_csv(const Comparison& comparison);
 // Returns figures over time: cumulative passages of stop lines (if counted), cumulative completed trips, and stopped
-// vehicles. They show means of the seeds, and the confidence band of SUMO's mean if there are several seeds.
+// vehicles. The curves are means over the seeds. With several seeds, the figures also show the confidence band of
+// SUMO's mean.
 std::vector<Figure> comparison_figures(const Comparison& comparison, const std::string& title);
 
 }  // namespace stopline

@@ -1,4 +1,4 @@
-// Tables and figures of a comparison.
+// Tables and figures of a comparison with SUMO.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -13,7 +13,7 @@ namespace stopline {
 
 namespace {
 
-// Returns the number of passages of a stop line in the given time.
+// Returns how many vehicles pass a stop line after `from_s` and not later than `to_s`.
 double passages(const RunFacts& facts, const std::string& lane, double from_s, double to_s) {
     const auto times = facts.passed_s.find(lane);
     if (times == facts.passed_s.end()) return 0.0;
@@ -24,7 +24,7 @@ double passages(const RunFacts& facts, const std::string& lane, double from_s, d
 // A function that returns a quantity of a run at every full second from 0 to `seconds`.
 using TimeSeries = std::vector<double> (*)(const RunFacts& facts, std::size_t seconds);
 
-// Returns the number of times up to every full second.
+// Returns, for every full second from 0 to `seconds`, how many of the times are not later.
 std::vector<double> cumulative(std::vector<double> times_s, std::size_t seconds) {
     std::sort(times_s.begin(), times_s.end());
     std::vector<double> counts;
@@ -48,8 +48,8 @@ std::vector<double> arrivals_of(const RunFacts& facts, std::size_t seconds) {
     return cumulative(std::move(times_s), seconds);
 }
 
-// Returns the number of stopped vehicles. A second without data repeats the one before, because SUMO ends one step
-// early.
+// Returns the number of stopped vehicles at every full second. SUMO writes no data for the end of the run, so a second
+// without data gets the value of the second before.
 std::vector<double> stopped_of(const RunFacts& facts, std::size_t seconds) {
     std::vector<double> stopped;
     std::size_t next = 0;
@@ -62,12 +62,12 @@ std::vector<double> stopped_of(const RunFacts& facts, std::size_t seconds) {
 }
 
 struct Curves {
-    std::string rows;
-    double max_mean = 0.0;  // maximum of both mean curves
-    double max_band = 0.0;  // maximum of the upper bound of the band
+    std::string rows;       // the curves as CSV
+    double max_mean = 0.0;  // maximum of the two mean curves
+    double max_band = 0.0;  // maximum of the upper bound of the confidence band
 };
 
-// Returns both means over the seeds and the confidence band of SUMO's mean.
+// Returns, at every full second, the means of our runs and of SUMO's runs, and the confidence band of SUMO's mean.
 Curves curves_of(const Comparison& comparison, TimeSeries series) {
     const auto seconds = static_cast<std::size_t>(comparison.to_s);
     std::vector<std::vector<double>> ours;
@@ -106,7 +106,8 @@ Figure time_series_figure(const Comparison& comparison, const std::string& title
     const std::string seeds_text =
         seeds == 1 ? fmt::format("seed {}", comparison.runs[0].seed) : fmt::format("mean of {} seeds", seeds);
     const std::string file = name + ".csv";
-    // The band of few seeds can be so wide that the lines become flat. The plot then cuts the band off.
+    // With few seeds the confidence band can be so wide that the mean curves would look flat. So the plot cuts off a
+    // band that exceeds the largest mean by this factor.
     constexpr double kMaxBandToMean = 1.6;
     const double top =
         std::max(1.0, 1.05 * std::max(curves.max_mean, std::min(curves.max_band, kMaxBandToMean * curves.max_mean)));

@@ -14,10 +14,10 @@ namespace stopline {
 
 namespace {
 
-// Returns the name of a lane's edge: c1r0_south_in_0 is a lane of c1r0_south_in.
+// Returns the name of the edge to which a lane belongs, such as c1r0_south_in for the lane c1r0_south_in_0.
 std::string edge_name(const Lane& lane) { return lane.name.substr(0, lane.name.rfind('_')); }
 
-// Returns how far the start of a lane lies to the right of a reference lane, seen in driving direction.
+// Returns how far the start of a lane lies to the right of a reference lane, in metres, seen in driving direction.
 double offset_to_the_right_m(const Lane& lane, const Lane& reference) {
     const Point& from = reference.shape.front();
     const Point& to = reference.shape.back();
@@ -69,7 +69,7 @@ private:
         }
     }
 
-    // Returns where the lane ends in SUMO: at its stop line, if it has one.
+    // Returns the position where the lane ends in SUMO: its stop line, or the end of a lane without a stop line.
     static double end_m(const Lane& lane) { return lane.signal_group >= 0 ? lane.stop_line_m : lane.length_m; }
 
     void make_connections() {
@@ -86,10 +86,10 @@ private:
         }
     }
 
-    // Makes one node for all edge ends that connections join (union-find).
+    // Makes the nodes. If a connection joins two edge ends, they belong to the same node (union-find).
     void make_nodes() {
         const int edges = static_cast<int>(network_.edges.size());
-        parent_.resize(at(2 * edges));  // element 2 k is the start of edge k, 2 k + 1 its end
+        parent_.resize(at(2 * edges));  // element 2 k is the start of edge k, and element 2 k + 1 is its end
         std::iota(parent_.begin(), parent_.end(), 0);
         for (const PlainConnection& c : network_.connections) {
             parent_[at(root(end_of(c.from)))] = root(2 * network_.position_of[at(c.to)].edge);
@@ -106,16 +106,16 @@ private:
         number_links();
     }
 
-    // Returns the element of parent_ for the end of the lane's edge.
+    // Returns the index in parent_ of the end of the lane's edge.
     int end_of(int lane) const { return 2 * network_.position_of[at(lane)].edge + 1; }
 
-    // Returns the representative of the node to which an edge end belongs.
+    // Returns the edge end that represents the node to which the edge end `end` belongs.
     int root(int end) {
         while (parent_[at(end)] != end) end = parent_[at(end)] = parent_[at(parent_[at(end)])];
         return end;
     }
 
-    // Puts each node at the mean position of the lane ends that meet there.
+    // Puts each node at the mean position of all starts and ends of lanes that meet at the node.
     void place_nodes() {
         std::vector<int> point_counts(network_.nodes.size());
         const auto add = [&](int node, const Point& point) {
@@ -146,14 +146,14 @@ private:
 
     const LaneGraph& graph_;
     PlainNetwork network_;
-    std::vector<int> parent_;  // [edge end] union-find forest of the nodes
+    std::vector<int> parent_;  // [edge end] parent in the union-find forest, in which each tree is a node
 };
 
 }  // namespace
 
 std::string PlainNetwork::lane_id(int lane) const {
-    const LanePosition& node = position_of[at(lane)];
-    return fmt::format("{}_{}", edges[at(node.edge)].id, node.index);
+    const LanePosition& position = position_of[at(lane)];
+    return fmt::format("{}_{}", edges[at(position.edge)].id, position.index);
 }
 
 PlainNetwork plain_network(const LaneGraph& graph) { return Builder(graph).build(); }

@@ -1,7 +1,8 @@
 // Converts a LaneGraph into the nodes, edges and connections of SUMO's plain XML files.
 //
-// An approach lane or exit lane becomes a lane of an edge, up to its stop line. The stretch beyond the stop line
-// becomes part of every connection of the lane. So each path from a stop line to an exit lane keeps its length.
+// An approach lane or exit lane becomes a lane of an edge. Lanes of an edge end at the stop line. If a lane of the
+// graph continues beyond its stop line, this stretch becomes part of each connection that begins on the lane. So every
+// path from a stop line to an exit lane keeps its length.
 #pragma once
 
 #include <string>
@@ -19,19 +20,19 @@ struct PlainNode {
 
 struct PlainEdge {
     std::string id;
-    int from = -1;           // node
-    int to = -1;             // node
-    std::vector<int> lanes;  // lanes of the graph, from the right as in SUMO
+    int from = -1;           // index of the node at its start
+    int to = -1;             // index of the node at its end
+    std::vector<int> lanes;  // its lanes in the graph, from the right as in SUMO
     double length_m = 0.0;
 };
 
 struct PlainConnection {
-    int from = -1;             // lane of the graph
-    int to = -1;               // lane of the graph
-    int connection_lane = -1;  // lane of the graph inside the intersection; -1: none
+    int from = -1;             // lane of the graph where the connection begins
+    int to = -1;               // lane of the graph where the connection ends
+    int connection_lane = -1;  // lane of the graph between `from` and `to`; -1: `from` leads directly to `to`
     double length_m = 0.0;
-    int node = -1;
-    int link = -1;  // index among the node's connections with a signal; -1: no signal
+    int node = -1;  // index of the node that the connection crosses
+    int link = -1;  // index among those connections of the node that have a signal; -1: no signal
 };
 
 struct PlainNetwork {
@@ -42,14 +43,14 @@ struct PlainNetwork {
     std::vector<PlainNode> nodes;
     std::vector<PlainEdge> edges;
     std::vector<PlainConnection> connections;
-    std::vector<LanePosition> position_of;  // [lane of the graph]; a connection has the position of its approach lane
+    std::vector<LanePosition> position_of;  // [lane of the graph]; for a connection: position of its approach lane
 
     // Returns the id that SUMO gives to a lane of the graph.
     std::string lane_id(int lane) const;
 };
 
-// Converts the graph. Throws InputError if lanes of one edge differ in length (turn pockets), because SUMO's files
-// cannot express that.
+// Converts the graph. Throws InputError if lanes of one edge differ in length (turn pockets), because all lanes of an
+// edge have the same length in SUMO.
 PlainNetwork plain_network(const LaneGraph& graph);
 
 }  // namespace stopline

@@ -26,13 +26,12 @@ public:
     void observe(const State& state) override {
         add_passages(state);
         if (state.tick % ticks_per_second_ == 0) add_instant(state);
-        facts_.teleported = state.congestion.delays.teleported;  // includes missed turns
+        facts_.teleported = state.congestion.delays.teleported;  // blocked vehicles and vehicles that missed a turn
     }
     std::string finish() override { return ""; }
 
 private:
-    // Records entries and completed trips, then passages of stop lines. A vehicle enters from lane -1 and exits to
-    // lane -1.
+    // Records entries and completed trips, then passages of stop lines. Lane -1 of a Passage is outside the network.
     void add_passages(const State& state) {
         for (; next_passage_ < state.records.passages.size(); ++next_passage_) {
             const Passage& passage = state.records.passages[next_passage_];
@@ -53,7 +52,8 @@ private:
         }
     }
 
-    // Returns the delay of the insertion. A vehicle without delay appears at the end of the step in which it departs.
+    // Returns the time from the planned departure to the insertion, s. A vehicle without delay appears at the end of
+    // the step in which it departs, so one step is subtracted.
     double departure_delay_s(const State& state, const Passage& passage) const {
         const LaneBlock& block = state.blocks[at(passage.to_lane)];
         for (int slot = block.first; slot < block.past_last(); ++slot) {
@@ -83,7 +83,7 @@ private:
     }
 
     const Model& model_;
-    std::vector<std::string> stop_lines_;  // [lane]
+    std::vector<std::string> stop_lines_;  // [lane] name of its stop line; "": passages are not counted
     RunFacts& facts_;
     std::int64_t ticks_per_second_;
     std::size_t next_passage_ = 0;
@@ -128,7 +128,7 @@ RunSummary summary_of(const RunFacts& facts, double from_s, double to_s) {
         for (const double time_s : times_s) passages += within(time_s) ? 1 : 0;
     }
     int instants = 0;
-    int instants_with_vehicles = 0;  // SUMO writes a mean speed of -1 for the others
+    int instants_with_vehicles = 0;  // SUMO writes a mean speed of -1 if no vehicle is in the network
     for (const RunFacts::Instant& instant : facts.instants) {
         if (!within(instant.time_s)) continue;
         ++instants;

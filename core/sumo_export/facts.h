@@ -1,4 +1,4 @@
-// The data of one run for a comparison, in the same form for our runs and for SUMO's.
+// The data of one run for a comparison, in the same form for a run of Stopline ('our run') and for a run of SUMO.
 #pragma once
 
 #include <cstdint>
@@ -31,29 +31,29 @@ struct RunFacts {
     std::vector<Trip> trips;                              // completed trips
     std::map<std::string, std::vector<double>> passed_s;  // [stop line] times at which a front passed
     std::vector<Instant> instants;
-    std::int64_t teleported = 0;  // vehicles teleported by SUMO, or by our rules for blocked vehicles and missed turns
+    std::int64_t teleported = 0;  // number of teleports; in our runs also those after a missed turn
 };
 
-// Totals and means over a part of the run.
+// Totals and means over a period of the run.
 struct RunSummary {
-    double throughput_veh_h = 0.0;   // completed trips
-    double travel_time_s = 0.0;      // mean of the completed trips
-    double departure_delay_s = 0.0;  // mean of the completed trips
-    double passages_veh_h = 0.0;     // at all stop lines
-    double speed_mps = 0.0;          // time mean of the mean speed, without seconds in which the network is empty
-    double stopped = 0.0;            // mean number of stopped vehicles
-    double backlog = 0.0;            // vehicles that wait for insertion at the end
+    double throughput_veh_h = 0.0;   // completed trips per hour
+    double travel_time_s = 0.0;      // mean time in the network over the completed trips
+    double departure_delay_s = 0.0;  // mean departure delay over the completed trips
+    double passages_veh_h = 0.0;     // passages per hour, summed over all stop lines
+    double speed_mps = 0.0;          // mean over time of Instant::mean_speed_mps, without instants of an empty network
+    double stopped = 0.0;            // mean over time of the number of stopped vehicles
+    double backlog = 0.0;            // vehicles that wait for insertion at the end of the period
 };
-// Returns the summary of the time after `from_s` up to `to_s`. Means without data are NaN.
+// Returns the summary of the period after `from_s` and up to `to_s`. Means without data are NaN.
 RunSummary summary_of(const RunFacts& facts, double from_s, double to_s);
 
-// Returns a writer that collects `facts` from one of our runs. `stop_lines` [lane] is the name under which passages of
-// the lane's stop line are counted; the stop line is not counted if the name is empty. Keeps references to `model` and
-// `facts`.
+// Returns a writer that collects `facts` from a run of Stopline. `stop_lines` holds, for each lane, the name under
+// which passages of its stop line are counted. If the name is "", these passages are not counted. The writer keeps
+// references to `model` and `facts`.
 std::unique_ptr<RunWriter> make_facts_writer(const Model& model, std::vector<std::string> stop_lines, RunFacts& facts);
 
-// Reads the output of a SUMO run with the files of inputs.h: trips.out.xml, summary.out.xml and, if `has_loops`,
-// detectors.out.xml. Throws InputError if a file is missing or malformed.
+// Reads the output files of a SUMO run: trips.out.xml, summary.out.xml and, if `has_loops`, detectors.out.xml. Throws
+// InputError if a file is missing or malformed.
 RunFacts read_sumo_facts(const std::filesystem::path& folder, bool has_loops);
 
 }  // namespace stopline

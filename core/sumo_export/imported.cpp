@@ -19,8 +19,8 @@ bool has_signal(const LaneGraph& graph, const Lane& lane) {
            });
 }
 
-// Writes the programmes that run here as fixed-time programmes. SUMO takes a programme with a new programID as a
-// further programme of the signal, and uses the programme that it reads last.
+// Writes the signal programmes that Stopline uses, as fixed-time programmes. SUMO adds a programme with a new programID
+// to the programmes of the signal, and uses the programme that it has read last.
 void write_lights(const std::filesystem::path& file, const SumoNetwork& network) {
     XmlFile xml(file, "additional", "additional_file.xsd");
     std::set<int> used_signals;

@@ -1,7 +1,8 @@
-// Writes an imported scenario as input of SUMO. SUMO runs the scenario's own network file.
+// Writes a scenario with an imported network as input of SUMO. SUMO runs the network file that the scenario names.
 //
 // The files are vehicles.rou.xml, lights.add.xml, detectors.add.xml and run.sumocfg. They contain the traffic and the
-// signal programmes of the scenario's additional files, so SUMO does not load those. Their detectors are dropped.
+// signal programmes of the scenario's additional files. So SUMO does not load the additional files, and the detectors
+// in the additional files are not used.
 #pragma once
 
 #include <filesystem>
@@ -14,11 +15,13 @@
 
 namespace stopline {
 
-// The stop lines at which passages are counted: the ends of all lanes with a signal. After short edges were merged,
-// one lane can end at several lanes of SUMO, and two lanes can share an end. Such ends count as one stop line.
+// The stop lines at which passages are counted: the ends of all lanes with a signal.
+//
+// The import merges short edges (sumo_short_edges.h). After a merge, a lane of the graph can end at the ends of several
+// SUMO lanes, and two lanes of the graph can end at the same SUMO lane. These ends count as one stop line.
 struct StopLineNames {
-    std::vector<std::string> stop_line_of_lane;           // [lane of the graph] name; "": not counted
-    std::map<std::string, std::string> stop_line_at_end;  // [lane of SUMO with a detector at its end] name
+    std::vector<std::string> stop_line_of_lane;           // [lane of the graph] name; "": no stop line is counted
+    std::map<std::string, std::string> stop_line_at_end;  // [SUMO lane with a detector at its end] name
 };
 StopLineNames stop_line_names(const SumoNetwork& network);
 

@@ -24,7 +24,7 @@ std::string type_id(const Model& model, int policy, float length_m) {
     return fmt::format("{}_{:g}m", escape_xml(model.policies[at(policy)].settings.name), length_m);
 }
 
-// Finds the SUMO edges of a trip's route from its turns.
+// Finds the SUMO edges of a trip from its first approach and its turns.
 class RouteEdges {
     using Turns = std::array<int, kMaxTurns>;
 
@@ -63,16 +63,16 @@ public:
     int first_edge(const Trip& trip) const { return edge_of_[at(trip.approach)]; }
 
 private:
-    // Adds the edge and the edges merged into it, in the order in which they were merged.
+    // Adds the edge and all edges that the import merged into it, in driving order.
     void add(int edge, std::vector<std::string>& edges) const {
         edges.push_back(network_.net.edges[at(edge)].id);
         for (const int merged_edge : merged_[at(edge)]) add(merged_edge, edges);
     }
 
     const SumoNetwork& network_;
-    std::vector<int> edge_of_;              // [approach]
-    std::vector<Turns> next_approach_;      // [approach][turn]
-    std::vector<std::vector<int>> merged_;  // [edge] edges merged into it
+    std::vector<int> edge_of_;              // [approach] its SUMO edge
+    std::vector<Turns> next_approach_;      // [approach][turn] approach after the turn; -1: none
+    std::vector<std::vector<int>> merged_;  // [SUMO edge] edges that the import merged into it
 };
 
 std::string depart_lane(const Trip& trip, const SumoNetwork& network, int edge) {
@@ -106,7 +106,7 @@ std::string depart_pos(const Trip& trip, const SumoNetwork& network) {
         case Trip::DepartPosition::given:
             break;
     }
-    // The rounded position of a file can lie slightly beyond the end of the lane.
+    // The route file can have a rounded position that lies slightly beyond the end of the lane.
     const Approach& approach = network.graph.approaches[at(trip.approach)];
     const double max_m = network.graph.lanes[at(approach.lanes[0])].stop_line_m;
     return fmt::format("{:.2f}", std::min(static_cast<double>(trip.front_m), max_m));
@@ -131,7 +131,7 @@ std::string depart_speed(const Trip& trip) {
 void write_imported_vehicles(const std::filesystem::path& file, const Model& model, const SumoNetwork& network) {
     const DemandPlan& plan = model.demand;
     XmlFile xml(file, "routes", "routes_file.xsd");
-    std::set<std::pair<int, float>> types;  // policy and vehicle length, m
+    std::set<std::pair<int, float>> types;  // pairs of policy and vehicle length, m
     for (std::size_t k = 0; k < plan.trips.size(); ++k) types.emplace(plan.trip_policies[k], plan.trips[k].length_m);
     for (const auto& [policy, length_m] : types) {
         add_vehicle_type(xml, model, at(policy), {type_id(model, policy, length_m), static_cast<double>(length_m)});

@@ -1,4 +1,4 @@
-// Writes the planned trips of an imported scenario as a SUMO route file.
+// Writes the planned trips of a scenario with an imported network as a SUMO route file.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,9 @@
 
 namespace stopline {
 
-// Writes all vehicles with ids, lengths, planned departures and all edges of their routes, merged edges included, and
-// the vehicle types of all policies. Throws InputError if the file cannot be written.
+// Writes a vehicle type for each pair of spacing policy and vehicle length. Then writes all vehicles with id, type,
+// planned departure and all edges of the route, including short edges that the import has merged. Throws InputError if
+// the file cannot be written.
 void write_imported_vehicles(const std::filesystem::path& file, const Model& model, const SumoNetwork& network);
 
 }  // namespace stopline

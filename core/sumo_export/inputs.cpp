@@ -16,7 +16,7 @@ std::string points_text(const Polyline& line) {
     return text;
 }
 
-// Returns the shape of a lane from its start up to `end_m`.
+// Returns the shape of a lane from its start up to the position `end_m`.
 Polyline lane_shape(const Lane& lane, double end_m) {
     Polyline part;
     double along_m = 0.0;
@@ -76,8 +76,8 @@ void write_connections(const std::filesystem::path& file, const LaneGraph& graph
     xml.finish();
 }
 
-// Returns SUMO's letter for the light of a connection: 'G' is green with priority, 'g' is green and yields to another
-// green.
+// Returns SUMO's letter for the light of a connection at `tick`. 'G' is green with priority. 'g' is green for a
+// connection that yields to another connection with green.
 char link_state(const Model& model, const PlainConnection& c, std::int64_t tick) {
     const auto light_of = [&](int lane) {
         return model.signals[at(model.graph.lanes[at(lane)].signal_group)].light(tick);
@@ -96,10 +96,11 @@ char link_state(const Model& model, const PlainConnection& c, std::int64_t tick)
 
 struct Phase {
     std::int64_t ticks = 0;
-    std::string state;  // one letter for each link
+    std::string state;  // one letter (see link_state) for each link
 };
 
-// Returns the cycle of the signals if the whole run repeats it, else the duration of the run.
+// Returns the length of the programme to write, in ticks: one cycle if all signal groups repeat it during the whole
+// run, else the whole run.
 std::int64_t programme_ticks(const Model& model, const std::vector<int>& groups, std::int64_t run_ticks) {
     const std::int64_t cycle = groups.empty() ? 0 : model.signals[at(groups[0])].cycle_ticks();
     if (cycle <= 0 || cycle > run_ticks) return run_ticks;
@@ -161,7 +162,7 @@ void write_lights(const std::filesystem::path& file, const Model& model, const P
     xml.finish();
 }
 
-// Writes an induction loop for every stop line.
+// Writes an induction loop for each stop line.
 void write_detectors(const std::filesystem::path& file, const Model& model, const PlainNetwork& network) {
     XmlFile xml(file, "additional", "additional_file.xsd");
     for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {

@@ -1,4 +1,4 @@
-// Writes the vehicles of a run as a SUMO route file.
+// Writes the vehicles of a run of Stopline as a SUMO route file.
 #include <algorithm>
 #include <map>
 
@@ -18,9 +18,9 @@ struct Trip {
     double depart_mps = 0.0;
     int depart_lane = -1;
     int policy = 0;
-    int lane = -1;           // last lane
-    int route = -1;          // last route
-    std::vector<int> edges;  // edges used so far
+    int lane = -1;           // lane in the latest step
+    int route = -1;          // route in the latest step
+    std::vector<int> edges;  // edges on which the vehicle has driven so far
 };
 
 class RouteWriter : public RunWriter {
@@ -47,7 +47,7 @@ public:
                 xml, model_, k,
                 {escape_xml(model_.policies[k].settings.name), model_.vehicles[0].length_m, changes_lanes()});
         }
-        // SUMO needs the vehicles in the order of departure.
+        // SUMO reads vehicles in the order of departure.
         std::vector<std::pair<int, const Trip*>> trips;
         for (const auto& [vehicle, trip] : trips_) trips.emplace_back(vehicle, &trip);
         std::stable_sort(trips.begin(), trips.end(),
@@ -74,7 +74,7 @@ private:
         add_edge_of(lane, trip.edges);
     }
 
-    // Adds the edge of a lane to the route, unless it is the last edge already or the lane is a connection.
+    // Adds the edge of a lane to the route. Does nothing if the lane is a connection or the route ends on this edge.
     void add_edge_of(int lane, std::vector<int>& edges) const {
         if (model_.graph.lanes[at(lane)].origin >= 0) return;
         const int edge = network_.position_of[at(lane)].edge;
@@ -85,7 +85,8 @@ private:
         }
     }
 
-    // Adds the path with the fewest edges from the last edge to `edge`. A teleported vehicle skips edges.
+    // Adds `edge` to the route. If a teleported vehicle has skipped edges, adds the path with the fewest edges to
+    // `edge`.
     void add_path_to(int edge, std::vector<int>& edges) const {
         const int start = edges.back();
         const std::vector<int>& next_edges = next_edges_[at(start)];
@@ -108,9 +109,9 @@ private:
             edges.insert(edges.begin() + end, k);
     }
 
-    // Returns the edges of the trip. A vehicle that is still in the network at the end of the run completes its route
-    // and then goes straight on until it leaves the network. In SUMO it would else end its trip in the middle of a
-    // queue.
+    // Returns the edges of the trip. If the vehicle is still in the network at the end of the run, the function adds
+    // the rest of its route and then edges straight on until the vehicle leaves the network. Otherwise the trip would
+    // end in the middle of a queue in SUMO.
     std::vector<int> complete_route(const Trip& trip) const {
         std::vector<int> edges = trip.edges;
         int lane = trip.lane;
@@ -130,7 +131,7 @@ private:
         return edges;
     }
 
-    // Returns true if the network has lanes side by side.
+    // Returns true if the network has adjacent lanes between which vehicles can change.
     bool changes_lanes() const {
         const std::vector<Lane>& lanes = model_.graph.lanes;
         return std::any_of(lanes.begin(), lanes.end(),
@@ -152,7 +153,7 @@ private:
     std::filesystem::path file_;
     const Model& model_;
     const PlainNetwork& network_;
-    std::vector<std::vector<int>> next_edges_;  // [edge]
+    std::vector<std::vector<int>> next_edges_;  // [edge] edges to which it leads
     std::map<int, Trip> trips_;                 // [vehicle]
 };
 

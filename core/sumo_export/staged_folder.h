@@ -1,5 +1,5 @@
-// Puts files into a folder together, once all of them are complete. A program that fails or is interrupted leaves the
-// folder unchanged.
+// Writes several files into a folder so that they appear together, after all of them are complete. A program that fails
+// or is interrupted leaves the folder unchanged.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace stopline {
 
-// Creates a folder and its parents. The destructor removes the folders that it created if they are still empty.
+// Creates a folder and its parents. The destructor removes those of the created folders that are still empty.
 class NewFolders {
 public:
     // Throws InputError with path and reason if a folder cannot be created.
@@ -20,12 +20,12 @@ public:
     ~NewFolders();
 
 private:
-    std::vector<std::filesystem::path> created_;  // the innermost folder first
+    std::vector<std::filesystem::path> created_;  // folders that did not exist before, the innermost folder first
 };
 
 class StagedFolder {
 public:
-    // Creates the folder and its parents. Throws InputError with path and reason.
+    // Creates the folder and its parents. Throws InputError with path and reason if a folder cannot be created.
     explicit StagedFolder(const std::filesystem::path& folder);
     StagedFolder(const StagedFolder&) = delete;
     StagedFolder& operator=(const StagedFolder&) = delete;
@@ -33,11 +33,11 @@ public:
     StagedFolder& operator=(StagedFolder&&) = delete;
     ~StagedFolder();
 
-    // Returns the folder to write into: a hidden folder inside the target folder.
+    // Returns the folder into which the caller writes the files. It is a hidden folder inside the target folder.
     const std::filesystem::path& path() const { return stage_; }
-    // Moves the files into the target folder, where they replace files of the same names. `derived_file` is built from
-    // the other files; an earlier version of it is removed if there is no new one. Throws InputError with path and
-    // reason.
+    // Moves the files into the target folder, where they replace files of the same names. `derived_file` names a file
+    // that is built from the other files. If the caller has not written it, an old version in the target folder is
+    // removed. Throws InputError with path and reason if a file cannot be moved.
     void commit(const std::string& derived_file);
 
 private:

@@ -12,10 +12,10 @@ namespace stopline {
 struct VehicleTypeText {
     std::string id;  // escaped for XML
     double length_m = 0.0;
-    bool changes_lanes = true;  // false: lane changes for speed, for keeping right and for cooperation are switched off
+    bool changes_lanes = true;  // false: SUMO's lane changes for speed, keeping right and cooperation are switched off
 };
 
-// Writes a vType element with the parameters of the policy's mesoscale model.
+// Writes a vType element with the parameters of the car-following model that the mesoscale mode uses for the policy.
 void add_vehicle_type(XmlFile& xml, const Model& model, std::size_t policy, const VehicleTypeText& type);
 
 }  // namespace stopline

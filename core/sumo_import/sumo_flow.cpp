@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kMaxVehicles = 2e7;
 
-// Returns seconds, or nothing if the text is not a time.
+// Converts a time (seconds, hh:mm:ss or d:hh:mm:ss) to seconds. Returns nothing if the text is not a time.
 std::optional<double> parse_time_s(std::string_view text) {
     if (text.find(':') == std::string_view::npos) return sumo_number(text);
     double sum_s = 0.0;
@@ -36,7 +36,7 @@ std::optional<double> parse_time_s(std::string_view text) {
     return std::nullopt;
 }
 
-// Returns the FNV-1a hash, which is the same on every platform.
+// Returns the 64-bit FNV-1a hash of the text, which is the same on every platform.
 std::uint64_t hash_of(std::string_view text) {
     std::uint64_t hash = 0xcbf29ce484222325U;
     for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
@@ -77,7 +77,7 @@ private:
         return random_uniform(seed_, key_, static_cast<std::uint64_t>(index), Purpose::vehicle_type);
     }
 
-    // Adds a departure. Returns false, and adds nothing, if the flow is complete.
+    // Adds a departure. If the flow has ended or is complete, adds nothing and returns false.
     bool add(double time_s) {
         const auto count = static_cast<double>(times_s_.size());
         if (time_s >= until_s_ || (number_ && count >= *number_)) return false;
@@ -115,7 +115,7 @@ private:
         for (std::int64_t k = 0; add(begin_s_ + static_cast<double>(k) * headway_s);) ++k;
     }
 
-    // Returns the constant headway between departures.
+    // Returns the constant headway between the departures of a flow without random departures.
     double even_headway_s() const {
         constexpr double kMinHeadway_s = 1e-3;
         constexpr double kNever_s = 1e12;

@@ -1,4 +1,4 @@
-// Times and flows of SUMO's route files.
+// Reading of times and flows in SUMO's route files.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,9 @@ namespace stopline {
 // Throws InputError if the value is negative or not a time.
 double sumo_time_s(const SumoXml& xml, pugi::xml_node node, const char* attribute, double fallback_s);
 
-// Returns the departure times of a flow before `until_s`. The flow gives its number, period, vehsPerHour (perHour) or
-// probability; period="exp(RATE)" means exponential headways. Throws InputError with file and line.
+// Returns the departure times of a flow that are before `until_s`. The flow element has the attribute `number`,
+// `period`, `vehsPerHour` (or `perHour`) or `probability`; period="exp(RATE)" means exponential headways. Throws
+// InputError with file and line if an attribute is invalid.
 std::vector<double> sumo_departures(const SumoXml& xml, pugi::xml_node flow, double until_s, std::uint64_t seed);
 
 }  // namespace stopline

@@ -19,7 +19,7 @@ namespace stopline {
 
 namespace {
 
-constexpr double kMinConnection_m = 1.0;  // minimum length of a connection
+constexpr double kMinConnection_m = 1.0;
 
 class Builder {
 public:
@@ -61,7 +61,7 @@ private:
         });
     }
 
-    // Adds the lanes of all edges, each edge from its left lane to its right one.
+    // Adds the lanes of all edges. The lanes of each edge are added from left to right.
     void add_edges() {
         for (const SumoEdge& edge : net().edges) {
             std::vector<int>& numbers = network_.lane_of.emplace_back(edge.lanes.size(), -1);
@@ -98,7 +98,8 @@ private:
         }
     }
 
-    // Joins the shapes of a connection's `via` chain and finds its junction and link.
+    // Sets shape, speed limit, junction and link of a connection from its chain of internal lanes. Attribute `via` of
+    // the connection names the first internal lane, and each internal lane leads to the next.
     void trace_chain(BuiltConnection& connection) const {
         constexpr int kMaxLanes = 16;
         const SumoConnection& c = *connection.source;
@@ -131,11 +132,12 @@ private:
         }
     }
 
-    // Gives each successor of an edge its own Turn value: straight, right or left by the attribute `dir` if that value
-    // is free, else the next unused value.
+    // Gives each successor of an edge a Turn value of its own: straight, right or left according to SUMO's attribute
+    // `dir`. If another successor already has this value, or if `dir` has another direction, the successor gets the
+    // next unused value.
     void assign_turns() {
         std::map<std::pair<int, int>, Turn> turns;      // [from edge, to edge]
-        std::map<int, std::vector<bool>> used_by_edge;  // [from edge][turn]
+        std::map<int, std::vector<bool>> used_by_edge;  // [from edge][turn] true: a successor has this turn
         const auto assign = [&](const SumoConnection& c, std::size_t preferred) {
             const std::pair key{c.from, c.to};
             if (turns.contains(key)) return;
@@ -179,8 +181,9 @@ private:
         lanes().push_back(std::move(lane));
     }
 
-    // Moves the stretch that the connections of a lane share to the lane itself. Beyond it their vehicles are clear of
-    // each other. If a connection is shorter than that stretch, diverge_end_m says where they are clear.
+    // Moves the stretch that the connections of a lane share from the connections to the lane. Beyond this stretch,
+    // vehicles on different connections are clear of each other. If a connection is shorter than the stretch, only a
+    // part is moved, and diverge_end_m is the end of the remaining part.
     void assign_shared_stretches() {
         for (int index = 0; index < first_connection_; ++index) {
             const std::vector<int> next = lanes()[at(index)].next;
@@ -199,7 +202,7 @@ private:
         }
     }
 
-    // Returns the distance at which the last two of the selected connections diverge.
+    // Returns the distance from the start of the connections at which all selected connections have diverged.
     template <class IsSelected>
     double last_diverge_m(const std::vector<int>& next, const IsSelected& is_selected) {
         double last_m = 0.0;
@@ -214,7 +217,8 @@ private:
         return last_m;
     }
 
-    // Extends U-turns to where the other connections diverge, up to a limit. netconvert draws them on the spot.
+    // Extends U-turns into the junction until the other connections of the lane have diverged, up to a limit.
+    // netconvert draws a U-turn directly at the end of its lane.
     void widen_u_turns(const std::vector<int>& next) {
         constexpr double kMaxExtension_m = 4.0;
         const double diverge_m =
@@ -242,7 +246,7 @@ private:
         return from.cosine * to.cosine + from.sine * to.sine < -0.9;
     }
 
-    // Adds the route that begins and ends on the lane. Adds a stop line if any lane of the approach continues.
+    // Adds a route that consists of this lane only. Adds a stop line if any lane of the approach leads to a connection.
     void finish_lane(int lane) {
         network_.graph.routes.push_back({lanes()[at(lane)].name, {lane}});
         network_.graph.links.push_back(lane);
@@ -252,8 +256,9 @@ private:
         if (continues) lanes()[at(lane)].signal_group = 0;
     }
 
-    // Makes one signal group for all links of a signal that have the same lights. A lane with one group for all its
-    // connections has it at the stop line; else every connection has its own.
+    // Makes one signal group for all links of a signal that have the same lights in all phases. If all connections of a
+    // lane have the same group, the group belongs to the stop line of the lane. Otherwise each connection has its own
+    // movement_signal_group.
     void assign_signal_groups() {
         std::map<std::pair<int, std::string>, int> groups;
         const auto group_of = [&](const SumoConnection& c) {
@@ -280,8 +285,8 @@ private:
         }
     }
 
-    // Lowers the speed limits of connections to lanes that are too short to stop on. The safe speed at the start of a
-    // lane follows from that at its end, so short lanes in a row need several rounds.
+    // Lowers the speed limits of connections to lanes on which a vehicle could not brake to a stop. The safe speed at
+    // the start of a lane follows from the safe speed at its end, so a chain of short lanes needs several rounds.
     void limit_entry_speeds() {
         constexpr double kBraking_mps2 = 3.0;
         constexpr double kMargin_m = 2.0;
@@ -315,7 +320,7 @@ private:
     double clearance_m_;
     int first_connection_ = 0;
     std::vector<BuiltConnection> connections_;
-    std::map<std::pair<int, int>, const SumoConnection*> next_in_chain_;  // [internal edge, lane]
+    std::map<std::pair<int, int>, const SumoConnection*> next_in_chain_;  // [internal edge, lane] connection from it
 };
 
 }  // namespace
@@ -326,7 +331,8 @@ bool sumo_is_green(char letter) {
 
 namespace {
 
-// Returns the longest green of a link, or 0 if no green ends. A green may span several phases and the end of the cycle.
+// Returns the longest green time of any link of the signal, s. Links with permanent green do not count. A green can
+// span several phases and continue beyond the end of the cycle.
 double longest_green_of(const SumoSignal& signal) {
     double longest_s = 0.0;
     const std::size_t links = signal.phases.empty() ? 0 : signal.phases[0].state.size();

@@ -1,15 +1,19 @@
 // Turns a SUMO network into a LaneGraph.
 //
-// - Every lane open to passenger cars becomes a lane with SUMO's name and length. The lanes of an edge are an approach.
-// - Every connection becomes one lane inside an intersection: the joined lanes of the connection's `via` chain.
-// - The stretch that the connections of a lane share belongs to that lane, as in generated networks.
-// - U-turns are extended to where the other movements diverge, because netconvert draws them on the spot.
-// - Conflict areas follow from the shapes. They exist between foes, between links to the same lane, and between a
-//   U-turn and any other link.
-// - Right of way follows the `response` matrix. With signals, only links that are green together yield, and a link with
-//   'G' does not yield to one with 'g'.
-// - Every lane with a connection has a stop line. Without a signal its light is always green (signal group 0).
-// - Connections to a lane that is too short to stop on get a lower speed limit: v^2 = 2 b (length - margin).
+// - Every lane open to cars becomes a lane with SUMO's name and length. The lanes of an edge form an approach.
+// - Every connection becomes one lane inside an intersection. If SUMO splits the connection into several internal
+//   lanes, the import joins them.
+// - The stretch that the connections of a lane share becomes part of the lane, as in generated networks.
+// - U-turns are extended into the junction until the other movements have diverged. netconvert draws a U-turn directly
+//   at the end of its lane.
+// - Conflict areas follow from the shapes. They exist between links that are foes in SUMO's matrix, between links to
+//   the same lane, and between a U-turn and any other link.
+// - Right of way follows SUMO's matrix `response`. Two links of one signal yield only if they are green together. Then
+//   a link with the letter 'g' also yields to a link with 'G'.
+// - Every lane of an approach with connections has a stop line. Signal group 0, which is always green, serves the stop
+//   lines without a signal.
+// - Connections to a lane on which a vehicle could not brake to a stop get a lower speed limit v. It follows from the
+//   deceleration b: v^2 = 2 b (length - margin).
 #pragma once
 
 #include <cstdint>
@@ -22,29 +26,30 @@
 
 namespace stopline {
 
-// The source of a signal group's lights: one letter in the phases of a signal.
+// The source of the lights of a signal group: the letter of one link in the phases of a SUMO signal.
 struct SumoLight {
     int signal = -1;  // index in SumoNet::signals; -1: always green
-    int link = 0;     // index of the letter
+    int link = 0;     // index of the letter in SumoPhase::state
 };
 
 struct SumoNetwork {
     SumoNet net;
     LaneGraph graph;
     std::vector<SumoLight> lights;          // [signal group]
-    std::vector<std::vector<int>> lane_of;  // [edge][index] lane of the graph; -1: closed to cars
-    std::vector<int> approach_of;           // [edge] approach of the graph; -1: closed to cars
+    std::vector<std::vector<int>> lane_of;  // [edge][index] lane of the graph; -1: closed to cars, or inside a junction
+    std::vector<int> approach_of;           // [edge] approach of the graph; -1: closed to cars, or inside a junction
 
     // Returns the longest signal cycle, or 90 s if there are no signals.
     double longest_cycle_s() const;
-    // Returns the longest green time, or 40 s if no green ends.
+    // Returns the longest green time that ends, or 40 s if there is none.
     double longest_green_s() const;
 };
 
-// Builds the lane graph. Centre lines closer than `clearance_m` conflict. Throws InputError with file and line.
+// Builds the lane graph. Connections whose centre lines come closer than `clearance_m` conflict. Throws InputError with
+// file and line if the network cannot be converted.
 SumoNetwork make_sumo_network(SumoNet net, double clearance_m);
 
-// Returns true for the letters at which vehicles may go: G, g, s, o, O.
+// Returns true for the signal letters at which vehicles may go: G, g, s, o, O.
 bool sumo_is_green(char letter);
 
 }  // namespace stopline

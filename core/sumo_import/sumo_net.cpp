@@ -19,7 +19,7 @@ namespace stopline {
 
 namespace {
 
-// Returns the bits of a matrix row by link. SUMO writes link 0 last.
+// Returns the bits of a row of a right-of-way matrix, indexed by link. SUMO writes the bit of link 0 last.
 std::vector<bool> bits_of(std::string_view text) {
     std::vector<bool> bits;
     std::transform(text.rbegin(), text.rend(), std::back_inserter(bits), [](char letter) { return letter == '1'; });
@@ -34,7 +34,7 @@ void append_point(Polyline& line, const Point& point) {
     if (!coincides) line.push_back(point);
 }
 
-// Elements that the import ignores, each with its warning.
+// Elements that the import ignores, and the warning for each of them.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kIgnored{{
     {"roundabout", "'roundabout' is ignored: the right-of-way matrices of its junctions apply"},
     {"prohibition", "'prohibition' is ignored: the right-of-way matrices of the junctions contain it"},
@@ -183,7 +183,8 @@ private:
         net_.junctions.push_back(std::move(junction));
     }
 
-    // Checks that the junctions of all edges and the lanes of all junctions exist. The file may list them in any order.
+    // Checks that the junctions of all edges and the lanes of all junctions exist. The file may list edges and
+    // junctions in any order, so call this function after all of them are read.
     void check_references() const {
         for (const pugi::xml_node node : xml_.root().children("edge")) {
             if (net_.edges[at(net_.edge_by_id.at(node.attribute("id").value()))].internal) continue;
@@ -244,7 +245,7 @@ private:
         c.from_lane = known_lane(node, "fromLane", c.from);
         c.to_lane = known_lane(node, "toLane", c.to);
         c.where = xml_.where(node);
-        // Register the signal of every connection, also without cars: its programme may follow in an additional file.
+        // Register the signal also for a connection closed to cars, because an additional file may have its programme.
         if (const std::string tl = node.attribute("tl").value(); !tl.empty()) net_.signal(tl);
         if (!lane(c.from, c.from_lane).allows_cars || !lane(c.to, c.to_lane).allows_cars) return;
         if (!sumo_allows_cars(node.attribute("allow").value(), node.attribute("disallow").value())) return;

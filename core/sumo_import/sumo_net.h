@@ -1,5 +1,5 @@
-// A SUMO network as its file states it: edges, lanes, connections, junctions and signal programmes. All ids are
-// resolved and checked. sumo_graph.h turns the network into a LaneGraph. SI units.
+// The content of a SUMO network file: edges, lanes, connections, junctions and signal programmes. All references
+// between elements have been checked. sumo_graph.h turns the network into a LaneGraph. SI units.
 //
 // Formats: https://sumo.dlr.de/docs/Networks/SUMO_Road_Networks.html and .../Simulation/Traffic_Lights.html.
 #pragma once
@@ -20,9 +20,10 @@ namespace stopline {
 // Warnings about content of SUMO's files that the import ignores or changes.
 class SumoWarnings {
 public:
-    // Adds a warning. `where` is file and line.
+    // Adds a warning. `where` names file and line.
     void note(const std::string& where, const std::string& message);
-    // Returns the text of all warnings. Of each message only the first few places are listed; the others are counted.
+    // Returns all warnings as lines of text. A message that concerns many places is listed for the first few of them,
+    // and the other places are counted.
     std::vector<std::string> lines() const;
 
 private:
@@ -36,11 +37,11 @@ private:
 
 struct SumoLane {
     double length_m = 0.0;
-    double speed_mps = 0.0;
+    double speed_mps = 0.0;   // speed limit
     bool allows_cars = true;  // passenger cars may use the lane
     Polyline shape = {};
-    // Names of the SUMO lanes at whose ends this lane ends after short edges were merged into its edge. Empty: none
-    // was.
+    // If short edges were merged into the edge of this lane: ids of the SUMO lanes at whose ends this lane now ends.
+    // Empty if no edge was merged.
     std::vector<std::string> end_lanes = {};
 };
 
@@ -49,10 +50,10 @@ struct SumoEdge {
     bool internal = false;             // inside a junction
     std::vector<SumoLane> lanes = {};  // [index], from the right
     std::string where;                 // file:line
-    int merged_into = -1;              // edge that took over this short edge (sumo_short_edges.h); -1: none
+    int merged_into = -1;              // edge into which this short edge was merged (sumo_short_edges.h); -1: none
 };
 
-// A connection from one lane to another. Members have the names of SUMO's attributes.
+// A connection from one lane to another. The members are named like the attributes in SUMO's file.
 struct SumoConnection {
     int from = -1;  // edge
     int from_lane = 0;
@@ -61,35 +62,36 @@ struct SumoConnection {
     int via = -1;  // internal edge; -1: none
     int via_lane = 0;
     int tl = -1;       // index in SumoNet::signals; -1: no signal
-    int tl_link = -1;  // index of the letter in the phases of that signal
+    int tl_link = -1;  // index of the connection's letter in SumoPhase::state
     char dir = 's';    // s straight, l, L left, r, R right, t turnaround, i invalid
     char state = 'M';  // M major, m minor, = equal, s stop, w allway stop, Z zipper, o off, - dead end
     bool keep_clear = true;
-    bool pass = false;  // vehicles never yield
-    std::string where;
+    bool pass = false;  // vehicles on this connection never yield
+    std::string where;  // file:line
 };
 
-// A junction with its right-of-way matrices. Links are numbered like the requests in the file.
+// A junction with its right-of-way matrices. A link is a connection through the junction; link k is described by the
+// k-th `request` element in the file.
 struct SumoJunction {
     std::string id;
     std::string type;
     std::vector<std::string> incoming = {};        // ids of the incoming lanes
-    std::vector<std::vector<bool>> response = {};  // [link][other] the link yields to the other
-    std::vector<std::vector<bool>> foes = {};      // [link][other] the two links conflict
-    std::vector<bool> cont = {};                   // [link] a yielding vehicle waits inside the junction
+    std::vector<std::vector<bool>> response = {};  // [link][other link] true: the link yields to the other link
+    std::vector<std::vector<bool>> foes = {};      // [link][other link] true: the links conflict
+    std::vector<bool> cont = {};                   // [link] true: a yielding vehicle waits inside the junction
     std::string where = {};                        // file:line
 };
 
 struct SumoPhase {
     double duration_s = 0.0;
-    std::string state;  // one letter for each link
+    std::string state;  // one letter for the light of each link of the signal
 };
 
 struct SumoSignal {
     std::string id;
-    std::string programme;
+    std::string programme;  // SUMO's programID
     double offset_s = 0.0;
-    std::vector<SumoPhase> phases = {};  // empty until a programme was read
+    std::vector<SumoPhase> phases = {};  // empty until a programme is read
     std::string where;                   // file:line
     bool defined_in_net = false;         // the network file contains a programme
 
@@ -106,7 +108,7 @@ struct SumoLoop {
 };
 
 struct SumoNet {
-    std::filesystem::path file;  // absolute
+    std::filesystem::path file;  // absolute path of the network file
     std::vector<SumoEdge> edges;
     std::vector<SumoConnection> connections;
     std::vector<SumoJunction> junctions;
@@ -116,27 +118,29 @@ struct SumoNet {
     std::unordered_map<std::string, int> signal_by_id;
     std::unordered_map<std::string, std::pair<int, int>> link_of;  // [id of an internal lane] junction and link
     SumoWarnings warnings;
-    std::uint64_t hash = 0;  // of the text of all files read
+    std::uint64_t hash = 0;  // hash of the text of the network file and all additional files
 
     // Returns edge and lane index for the id of a lane, or nothing if there is no such lane.
     std::optional<std::pair<int, int>> lane(std::string_view id) const;
-    // Returns the index of the signal with this id, and adds a signal without a programme if there is none.
+    // Returns the index of the signal with this id. Adds a signal without a programme if there is no such signal.
     int signal(const std::string& id);
-    // Throws InputError if a connection's signal has no programme or too few letters. Call it after reading all files.
+    // Throws InputError if the signal of a connection has no programme, or if its phases have no letter for the
+    // connection. Call this function after all files are read.
     void check_lights() const;
 };
 
-// Reads a network file. Throws InputError with file and line.
+// Reads a network file. Throws InputError with file and line if the file is invalid.
 SumoNet read_sumo_net(const std::filesystem::path& file);
-// Reads signal programmes, offsets and induction loops of an additional file into `net`. Throws InputError.
+// Reads signal programmes, offsets and induction loops of an additional file into `net`. Throws InputError with file
+// and line if the file is invalid.
 void read_sumo_additional(const std::filesystem::path& file, SumoNet& net);
 
-// Returns true if the attributes `allow` and `disallow` admit passenger cars.
+// Returns true if SUMO's attributes `allow` and `disallow` of a lane or connection admit passenger cars.
 bool sumo_allows_cars(std::string_view allow, std::string_view disallow);
-// Appends the points to the line and skips points that coincide with the one before.
+// Appends the points to the line. Skips each point that coincides with the point before it.
 void sumo_append(Polyline& line, const Polyline& points);
-// Returns the points of a text such as "0,0 5.5,3.2,0", or nothing if the text is malformed. Drops z coordinates and
-// skips points that coincide with the one before.
+// Returns the points of a text such as "0,0 5.5,3.2,0", or nothing if the text is malformed. Ignores z coordinates and
+// skips each point that coincides with the point before it.
 std::optional<Polyline> sumo_shape(std::string_view text);
 
 }  // namespace stopline

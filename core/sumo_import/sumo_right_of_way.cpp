@@ -14,7 +14,7 @@ namespace stopline {
 
 namespace {
 
-// Returns a bit of a matrix, or false outside the matrix.
+// Returns a bit of a right-of-way matrix, or false if row or column is outside the matrix.
 bool bit(const std::vector<std::vector<bool>>& matrix, int row, int column) {
     return row >= 0 && column >= 0 && at(row) < matrix.size() && at(column) < matrix.size() &&
            matrix[at(row)][at(column)];
@@ -60,7 +60,8 @@ public:
 private:
     Lane& lane(const BuiltConnection& connection) { return network_.graph.lanes[at(connection.lane)]; }
 
-    // Numbers the links of a network without internal lanes: by incoming lane, then in the order of the file.
+    // Finds junction and link number of the connections in a network without internal lanes. The links of a junction
+    // are numbered by incoming lane; links from the same lane are numbered in the order of the file.
     void number_links_without_via() {
         std::unordered_map<std::string, std::vector<BuiltConnection*>> from;
         for (BuiltConnection& connection : connections_) {
@@ -97,7 +98,7 @@ private:
             {first.lane, c->other_from_m, c->other_to_m, c->from_m, c->to_m, second_yields, first_yields});
     }
 
-    // Warns if a junction without requests has crossing connections. Its vehicles obey signals only.
+    // Warns if a junction without `request` elements has connections that cross. Vehicles obey only signals there.
     void warn_of_missing_requests(const SumoJunction& junction, const std::vector<int>& connections) {
         for (const int first : connections) {
             for (const int second : connections) {
@@ -118,19 +119,22 @@ private:
 
     static bool is_u_turn(const BuiltConnection& connection) { return connection.source->dir == 't'; }
 
-    // Returns true if `connection` yields to a link that is not its foe in the matrix. Such links conflict only
-    // because a U-turn was widened (sumo_graph.cpp). The U-turn yields, and of two U-turns the later link.
+    // Returns true if `connection` yields to `to`. This function is for connections with different exit lanes that are
+    // no foes in the matrix. Such connections conflict only because the import extends U-turns (sumo_graph.cpp). A
+    // U-turn yields to every other movement. Of two U-turns, the U-turn with the higher link number yields.
     static bool yields_at_u_turn(const BuiltConnection& connection, const BuiltConnection& to) {
         return is_u_turn(connection) && (!is_u_turn(to) || connection.link > to.link);
     }
 
-    // Returns true if `connection` yields to `to`. Links of one signal yield only if they are green together.
+    // Returns true if `connection` yields to `to`. If both links belong to one signal, they yield only if they are
+    // green together in some phase.
     bool yields(const SumoJunction& junction, const BuiltConnection& connection, const BuiltConnection& to) const {
         if (connection.source->pass) return false;
         const bool must_yield = bit(junction.response, connection.link, to.link);
         const int tl = connection.source->tl;
         if (tl < 0 || tl != to.source->tl) {
-            // Without an entry in the matrix the later link yields.
+            // If the matrix makes neither link yield, the link with the higher number yields, and every link yields to
+            // a link with the attribute `pass`. Copies of one connection have the same number, so is_left_of() decides.
             const bool undecided = !must_yield && !bit(junction.response, to.link, connection.link);
             return must_yield ||
                    (undecided && (to.source->pass || connection.link > to.link || is_left_of(connection, to)));
@@ -150,8 +154,8 @@ private:
         return together && (minor || must_yield || later || is_left_of(connection, to));
     }
 
-    // Returns true if both connections come from one lane of a merged short edge (sumo_short_edges.h), and `connection`
-    // from the lane further left. The left one yields.
+    // Returns true if both are copies of one connection of a merged short edge (sumo_short_edges.h), and `connection`
+    // begins on a lane further left than `other`. Of two such copies, the left copy yields.
     static bool is_left_of(const BuiltConnection& connection, const BuiltConnection& other) {
         const SumoConnection& own = *connection.source;
         const SumoConnection& others = *other.source;

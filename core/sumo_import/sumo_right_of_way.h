@@ -1,5 +1,5 @@
-// Conflict areas and right of way of an imported network, from the junctions' matrices, the signal programmes and the
-// shapes. Used by sumo_graph.cpp.
+// Finds conflict areas and right of way of an imported network from the shapes of connections, the right-of-way
+// matrices of junctions, and the signal programmes. Only sumo_graph.cpp uses it.
 #pragma once
 
 #include <vector>
@@ -8,18 +8,19 @@
 
 namespace stopline {
 
-// A connection between two edges while it is turned into a lane inside an intersection.
+// A connection between two edges, and the data from which the import makes its lane inside an intersection.
 struct BuiltConnection {
     const SumoConnection* source = nullptr;
     Polyline shape = {};
     double speed_mps = 0.0;
     int junction = -1;  // index in SumoNet::junctions; -1: unknown
-    int link = -1;      // row in the matrices of the junction; -1: unknown
+    int link = -1;      // row in the right-of-way matrices of the junction; -1: unknown
     Turn turn = Turn::none;
     int lane = -1;  // index in the lane graph
 };
 
-// Fills graph.conflicts and the right-of-way members of the connections' lanes, which must be in the graph.
+// Sets graph.conflicts, and `waits_inside` and `keep_clear` of the lanes of all connections. These lanes must be in the
+// graph already.
 void find_sumo_conflicts(SumoNetwork& network, std::vector<BuiltConnection>& connections, double clearance_m);
 
 }  // namespace stopline

@@ -41,7 +41,8 @@ Turn SumoRouter::turn(int from, int to) const {
     return Turn::none;
 }
 
-// Extends the tree until the travel time of the target edge is final, or until no further edge leads to to_.
+// Extends the shortest-path tree until the travel time of the edge `target` is final, or until the tree contains all
+// edges from which to_ can be reached.
 void SumoRouter::settle(int target) {
     while (settled_[at(target)] == 0 && !open_.empty()) {
         std::pop_heap(open_.begin(), open_.end(), std::greater<>());

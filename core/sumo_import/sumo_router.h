@@ -13,11 +13,11 @@ class SumoRouter {
 public:
     explicit SumoRouter(const SumoNetwork& network);
 
-    // Returns the turn from one edge to the next, or Turn::none if there is no connection.
+    // Returns the turn from one edge to another, or Turn::none if no connection joins the edges.
     Turn turn(int from, int to) const;
-    // Returns the edges of the route from `from` to `to`, both included, with the least free-flow travel time. Returns
-    // nothing if there is no route. Dijkstra's algorithm (1959) searches backwards from `to`, and its tree is kept
-    // while `to` stays the same.
+    // Returns the edges of the route with the least free-flow travel time, including `from` and `to`. Returns nothing
+    // if there is no route. Dijkstra's algorithm (1959) searches backwards from `to`. Calls with the same `to` in
+    // succession are fast, because they share the shortest-path tree.
     std::optional<std::vector<int>> fastest_route(int from, int to);
     // Returns true if the edge is open to passenger cars.
     bool allows_cars(int edge) const { return network_.approach_of[static_cast<std::size_t>(edge)] >= 0; }
@@ -34,12 +34,12 @@ private:
     std::vector<std::vector<Link>> successors_;    // [edge]
     std::vector<std::vector<Link>> predecessors_;  // [edge]
     std::vector<double> time_s_;                   // [edge] free-flow travel time
-    // The shortest-path tree towards the edge to_.
+    // The next members are the shortest-path tree of the routes to the edge to_.
     int to_ = -1;
-    std::vector<double> remaining_s_;           // [edge] travel time from its end to the end of to_
+    std::vector<double> remaining_s_;           // [edge] travel time from the end of the edge to the end of to_
     std::vector<int> next_edge_;                // [edge] next edge of the fastest route
-    std::vector<char> settled_;                 // [edge] 1: its travel time is final
-    std::vector<std::pair<double, int>> open_;  // min-heap of travel times and edges that are not settled
+    std::vector<char> settled_;                 // [edge] 1: remaining_s_ of the edge is final
+    std::vector<std::pair<double, int>> open_;  // min-heap of candidates: travel time and edge
 };
 
 }  // namespace stopline

@@ -25,14 +25,14 @@ namespace {
 
 constexpr const char* kStopIgnored = "'stop' is ignored: vehicles make no stops";
 constexpr std::size_t kMaxTrips = 20'000'000;
-constexpr double kRoundingTolerance_m = 0.1;  // positions in files are rounded
+constexpr double kRoundingTolerance_m = 0.1;  // for departure positions, which are rounded in the file
 
 // The route of one or more trips.
 struct TripRoute {
     std::vector<int> edges = {};
     bool complete = true;                // false: fastest routes must fill the gaps between the edges
     bool open_to_cars = true;            // all edges are open to cars
-    bool starts_on_merged_edge = false;  // the first edge in the file was merged into another (sumo_short_edges.h)
+    bool starts_on_merged_edge = false;  // the first edge was merged into another edge (sumo_short_edges.h)
     std::string where;                   // file:line
     int first_turn = -1;                 // index in SumoTraffic::turns
 };
@@ -95,7 +95,7 @@ private:
         if (!additional_) traffic_.warnings.note(xml_->where(node), fmt::format("the element '{}' is ignored", name));
     }
 
-    // Returns the edge with this id, or the edge that it was merged into.
+    // Returns the edge with this id, or the edge into which the import has merged it.
     int edge_of(pugi::xml_node node, const char* attribute, std::string_view id) const {
         const auto found = network_.net.edge_by_id.find(std::string(id));
         if (found == network_.net.edge_by_id.end()) {
@@ -115,7 +115,7 @@ private:
             const int edge = edge_of(node, "edges", id);
             route.open_to_cars = route.open_to_cars && router_.allows_cars(edge);
             if (route.edges.empty()) route.starts_on_merged_edge = network_.net.edges[at(edge)].id != id;
-            // Two edges in the file can be one edge here, after short edges were merged.
+            // Consecutive edges of the file can be the same edge after the import has merged short edges.
             if (route.edges.empty() || route.edges.back() != edge) route.edges.push_back(edge);
         }
         if (route.edges.empty()) xml_->refuse(node, "'edges' is empty; at least one edge is needed");
@@ -131,7 +131,7 @@ private:
         return routes_.size() - 1;
     }
 
-    // Routes with their probabilities: the index in routes_ and the share.
+    // Routes and their probabilities. An element holds the index in routes_ and the share.
     using Shares = std::vector<std::pair<std::size_t, double>>;
 
     void add_named_route(pugi::xml_node node, Shares shares) {
@@ -172,7 +172,7 @@ private:
         add_named_route(node, std::move(shares));
     }
 
-    // Returns the index of a single route that was read before. A distribution cannot contain another distribution.
+    // Returns the index of the single route with this id. Throws InputError if the id is unknown or a distribution's.
     std::size_t known_route(pugi::xml_node node, const std::string& id) const {
         const auto found = named_routes_.find(id);
         if (found == named_routes_.end())
@@ -182,7 +182,7 @@ private:
         return found->second[0].first;
     }
 
-    // Returns the routes among which the vehicles of the element draw.
+    // Returns the routes of a vehicle, trip or flow element. The route of each vehicle is drawn from them.
     Shares read_route_choice(pugi::xml_node node) {
         if (const pugi::xml_node child = node.child("route")) return {{read_route(child), 1.0}};
         if (const std::string id = node.attribute("route").value(); !id.empty()) {
@@ -280,7 +280,8 @@ private:
         return random_uniform(seed_, traffic_.trips.size(), key, Purpose::vehicle_type);
     }
 
-    // Adds the trip of one vehicle, unless the vehicle departs too late or may not use the lanes for cars.
+    // Adds the trip of one vehicle. Adds nothing if the vehicle departs after the end of the run, its class does not
+    // use car lanes, or its route has edges closed to cars.
     void add(pugi::xml_node node, const VehicleTemplate& vehicle, const std::string& id, double depart_s) {
         if (depart_s >= until_s_) return note_late_departure(depart_s);
         if (traffic_.trips.size() >= kMaxTrips)
@@ -316,7 +317,8 @@ private:
         traffic_.first_late_departure_s = std::min(depart_s, traffic_.first_late_departure_s.value_or(depart_s));
     }
 
-    // Checks a numeric departPos and makes it a distance from the start of the lane.
+    // Checks a numeric departPos and converts it to a distance from the start of the lane. A negative departPos counts
+    // from the end of the lane. If the position cannot be converted because of merged edges, 'base' is used.
     void check_depart_position(pugi::xml_node node, const TripRoute& route, Trip& trip) {
         const SumoEdge& edge = network_.net.edges[at(route.edges[0])];
         const double length_m = edge.lanes[0].length_m;
@@ -335,7 +337,7 @@ private:
         trip.depart_position = Trip::DepartPosition::base;
     }
 
-    // Returns the number of the lane, counted from the left among the lanes open to cars.
+    // Converts SUMO's lane index, which counts from the right, to an index from the left among the lanes open to cars.
     int lane_from_left(pugi::xml_node node, int edge, int index) const {
         const std::vector<int>& lanes = network_.lane_of[at(edge)];
         if (at(index) >= lanes.size() || lanes[at(index)] < 0) {
@@ -368,13 +370,14 @@ private:
         }
     }
 
-    // Completes partial routes and lists the turns of all routes. Pieces to the same edge share the router's tree.
+    // Completes partial routes and lists the turns of all routes. Pieces that end on the same edge are searched one
+    // after the other, because they share the search tree of the router.
     void complete_routes_and_turns() {
         struct Piece {
             int to;
             int from;
             std::size_t route;
-            std::size_t position;  // of `to` in the edges of the route
+            std::size_t position;  // index of `to` among the edges of the route
         };
         std::vector<Piece> pieces;
         for (std::size_t k = 0; k < routes_.size(); ++k) {
@@ -403,7 +406,7 @@ private:
         }
     }
 
-    // Replaces the edges of route k by its pieces joined together.
+    // Replaces the edges of route k by the edges of all its pieces. `found` holds the edges of each piece.
     void join_pieces(std::size_t k, const std::map<std::pair<std::size_t, std::size_t>, std::vector<int>>& found) {
         std::vector<int> all{routes_[k].edges[0]};
         for (std::size_t i = 1; i < routes_[k].edges.size(); ++i) {
@@ -419,7 +422,7 @@ private:
     std::uint64_t seed_;
     std::vector<char> merged_;      // [edge] 1: short edges were merged into it
     const SumoXml* xml_ = nullptr;  // the file that is being read
-    bool additional_ = false;       // that file is an additional file
+    bool additional_ = false;       // the file that is being read is an additional file
     SumoTypes types_;
     std::vector<TripRoute> routes_;
     std::unordered_map<std::string, Shares> named_routes_;
@@ -431,10 +434,9 @@ private:
 }  // namespace
 
 double SumoTraffic::shortest_vehicle_m() const {
-    double shortest_vehicle_m = 1e9;
-    for (const Trip& trip : trips)
-        shortest_vehicle_m = std::min(shortest_vehicle_m, static_cast<double>(trip.length_m));
-    return shortest_vehicle_m;
+    double shortest_m = 1e9;
+    for (const Trip& trip : trips) shortest_m = std::min(shortest_m, static_cast<double>(trip.length_m));
+    return shortest_m;
 }
 
 SumoTraffic read_sumo_routes(const SumoRouteFiles& files, const SumoNetwork& network, double until_s,

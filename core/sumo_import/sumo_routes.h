@@ -1,6 +1,6 @@
 // Reads the vehicles, trips, flows, types and routes of SUMO's route files as trips of a DemandPlan.
 //
-// Format: https://sumo.dlr.de/docs/Definition_of_Vehicles,_Vehicle_Types,_and_Routes.html. scenarios/README.md lists
+// Format: https://sumo.dlr.de/docs/Definition_of_Vehicles,_Vehicle_Types,_and_Routes.html. scenarios/SUMO.md lists
 // the supported elements.
 #pragma once
 
@@ -20,22 +20,22 @@ struct SumoTraffic {
     std::vector<Turn> turns;       // turns of all trips, one trip after the other; see Trip::first_turn
     std::vector<std::string> ids;  // [trip]
     SumoWarnings warnings;
-    std::uint64_t hash = 0;                             // of the text of all files
-    std::int64_t elements = 0;                          // number of vehicle, trip and flow elements
-    std::optional<double> first_late_departure_s = {};  // earliest departure after the end of the run
+    std::uint64_t hash = 0;                             // hash of the text of all files
+    std::int64_t elements = 0;                          // number of vehicle, trip and flow elements in the files
+    std::optional<double> first_late_departure_s = {};  // earliest of the departures at or after the end of the run
 
     // Returns the length of the shortest vehicle.
     double shortest_vehicle_m() const;
 };
 
 struct SumoRouteFiles {
-    std::vector<std::filesystem::path> additional;  // read first; elements other than traffic are skipped
+    std::vector<std::filesystem::path> additional;  // read first; only elements that define traffic are used
     std::vector<std::filesystem::path> routes;
 };
 
-// Reads the files in order; a file may use types and routes of the files before it. Vehicles that depart at `until_s`
-// or later are omitted, and flows without an end last until then. `seed` keys all random draws. Throws InputError with
-// file and line.
+// Reads the files one after the other. A file may use types and routes of the files before it. Vehicles that depart at
+// `until_s` or later are omitted, and flows without an end last until `until_s`. `seed` is the seed of all random
+// draws. Throws InputError with file and line if a file is invalid.
 SumoTraffic read_sumo_routes(const SumoRouteFiles& files, const SumoNetwork& network, double until_s,
                              std::uint64_t seed);
 

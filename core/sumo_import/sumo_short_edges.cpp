@@ -104,7 +104,8 @@ private:
         replace_connections(before, edge, std::move(new_connections));
     }
 
-    // Records that a lane now ends where a lane of the merged edge ends. `replace` drops the ends recorded before.
+    // Records that a lane now ends where a lane of the merged edge ends. If `replace` is set, the ends that were
+    // recorded before are removed.
     static void add_end_lane(SumoLane& lane, const SumoEdge& merged, int index, bool replace) {
         if (replace) lane.end_lanes.clear();
         const SumoLane& last = merged.lanes[at(index)];
@@ -113,13 +114,13 @@ private:
         lane.end_lanes.insert(lane.end_lanes.end(), ends.begin(), ends.end());
     }
 
-    // Moves the detectors of a merged edge to the edge before, without changing where they are on the road.
+    // Assigns the detectors of a merged edge to the edge before. Their places on the road stay the same.
     void move_loops(int before, int edge) {
         for (SumoLoop& loop : net_.loops) {
             if (loop.edge != edge) continue;
             const auto leads_to_loop = [&](std::size_t k) { return connection(k).to_lane == loop.lane; };
             const auto in = std::find_if(incoming_[at(edge)].begin(), incoming_[at(edge)].end(), leads_to_loop);
-            if (in == incoming_[at(edge)].end()) continue;  // no connection leads to the lane
+            if (in == incoming_[at(edge)].end()) continue;  // no connection leads to the lane of the detector
             const SumoConnection& c = connection(*in);
             loop.edge = before;
             loop.lane = c.from_lane;
@@ -128,7 +129,7 @@ private:
         }
     }
 
-    // Replaces the connections of both edges by `new_connections` and closes the merged edge.
+    // Replaces the connections of both edges by `new_connections` and closes the merged edge to cars.
     void replace_connections(int before, int edge, std::vector<SumoConnection> new_connections) {
         const auto is_removed = [&](std::size_t k) { return connection(k).from < 0; };
         outgoing_[at(before)].clear();
@@ -145,9 +146,9 @@ private:
     }
 
     SumoNet& net_;
-    std::vector<std::vector<std::size_t>> outgoing_;            // [edge] connections from it to other edges
-    std::vector<std::vector<std::size_t>> incoming_;            // [edge] connections to it from other edges
-    std::map<std::pair<int, int>, std::size_t> next_in_chain_;  // [internal edge, lane] connection from there
+    std::vector<std::vector<std::size_t>> outgoing_;            // [edge] connections from the edge to other edges
+    std::vector<std::vector<std::size_t>> incoming_;            // [edge] connections from other edges to the edge
+    std::map<std::pair<int, int>, std::size_t> next_in_chain_;  // [internal edge, lane] connection from this lane
 };
 
 }  // namespace

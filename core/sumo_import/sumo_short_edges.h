@@ -6,10 +6,11 @@
 
 namespace stopline {
 
-// Merges every edge shorter than kShortEdge_m into the edge before it. The edge before must be its only predecessor,
-// must have no other successor, and there must be no signal in between. Every connection of the short edge needs a
-// `via` lane. The edge before grows by the connecting lanes and the short edge, and takes over its connections and
-// detectors. SumoEdge::merged_into of the short edge then names the edge before.
+// Merges edges shorter than kShortEdge_m into the edge before them. A short edge is merged only if it has a single
+// predecessor, this predecessor has no other successor, and there is no signal between the two edges. Every connection
+// that leaves the short edge must have an internal lane (`via`). The predecessor grows by the internal lanes to the
+// short edge and by the short edge itself, and takes over the connections and detectors of the short edge. Then
+// SumoEdge::merged_into of the short edge is the index of the predecessor.
 void merge_short_edges(SumoNet& net);
 
 inline constexpr double kShortEdge_m = 15.0;

@@ -97,7 +97,7 @@ void add_sumo_signal(const SumoXml& xml, pugi::xml_node node, bool from_net, Sum
                                      signal.phases[0].state.size(), earlier.phases[0].state.size()));
     }
     signal.defined_in_net = signal.defined_in_net || earlier.defined_in_net;
-    earlier = std::move(signal);  // SUMO also uses the last programme
+    earlier = std::move(signal);  // as in SUMO, the last programme replaces earlier programmes
 }
 
 namespace {
@@ -114,7 +114,7 @@ void read_loop(const SumoXml& xml, pugi::xml_node node, SumoNet& net) {
     SumoLoop loop{xml.text(node, "id"), edge_and_index->first, edge_and_index->second, xml.number(node, "pos"),
                   xml.where(node)};
     const double length_m = net.edges[at(loop.edge)].lanes[at(loop.lane)].length_m;
-    if (loop.position_m < 0.0) loop.position_m += length_m;  // SUMO counts a negative position from the end
+    if (loop.position_m < 0.0) loop.position_m += length_m;  // a negative position counts from the end of the lane
     if (is_true(node, "friendlyPos")) loop.position_m = std::clamp(loop.position_m, 0.0, length_m);
     if (loop.position_m < 0.0 || loop.position_m > length_m) {
         xml.refuse(node, fmt::format("pos=\"{}\" must lie on the lane, which is {:.2f} m long",

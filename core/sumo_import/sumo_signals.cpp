@@ -14,8 +14,8 @@ Light light_of(char letter) {
     return letter == 'y' || letter == 'Y' ? Light::yellow : Light::red;
 }
 
-// Returns the programme of one link. The end times of phases are rounded to ticks, so rounding errors do not add up.
-// Consecutive phases with the same light become one stage.
+// Returns the programme of one link. The function rounds the end times of phases to ticks, not the durations, so
+// rounding errors do not add up. Consecutive phases with the same light become one stage.
 GroupProgramme programme_of(const SumoSignal& signal, int link, double step_s) {
     std::vector<Stage> stages;
     double end_s = 0.0;
@@ -33,7 +33,8 @@ GroupProgramme programme_of(const SumoSignal& signal, int link, double step_s) {
         begin = end;
     }
     std::int64_t offset = to_ticks(std::fmod(signal.offset_s, end_s), step_s);
-    // If the first and the last stage have the same light, shift the programme so that they become one stage.
+    // If the first and the last stage have the same light, the first stage becomes part of the last stage, and the
+    // programme begins with the second stage.
     if (stages.size() > 1 && stages.front().light == stages.back().light) {
         offset += stages.front().ticks;
         stages.back().ticks += stages.front().ticks;

@@ -12,7 +12,7 @@ namespace {
 
 struct VehicleClass {
     std::string_view name;
-    double length_m;  // SUMO's default, https://sumo.dlr.de/docs/Vehicle_Type_Parameter_Defaults.html
+    double length_m;  // SUMO's default length, https://sumo.dlr.de/docs/Vehicle_Type_Parameter_Defaults.html
     bool uses_car_lanes;
 };
 
@@ -26,9 +26,9 @@ constexpr std::array<VehicleClass, 25> kClasses{{
     {"ship", 17.0, false},
 }};
 
-// Attributes that the import reads, or that change only how SUMO draws a vehicle.
+// Attributes that need no warning: the import reads them, or they change only how SUMO draws a vehicle.
 constexpr std::string_view kWithoutWarning = " id length vClass probability color guiShape imgFile osgFile ";
-// Ignored attributes whose value must still be a number, or a distribution such as normc(...).
+// Attributes that the import ignores, but whose value must be a number or a distribution such as normc(...).
 constexpr std::string_view kIgnoredNumbers =
     " speedDev sigma tau accel decel emergencyDecel minGap maxSpeed speedFactor lcStrategic ";
 

@@ -1,4 +1,4 @@
-// Vehicle types of SUMO's route files. The import uses their length and class.
+// Vehicle types of SUMO's route files. The import uses only the length and the vehicle class of a type.
 #pragma once
 
 #include <string>
@@ -15,15 +15,15 @@ struct SumoType {
     bool uses_car_lanes = true;  // the vehicle class may use lanes for passenger cars
 };
 
-// All vehicle types and type distributions by name.
+// All vehicle types and all distributions of vehicle types, by name.
 class SumoTypes {
 public:
     SumoTypes();
 
-    // Adds a vType or vTypeDistribution element. Throws InputError with file and line.
+    // Reads a vType or vTypeDistribution element. Throws InputError with file and line if the element is invalid.
     void read(const SumoXml& xml, pugi::xml_node node, SumoWarnings& warnings);
-    // Returns the type with this name, or a member of the distribution with this name. `random_number` in [0, 1)
-    // selects the member. Throws InputError if there is no such type.
+    // Returns the type with this name. If the name belongs to a distribution, `random_number` in [0, 1) selects one of
+    // its types. Throws InputError if there is neither.
     const SumoType& pick(const SumoXml& xml, pugi::xml_node node, const std::string& name, double random_number) const;
 
 private:

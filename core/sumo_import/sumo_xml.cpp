@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kMaxBytes = std::size_t{1} << 31;
 
-// Throws InputError with the number of the last line that could be unpacked.
+// Throws InputError with the number of the line at which unpacking of the gzip data failed.
 [[noreturn]] void throw_damaged(const std::string& name, const std::string& unpacked) {
     throw InputError(fmt::format("{}:{}: the gzip data are damaged or end too early here", name,
                                  std::count(unpacked.begin(), unpacked.end(), '\n') + 1));
@@ -62,12 +62,13 @@ std::uint64_t hash_of(const std::string& text) {
     return hash;
 }
 
-// A comment, a CDATA section or a processing instruction.
+// The byte range of a comment, a CDATA section or a processing instruction in the text of a file.
 struct Section {
     std::size_t begin = 0;
     std::size_t end = 0;
 };
 
+// Returns the next section at or after the position `from`, or an empty section at the end of the text.
 Section next_section(std::string_view text, std::size_t from) {
     constexpr std::array<std::array<std::string_view, 2>, 3> kKinds{
         {{"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}}};
@@ -81,7 +82,7 @@ Section next_section(std::string_view text, std::size_t from) {
     return {text.size(), text.size()};
 }
 
-// Returns true if the text after a '&' begins with an entity that XML defines, or with a character number.
+// Returns true if `text`, which follows a '&', begins with one of the five entities of XML or with a character number.
 bool is_entity(std::string_view text) {
     constexpr std::array<std::string_view, 5> kNamed{"amp;", "lt;", "gt;", "quot;", "apos;"};
     if (std::any_of(kNamed.begin(), kNamed.end(), [&](std::string_view name) { return text.starts_with(name); })) {
@@ -94,7 +95,7 @@ bool is_entity(std::string_view text) {
     return end != 0 && end != std::string_view::npos && text[end] == ';';
 }
 
-// Returns the position of the first '&' that begins an unknown entity. pugixml does not report these.
+// Returns the position of the first '&' that begins an unknown entity. pugixml does not report unknown entities.
 std::optional<std::size_t> unknown_entity(std::string_view text) {
     constexpr std::size_t kMaxEntityLength = 12;
     Section section;
@@ -107,7 +108,7 @@ std::optional<std::size_t> unknown_entity(std::string_view text) {
     return std::nullopt;
 }
 
-// Returns the name in the last tag that begins before the position.
+// Returns the element name in the last tag that begins before the position.
 std::string_view element_before(std::string_view text, std::size_t position) {
     const std::size_t begin = text.rfind('<', position);
     if (begin == std::string_view::npos) return "";
@@ -201,7 +202,7 @@ void SumoXml::parse() {
     refuse_duplicate_attributes();
 }
 
-// Throws InputError if an element has two attributes with the same name. pugixml keeps both and finds the first.
+// Throws InputError if an element has two attributes with the same name. pugixml accepts such an element.
 void SumoXml::refuse_duplicate_attributes() const {
     std::vector<std::string_view> names;
     for (pugi::xml_node node = root_; node;) {

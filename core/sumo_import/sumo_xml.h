@@ -1,4 +1,5 @@
-// Strict reader for SUMO's XML files, plain or gzipped. Every problem is an InputError that begins with file and line.
+// Strict reader for SUMO's XML files, plain or gzipped. For every problem it throws an InputError whose message begins
+// with file and line.
 //
 // The reader rejects document type declarations, files above 2 GiB when unpacked, XML that is not well-formed, and
 // numbers that are not finite. pugixml accepts duplicate attributes and unknown entities, so this reader checks for
@@ -31,11 +32,11 @@ public:
     // Returns the 64-bit FNV-1a hash of the unpacked text.
     std::uint64_t hash() const { return hash_; }
 
-    // Throws InputError with file, line and message.
+    // Throws InputError with the message, preceded by file and line of the node.
     [[noreturn]] void refuse(pugi::xml_node node, const std::string& message) const;
 
-    // The functions below return the value of an attribute. They throw InputError if the value is malformed.
-    // text(), number() and whole_number() also throw if the attribute is missing.
+    // The next functions return the value of an attribute. They throw InputError if the value is malformed. If the
+    // attribute is missing, text(), number() and whole_number() also throw InputError.
     std::string text(pugi::xml_node node, const char* attribute) const;
     std::optional<double> optional_number(pugi::xml_node node, const char* attribute) const;
     double number(pugi::xml_node node, const char* attribute) const;
@@ -48,8 +49,8 @@ private:
     std::size_t line_of(std::ptrdiff_t offset) const;
 
     std::string name_;
-    std::string text_;                      // parsed in place
-    std::vector<std::uint32_t> line_ends_;  // byte offsets of the line breaks
+    std::string text_;                      // text of the file; pugixml parses it in place
+    std::vector<std::uint32_t> line_ends_;  // byte offsets of the line breaks in text_
     std::uint64_t hash_ = 0;
     std::unique_ptr<pugi::xml_document> document_;
     pugi::xml_node root_;
@@ -57,9 +58,9 @@ private:
 
 // Returns the reason why the file cannot be read, or "" if it is a readable regular file.
 std::string sumo_file_problem(const std::filesystem::path& file);
-// Returns the number if the whole text is one finite decimal number.
+// Converts the text to a number. Returns nothing unless the whole text is one finite decimal number.
 std::optional<double> sumo_number(std::string_view text);
-// Splits the text at white space.
+// Returns the words of the text, which are separated by white space.
 std::vector<std::string_view> sumo_words(std::string_view text);
 
 }  // namespace stopline

@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kFormat = "stopline runs 1";
 
-// A prepared statement, finalised at the end of the scope.
+// A prepared SQLite statement. The destructor finalises it.
 class Statement {
 public:
     Statement(sqlite3* database, const char* sql)
@@ -29,13 +29,14 @@ public:
 
     void bind(int index, const std::string& text) {
         if (code_ != SQLITE_OK) return;
-        // The null destructor tells SQLite not to copy the text, which outlives the statement.
+        // The null destructor tells SQLite not to copy the text. The caller keeps the text until the statement has run.
         code_ = sqlite3_bind_text64(statement_, index, text.data(), text.size(), nullptr, SQLITE_UTF8);
     }
     void bind(int index, std::size_t number) {
         if (code_ == SQLITE_OK) code_ = sqlite3_bind_int64(statement_, index, static_cast<sqlite3_int64>(number));
     }
-    // Returns SQLITE_ROW, SQLITE_DONE or an error. An error of an earlier call is returned again.
+    // Returns SQLITE_ROW, SQLITE_DONE or an error code. If an earlier call has failed, returns the error code of this
+    // call.
     int step() { return code_ == SQLITE_OK ? sqlite3_step(statement_) : code_; }
 
     std::string text(int column) const {
@@ -66,7 +67,8 @@ std::string reason(int code, sqlite3* database) {
     return fmt::format("the store cannot be used: {} ({})", message, code);
 }
 
-// Returns the difference between two identities as a text; empty if there is none.
+// Returns a text about the first difference between two identities; "" if they are equal. The provenance does not
+// count.
 std::string difference_of(const StoreIdentity& has, const StoreIdentity& wanted) {
     if (has.name != wanted.name) return fmt::format("it holds runs of the sweep '{}'", has.name);
     if (has.sweep != wanted.sweep || has.points != wanted.points) {
@@ -91,7 +93,7 @@ RunStore::RunStore(std::filesystem::path file, bool make) : file_(std::move(file
     const int code = sqlite3_open_v2(file_.c_str(), &database, flags, nullptr);
     database_.reset(database);
     if (code != SQLITE_OK) fail(code);
-    sqlite3_busy_timeout(database, 1000);  // a program that was just killed can hold the lock a little longer
+    sqlite3_busy_timeout(database, 1000);  // in ms; a program that was just killed can still hold the lock
     execute("PRAGMA locking_mode = EXCLUSIVE");
     execute("PRAGMA journal_mode = WAL");
     execute("PRAGMA synchronous = NORMAL");
@@ -148,7 +150,8 @@ void RunStore::make_tables(const StoreIdentity& identity) {
                                                   {"points", fmt::format("{}", identity.points)},
                                                   {"shard", identity.shard},
                                                   {"provenance", identity.provenance}};
-    // One transaction: after a kill the store is either complete, or empty and created again.
+    // One transaction for both tables. If the program is killed, the store has either both tables or none. In the
+    // second case the next program makes them.
     execute("BEGIN");
     execute("CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID");
     execute("CREATE TABLE runs(point INTEGER PRIMARY KEY, result TEXT NOT NULL)");
@@ -199,7 +202,7 @@ void RunStore::put(std::size_t point, const std::string& result) {
 
 void RunStore::put_in_one_transaction(const std::function<void()>& puts) {
     execute("BEGIN");
-    puts();  // after an exception the open transaction is rolled back when the store is closed
+    puts();  // after an exception, closing the store rolls the transaction back
     execute("COMMIT");
 }
 

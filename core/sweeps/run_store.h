@@ -1,9 +1,9 @@
-// Stores the finished runs of a sweep in an SQLite file, each run in a transaction of its own. If the program is killed
-// at any moment, the file still holds every run stored before.
+// Stores the finished runs of a sweep in an SQLite file, each run in a transaction of its own. If the program is
+// killed, the file still holds every run that was stored before.
 //
-// Only one program can open the file at a time. With this lock, SQLite's write-ahead log needs no memory shared between
-// programs, which network file systems of clusters do not offer. With the log, storing a run does not wait for the
-// disk. A power cut can lose the last runs, which are then run again, but never damages the file.
+// Only one program at a time can open the file. SQLite's write-ahead log then needs no shared memory, which network
+// file systems of clusters do not offer. With this log, storing a run does not wait for the disk. A power cut can lose
+// the last runs, but does not damage the file. The sweep then repeats these runs.
 #pragma once
 
 #include <cstddef>
@@ -17,21 +17,23 @@ struct sqlite3;
 
 namespace stopline {
 
-// Identifies the runs of a store. A store is continued only by the same sweep, program and shard. Stores are joined
-// only if everything but the shard is the same.
+// Identifies the runs in a store. A store is continued only by the same sweep, program and shard. Stores are merged
+// only if they belong to the same sweep and program.
 struct StoreIdentity {
     std::string name;        // name of the sweep
-    std::string sweep;       // Sweep::key()
-    std::string program;     // program_identity()
+    std::string sweep;       // result of Sweep::key()
+    std::string program;     // result of program_identity()
     std::size_t points = 0;  // number of runs of the whole sweep
-    std::string shard;       // "2/8"; empty: all points
-    std::string provenance;  // JSON text that is written beside the result table
+    std::string shard;       // shard of the sweep, such as "2/8"; empty: the whole sweep
+    std::string provenance;  // provenance as JSON text, for a file beside the result table
 };
 
+// A store of runs. The parameter `point` is the number of a run in its sweep, see sweep.h.
 class RunStore {
 public:
-    // Opens the store, or creates it. Throws InputError with the path if it belongs to another sweep, to other
-    // parameters or to another build of the program, if it is not a store, or if another program has it open.
+    // Opens the store in `file`, or creates it. Throws InputError if the store belongs to another sweep, to other
+    // parameters or to another build of the program. Throws InputError if the file is not a store, or if another
+    // program has it open.
     static RunStore open_or_make(const std::filesystem::path& file, const StoreIdentity& identity);
     // Opens an existing store. Throws InputError if the file is missing or is not a store.
     static RunStore open(const std::filesystem::path& file);
@@ -39,14 +41,14 @@ public:
     const StoreIdentity& identity() const { return identity_; }
     const std::filesystem::path& file() const { return file_; }
 
-    std::vector<bool> done() const;  // [point] true: the run is stored
-    // Stores a run. Throws InputError if it cannot be written; the stored runs remain. Must not be called by two
-    // threads at the same time.
+    std::vector<bool> done() const;  // [point] true: the store holds the run
+    // Stores the result of a run. Throws InputError if it cannot be written; runs that are already stored remain. Must
+    // not be called by two threads at the same time.
     void put(std::size_t point, const std::string& result);
-    // Calls visit for all runs in the order of their points.
+    // Calls visit() for all stored runs, in ascending order of `point`.
     void for_each_run(const std::function<void(std::size_t point, const std::string& result)>& visit) const;
 
-    // Makes one transaction of all runs that `puts` stores.
+    // Calls `puts`. All runs that `puts` passes to put() are stored in a single transaction.
     void put_in_one_transaction(const std::function<void()>& puts);
 
 private:

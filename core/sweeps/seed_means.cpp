@@ -19,10 +19,10 @@ namespace {
 using Row = const std::vector<std::string>*;
 constexpr std::array<const char*, 3> kWithoutMeans{"updates", "state_hash", "warm_up_s"};
 
-// Runs with the same axis values, by seed.
+// All runs with the same axis values. These runs differ only in their seed.
 struct Combination {
-    std::vector<std::string> axes;  // values, including the population
-    std::map<std::string, Row> runs;
+    std::vector<std::string> axes;    // axis values, including the population
+    std::map<std::string, Row> runs;  // seed -> row of the result table
 };
 
 std::vector<std::string> axes_of(const CsvTable& results, const std::vector<std::string>& row) {
@@ -59,8 +59,8 @@ void add_cells(const Interval95& interval, std::vector<std::string>& row) {
     for (const double value : {interval.mean, interval.low, interval.high}) row.push_back(fixed(value, 4));
 }
 
-// Returns the first combination with the same axis values except the population. `population` is an index into the
-// axes.
+// Returns the first combination that has the same axis values as `one`, apart from the population. `population` is the
+// index of the population in Combination::axes.
 const Combination& baseline_of(const std::vector<Combination>& all, const Combination& one, std::size_t population) {
     const auto has_same_axes = [&](const Combination& other) {
         for (std::size_t k = 0; k < one.axes.size(); ++k) {

@@ -39,7 +39,7 @@ void require_populations(const Scenario& scenario, const std::vector<std::string
     }
 }
 
-// Returns true if both paths name the same field, or one is inside the other.
+// Returns true if both paths name the same field, or if one of the fields contains the other.
 bool overlap(const std::string& a, const std::string& b) {
     const auto contains = [](const std::string& section, const std::string& path) {
         return path.rfind(section, 0) == 0 &&
@@ -48,9 +48,9 @@ bool overlap(const std::string& a, const std::string& b) {
     return contains(a, b) || contains(b, a);
 }
 
-// Throws InputError if two axes change the same field. The result table would then show values that were not run.
+// Throws InputError if two axes change the same field. One of them would overwrite the values of the other.
 void check_axes_are_independent(const SweepSettings& settings) {
-    std::vector<std::pair<std::string, std::string>> earlier;  // path, axis
+    std::vector<std::pair<std::string, std::string>> earlier;  // path and name of its axis
     for (const SweepAxis& axis : settings.axes) {
         for (const std::string& path : axis.paths) {
             const auto same = std::find_if(earlier.begin(), earlier.end(), [&](const auto& other) {
@@ -65,7 +65,7 @@ void check_axes_are_independent(const SweepSettings& settings) {
     }
 }
 
-// Throws InputError if --set changes a field of an axis. The axis would overwrite the setting.
+// Throws InputError if an override from --set changes a field of an axis. The axis would overwrite this value.
 void check_overrides(const SweepSettings& settings, const std::vector<std::string>& overrides) {
     for (const std::string& text : overrides) {
         const std::string path = current_path(scenario_table(), text.substr(0, text.find('=')));

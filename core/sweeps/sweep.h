@@ -1,8 +1,8 @@
-// The runs of a sweep. Each run is identified by its number, the point. The axis values and the seed follow from the
-// point alone, so shards, threads and machines agree without communication, and no list of runs is kept in memory.
+// The runs of a sweep. Each run has a number from 0, called its point. The axis values and the seed of a run follow
+// from its point alone. So shards, threads and machines need no communication, and no list of runs is kept in memory.
 //
-// Points count through the axes in the order of the file, the last axis fastest. If no axis selects populations, they
-// are the last axis. Repetitions vary fastest of all.
+// Points number all combinations of axis values and seeds. The seed varies fastest, then the last axis of the sweep
+// file, and the first axis varies slowest. If no axis selects populations, the populations are an additional last axis.
 #pragma once
 
 #include <cstdint>
@@ -20,59 +20,61 @@ namespace stopline {
 
 inline constexpr std::size_t kSweepPointsMax = 10'000'000;
 
-// Titles of axis values for figures, by column and cell, such as "turns 5 % / 10 %".
+// Maps an axis value, given by column name and cell, to its title in figures, such as "turns 5 % / 10 %".
 using CellTitles = std::map<std::pair<std::string, std::string>, std::string>;
 
 struct SweepOptions {
-    std::vector<std::string> overrides;  // of --set; axes are applied after them
+    std::vector<std::string> overrides;  // from --set, applied before the axis values
     int threads = 1;
     std::function<bool(double)> on_progress;  // see RunAllOptions
 };
 
 class Sweep {
 public:
-    // Loads and checks every combination of values. Throws InputError with the values of the first bad combination.
+    // Loads the scenario with every combination of axis values, to check it. Throws InputError that names the axis
+    // values of the first bad combination.
     explicit Sweep(SweepSettings settings, const SweepOptions& options = {});
 
     const SweepSettings& settings() const { return settings_; }
-    const Scenario& base() const { return base_; }  // without axis values
-    // Warnings of loading the sweep file and all combinations, one line each, without repetitions.
+    const Scenario& base() const { return base_; }  // the scenario without axis values
+    // Returns the warnings from loading the sweep file and all combinations, one line each, without repetitions.
     const std::vector<std::string>& warnings() const { return warnings_; }
-    std::size_t points() const;
-    std::size_t combinations() const { return hashes_.size(); }  // without populations and seeds
+    std::size_t points() const;                                  // number of runs
+    std::size_t combinations() const { return hashes_.size(); }  // populations and seeds do not count
 
-    // Returns the columns of the axes. A name ends with the unit of the axis.
+    // Returns the names of the columns with axis values. A name ends with the unit of the values, such as "green_s".
     std::vector<std::string> columns() const;
     // Returns the axis values of a point, one for each column.
     std::vector<std::string> cells(std::size_t point) const;
-    // Returns the column of the populations. The sweep file chooses the name of the axis.
+    // Returns the name of the column with the populations, which is the name of their axis in the sweep file.
     const std::string& population_column() const { return columns_[population_column_].name; }
     CellTitles titles() const;
     std::uint64_t seed(std::size_t point) const;
     std::string population(std::size_t point) const;
     std::size_t combination(std::size_t point) const;
 
-    // Returns a text such as "green = 5 s, population = CDG, seed = 1".
+    // Returns the axis values and the seed as text, such as "green = 5 s, population = CDG, seed = 1".
     std::string describe(std::size_t point) const;
 
-    // Loads the scenario of a combination again. Throws InputError if its files have changed since the sweep was
-    // loaded.
+    // Loads the scenario with a combination of axis values. Throws InputError if its files have changed since the
+    // constructor loaded them.
     Scenario scenario(std::size_t combination) const;
 
-    // Returns a hash of everything that the results depend on, except the program: scenarios, axes and seeds.
+    // Returns a hash of the scenarios of all combinations, the axis values and the number of seeds. Sweeps with the
+    // same key have the same results if the same program runs them.
     std::string key() const;
 
 private:
     struct Column {
         std::string name;
-        std::string axis;                 // name of the axis
-        std::vector<std::string> cells;   // [value] as in the result table
-        std::vector<std::string> shown;   // [value] as in the sweep file
-        std::vector<std::string> titles;  // [value] for figures
-        std::size_t axis_index = 0;       // index into settings().axes; unused for populations
+        std::string axis;                 // name of the axis in the sweep file
+        std::vector<std::string> cells;   // [value] text in the result table
+        std::vector<std::string> shown;   // [value] text in the sweep file
+        std::vector<std::string> titles;  // [value] text in figures
+        std::size_t axis_index = 0;       // index into settings().axes; not valid for populations without an axis
     };
 
-    std::vector<std::size_t> value_indices(std::size_t point) const;  // [column]
+    std::vector<std::size_t> value_indices(std::size_t point) const;  // [column] index of the axis value
     std::vector<std::string> overrides(std::size_t combination) const;
     std::string describe_combination(std::size_t combination) const;
     void add_columns();
@@ -86,17 +88,19 @@ private:
     Scenario base_;
     std::vector<Column> columns_;
     std::size_t population_column_ = 0;
-    std::vector<std::uint64_t> hashes_;  // [combination] scenario hash
+    std::vector<std::uint64_t> hashes_;  // [combination] Scenario::hash
 };
 
-// Selects the points of shard `index` (from 1) of `count`. Each shard has one of every `count` successive points, at a
-// shifting place. At a fixed place, shards could get different axis values and so unequal work.
+// One of `count` parts of a sweep; `index` counts from 1. Each group of `count` successive points gives one point to
+// each shard, in an order that shifts from group to group. In a fixed order, a shard could get the same axis value
+// every time, and thus more work than others.
 struct Shard {
     std::size_t index = 1;
     std::size_t count = 1;
+    // Returns true if the shard contains the point.
     bool has(std::size_t point) const { return (point + point / count) % count == index - 1; }
 };
-// Parses "K/N". Throws InputError.
+// Parses a shard such as "2/8". Throws InputError if the text has another form.
 Shard parse_shard(const std::string& text);
 
 }  // namespace stopline

@@ -28,7 +28,7 @@ void require_same(const RunStore& first, const RunStore& other) {
         fmt::format("{} and {} cannot be joined: {}", first.file().string(), other.file().string(), difference));
 }
 
-// Returns the points as text, such as "3, 7-12, 20 and 5 more".
+// Returns sorted points as text, such as "3, 7-12, 20 and 5 more".
 std::string ranges_text(const std::vector<std::size_t>& points) {
     std::string text;
     std::size_t shown = 0;
@@ -108,17 +108,17 @@ MergedSweep merge_stores(const std::vector<fs::path>& files, const fs::path& fol
         throw InputError(
             fmt::format("{}: the store exists already: choose another --output, or remove it", results.store.string()));
     }
-    // The joined store gets its final name only when it is complete.
+    // The merged store gets its final name only when it is complete.
     const fs::path temporary = folder / fmt::format(".{}.{}.part", results.store.filename().string(), ::getpid());
     std::error_code ignored;
     MergedSweep merged{name, {}};
     try {
-        fs::remove(temporary, ignored);  // left by a killed program
+        fs::remove(temporary, ignored);  // a file that a killed program may have left
         join(stores, temporary);
         merged.table = sweep_results(RunStore::open(temporary));
         write_file(results.table, result_file("sweep/NAME.csv", "", merged.table.csv, names).text);
         write_file(results.provenance, stores.front().identity().provenance);
-        fs::rename(temporary, results.store);  // last, so that a killed merge can be repeated
+        fs::rename(temporary, results.store);  // the last action, so that a killed merge can be repeated
     } catch (...) {
         for (const char* const suffix : {"", "-wal", "-journal"}) fs::remove(temporary.string() + suffix, ignored);
         throw;

@@ -1,4 +1,4 @@
-// Joins the stores of the shards of a sweep.
+// Merges the stores of all shards of a sweep into one store and one result table.
 #pragma once
 
 #include <filesystem>
@@ -14,13 +14,13 @@ struct MergedSweep {
     SweepTable table;
 };
 
-// Writes NAME.csv, NAME.provenance.json and the joined store NAME.sqlite into the folder, as one run of the whole sweep
-// does. Throws InputError and writes nothing if the stores belong to different sweeps or programs, if two of them hold
-// the same run, or if runs are missing.
+// Writes NAME.csv, NAME.provenance.json and the merged store NAME.sqlite into the folder. A sweep without shards gives
+// the same files. Throws InputError and writes nothing if the stores belong to different sweeps or programs, if two of
+// them hold the same run, if runs are missing, or if NAME.sqlite exists.
 MergedSweep merge_stores(const std::vector<std::filesystem::path>& files, const std::filesystem::path& folder,
                          ColumnNames names = ColumnNames::current);
 
-// The files of a sweep in a folder.
+// The paths of the files that a sweep or one of its shards writes.
 struct SweepFiles {
     std::filesystem::path store;
     std::filesystem::path table;

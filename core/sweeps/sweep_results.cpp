@@ -21,7 +21,7 @@ namespace stopline {
 
 namespace {
 
-// Calls visit(column, value) for each line.
+// Calls visit(column, value) for each line "column=value" of a result text.
 template <class Visit>
 void for_each_value(std::string_view result, const Visit& visit) {
     while (!result.empty()) {
@@ -33,7 +33,8 @@ void for_each_value(std::string_view result, const Visit& visit) {
     }
 }
 
-// Returns a result text with the current names of its metrics. The names of axes, which end with the seed, remain.
+// Returns a result text with the current names of its metrics. The first lines up to the seed hold axis values and are
+// not changed.
 std::string with_current_names(const std::string& result, OldNameReader& names) {
     std::string text;
     bool is_axis = true;
@@ -45,7 +46,8 @@ std::string with_current_names(const std::string& result, OldNameReader& names) 
     return text;
 }
 
-// Collects the columns of all runs in the order in which they first appear. Returns the index of each name.
+// Appends the column names of all runs to `names`, in the order of their first appearance. Returns the index of each
+// name in `names`.
 std::map<std::string, std::size_t, std::less<>> columns_of(const RunStore& store, OldNameReader& old_names,
                                                            std::vector<std::string>& names) {
     std::map<std::string, std::size_t, std::less<>> index;

@@ -1,4 +1,4 @@
-// Results of a sweep: the text of each run in the store, the table of all runs, and their provenance.
+// Results of a sweep: the text of each run in the store, the table of all runs, and the provenance of the table.
 #pragma once
 
 #include <cstdint>
@@ -12,17 +12,17 @@
 
 namespace stopline {
 
-// Returns the result of a run as text with one line "name=value" for each column: axes, seed and metrics. The text can
-// be read without the sweep file, so stores of several machines can be joined anywhere.
+// Returns the result of a run as text with one line "column=value" for each axis, for the seed and for each metric. The
+// text can be read without the sweep file, so any machine can merge the stores of several machines.
 std::string result_text(const Sweep& sweep, std::size_t point, const std::vector<RunMetric>& metrics);
 
-// Returns the names of the columns in a result text, in their order.
+// Returns the names of the columns in a result text, in the order of the lines.
 std::vector<std::string> columns_in(const std::string& result);
 
-// Returns the value of a column in a result text; empty if there is none.
+// Returns the value of a column in a result text; "" if the text does not have the column.
 std::string value_in(const std::string& result, const std::string& column);
 
-// Returns the whole number in a column of a result text; 0 if there is none.
+// Returns the whole number in a column of a result text; 0 if the column is missing or holds no whole number.
 std::int64_t count_in(const std::string& result, const std::string& column);
 
 struct SweepTotals {
@@ -32,12 +32,12 @@ struct SweepTotals {
     std::int64_t red_entries = 0;
     std::int64_t lost_vehicles = 0;
     std::size_t runs_with_violations = 0;
-    std::optional<std::int64_t> deadlocks;  // single intersections
-    std::optional<std::int64_t> gridlocks;  // networks of several intersections
-    std::int64_t teleported = 0;            // networks of several intersections
-    double longest_in_junction_s = 0.0;     // maximum of all runs
-    std::size_t measured_in_warm_up = 0;    // runs whose measured window begins before the warm-up ends
-    std::size_t with_backlog = 0;           // runs in which vehicles found no room to enter before the end
+    std::optional<std::int64_t> deadlocks;  // set for single intersections only
+    std::optional<std::int64_t> gridlocks;  // set for networks of several intersections only
+    std::int64_t teleported = 0;            // number of teleported vehicles in networks of several intersections
+    double longest_in_junction_s = 0.0;     // longest stay of a vehicle in an intersection, over all runs
+    std::size_t measured_in_warm_up = 0;    // number of runs whose measured window begins before the warm-up ends
+    std::size_t with_backlog = 0;           // number of runs with a backlog of vehicles at the end
 };
 
 struct SweepTable {
@@ -45,10 +45,10 @@ struct SweepTable {
     SweepTotals totals;
     std::vector<std::string> warnings;  // one line for each old column name in the store
 };
-// Returns the results in a store. A store of the last release is read with its old column names.
+// Returns the result table of a store. Replaces old column names, so that a store of the last release can be read.
 SweepTable sweep_results(const RunStore& store);
 
-// Returns the provenance as JSON text. `command` makes the results again, independent of shards and machines.
+// Returns the provenance as JSON text. `command` is a command line that reproduces the results of the whole sweep.
 std::string sweep_provenance(const Sweep& sweep, const std::string& command);
 
 }  // namespace stopline

@@ -1,4 +1,5 @@
-// Runs points of a sweep and stores each run as soon as it is finished. If a run fails, the others continue.
+// Runs points of a sweep (see sweep.h) and stores each run as soon as it is finished. If a run fails, the others
+// continue.
 #pragma once
 
 #include <chrono>
@@ -14,20 +15,23 @@
 
 namespace stopline {
 
+// A function such as run_metrics(), which runs one population and returns its metrics.
 using RunFunction = std::vector<RunMetric> (*)(const Scenario&, std::size_t population, const std::function<bool()>&);
 
 struct PointResult {
     enum class State { done, failed, interrupted };
     State state = State::done;
-    std::string text;  // result_text, or the error message
+    std::string text;  // done: result_text(); failed: the error message
 };
 
-// Runs points one after another in one thread. It keeps the scenario, because successive points mostly share it.
+// Runs points one after another in one thread. Keeps the loaded scenario, because successive points mostly have the
+// same scenario.
 class PointRunner {
 public:
     explicit PointRunner(const Sweep& sweep, RunFunction function = run_metrics) : sweep_(sweep), run_(function) {}
 
-    // Runs one point. Throws InputError if the files of the scenario have changed, because that concerns all points.
+    // Runs one point. Throws InputError if the files of the scenario have changed, because this concerns all points.
+    // Any other error gives a result with the state `failed`.
     PointResult run(std::size_t point, const std::function<bool()>& keep_going);
 
 private:
@@ -42,18 +46,19 @@ struct SweepFailure {
     std::string message;
 };
 
-// The runs that one call of the program has added to the store.
+// The runs that one call of the program has finished.
 struct SweepSession {
-    std::size_t runs = 0;
-    std::int64_t updates = 0;
-    double wall_s = 0.0;
+    std::size_t runs = 0;                // number of runs added to the store
+    std::int64_t updates = 0;            // number of vehicles, summed over all steps of these runs
+    double wall_s = 0.0;                 // wall-clock time
     std::vector<SweepFailure> failures;  // in the order of the points
 };
 
-// Records results one at a time: in the store, the counts and the progress.
+// Stores the results of runs, counts them and reports the progress. Only one thread at a time may use it.
 class SweepRecorder {
 public:
-    // `on_progress` takes the share done of `todo` runs and returns false to stop.
+    // `todo` is the number of runs to do. `on_progress` gets the completed share of them, 0 .. 1, and returns false to
+    // stop.
     SweepRecorder(RunStore& store, std::size_t todo, std::function<bool(double)> on_progress)
         : store_(store), todo_(todo), on_progress_(std::move(on_progress)), begin_(std::chrono::steady_clock::now()) {}
 
@@ -81,8 +86,8 @@ struct SweepRunOptions {
 // Returns the points of a shard that the store does not hold yet.
 std::vector<std::size_t> missing_points(const Sweep& sweep, const Shard& shard, const RunStore& store);
 
-// Runs the points side by side in threads. Throws Interrupted if on_progress returns false, and the errors of the
-// store.
+// Runs the points at the same time in threads. Throws Interrupted if on_progress returns false. Throws InputError if
+// the store cannot be written or the files of the scenario have changed.
 SweepSession run_points(const Sweep& sweep, const std::vector<std::size_t>& points, RunStore& store,
                         const SweepRunOptions& options);
 

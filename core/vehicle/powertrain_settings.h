@@ -23,32 +23,32 @@ struct PowertrainSettings {
     double drag_coefficient = 0.311;
     double frontal_area_m2 = 2.118;
     double rolling_r0 = 0.009;           // rolling resistance coefficient at standstill, -
-    double rolling_r1_s_per_m = 5.0e-5;  // increase of the coefficient with speed
+    double rolling_r1_s_per_m = 5.0e-5;  // increase of the coefficient per m/s
     double wheel_diameter_m = 0.606;
 
     // Engine or motor
     SampledCurve full_load;  // maximum torque [N m] over engine speed [rpm]
-    // Torque without fuel, or the recuperation limit of a motor: [N m], <= 0, over engine speed [rpm]
+    // Torque of an engine without fuel, or limit of recuperation of a motor: [N m], <= 0, over engine speed [rpm]
     SampledCurve drag_torque;
     double idle_rpm = 798.0;  // 0 for an electric motor
     double limiter_rpm = 6500.0;
 
     // Transmission. An electric car has a single gear, no shifts and no clutch (launch_rpm 0)
     std::vector<double> gear_ratio;
-    std::vector<double> rotating_mass_factor;  // [gear] effective over real mass, >= 1
+    std::vector<double> rotating_mass_factor;  // [gear] effective mass (with rotating parts) over mass, >= 1
     double final_drive = 4.083;
     double driveline_efficiency = 0.92;
     double launch_rpm = 1500.0;  // engine speed that the slipping clutch or converter holds during the start
-    double shift_up_part_load_rpm = 2000.0;  // upshift speed at little torque
-    double shift_up_full_load_rpm = 4500.0;  // upshift speed at full load; linear in between
+    double shift_up_part_load_rpm = 2000.0;  // engine speed of the upshift at little torque
+    double shift_up_full_load_rpm = 4500.0;  // engine speed of the upshift at full load; linear in between
     double shift_down_rpm = 1100.0;
     double torque_interruption_s = 0.45;  // time without drive torque during a gear change
     double minimum_gear_time_s = 1.5;     // shortest time between gear changes
 
-    // Time constant of the first-order lag of the torque: a map over engine speed and requested share of full load,
-    // times a factor per gear
+    // Time constant of the first-order lag of the torque: a map over engine speed and requested share of the full-load
+    // torque, times a factor per gear
     std::vector<double> lag_rpm;           // grid of engine speeds, rising
-    std::vector<double> lag_torque_share;  // grid of shares within 0 .. 1, rising
+    std::vector<double> lag_torque_share;  // grid of requested torque over full-load torque, 0 .. 1, rising
     std::vector<double> lag_drive_s;       // [rpm][share], row-major
     std::vector<double> lag_gear_factor;   // [gear]
     double brake_lag_s = 0.2;

@@ -5,10 +5,10 @@
 //
 //   m lambda(gear) dv/dt = F_drive - F_brake - F_air(v) - F_roll(v) - F_grade      (force balance)
 //
-// lambda is the rotating-mass factor: the engine and the wheels must be accelerated too (Mitschke and Wallentowitz,
-// "Dynamik der Kraftfahrzeuge", chapter 2). Torque and brake force follow their requests with first-order lags. The
-// time constant of the torque comes from a map over gear, engine speed and requested share of full load, as in Section
-// III.D of the paper.
+// lambda is the rotating-mass factor: a force must also accelerate the rotating engine and wheels (Mitschke and
+// Wallentowitz, "Dynamik der Kraftfahrzeuge", chapter 2). Torque and brake force follow their requests with first-order
+// lags. The time constant of the torque comes from a map over gear, engine speed and requested share of full load, as
+// in Section III.D of the paper.
 #pragma once
 
 #include <type_traits>
@@ -24,14 +24,14 @@ template <class R>
 struct PowertrainState {
     R speed_mps;
     R acceleration_mps2;  // realised in the last step
-    R torque_Nm;          // at the crankshaft, after the lag
+    R torque_Nm;          // torque at the crankshaft, after the lag
     R brake_N;            // brake force >= 0, after the lag
-    R gear_time_s;        // since the last gear change
-    R lag_s;              // time constant of the torque while driving, of the brake while braking
+    R gear_time_s;        // time since the last gear change
+    R lag_s;              // while driving the time constant of the torque, while braking that of the brake
     R gear;               // 0: first gear
 };
 
-// Returns the entry of a table over gears.
+// Returns the value of a table for this gear.
 template <class R, class Number>
 STOPLINE_INLINE R of_gear(const std::array<Number, PowertrainTables::kMaxGears>& table, const R& gear) {
     return look_up(table, gear);
@@ -71,10 +71,10 @@ STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTablesOf<Numb
     const R locked_rpm = s.speed_mps * rpm_per_mps;
     const auto floor_rpm = select(s.gear < 0.5, splat<R>(t.launch_rpm), splat<R>(t.idle_rpm));
     const auto rpm = clamped(locked_rpm, floor_rpm, t.limiter_rpm);
-    // Share of the step that lies after the torque interruption of a gear change.
+    // Share of the step after the end of the torque interruption by a gear change.
     const R connected = clamped((s.gear_time_s + (dt - t.torque_interruption_s)) * (1.0 / dt), 0.0, 1.0);
 
-    // The rotating mass of the engine counts as far as the clutch is closed.
+    // The rotating mass of the engine counts in proportion to how far the clutch is closed.
     const auto closing_1prpm = select(s.gear < 0.5, splat<R>(t.closing_launch_1prpm), splat<R>(t.closing_idle_1prpm));
     const R closed = clamped(locked_rpm * closing_1prpm - t.closing_offset, 0.0, 1.0);
     const R coupling = connected * closed;
@@ -84,7 +84,8 @@ STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTablesOf<Numb
     // Inverse dynamics: the force that gives the requested acceleration, as torque and brake force.
     const auto speed = s.speed_mps;
     const auto resistance_N = t.drag_Ns2pm2 * speed * speed + t.rolling_N + t.rolling_Nspm * speed + grade_N;
-    // Friction limits the force of the tyres, m a + resistance. The brakes also slow down the rotating masses.
+    // Friction limits the tyre force and so m a + resistance. `wanted_N` also contains the force for the rotating
+    // masses, which the tyres do not transmit.
     const auto resistance_mps2 = resistance_N * t.inverse_mass_1pkg;
     const R lowest_mps2 = -t.friction_mps2 - resistance_mps2;
     const R reachable_mps2 = clamped(request_mps2, lowest_mps2, t.friction_mps2 - resistance_mps2);
@@ -94,7 +95,7 @@ STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTablesOf<Numb
     const auto drag_Nm = coupling * interpolate_on_grid(t.drag_Nm, cell);
     const R gain = rpm_per_mps * kRadpsPerRpm;  // wheel force over crank torque, without losses
     const R inverse_gain = of_gear(t.mps_per_rpm, s.gear) * (1.0 / kRadpsPerRpm);
-    const double per_efficiency = 1.0 / t.efficiency;  // losses reduce drive torque and add to engine braking
+    const double per_efficiency = 1.0 / t.efficiency;  // losses reduce drive torque and increase engine braking
     const auto wanted_Nm =
         wanted_N * inverse_gain * select(wanted_N > 0.0, splat<R>(per_efficiency), splat<R>(t.efficiency));
     const auto limited_Nm = select(locked_rpm < t.limiter_rpm, clamped(wanted_Nm, drag_Nm, full_Nm), drag_Nm);
@@ -102,7 +103,7 @@ STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTablesOf<Numb
     const auto engine_brake_N = connected * drag_Nm * gain * per_efficiency;
     const auto request_brake_N = max_of(engine_brake_N - wanted_N, 0.0);
 
-    // Lags.
+    // First-order lags of torque and brake force.
     const auto share = clamped(request_Nm / max_of(full_Nm, 1.0), 0.0, 1.0);
     const auto drive_lag_s = torque_lag_s(t, s.gear, rpm, share);
     PowertrainState<R> next{};
@@ -117,17 +118,18 @@ STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTablesOf<Numb
     const auto drive_N =
         transmitted_Nm * gain * select(transmitted_Nm > 0.0, splat<R>(t.efficiency), splat<R>(per_efficiency));
     const auto force_N = drive_N - 0.5 * (s.brake_N + next.brake_N) - resistance_N;
-    // A brake force set for a closed clutch would lock the wheels when the clutch opens, so friction limits it.
+    // When the clutch opens, the brake force set for the closed clutch could lock the wheels, so friction limits the
+    // deceleration.
     const R moving_mps2 = max_of<R>(flush_tiny<R>(force_N / inertia_kg), lowest_mps2);
     const R stops_in_step = STOPLINE_FLAG(R, speed + moving_mps2 * dt <= 0.0);
     next.speed_mps = choose(stops_in_step, splat<R>(0.0), speed + moving_mps2 * dt);
     next.acceleration_mps2 = choose(stops_in_step, (0.0 - speed) * (1.0 / dt), moving_mps2);
 
-    // Gear changes. The upshift speed rises with the load. The car kicks down if it needs more than 1.5 times the
-    // full-load torque; for less, the lower gear would not make up for the torque interruption. Hysteresis comes from
-    // the distance between upshift and downshift speeds and from the minimum time in a gear. At standstill the gear is
-    // the first one.
-    const auto load = clamped(2.5 * share - 1.25, 0.0, 1.0);  // 0 up to half of the full load, 1 from 0.9 on
+    // Gear changes. The engine speed of the upshift rises with the load. The car kicks down if it needs more than 1.5
+    // times the full-load torque; for less, the lower gear would not make up for the torque interruption. Two things
+    // prevent frequent gear changes: the distance between upshift and downshift speeds, and the minimum time in a gear.
+    // At standstill the gear is the first one.
+    const auto load = clamped(2.5 * share - 1.25, 0.0, 1.0);
     const auto up_rpm = t.shift_up_part_rpm + load * (t.shift_up_full_rpm - t.shift_up_part_rpm);
     const R gear_time_over = STOPLINE_FLAG(R, s.gear_time_s + 0.5 * dt >= t.minimum_gear_time_s);
     const R driving = STOPLINE_FLAG(R, request_brake_N <= 0.0);
@@ -143,7 +145,7 @@ STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTablesOf<Numb
     const R down = max_of(kick_down, too_slow) * STOPLINE_FLAG(R, s.gear > 0.5) * (1.0 - up);
     const R moving = STOPLINE_FLAG(R, next.speed_mps > 0.0);
     next.gear = moving * (s.gear + up - down);
-    // A gear change while braking interrupts no drive torque, so it does not restart the time.
+    // A gear change while braking interrupts no drive torque, so gear_time_s goes on.
     const R keeps_time = 1.0 - (up + down) * driving * moving;
     next.gear_time_s = keeps_time * min_of(s.gear_time_s + dt, 1000.0);
     return next;

@@ -31,7 +31,7 @@ void check(const PowertrainSettings& s) {
     require(s.limiter_rpm > s.idle_rpm, s, "the limiter speed must be above the idle speed");
 }
 
-// Returns the bilinear interpolation of the lag map, constant beyond its edges.
+// Returns the time constant from the lag map by bilinear interpolation, constant beyond its edges.
 double lag_at(const PowertrainSettings& s, double rpm, double share) {
     const auto columns = s.lag_torque_share.size();
     SampledCurve over_rpm{s.lag_rpm, {}};
@@ -89,7 +89,8 @@ PowertrainTables compile_powertrain(const PowertrainSettings& s) {
     }
     t.gears = static_cast<double>(s.gear_ratio.size());
     for (std::size_t g = 0; g < static_cast<std::size_t>(PowertrainTables::kMaxGears); ++g) {
-        const std::size_t gear = std::min(g, s.gear_ratio.size() - 1);  // entries beyond repeat the highest gear
+        // Entries beyond the highest gear repeat its values.
+        const std::size_t gear = std::min(g, s.gear_ratio.size() - 1);
         const double ratio = s.gear_ratio[gear] * s.final_drive;
         t.rpm_per_mps[g] = ratio / radius_m / kRadpsPerRpm;
         t.mps_per_rpm[g] = 1.0 / t.rpm_per_mps[g];

@@ -19,11 +19,11 @@ struct PowertrainTablesOf {
 
     Number length_m = 0.0;
     Number mass_kg = 0.0;       // kerb mass and load
-    Number drag_Ns2pm2 = 0.0;   // 0.5 rho c_d A: air resistance over speed squared
+    Number drag_Ns2pm2 = 0.0;   // 0.5 rho c_d A: air resistance over the square of the speed
     Number rolling_N = 0.0;     // m g r0
     Number rolling_Nspm = 0.0;  // m g r1
     Number inverse_mass_1pkg = 0.0;
-    Number friction_mps2 = 0.0;  // mu g, driving and braking
+    Number friction_mps2 = 0.0;  // mu g: friction limit of acceleration and deceleration
     Number idle_rpm = 0.0;
     Number launch_rpm = 0.0;  // 0: no clutch (electric car)
     Number limiter_rpm = 0.0;
@@ -33,35 +33,35 @@ struct PowertrainTablesOf {
     Number torque_interruption_s = 0.0;
     Number minimum_gear_time_s = 0.0;
     Number brake_lag_s = 0.0;
-    Number rotating_mass_open = 1.0;  // rotating-mass factor with open clutch: wheels only
+    Number rotating_mass_open = 1.0;  // value of rotating_mass with open clutch: only the wheels rotate
     Number efficiency = 1.0;
     Number gears = 1;
-    // The clutch is open below 3/4 of a reference speed and closed from the reference speed on. The reference speed is
-    // the launch speed in first gear and the idle speed in other gears. The degree of closing is rpm x factor - offset,
+    // The clutch is open below 3/4 of a reference engine speed and closed from the reference speed on. The reference is
+    // the launch speed in first gear and the idle speed in other gears. The degree of closing is factor x rpm - offset,
     // limited to 0 .. 1. Without a clutch the factor is 0 and the offset is -1.
     Number closing_launch_1prpm = 0.0;
     Number closing_idle_1prpm = 0.0;
     Number closing_offset = -1.0;
 
-    std::array<Number, kMaxGears> rpm_per_mps{};    // engine speed over vehicle speed
-    std::array<Number, kMaxGears> mps_per_rpm{};    // the inverse
-    std::array<Number, kMaxGears> rotating_mass{};  // effective over real mass
+    std::array<Number, kMaxGears> rpm_per_mps{};    // [gear] engine speed over vehicle speed
+    std::array<Number, kMaxGears> mps_per_rpm{};    // [gear] inverse of rpm_per_mps
+    std::array<Number, kMaxGears> rotating_mass{};  // [gear] effective mass (with rotating parts) over mass
     std::array<Number, kMaxGears> lag_factor{};
 
     Number torque_nodes_per_rpm = 0.0;
     std::array<Number, kTorqueNodes> full_load_Nm{};
-    std::array<Number, kTorqueNodes> drag_Nm{};  // <= 0
+    std::array<Number, kTorqueNodes> drag_Nm{};  // drag torque, <= 0
     Number lag_nodes_per_rpm = 0.0;
     std::array<Number, kLagNodes> lag_unloaded_s{};  // time constant of the torque at no load
     std::array<Number, kLagNodes> lag_loaded_s{};    // time constant of the torque at full load
 };
 using PowertrainTables = PowertrainTablesOf<double>;
 
-// Compiles the settings. Throws InputError if they are unusable, such as without gears or with an empty curve.
+// Compiles the settings. Throws InputError if they are unusable, such as without gears or without full-load curve.
 PowertrainTables compile_powertrain(const PowertrainSettings& settings);
 
-// Returns the gear of a vehicle that cruises at this speed, 0 for first gear: the highest gear that keeps the engine
-// safely above the downshift speed.
+// Returns the gear of a vehicle that cruises at this speed: the highest gear that keeps the engine safely above the
+// downshift speed. 0 is the first gear.
 int cruising_gear(const PowertrainTables& tables, double speed_mps);
 
 // Returns the linear interpolation of a sampled curve, constant beyond its ends.

@@ -39,7 +39,8 @@ TEST(LagShare, HasAnErrorOfThirdOrder) {
             const double x = dt / tau;
             const double exact = -std::expm1(-x);
             EXPECT_NEAR(lag_share(dt, tau), exact, 1.01 * x * x * x / 12.0 + 1e-15) << tau << ' ' << dt;
-            EXPECT_GT(std::fabs(lag_share(dt, tau) - exact), 0.5 * x * x * x / 12.0) << "the error is smaller than the stated order";
+            EXPECT_GT(std::fabs(lag_share(dt, tau) - exact), 0.5 * x * x * x / 12.0)
+                << "the error is smaller than the stated order";
         }
     }
 }

@@ -1,6 +1,6 @@
-// Checks that every helper of simd.h and arithmetic.h gives the same bits for a Batch as for single numbers. One test file
-// for each batch width defines STOPLINE_BATCH_WIDTH and includes this file. The compiler splits batches that are wider than
-// the machine's registers; their bits must not differ either.
+// Checks that every helper of simd.h and arithmetic.h gives the same bits for a Batch as for single numbers. One test
+// file for each batch width defines STOPLINE_BATCH_WIDTH and includes this file. The compiler splits batches that are
+// wider than the machine's registers; their bits must not differ either.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,8 +12,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/simd/arithmetic.h"
 #include "base/random.h"
+#include "base/simd/arithmetic.h"
 
 namespace stopline {
 namespace {
@@ -55,8 +55,8 @@ void expect_same_bits(const char* expression, Function f) {
     }
 }
 
-// Checks an expression of two numbers a and b of type R. The lambda writes to a reference because a function that is not
-// inlined cannot return wide vectors.
+// Checks an expression of two numbers a and b of type R. The lambda writes to a reference because a function that is
+// not inlined cannot return wide vectors.
 #define STOPLINE_CHECK(text, ...) \
     expect_same_bits(             \
         text, []<class R>([[maybe_unused]] const R& a, [[maybe_unused]] const R& b, R& out) { out = __VA_ARGS__; })
@@ -103,7 +103,8 @@ void check_batch_tables() {
         for (std::size_t lane = 0; lane < kBatchWidth; ++lane) {
             const auto n = static_cast<std::size_t>(std::min(static_cast<double>(positions[lane]), kEntries - 1.0));
             EXPECT_EQ(found[lane], table[n]) << positions[lane];
-            EXPECT_EQ(bits(interpolated[lane]), bits(interpolate_on_grid(table, Single(positions[lane])))) << positions[lane];
+            EXPECT_EQ(bits(interpolated[lane]), bits(interpolate_on_grid(table, Single(positions[lane]))))
+                << positions[lane];
         }
     }
 }

@@ -1,4 +1,4 @@
-// Tests of Bitset: set bits are retain_multiples in ascending order and kept or cleared one by one, across word boundaries.
+// Tests of Bitset: set bits are visited in ascending order and kept or cleared one by one, across word boundaries.
 #include "base/containers/bitset.h"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ TEST(Bitset, FindsClearsAndVisitsByWord) {
     bits.resize(192);
     bits.set(3), bits.set(70), bits.set(71), bits.set(191);
     EXPECT_TRUE(bits.has(70));
-    EXPECT_FALSE(bits.has(6));  // the same bit of the word before
+    EXPECT_FALSE(bits.has(6));  // 70 is the same bit of the next word
     const std::vector<BitsetMask> numbers{{0, 1U << 4U}, {1, 1U << 6U}};
     EXPECT_TRUE(bits.has_any(numbers));  // contains 70
     EXPECT_FALSE(bits.has_any(std::span(numbers).first(1)));

@@ -40,7 +40,8 @@ TEST(Csv, RefusesMalformedTables) {
     EXPECT_TRUE(contains(error("a,b\n1,\"2\n3,4\n"), "t.csv:2: the quote that opens here is never closed"));
     EXPECT_TRUE(contains(error("a,b\n\"x\ny\",2\n1\n"), "t.csv:4:"));  // line breaks inside quotes count
     const CsvTable table = parse_csv("a,b\n", "t.csv");
-    EXPECT_TRUE(contains(input_error_of([&] { (void)table.column("c"); }), "no column 'c'; columns are a, b"));
+    EXPECT_TRUE(
+        contains(input_error_of([&] { (void)table.column("c"); }), "there is no column 'c'; the columns are a, b"));
 }
 
 TEST(Fixed, HasNoNegativeZeroAndNoNan) {

@@ -1,4 +1,4 @@
-// Tests of IndexBuffer: it lists the pushed indices in order. Leftovers of branchless writes past the end do not appear.
+// Tests of IndexBuffer: it lists the pushed indices in order, without leftovers of branchless writes past the end.
 #include "base/containers/index_buffer.h"
 
 #include <gtest/gtest.h>

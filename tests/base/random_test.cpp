@@ -1,4 +1,4 @@
-// Tests of keyed random numbers: uniform, independent along every part of the key, and equal at compile time and run time.
+// Tests of keyed random numbers: uniform, independent along each part of the key, equal at compile time and run time.
 #include "base/random.h"
 
 #include <gtest/gtest.h>
@@ -47,7 +47,8 @@ void expect_uniform(const std::vector<int>& counts, const char* subject) {
 }
 
 class RandomAlongKeyPart : public testing::TestWithParam<KeyPart> {};
-INSTANTIATE_TEST_SUITE_P(EveryPartOfTheKey, RandomAlongKeyPart, testing::Values(KeyPart::seed, KeyPart::vehicle, KeyPart::tick));
+INSTANTIATE_TEST_SUITE_P(EveryPartOfTheKey, RandomAlongKeyPart,
+                         testing::Values(KeyPart::seed, KeyPart::vehicle, KeyPart::tick));
 
 TEST_P(RandomAlongKeyPart, IsUniform) {
     std::vector<int> counts(256, 0);
@@ -89,7 +90,7 @@ TEST_P(RandomAlongKeyPart, EveryBitIsFair) {
         const auto n = static_cast<std::uint64_t>(k);
         const std::uint64_t bits = GetParam() == KeyPart::seed      ? random_bits(n, 3, 5, Purpose::turn)
                                    : GetParam() == KeyPart::vehicle ? random_bits(3, n, 5, Purpose::turn)
-                                                                  : random_bits(3, 5, n, Purpose::turn);
+                                                                    : random_bits(3, 5, n, Purpose::turn);
         for (std::size_t bit = 0; bit < 64; ++bit) ones[bit] += static_cast<int>(bits >> bit & 1U);
     }
     for (std::size_t bit = 0; bit < 64; ++bit) {

@@ -1,4 +1,4 @@
-// Pairing, agreement and the fit of step I.
+// Step I of the calibration: pairs of detector times, their agreement, and the fit.
 #include "calibration/calibration.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace stopline {
 namespace {
 
-TEST(PairUp, TakesTheKthWithTheKthAndCountsTheRest) {
+TEST(PairUp, PairsEqualIndicesAndCountsTheSurplus) {
     const PairedTimes paired = pair_up({{1.0, 2.0, 3.0}, {}, {5.0}}, {{1.5, 2.0}, {7.0}, {4.0}});
     ASSERT_EQ(paired.pairs.size(), 3u);
     EXPECT_DOUBLE_EQ(paired.pairs[0].difference_s(), 0.5);
@@ -23,10 +23,10 @@ TEST(PairUp, TakesTheKthWithTheKthAndCountsTheRest) {
     EXPECT_EQ(paired.unpaired, (std::map<int, int>{{0, 1}, {1, 1}}));
 }
 
-TEST(Agreement, CountsPairsWithinTheLimitAndInAnotherGreen) {
+TEST(Agreement, CountsPairsWithinTheLimitAndInDifferentGreens) {
     const PairedTimes paired = pair_up({{1.0, 2.0, 3.0, 50.0}}, {{1.2, 3.0, 4.5, 80.0, 90.0}});
-    const PermutationPairs one{&paired, 46.0};
-    const Agreement a = agreement({&one, 1}, 1.0);
+    const PermutationPairs permutation{&paired, 46.0};
+    const Agreement a = agreement({&permutation, 1}, 1.0);
     EXPECT_EQ(a.pairs, 4u);
     EXPECT_EQ(a.unpaired, 1u);
     EXPECT_DOUBLE_EQ(a.within_share, 2.0 / 5.0);
@@ -34,15 +34,15 @@ TEST(Agreement, CountsPairsWithinTheLimitAndInAnotherGreen) {
     EXPECT_DOUBLE_EQ(a.largest_s, 30.0);
 }
 
-TEST(FitLoss, IsZeroForTheSameAndNearlyOneForFarApart) {
+TEST(FitLoss, IsZeroForEqualTimesAndNearOneForDistantTimes) {
     EXPECT_DOUBLE_EQ(fit_loss(pair_up({{1.0, 2.0}}, {{1.0, 2.0}}), 1.0), 0.0);
     EXPECT_DOUBLE_EQ(fit_loss(pair_up({{1.0}}, {{2.0}}), 1.0), 0.5);
     EXPECT_DOUBLE_EQ(fit_loss(pair_up({{1.0}}, {{}}), 1.0), 1.0);
     EXPECT_GT(fit_loss(pair_up({{1.0}}, {{40.0}}), 1.0), 0.99);
 }
 
-// A single light in the mesoscale mode with known parameters stands for full dynamics.
-std::vector<FitCase> known_truth(const MesoSettings& truth) {
+// Returns cases whose reference comes from the mesoscale mode with known parameters instead of full dynamics.
+std::vector<FitCase> cases_with_known_parameters(const MesoSettings& truth) {
     std::vector<FitCase> cases;
     const Scenario scenario =
         load_scenario(STOPLINE_SOURCE_DIR "/scenarios/calibration.yaml", {"fidelity=meso", "demand.vehicles=8"});
@@ -62,12 +62,12 @@ FitOptions short_fit() {
     return options;
 }
 
-TEST(SlowFit, FindsItsWayToParametersThatMadeTheTimes) {
+TEST(SlowFit, RecoversKnownParameters) {
     const MesoSettings truth = load_meso("fitted");
     MesoSettings start = truth;
     start.constant_time.reaction_s += 0.2;
     start.constant_distance.acceleration_mps2 *= 0.8;
-    const std::vector<FitCase> cases = known_truth(truth);
+    const std::vector<FitCase> cases = cases_with_known_parameters(truth);
     FitOptions options = short_fit();
     options.evaluations_per_start = 200;
     const MesoFit fit = fit_meso(cases, start, options);
@@ -75,9 +75,9 @@ TEST(SlowFit, FindsItsWayToParametersThatMadeTheTimes) {
     EXPECT_NEAR(fit.settings.constant_time.reaction_s, truth.constant_time.reaction_s, 0.06);
 }
 
-// What a killed session has stored is not computed again, and the way is the same.
-TEST(SlowFit, GoesTheSameWayWithWhatIsKnown) {
-    const std::vector<FitCase> cases = known_truth(load_meso("fitted"));
+// A continued search does not repeat stored evaluations and follows the same path.
+TEST(SlowFit, ContinuesOnTheSamePathFromStoredEvaluations) {
+    const std::vector<FitCase> cases = cases_with_known_parameters(load_meso("fitted"));
     const MesoSettings start = load_meso("start");
     FitOptions options = short_fit();
     const MesoFit whole = fit_meso(cases, start, options);

@@ -1,4 +1,4 @@
-// Where a start outside the band of measured ones: also between the measured points.
+// Time intervals in which a simulated start leaves the band of measured starts.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -10,7 +10,7 @@
 namespace stopline {
 namespace {
 
-// Points every second, 2 m/s2, the band as wide as +-0.1 m/s more each second.
+// Returns a start with 2 m/s2 and one point a second. The band widens by 0.1 m/s on each side per second.
 StartupCurve curve() {
     StartupCurve curve;
     curve.time_s = {0.0, 1.0, 2.0, 3.0};
@@ -19,42 +19,43 @@ StartupCurve curve() {
     return curve;
 }
 
-StartupRun run_of(const std::vector<double>& times_s, const std::vector<double>& from_mean_mps) {
+// Returns a start with the given deviations from the mean speed.
+StartupRun run_of(const std::vector<double>& times_s, const std::vector<double>& deviations_mps) {
     StartupRun run;
     for (std::size_t k = 0; k < times_s.size(); ++k) {
         run.time_s.push_back(times_s[k]);
-        run.speed_mps.push_back(2.0 * times_s[k] + from_mean_mps[k]);
+        run.speed_mps.push_back(2.0 * times_s[k] + deviations_mps[k]);
         run.distance_m.push_back(0.0);
         run.gear.push_back(1);
     }
     return run;
 }
 
-TEST(Startup, ExitsBetweenMeasuredPointsAreFound) {
+TEST(Startup, FindsExitsBetweenMeasuredPoints) {
     const StartupRun run = run_of({0.0, 1.0, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0}, {0, 0, 0.12, 0.2, -0.3, 0, 0.24, 0});
     const std::vector<BandExit> exits = band_exits(curve(), run, true);
     ASSERT_EQ(exits.size(), 2u);
-    EXPECT_EQ(exits[0].from_s, 1.5);  // 0.12 at 1.25 s is within 0.125; the other side is an exit of its own
+    EXPECT_EQ(exits[0].from_s, 1.5);  // 0.12 at 1.25 s is within 0.125; each side has exits of its own
     EXPECT_EQ(exits[0].to_s, 1.5);
     EXPECT_NEAR(exits[0].largest_deviation_mps, 0.2, 1e-12);
     EXPECT_EQ(exits[1].from_s, 1.75);
     EXPECT_NEAR(exits[1].largest_deviation_mps, -0.3, 1e-12);
 }
 
-// The shipped start against startup_fine.csv: ahead of the mean until each of the first two gear changes.
-TEST(Startup, ReportSaysWhereAndWhyTheShippedStartLeavesTheBand) {
+// The simulated start is faster than the measured mean before each of the first two gear changes.
+TEST(Startup, ReportNamesTheExitsOfTheShippedStartAndTheirCauses) {
     const StartupReport report =
         report_startup(load_scenario(STOPLINE_SOURCE_DIR "/scenarios/single_light.yaml"),
                        load_startup_curve(STOPLINE_SOURCE_DIR "/data/startup/kit_curve_leader50.csv"));
     const std::string text = startup_text(report);
-    const std::string of_mean = text.substr(text.find("outside the 95 % interval"));
-    EXPECT_NE(of_mean.find("2.55 to  2.90 s, by +"), std::string::npos) << text;
-    EXPECT_NE(of_mean.find("ahead until gear change 1-2 at 2.80 s"), std::string::npos) << text;
-    EXPECT_NE(of_mean.find("7.15 to  7.20 s, by +"), std::string::npos) << text;
-    EXPECT_NE(of_mean.find("ahead until gear change 2-3 at 7.25 s"), std::string::npos) << text;
-    EXPECT_NE(of_mean.find("0.00 to  0.05 s, by +"), std::string::npos) << text;
-    EXPECT_NE(of_mean.find("0.15 to  0.85 s, by -"), std::string::npos) << text;
-    EXPECT_EQ(of_mean.find("3-4"), std::string::npos) << text;
+    const std::string mean_section = text.substr(text.find("outside the 95 % interval"));
+    EXPECT_NE(mean_section.find("2.55 to  2.90 s, by +"), std::string::npos) << text;
+    EXPECT_NE(mean_section.find("ahead until gear change 1-2 at 2.80 s"), std::string::npos) << text;
+    EXPECT_NE(mean_section.find("7.15 to  7.20 s, by +"), std::string::npos) << text;
+    EXPECT_NE(mean_section.find("ahead until gear change 2-3 at 7.25 s"), std::string::npos) << text;
+    EXPECT_NE(mean_section.find("0.00 to  0.05 s, by +"), std::string::npos) << text;
+    EXPECT_NE(mean_section.find("0.15 to  0.85 s, by -"), std::string::npos) << text;
+    EXPECT_EQ(mean_section.find("3-4"), std::string::npos) << text;
 }
 
 }  // namespace

@@ -1,16 +1,16 @@
 #!/bin/bash
-# stopline-run refuses bad input with exit code 2 and a message on standard error that names file, place and field; it
-# never crashes and never runs with something else than was asked for.
+# Tests that stopline-run refuses bad input with exit code 2 and a message on standard error with file, place and field.
+# It never crashes and never replaces a bad value by another one.
 set -u
 
 run="$STOPLINE_BIN/stopline-run"
-[ -x "$run" ] || { echo "no $run: skipped"; exit 77; }
+[ -x "$run" ] || { echo "skipped: there is no $run"; exit 77; }
 . "$STOPLINE_SOURCE/tests/tools/cli.sh"
 good="$STOPLINE_SOURCE/scenarios/first_steps.yaml"
 
-# refused WHAT PART... -- ARGUMENTS...: exit code 2, nothing on standard output, and each PART in the message.
+# refused CASE PART... -- ARGUMENT...: expects exit code 2, nothing on standard output, and each PART in the message
 refused() {
-    local what=$1
+    local case_name=$1
     shift
     local parts=()
     while [ "$1" != "--" ]; do
@@ -20,27 +20,27 @@ refused() {
     shift
     timeout 60 "$run" --output "$work/out" "$@" >"$work/stdout" 2>"$work/stderr"
     local code=$?
-    [ $code -eq 2 ] || fail "$what: exit code $code instead of 2"
-    [ -s "$work/stdout" ] && fail "$what: writes to standard output: $(head -c 200 "$work/stdout")"
-    [ -s "$work/stderr" ] || fail "$what: no message"
-    [ -e "$work/out" ] && fail "$what: leaves results behind"
+    [ $code -eq 2 ] || fail "$case_name: exit code $code instead of 2"
+    [ -s "$work/stdout" ] && fail "$case_name: standard output is not empty: $(head -c 200 "$work/stdout")"
+    [ -s "$work/stderr" ] || fail "$case_name: standard error is empty"
+    [ -e "$work/out" ] && fail "$case_name: results are left behind"
     local part
     for part in "${parts[@]}"; do
-        grep -qF -- "$part" "$work/stderr" || fail "$what: no '$part' in: $(head -c 500 "$work/stderr")"
+        grep -qF -- "$part" "$work/stderr" || fail "$case_name: '$part' is missing in: $(head -c 500 "$work/stderr")"
     done
 }
 
-# refused_text WHAT TEXT PART...: the same for a scenario file of that text.
+# refused_text CASE TEXT PART...: the same for a scenario file with this TEXT
 refused_text() {
-    local what=$1 text=$2
+    local case_name=$1 text=$2
     shift 2
     printf '%b' "$text" >"$work/bad.yaml"
-    refused "$what" "$@" -- "$work/bad.yaml"
+    refused "$case_name" "$@" -- "$work/bad.yaml"
 }
 
 refused_text "unknown field" 'stepp: 10 ms\n' "bad.yaml:1:1" "'stepp'" "did you mean 'step'"
 refused_text "duplicate key" 'seed: 1\nseed: 2\n' "bad.yaml:2:1" "'seed' appears twice"
-refused_text "no unit" 'signal:\n  green: 15\n' "bad.yaml:2:10" "'signal.green'" "'15' has no unit" "15 s"
+refused_text "missing unit" 'signal:\n  green: 15\n' "bad.yaml:2:10" "'signal.green'" "'15' has no unit" "15 s"
 refused_text "wrong unit" 'signal: {green: 15 m}\n' "'signal.green'" "a time is needed"
 refused_text "wrong type" 'signal: 15 s\n' "'signal'" "needs a map of fields"
 refused_text "negative length" 'network: {approach: {length: -700 m}}\n' "'network.approach.length'" "out of range"
@@ -55,9 +55,9 @@ refused_text "broken YAML" 'signal: [15 s\n' "bad.yaml" "not valid YAML"
 refused_text "endless anchor" 'title: &a [*a]\n' "inside its own anchor"
 refused_text "NUL byte" 'title: a\0b\n' "bad.yaml:1:9" "0x00"
 refused_text "broken UTF-8" 'title: \xc3\x28\n' "bad.yaml:1:8" "0xC3"
-refused_text "no queue fits" 'network: {approach: {length: 50 m}}\n' "'network.approach.length'" "a queue of 60 vehicles"
+refused_text "approach too short for the queue" 'network: {approach: {length: 50 m}}\n' "'network.approach.length'" "a queue of 60 vehicles"
 
-refused_text "name of the folder above" 'populations: [{name: .., components: [{policy: CDG, share: 100 %}]}]\n' \
+refused_text "name of the parent folder" 'populations: [{name: .., components: [{policy: CDG, share: 100 %}]}]\n' \
     "'populations[0].name'" "'..' cannot be used as a name"
 
 laughs='a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n'
@@ -73,7 +73,7 @@ refused "100 MB of garbage" "garbage.yaml" "100.0 MB" -- "$work/garbage.yaml"
 head -c 1000000 "$work/garbage.yaml" >"$work/small_garbage.yaml"
 refused "1 MB of garbage" "small_garbage.yaml" -- "$work/small_garbage.yaml"
 
-refused "shorter than a cycle" "'duration'" "no whole cycle" -- \
+refused "duration shorter than a cycle" "'duration'" "no whole cycle" -- \
     "$STOPLINE_SOURCE/scenarios/intersection.yaml" --set 'duration=10 s'
 
 refused "directory" "is a directory" -- "$work"
@@ -92,5 +92,5 @@ refused "override of a missing entry" "no entry [7]" -- "$good" --set 'populatio
 refused "no file" "" --
 refused "unknown option" "" -- "$good" --no-such-option
 
-[ $failures -eq 0 ] && echo "all refused as they should be"
+[ $failures -eq 0 ] && echo "all bad input was refused"
 [ $failures -eq 0 ]

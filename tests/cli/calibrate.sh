@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # ctest-labels: slow
-# stopline-calibrate: both steps on small sweeps; killed and started again it ends with the same files; bad input is refused.
+# Tests stopline-calibrate: both steps on small sweeps, equal files after a kill and a restart, and refusal of bad
+# input.
 set -u
 
 . "$STOPLINE_SOURCE/tests/tools/cli.sh"
@@ -21,7 +22,7 @@ axes:
 repetitions: 3
 YAML
 
-# fit FOLDER [OPTION...]: step I
+# fit FOLDER [OPTION...]: runs step I
 fit() {
     local folder=$1
     shift
@@ -29,16 +30,16 @@ fit() {
 }
 
 fit "$work/whole" >"$work/stdout" 2>"$work/stderr" || fail "exit code $?: $(cat "$work/stderr")"
-grep -q "held out" "$work/stdout" || fail "no held-out permutations in: $(cat "$work/stdout")"
+grep -q "held out" "$work/stdout" || fail "held-out permutations are missing in: $(cat "$work/stdout")"
 for file in fitted.yaml permutations.csv differences.csv misses.csv fit_history.csv; do
-    [ -s "$work/whole/$file" ] || fail "no $file"
+    [ -s "$work/whole/$file" ] || fail "$file is missing or empty"
 done
 
 for file in permutations differences misses fit_history; do
     expect_documented "$work/whole/$file.csv" "calibrate/$file.csv"
 done
 
-# Killed in the middle of the fit.
+# A kill in the middle of the fit.
 "$program" "$work/timing.yaml" --step I --starts 1 --evaluations-apart 30 --evaluations 30 --output "$work/killed" \
     >/dev/null 2>&1 &
 pid=$!
@@ -48,24 +49,24 @@ kill -KILL $pid 2>/dev/null
 wait $pid 2>/dev/null
 fit "$work/killed" --threads 1 >/dev/null 2>"$work/stderr" || fail "after a kill: exit code $?: $(cat "$work/stderr")"
 for file in fitted.yaml permutations.csv differences.csv misses.csv fit_history.csv; do
-    cmp "$work/whole/$file" "$work/killed/$file" || fail "after a kill: another $file"
+    cmp "$work/whole/$file" "$work/killed/$file" || fail "after a kill: $file differs"
 done
 
-# Step II, with the parameters just found.
+# Step II with the parameters of the fit.
 "$program" --step II --metrics-sweep "$work/metrics.yaml" --parameters "$work/whole/fitted.yaml" --output "$work/two" \
     >"$work/stdout" 2>"$work/stderr" || fail "step II: exit code $?: $(cat "$work/stderr")"
-grep -q "throughput_veh_h" "$work/stdout" || fail "no bands in: $(cat "$work/stdout")"
+grep -q "throughput_veh_h" "$work/stdout" || fail "no metric bands in: $(cat "$work/stdout")"
 expect_documented "$work/two/bands_calibrated.csv" calibrate/bands_NAME.csv
-[ "$(wc -l <"$work/two/bands_calibrated.csv")" -eq 7 ] || fail "not 2 permutations and 3 metrics"
+[ "$(wc -l <"$work/two/bands_calibrated.csv")" -eq 7 ] || fail "bands_calibrated.csv has not 6 rows, for 2 permutations and 3 metrics"
 
-# refused PART OPTION...: exit code 2, PART in the message
+# refused PART OPTION...: expects exit code 2 and PART in the message
 refused() {
     local part=$1 code=0
     shift
     rm -rf "$work/bad"
     "$program" --output "$work/bad" "$@" >"$work/stdout" 2>"$work/stderr" || code=$?
     [ $code -eq 2 ] || fail "$*: exit code $code instead of 2"
-    grep -qF -- "$part" "$work/stderr" || fail "$*: no '$part' in: $(cat "$work/stderr")"
+    grep -qF -- "$part" "$work/stderr" || fail "$*: '$part' is missing in: $(cat "$work/stderr")"
 }
 refused "nonsense" "$work/timing.yaml" --step I --start nonsense
 refused "accepted" "$work/timing.yaml" --step I --accepted "$work/timing.yaml"

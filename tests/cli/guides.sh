@@ -8,13 +8,18 @@ set -u
 
 guides=(README.md scenarios/README.md scenarios/SWEEPS.md scenarios/SUMO.md core/README.md tests/README.md data/README.md)
 
+# can_run PROGRAM: PROGRAM is installed, and for mpirun the programs are built with MPI
+can_run() {
+    command -v "$1" >/dev/null && { [ "$1" != mpirun ] || ldd "$STOPLINE_BIN/stopline-sweep" | grep -q libmpi; }
+}
+
 # run_guide GUIDE: runs its blocks, in order, in a folder that looks like the project after the build
 run_guide() {
     local guide=$1 folder="$work/run/$1" blocks="$work/blocks/$1" block
     [ -s "$STOPLINE_SOURCE/$guide" ] || { fail "$guide is missing"; return; }
-    mkdir -p "$folder/build/release" "$folder/out" "$blocks"
+    mkdir -p "$folder/build/release" "$blocks"
     cp -r "$STOPLINE_SOURCE/scenarios" "$STOPLINE_SOURCE/data" "$folder"
-    ln -s "$STOPLINE_SOURCE/tests" "$folder/tests"
+    ln -s "$STOPLINE_SOURCE"/{core,apps,tests} "$folder"
     ln -s "$STOPLINE_BIN" "$folder/build/release/bin"
     if ! python3 "$STOPLINE_SOURCE/tests/tools/guide_blocks.py" "$STOPLINE_SOURCE/$guide" "$folder" "$blocks" >"$work/list"; then
         fail "$guide: its blocks cannot be read"
@@ -22,8 +27,8 @@ run_guide() {
     fi
     [ -s "$work/list" ] || fail "$guide has no tested block"
     while read -r block line needed; do
-        if [ -n "$needed" ] && ! command -v "$needed" >/dev/null; then
-            echo "$guide:$line: skipped, because there is no program '$needed'"
+        if [ -n "$needed" ] && ! can_run "$needed"; then
+            echo "$guide:$line: skipped, because '$needed' is missing"
             continue
         fi
         (cd "$folder" && PATH="$PWD/build/release/bin:$PATH" bash -eu -o pipefail "$block") >"$work/output" 2>&1 </dev/null ||

@@ -1,19 +1,19 @@
 #!/usr/bin/env bash
-# --old-column-names writes tables with the names of the last release, and warns. The numbers are the same.
+# Tests --old-column-names: it writes tables with the names of the last release and warns. The numbers are the same.
 set -u
 
 . "$STOPLINE_SOURCE/tests/tools/cli.sh"
 warning="warning: --old-column-names: the next release removes this option"
 
-# header FILE TEXT: the first line of the file contains the text
+# header FILE TEXT: expects TEXT in the first line of FILE
 header() {
     head -n 1 "$work/$1" | grep -qF -- "$2" || fail "$1 begins with: $(head -n 1 "$work/$1" 2>&1)"
 }
 
-# same_numbers FILE OLD_FILE: all but the first line, and all numbers, are the same
+# same_numbers FILE OLD_FILE: expects the same numbers in all lines but the first
 same_numbers() {
     cmp <(tail -n +2 "$work/$1" | grep -oE '[0-9][0-9.]*') <(tail -n +2 "$work/$2" | grep -oE '[0-9][0-9.]*') ||
-        fail "$1 and $2 have other numbers"
+        fail "$1 and $2 have different numbers"
 }
 
 run=("$STOPLINE_BIN/stopline-run" "$STOPLINE_SOURCE/scenarios/grid.yaml" --no-figures --set 'populations=[CDG]'
@@ -33,9 +33,9 @@ header new/trajectories.csv "population,time_s,vehicle,policy,lane,position_m,x_
 for file in summary series gridlocks rules trajectories; do same_numbers "new/$file.csv" "old/$file.csv"; done
 same_numbers new/delays.csv old/hindrance.csv
 same_numbers new/origin_destination.csv old/ways.csv
-grep -qF '"hindrance.csv"' "$work/old/grid.provenance.json" || fail "the provenance lacks hindrance.csv"
-grep -qF -- "--old-column-names" "$work/old/grid.provenance.json" || fail "the command of the provenance lacks the option"
-[ -e "$work/old/delays.csv" ] && fail "a file has the new name"
+grep -qF '"hindrance.csv"' "$work/old/grid.provenance.json" || fail "the provenance does not list hindrance.csv"
+grep -qF -- "--old-column-names" "$work/old/grid.provenance.json" || fail "the command in the provenance lacks the option"
+[ -e "$work/old/delays.csv" ] && fail "delays.csv exists besides hindrance.csv"
 
 cat >"$work/light.yaml" <<END
 scenario: $STOPLINE_SOURCE/scenarios/first_steps.yaml

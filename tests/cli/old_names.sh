@@ -1,17 +1,17 @@
 #!/usr/bin/env bash
-# Old names of fields still work. Each gives one warning on standard error, with its place and the new name.
+# Tests that old names of fields still work. Each gives one warning on standard error, with its place and the new name.
 set -u
 
 . "$STOPLINE_SOURCE/tests/tools/cli.sh"
 
-# warns PLACE COMMAND...: exit code 0, and exactly one line on standard error: a warning that begins with PLACE
+# warns PLACE COMMAND...: expects exit code 0 and one line on standard error, a warning that begins with PLACE
 warns() {
     local place=$1
     shift
     "$@" >"$work/stdout" 2>"$work/stderr" || fail "$*: exit code $?: $(cat "$work/stderr")"
-    [ "$(wc -l <"$work/stderr")" -eq 1 ] || fail "$*: not one line: $(cat "$work/stderr")"
+    [ "$(wc -l <"$work/stderr")" -eq 1 ] || fail "$*: standard error has not one line: $(cat "$work/stderr")"
     local expected="warning: $place: field 'measure.steady' is now called 'measure.window'; the old name will be removed"
-    grep -qF -- "$expected" "$work/stderr" || fail "$*: no '$expected' in: $(cat "$work/stderr")"
+    grep -qF -- "$expected" "$work/stderr" || fail "$*: '$expected' is missing in: $(cat "$work/stderr")"
 }
 
 printf 'title: old\nmeasure: {steady: 300 s}\n' >"$work/old.yaml"

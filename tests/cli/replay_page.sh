@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # ctest-labels: slow
-# The page of stopline-replay in a headless browser; skipped where there is none.
+# Tests the page of stopline-replay in a headless browser. Skipped if there is none.
 set -u
 
 . "$STOPLINE_SOURCE/tests/tools/cli.sh"

@@ -1,39 +1,39 @@
 #!/usr/bin/env bash
-# Holds scenarios/COLUMNS.md, `stopline-run --describe-columns` and the result tables together: the page is the output of the
-# program, every column of a table has a description, and every described column is in some table.
+# Tests that scenarios/COLUMNS.md, `stopline-run --describe-columns` and the result tables agree. The page is the output
+# of the program, every column of a table has a description, and every described column appears in a table.
 set -u
 
 . "$STOPLINE_SOURCE/tests/tools/cli.sh"
 
 "$STOPLINE_BIN/stopline-run" --describe-columns >"$work/page" || fail "--describe-columns: exit code $?"
 cmp "$work/page" "$STOPLINE_SOURCE/scenarios/COLUMNS.md" ||
-    fail "scenarios/COLUMNS.md is old; write it with: stopline-run --describe-columns >scenarios/COLUMNS.md"
+    fail "scenarios/COLUMNS.md is out of date; write it with: stopline-run --describe-columns >scenarios/COLUMNS.md"
 
-# check FILE TABLE [AXIS...]: as expect_documented; keeps the columns for check_complete
+# check FILE TABLE [AXIS...]: calls expect_documented and stores the columns for check_complete
 check() {
     expect_documented "$@"
-    [ -s "$1" ] && head -n 1 "$1" | tr ',' '\n' >>"$work/seen.${2//\//.}"
+    [ -s "$1" ] && head -n 1 "$1" | tr ',' '\n' >>"$work/columns_of.${2//\//.}"
 }
 
-# check_complete TABLE: every described column without CAPITALS was in one of the checked files
+# check_complete TABLE: expects every described column without CAPITALS in one of the checked files
 check_complete() {
     local column
     while read -r column; do
-        grep -qxF -- "$column" "$work/seen.${1//\//.}" || fail "$1: no file has the described column '$column'"
+        grep -qxF -- "$column" "$work/columns_of.${1//\//.}" || fail "$1: no file has the column '$column'"
     done < <(columns_of "$1" | grep -v '[A-Z]')
 }
 
-# check_all FOLDER GROUP COUNT: each table in the folder, at least COUNT of them
+# check_all FOLDER GROUP COUNT: checks each table in FOLDER, and expects at least COUNT tables
 check_all() {
     local file tables=0
     for file in "$work/$1"/*.csv; do
         check "$file" "$2/$(basename "$file")"
         tables=$((tables + 1))
     done
-    [ $tables -ge "$3" ] || fail "$1: $tables tables instead of $3 or more"
+    [ $tables -ge "$3" ] || fail "$1: $tables tables instead of at least $3"
 }
 
-# run FOLDER SCENARIO [OPTION...]
+# run FOLDER SCENARIO [OPTION...]: runs a scenario with results in FOLDER
 run() {
     local folder=$1 scenario=$2
     shift 2
@@ -59,11 +59,10 @@ run intersection "$STOPLINE_SOURCE/scenarios/intersection.yaml" "${brief[@]}" --
 check_all intersection intersection 3
 run light "$STOPLINE_SOURCE/scenarios/first_steps.yaml" "${brief[@]}"
 check_all light single_light 4
-for table in $(grep -oE '^## (network|intersection|single_light)/.*' "$work/page" | cut -c4-); do
-    check_complete "$table"
-done
+while read -r table; do check_complete "$table"; done < \
+    <(grep -oE '^## (network|intersection|single_light)/.*' "$work/page" | cut -c4-)
 
-# sweep NAME SCENARIO [OPTION...]: over entry speeds, with two seeds
+# sweep NAME SCENARIO [OPTION...]: runs a sweep over entry speeds with two seeds and checks its tables
 sweep() {
     local name=$1 scenario=$2
     shift 2
@@ -96,7 +95,7 @@ expect_documented "$work/extra.csv" network/delays.csv >"$work/stdout"
 if [ $failures -eq $((before + 1)) ]; then
     failures=$before
 else
-    fail "a column without a description is not found"
+    fail "the check accepts a column without a description"
 fi
 
 exit $((failures > 0))

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Ctrl-C ends any long work with exit code 130 and leaves no file; progress is a bar on a terminal and silent for short work.
+# Tests that Ctrl-C ends long work with exit code 130 and leaves no file. Progress is a bar on a terminal, and short
+# work shows none.
 set -u
 
 . "$STOPLINE_SOURCE/tests/tools/cli.sh"
@@ -9,17 +10,19 @@ endless=(--set "duration=1000000 s" --no-figures --threads 2)
 
 code=0
 timeout --signal=INT 2 "$run" "$scenario" "${endless[@]}" --output "$work/out" >"$work/stdout" 2>"$work/stderr" || code=$?
-# timeout itself ends with 124; --preserve-status would give the program's code, which is what counts here.
-[ $code -eq 124 ] || fail "did not run until the signal: exit code $code"
+# Here timeout returns 124 if it had to send the signal. The next call uses --preserve-status and returns the program's
+# code.
+[ $code -eq 124 ] || fail "the run ended before the signal: exit code $code"
 code=0
 timeout --preserve-status --signal=INT 2 "$run" "$scenario" "${endless[@]}" --output "$work/out" \
     >"$work/stdout" 2>"$work/stderr" || code=$?
 [ $code -eq 130 ] || fail "exit code $code instead of 130"
-grep -q "interrupted" "$work/stderr" || fail "no word of the interrupt: $(cat "$work/stderr")"
-[ -s "$work/stdout" ] && fail "results of runs that did not end: $(head -n 3 "$work/stdout")"
+grep -q "interrupted" "$work/stderr" || fail "the interrupt is not reported: $(cat "$work/stderr")"
+[ -s "$work/stdout" ] && fail "results of unfinished runs are printed: $(head -n 3 "$work/stdout")"
 [ -z "$(find "$work/out" -type f)" ] || fail "files are left: $(ls -A "$work/out")"
 
-# interrupted SECONDS PROGRAM [OPTION...]: exit code 130, no file and nothing on standard output
+# interrupted SECONDS PROGRAM [OPTION...]: interrupts a program; expects exit code 130, no file, and nothing on standard
+# output
 interrupted() {
     local seconds=$1 program=$2
     shift 2
@@ -28,7 +31,7 @@ interrupted() {
     timeout --preserve-status --signal=INT "$seconds" "$STOPLINE_BIN/$program" "$@" --output "$work/stopped" \
         >"$work/stdout" 2>"$work/stderr" || code=$?
     [ $code -eq 130 ] || fail "$program $*: exit code $code instead of 130: $(cat "$work/stderr")"
-    [ -s "$work/stdout" ] && fail "$program $*: results: $(head -n 3 "$work/stdout")"
+    [ -s "$work/stdout" ] && fail "$program $*: standard output is not empty: $(head -n 3 "$work/stdout")"
     [ -z "$(find "$work" -path "$work/stopped/*" -type f)" ] || fail "$program $*: files are left: $(ls -R "$work/stopped")"
 }
 interrupted 1 stopline-scorecard --section IV

@@ -1,26 +1,28 @@
 #!/usr/bin/env bash
-# What stopline-run writes: whole files with units in their headers, or a message with path and reason and exit code 2.
+# Tests the output of stopline-run: complete files with units in their headers, or exit code 2 and a message with path
+# and reason.
 set -u
 
 . "$STOPLINE_SOURCE/tests/tools/cli.sh"
 run="$STOPLINE_BIN/stopline-run"
 scenario="$STOPLINE_SOURCE/scenarios/first_steps.yaml"
 
-# cannot_write REASON FOLDER [OPTION...]
+# cannot_write REASON FOLDER [OPTION...]: expects exit code 2 and a message with REASON and FOLDER
 cannot_write() {
     local reason=$1 folder=$2
     shift 2
     local code=0
     "$run" "$scenario" --no-figures --output "$folder" "$@" >"$work/stdout" 2>"$work/stderr" || code=$?
     [ $code -eq 2 ] || fail "output $folder: exit code $code instead of 2"
-    grep -qF -- "$folder" "$work/stderr" || fail "output $folder: not named in: $(cat "$work/stderr")"
-    grep -qF -- "$reason" "$work/stderr" || fail "output $folder: no '$reason' in: $(cat "$work/stderr")"
+    grep -qF -- "$folder" "$work/stderr" || fail "output $folder: the folder is not named in: $(cat "$work/stderr")"
+    grep -qF -- "$reason" "$work/stderr" || fail "output $folder: '$reason' is missing in: $(cat "$work/stderr")"
 }
 
 "$run" "$scenario" --output "$work/out" --trajectories --interval "0.5 s" >"$work/table" || fail "exit code $?"
 for part in "Vehicles passed" "improvement over CTG-Ref" "headway" "No overlaps" "Next:"; do
-    grep -qF "$part" "$work/table" || fail "no '$part' in the report"
+    grep -qF "$part" "$work/table" || fail "'$part' is missing in the report"
 done
+# expect_header FILE HEADER: expects HEADER as the first line of FILE
 expect_header() {
     [ "$(head -n 1 "$work/out/$1")" = "$2" ] || fail "$1 begins with: $(head -n 1 "$work/out/$1")"
 }
@@ -33,25 +35,26 @@ expect_header trajectories.csv \
     fail "intersection: exit code $?"
 [ "$(head -n 1 "$work/crossing/trajectories.csv")" = "population,time_s,vehicle,policy,lane,position_m,x_m,y_m,speed_mps,\
 acceleration_mps2,request_mps2,net_gap_m,gear" ] || fail "intersection: $(head -n 1 "$work/crossing/trajectories.csv")"
-[ "$(wc -l <"$work/crossing/trajectories.csv")" -gt 5000 ] || fail "intersection: few rows of trajectories"
-head -n 1 "$work/out/summary.csv" | grep -q "steady_headway_s,policy_headway_s" || fail "summary.csv has no headways"
+[ "$(wc -l <"$work/crossing/trajectories.csv")" -gt 5000 ] || fail "intersection: trajectories.csv has too few rows"
+head -n 1 "$work/out/summary.csv" | grep -q "steady_headway_s,policy_headway_s" || fail "summary.csv has no headway columns"
 provenance="$work/out/first_steps.provenance.json"
 for part in '"scenario_hash"' '"version"' '"seed": 1' '"command"' '"state_hashes"' 'vehicles: 10' 'trajectories.csv' \
     "--trajectories --interval '0.5 s'"; do
-    grep -qF -- "$part" "$provenance" || fail "no $part in the provenance"
+    grep -qF -- "$part" "$provenance" || fail "'$part' is missing in the provenance"
 done
 if command -v gnuplot >"$work/stdout"; then
     for figure in counters improvement time_space platoon; do
         for type in svg png; do
-            [ -s "$work/out/$figure.$type" ] || fail "no figure $figure.$type"
+            [ -s "$work/out/$figure.$type" ] || fail "$figure.$type is missing or empty"
         done
     done
 fi
 (PATH=/nonexistent "$run" "$scenario" --output "$work/plain" >"$work/table") || fail "without gnuplot: exit code $?"
-grep -qF "gnuplot is not installed" "$work/table" || fail "without gnuplot: no message"
-[ -e "$work/plain/counters.svg" ] && fail "a figure without gnuplot"
+grep -qF "gnuplot is not installed" "$work/table" || fail "without gnuplot: the report does not say so"
+[ -e "$work/plain/counters.svg" ] && fail "without gnuplot: there is a figure"
 
-# Vehicles inside keep each other there: counted, exit code 1. Of a run too short for it a figure is left out.
+# Vehicles collide inside the junction: violations give exit code 1. A figure is left out if the run is too short for
+# it. briefly OPTION...: runs the intersection with a short green and without yellow and all red
 briefly() {
     code=0
     "$run" "$STOPLINE_SOURCE/scenarios/intersection.yaml" --set demand.left="30 %" --set signal.green="5 s" \
@@ -63,17 +66,17 @@ briefly --set network.intersection.clearance="5 m" --set network.intersection.la
 [ $code -eq 1 ] || fail "violations: exit code $code instead of 1: $(cat "$work/stderr")"
 grep -q "^VIOLATIONS in" "$work/table" || fail "violations are not reported"
 briefly --set signal.green="1 s" --set measure.cycles=1 --output "$work/brief"
-[ $code -eq 0 ] || fail "a green of a second: exit code $code: $(cat "$work/stderr")"
-[ -e "$work/brief/headways.svg" ] && fail "a figure without data"
+[ $code -eq 0 ] || fail "green of 1 s: exit code $code: $(cat "$work/stderr")"
+[ -e "$work/brief/headways.svg" ] && fail "there is a figure without data"
 
-# So it is of a network; the others are drawn.
+# A short run of a network: one figure is left out, the others are drawn.
 code=0
 "$run" "$STOPLINE_SOURCE/scenarios/arterial.yaml" --set duration="30 s" --set measure.window="10 s" \
     --set measure.time_space="0.5 s" --output "$work/arterial" >"$work/table" 2>"$work/stderr" || code=$?
-[ $code -eq 0 ] || fail "a short run of a network: exit code $code: $(cat "$work/stderr")"
+[ $code -eq 0 ] || fail "short run of a network: exit code $code: $(cat "$work/stderr")"
 if command -v gnuplot >"$work/stdout"; then
-    grep -q "no figure series: .* no whole interval of 60 s" "$work/table" || fail "no word on the figure that is left out"
-    [ -s "$work/arterial/delay_causes.svg" ] || fail "a figure is missing beside one that is left out"
+    grep -q "no figure series: .* no whole interval of 60 s" "$work/table" || fail "the omitted figure is not reported"
+    [ -s "$work/arterial/delay_causes.svg" ] || fail "delay_causes.svg is missing"
 fi
 
 touch "$work/file"
@@ -92,7 +95,7 @@ if [ -e /dev/full ]; then
     code=0
     "$run" "$scenario" --no-figures --output "$work/to_full" >/dev/full 2>"$work/stderr" || code=$?
     [ $code -eq 2 ] || fail "standard output on a full disk: exit code $code"
-    grep -q "standard output" "$work/stderr" || fail "standard output on a full disk: no message"
+    grep -q "standard output" "$work/stderr" || fail "standard output on a full disk: the error is not reported"
     for long_text in --schema --describe; do
         code=0
         "$run" $long_text >/dev/full 2>"$work/stderr" || code=$?
@@ -102,15 +105,15 @@ if [ -e /dev/full ]; then
     done
 fi
 
-# A limit on the size of files stands for a disk that fills up on the way: 8 blocks of 1024 bytes are less than the path of
-# every vehicle needs.
+# A file size limit stands in for a disk that becomes full during the run. 8 blocks of 1024 bytes are less than the
+# trajectories need.
 mkdir "$work/small"
 (
     ulimit -f 8
     cannot_write "File too large" "$work/small" --trajectories
     exit $((failures > 0))
 ) || failures=$((failures + 1))
-[ -e "$work/small/trajectories.csv" ] && fail "half a file of trajectories"
+[ -e "$work/small/trajectories.csv" ] && fail "an incomplete trajectories.csv is left"
 [ -z "$(find "$work/small" -name '*.part')" ] || fail "temporary files are left: $(ls -A "$work/small")"
 
 exit $((failures > 0))

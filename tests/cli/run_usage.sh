@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Every program explains itself, and refuses wrong usage with exit code 2 and a message.
+# Tests the help of every program, and that wrong usage gives exit code 2 and a message.
 set -u
 
 . "$STOPLINE_SOURCE/tests/tools/cli.sh"
 scenario="$STOPLINE_SOURCE/scenarios/first_steps.yaml"
 
-# says PART... -- COMMAND...: exit code 0, nothing on standard error, each PART on standard output
-says() {
+# prints PART... -- COMMAND...: expects exit code 0, nothing on standard error, and each PART on standard output
+prints() {
     local parts=()
     while [ "$1" != "--" ]; do
         parts+=("$1")
@@ -14,30 +14,30 @@ says() {
     done
     shift
     "$@" >"$work/stdout" 2>"$work/stderr" || fail "$*: exit code $?"
-    [ -s "$work/stderr" ] && fail "$*: writes to standard error: $(head -c 300 "$work/stderr")"
+    [ -s "$work/stderr" ] && fail "$*: standard error is not empty: $(head -c 300 "$work/stderr")"
     local part
     for part in "${parts[@]}"; do
-        grep -qF -- "$part" "$work/stdout" || fail "$*: no '$part' in its output"
+        grep -qF -- "$part" "$work/stdout" || fail "$*: '$part' is missing in the output"
     done
 }
 
-# refuses PART -- COMMAND...: exit code 2, nothing on standard output, PART in the message
+# refuses PART -- COMMAND...: expects exit code 2, nothing on standard output, and PART in the message
 refuses() {
     local part=$1
     shift 2
     local code=0
     (cd "$work" && exec "$@") >"$work/stdout" 2>"$work/stderr" || code=$?
     [ $code -eq 2 ] || fail "$*: exit code $code instead of 2"
-    [ -s "$work/stdout" ] && fail "$*: writes to standard output"
-    grep -qF -- "$part" "$work/stderr" || fail "$*: no '$part' in: $(head -c 300 "$work/stderr")"
+    [ -s "$work/stdout" ] && fail "$*: standard output is not empty"
+    grep -qF -- "$part" "$work/stderr" || fail "$*: '$part' is missing in: $(head -c 300 "$work/stderr")"
 }
 
 run="$STOPLINE_BIN/stopline-run"
 scorecard="$STOPLINE_BIN/stopline-scorecard"
 
 for program in "$run" "$scorecard" "$STOPLINE_BIN/stopline-calibrate"; do
-    says "--help" "--version" "--threads" "--seed" "--output" "Examples:" "Exit codes: 0 done, 1 " -- "$program" --help
-    says "stopline 0." -- "$program" --version
+    prints "--help" "--version" "--threads" "--seed" "--output" "Examples:" "Exit codes: 0 done, 1 " -- "$program" --help
+    prints "stopline 0." -- "$program" --version
     refuses "--nonsense" -- "$program" --nonsense
     refuses "--threads" -- "$program" --threads 0
     refuses "--threads" -- "$program" --threads two
@@ -46,15 +46,15 @@ for program in "$run" "$scorecard" "$STOPLINE_BIN/stopline-calibrate"; do
     refuses "--seed" -- "$program" --seed 99999999999999999999999
 done
 
-says "signal.green" "km/h" -- "$run" --describe
-says "CDG-6m" "constant_time" "petrol_eu4_72kw" "startup_kit" "three_lanes" -- "$run" --list
-says "Populations of $scenario" "100 % CTG-Ref" -- "$run" --list "$scenario"
-says "draft-07" -- "$run" --schema
-python3 -c 'import json, sys; json.load(open(sys.argv[1]))' "$work/stdout" || fail "--schema is no JSON"
+prints "signal.green" "km/h" -- "$run" --describe
+prints "CDG-6m" "constant_time" "petrol_eu4_72kw" "startup_kit" "three_lanes" -- "$run" --list
+prints "Populations of $scenario" "100 % CTG-Ref" -- "$run" --list "$scenario"
+prints "draft-07" -- "$run" --schema
+python3 -c 'import json, sys; json.load(open(sys.argv[1]))' "$work/stdout" || fail "the output of --schema is not JSON"
 
 benchmark="$STOPLINE_BIN/stopline-benchmark"
-says "--help" "--version" "Examples:" "Exit codes: 0 done, 1 " -- "$benchmark" --help
-says "stopline 0." -- "$benchmark" --version
+prints "--help" "--version" "Examples:" "Exit codes: 0 done, 1 " -- "$benchmark" --help
+prints "stopline 0." -- "$benchmark" --version
 refuses "--nonsense" -- "$benchmark" --nonsense
 refuses "--benchmark_nonsense" -- "$benchmark" --benchmark_nonsense=1
 refuses "no benchmark matches" -- "$benchmark" --benchmark_filter=nonsense
@@ -64,17 +64,18 @@ if [ -e /dev/full ]; then
     [ $code -eq 2 ] || fail "stopline-benchmark on a full disk: exit code $code"
 fi
 
-# examples_exist FOLDER COMMAND: run in FOLDER, the help of COMMAND names programs and scenarios that exist from there.
+# examples_exist FOLDER COMMAND: runs COMMAND --help in FOLDER and expects its example programs and scenarios to exist
+# there
 examples_exist() {
     local folder=$1 command=$2 word
     (cd "$folder" && "$command" --help) | grep -E '^  (mpirun -n [0-9]+ )?([^ ]*/)?stopline-[a-z]+( |$)' |
         tr ' ' '\n' >"$work/words"
-    grep -qE '(^|/)stopline-[a-z]+$' "$work/words" || fail "$command: no command in its examples"
+    grep -qE '(^|/)stopline-[a-z]+$' "$work/words" || fail "$command: the examples contain no program"
     while read -r word; do
-        (cd "$folder" && command -v "$word") >"$work/stdout" || fail "$command in $folder: cannot run '$word' of its help"
+        (cd "$folder" && command -v "$word") >"$work/stdout" || fail "$command in $folder: the program '$word' of the help does not exist"
     done < <(grep -E '(^|/)stopline-[a-z]+$' "$work/words")
     while read -r word; do
-        [ -f "$folder/$word" ] || [ -f "$word" ] || fail "$command in $folder: no file '$word' of its help"
+        [ -f "$folder/$word" ] || [ -f "$word" ] || fail "$command in $folder: the file '$word' of the help does not exist"
     done < <(grep -E '^(/.*/)?scenarios/.*\.yaml$' "$work/words")
 }
 for program in "$STOPLINE_BIN"/stopline-*; do
@@ -83,8 +84,8 @@ for program in "$STOPLINE_BIN"/stopline-*; do
     examples_exist "$STOPLINE_BIN" "./$(basename "$program")"
 done
 PATH="$STOPLINE_BIN:$PATH" examples_exist "$work" stopline-run
-grep -qx "stopline-run" "$work/words" || fail "the help has a path though the program is on the PATH"
-says "  ./stopline-run " -- env -C "$STOPLINE_BIN" ./stopline-run --help
+grep -qx "stopline-run" "$work/words" || fail "the help shows a path although the program is on the PATH"
+prints "  ./stopline-run " -- env -C "$STOPLINE_BIN" ./stopline-run --help
 
 refuses "no scenario file given" -- "$run"
 refuses "none.yaml" -- "$run" none.yaml

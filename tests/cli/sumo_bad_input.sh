@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# SUMO's files that cannot be used: exit code 2, nothing on standard output, and a message with path and line, for each kind of file.
-# Where nobody departs stopline-run warns.
+# Tests that stopline-run refuses invalid SUMO files of each kind with exit code 2, nothing on standard output, and a
+# message with path and line. If no vehicle departs within the run, it warns.
 set -u
 
 . "$STOPLINE_SOURCE/tests/tools/cli.sh"
@@ -16,16 +16,17 @@ routes='<routes>
 additional='<additional>
 </additional>'
 
-# ended WHAT CODE: runs the scenario of the files in $work.
-ended() {
+# run_expecting CASE CODE: runs the scenario with the files in $work and expects exit code CODE
+run_expecting() {
     timeout 60 "$run" "$work/s.yaml" --no-figures --output "$work/out" >"$work/stdout" 2>"$work/stderr"
     local code=$?
     [ $code -eq "$2" ] || fail "$1: exit code $code instead of $2: $(head -c 300 "$work/stderr")"
 }
 
-# says WHAT PART
-says() { grep -qF -- "$2" "$work/stderr" || fail "$1: no '$2' in: $(head -c 500 "$work/stderr")"; }
+# message_has CASE PART: expects PART on standard error
+message_has() { grep -qF -- "$2" "$work/stderr" || fail "$1: '$2' is missing in: $(head -c 500 "$work/stderr")"; }
 
+# scenario [NET [ROUTES [ADDITIONAL]]]: writes a valid scenario with these file names, and valid files
 scenario() {
     printf 'fidelity: meso\nduration: 60 s\nnetwork:\n  kind: sumo\n  net: %s\n  routes: [%s]\n  additional: [%s]\npopulations: [CTG-Ref]\n' \
         "${1:-./net.xml}" "${2:-./rou.xml}" "${3:-./add.xml}" >"$work/s.yaml"
@@ -35,17 +36,17 @@ scenario() {
     rm -rf "$work/out"
 }
 
-# refused WHAT PART
+# refused CASE PART: expects exit code 2, PART in the message, nothing on standard output, and no results
 refused() {
-    ended "$1" 2
-    says "$1" "$2"
-    [ -s "$work/stdout" ] && fail "$1: writes to standard output"
-    [ -e "$work/out" ] && fail "$1: leaves results behind"
+    run_expecting "$1" 2
+    message_has "$1" "$2"
+    [ -s "$work/stdout" ] && fail "$1: standard output is not empty"
+    [ -e "$work/out" ] && fail "$1: results are left behind"
 }
 
 scenario
-ended "good files" 0
-[ -s "$work/stderr" ] && fail "good files: $(head -c 300 "$work/stderr")"
+run_expecting "valid files" 0
+[ -s "$work/stderr" ] && fail "valid files: standard error is not empty: $(head -c 300 "$work/stderr")"
 
 for file in net rou add; do
     scenario
@@ -62,7 +63,7 @@ for file in net rou add; do
     } | gzip >"$work/whole"
     head -c 5000 "$work/whole" >"$work/$file.xml"
     refused "$file: cut off" ": the gzip data are damaged or end too early here"
-    says "$file: cut off" "$work/$file.xml:"
+    message_has "$file: cut off" "$work/$file.xml:"
     scenario
     sed -i '1s/>/ a="1" a="2">/' "$work/$file.xml"
     refused "$file: attribute twice" "$work/$file.xml:1: element '"
@@ -85,7 +86,7 @@ echo '<routes><vType id="t"/></routes>' >"$work/rou.xml"
 refused "no vehicle" "$work/s.yaml:6:11: field 'network.routes': the files of 'routes' and 'additional' have no vehicle, trip or flow"
 scenario
 sed -i 's/depart="0"/depart="60"/' "$work/rou.xml"
-ended "nobody departs" 0
-says "nobody departs" "warning: no vehicle departs: the run ends at 60 s (duration), but the first vehicle departs at 60 s"
+run_expecting "no vehicle departs" 0
+message_has "no vehicle departs" "warning: no vehicle departs: the run ends at 60 s (duration), but the first vehicle departs at 60 s"
 
 exit $((failures > 0))

@@ -1,19 +1,19 @@
 #!/usr/bin/env bash
-# stopline-compare and stopline-export: what is refused leaves no folders behind, and a fidelity that is not used is told.
-# SUMO need not be installed.
+# Tests stopline-compare and stopline-export without SUMO: refused input leaves no folder behind, and an unused fidelity
+# gives a message.
 set -u
 
 . "$STOPLINE_SOURCE/tests/tools/cli.sh"
 scenarios="$STOPLINE_SOURCE/scenarios"
 
-# refused WHAT COMMAND...
+# refused CASE COMMAND...: expects exit code 2 and no folder $work/new
 refused() {
-    local what=$1
+    local case_name=$1
     shift
     timeout 60 "$@" >"$work/stdout" 2>"$work/stderr"
     local code=$?
-    [ $code -eq 2 ] || fail "$what: exit code $code instead of 2: $(head -c 300 "$work/stderr")"
-    [ -e "$work/new" ] && fail "$what: leaves $(find "$work/new")"
+    [ $code -eq 2 ] || fail "$case_name: exit code $code instead of 2: $(head -c 300 "$work/stderr")"
+    [ -e "$work/new" ] && fail "$case_name: files or folders are left: $(find "$work/new")"
     rm -rf "$work/new"
 }
 
@@ -21,23 +21,23 @@ compare="$STOPLINE_BIN/stopline-compare"
 refused "pockets" "$compare" "$scenarios/berlin.yaml" --output "$work/new/a"
 refused "unknown population" "$compare" "$scenarios/single_light.yaml" --population Nobody --output "$work/new/a"
 mkdir "$work/old"
-refused "folder that was there" "$compare" "$scenarios/berlin.yaml" --output "$work/old"
-[ -d "$work/old" ] || fail "a folder that was there is gone"
-[ -z "$(ls -A "$work/old")" ] || fail "in a folder that was there: $(ls -A "$work/old")"
+refused "existing folder" "$compare" "$scenarios/berlin.yaml" --output "$work/old"
+[ -d "$work/old" ] || fail "an existing folder was removed"
+[ -z "$(ls -A "$work/old")" ] || fail "files are left in an existing folder: $(ls -A "$work/old")"
 
-# told WHAT COMMAND...: standard error says that another fidelity is used.
-told() {
-    local what=$1
+# reports_fidelity CASE COMMAND...: expects a message on standard error that the fidelity is not used
+reports_fidelity() {
+    local case_name=$1
     shift
     timeout 60 "$@" >"$work/stdout" 2>"$work/stderr"
     grep -qF "'fidelity=full' is not used: this program runs the mesoscale mode" "$work/stderr" ||
-        fail "$what: not told: $(head -c 300 "$work/stderr")"
+        fail "$case_name: the message is missing in: $(head -c 300 "$work/stderr")"
 }
 
-export_light=("$STOPLINE_BIN/stopline-export" --sumo "$work/made" "$scenarios/single_light.yaml")
-told "export" "${export_light[@]}" --set fidelity=full
-told "compare" "$compare" "$scenarios/berlin.yaml" --output "$work/new/a" --set fidelity=full
+export_light=("$STOPLINE_BIN/stopline-export" --sumo "$work/exported" "$scenarios/single_light.yaml")
+reports_fidelity "export" "${export_light[@]}" --set fidelity=full
+reports_fidelity "compare" "$compare" "$scenarios/berlin.yaml" --output "$work/new/a" --set fidelity=full
 "${export_light[@]}" --set fidelity=meso >"$work/stdout" 2>"$work/stderr" || fail "export: $(head -c 300 "$work/stderr")"
-grep -qF fidelity "$work/stderr" && fail "told without need"
+grep -qF fidelity "$work/stderr" && fail "the message appears without need"
 
 exit $((failures > 0))

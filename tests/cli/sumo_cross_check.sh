@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # ctest-labels: slow
-# The mesoscale mode with the paper's parameters beside SUMO with the same; skipped where SUMO is not installed.
+# Compares the mesoscale mode with SUMO, both with the paper's parameters. Skipped if SUMO is not installed.
 set -u
 
 python3 "$STOPLINE_SOURCE/tests/sumo/cross_check.py" "$STOPLINE_BIN/stopline-calibrate"

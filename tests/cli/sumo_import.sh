@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # ctest-labels: slow
 # ctest-timeout: 900
-# Networks of SUMO's netgenerate (grids, spiders, random ones) with random trips run here without violations; skipped where SUMO is not
-# installed.
+# Tests that imported networks of SUMO's netgenerate (grids, spiders, random networks) run without violations with
+# random trips. Skipped if SUMO is not installed.
 set -u
 
 for fidelity in meso full; do

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # ctest-labels: slow
-# What stopline-run writes for SUMO's tools; where SUMO is not installed its part is skipped.
+# Tests the output of stopline-run for SUMO's tools. Parts of it need SUMO and are skipped if it is not installed.
 set -u
 
 python3 "$STOPLINE_SOURCE/tests/sumo/tables.py" "$STOPLINE_BIN/stopline-run"

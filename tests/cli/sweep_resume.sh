@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # ctest-labels: slow
-# A sweep that is killed at any moment and started again ends with the same bytes as one that nobody disturbed; so does one on
-# another number of threads. What belongs to another scenario or sweep is never continued.
+# Tests that a sweep gives the same bytes after kills and restarts and for any number of threads. A store of another
+# scenario or sweep is never continued.
 set -u
 
 . "$STOPLINE_SOURCE/tests/tools/cli.sh"
 program="$STOPLINE_BIN/stopline-sweep"
 
-# 40 runs of some 10 ms.
+# 40 runs of about 10 ms each.
 cat >"$work/short.yaml" <<'YAML'
 duration: 600 s
 network: {approach: {length: 300 m}}
@@ -25,14 +25,15 @@ axes:
 repetitions: 4
 YAML
 
-# sweep FOLDER [OPTION...]
+# sweep FOLDER [OPTION...]: runs the sweep
 sweep() {
     local folder=$1
     shift
     "$program" "$work/sweep.yaml" --output "$folder" "$@"
 }
 
-# The same in the background, as `pid`; not through the function, or the shell around it would be what is killed.
+# start FOLDER [OPTION...]: starts the sweep in the background and sets `pid`. It does not call sweep(), because a kill
+# would then hit the surrounding shell.
 start() {
     local folder=$1
     shift
@@ -40,9 +41,10 @@ start() {
     pid=$!
 }
 
+# same_table CASE FOLDER: expects the table and the provenance of the undisturbed sweep in FOLDER
 same_table() {
-    cmp "$work/whole/sweep.csv" "$2/sweep.csv" || fail "$1: another table"
-    cmp "$work/whole/sweep.provenance.json" "$2/sweep.provenance.json" || fail "$1: another provenance"
+    cmp "$work/whole/sweep.csv" "$2/sweep.csv" || fail "$1: the table differs"
+    cmp "$work/whole/sweep.provenance.json" "$2/sweep.provenance.json" || fail "$1: the provenance differs"
 }
 
 milliseconds() {
@@ -52,17 +54,17 @@ milliseconds() {
 begin=$(milliseconds)
 sweep "$work/whole" --threads 1 >"$work/stdout" || fail "exit code $?"
 whole_ms=$(($(milliseconds) - begin))
-[ "$(wc -l <"$work/whole/sweep.csv")" -eq 41 ] || fail "not 40 runs: $(wc -l <"$work/whole/sweep.csv") lines"
-grep -q "million vehicle updates per second" "$work/stdout" || fail "no speed in: $(cat "$work/stdout")"
+[ "$(wc -l <"$work/whole/sweep.csv")" -eq 41 ] || fail "the table has not 40 runs: $(wc -l <"$work/whole/sweep.csv") lines"
+grep -q "million vehicle updates per second" "$work/stdout" || fail "the speed is missing in: $(cat "$work/stdout")"
 [ "$(ls -A "$work/whole")" = "$(printf '%s\n' sweep.csv sweep.provenance.json sweep.sqlite sweep_means.csv)" ] ||
-    fail "other files: $(ls -A "$work/whole")"
+    fail "the folder has other files: $(ls -A "$work/whole")"
 sweep "$work/two" --threads 2 >/dev/null || fail "exit code $?"
 same_table "two threads" "$work/two"
 sweep "$work/two" >"$work/stdout" || fail "exit code $?"
-grep -q "were done before" "$work/stdout" || fail "runs again what is done"
+grep -q "were done before" "$work/stdout" || fail "finished runs are repeated"
 
-# Killed again and again, after random times of up to a quarter of what it takes; each start adds what it can, so that in the end
-# all is done.
+# Repeated kills after random times of up to a quarter of the total time. Each start completes some runs, so the sweep
+# ends after some restarts.
 kills=0
 for _ in $(seq 200); do
     ms=$((RANDOM * whole_ms / 4 / 32768))
@@ -76,12 +78,12 @@ for _ in $(seq 200); do
     fi
     [ -e "$work/killed/sweep.csv" ] && break
 done
-[ -e "$work/killed/sweep.csv" ] || fail "after $kills kills it is still not done: runs are lost"
-[ $kills -ge 2 ] || fail "only $kills kills came in time"
+[ -e "$work/killed/sweep.csv" ] || fail "the sweep is not complete after $kills kills: runs are lost"
+[ $kills -ge 2 ] || fail "only $kills kills hit a running program"
 sweep "$work/killed" >/dev/null || fail "after $kills kills: exit code $?"
 same_table "$kills kills" "$work/killed"
 
-# A kill in the middle, however fast the machine: what was finished before is not run again.
+# A kill in the middle of the sweep, for any speed of the machine. Finished runs are not repeated.
 now=0
 for seconds in 0.7 0.3 2 6 20; do
     rm -rf "$work/once"
@@ -94,33 +96,33 @@ for seconds in 0.7 0.3 2 6 20; do
     [ "${now:-0}" -gt 0 ] && [ "$now" -lt 40 ] && break
 done
 if [ "${now:-0}" -eq 0 ] || [ "$now" -ge 40 ]; then
-    fail "after a kill $now of 40 runs are run"
+    fail "after a kill: $now of 40 runs are repeated"
 fi
 
-# Ctrl-C: exit code 130, how to continue, and a store that can be.
+# Ctrl-C gives exit code 130, a message on how to continue, and a usable store.
 start "$work/ctrl_c" --threads 1 --set "duration=20000 s"
-wait_for [ -s "$work/ctrl_c/sweep.sqlite-wal" ] || fail "no store"
+wait_for [ -s "$work/ctrl_c/sweep.sqlite-wal" ] || fail "there is no store"
 kill -INT $pid
 code=0
 wait $pid || code=$?
 [ $code -eq 130 ] || fail "Ctrl-C: exit code $code"
 grep -q "of 40 runs are stored; the same command continues" "$work/stderr" || fail "Ctrl-C: $(cat "$work/stderr")"
-[ -e "$work/ctrl_c/sweep.csv" ] && fail "Ctrl-C: a table of runs that are missing"
+[ -e "$work/ctrl_c/sweep.csv" ] && fail "Ctrl-C: there is a table of an incomplete sweep"
 
-# A bar with the time left, where there is a terminal.
+# On a terminal, the progress bar shows the time left.
 if command -v script >/dev/null; then
     on_terminal '40 runs \[[#.]{30}\] +[0-9]+ %, .* left' "$program" "$work/sweep.yaml" --output "$work/bar" --threads 2 \
         --set "duration=60000 s"
 fi
 
-# refused WHAT PART COMMAND...: exit code 2, PART in the message
+# refused CASE PART COMMAND...: expects exit code 2 and PART in the message
 refused() {
-    local what=$1 part=$2
+    local case_name=$1 part=$2
     shift 2
     local code=0
     "$@" >"$work/stdout" 2>"$work/stderr" || code=$?
-    [ $code -eq 2 ] || fail "$what: exit code $code instead of 2"
-    grep -qF -- "$part" "$work/stderr" || fail "$what: no '$part' in: $(cat "$work/stderr")"
+    [ $code -eq 2 ] || fail "$case_name: exit code $code instead of 2"
+    grep -qF -- "$part" "$work/stderr" || fail "$case_name: '$part' is missing in: $(cat "$work/stderr")"
 }
 
 refused "other override" "has changed since" sweep "$work/two" --set "signal.yellow=4 s"
@@ -128,31 +130,31 @@ refused "other seed" "has changed since" sweep "$work/two" --seed 9
 sed -i 's/vehicles: 20/vehicles: 19/' "$work/short.yaml"
 refused "changed scenario" "has changed since" sweep "$work/two"
 sed -i 's/vehicles: 19/vehicles: 20/' "$work/short.yaml"
-sweep "$work/two" >/dev/null || fail "the old scenario again: exit code $?"
+sweep "$work/two" >/dev/null || fail "restored scenario: exit code $?"
 cp "$work/sweep.yaml" "$work/other.yaml"
 cp "$work/two/sweep.sqlite" "$work/two/other.sqlite"
 refused "store of another sweep" "of the sweep 'sweep'" "$program" "$work/other.yaml" --output "$work/two"
 cp "$program" "$work/rebuilt"
 printf '\0' >>"$work/rebuilt"
-refused "another build" "another build of the program" "$work/rebuilt" "$work/sweep.yaml" --output "$work/two"
+refused "store of another build" "another build of the program" "$work/rebuilt" "$work/sweep.yaml" --output "$work/two"
 echo "no database" >"$work/two/other.sqlite"
-refused "no store" "not a store" "$program" "$work/other.yaml" --output "$work/two"
+refused "file that is not a store" "not a store" "$program" "$work/other.yaml" --output "$work/two"
 
-# Two programs at once.
+# Two programs on one store.
 start "$work/busy" --threads 1 --set "duration=20000 s"
-wait_for [ -s "$work/busy/sweep.sqlite-wal" ] || fail "no store"
-refused "a store in use" "another program has this store open" sweep "$work/busy" --set "duration=20000 s"
+wait_for [ -s "$work/busy/sweep.sqlite-wal" ] || fail "there is no store"
+refused "store in use" "another program has this store open" sweep "$work/busy" --set "duration=20000 s"
 kill -KILL $pid
 wait $pid 2>/dev/null
 
-# A limit on the size of files stands for a disk that is full; with room again the sweep continues.
+# A file size limit stands in for a full disk. With free space the sweep continues.
 mkdir "$work/full"
 (
     ulimit -f 24
     refused "full disk" "$work/full/sweep.sqlite" sweep "$work/full" --threads 1
     exit $((failures > 0))
 ) || failures=$((failures + 1))
-sweep "$work/full" >/dev/null || fail "with room again: exit code $?"
+sweep "$work/full" >/dev/null || fail "with free space: exit code $?"
 same_table "after a full disk" "$work/full"
 
 exit $((failures > 0))

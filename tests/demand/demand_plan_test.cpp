@@ -1,4 +1,4 @@
-// Tests of the demand plan: shares of policies and routes. A draw depends only on the seed, the inlet and the vehicle number.
+// Tests of the demand plan: shares of policies and routes. A draw depends only on seed, inlet and vehicle number.
 #include "demand/demand_plan.h"
 
 #include <gtest/gtest.h>
@@ -39,7 +39,8 @@ TEST(AlternatingMix, KeepsTheSharesInEveryPrefix) {
             drawn[static_cast<std::size_t>(plan.policy_of(0, k))] += 1.0;
             for (std::size_t c = 0; c < shares.size(); ++c) {
                 const double expected = shares[c] * static_cast<double>(k + 1);
-                ASSERT_LT(std::fabs(drawn[c] - expected), 1.0 + 1e-9) << "after " << k + 1 << " vehicles, component " << c;
+                ASSERT_LT(std::fabs(drawn[c] - expected), 1.0 + 1e-9)
+                    << "after " << k + 1 << " vehicles, component " << c;
             }
         }
     }

@@ -19,7 +19,7 @@ void expect_row(const TurnShares& row, const TurnShares& expected) {
     for (std::size_t turn = 0; turn < row.size(); ++turn) EXPECT_NEAR(row[turn], expected[turn], 1e-9) << turn;
 }
 
-// Each lane carries 33.3 % of the traffic. On the left lane 8 of 33.3 turn left, on the right lane 12 of 33.3 turn right.
+// Each lane carries 33.3 % of the traffic. 8 % turn left from the left lane, and 12 % turn right from the right lane.
 TEST(TurnsByLane, FillLanesEvenly) {
     const auto lanes = turns_by_lane({kStraightLeft, kStraight, kStraightRight}, {0.8, 0.12, 0.08});
     expect_row(lanes[0], {0.76, 0.0, 0.24});
@@ -34,7 +34,7 @@ TEST(TurnsByLane, AreEqualForEqualLanes) {
     expect_row(lanes[1], {0.5, 0.3, 0.2});
 }
 
-// The left-turn lane carries 30 %, each other lane 35 %: 35 straight on the second, 5 straight and 30 right on the third.
+// The left-turn lane carries 30 % of the traffic, the others 35 % each. The third lane has 5 % straight and 30 % right.
 // No vehicle enters on a lane that does not serve its turn.
 TEST(TurnsByLane, AreServedByTheLane) {
     const auto lanes = turns_by_lane({kLeft, kStraight, kStraightRight}, {0.4, 0.3, 0.3});
@@ -73,7 +73,7 @@ TEST(StreetInlets, PutPocketTrafficOnTheNeighbouringLane) {
     EXPECT_EQ(graph.lanes[static_cast<std::size_t>(route[0])].name, "first_west_in_0");
 }
 
-// On a link, each lane has the turn shares of the approach, and its routes begin on the lane itself if it serves the turn.
+// On a link, each lane has the turn shares of the approach. Its routes begin on the lane itself if it serves the turn.
 TEST(StreetInlets, UseTheApproachSharesOnLinks) {
     const LaneGraph graph = make_streets(two_streets());
     const std::vector<DemandPlan::Inlet> inlets = street_inlets(graph);

@@ -5,11 +5,11 @@
 
 BIN is the folder of the programs. Each run in RUNS is executed once. Its row in golden_hashes.csv holds
 
-  state_hash    a hash of the final state of every population, as the program reports them
+  state_hash    a hash of the final states of all populations, as the program reports them
   tables_hash   a hash of the numbers in all result tables. Text is left out, so that a column or a cause can be renamed.
 
-A run with threads > 1 shares the row of the same run on one thread: both must give the same hashes. --update writes the
-file anew; use it only for an intended change of behaviour, and say in the commit message which rows changed and why.
+A run with threads > 1 shares the row of the same run on one thread: both must give the same hashes. --update rewrites the
+file. Use it only for an intended change of behaviour, and say in the commit message which rows changed and why.
 """
 
 import argparse
@@ -37,7 +37,7 @@ class Run:
     settings: dict = field(default_factory=dict)
     threads: int = 1
     program: str = "stopline-run"
-    situation: tuple = ()  # columns of summary.csv with a value above 0: the run must reach what it is there for
+    situation: tuple = ()  # columns of summary.csv that must have a value above 0, so that the run reaches its situation
 
 
 def population(policy):
@@ -113,7 +113,7 @@ RUNS = [
     Run("berlin_three_lanes", "berlin", {"duration": "420 s"}),
     Run("berlin_three_lanes", "berlin", {"duration": "420 s"}, threads=2),
     Run("berlin_four_lanes", "berlin", {"duration": "300 s", "network.streets": "four_lanes"}),
-    Run("berlin_pockets_help", "berlin",
+    Run("berlin_pockets_gap_opening", "berlin",
         {"duration": "300 s", "network.streets": "three_lanes_pockets", "driver.lane_change.gap_opening": "on"}),
     Run("berlin_full", "berlin", {"duration": "120 s", **FULL, **population("CDG")}),
     Run("two_intersections", "berlin", TWO_STREETS),
@@ -128,11 +128,11 @@ RUNS = [
     Run("startup", "", program="stopline-startup"),
 ]
 
-IMPORT_SCENARIO = "fidelity: meso\n"  # everything else comes from the settings of the run
+IMPORT_SCENARIO = "fidelity: meso\n"  # the settings of the run give all other fields
 
 
 def add_numbers(hasher, path):
-    """Hashes the numeric cells of a CSV file, row by row; returns how many there are."""
+    """Hashes the numeric cells of a CSV file row by row. Returns their number."""
     count = 0
     with open(path, newline="", encoding="utf-8") as file:
         for row in csv.reader(file):
@@ -158,11 +158,12 @@ def hashes_of(folder):
         hasher = hashlib.sha256()
         cells += add_numbers(hasher, path)
         tables.append(hasher.hexdigest())
-    # Sorted, since a table may get another name.
+    # The hashes are sorted, so that a table can be renamed.
     return states.hexdigest()[:16], hashlib.sha256("".join(sorted(tables)).encode()).hexdigest()[:16], cells
 
 
-def reaches(path, column):
+def has_positive(path, column):
+    """Returns True if a row of a CSV file has a value above 0 in the column."""
     with open(path, newline="", encoding="utf-8") as file:
         return any(float(row[column]) > 0 for row in csv.DictReader(file))
 
@@ -187,11 +188,11 @@ def execute(run, binaries):
         if result.returncode != 0:
             return run, None, f"exit code {result.returncode}: {result.stderr[-600:]}{result.stdout[-600:]}"
         for column in run.situation:
-            if not reaches(output / "summary.csv", column):
-                return run, None, f"no row of summary.csv has a {column} above 0: the run misses its situation"
+            if not has_positive(output / "summary.csv", column):
+                return run, None, f"{column} is 0 in all rows of summary.csv, so the run does not reach its situation"
         states, tables, cells = hashes_of(output)
         if cells < 10:
-            return run, None, f"only {cells} numbers in the tables: nothing to compare"
+            return run, None, f"the tables have only {cells} numbers, too few to compare"
         return run, (states, tables), None
 
 
@@ -208,8 +209,8 @@ def check(run, hashes, golden):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("binaries", type=Path)
-    parser.add_argument("--update", action="store_true", help="write golden_hashes.csv anew")
-    parser.add_argument("--only", default="", help="run only what has this text in its name")
+    parser.add_argument("--update", action="store_true", help="rewrite golden_hashes.csv")
+    parser.add_argument("--only", default="", help="run only the runs with this text in their name")
     arguments = parser.parse_args()
 
     golden = {}
@@ -218,18 +219,18 @@ def main():
             golden = {row["run"]: (row["state_hash"], row["tables_hash"]) for row in csv.DictReader(file)}
     runs = [run for run in RUNS if arguments.only in run.name]
     problems = []
-    found = {}
+    new_hashes = {}
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        for run, hashes, problem in pool.map(lambda each: execute(each, arguments.binaries.resolve()), runs):
+        for run, hashes, problem in pool.map(lambda run: execute(run, arguments.binaries.resolve()), runs):
             if problem:
                 problems.append(f"{run.name}: {problem}")
             elif arguments.update:
-                if found.setdefault(run.name, hashes) != hashes:
-                    problems.append(f"{run.name}: {run.threads} threads give other hashes than one")
+                if new_hashes.setdefault(run.name, hashes) != hashes:
+                    problems.append(f"{run.name}: {run.threads} threads and one thread give different hashes")
             elif difference := check(run, hashes, golden):
                 problems.append(difference)
     if arguments.update and not problems:
-        golden = {**(golden if arguments.only else {}), **found}
+        golden = {**(golden if arguments.only else {}), **new_hashes}
         with open(TABLE, "w", newline="", encoding="utf-8") as file:
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow(HEADER)

@@ -1,4 +1,4 @@
-// Simulations side by side in threads share their model and nothing else: each gives what it gives alone.
+// Simulations in parallel threads share only their model. Each gives the same result as alone.
 #include <gtest/gtest.h>
 
 #include <thread>
@@ -11,7 +11,7 @@ namespace {
 
 using namespace testing_support;
 
-TEST(SideBySide, GivesTheHashesOfRunsAlone) {
+TEST(SideBySide, RunsGiveTheSameHashesAsAlone) {
     Scenario scenario = single_light("petrol_eu4_72kw", "MIX");
     scenario.signal.first_green_s = 25.0;
     scenario.demand.vehicles = 12;
@@ -23,14 +23,14 @@ TEST(SideBySide, GivesTheHashesOfRunsAlone) {
         return simulation.state_hash();
     };
     constexpr int kThreads = 4;
-    std::vector<std::uint64_t> together(kThreads);
+    std::vector<std::uint64_t> parallel_hashes(kThreads);
     std::vector<std::thread> threads;
     for (int k = 0; k < kThreads; ++k) {
-        threads.emplace_back([&, k] { together[at(k)] = run(40.0 + k); });
+        threads.emplace_back([&, k] { parallel_hashes[at(k)] = run(40.0 + k); });
     }
     for (std::thread& thread : threads) thread.join();
-    for (int k = 0; k < kThreads; ++k) EXPECT_EQ(together[at(k)], run(40.0 + k)) << k;
-    EXPECT_NE(together[0], together[1]);
+    for (int k = 0; k < kThreads; ++k) EXPECT_EQ(parallel_hashes[at(k)], run(40.0 + k)) << k;
+    EXPECT_NE(parallel_hashes[0], parallel_hashes[1]);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Tests of the feedforwards of Fig. 3 and 4 in the paper. The predictive one solves a least-squares problem. The one for time
-// gaps inverts the vehicle's own lag and applies the leader's lag.
+// Tests of the feedforwards of Fig. 3 and 4 in the paper. The predictive one solves a least-squares problem. The one
+// for time gaps inverts the vehicle's own lag and applies the leader's lag.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -84,8 +84,8 @@ TEST(PredictiveFeedforward, EqualsTheRequestOfAnIdenticalLeader) {
     }
 }
 
-// Returns the largest gap error behind a manoeuvring leader, m. Both vehicles are pure first-order lags without delays, so an
-// exact feedforward leaves no error.
+// Returns the largest gap error behind a manoeuvring leader, m. Both vehicles are pure first-order lags without delays,
+// so an exact feedforward leaves no error.
 double largest_error_m(double tau_p, double tau, double kp, double kd) {
     constexpr double kStep_s = 0.001;
     constexpr double kTimeGap_s = 0.87;

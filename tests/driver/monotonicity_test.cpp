@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "driver/acceleration_laws.h"
-#include "spacing_laws/gap_policy.h"
 #include "scenario/load_scenario.h"
+#include "spacing_laws/gap_policy.h"
 
 namespace stopline {
 namespace {
@@ -29,13 +29,15 @@ void expect_monotone(const AccelerationLaw& acceleration, const std::string& cas
     for (const double closing : kClosings) {
         for (std::size_t k = 1; k < kGaps.size(); ++k) {
             ASSERT_GE(acceleration(kGaps[k], closing), acceleration(kGaps[k - 1], closing) - 1e-12)
-                << case_name << ": smaller at gap " << kGaps[k] << " than at " << kGaps[k - 1] << ", closing " << closing;
+                << case_name << ": smaller at gap " << kGaps[k] << " than at " << kGaps[k - 1] << ", closing "
+                << closing;
         }
     }
     for (const double gap : kGaps) {
         for (std::size_t k = 1; k < kClosings.size(); ++k) {
             ASSERT_LE(acceleration(gap, kClosings[k]), acceleration(gap, kClosings[k - 1]) + 1e-12)
-                << case_name << ": larger at closing " << kClosings[k] << " than at " << kClosings[k - 1] << ", gap " << gap;
+                << case_name << ": larger at closing " << kClosings[k] << " than at " << kClosings[k - 1] << ", gap "
+                << gap;
         }
     }
 }
@@ -100,7 +102,8 @@ TEST(Emergency, BrakesEnoughOrNotAtAll) {
     const CaccSettings c = shipped().cacc;
     for (double v = 1.0; v < 20.0; v += 1.0) {
         for (double gap = 2.0; gap < 80.0; gap += 1.0) {
-            const double acceleration = emergency_acceleration<double>(c, v, {gap, v, 0.0, 0.0, 4.0});  // a stopped leader
+            const double acceleration =
+                emergency_acceleration<double>(c, v, {gap, v, 0.0, 0.0, 4.0});  // a stopped leader
             const double room_m = gap - c.radar_delay_s * v - c.emergency_gap_m;
             const double needed = room_m > 0.0 ? v * v / (2.0 * room_m) : 1e9;
             if (needed < c.emergency_threshold_mps2) {
@@ -113,7 +116,8 @@ TEST(Emergency, BrakesEnoughOrNotAtAll) {
     }
 }
 
-// Returns the smallest room between two vehicles that brake with b and b_p from the speeds v and v_p, starting at `room_m`.
+// Returns the smallest room between two vehicles that brake with b and b_p from the speeds v and v_p. The room is
+// `room_m` at first.
 double smallest_room_m(double v, double b, double v_p, double b_p, double room_m) {
     constexpr double kStep_s = 1e-3;
     const double until_s = std::fmax(v / b, v_p / b_p);
@@ -139,9 +143,11 @@ TEST(Emergency, BrakesOnlyAsHardAsABrakingLeaderRequires) {
                 for (const double room_m : {0.5, 1.0, 2.0, 5.0, 12.0}) {
                     const double gap = room_m + c.radar_delay_s * closing + c.emergency_gap_m;
                     const double acceleration = emergency_acceleration<double>(c, v, {gap, closing, -b_p, -b_p, 4.0});
-                    const double sufficient = acceleration > 100.0 ? c.emergency_threshold_mps2 : -acceleration / kEmergencyMargin;
+                    const double sufficient =
+                        acceleration > 100.0 ? c.emergency_threshold_mps2 : -acceleration / kEmergencyMargin;
                     if (acceleration <= -c.deceleration_emergency_mps2) continue;  // already at maximum braking
-                    EXPECT_GE(smallest_room_m(v, sufficient, v - closing, b_p, room_m), -1e-3) << v << closing << b_p << room_m;
+                    EXPECT_GE(smallest_room_m(v, sufficient, v - closing, b_p, room_m), -1e-3)
+                        << v << closing << b_p << room_m;
                     if (acceleration > 100.0) continue;
                     (2.0 * room_m / closing < (v - closing) / b_p ? moving_leader_cases : stopped_leader_cases) += 1;
                     EXPECT_LT(smallest_room_m(v, 0.99 * sufficient, v - closing, b_p, room_m), 0.0)
@@ -179,8 +185,9 @@ TEST(KeepRoom, StartsWhereEqualBrakingJustSuffices) {
             if (room_m < 0.1) continue;  // the law treats less than 0.05 m as 0.05 m
             for (const double gap_growth_m : {0.0, 1.0, 12.0}) {
                 const double min_reserve_m = gap_growth_m > 0.0 ? kMinReserve_s * v : 0.0;
-                const double reserve_m = (c.radar_delay_s + kBrakeReserve_s) * closing +
-                                         std::max(std::min(kBrakeReserve_s * v, kReservedGrowthShare * gap_growth_m), min_reserve_m);
+                const double reserve_m =
+                    (c.radar_delay_s + kBrakeReserve_s) * closing +
+                    std::max(std::min(kBrakeReserve_s * v, kReservedGrowthShare * gap_growth_m), min_reserve_m);
                 const double limit_m = room_m + reserve_m + c.emergency_gap_m;
                 const auto acceleration = [&](double gap_m) {
                     return keep_room_acceleration<double>(c, v, gap_growth_m, {gap_m, closing, 1.0, 1.0, 4.0});
@@ -213,11 +220,13 @@ TEST(Follow, PassesHardBrakingUnfilteredAtSmallGaps) {
     const CaccSettings cacc = shipped().cacc;
     const auto acceleration = [&](double gap_growth_m, double slope_s, double request_mps2, double room_m = 0.0) {
         const LeaderView<double> p{2.95 + room_m, 0.0, 0.0, request_mps2, 4.0};
-        return follow_acceleration<double>(cacc, 9.0, 1.0, 0.2, 5.0, 1.0, 2.95 + gap_growth_m, gap_growth_m, slope_s, p, 0.01);
+        return follow_acceleration<double>(cacc, 9.0, 1.0, 0.2, 5.0, 1.0, 2.95 + gap_growth_m, gap_growth_m, slope_s, p,
+                                           0.01);
     };
     EXPECT_EQ(acceleration(0.5, 0.87, -7.0), -cacc.deceleration_comfort_mps2) << "SWITCH-1 just above 30 km/h";
     EXPECT_GT(acceleration(0.5, 0.87, -1.9), 0.9) << "gentle braking";
-    EXPECT_EQ(acceleration(7.8, 3.3, -7.0), -cacc.deceleration_comfort_mps2) << "the desired gap grows fast with speed and is not reached yet";
+    EXPECT_EQ(acceleration(7.8, 3.3, -7.0), -cacc.deceleration_comfort_mps2)
+        << "the desired gap grows fast with speed and is not reached yet";
     EXPECT_GT(acceleration(7.8, 0.87, -7.0, 7.8), 0.8) << "the time gap leaves room";
     EXPECT_GT(acceleration(7.8, 0.87, -7.0, 5.0), 0.7) << "part of the time gap suffices";
     EXPECT_EQ(acceleration(0.0, 0.0, -7.0), -cacc.deceleration_comfort_mps2) << "a constant distance";

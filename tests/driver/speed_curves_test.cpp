@@ -1,5 +1,5 @@
-// Tests of laws that follow a curve of speed over distance or of acceleration over speed. The test vehicle realises each
-// requested acceleration immediately.
+// Tests of laws that follow a curve of speed over distance or of acceleration over speed. The test vehicle realises
+// each requested acceleration immediately.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -39,8 +39,9 @@ TEST(Stop, StopsAtTheTargetFromItsCurve) {
     const DriverTables d = shipped();
     for (double v = 0.5; v < 20.0; v += 0.5) {
         const double distance = stopping_distance_m(d, v);
-        const Arrival arrival =
-            approach(v, distance, [&](double speed, double distance_left_m) { return stop_acceleration(d, speed, distance_left_m); });
+        const Arrival arrival = approach(v, distance, [&](double speed, double distance_left_m) {
+            return stop_acceleration(d, speed, distance_left_m);
+        });
         EXPECT_NEAR(arrival.distance_m, 0.0, 0.01) << "from " << v << " m/s";
         EXPECT_GE(arrival.distance_m, -1e-6) << "overshoots";
         EXPECT_GT(arrival.hardest_mps2, -1.02 * d.stop.deceleration_mps2) << "brakes harder than its deceleration";
@@ -52,8 +53,9 @@ TEST(Stop, BrakesHarderIfItStartsLate) {
     const DriverTables d = shipped();
     for (double v = 2.0; v < 20.0; v += 1.0) {
         const double distance = v * v / (2.0 * 5.0) + 0.2;
-        const Arrival arrival = approach(
-            v, distance, [&](double speed, double distance_left_m) { return std::fmax(-7.0, stop_acceleration(d, speed, distance_left_m)); });
+        const Arrival arrival = approach(v, distance, [&](double speed, double distance_left_m) {
+            return std::fmax(-7.0, stop_acceleration(d, speed, distance_left_m));
+        });
         EXPECT_GE(arrival.distance_m, -0.05) << "from " << v << " m/s";  // well within the margin to the stop line
     }
 }

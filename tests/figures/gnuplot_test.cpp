@@ -1,3 +1,4 @@
+// Drawing with gnuplot: files, errors, quoting and line styles. Figures of a single light can always be drawn.
 #include "figures/gnuplot.h"
 
 #include <gtest/gtest.h>
@@ -5,8 +6,8 @@
 
 #include <set>
 
-#include "runs/short_scenario.h"
 #include "figures/single_light_figures.h"
+#include "runs/short_scenario.h"
 #include "scenario/scenario_text.h"
 
 namespace stopline {
@@ -28,7 +29,7 @@ std::set<std::string> names_in(const fs::path& folder) {
     return names;
 }
 
-TEST(Draw, LeavesPictureScriptAndDataAndNothingElse) {
+TEST(Draw, WritesOnlyPicturesScriptAndData) {
     if (!gnuplot_installed()) GTEST_SKIP() << "no gnuplot";
     const TemporaryFolder folder;
     draw(line_figure("plot 'line.dat' with lines notitle"), folder.path());
@@ -37,7 +38,7 @@ TEST(Draw, LeavesPictureScriptAndDataAndNothingElse) {
     EXPECT_TRUE(contains(read_text(folder.path() / "line.png"), "IEND"));
 }
 
-TEST(Draw, GivesTheSameBytesTwice) {
+TEST(Draw, WritesTheSameBytesEachTime) {
     if (!gnuplot_installed()) GTEST_SKIP() << "no gnuplot";
     const TemporaryFolder first;
     const TemporaryFolder second;
@@ -49,7 +50,7 @@ TEST(Draw, GivesTheSameBytesTwice) {
     }
 }
 
-TEST(Draw, ReportsWhatGnuplotSaysAndKeepsTheScript) {
+TEST(Draw, ReportsTheErrorOfGnuplotAndKeepsTheScript) {
     if (!gnuplot_installed()) GTEST_SKIP() << "no gnuplot";
     const TemporaryFolder folder;
     const std::string error = input_error_of([&] { draw(line_figure("plot nonsense("), folder.path()); });
@@ -58,7 +59,7 @@ TEST(Draw, ReportsWhatGnuplotSaysAndKeepsTheScript) {
     EXPECT_EQ(names_in(folder.path()), (std::set<std::string>{"line.gp", "line.dat"}));
 }
 
-TEST(Draw, SaysThatGnuplotIsMissing) {
+TEST(Draw, ReportsThatGnuplotIsMissing) {
     const char* const path = ::getenv("PATH");
     const std::string before = path == nullptr ? "" : path;
     ::setenv("PATH", "/nonexistent", 1);
@@ -70,14 +71,14 @@ TEST(Draw, SaysThatGnuplotIsMissing) {
     EXPECT_TRUE(contains(error, "No such file or directory"));
 }
 
-TEST(GnuplotText, TakesTextAsItIs) {
+TEST(GnuplotText, EscapesSpecialCharacters) {
     EXPECT_EQ(gnuplot_text("CTG-Ref"), "'CTG-Ref'");
     EXPECT_EQ(gnuplot_text("it's"), "'it''s'");
     EXPECT_EQ(gnuplot_text("a_b^c{d}"), "'a\\_b\\^c\\{d\\}'");
     EXPECT_EQ(gnuplot_text("two\nlines"), "'two lines'");
 }
 
-TEST(LineStyles, TellEightPopulationsApartByColourAndByDashAndPoint) {
+TEST(LineStyles, DistinguishEightPopulationsByColourAndByDashAndPoint) {
     std::set<std::string> colours;
     std::set<std::pair<int, int>> marks;
     for (std::size_t k = 0; k < 8; ++k) {
@@ -86,30 +87,30 @@ TEST(LineStyles, TellEightPopulationsApartByColourAndByDashAndPoint) {
     }
 }
 
-TEST(Figures, OfASingleLightAreDrawnForAnyQueue) {
+TEST(SingleLightFigures, CanBeDrawnForAnySettings) {
     if (!gnuplot_installed()) GTEST_SKIP() << "no gnuplot";
-    for (const char* change : {"demand.vehicles=12", "demand.vehicles=1", "network.approach.lanes=2",
-                               "populations=[CTG-Ref]", "measure.green=[]", "signal.cycle=40 s"}) {
-        const SingleLightReport result = run_single_light(short_scenario({change}));
+    for (const char* override_text : {"demand.vehicles=12", "demand.vehicles=1", "network.approach.lanes=2",
+                                      "populations=[CTG-Ref]", "measure.green=[]", "signal.cycle=40 s"}) {
+        const SingleLightReport result = run_single_light(short_scenario({override_text}));
         const TemporaryFolder folder;
         for (const Figure& figure : single_light_figures(result, load_targets())) {
-            EXPECT_EQ(input_error_of([&] { draw(figure, folder.path()); }), "") << change;
+            EXPECT_EQ(input_error_of([&] { draw(figure, folder.path()); }), "") << override_text;
         }
-        EXPECT_TRUE(fs::exists(folder.path() / "counters.svg")) << change;
-        EXPECT_TRUE(fs::exists(folder.path() / "time_space.png")) << change;
+        EXPECT_TRUE(fs::exists(folder.path() / "counters.svg")) << override_text;
+        EXPECT_TRUE(fs::exists(folder.path() / "time_space.png")) << override_text;
     }
 }
 
-TEST(Figures, ShowThePapersNumbersOfThePopulationsThatAreThere) {
+TEST(SingleLightFigures, ShowNumbersOfThePaperOnlyForItsScenario) {
     Scenario scenario = short_scenario();
     EXPECT_FALSE(counters_figure(run_single_light(scenario), load_targets()).body.find("paper") != std::string::npos)
-        << "the paper says nothing of this scenario";
+        << "the paper has no numbers for this scenario";
     scenario.name = "single_light";
     const Figure figure = counters_figure(run_single_light(scenario), load_targets());
     EXPECT_TRUE(contains(figure.body, "paper (Fig. 5)"));
     ASSERT_EQ(figure.data.size(), 2U);
     EXPECT_TRUE(contains(figure.data[1].second, "15 17\n"));
-    EXPECT_EQ(figure.data[1].second.find("15 7\n"), std::string::npos) << "CTG-HBS is not among the populations";
+    EXPECT_EQ(figure.data[1].second.find("15 7\n"), std::string::npos) << "the scenario has no population CTG-HBS";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Figures of networks are drawn for runs of any length, or say why there is nothing to draw.
+// Figures of network runs can be drawn for runs of any length, or give a reason why there is nothing to draw.
 #include <gtest/gtest.h>
 
 #include "figures/network_figures.h"
@@ -16,13 +16,13 @@ NetworkReport report_of(const char* file, const std::vector<std::string>& overri
     return run_networks(load_scenario(std::string(STOPLINE_SOURCE_DIR "/scenarios/") + file, overrides), {2, {}, {}});
 }
 
-// What drawing says against it; "": it is drawn.
+// Returns the error message of drawing a figure; empty: no error.
 std::string error_of(const Figure& figure) {
     const TemporaryFolder folder;
     return input_error_of([&] { draw(figure, folder.path()); });
 }
 
-TEST(NetworkResult, AreDrawnForFewIntervals) {
+TEST(NetworkFigures, AreDrawnForFewIntervals) {
     if (!gnuplot_installed()) GTEST_SKIP() << "no gnuplot";
     struct Run {
         const char* duration;
@@ -37,7 +37,7 @@ TEST(NetworkResult, AreDrawnForFewIntervals) {
     }
 }
 
-TEST(NetworkResult, SayWhyThereIsNothingToDraw) {
+TEST(NetworkFigures, GiveTheReasonIfThereIsNothingToDraw) {
     const NetworkReport report =
         report_of("arterial.yaml", {"duration=30 s", "measure.window=10 s", "measure.time_space=0.5 s"});
     EXPECT_TRUE(contains(network_series_figure(report).nothing, "no whole interval of 60 s (measure.interval)"));
@@ -45,7 +45,7 @@ TEST(NetworkResult, SayWhyThereIsNothingToDraw) {
     EXPECT_TRUE(contains(error_of(time_space_figure(report)), "cannot draw time_space: no vehicle"));
 }
 
-TEST(NetworkResult, OfStreetsAreDrawnForFewIntervals) {
+TEST(StreetFigures, AreDrawnForFewIntervals) {
     if (!gnuplot_installed()) GTEST_SKIP() << "no gnuplot";
     for (const char* const duration : {"125 s", "60 s", "30 s"}) {
         const NetworkReport report =
@@ -58,21 +58,21 @@ TEST(NetworkResult, OfStreetsAreDrawnForFewIntervals) {
     }
 }
 
-TEST(NetworkResult, LeaveOutCausesThatHoldUpNobody) {
+TEST(NetworkFigures, OmitCausesWithoutDelay) {
     const NetworkReport report = report_of("arterial.yaml", {"duration=120 s", "measure.window=60 s"});
     const Figure figure = delay_causes_figure(report);
     EXPECT_TRUE(contains(figure.body, "title 'signal'"));
     EXPECT_FALSE(contains(figure.body, "title 'gridlock'"));
 }
 
-TEST(NetworkResult, GiveAPopulationOneColour) {
+TEST(NetworkFigures, UseOneColourForEachPopulation) {
     const NetworkReport report = report_of("arterial.yaml", {"duration=120 s", "measure.window=60 s"});
-    const std::string green = style_of(report.scenario, "CDG").colour;
-    EXPECT_EQ(green, line_style(2).colour) << "the third of the scenario";
-    EXPECT_NE(style_of(report.scenario, "CTG-Ref").colour, green);
+    const std::string cdg_colour = style_of(report.scenario, "CDG").colour;
+    EXPECT_EQ(cdg_colour, line_style(2).colour) << "CDG is the third population of the scenario";
+    EXPECT_NE(style_of(report.scenario, "CTG-Ref").colour, cdg_colour);
     EXPECT_TRUE(contains(network_series_figure(report).body,
-                         "'series_2.dat' using 1:2 with linespoints pt 7 ps 0.4 lw 2 lc rgb '" + green));
-    EXPECT_TRUE(contains(time_space_figure(report).body, "lc rgb '" + green + "' title 'CDG'"));
+                         "'series_2.dat' using 1:2 with linespoints pt 7 ps 0.4 lw 2 lc rgb '" + cdg_colour));
+    EXPECT_TRUE(contains(time_space_figure(report).body, "lc rgb '" + cdg_colour + "' title 'CDG'"));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The drawing of streets: everything is on it once, to scale, and no row cuts an intersection.
+// The map of a street network shows every lane, movement, intersection and signal programme once.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,22 +22,23 @@ std::string data_of(const Figure& figure, const std::string& name) {
     return {};
 }
 
-// Blocks of points, parted by empty lines.
-std::size_t blocks_of(const std::string& text) {
+// Returns the number of blocks of points, which empty lines separate.
+std::size_t block_count(const std::string& text) {
     std::size_t count = 0;
     for (std::size_t at = text.find("\n\n"); at != std::string::npos; at = text.find("\n\n", at + 2)) ++count;
     return count;
 }
 
-TEST(StreetMap, HasALineForEachLaneByItsSignalGroup) {
+TEST(StreetMap, HasOneLinePerLaneGroupedBySignal) {
     const Figure figure = street_map(berlin());
-    // Ten intersections with three lanes from west and east; two pockets at the first, one at the fourth.
-    EXPECT_EQ(blocks_of(data_of(figure, "network_lines_0.dat")), 10u * 6 + 1);
-    EXPECT_EQ(blocks_of(data_of(figure, "network_lines_1.dat")), 2u);
-    EXPECT_EQ(blocks_of(data_of(figure, "network_pockets.dat")), 3u);
-    EXPECT_EQ(blocks_of(data_of(figure, "network_lines_2.dat")), 5u + 2 + 2 + 2 + 3 + 2 + 2 + 2 + 2);
-    // An arrow for each movement, as ways inside.
-    EXPECT_EQ(blocks_of(data_of(figure, "network_heads.dat")), blocks_of(data_of(figure, "network_inside.dat")));
+    // Ten intersections have three lanes from the west and the east. There are two turn pockets at the first
+    // intersection and one at the fourth.
+    EXPECT_EQ(block_count(data_of(figure, "network_lines_0.dat")), 10u * 6 + 1);
+    EXPECT_EQ(block_count(data_of(figure, "network_lines_1.dat")), 2u);
+    EXPECT_EQ(block_count(data_of(figure, "network_pockets.dat")), 3u);
+    EXPECT_EQ(block_count(data_of(figure, "network_lines_2.dat")), 5u + 2 + 2 + 2 + 3 + 2 + 2 + 2 + 2);
+    // Each connection has an arrow head.
+    EXPECT_EQ(block_count(data_of(figure, "network_heads.dat")), block_count(data_of(figure, "network_inside.dat")));
 }
 
 TEST(StreetMap, NamesEveryIntersectionOnce) {
@@ -53,18 +54,18 @@ TEST(StreetMap, NamesEveryIntersectionOnce) {
     EXPECT_NE(figure.body.find("22/3/8/3/11/3/10 s, offset 54 s"), std::string::npos);
 }
 
-// A bar for each signal that lanes have, named before it; its colours are none of those of the stop lines.
-TEST(StreetMap, NamesTheBarsOfTheProgrammes) {
+// Each signal group has a named bar with its programme. The colours of the bars differ from those of the stop lines.
+TEST(StreetMap, HasANamedBarForEachSignalGroup) {
     const Figure figure = street_map(berlin());
     const auto count = [&](const std::string& part) {
-        std::size_t found = 0;
+        std::size_t occurrences = 0;
         for (std::size_t at = figure.body.find(part); at != std::string::npos; at = figure.body.find(part, at + 1))
-            ++found;
-        return found;
+            ++occurrences;
+        return occurrences;
     };
     EXPECT_EQ(count("set label 'major' at "), 10u);
     EXPECT_EQ(count("set label 'left' at "), 1u);
-    EXPECT_EQ(count("set label 'minor' at "), 9u);  // none at the pedestrian lights
+    EXPECT_EQ(count("set label 'minor' at "), 9u);  // none at the pedestrian signal
     const auto colour_of = [&](const std::string& file) {
         const std::size_t from = figure.body.find("rgb '", figure.body.find("'" + file + "'")) + 5;
         return figure.body.substr(from, 7);
@@ -77,7 +78,7 @@ TEST(StreetMap, NamesTheBarsOfTheProgrammes) {
     EXPECT_NE(figure.body.find("title 'red (thin line)'"), std::string::npos);
 }
 
-TEST(StreetMap, IsDrawn) {
+TEST(StreetMap, CanBeDrawn) {
     if (!gnuplot_installed()) GTEST_SKIP() << "no gnuplot";
     const std::filesystem::path folder = std::filesystem::temp_directory_path() / "stopline_street_map_test";
     std::filesystem::create_directories(folder);

@@ -53,7 +53,8 @@ TEST(AreaSeries, CountsOnlyTheFirstEntryOfAVehicle) {
                    {.shape = {{50.0, -30.0}, {50.0, 0.0}}}};
     EXPECT_EQ(inflow_series(graph, all, crossings, 20.0, 20.0)[0], (std::array<int, 4>{1, 1, 0, 0}));
     for (const OriginDestinationResult& relation : origin_destination_results(graph, all, crossings, {0.0, 20.0})) {
-        const bool expected = relation.to == Side::east && (relation.from == Side::west || relation.from == Side::south);
+        const bool expected =
+            relation.to == Side::east && (relation.from == Side::west || relation.from == Side::south);
         EXPECT_EQ(relation.exited, expected ? 1 : 0);
     }
 }
@@ -69,7 +70,8 @@ TEST(OriginDestination, DistinguishesSidesOfEntryAndExit) {
     const std::vector<Crossing> crossings{crossing(1.0, 1, 0),  crossing(2.0, 2, 0),  crossing(3.0, 3, 0),
                                           crossing(11.0, 1, 1), crossing(14.0, 2, 2), crossing(90.0, 3, 1)};
     int relations_with_traffic = 0;
-    for (const OriginDestinationResult& relation : origin_destination_results(graph, detectors, crossings, {0.0, 50.0})) {
+    for (const OriginDestinationResult& relation :
+         origin_destination_results(graph, detectors, crossings, {0.0, 50.0})) {
         if (relation.exited == 0) continue;
         ++relations_with_traffic;
         EXPECT_EQ(relation.from, Side::west);

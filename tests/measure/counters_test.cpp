@@ -8,7 +8,7 @@ namespace stopline {
 namespace {
 
 TEST(Counter, IncludesTheVehicleThatIsPassing) {
-    const Counter counter({3.0, 1.0, 2.0});  // in any order
+    const Counter counter({3.0, 1.0, 2.0});  // the order does not matter
     EXPECT_EQ(counter.passed(0.0), 0);
     EXPECT_EQ(counter.passed(0.999), 0);
     EXPECT_EQ(counter.passed(1.0), 1);

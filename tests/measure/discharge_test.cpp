@@ -39,7 +39,8 @@ Discharge discharge_in(const Model& model, const std::vector<Crossing>& crossing
 }
 
 // Adds passages at one detector during one green, given by their headways.
-void add_passages(std::vector<Crossing>& crossings, double green_s, int detector, const std::vector<double>& headways_s) {
+void add_passages(std::vector<Crossing>& crossings, double green_s, int detector,
+                  const std::vector<double>& headways_s) {
     double time_s = green_s;
     for (const double headway_s : headways_s) {
         time_s += headway_s;

@@ -20,8 +20,8 @@ Passage passage(double time_s, int vehicle, int from_lane, int to_lane, float sp
 
 TEST(LinePassages, KeepStopLinesOnlyAndStartAtTheGreen) {
     const std::vector<LinePassage> passages = line_passages(
-        two_lanes(), {passage(5.0, 0, -1, 0), passage(99.0, 7, 0, 1), passage(101.5, 0, 0, 1), passage(130.0, 0, 1, -1)},
-        100.0);
+        two_lanes(),
+        {passage(5.0, 0, -1, 0), passage(99.0, 7, 0, 1), passage(101.5, 0, 0, 1), passage(130.0, 0, 1, -1)}, 100.0);
     ASSERT_EQ(passages.size(), 1U);
     EXPECT_DOUBLE_EQ(passages[0].time_s, 1.5);
     EXPECT_EQ(passages[0].vehicle, 0);
@@ -58,7 +58,8 @@ TEST(LastPositionsFlow, IsTheMeanOverTheLastPositionsOfEachLane) {
 }
 
 TEST(LastPositionsFlow, IgnoresTheFirstVehicleWithoutHeadway) {
-    const LastPositionsFlow flow = last_positions_flow(line_passages(two_lanes(), {passage(1.0, 0, 0, 1), passage(3.0, 1, 0, 1)}, 0.0), 10);
+    const LastPositionsFlow flow =
+        last_positions_flow(line_passages(two_lanes(), {passage(1.0, 0, 0, 1), passage(3.0, 1, 0, 1)}, 0.0), 10);
     EXPECT_EQ(flow.vehicles, 1);
     EXPECT_DOUBLE_EQ(flow.headway_s, 2.0);
     EXPECT_EQ(last_positions_flow({}, 10).vehicles, 0);

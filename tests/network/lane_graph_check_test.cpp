@@ -16,7 +16,7 @@ namespace {
 struct Damage {
     const char* name;
     std::function<void(LaneGraph&)> apply;
-    const char* expected_text;  // of the error message
+    const char* expected_text;  // expected part of the error message
 };
 
 const Damage kDamages[] = {
@@ -67,13 +67,14 @@ TEST_P(BrokenGraph, IsRefusedAndNamed) {
     }
 }
 
-// Damages to neighbouring lanes. Lane 0 is a turn pocket of first_west; lanes 1 to 3 lie to its right.
+// Invalid changes to neighbouring lanes. Lane 0 is a turn pocket of first_west; lanes 1 to 3 lie to its right.
 const Damage kNeighbourDamages[] = {
     {"neighbour without the link back", [](LaneGraph& g) { g.lanes[1].left = -1; }, "first_west_in_1"},
     {"neighbour of another approach", [](LaneGraph& g) { g.lanes[3].right = 7; }, "first_west_in_3"},
     {"neighbours in the wrong order",
      [](LaneGraph& g) { std::swap(g.approaches[0].lanes[1], g.approaches[0].lanes[2]); }, "first_west"},
-    {"stop line that is not aligned with the neighbours", [](LaneGraph& g) { g.lanes[0].start_offset_m += 1.0; }, "is not beside"},
+    {"stop line that is not aligned with the neighbours", [](LaneGraph& g) { g.lanes[0].start_offset_m += 1.0; },
+     "is not beside"},
     {"lane that begins too early", [](LaneGraph& g) { g.lanes[0].start_offset_m = -1.0; }, "first_west_in_0"},
     {"approach that does not have the lane", [](LaneGraph& g) { g.lanes[0].approach = 1; }, "first_west_in_0"},
     {"lane of two approaches", [](LaneGraph& g) { g.approaches.push_back(g.approaches[1]); }, "first_south_in_0"},

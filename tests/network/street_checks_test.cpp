@@ -22,8 +22,8 @@ StreetIntersection& first(StreetSettings& s) { return s.intersections[0]; }
 StreetIntersection& second(StreetSettings& s) { return s.intersections[1]; }
 
 const Damage kDamages[] = {
-    {"two intersections with one name", [](StreetSettings& s) { second(s).name = "first"; }, "intersections[first].name",
-     "appears twice"},
+    {"two intersections with one name", [](StreetSettings& s) { second(s).name = "first"; },
+     "intersections[first].name", "appears twice"},
     {"a second leg on a side", [](StreetSettings& s) { first(s).legs[2].from = "west"; },
      "intersections[first].legs[2].from", "there is already a leg in the west"},
     {"one leg only", [](StreetSettings& s) { first(s).legs.resize(1); }, "intersections[first].legs", "two legs"},
@@ -36,7 +36,8 @@ const Damage kDamages[] = {
      "intersections[first].programme.minor_green", "need a green"},
     {"the same position", [](StreetSettings& s) { second(s).x_m = 0.0; }, "intersections[second].x",
      "only 0 m from 'first'"},
-    {"no road between the intersections", [](StreetSettings& s) { second(s).x_m = 45.0; }, "intersections[second].x", "need 50 m"},
+    {"no road between the intersections", [](StreetSettings& s) { second(s).x_m = 45.0; }, "intersections[second].x",
+     "need 50 m"},
     {"a left turn from a lane further right",
      [](StreetSettings& s) {
          first(s).legs[0].lanes = {{"straight"}, {"straight+left"}, {"straight+right"}};
@@ -56,8 +57,8 @@ const Damage kDamages[] = {
      "value 3.2 m is too large for lanes of 3.5 m: vehicles on neighbouring lanes would touch. The maximum is 3 m"},
     {"lanes as wide as a vehicle", [](StreetSettings& s) { s.lane_width_m = 2.0; }, "clearance",
      "value 2 m is too large for lanes of 2 m: vehicles on neighbouring lanes would touch. The maximum is 1.5 m"},
-    {"radius too small for the lanes", [](StreetSettings& s) { second(s).radius_m = 14.0; }, "intersections[second].radius",
-     "need a radius of at least 14.5 m"},
+    {"radius too small for the lanes", [](StreetSettings& s) { second(s).radius_m = 14.0; },
+     "intersections[second].radius", "need a radius of at least 14.5 m"},
     {"turn shares above 100 %", [](StreetSettings& s) { first(s).legs[0].right_share = 0.95; },
      "intersections[first].legs[0].left", "exceed 100 %"},
     {"a turn that no lane allows", [](StreetSettings& s) { first(s).legs[0].lanes[0].movements = "straight"; },
@@ -70,8 +71,8 @@ const Damage kDamages[] = {
      "there is no exit in the north"},
     {"fewer exits than lanes", [](StreetSettings& s) { first(s).legs[1].exits = 2; },
      "intersections[first].legs[0].lanes[0].movements", "3 lanes lead 'straight', but there are 2 exits in the east"},
-    {"exit lanes without continuation", [](StreetSettings& s) { first(s).legs[1].exits = 4; }, "intersections[second].legs[0].lanes",
-     "4 exits of 'first' lead here, but only 3 lanes continue them"},
+    {"exit lanes without continuation", [](StreetSettings& s) { first(s).legs[1].exits = 4; },
+     "intersections[second].legs[0].lanes", "4 exits of 'first' lead here, but only 3 lanes continue them"},
     {"no facing leg",
      [](StreetSettings& s) {
          s.intersections[1].legs = {s.intersections[1].legs[2], s.intersections[1].legs[3]};

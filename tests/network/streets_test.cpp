@@ -49,11 +49,12 @@ TEST(Streets, LaneLengthsMatchTheRoad) {
     EXPECT_NEAR(lane(graph, "first_west_in_0").stop_line_m, 320.0, 1e-9);
     EXPECT_NEAR(lane(graph, "second_east_out_2").length_m, 80.0, 1e-9);
     EXPECT_NEAR(lane(graph, "first_west_1_straight").length_m, 40.0, 1e-9);
-    for (const Lane& each : graph.lanes) {
-        EXPECT_NEAR(length_m(each.shape),
-                    each.origin < 0 && each.signal_group >= 0 ? each.stop_line_m : each.length_m + each.shape_start_m,
+    for (const Lane& this_lane : graph.lanes) {
+        EXPECT_NEAR(length_m(this_lane.shape),
+                    this_lane.origin < 0 && this_lane.signal_group >= 0 ? this_lane.stop_line_m
+                                                                        : this_lane.length_m + this_lane.shape_start_m,
                     1e-9)
-            << each.name;
+            << this_lane.name;
     }
 }
 
@@ -61,18 +62,18 @@ TEST(Streets, LaneLengthsMatchTheRoad) {
 TEST(Streets, ConnectionsBeginWhereTheMovementsDiverge) {
     const StreetSettings streets = two_streets();
     const LaneGraph graph = make_streets(streets);
-    for (const Lane& each : graph.lanes) {
-        if (each.origin < 0) continue;
-        const Lane& origin = graph.lanes[at(each.origin)];
-        EXPECT_NEAR(each.shape_start_m, origin.length_m - origin.stop_line_m, 1e-9) << each.name;
+    for (const Lane& this_lane : graph.lanes) {
+        if (this_lane.origin < 0) continue;
+        const Lane& origin = graph.lanes[at(this_lane.origin)];
+        EXPECT_NEAR(this_lane.shape_start_m, origin.length_m - origin.stop_line_m, 1e-9) << this_lane.name;
         for (const int other : origin.next) {
             const Lane& beside = graph.lanes[at(other)];
-            if (beside.name == each.name) continue;
-            EXPECT_GE(distance_m(beside.shape, pose_at(each.shape, each.shape_start_m).point),
+            if (beside.name == this_lane.name) continue;
+            EXPECT_GE(distance_m(beside.shape, pose_at(this_lane.shape, this_lane.shape_start_m).point),
                       streets.clearance_m - 0.01)
-                << each.name;
+                << this_lane.name;
         }
-        EXPECT_EQ(origin.next.size() > 1, each.shape_start_m > 0.0) << each.name;
+        EXPECT_EQ(origin.next.size() > 1, this_lane.shape_start_m > 0.0) << this_lane.name;
     }
 }
 
@@ -98,12 +99,12 @@ TEST(Streets, SuccessiveLanesJoin) {
     StreetSettings streets = streets_with_pockets();
     streets.intersections[1].y_m = 0.8;  // slightly off the straight line
     const LaneGraph graph = make_streets(streets);
-    for (const Lane& each : graph.lanes) {
-        for (const int next : each.next) {
+    for (const Lane& this_lane : graph.lanes) {
+        for (const int next : this_lane.next) {
             const Lane& other = graph.lanes[at(next)];
-            const Point end = each.shape.back();
+            const Point end = this_lane.shape.back();
             EXPECT_NEAR(std::hypot(end.x_m - other.shape.front().x_m, end.y_m - other.shape.front().y_m), 0.0, 1e-9)
-                << each.name << " to " << other.name;
+                << this_lane.name << " to " << other.name;
         }
     }
     EXPECT_NEAR(lane(graph, "second_west_in_1").stop_line_m, std::hypot(160.0, 0.8), 1e-9);
@@ -125,8 +126,9 @@ TEST(Streets, PocketsLieInTheMedianAndEndAtTheCommonStopLine) {
     EXPECT_FALSE(listed(graph.entries) || listed(graph.links));
     EXPECT_TRUE(
         std::any_of(graph.routes.begin(), graph.routes.end(), [&](const Route& r) { return r.lanes[0] == pocket; }));
-    for (const Lane& each : graph.lanes) {
-        EXPECT_EQ(std::find(each.next.begin(), each.next.end(), pocket), each.next.end()) << each.name;
+    for (const Lane& this_lane : graph.lanes) {
+        EXPECT_EQ(std::find(this_lane.next.begin(), this_lane.next.end(), pocket), this_lane.next.end())
+            << this_lane.name;
     }
     EXPECT_EQ(graph.lanes[at(lane(graph, "second_east_0_straight").next[0])].name, "first_east_in_1");
 }
@@ -136,21 +138,22 @@ TEST(Streets, LanesOfAnApproachLinkToTheirNeighbours) {
     for (const Approach& approach : graph.approaches) {
         int left = -1;
         for (const int number : approach.lanes) {
-            const Lane& each = graph.lanes[at(number)];
-            EXPECT_EQ(each.left, left) << each.name;
+            const Lane& this_lane = graph.lanes[at(number)];
+            EXPECT_EQ(this_lane.left, left) << this_lane.name;
             if (left >= 0) {
                 EXPECT_EQ(graph.lanes[at(left)].right, number);
             }
-            EXPECT_EQ(graph.approaches[at(each.approach)].name, approach.name);
-            EXPECT_NEAR(
-                each.start_offset_m + each.stop_line_m,
-                graph.lanes[at(approach.lanes.back())].start_offset_m + graph.lanes[at(approach.lanes.back())].stop_line_m,
-                1e-9);
+            EXPECT_EQ(graph.approaches[at(this_lane.approach)].name, approach.name);
+            EXPECT_NEAR(this_lane.start_offset_m + this_lane.stop_line_m,
+                        graph.lanes[at(approach.lanes.back())].start_offset_m +
+                            graph.lanes[at(approach.lanes.back())].stop_line_m,
+                        1e-9);
             left = number;
         }
         EXPECT_EQ(graph.lanes[at(left)].right, -1);
     }
-    for (const Lane& each : graph.lanes) EXPECT_EQ(each.approach >= 0, each.signal_group >= 0) << each.name;
+    for (const Lane& this_lane : graph.lanes)
+        EXPECT_EQ(this_lane.approach >= 0, this_lane.signal_group >= 0) << this_lane.name;
 }
 
 // Oncoming straight traffic has priority, also if the left lane has its own signal group: both can be green at once.

@@ -1,4 +1,4 @@
-// What was measured is used again by the same program with the same scenario, and by nothing else.
+// Stored measurements are reused only by the same program with the same scenario.
 #include "paper/measurements.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace stopline {
 namespace {
 
-Measurements sample() {
+Measurements example_measurements() {
     Measurements measured;
     measured.set("passed CDG 15", 17);
     measured.set("improvement, \"so\"", 1.0 / 3.0);
@@ -20,9 +20,9 @@ Measurements sample() {
     return measured;
 }
 
-TEST(Measurements, ReadBackToTheLastBit) {
+TEST(Measurements, AreRestoredExactly) {
     const TemporaryFolder folder;
-    store_measurements(folder.path() / "m.csv", "key 1", sample());
+    store_measurements(folder.path() / "m.csv", "key 1", example_measurements());
     const auto loaded = load_measurements(folder.path() / "m.csv", "key 1");
     ASSERT_TRUE(loaded);
     EXPECT_EQ(loaded->values().size(), 4U);
@@ -32,14 +32,14 @@ TEST(Measurements, ReadBackToTheLastBit) {
     EXPECT_FALSE(loaded->find("never measured"));
 }
 
-TEST(Measurements, AreNotUsedUnderAnotherKey) {
+TEST(Measurements, AreNotReusedWithAnotherKey) {
     const TemporaryFolder folder;
-    store_measurements(folder.path() / "m.csv", "key 1", sample());
+    store_measurements(folder.path() / "m.csv", "key 1", example_measurements());
     EXPECT_FALSE(load_measurements(folder.path() / "m.csv", "key 2"));
     EXPECT_FALSE(load_measurements(folder.path() / "none.csv", "key 1"));
 }
 
-TEST(Measurements, AreNotUsedWhereTheFileIsDamaged) {
+TEST(Measurements, AreNotReusedFromADamagedFile) {
     const TemporaryFolder folder;
     for (const char* text : {"", "name,value\n", "name,value\nkey,key 1\na,seven\n", "name,value\nkey,key 1\na\n",
                              "name\nkey\n", "\xff\xfe\"", "name,value\na,7\n"}) {
@@ -48,12 +48,12 @@ TEST(Measurements, AreNotUsedWhereTheFileIsDamaged) {
 }
 
 TEST(ResultsKey, ChangesWithTheScenario) {
-    const auto plain = results_key(short_scenario());
-    ASSERT_TRUE(plain);
-    EXPECT_EQ(plain, results_key(short_scenario()));
-    EXPECT_NE(plain, results_key(short_scenario({"seed=2"})));
-    EXPECT_NE(plain, results_key(short_scenario({"policies[CDG].standstill_gap=3 m"})));
-    EXPECT_NE(plain, results_key(short_scenario({"vehicle.mass=1236 kg"})));
+    const auto key = results_key(short_scenario());
+    ASSERT_TRUE(key);
+    EXPECT_EQ(key, results_key(short_scenario()));
+    EXPECT_NE(key, results_key(short_scenario({"seed=2"})));
+    EXPECT_NE(key, results_key(short_scenario({"policies[CDG].standstill_gap=3 m"})));
+    EXPECT_NE(key, results_key(short_scenario({"vehicle.mass=1236 kg"})));
 }
 
 }  // namespace

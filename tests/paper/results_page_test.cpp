@@ -1,4 +1,4 @@
-// The results page and the headlines, from rows that were made up.
+// The results page and the headlines, from made-up rows.
 #include "paper/results_page.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ ScoredRow row_of(const std::string& id, const std::string& section, const std::s
     return row;
 }
 
-Scorecard some_scorecard() {
+Scorecard example_scorecard() {
     Scorecard scorecard;
     scorecard.rows = {row_of("B04", "VII.C", "61.2", Verdict::inside), row_of("B05", "I", "", Verdict::open),
                       row_of("A05", "VI.B", "80", Verdict::miss)};
@@ -32,30 +32,31 @@ Scorecard some_scorecard() {
     return scorecard;
 }
 
-TEST(Headlines, AreFiveAndNameWhatIsMissing) {
-    const std::vector<Headline> lines = headlines(some_scorecard());
+TEST(Headlines, AreFiveAndNameMissingValues) {
+    const std::vector<Headline> lines = headlines(example_scorecard());
     ASSERT_EQ(lines.size(), 5u);
     EXPECT_EQ(lines[0].text, "Not measured in these runs: vehicles in 15 s of green, gain with long greens.");
     EXPECT_EQ(
         lines[2].text,
-        "CDG gains 80 % on the arterial without turns from the major street. It gains 61 % in Berlin. Not measured in these "
-        "runs: grid.");
+        "CDG gains 80 % on the arterial without turns from the major street. It gains 61 % in Berlin. Not measured in "
+        "these runs: grid.");
     EXPECT_EQ(lines[4].text, "Of 3 rows 1 are inside their tolerance, 1 outside, and 1 open.");
 }
 
-TEST(Headlines, TakeAnAnswerThatIsNoNumberForMissing) {
-    Scorecard scorecard = some_scorecard();
+TEST(Headlines, TreatAnAnswerWithoutNumberAsMissing) {
+    Scorecard scorecard = example_scorecard();
     scorecard.rows[0].ours = "none";
     EXPECT_TRUE(contains(headlines(scorecard)[2].text, "grid, Berlin."));
 }
 
-TEST(ResultsPage, HasATableForEachSectionAndTheFindingsLast) {
-    const std::string page = results_markdown(some_scorecard(), "stopline-scorecard --markdown x.md", "## Findings\n");
+TEST(ResultsPage, HasATablePerSectionAndTheFindingsAtTheEnd) {
+    const std::string page =
+        results_markdown(example_scorecard(), "stopline-scorecard --markdown x.md", "## Findings\n");
     EXPECT_TRUE(contains(page, "`stopline-scorecard --markdown x.md`"));
     const std::size_t introduction = page.find("## Section I: numbers of the introduction");
     EXPECT_LT(introduction, page.find("## Section VII: Berlin"));
     EXPECT_TRUE(contains(page,
-                         "| A05 | improvement over ctg ref | CDG no\\_turns \\| mean | 50 | 80 | % | +30 | ±12 | "
+                         "| A05 | improvement over CTG-Ref | CDG no\\_turns \\| mean | 50 | 80 | % | +30 | ±12 | "
                          "**outside** | See \\<A11>. |"));
     EXPECT_TRUE(contains(page, "| All | 3 | 1 | 1 | 1 |"));
     EXPECT_TRUE(page.ends_with("\n## Findings\n"));

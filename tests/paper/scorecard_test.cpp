@@ -1,3 +1,4 @@
+// The scorecard: answers from measurements, verdicts by section, stored measurements and commands.
 #include "paper/scorecard.h"
 
 #include <gtest/gtest.h>
@@ -45,7 +46,7 @@ TEST(SectionThree, ReadsEachAnswerFromItsOwnMeasurement) {
     EXPECT_FALSE(answer_of("L14", measured)) << "the row is about 50 km/h";
 }
 
-TEST(SectionThree, TakesTheWorstWhereARowIsAboutAll) {
+TEST(SectionThree, UsesTheWorstPopulationForRowsAboutAll) {
     Measurements measured;
     measured.set("leader_to_limit CDG", 15.1);
     measured.set("leader_to_limit MIX", 12.9);
@@ -57,6 +58,7 @@ TEST(SectionThree, TakesTheWorstWhereARowIsAboutAll) {
     EXPECT_EQ(answer_of("P02", measured)->low, 2.9);
 }
 
+// Returns measurements of the vehicles that pass within 15 s. The fraction shows how near the next vehicle is.
 Measurements counts(double cdg, double switch_1, double switch_2, double mix, double ref, double hbs) {
     Measurements measured;
     const std::vector<std::pair<const char*, double>> all{{"CDG", cdg}, {"SWITCH-1", switch_1}, {"SWITCH-2", switch_2},
@@ -68,7 +70,7 @@ Measurements counts(double cdg, double switch_1, double switch_2, double mix, do
     return measured;
 }
 
-TEST(SectionThree, OrderHoldsByCountAndAtEqualCountsByTheNextVehicle) {
+TEST(SectionThree, OrderDependsOnCountsThenOnTheNextVehicle) {
     EXPECT_TRUE(*answer_of("L15", counts(17.2, 13.5, 13.1, 11.0, 8.2, 7.9))->holds);
     EXPECT_TRUE(*answer_of("L15", counts(17.2, 13.5, 13.1, 11.0, 8.9, 8.1))->holds);
     EXPECT_TRUE(*answer_of("L15", counts(17.2, 14.9, 13.1, 11.0, 8.2, 7.9))->holds) << "one vehicle counts as equal";
@@ -80,7 +82,7 @@ TEST(SectionThree, OrderHoldsByCountAndAtEqualCountsByTheNextVehicle) {
     EXPECT_FALSE(answer_of("L15", Measurements{}));
 }
 
-TEST(Scorecard, OfInputsIsInsideAndMeasuresNothing) {
+TEST(Scorecard, JudgesInputsWithoutMeasuring) {
     const TemporaryFolder folder;
     ScorecardOptions options;
     options.section = "III.B";
@@ -91,7 +93,7 @@ TEST(Scorecard, OfInputsIsInsideAndMeasuresNothing) {
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
-TEST(Scorecard, HasEveryRowOfASectionOpenWhereThePaperStatesNoTolerance) {
+TEST(Scorecard, RowsWithoutToleranceAreOpen) {
     const TemporaryFolder folder;
     ScorecardOptions options;
     options.section = "V.A";
@@ -105,7 +107,7 @@ TEST(Scorecard, HasEveryRowOfASectionOpenWhereThePaperStatesNoTolerance) {
     EXPECT_EQ(csv.rows.size(), scorecard.rows.size());
 }
 
-TEST(Scorecard, ReusesWhatTheSameProgramMeasuredForTheSameScenario) {
+TEST(Scorecard, ReusesMeasurementsOfTheSameScenario) {
     const TemporaryFolder folder;
     std::vector<std::string> messages;
     ScorecardOptions options;
@@ -127,7 +129,7 @@ TEST(Scorecard, ReusesWhatTheSameProgramMeasuredForTheSameScenario) {
 class ScorecardInterrupt : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Sections, ScorecardInterrupt, testing::Values("III", "IV"));
 
-TEST_P(ScorecardInterrupt, StoresNothing) {
+TEST_P(ScorecardInterrupt, StoresNoMeasurements) {
     const TemporaryFolder folder;
     ScorecardOptions options;
     options.section = GetParam();
@@ -138,25 +140,25 @@ TEST_P(ScorecardInterrupt, StoresNothing) {
     EXPECT_TRUE(std::filesystem::is_empty(folder.path() / "measured"));
 }
 
-TEST(Scorecard, RefusesASectionThatThePaperDoesNotHave) {
+TEST(Scorecard, RefusesAnUnknownSection) {
     ScorecardOptions options;
     options.section = "XI";
     const std::string error = input_error_of([&] { make_scorecard(options); });
     EXPECT_TRUE(contains(error, "no rows of section 'XI'; sections with rows: III.B"));
 }
 
-// Every section has a command, and the files that it names are there.
-TEST(Scorecard, NamesTheRunsBehindTheSectionShown) {
-    const auto of = [](const std::string& section) { return commands_behind(score(section, {}).rows); };
+// Every section has a command, and its scenario file exists.
+TEST(Scorecard, NamesTheCommandsOfASection) {
+    const auto commands = [](const std::string& section) { return commands_behind(score(section, {}).rows); };
     using Commands = std::vector<std::string>;
-    EXPECT_EQ(of("III"), Commands{"stopline-run scenarios/single_light.yaml"});
-    EXPECT_EQ(of("IV"), Commands{"stopline-sweep scenarios/sweeps/intersection.yaml"});
-    EXPECT_EQ(of("V"), Commands{"stopline-calibrate"});
-    EXPECT_EQ(of("VI.C"), Commands{"stopline-sweep scenarios/sweeps/grid.yaml"});
-    EXPECT_EQ(of("VII"), Commands{"stopline-sweep scenarios/sweeps/berlin.yaml"});
-    EXPECT_EQ(of("I"), of("VII"));
-    EXPECT_EQ(of("").size(), 7u);
-    for (const std::string& command : of("")) {
+    EXPECT_EQ(commands("III"), Commands{"stopline-run scenarios/single_light.yaml"});
+    EXPECT_EQ(commands("IV"), Commands{"stopline-sweep scenarios/sweeps/intersection.yaml"});
+    EXPECT_EQ(commands("V"), Commands{"stopline-calibrate"});
+    EXPECT_EQ(commands("VI.C"), Commands{"stopline-sweep scenarios/sweeps/grid.yaml"});
+    EXPECT_EQ(commands("VII"), Commands{"stopline-sweep scenarios/sweeps/berlin.yaml"});
+    EXPECT_EQ(commands("I"), commands("VII"));
+    EXPECT_EQ(commands("").size(), 7u);
+    for (const std::string& command : commands("")) {
         const std::size_t file = command.find("scenarios/");
         if (file == std::string::npos) continue;
         EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(STOPLINE_SOURCE_DIR) / command.substr(file)))

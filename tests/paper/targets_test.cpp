@@ -1,3 +1,4 @@
+// Rows of the paper: sections, conditions, numbers, judges and explanations.
 #include "reference/targets.h"
 
 #include <gtest/gtest.h>
@@ -5,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "base/io/csv.h"
 #include "paper/scorecard.h"
 #include "paper/verdict.h"
 #include "scenario/scenario_text.h"
@@ -18,7 +20,7 @@ Target of_section(const std::string& section) {
     return target;
 }
 
-TEST(Section, HasWhatIsBelowItAndNothingElse) {
+TEST(Section, IncludesOnlyItsSubsections) {
     EXPECT_TRUE(in_section(of_section("III.B"), "III"));
     EXPECT_TRUE(in_section(of_section("III.B"), "III.B"));
     EXPECT_TRUE(in_section(of_section("IV Table 1"), "IV"));
@@ -32,7 +34,7 @@ TEST(Section, HasWhatIsBelowItAndNothingElse) {
     EXPECT_FALSE(in_section(of_section("IV.C"), "IV Table 1"));
 }
 
-TEST(GreenCondition, IsAPopulationAndATime) {
+TEST(GreenCondition, HasAPopulationAndAGreenTime) {
     const auto plain = parse_green_condition("CDG green=15");
     ASSERT_TRUE(plain);
     EXPECT_EQ(plain->population, "CDG");
@@ -49,7 +51,7 @@ TEST(GreenCondition, IsAPopulationAndATime) {
     }
 }
 
-TEST(Number, IsTheWholeText) {
+TEST(Number, MustBeTheWholeText) {
     EXPECT_EQ(parse_number("4.70"), 4.7);
     EXPECT_EQ(parse_number("-20"), -20.0);
     for (const char* other : {"", " 1", "1 ", "1,5", "nan", "inf", "0x10", "1e999", "17 veh"}) {
@@ -57,7 +59,7 @@ TEST(Number, IsTheWholeText) {
     }
 }
 
-TEST(Targets, OfTheProjectAreAllUnderstood) {
+TEST(Targets, ShippedRowsCanBeJudged) {
     const std::vector<Target> targets = load_targets();
     EXPECT_EQ(targets.size(), 136U);
     for (const Target& target : targets) {
@@ -66,7 +68,7 @@ TEST(Targets, OfTheProjectAreAllUnderstood) {
     }
 }
 
-TEST(Targets, HaveOneJudgeARowAndEveryJudgeHasItsRowAndExperiment) {
+TEST(Targets, HaveAtMostOneJudgeWithAKnownExperiment) {
     std::set<std::string> ids;
     for (const Target& target : load_targets()) ids.insert(target.id);
     std::set<std::string> experiment_names;
@@ -79,7 +81,7 @@ TEST(Targets, HaveOneJudgeARowAndEveryJudgeHasItsRowAndExperiment) {
     }
 }
 
-TEST(Targets, RefuseTwoRowsOfOneId) {
+TEST(Targets, RefuseDuplicateIdsAndMissingColumns) {
     const TemporaryFolder folder;
     const std::string header = "id,section,scenario,kind,quantity,condition,value,unit,tolerance,tolerance_kind,note\n";
     const std::string line = "L01,III.E,single_light,target,x,y,1,s,0,abs,\n";
@@ -90,7 +92,7 @@ TEST(Targets, RefuseTwoRowsOfOneId) {
     EXPECT_TRUE(contains(input_error_of([&] { load_targets(lacking); }), "no column 'scenario'"));
 }
 
-TEST(Explanations, AreOfRowsOfThePaper) {
+TEST(Explanations, BelongToRowsOfThePaper) {
     std::set<std::string> ids;
     for (const Target& target : load_targets()) ids.insert(target.id);
     for (const auto& [id, explanation] : load_explanations(shipped("data/paper/explanations.csv"))) {
@@ -99,8 +101,8 @@ TEST(Explanations, AreOfRowsOfThePaper) {
     }
 }
 
-TEST(Explanations, StandBesideTheRow) {
-    const std::map<std::string, Explanation> all{{"L01", {"counted so", "because"}}};
+TEST(Explanations, AreAddedToTheirRows) {
+    const std::map<std::string, Explanation> all{{"L01", {"how it is measured", "cause"}}};
     const auto explained = [&](const std::string& id, Verdict verdict) {
         ScoredRow row;
         row.target.id = id;
@@ -108,9 +110,9 @@ TEST(Explanations, StandBesideTheRow) {
         explain(all, row);
         return row;
     };
-    EXPECT_EQ(explained("L01", Verdict::inside).measured_as, "counted so");
-    EXPECT_EQ(explained("L01", Verdict::inside).explanation, "") << "a reason for a miss that is none";
-    EXPECT_EQ(explained("L01", Verdict::miss).explanation, "because");
+    EXPECT_EQ(explained("L01", Verdict::inside).measured_as, "how it is measured");
+    EXPECT_EQ(explained("L01", Verdict::inside).explanation, "") << "a row inside its tolerance needs no cause";
+    EXPECT_EQ(explained("L01", Verdict::miss).explanation, "cause");
     EXPECT_EQ(explained("L02", Verdict::miss).explanation, "Not explained yet.");
     EXPECT_EQ(explained("L02", Verdict::open).explanation, "");
 }

@@ -1,3 +1,4 @@
+// Verdicts on answers: tolerances, ranges, claims and invalid rows.
 #include "paper/verdict.h"
 
 #include <gtest/gtest.h>
@@ -21,22 +22,22 @@ Target row(const std::string& value, const std::string& tolerance, const std::st
 
 Verdict judged(const Target& target, double ours) { return judge(target, number_answer(ours)); }
 
-TEST(Judge, AbsoluteToleranceIsInTheUnitAndIncludesItsEnds) {
+TEST(Judge, AbsoluteToleranceIncludesItsLimits) {
     const Target target = row("17", "1", "abs");
     for (const double ours : {16.0, 16.5, 17.0, 18.0}) EXPECT_EQ(judged(target, ours), Verdict::inside) << ours;
     for (const double ours : {15.0, 15.999, 18.001, -17.0}) EXPECT_EQ(judged(target, ours), Verdict::miss) << ours;
 }
 
-TEST(Judge, PercentToleranceIsOfThePapersValue) {
+TEST(Judge, PercentToleranceRefersToTheValueOfThePaper) {
     const Target target = row("5254", "6", "%");
     EXPECT_EQ(judged(target, 5254 * 1.06), Verdict::inside);
     EXPECT_EQ(judged(target, 5254 * 1.061), Verdict::miss);
     EXPECT_EQ(judged(target, 5254 * 0.939), Verdict::miss);
-    EXPECT_EQ(judged(row("-20", "10", "%"), -22.0), Verdict::inside);  // of its size
+    EXPECT_EQ(judged(row("-20", "10", "%"), -22.0), Verdict::inside);  // the tolerance refers to the magnitude
     EXPECT_EQ(judged(row("-20", "10", "%"), -22.1), Verdict::miss);
 }
 
-TEST(Judge, MaximumHasNoLowerEnd) {
+TEST(Judge, MaximumHasNoLowerLimit) {
     const Target target = row("1.0", "", "max");
     EXPECT_EQ(judged(target, 0.0), Verdict::inside);
     EXPECT_EQ(judged(target, 1.0), Verdict::inside);
@@ -50,7 +51,7 @@ TEST(Judge, ZeroToleranceAllowsOnlyRounding) {
     EXPECT_EQ(judged(target, 0.870001), Verdict::miss);
 }
 
-TEST(Judge, RangeIsMetByANumberWithinAndByARangeWithItsEnds) {
+TEST(Judge, RangeAcceptsNumbersWithinAndRangesWithItsEnds) {
     const Target target = row("20..45", "8", "abs");
     EXPECT_EQ(judged(target, 30.0), Verdict::inside);
     EXPECT_EQ(judged(target, 12.0), Verdict::inside);
@@ -59,7 +60,8 @@ TEST(Judge, RangeIsMetByANumberWithinAndByARangeWithItsEnds) {
     EXPECT_EQ(judged(target, 53.1), Verdict::miss);
     EXPECT_EQ(judge(target, range_answer(15.0, 50.0)), Verdict::inside);
     EXPECT_EQ(judge(target, range_answer(15.0, 54.0)), Verdict::miss);
-    EXPECT_EQ(judge(target, range_answer(30.0, 32.0)), Verdict::miss);  // it does not reach the paper's ends
+    EXPECT_EQ(judge(target, range_answer(30.0, 32.0)),
+              Verdict::miss);  // it does not reach the ends of the paper's range
 }
 
 TEST(Judge, ClaimsHoldOrNot) {
@@ -71,7 +73,7 @@ TEST(Judge, ClaimsHoldOrNot) {
     EXPECT_TRUE(contains(input_error_of([&] { judge(claim, number_answer(1.0)); }), "X01"));
 }
 
-TEST(Judge, WhatIsNotMeasuredIsOpenAndWhatIsNotFoundIsAMiss) {
+TEST(Judge, UnmeasuredValuesAreOpenAndMissingResultsAreAMiss) {
     EXPECT_EQ(judge(row("17", "1", "abs"), std::nullopt), Verdict::open);
     EXPECT_EQ(judged(row("17", "1", "abs"), std::nan("")), Verdict::miss);
     EXPECT_EQ(judged(row("17", "1", "max"), std::nan("")), Verdict::miss);
@@ -79,7 +81,7 @@ TEST(Judge, WhatIsNotMeasuredIsOpenAndWhatIsNotFoundIsAMiss) {
     EXPECT_EQ(judged(row("4.70", "", ""), 4.7), Verdict::open);  // the row states no tolerance
 }
 
-TEST(Judge, RefusesARowThatItDoesNotUnderstand) {
+TEST(Judge, RefusesInvalidRows) {
     const auto error = [](const Target& target) { return input_error_of([&] { judged(target, 1.0); }); };
     EXPECT_TRUE(contains(error(row("many", "1", "abs")), "value 'many'"));
     EXPECT_TRUE(contains(error(row("1..2..3", "1", "abs")), "value '1..2..3'"));
@@ -89,7 +91,7 @@ TEST(Judge, RefusesARowThatItDoesNotUnderstand) {
     EXPECT_TRUE(contains(error(row("1", "1", "about")), "unknown kind of tolerance 'about'"));
 }
 
-TEST(ToleranceText, IsForPeople) {
+TEST(ToleranceText, IsReadable) {
     EXPECT_EQ(tolerance_text(row("17", "1", "abs")), "±1");
     EXPECT_EQ(tolerance_text(row("17", "6", "%")), "±6 %");
     EXPECT_EQ(tolerance_text(row("17", "0", "abs")), "exact");

@@ -1,4 +1,4 @@
-// What is read back from a recording is what the simulation did, to the unit; whatever is done to the file is noticed.
+// Tests of recordings. Reading one back gives the simulated states within rounding. Damage to the file is detected.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,11 +8,11 @@
 #include <tuple>
 #include <vector>
 
-#include "runs/network/network_run.h"
-#include "runs/observation.h"
 #include "record/recording/frame_decoder.h"
 #include "record/recording/recorder.h"
 #include "record/recording/recording_reader.h"
+#include "runs/network/network_run.h"
+#include "runs/observation.h"
 #include "scenario/scenario_text.h"
 
 namespace stopline {
@@ -20,33 +20,35 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Seen {
+struct VehicleState {
     int policy, lane, next;
     double position_m, speed_mps;
 };
-using Picture = std::map<int, Seen>;  // by vehicle
+using VehicleStates = std::map<int, VehicleState>;  // by vehicle id
 
-Picture picture_of(const State& state) {
-    Picture picture;
+VehicleStates states_of(const State& state) {
+    VehicleStates states;
     const VehicleArrays& v = state.vehicles;
     for (int lane = 0; lane < static_cast<int>(state.blocks.size()); ++lane) {
         const LaneBlock& block = state.blocks[static_cast<std::size_t>(lane)];
-        for (auto slot = static_cast<std::size_t>(block.first); slot < static_cast<std::size_t>(block.past_last()); ++slot) {
-            picture[v.id[slot]] = {v.policy[slot], lane, v.next_lane[slot], v.position_m[slot], v.speed_mps[slot]};
+        for (auto slot = static_cast<std::size_t>(block.first); slot < static_cast<std::size_t>(block.past_last());
+             ++slot) {
+            states[v.id[slot]] = {v.policy[slot], lane, v.next_lane[slot], v.position_m[slot], v.speed_mps[slot]};
         }
     }
-    return picture;
+    return states;
 }
 
-// A gridlock-prone small grid, its recording, and what was to be seen at each frame.
+// Reference data of a recorded run, one entry for each frame.
 struct Recorded {
-    std::vector<Picture> pictures;
+    std::vector<VehicleStates> frames;
     std::vector<std::vector<Light>> lights;
-    std::vector<std::map<int, DelayCause>> causes;  // by vehicle, of those that stand
+    std::vector<std::map<int, DelayCause>> causes;  // delay causes of stopped vehicles, by vehicle id
     std::uint64_t hash = 0;
     RecordingSize size;
 };
 
+// Returns a small grid that is prone to gridlock.
 Scenario small_grid(const std::string& fidelity) {
     return load_scenario(STOPLINE_SOURCE_DIR "/scenarios/grid.yaml",
                          {"network.grid.columns=2", "network.grid.rows=2", "duration=240 s", "measure.window=60 s",
@@ -65,7 +67,7 @@ Recorded record_run(const Scenario& scenario, const fs::path& file, const Record
         const double frame = (simulation.time_s() - window.from_s) / window.interval_s;
         if (frame < -1e-6 || std::abs(frame - std::round(frame)) > 1e-6) return;
         if (simulation.time_s() > window.until_s + 1e-6) return;
-        result.pictures.push_back(picture_of(state));
+        result.frames.push_back(states_of(state));
         result.lights.emplace_back();
         for (const GroupProgramme& programme : model.signals) {
             result.lights.back().push_back(programme.light(state.tick));
@@ -81,25 +83,26 @@ Recorded record_run(const Scenario& scenario, const fs::path& file, const Record
     return result;
 }
 
-void expect_same(const RecordedRun& run, const FrameDecoder& decoder, const Recorded& recorded, std::size_t frame) {
+void expect_equal_frame(const RecordedRun& run, const FrameDecoder& decoder, const Recorded& recorded,
+                        std::size_t frame) {
     std::size_t present = 0;
-    const Picture& picture = recorded.pictures[frame];
+    const VehicleStates& states = recorded.frames[frame];
     for (const RecordedVehicle& read : decoder.seats()) {
         if (read.vehicle < 0) continue;
         ++present;
-        const auto found = picture.find(read.vehicle);
-        ASSERT_NE(found, picture.end()) << "frame " << frame << " vehicle " << read.vehicle;
-        const Seen& seen = found->second;
-        EXPECT_EQ(std::tie(read.policy, read.lane), std::tie(seen.policy, seen.lane)) << "frame " << frame;
-        EXPECT_NEAR(read.position * run.grid.position_unit_m, seen.position_m, 0.5001 * run.grid.position_unit_m);
-        EXPECT_NEAR(read.speed * 0.01, seen.speed_mps, 0.00501);
-        EXPECT_EQ(read.next, seen.next);
+        const auto found = states.find(read.vehicle);
+        ASSERT_NE(found, states.end()) << "frame " << frame << " vehicle " << read.vehicle;
+        const VehicleState& state = found->second;
+        EXPECT_EQ(std::tie(read.policy, read.lane), std::tie(state.policy, state.lane)) << "frame " << frame;
+        EXPECT_NEAR(read.position * run.grid.position_unit_m, state.position_m, 0.5001 * run.grid.position_unit_m);
+        EXPECT_NEAR(read.speed * 0.01, state.speed_mps, 0.00501);
+        EXPECT_EQ(read.next, state.next);
         const auto& causes = recorded.causes[frame];
         const auto cause = causes.find(read.vehicle);
         const DelayCause expected = cause != causes.end() ? cause->second : DelayCause::none;
         EXPECT_EQ(read.cause, static_cast<int>(expected));
     }
-    EXPECT_EQ(present, picture.size()) << "frame " << frame;
+    EXPECT_EQ(present, states.size()) << "frame " << frame;
     for (std::size_t group = 0; group < decoder.lights().size(); ++group) {
         EXPECT_EQ(decoder.lights()[group], static_cast<std::uint8_t>(recorded.lights[frame][group]));
     }
@@ -110,48 +113,48 @@ void expect_round_trip(const std::string& fidelity, const RecordingWindow& windo
     const fs::path file = folder.path() / "run.rec";
     const Scenario scenario = small_grid(fidelity);
     const Recorded recorded = record_run(scenario, file, window);
-    EXPECT_EQ(recorded.hash, run_network(scenario, 2).state_hash) << "looking on changes the run";
+    EXPECT_EQ(recorded.hash, run_network(scenario, 2).state_hash) << "the recording changes the run";
     RecordingReader reader(file);
     EXPECT_EQ(reader.run().origin.command, "again");
     RecordedSection section;
     std::size_t frame = 0;
-    std::int64_t states = 0;
+    std::int64_t state_count = 0;
     while (reader.next(section)) {
         FrameDecoder decoder(reader.run(), section.bytes);
         for (int k = 0; k < section.frames; ++k, ++frame) {
             decoder.next();
-            ASSERT_LT(frame, recorded.pictures.size());
-            expect_same(reader.run(), decoder, recorded, frame);
-            states += static_cast<std::int64_t>(recorded.pictures[frame].size());
+            ASSERT_LT(frame, recorded.frames.size());
+            expect_equal_frame(reader.run(), decoder, recorded, frame);
+            state_count += static_cast<std::int64_t>(recorded.frames[frame].size());
             if (testing::Test::HasFailure()) return;
         }
         decoder.check_end();
     }
-    EXPECT_EQ(frame, recorded.pictures.size());
+    EXPECT_EQ(frame, recorded.frames.size());
     EXPECT_EQ(recorded.size.frames, static_cast<std::int64_t>(frame));
-    EXPECT_EQ(recorded.size.vehicle_states, states);
+    EXPECT_EQ(recorded.size.vehicle_states, state_count);
     EXPECT_EQ(recorded.size.bytes, fs::file_size(file));
     EXPECT_LT(recorded.size.bytes_per_state(), 4.0);
 }
 
-TEST(Recording, ReadsBackWhatTheMesoscaleModeDid) { expect_round_trip("meso", {}); }
+TEST(Recording, ReadsBackAMesoscaleRun) { expect_round_trip("meso", {}); }
 TEST(Recording, ReadsBackEveryStep) { expect_round_trip("meso", {0.1, 30.0, 150.0}); }
 TEST(Recording, ReadsBackRareFrames) { expect_round_trip("meso", {7.0, 0.0, 238.0}); }
-TEST(Recording, SlowReadsBackWhatFullDynamicsDid) { expect_round_trip("full", {0.5, 60.0, 120.0}); }
+TEST(Recording, SlowReadsBackAFullDynamicsRun) { expect_round_trip("full", {0.5, 60.0, 120.0}); }
 
-// The first vehicle past the stop line of its lane.
+// Returns the slot of a vehicle past the stop line of its lane, or -1.
 int slot_past_line(const Model& model, const State& state) {
     for (std::size_t lane = 0; lane < state.blocks.size(); ++lane) {
         const int first = state.blocks[lane].first;
-        const bool may_be = state.blocks[lane].count > 0 && model.graph.lanes[lane].signal_group >= 0;
+        const bool occupied = state.blocks[lane].count > 0 && model.graph.lanes[lane].signal_group >= 0;
         const double front_m = state.vehicles.position_m[static_cast<std::size_t>(first)];
-        if (may_be && front_m > model.graph.lanes[lane].stop_line_m + 0.1) return first;
+        if (occupied && front_m > model.graph.lanes[lane].stop_line_m + 0.1) return first;
     }
     return -1;
 }
 
-// A vehicle may choose another way at the end of its lane, without being anywhere else.
-TEST(Recording, TellsWhereOnePastTheLineGoesOnAlthoughItStands) {
+// A stopped vehicle past the stop line may change its next lane. Its position stays the same.
+TEST(Recording, UpdatesTheNextLaneOfAStoppedVehicle) {
     const TemporaryFolder folder;
     const fs::path file = folder.path() / "run.rec";
     const Model model = network_model(small_grid("meso"), 2);
@@ -161,9 +164,9 @@ TEST(Recording, TellsWhereOnePastTheLineGoesOnAlthoughItStands) {
     const auto slot = static_cast<std::size_t>(slot_past_line(model, state));
     state.vehicles.speed_mps[slot] = 0.0;
     Recorder recorder(file, {0.5, model.time_s(state.tick), 300.0}, {}, model);
-    const std::vector<int> ways{3, 3, 4, 4};
-    for (const int way : ways) {
-        state.vehicles.next_lane[slot] = way;
+    const std::vector<int> next_lanes{3, 3, 4, 4};
+    for (const int next_lane : next_lanes) {
+        state.vehicles.next_lane[slot] = next_lane;
         recorder.observe(state);
         state.tick += 5;
     }
@@ -172,7 +175,7 @@ TEST(Recording, TellsWhereOnePastTheLineGoesOnAlthoughItStands) {
     RecordedSection section;
     ASSERT_TRUE(reader.next(section));
     FrameDecoder decoder(reader.run(), section.bytes);
-    for (const int way : ways) {
+    for (const int next_lane : next_lanes) {
         decoder.next();
         int next = -2;
         int position = -1;
@@ -181,7 +184,7 @@ TEST(Recording, TellsWhereOnePastTheLineGoesOnAlthoughItStands) {
             next = read.next;
             position = read.position;
         }
-        EXPECT_EQ(next, way);
+        EXPECT_EQ(next, next_lane);
         EXPECT_NEAR(position * reader.run().grid.position_unit_m, state.vehicles.position_m[slot], 0.01);
     }
 }
@@ -192,7 +195,7 @@ protected:
         record_run(small_grid("meso"), good_, {1.0, 0.0, 200.0});
         bytes_ = read_text(good_);
     }
-    // The message of reading a file of these bytes to its end.
+    // Returns the error message of reading a file with these bytes to its end, or "".
     std::string error_of_bytes(const std::string& bytes) const {
         const fs::path file = folder_.write("bad.rec", bytes);
         return input_error_of([&] {
@@ -207,15 +210,15 @@ protected:
     std::string bytes_;
 };
 
-TEST_F(DamagedRecording, IsNoticedWhereverItEndsOrDiffers) {
+TEST_F(DamagedRecording, IsDetectedForAnyTruncationOrChange) {
     ASSERT_EQ(error_of_bytes(bytes_), "");
     for (std::size_t size = 0; size < bytes_.size(); size += 1 + bytes_.size() / 97) {
         EXPECT_TRUE(contains(error_of_bytes(bytes_.substr(0, size)), "bad.rec: ")) << "cut at " << size;
     }
-    for (std::size_t at = 0; at < bytes_.size(); at += 1 + bytes_.size() / 211) {
-        std::string other = bytes_;
-        other[at] = static_cast<char>(~other[at]);
-        EXPECT_TRUE(contains(error_of_bytes(other), "bad.rec: ")) << "changed at " << at;
+    for (std::size_t index = 0; index < bytes_.size(); index += 1 + bytes_.size() / 211) {
+        std::string changed = bytes_;
+        changed[index] = static_cast<char>(~changed[index]);
+        EXPECT_TRUE(contains(error_of_bytes(changed), "bad.rec: ")) << "changed at " << index;
     }
     EXPECT_TRUE(contains(error_of_bytes(bytes_ + "x"), "bytes follow the end of the recording"));
     EXPECT_TRUE(contains(error_of_bytes("population,time_s\n"), "not written by stopline-run --record"));
@@ -224,8 +227,8 @@ TEST_F(DamagedRecording, IsNoticedWhereverItEndsOrDiffers) {
     EXPECT_TRUE(contains(error_of_bytes(newer), "version 9"));
 }
 
-// Frames that pass the checksum but make no sense: whatever their bytes are, the decoder ends with an error or a frame.
-TEST_F(DamagedRecording, FramesOfAnyBytesAreRefusedOrRead) {
+// Corrupt frames may pass the checksum. For any bytes, the decoder must decode the frame or throw an InputError.
+TEST_F(DamagedRecording, CorruptFramesAreRefusedOrDecoded) {
     RecordingReader reader(good_);
     RecordedSection section;
     ASSERT_TRUE(reader.next(section));
@@ -247,7 +250,7 @@ TEST_F(DamagedRecording, FramesOfAnyBytesAreRefusedOrRead) {
     EXPECT_GT(refused, 10);
 }
 
-TEST(Recording, AppearsOnlyOnceItIsFinishedAndIsTheSameEachTime) {
+TEST(Recording, AppearsWhenFinishedAndIsReproducible) {
     const TemporaryFolder folder;
     const Scenario scenario = small_grid("meso");
     const Model model = network_model(scenario, 2);

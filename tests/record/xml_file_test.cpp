@@ -1,4 +1,4 @@
-// Lane names and files as SUMO reads them.
+// Tests of XML output for SUMO: lane names and complete files.
 #include "record/xml_file.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 namespace stopline {
 namespace {
 
-TEST(XmlFile, NamesOfLanesInsideAnIntersectionBeginWithAColon) {
+TEST(XmlFile, ConnectionNamesBeginWithAColon) {
     Lane lane;
     lane.name = "c0r0_west_in_1";
     EXPECT_EQ(sumo_lane_name(lane), "c0r0_west_in_1");
@@ -17,7 +17,7 @@ TEST(XmlFile, NamesOfLanesInsideAnIntersectionBeginWithAColon) {
     EXPECT_EQ(sumo_lane_name(lane), ":c0r0_west_1_left_0");
 }
 
-TEST(XmlFile, IsThereOnceItIsFinished) {
+TEST(XmlFile, AppearsWhenFinished) {
     const TemporaryFolder folder;
     {
         XmlFile xml(folder.path() / "a.xml", "root", "a.xsd");

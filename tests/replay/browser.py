@@ -1,4 +1,4 @@
-"""Drives a headless Chromium through its own debugging protocol, over pipes, with nothing but Python's library."""
+"""Controls a headless Chromium through the DevTools protocol over pipes, with Python's standard library only."""
 
 import base64
 import fcntl
@@ -18,20 +18,20 @@ def find_browser():
     return next((path for path in map(shutil.which, NAMES) if path), None)
 
 
-def high(descriptor):
-    """The same pipe under a number that the shell below does not use."""
+def move_above_shell_descriptors(descriptor):
+    """Returns a duplicate of a pipe with a number that the shell in Browser does not use, and closes the original."""
     copy = fcntl.fcntl(descriptor, fcntl.F_DUPFD, 20)
     os.close(descriptor)
     return copy
 
 
 class Browser:
-    """One page. `problems` collects what it writes to its console as errors or warnings, and exceptions."""
+    """A browser with one page. `problems` collects console errors and warnings, exceptions, and network requests."""
 
     def __init__(self, width, height):
         self.folder = tempfile.mkdtemp()
-        to_browser, self.out = map(high, os.pipe())
-        self.into, from_browser = map(high, os.pipe())
+        to_browser, self.to_browser = map(move_above_shell_descriptors, os.pipe())
+        self.from_browser, from_browser = map(move_above_shell_descriptors, os.pipe())
         command = [find_browser(), "--headless=new", "--no-sandbox", "--disable-gpu", "--no-first-run",
                    "--disable-dev-shm-usage", "--hide-scrollbars", "--remote-debugging-pipe",
                    f"--user-data-dir={self.folder}", f"--window-size={width},{height}", "about:blank"]
@@ -60,17 +60,19 @@ class Browser:
         shutil.rmtree(self.folder, ignore_errors=True)
 
     def receive(self, until):
+        """Returns the next message of the browser."""
         while b"\0" not in self.buffer:
-            if not select.select([self.into], [], [], max(until - time.monotonic(), 0))[0]:
+            if not select.select([self.from_browser], [], [], max(until - time.monotonic(), 0))[0]:
                 raise TimeoutError("the browser does not answer")
-            more = os.read(self.into, 1 << 20)
-            if not more:
-                raise RuntimeError("the browser has ended")
-            self.buffer += more
+            chunk = os.read(self.from_browser, 1 << 20)
+            if not chunk:
+                raise RuntimeError("the browser has exited")
+            self.buffer += chunk
         message, self.buffer = self.buffer.split(b"\0", 1)
         return json.loads(message)
 
-    def note(self, message):
+    def record_problem(self, message):
+        """Adds an event of the page to `problems`, and notices that the page has loaded."""
         method, params = message.get("method"), message.get("params", {})
         if method == "Page.loadEventFired":
             self.loaded = True
@@ -81,19 +83,20 @@ class Browser:
         elif method == "Log.entryAdded" and params["entry"]["level"] in ("error", "warning"):
             self.problems.append(params["entry"]["text"])
         elif method == "Network.requestWillBeSent" and not params["request"]["url"].startswith(("file:", "data:", "blob:")):
-            self.problems.append("asks the network for " + params["request"]["url"])
+            self.problems.append("requests from the network: " + params["request"]["url"])
 
     def call(self, method, **params):
+        """Calls a method of the DevTools protocol. Returns its result."""
         self.number += 1
         request = {"id": self.number, "method": method, "params": params}
         if self.session:
             request["sessionId"] = self.session
-        os.write(self.out, json.dumps(request).encode() + b"\0")
+        os.write(self.to_browser, json.dumps(request).encode() + b"\0")
         until = time.monotonic() + LIMIT_S
         while True:
             message = self.receive(until)
             if message.get("id") != self.number:
-                self.note(message)
+                self.record_problem(message)
                 continue
             if "error" in message:
                 raise RuntimeError(f"{method}: {message['error']}")
@@ -108,16 +111,18 @@ class Browser:
         self.wait("document.readyState === 'complete'")
 
     def value(self, expression):
+        """Evaluates a JavaScript expression in the page. Returns its value."""
         result = self.call("Runtime.evaluate", expression=expression, awaitPromise=True, returnByValue=True)
         if "exceptionDetails" in result:
             raise RuntimeError(f"{expression}: {json.dumps(result['exceptionDetails'])[:500]}")
         return result["result"].get("value")
 
     def wait(self, condition):
+        """Waits until a JavaScript condition is true."""
         until = time.monotonic() + LIMIT_S
         while not self.value(condition):
             if time.monotonic() > until:
-                raise TimeoutError(f"never: {condition}; problems: {self.problems}")
+                raise TimeoutError(f"the condition did not become true: {condition}; problems: {self.problems}")
             time.sleep(0.05)
 
     def click(self, x, y):

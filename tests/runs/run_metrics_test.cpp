@@ -1,4 +1,4 @@
-// The columns of results are known before anything runs.
+// The result columns of a scenario are known before it runs.
 #include "runs/run_metrics.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ std::vector<std::string> columns_of_a_run(const Scenario& scenario) {
     return columns;
 }
 
-TEST(ResultColumns, AreThoseOfARun) {
+TEST(ResultColumns, AgreeWithTheColumnsOfARun) {
     const auto shipped = [](const char* file, std::vector<std::string> overrides) {
         overrides.insert(overrides.end(), {"populations=[CDG]", "measure.baseline=CDG"});
         return load_scenario(std::string(STOPLINE_SOURCE_DIR "/scenarios/") + file, overrides);

@@ -1,4 +1,4 @@
-// A run that takes a few milliseconds: twelve vehicles, three populations, 20 s of green.
+// A scenario that runs in a few milliseconds: twelve vehicles, three populations, 20 s of green.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// The net gap of a trajectory is that to the vehicle ahead on its route, on whatever lane that one is.
+// The net gap of a trajectory point is measured to the leader on the route, on any lane.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,8 +10,8 @@
 namespace stopline {
 namespace {
 
-// A queue of one lane that starts and crosses the stop line to the next lane, vehicle by vehicle.
-TEST(TrajectoryGap, IsThatToTheVehicleAheadAcrossLanes) {
+// The vehicles of a starting queue cross the stop line to the next lane one by one.
+TEST(TrajectoryGap, IsMeasuredToTheLeaderAcrossLanes) {
     const Scenario scenario = short_scenario();
     RunOptions options;
     options.trajectory_interval_s = scenario.tick_s();
@@ -19,21 +19,21 @@ TEST(TrajectoryGap, IsThatToTheVehicleAheadAcrossLanes) {
     const RunResult run = run_population(scenario, 0, options);
     std::map<double, std::map<int, const TrajectoryPoint*>> by_time;  // vehicles are numbered from the front
     for (const TrajectoryPoint& point : run.trajectory) by_time[point.time_s][point.vehicle] = &point;
-    int across = 0;
+    int across_lanes = 0;
     for (const auto& [time_s, vehicles] : by_time) {
-        const TrajectoryPoint* ahead = nullptr;
+        const TrajectoryPoint* leader = nullptr;
         for (const auto& [id, point] : vehicles) {
-            if (ahead == nullptr) {
-                EXPECT_TRUE(std::isnan(point->net_gap_m)) << "leader at " << time_s;
+            if (leader == nullptr) {
+                EXPECT_TRUE(std::isnan(point->net_gap_m)) << "first vehicle at " << time_s;
             } else {
-                EXPECT_NEAR(point->net_gap_m, ahead->distance_m - scenario.vehicle.length_m - point->distance_m, 1e-5)
+                EXPECT_NEAR(point->net_gap_m, leader->distance_m - scenario.vehicle.length_m - point->distance_m, 1e-5)
                     << "vehicle " << id << " at " << time_s;
-                across += ahead->lane == point->lane ? 0 : 1;
+                across_lanes += leader->lane == point->lane ? 0 : 1;
             }
-            ahead = point;
+            leader = point;
         }
     }
-    EXPECT_GT(across, 100);
+    EXPECT_GT(across_lanes, 100);
 }
 
 }  // namespace

@@ -7,48 +7,51 @@ namespace stopline {
 namespace {
 
 // Returns the error of the default scenario with overrides, or "" if it is accepted.
-std::string after(const std::vector<std::string>& overrides) { return error_of("title: x\n", overrides); }
+std::string error_with(const std::vector<std::string>& overrides) { return error_of("title: x\n", overrides); }
 
-TEST(Checks, TheDefaultsAreAccepted) { EXPECT_EQ(after({}), ""); }
+TEST(Checks, DefaultsAreAccepted) { EXPECT_EQ(error_with({}), ""); }
 
 TEST(Checks, SharesSumToOne) {
-    EXPECT_TRUE(contains(after({"populations[MIX].components[0].share=60 %"}),
+    EXPECT_TRUE(contains(error_with({"populations[MIX].components[0].share=60 %"}),
                          "field 'populations[MIX].components': the shares sum to 110 %, not to 100 %"));
     EXPECT_EQ(
-        after(
+        error_with(
             {"populations=[{name: A, components: [{policy: CDG, share: 33.3333 %}, {policy: CTG-Ref, share: 66.6667 %}]}]"}),
         "");
     // 0.1 + 0.2 + 0.7 is not quite 1 in binary.
     EXPECT_EQ(
-        after({"populations=[{name: A, components: [{policy: CDG, share: 0.1}, {policy: CTG-Ref, share: 0.2}, {policy: "
-               "CTG-HBS, share: 0.7}]}]"}),
+        error_with(
+            {"populations=[{name: A, components: [{policy: CDG, share: 0.1}, {policy: CTG-Ref, share: 0.2}, {policy: "
+             "CTG-HBS, share: 0.7}]}]"}),
         "");
 }
 
 TEST(Checks, NamesAreKnownAndUnique) {
-    EXPECT_TRUE(contains(after({"populations=[CDG, XYZ]"}), "there is no policy 'XYZ'; known: CDG, CDG-6m, CTG-Ref"));
     EXPECT_TRUE(
-        contains(after({"populations=[CDG, CDG]"}), "field 'populations[CDG].name': the name 'CDG' appears twice"));
-    EXPECT_TRUE(contains(after({"policies=[{name: A, law: constant_distance, standstill_gap: 2 m}, {name: A, law: "
-                                "constant_distance, standstill_gap: 3 m}]"}),
+        contains(error_with({"populations=[CDG, XYZ]"}), "there is no policy 'XYZ'; known: CDG, CDG-6m, CTG-Ref"));
+    EXPECT_TRUE(contains(error_with({"populations=[CDG, CDG]"}),
+                         "field 'populations[CDG].name': the name 'CDG' appears twice"));
+    EXPECT_TRUE(contains(error_with({"policies=[{name: A, law: constant_distance, standstill_gap: 2 m}, {name: A, law: "
+                                     "constant_distance, standstill_gap: 3 m}]"}),
                          "field 'policies[A].name': the name 'A' appears twice"));
-    EXPECT_TRUE(contains(after({"measure.baseline=CTG"}), "field 'measure.baseline': there is no population 'CTG'"));
-    EXPECT_EQ(after({"measure.baseline=MIX"}), "");
+    EXPECT_TRUE(
+        contains(error_with({"measure.baseline=CTG"}), "field 'measure.baseline': there is no population 'CTG'"));
+    EXPECT_EQ(error_with({"measure.baseline=MIX"}), "");
 }
 
-TEST(Checks, OwnPoliciesReplaceThoseOfThePaper) {
+TEST(Checks, OwnPoliciesReplacePoliciesOfThePaper) {
     const Scenario s =
         parse_scenario("policies: [{name: CDG, law: constant_distance, standstill_gap: 2 m}]\n", "x.yaml");
     EXPECT_EQ(s.policies.size(), load_policies().size());
     EXPECT_EQ(s.policies[0].name, "CDG");
     EXPECT_EQ(s.policies[0].standstill_gap_m, 2.0);
     const std::string own = "{name: CDG, law: constant_distance, standstill_gap: 2 m}";
-    EXPECT_TRUE(contains(after({"policies=[" + own + ", " + own + "]"}), "the name 'CDG' appears twice"));
+    EXPECT_TRUE(contains(error_with({"policies=[" + own + ", " + own + "]"}), "the name 'CDG' appears twice"));
 }
 
 TEST(Checks, PoliciesHaveExactlyTheFieldsOfTheirLaw) {
     const auto with = [](const std::string& fields) {
-        return after({"policies=[{name: A, standstill_gap: 3 m, " + fields + "}]"});
+        return error_with({"policies=[{name: A, standstill_gap: 3 m, " + fields + "}]"});
     };
     EXPECT_EQ(with("law: constant_distance"), "");
     EXPECT_EQ(with("law: constant_time, time_gap: 1 s"), "");
@@ -68,9 +71,9 @@ TEST(Checks, PoliciesHaveExactlyTheFieldsOfTheirLaw) {
 }
 
 TEST(Checks, TimesAreWholeSteps) {
-    EXPECT_EQ(after({"step=20 ms"}), "");
-    EXPECT_EQ(after({"step=5 ms"}), "");
-    EXPECT_TRUE(contains(after({"signal.green=15.005 s"}),
+    EXPECT_EQ(error_with({"step=20 ms"}), "");
+    EXPECT_EQ(error_with({"step=5 ms"}), "");
+    EXPECT_TRUE(contains(error_with({"signal.green=15.005 s"}),
                          "field 'signal.green': 15.005 s is not a whole number of steps of 10 ms"));
     // If each green time were rounded on its own, the cycles of the two streets would drift apart.
     const std::string grid = STOPLINE_SOURCE_DIR "/scenarios/grid.yaml";
@@ -83,23 +86,24 @@ TEST(Checks, TimesAreWholeSteps) {
                 contains(error.what(), "'signal." + field + "': 10.05 s is not a whole number of steps of 100 ms"));
         }
     }
-    EXPECT_TRUE(contains(after({"step=7 ms"}), "field 'signal.yellow': 3 s is not a whole number of steps of 7 ms"));
     EXPECT_TRUE(
-        contains(after({"measure.green=[5.001 s]"}), "field 'measure.green[0]': 5.001 s is not a whole number"));
+        contains(error_with({"step=7 ms"}), "field 'signal.yellow': 3 s is not a whole number of steps of 7 ms"));
+    EXPECT_TRUE(
+        contains(error_with({"measure.green=[5.001 s]"}), "field 'measure.green[0]': 5.001 s is not a whole number"));
 }
 
-TEST(Checks, AMessageArrivesInTheNextStepOrLater) {
+TEST(Checks, MessagesArriveInTheNextStepOrLater) {
     const std::string both =
         "a message cannot arrive before the next step: step, 50 ms, must be at most driver.cacc.v2v_delay, 20 ms";
-    EXPECT_TRUE(contains(after({"step=50 ms"}), "--set 'step=50 ms': field 'step': " + both));
-    EXPECT_TRUE(contains(after({"driver.cacc.v2v_delay=5 ms"}),
+    EXPECT_TRUE(contains(error_with({"step=50 ms"}), "--set 'step=50 ms': field 'step': " + both));
+    EXPECT_TRUE(contains(error_with({"driver.cacc.v2v_delay=5 ms"}),
                          "--set 'driver.cacc.v2v_delay=5 ms': field 'driver.cacc.v2v_delay': a message cannot arrive"));
-    EXPECT_EQ(after({"step=50 ms", "driver.cacc.v2v_delay=50 ms"}), "");
-    EXPECT_TRUE(contains(after({"step=200 ms", "driver.cacc.v2v_delay=1 s"}),
+    EXPECT_EQ(error_with({"step=50 ms", "driver.cacc.v2v_delay=50 ms"}), "");
+    EXPECT_TRUE(contains(error_with({"step=200 ms", "driver.cacc.v2v_delay=1 s"}),
                          "value '200 ms' is out of range (allowed: 0.001 s to 0.1 s)"));
 }
 
-TEST(Checks, ASectionThatIsNotGivenHasItsDefaultsToo) {
+TEST(Checks, MissingSectionsHaveDefaults) {
     for (const std::string kind : {"intersection", "grid"}) {
         const Scenario s = parse_scenario("network: {kind: " + kind + "}\nduration: 600 s\n", "x.yaml");
         ASSERT_EQ(s.network.intersection.lanes.size(), 2u) << kind;
@@ -108,23 +112,24 @@ TEST(Checks, ASectionThatIsNotGivenHasItsDefaultsToo) {
     }
 }
 
-TEST(Checks, TheSignalFitsItsCycleAndTheRun) {
+TEST(Checks, SignalFitsItsCycleAndTheRun) {
     EXPECT_TRUE(
-        contains(after({"signal.cycle=60 s"}), "a cycle of 60 s is shorter than green + yellow + all red = 68 s"));
-    EXPECT_EQ(after({"signal.cycle=68 s"}), "");
-    EXPECT_TRUE(contains(after({"signal.first_green=200 s"}), "lies after the end of the run at 200 s"));
-    EXPECT_TRUE(contains(after({"measure.green=[61 s]"}), "lies after the end of the green time of 60 s"));
-    EXPECT_TRUE(contains(after({"signal.first_green=180 s", "measure.green=[30 s]"}),
+        contains(error_with({"signal.cycle=60 s"}), "a cycle of 60 s is shorter than green + yellow + all red = 68 s"));
+    EXPECT_EQ(error_with({"signal.cycle=68 s"}), "");
+    EXPECT_TRUE(contains(error_with({"signal.first_green=200 s"}), "lies after the end of the run at 200 s"));
+    EXPECT_TRUE(contains(error_with({"measure.green=[61 s]"}), "lies after the end of the green time of 60 s"));
+    EXPECT_TRUE(contains(error_with({"signal.first_green=180 s", "measure.green=[30 s]"}),
                          "the run ends earlier, at duration = 200 s"));
-    EXPECT_EQ(after({"signal.first_green=180 s", "measure.green=[20 s]"}), "");
+    EXPECT_EQ(error_with({"signal.first_green=180 s", "measure.green=[20 s]"}), "");
 }
 
-TEST(Checks, TheQueueFitsTheApproach) {
+TEST(Checks, QueueFitsTheApproach) {
     // 60 x (5.15 m + 6 m) + 1 m
-    EXPECT_TRUE(contains(after({"network.approach.length=669.9 m"}), "a queue of 60 vehicles a lane is 670 m long"));
-    EXPECT_EQ(after({"network.approach.length=670 m"}), "");
-    EXPECT_EQ(after({"network.approach.length=490 m", "populations=[CDG, CTG-Ref]"}), "");
-    EXPECT_TRUE(contains(after({"network.approach.length=480 m", "populations=[CDG, CTG-Ref]"}), "is 487 m long"));
+    EXPECT_TRUE(
+        contains(error_with({"network.approach.length=669.9 m"}), "a queue of 60 vehicles a lane is 670 m long"));
+    EXPECT_EQ(error_with({"network.approach.length=670 m"}), "");
+    EXPECT_EQ(error_with({"network.approach.length=490 m", "populations=[CDG, CTG-Ref]"}), "");
+    EXPECT_TRUE(contains(error_with({"network.approach.length=480 m", "populations=[CDG, CTG-Ref]"}), "is 487 m long"));
 }
 
 TEST(Checks, VehiclesOnNeighbouringLanesDoNotTouch) {
@@ -143,50 +148,52 @@ TEST(Checks, VehiclesOnNeighbouringLanesDoNotTouch) {
     }
 }
 
-TEST(Checks, StepsOfTheMesoscaleModeAreHalfASecondAtMost) {
+TEST(Checks, MesoscaleStepsAreAtMostHalfASecond) {
     EXPECT_TRUE(contains(error_of("fidelity: meso\n", {"meso={base: fitted, step: 1 s}"}),
                          "field 'meso.step': value '1 s' is out of range (allowed: 0.01 s to 0.5 s)"));
     EXPECT_EQ(error_of("fidelity: meso\n", {"meso={base: fitted, step: 0.5 s}"}), "");
 }
 
-TEST(Checks, GearsAgree) {
-    EXPECT_TRUE(contains(after({"vehicle.gear_ratios=[3, 2, 1]"}),
+TEST(Checks, GearSettingsAreConsistent) {
+    EXPECT_TRUE(contains(error_with({"vehicle.gear_ratios=[3, 2, 1]"}),
                          "field 'vehicle.rotating_mass_factors': has 5 values for 3 gears"));
-    EXPECT_TRUE(contains(after({"vehicle.lag_gear_factors=[1]"}), "has 1 values for 5 gears"));
-    EXPECT_TRUE(contains(after({"vehicle.gear_ratios=[3.6, 2, 2, 1.4, 1]"}), "must fall from gear to gear"));
+    EXPECT_TRUE(contains(error_with({"vehicle.lag_gear_factors=[1]"}), "has 1 values for 5 gears"));
+    EXPECT_TRUE(contains(error_with({"vehicle.gear_ratios=[3.6, 2, 2, 1.4, 1]"}), "must fall from gear to gear"));
+    EXPECT_TRUE(contains(error_with({"vehicle.gear_ratios=[9, 8, 7, 6, 5, 4, 3, 2, 1]"}),
+                         "has 9 entries (allowed: 1 to 8 values"));
+    EXPECT_TRUE(contains(error_with({"vehicle.shift_down=1500 rpm"}), "the gearbox would hunt"));
+    EXPECT_TRUE(contains(error_with({"vehicle.shift_up_full_load=1900 rpm"}), "must be at least shift_up_part_load"));
+    EXPECT_TRUE(contains(error_with({"vehicle.shift_up_full_load=6501 rpm"}), "must be at most limiter_speed"));
+    EXPECT_TRUE(contains(error_with({"vehicle.shift_down=700 rpm"}), "must be greater than idle_speed"));
     EXPECT_TRUE(
-        contains(after({"vehicle.gear_ratios=[9, 8, 7, 6, 5, 4, 3, 2, 1]"}), "has 9 entries (allowed: 1 to 8 values"));
-    EXPECT_TRUE(contains(after({"vehicle.shift_down=1500 rpm"}), "the gearbox would hunt"));
-    EXPECT_TRUE(contains(after({"vehicle.shift_up_full_load=1900 rpm"}), "must be at least shift_up_part_load"));
-    EXPECT_TRUE(contains(after({"vehicle.shift_up_full_load=6501 rpm"}), "must be at most limiter_speed"));
-    EXPECT_TRUE(contains(after({"vehicle.shift_down=700 rpm"}), "must be greater than idle_speed"));
-    EXPECT_TRUE(contains(after({"vehicle.lag_times=[0.1 s]"}), "has 1 values, but the map has 8 speeds x 2 shares"));
+        contains(error_with({"vehicle.lag_times=[0.1 s]"}), "has 1 values, but the map has 8 speeds x 2 shares"));
     // Shift speeds are optional for one gear and required for several gears.
-    const std::string several = after({"vehicle=electric_100kw", "vehicle.gear_ratios=[9.7, 5]",
-                                       "vehicle.rotating_mass_factors=[1, 1]", "vehicle.lag_gear_factors=[1, 1]"});
+    const std::string errors = error_with({"vehicle=electric_100kw", "vehicle.gear_ratios=[9.7, 5]",
+                                           "vehicle.rotating_mass_factors=[1, 1]", "vehicle.lag_gear_factors=[1, 1]"});
     EXPECT_TRUE(
-        contains(several, "field 'vehicle.shift_up_part_load': is missing: a vehicle with several gears needs it"));
-    EXPECT_TRUE(contains(several, "field 'vehicle.minimum_gear_time': is missing"));
+        contains(errors, "field 'vehicle.shift_up_part_load': is missing: a vehicle with several gears needs it"));
+    EXPECT_TRUE(contains(errors, "field 'vehicle.minimum_gear_time': is missing"));
 }
 
-TEST(Checks, EngineSpeedsAgree) {
-    EXPECT_TRUE(contains(after({"vehicle.limiter_speed=700 rpm"}), "must be greater than idle_speed"));
-    EXPECT_TRUE(contains(after({"vehicle.launch_speed=7000 rpm"}), "must be below limiter_speed"));
-    EXPECT_TRUE(contains(after({"vehicle.launch_speed=700 rpm"}), "must be at least idle_speed"));
+TEST(Checks, EngineSpeedsAreConsistent) {
+    EXPECT_TRUE(contains(error_with({"vehicle.limiter_speed=700 rpm"}), "must be greater than idle_speed"));
+    EXPECT_TRUE(contains(error_with({"vehicle.launch_speed=7000 rpm"}), "must be below limiter_speed"));
+    EXPECT_TRUE(contains(error_with({"vehicle.launch_speed=700 rpm"}), "must be at least idle_speed"));
     EXPECT_TRUE(
-        contains(after({"vehicle.full_load={1000 rpm: 1 N m, 7000 rpm: 1 N m}"}),
+        contains(error_with({"vehicle.full_load={1000 rpm: 1 N m, 7000 rpm: 1 N m}"}),
                  "field 'vehicle.full_load': covers 1000 rpm to 7000 rpm, but the engine runs at 798 rpm to 6500 rpm"));
-    EXPECT_TRUE(contains(after({"vehicle.drag_torque={0 rpm: 0 N m, 6000 rpm: 0 N m}"}),
+    EXPECT_TRUE(contains(error_with({"vehicle.drag_torque={0 rpm: 0 N m, 6000 rpm: 0 N m}"}),
                          "field 'vehicle.drag_torque': covers"));
 }
 
-TEST(Checks, TheDriverIsConsistent) {
-    EXPECT_TRUE(contains(after({"driver.cacc.prediction_end=0.1 s"}), "must be greater than prediction_start"));
+TEST(Checks, DriverSettingsAreConsistent) {
+    EXPECT_TRUE(contains(error_with({"driver.cacc.prediction_end=0.1 s"}), "must be greater than prediction_start"));
     EXPECT_TRUE(
-        contains(after({"driver.cacc.deceleration_emergency=3 m/s2"}), "must be at least deceleration_comfort"));
-    EXPECT_TRUE(contains(after({"driver.free_drive.acceleration={1 km/h: 2 m/s2}"}), "must begin at 0 km/h"));
-    EXPECT_TRUE(contains(after({"driver.free_drive.acceleration={0 km/h: 2 m/s2, 0 m/s: 1 m/s2}"}), "does not rise"));
-    EXPECT_EQ(after({"driver.free_drive.acceleration={0 km/h: 2 m/s2}"}), "");
+        contains(error_with({"driver.cacc.deceleration_emergency=3 m/s2"}), "must be at least deceleration_comfort"));
+    EXPECT_TRUE(contains(error_with({"driver.free_drive.acceleration={1 km/h: 2 m/s2}"}), "must begin at 0 km/h"));
+    EXPECT_TRUE(
+        contains(error_with({"driver.free_drive.acceleration={0 km/h: 2 m/s2, 0 m/s: 1 m/s2}"}), "does not rise"));
+    EXPECT_EQ(error_with({"driver.free_drive.acceleration={0 km/h: 2 m/s2}"}), "");
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ Scenario load(const std::string& text, const Lines& overrides = {}) {
     return parse_scenario(text, "my.yaml", overrides);
 }
 
-TEST(FieldAlias, AnOldNameInAFileGivesAWarningWithItsPlace) {
+TEST(FieldAlias, OldNamesInAFileGiveAWarningWithTheirPlace) {
     const Scenario s = load("title: x\nrules:\n  keep_clear: on\n  light_ahead: off\nmeasure: {steady: 300 s}\n");
     EXPECT_EQ(s.rules.count_queue_at_red_exit, "off");
     EXPECT_EQ(s.measure.window_s, 300.0);
@@ -67,13 +67,13 @@ TEST(FieldAlias, WorksInOverrides) {
                                      kRemoval}));
 }
 
-TEST(FieldAlias, AnOverrideReachesAFieldThatTheFileGivesByItsOldName) {
+TEST(FieldAlias, OverridesReachFieldsGivenByTheirOldNames) {
     const Scenario s = load("measure: {steady: 100 s}\n", {"measure.window=300 s"});
     EXPECT_EQ(s.measure.window_s, 300.0);
     EXPECT_EQ(s.warnings.size(), 1u);
 }
 
-TEST(FieldAlias, OldAndNewNameTogetherAreAnError) {
+TEST(FieldAlias, OldAndNewNameTogetherAreRefused) {
     EXPECT_EQ(error_of("measure:\n  window: 300 s\n  steady: 300 s\n"),
               "test.yaml:3:3: field 'measure.steady' is the old name of 'measure.window', which is given too: keep the "
               "new name only");
@@ -86,7 +86,7 @@ TEST(FieldAlias, OldAndNewNameTogetherAreAnError) {
                          "--set 'measure.steady=300 s': field 'measure.steady' is the old name of 'measure.window'"));
 }
 
-TEST(FieldAlias, WorksForValuesOfChoices) {
+TEST(FieldAlias, WorksForValues) {
     const std::string grid = "network: {kind: grid}\nduration: 600 s\n";
     const Scenario s = load(grid + "demand:\n  cross_turns: own\n  cross_left: 10 %\n");
     EXPECT_EQ(s.demand.cross_turns, "separate");
@@ -163,7 +163,7 @@ TEST(FieldAlias, WorksInSweepAxes) {
                          "'measure.window' is set twice"));
 }
 
-TEST(FieldAlias, APathKeepsItsEntries) {
+TEST(FieldAlias, PathsKeepTheirEntries) {
     EXPECT_EQ(current_path(scenario_table(), "network.streets.intersections[a.b].arms[0].lanes"),
               "network.streets.intersections[a.b].legs[0].lanes");
     for (const char* path : {"measure.window", "measure.green[1]", "signal.gren", "a[=1", ""}) {

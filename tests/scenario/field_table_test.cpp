@@ -1,5 +1,5 @@
-// Properties of every row of the field tables. A bad value gives an error with its place and path. A good value reaches
-// its member and the canonical text. A new row is tested without a change here.
+// Tests of every row of the field tables. A bad value gives an error with its place and path. A good value reaches its
+// member and the canonical text. New rows are tested without a change here.
 #include "scenario/schema/field_table.h"
 
 #include <gtest/gtest.h>
@@ -30,15 +30,15 @@ void collect(const Table& table, const SourceNode& map, const std::string& path,
     for (std::size_t i = 0; i < map.keys.size(); ++i) {
         const Field* const field = table.find(map.keys[i].text);
         ASSERT_NE(field, nullptr) << map.keys[i].text;
-        const std::string here = join_path(path, field->name);
-        leaves.push_back({here, field, map.keys[i].place, map.items[i].place, map.items[i].text});
+        const std::string field_path = join_path(path, field->name);
+        leaves.push_back({field_path, field, map.keys[i].place, map.items[i].place, map.items[i].text});
         if (const auto* const section = std::get_if<SectionField>(&field->kind)) {
-            collect(section->table(), map.items[i], here, leaves);
+            collect(section->table(), map.items[i], field_path, leaves);
         } else if (const auto* const list = std::get_if<ListField>(&field->kind)) {
             for (std::size_t k = 0; k < map.items[i].items.size(); ++k) {
                 const SourceNode& item = map.items[i].items[k];
                 const SourceNode* const name = item.find("name");
-                collect(list->table(), item, here + "[" + (name ? name->text : std::to_string(k)) + "]", leaves);
+                collect(list->table(), item, field_path + "[" + (name ? name->text : std::to_string(k)) + "]", leaves);
             }
         }
     }
@@ -59,17 +59,18 @@ protected:
         return at + static_cast<std::size_t>(place.column) - 1;
     }
 
-    // Return the text with the rest of a line replaced from a place on, or with a word inserted there.
+    // Returns the text in which `value` replaces the rest of the line from a place on.
     std::string replaced(const Place& place, const std::string& value) const {
         const std::size_t begin = offset(place);
         return text_.substr(0, begin) + value + text_.substr(text_.find('\n', begin));
     }
+    // Returns the text with a word inserted at a place.
     std::string inserted(const Place& place, const std::string& word) const {
         const std::size_t begin = offset(place);
         return text_.substr(0, begin) + word + text_.substr(begin);
     }
 
-    // Expects an error for `value` in this field, with the place of the field and with the remark.
+    // Expects an error for `value` in a field. The message has the place of the field and the remark.
     void expect_refused(const Leaf& leaf, const std::string& value, const std::string& remark) const {
         const std::string message = error_of(replaced(leaf.value, value));
         EXPECT_TRUE(contains(message, to_string(leaf.value) + ": field '" + leaf.path)) << value;
@@ -95,11 +96,11 @@ INSTANTIATE_TEST_SUITE_P(Shipped, EveryField,
                                                                                              : "SingleLight";
                          });
 
-TEST_P(EveryField, Appears) {
-    std::set<const Field*> seen;
+TEST_P(EveryField, AppearsInTheCanonicalText) {
+    std::set<const Field*> listed;
     std::set<std::string> kinds;  // all scalar values, choices included
     for (const Leaf& leaf : leaves_) {
-        seen.insert(leaf.field);
+        listed.insert(leaf.field);
         kinds.insert(leaf.text);
     }
     std::vector<const Table*> tables{&scenario_table(),   &network_table(),    &signal_table(),
@@ -108,12 +109,12 @@ TEST_P(EveryField, Appears) {
     for (const Table* const table : tables) {
         for (const Field& field : table->fields) {
             const auto chosen = [&](const std::string& value) { return kinds.contains(value); };
-            const bool here = field.condition_values.empty() ||
-                              std::any_of(field.condition_values.begin(), field.condition_values.end(), chosen);
-            EXPECT_EQ(seen.contains(&field), here) << table->title << ": " << field.name;
+            const bool expected = field.condition_values.empty() ||
+                                  std::any_of(field.condition_values.begin(), field.condition_values.end(), chosen);
+            EXPECT_EQ(listed.contains(&field), expected) << table->title << ": " << field.name;
         }
     }
-    EXPECT_GT(seen.size(), 80u);
+    EXPECT_GT(listed.size(), 80u);
 }
 
 TEST_P(EveryField, HasAMeaningAndAnAllowedRange) {
@@ -138,7 +139,7 @@ TEST_P(EveryField, RefusesAMisspeltKeyWithTheRightOne) {
     }
 }
 
-TEST_P(EveryField, NumbersRefuseWhatIsWrong) {
+TEST_P(EveryField, NumbersRefuseInvalidValues) {
     int fields = 0;
     for (const Leaf& leaf : leaves_) {
         const auto* const f = std::get_if<NumberField>(&leaf.field->kind);
@@ -168,7 +169,7 @@ TEST_P(EveryField, NumbersRefuseWhatIsWrong) {
     EXPECT_GT(fields, 60);
 }
 
-TEST_P(EveryField, WholeNumbersRefuseWhatIsWrong) {
+TEST_P(EveryField, WholeNumbersRefuseInvalidValues) {
     for (const Leaf& leaf : leaves_) {
         const auto* const f = std::get_if<WholeField>(&leaf.field->kind);
         if (f == nullptr) continue;
@@ -182,7 +183,7 @@ TEST_P(EveryField, WholeNumbersRefuseWhatIsWrong) {
     }
 }
 
-TEST_P(EveryField, TextsAndChoicesRefuseWhatIsWrong) {
+TEST_P(EveryField, TextsAndChoicesRefuseInvalidValues) {
     for (const Leaf& leaf : leaves_) {
         if (const auto* const text = std::get_if<TextField>(&leaf.field->kind)) {
             // The path of an entry with a bad name has its index.
@@ -204,12 +205,12 @@ TEST_P(EveryField, TextsAndChoicesRefuseWhatIsWrong) {
     }
 }
 
-TEST_P(EveryField, ListsAndCurvesRefuseWhatIsWrong) {
+TEST_P(EveryField, ListsAndCurvesRefuseInvalidValues) {
     int fields = 0;
     for (const Leaf& leaf : leaves_) {
         if (const auto* const f = std::get_if<NumbersField>(&leaf.field->kind)) {
-            const std::string one = quantity(f->range.max, *f->unit);
-            expect_refused(leaf, one, "needs a list");
+            const std::string entry = quantity(f->range.max, *f->unit);
+            expect_refused(leaf, entry, "needs a list");
             expect_refused(leaf, "{a: 1}", "needs a list");
             const auto refused_item = [&](const std::string& item, const std::string& remark) {
                 const std::string message = error_of(replaced(leaf.value, "[" + item + "]"));
@@ -219,7 +220,7 @@ TEST_P(EveryField, ListsAndCurvesRefuseWhatIsWrong) {
             refused_item("nan", "is not a finite number");
             refused_item("[1]", "needs a single value");
             refused_item(quantity(f->range.max * 1.01, *f->unit), "is out of range");
-            const std::string twice = error_of(replaced(leaf.value, "[" + one + ", " + one + "]"));
+            const std::string twice = error_of(replaced(leaf.value, "[" + entry + ", " + entry + "]"));
             EXPECT_EQ(twice.find("does not rise") != std::string::npos, f->rising) << twice;
             if (f->size.min > 0) expect_refused(leaf, "[]", "has 0 entries");
             ++fields;
@@ -246,7 +247,7 @@ TEST_P(EveryField, ListsAndCurvesRefuseWhatIsWrong) {
     EXPECT_GE(fields, 9);
 }
 
-TEST_P(EveryField, RequiredOnesMustBeThere) {
+TEST_P(EveryField, RequiredFieldsMustBePresent) {
     int fields = 0;
     for (const Leaf& leaf : leaves_) {
         const bool one_line = std::holds_alternative<NumberField>(leaf.field->kind) ||
@@ -262,11 +263,11 @@ TEST_P(EveryField, RequiredOnesMustBeThere) {
 }
 
 // Another good value reaches its own member only. Exactly one line of the canonical text changes, and so does the hash.
-TEST_P(EveryField, TakesAnotherValueAndWritesItAgain) {
+TEST_P(EveryField, AcceptsAndWritesAnotherValue) {
     const Scenario original = parse_scenario(text_, "single_light.yaml");
     ASSERT_EQ(canonical_text(original), text_);
     int tried = 0;
-    int taken = 0;
+    int accepted = 0;
     for (const Leaf& leaf : leaves_) {
         const auto* const f = std::get_if<NumberField>(&leaf.field->kind);
         if (f == nullptr) continue;
@@ -274,17 +275,17 @@ TEST_P(EveryField, TakesAnotherValueAndWritesItAgain) {
         const double old = from_si(parse_quantity(leaf.text, *f->unit).si, *f->unit);
         const double value =
             old * 1.03125 <= f->range.max && old != 0.0 ? old * 1.03125 : (f->range.min + old) / 2 + 0.015625;
-        const std::string wanted = exact_text(to_si(value, *f->unit), *f->unit);
+        const std::string new_text = exact_text(to_si(value, *f->unit), *f->unit);
         Scenario changed;
         const std::string message =
-            input_error_of([&] { changed = parse_scenario(text_, "single_light.yaml", {leaf.path + "=" + wanted}); });
+            input_error_of([&] { changed = parse_scenario(text_, "single_light.yaml", {leaf.path + "=" + new_text}); });
         EXPECT_EQ(message.find("is out of range"), std::string::npos) << message;
         if (!message.empty()) continue;  // a check with another field fails
-        ++taken;
-        EXPECT_EQ(canonical_text(changed), replaced(leaf.value, wanted)) << leaf.path;
+        ++accepted;
+        EXPECT_EQ(canonical_text(changed), replaced(leaf.value, new_text)) << leaf.path;
         EXPECT_NE(changed.hash, original.hash) << leaf.path;
     }
-    EXPECT_GT(taken, tried * 3 / 4) << "of " << tried;
+    EXPECT_GT(accepted, tried * 3 / 4) << "of " << tried;
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Any file is loaded, or refused with an InputError. There is no crash, no other exception and no endless loop.
+// Tests of hostile input. Any file is loaded or refused with an InputError, without a crash or an endless loop.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -8,7 +8,7 @@
 namespace stopline {
 namespace {
 
-TEST(HostileFile, HundredMegabytesOfGarbage) {
+TEST(HostileFile, RefusesHundredMegabytesOfGarbage) {
     const TemporaryFolder folder;
     std::mt19937_64 random(1);
     std::string block(1u << 20u, '\0');
@@ -75,12 +75,12 @@ std::string mutated(std::string text, std::mt19937_64& random) {
                                                   "base: ",
                                                   "name: ",
                                                   ","};
-    const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % (n == 0 ? 1 : n)); };
-    const std::size_t changes = 1 + below(4);
+    const auto random_below = [&](std::size_t n) { return static_cast<std::size_t>(random() % (n == 0 ? 1 : n)); };
+    const std::size_t changes = 1 + random_below(4);
     for (std::size_t i = 0; i < changes; ++i) {
-        const std::size_t at = below(text.size());
-        const std::size_t length = std::min(text.size() - at, 1 + below(30));
-        switch (below(6)) {
+        const std::size_t at = random_below(text.size());
+        const std::size_t length = std::min(text.size() - at, 1 + random_below(30));
+        switch (random_below(6)) {
             case 0:
                 text[at] = static_cast<char>(random() & 0xFFu);
                 break;
@@ -88,13 +88,13 @@ std::string mutated(std::string text, std::mt19937_64& random) {
                 text.erase(at, length);
                 break;
             case 2:
-                text.insert(at, text.substr(below(text.size()), length));
+                text.insert(at, text.substr(random_below(text.size()), length));
                 break;
             case 3:
                 text.resize(at);
                 break;
             default:
-                text.insert(at, kPieces[below(kPieces.size())]);
+                text.insert(at, kPieces[random_below(kPieces.size())]);
                 break;
         }
         if (text.empty()) break;

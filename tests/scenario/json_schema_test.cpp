@@ -1,4 +1,4 @@
-// Tests of the JSON schema: it has every field, and it accepts and rejects the same texts as the reader.
+// Tests of the JSON schema: it has every field, and it accepts and rejects the same examples as the reader.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Validates a value against the used part of JSON schema. Any other keyword fails the test.
+// Returns the reason why a value violates the schema, or "". Knows only the keywords that the schema uses.
 std::string violation(const Json& schema, const Json& value);
 
 bool has_type(const std::string& type, const Json& value) {
@@ -32,15 +32,15 @@ std::string object_violation(const Json& schema, const Json& value) {
     }
     const Json patterns = schema.value("patternProperties", Json::object());
     for (const auto& [key, inner] : value.items()) {
-        const Json* of =
+        const Json* inner_schema =
             schema.contains("properties") && schema["properties"].contains(key) ? &schema["properties"][key] : nullptr;
-        for (const auto& [pattern, of_pattern] : patterns.items()) {
-            if (of == nullptr && std::regex_search(key, std::regex(pattern)))
-                of = &schema["patternProperties"][pattern];
+        for (const auto& [pattern, pattern_schema] : patterns.items()) {
+            if (inner_schema == nullptr && std::regex_search(key, std::regex(pattern)))
+                inner_schema = &schema["patternProperties"][pattern];
         }
-        if (of == nullptr) return "has the unknown " + key;
-        const std::string inside = violation(*of, inner);
-        if (!inside.empty()) return key + ": " + inside;
+        if (inner_schema == nullptr) return "has the unknown " + key;
+        const std::string reason = violation(*inner_schema, inner);
+        if (!reason.empty()) return key + ": " + reason;
     }
     return {};
 }
@@ -48,8 +48,8 @@ std::string object_violation(const Json& schema, const Json& value) {
 std::string violation(const Json& schema, const Json& value) {
     if (schema.contains("anyOf")) {
         std::string all;
-        for (const Json& one : schema["anyOf"]) {
-            const std::string text = violation(one, value);
+        for (const Json& option : schema["anyOf"]) {
+            const std::string text = violation(option, value);
             if (text.empty()) return {};
             all += "(" + text + ")";
         }
@@ -70,40 +70,41 @@ std::string violation(const Json& schema, const Json& value) {
     if (value.is_array() && value.size() < schema.value("minItems", std::size_t{0})) return "too few";
     if (value.is_array()) {
         for (const Json& item : value) {
-            const std::string inside = violation(schema["items"], item);
-            if (!inside.empty()) return "[]: " + inside;
+            const std::string reason = violation(schema["items"], item);
+            if (!reason.empty()) return "[]: " + reason;
         }
     }
     return value.is_object() ? object_violation(schema, value) : "";
 }
 
+// Fails the test if the schema uses a keyword that violation() does not know.
 void check_keywords(const Json& schema) {
-    static const std::set<std::string> known{"$schema",
-                                             "title",
-                                             "description",
-                                             "type",
-                                             "properties",
-                                             "patternProperties",
-                                             "additionalProperties",
-                                             "required",
-                                             "anyOf",
-                                             "enum",
-                                             "pattern",
-                                             "minimum",
-                                             "maximum",
-                                             "items",
-                                             "minItems",
-                                             "maxItems",
-                                             "minProperties",
-                                             "maxProperties",
-                                             "maxLength",
-                                             "deprecated"};
-    for (const auto& [key, value] : schema.items()) EXPECT_TRUE(known.contains(key)) << key;
+    static const std::set<std::string> known_keywords{"$schema",
+                                                      "title",
+                                                      "description",
+                                                      "type",
+                                                      "properties",
+                                                      "patternProperties",
+                                                      "additionalProperties",
+                                                      "required",
+                                                      "anyOf",
+                                                      "enum",
+                                                      "pattern",
+                                                      "minimum",
+                                                      "maximum",
+                                                      "items",
+                                                      "minItems",
+                                                      "maxItems",
+                                                      "minProperties",
+                                                      "maxProperties",
+                                                      "maxLength",
+                                                      "deprecated"};
+    for (const auto& [key, value] : schema.items()) EXPECT_TRUE(known_keywords.contains(key)) << key;
     for (const char* map : {"properties", "patternProperties"}) {
         const Json fields = schema.value(map, Json::object());
         for (const auto& [key, inner] : fields.items()) check_keywords(inner);
     }
-    for (const Json& one : schema.value("anyOf", Json::array())) check_keywords(one);
+    for (const Json& option : schema.value("anyOf", Json::array())) check_keywords(option);
     if (schema.contains("items")) check_keywords(schema["items"]);
 }
 
@@ -117,29 +118,29 @@ TEST(JsonSchema, HasEveryFieldWithItsMeaning) {
     EXPECT_EQ(schema["$schema"], "http://json-schema.org/draft-07/schema#");
     check_keywords(schema);
     visit_rows(scenario_table(), "", [&](const Table& /*table*/, const Field& field, const std::string& path) {
-        const Json* at = &schema;
+        const Json* node = &schema;
         for (const std::string& step : steps_of(path)) {
-            while (at->contains("anyOf") || at->contains("items"))
-                at = at->contains("anyOf") ? &at->at("anyOf").back() : &at->at("items");
-            ASSERT_TRUE(at->contains("properties")) << path;
-            ASSERT_TRUE(at->at("properties").contains(step)) << path;
-            EXPECT_EQ(at->at("additionalProperties"), false) << path;
-            at = &at->at("properties").at(step);
+            while (node->contains("anyOf") || node->contains("items"))
+                node = node->contains("anyOf") ? &node->at("anyOf").back() : &node->at("items");
+            ASSERT_TRUE(node->contains("properties")) << path;
+            ASSERT_TRUE(node->at("properties").contains(step)) << path;
+            EXPECT_EQ(node->at("additionalProperties"), false) << path;
+            node = &node->at("properties").at(step);
         }
-        EXPECT_TRUE(contains(at->at("description").get<std::string>(), field.meaning)) << path;
+        EXPECT_TRUE(contains(node->at("description").get<std::string>(), field.meaning)) << path;
     });
 }
 
-TEST(JsonSchema, AcceptsWhatLoadsAndRefusesWhatDoesNot) {
+TEST(JsonSchema, AgreesWithTheReader) {
     const Json schema = Json::parse(json_schema());
-    const auto of = [&](const char* text) { return violation(schema, Json::parse(text)); };
+    const auto violation_of = [&](const char* text) { return violation(schema, Json::parse(text)); };
     for (const char* good :
          {"{}", R"({"step": "10 ms", "signal": {"green": "15 s"}, "seed": 7})",
           R"({"vehicle": "petrol_eu4_72kw", "driver": {"base": "startup_kit", "cacc": {"v2v_delay": "20 ms"}}})",
           R"({"vehicle": {"base": "petrol_eu4_72kw", "full_load": {"0 rpm": "90 N m", "7000 rpm": "80 N m"}}})",
           R"({"populations": ["CDG", {"name": "A", "components": [{"policy": "CDG", "share": 0.5}]}]})",
           R"({"measure": {"green": ["5 s", "10 s"], "baseline": "CDG"}})"}) {
-        EXPECT_EQ(of(good), "") << good;
+        EXPECT_EQ(violation_of(good), "") << good;
     }
     for (const char* bad :
          {"[]", R"({"stepp": "10 ms"})", R"({"step": 10})", R"({"step": "10"})", R"({"step": "10 kg"})",
@@ -148,7 +149,7 @@ TEST(JsonSchema, AcceptsWhatLoadsAndRefusesWhatDoesNot) {
           R"({"vehicle": {"base": "x", "full_load": {"0 m": "90 N m"}}})", R"({"populations": []})",
           R"({"populations": [{"name": "A"}]})", R"({"measure": {"green": [5]}})",
           R"({"populations": [{"name": "A", "components": [{"policy": "CDG", "share": 1.5}]}]})"}) {
-        EXPECT_NE(of(bad), "") << bad;
+        EXPECT_NE(violation_of(bad), "") << bad;
     }
 }
 

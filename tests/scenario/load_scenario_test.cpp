@@ -50,7 +50,7 @@ TEST(LoadScenario, EveryShippedScenarioLoads) {
     EXPECT_GE(files, 2);
 }
 
-TEST(LoadScenario, WhatIsAbsentHasTheDefaultOfTheStructs) {
+TEST(LoadScenario, MissingFieldsHaveTheDefaultsOfTheStructs) {
     const Scenario s = parse_scenario(kSmall, "dir/my file.yaml");
     const Scenario defaults;
     EXPECT_EQ(s.name, "my_file");
@@ -154,7 +154,7 @@ measure: {green: [5 s, 20 s], baseline: R}
     EXPECT_EQ(s.measure.baseline, "R");
 }
 
-TEST(LoadScenario, MessagesNamePlaceFieldValueAndRemedy) {
+TEST(LoadScenario, ErrorsNamePlaceFieldValueAndRemedy) {
     EXPECT_EQ(
         error_of("signal:\n  green: 15\n"),
         "test.yaml:2:10: field 'signal.green': value '15' has no unit: write e.g. '15 s' (allowed: 0.1 s to 7200 s)");
@@ -210,7 +210,7 @@ TEST(Overrides, AreAppliedFromLeftToRight) {
     EXPECT_EQ(s.signal.green_s, 25.0);
 }
 
-TEST(Overrides, ReachEverythingThatCanBeNamed) {
+TEST(Overrides, ReachAllFieldsAndEntries) {
     const Scenario s =
         parse_scenario(kSmall, "x",
                        {"vehicle=diesel_eu4_103kw", "vehicle.mass=1.4 t", "policies[CTG-Ref].time_gap=0.6 s",
@@ -239,34 +239,35 @@ TEST(Overrides, ReachEntriesWithADotInTheirName) {
 }
 
 TEST(Overrides, ErrorsNameTheOverride) {
-    const auto of = [](const std::string& text) { return error_of(kSmall, {text}); };
-    EXPECT_EQ(of("signal.green=20"),
+    const auto error_for = [](const std::string& text) { return error_of(kSmall, {text}); };
+    EXPECT_EQ(error_for("signal.green=20"),
               "--set 'signal.green=20': field 'signal.green': value '20' has no unit: write e.g. '20 s' "
               "(allowed: 0.1 s to 7200 s)");
-    EXPECT_TRUE(contains(of("signal.gren=20 s"),
+    EXPECT_TRUE(contains(error_for("signal.gren=20 s"),
                          "--set 'signal.gren=20 s': field 'signal.gren' is unknown; did you mean 'green'?"));
-    EXPECT_TRUE(contains(of("sgnal.green=20 s"), "did you mean 'signal'?"));
-    EXPECT_TRUE(contains(of("signal.green.x=1 s"), "has no field 'x' inside"));
-    EXPECT_TRUE(contains(of("populations[99].name=x"), "has no entry [99]"));
-    EXPECT_TRUE(contains(of("populations[].name=x"), "has no entry []"));
-    EXPECT_TRUE(contains(of("policies[XYZ].time_gap=1 s"), "has no entry [XYZ]"));
-    EXPECT_TRUE(contains(of("measure.green[0]=1 s"), "has no entry [0]"));
-    EXPECT_TRUE(contains(of("populations[0][1].name=x"), "has no entry"));
-    EXPECT_TRUE(contains(of("policies[CDG].time_gap=1 s"), "applies only if law is constant_time or switch_time_gap"));
-    EXPECT_TRUE(contains(of("vehicle=nothing"), "there is no 'nothing' in"));
-    EXPECT_TRUE(contains(of("signal.green="), "needs a single value, not nothing"));
-    EXPECT_TRUE(contains(of("signal=["), "--set 'signal=[': not valid YAML"));
-    EXPECT_TRUE(contains(of("signal=&a [*a]"), "inside its own anchor"));
+    EXPECT_TRUE(contains(error_for("sgnal.green=20 s"), "did you mean 'signal'?"));
+    EXPECT_TRUE(contains(error_for("signal.green.x=1 s"), "has no field 'x' inside"));
+    EXPECT_TRUE(contains(error_for("populations[99].name=x"), "has no entry [99]"));
+    EXPECT_TRUE(contains(error_for("populations[].name=x"), "has no entry []"));
+    EXPECT_TRUE(contains(error_for("policies[XYZ].time_gap=1 s"), "has no entry [XYZ]"));
+    EXPECT_TRUE(contains(error_for("measure.green[0]=1 s"), "has no entry [0]"));
+    EXPECT_TRUE(contains(error_for("populations[0][1].name=x"), "has no entry"));
+    EXPECT_TRUE(
+        contains(error_for("policies[CDG].time_gap=1 s"), "applies only if law is constant_time or switch_time_gap"));
+    EXPECT_TRUE(contains(error_for("vehicle=nothing"), "there is no 'nothing' in"));
+    EXPECT_TRUE(contains(error_for("signal.green="), "needs a single value, not nothing"));
+    EXPECT_TRUE(contains(error_for("signal=["), "--set 'signal=[': not valid YAML"));
+    EXPECT_TRUE(contains(error_for("signal=&a [*a]"), "inside its own anchor"));
     for (const char* text : {"", "=", "=5 s", "signal.green", "signal"}) {
-        EXPECT_TRUE(contains(of(text), "needs the form path=value")) << text;
+        EXPECT_TRUE(contains(error_for(text), "needs the form path=value")) << text;
     }
     for (const char* text : {".=1", "..=1", "[=1", "]=1", "a[=1", "signal.=1", ".signal=1", "signal[0].green=1 s",
                              "measure.green[0].x=1 s", "vehicle[0]=1"}) {
-        EXPECT_NE(of(text), "") << text;
+        EXPECT_NE(error_for(text), "") << text;
     }
 }
 
-TEST(DataFiles, ComeByNameOrByPath) {
+TEST(DataFiles, AreFoundByNameOrPath) {
     const TemporaryFolder folder;
     folder.write("cars/mine.yaml", "base: ../other.yaml\nload: 75 kg\n");
     folder.write("other.yaml", "base: petrol_eu4_72kw\nmass: 1300 kg\nload: 60 kg\n");
@@ -280,7 +281,7 @@ TEST(DataFiles, ComeByNameOrByPath) {
     EXPECT_EQ(load_vehicle((folder.path() / "other.yaml").string()).load_kg, 60.0);
 }
 
-TEST(DataFiles, AFileMayBuildOnOthersAndKeepWhatItDoesNotName) {
+TEST(DataFiles, InheritMissingFieldsFromBaseFiles) {
     const TemporaryFolder folder;
     folder.write("d0.yaml", "base: startup_kit\ncacc: {radar_range: 99 m, jerk_up: 4 m/s3}\nstop: {margin: 2 m}\n");
     for (int i = 1; i < 7; ++i) {
@@ -297,25 +298,27 @@ TEST(DataFiles, AFileMayBuildOnOthersAndKeepWhatItDoesNotName) {
     EXPECT_EQ(driver.stop.margin_m, 2.0);
 }
 
-TEST(DataFiles, ErrorsInThemNameThem) {
+TEST(DataFiles, ErrorsNameTheDataFile) {
     const TemporaryFolder folder;
     folder.write("bad.yaml", "base: petrol_eu4_72kw\nmass: 1300\n");
     folder.write("loop.yaml", "base: ./loop.yaml\n");
     folder.write("run.yaml", "vehicle: ./bad.yaml\n");
     folder.write("looping.yaml", "vehicle: ./loop.yaml\n");
     folder.write("missing.yaml", "vehicle: ./none.yaml\n");
-    const auto of = [&](const char* name) { return input_error_of([&] { load_scenario(folder.path() / name); }); };
-    EXPECT_TRUE(contains(of("run.yaml"), "bad.yaml:2:7: field 'vehicle.mass': value '1300' has no unit"));
-    EXPECT_TRUE(contains(of("looping.yaml"), "the chain of base files is longer than 8 files"));
-    EXPECT_TRUE(contains(of("missing.yaml"), "missing.yaml:1:10: field 'vehicle': "));
-    EXPECT_TRUE(contains(of("missing.yaml"), "none.yaml: no such file"));
+    const auto error_for = [&](const char* name) {
+        return input_error_of([&] { load_scenario(folder.path() / name); });
+    };
+    EXPECT_TRUE(contains(error_for("run.yaml"), "bad.yaml:2:7: field 'vehicle.mass': value '1300' has no unit"));
+    EXPECT_TRUE(contains(error_for("looping.yaml"), "the chain of base files is longer than 8 files"));
+    EXPECT_TRUE(contains(error_for("missing.yaml"), "missing.yaml:1:10: field 'vehicle': "));
+    EXPECT_TRUE(contains(error_for("missing.yaml"), "none.yaml: no such file"));
     EXPECT_NE(input_error_of([] { load_vehicle("none"); }), "");
     EXPECT_NE(input_error_of([] { load_vehicle(""); }), "");
     EXPECT_NE(input_error_of([] { load_driver("."); }), "");
     EXPECT_NE(input_error_of([] { load_policies("/"); }), "");
 }
 
-TEST(DataFiles, TheDirectoryCanBeChosen) {
+TEST(DataFiles, DirectoryCanBeChosen) {
     const TemporaryFolder folder;
     folder.write("vehicles/a.yaml", "");
     folder.write("vehicles/b.yaml", "");

@@ -31,7 +31,7 @@ TEST(LoadSweep, ReadsAxesAndRepetitions) {
     EXPECT_EQ(axis_overrides(sweep.axes[0], 1), std::vector<std::string>{"signal.green=10 s"});
 }
 
-TEST(LoadSweep, OneValueForAllPathsOrOneForEach) {
+TEST(LoadSweep, AppliesOneValueToAllPathsOrOneToEach) {
     const SweepAxis axis{"a", {"signal.green", "signal.yellow"}, {"5 s", "6 s | 3 s", "1 s | 2 s | 3 s"}, {}};
     EXPECT_EQ(axis_overrides(axis, 0), (std::vector<std::string>{"signal.green=5 s", "signal.yellow=5 s"}));
     EXPECT_EQ(axis_overrides(axis, 1), (std::vector<std::string>{"signal.green=6 s", "signal.yellow=3 s"}));
@@ -39,7 +39,7 @@ TEST(LoadSweep, OneValueForAllPathsOrOneForEach) {
                          "test.yaml:3:59: field 'axes[a].values[0]': '1 s | 2 s | 3 s' does not fit 2 paths"));
 }
 
-TEST(LoadSweep, NamesFieldPlaceAndWhatIsAllowed) {
+TEST(LoadSweep, ErrorsNamePlaceFieldAndAllowedValues) {
     EXPECT_TRUE(contains(sweep_error("axes: []\n"), "field 'scenario' is missing"));
     EXPECT_TRUE(
         contains(sweep_error("scenario: a\nrepetition: 2\n"), "test.yaml:2:1: field 'repetition' is unknown; did"));
@@ -63,7 +63,7 @@ TEST(LoadSweep, NamesFieldPlaceAndWhatIsAllowed) {
     EXPECT_TRUE(contains(axis_error("{name: a, path: signal.green, values: ['']}"), "needs a single value"));
 }
 
-TEST(LoadSweep, NamesThePlaceOfAScenarioThatIsNotThere) {
+TEST(LoadSweep, ErrorsNameThePlaceOfAMissingScenario) {
     const TemporaryFolder folder;
     const std::string file = folder.write("sweep.yaml", "title: x\nscenario: rte.yaml\n").string();
     EXPECT_EQ(input_error_of([&] { load_sweep(file); }),

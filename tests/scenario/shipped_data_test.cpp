@@ -1,4 +1,4 @@
-// The shipped vehicles, drivers and policies have the values of their sources and of the paper.
+// Tests that the shipped vehicles, drivers and policies have the values of their sources and of the paper.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -78,7 +78,7 @@ TEST(ShippedVehicles, HaveTheDragTorqueOfTheFormula) {
     expect_curve(load_vehicle("diesel_eu4_103kw"), 1.968, diesel);
 }
 
-TEST(ShippedVehicles, TheElectricOneHasOneGearAndNoClutch) {
+TEST(ShippedVehicles, ElectricCarHasOneGearAndNoClutch) {
     const PowertrainSettings car = load_vehicle("electric_100kw");
     EXPECT_EQ(car.gear_ratio.size(), 1u);
     EXPECT_EQ(car.idle_rpm, 0.0);
@@ -88,7 +88,7 @@ TEST(ShippedVehicles, TheElectricOneHasOneGearAndNoClutch) {
     }
 }
 
-TEST(ShippedPolicies, AreThoseOfThePaper) {
+TEST(ShippedPolicies, MatchThePaper) {
     const std::vector<GapPolicySettings> policies = load_policies();
     const auto gap_m = [&](const std::string& name, double kmh) {
         const auto found =
@@ -137,13 +137,13 @@ TEST(DriverYaml, ReadsBackBitForBit) {
     const std::string text = driver_yaml(driver, "Fitted to the measured start.\nSecond line.");
     EXPECT_TRUE(contains(text, "# Fitted to the measured start.\n# Second line.\n"));
     const TemporaryFolder folder;
-    const DriverSettings back = load_driver(folder.write("mine.yaml", text).string());
-    EXPECT_EQ(back.name, "mine");
-    EXPECT_EQ(back.cacc.feedback_kp_1ps2, driver.cacc.feedback_kp_1ps2);
-    EXPECT_EQ(back.free_drive.speed_mps, driver.free_drive.speed_mps);
-    EXPECT_EQ(back.free_drive.acceleration_mps2, driver.free_drive.acceleration_mps2);
-    EXPECT_EQ(back.free_drive.hesitation_s, driver.free_drive.hesitation_s);
-    EXPECT_EQ(driver_yaml(back, ""), driver_yaml(driver, ""));
+    const DriverSettings reread = load_driver(folder.write("mine.yaml", text).string());
+    EXPECT_EQ(reread.name, "mine");
+    EXPECT_EQ(reread.cacc.feedback_kp_1ps2, driver.cacc.feedback_kp_1ps2);
+    EXPECT_EQ(reread.free_drive.speed_mps, driver.free_drive.speed_mps);
+    EXPECT_EQ(reread.free_drive.acceleration_mps2, driver.free_drive.acceleration_mps2);
+    EXPECT_EQ(reread.free_drive.hesitation_s, driver.free_drive.hesitation_s);
+    EXPECT_EQ(driver_yaml(reread, ""), driver_yaml(driver, ""));
 }
 
 }  // namespace

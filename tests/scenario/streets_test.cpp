@@ -38,7 +38,7 @@ std::string error_with(const std::string& from, const std::string& to, const std
     return input_error_of([&] { load(text, overrides); });
 }
 
-TEST(Streets, AreReadFromAFileOfTheUser) {
+TEST(Streets, AreReadFromAUserFile) {
     const Scenario s = load(kStreets, {"network.streets.intersections[second].offset=42 s"});
     const StreetSettings& streets = s.network.streets;
     EXPECT_EQ(streets.name, "my_streets");
@@ -53,9 +53,9 @@ TEST(Streets, ReadBackFromTheirCanonicalText) {
     const Scenario s = load_scenario(shipped("scenarios/berlin.yaml"));
     const std::string text = canonical_text(s);
     EXPECT_EQ(text.find("\nsignal:"), std::string::npos);
-    const Scenario back = parse_scenario(text, "back.yaml");
-    EXPECT_EQ(canonical_text(back), text);
-    EXPECT_EQ(back.hash, s.hash);
+    const Scenario reread = parse_scenario(text, "back.yaml");
+    EXPECT_EQ(canonical_text(reread), text);
+    EXPECT_EQ(reread.hash, s.hash);
 }
 
 TEST(Streets, ProblemsNameFileLineAndField) {
@@ -93,7 +93,7 @@ TEST(Streets, PocketsAreAsLongAsAVehicleAndItsGap) {
     EXPECT_EQ(with("8.1 m"), "");
 }
 
-TEST(Streets, HaveTheirSignalsAndTurnsThemselves) {
+TEST(Streets, HaveTheirOwnSignalsAndTurns) {
     const auto with = [](const std::vector<std::string>& overrides) {
         return input_error_of([&] { load(kStreets, overrides); });
     };
@@ -110,7 +110,7 @@ TEST(Streets, HaveTheirSignalsAndTurnsThemselves) {
 }
 
 // The rows of Table 3 in the paper: seven steps, offset, turn shares of the major and the minor street.
-TEST(Berlin, IsThatOfTable3) {
+TEST(Berlin, MatchesTable3) {
     struct Row {
         const char* name;
         std::array<double, 7> steps_s;

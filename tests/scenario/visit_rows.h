@@ -7,15 +7,16 @@
 
 namespace stopline {
 
-// Visits every row reachable from a table, with its path. A list has the path name[].
+// Calls `visit` for every row reachable from a table, with its path. The entries of a list have the path name[].
 inline void visit_rows(const Table& table, const std::string& path,
                        const std::function<void(const Table&, const Field&, const std::string&)>& visit) {
     for (const Field& field : table.fields) {
-        const std::string here = join_path(path, field.name);
-        visit(table, field, here);
+        const std::string field_path = join_path(path, field.name);
+        visit(table, field, field_path);
         if (const auto* const section = std::get_if<SectionField>(&field.kind))
-            visit_rows(section->table(), here, visit);
-        if (const auto* const list = std::get_if<ListField>(&field.kind)) visit_rows(list->table(), here + "[]", visit);
+            visit_rows(section->table(), field_path, visit);
+        if (const auto* const list = std::get_if<ListField>(&field.kind))
+            visit_rows(list->table(), field_path + "[]", visit);
     }
 }
 

@@ -10,19 +10,19 @@
 namespace stopline {
 namespace {
 
-TEST(CanonicalText, IsAScenarioThatGivesItself) {
+TEST(CanonicalText, ReadsBackToItself) {
     for (const char* file : {"scenarios/single_light.yaml", "scenarios/first_steps.yaml"}) {
         const Scenario scenario = load_scenario(shipped(file));
         const std::string text = canonical_text(scenario);
-        const Scenario again = parse_scenario(text, "other_name.yaml");
-        EXPECT_EQ(canonical_text(again), text);
-        EXPECT_EQ(again.hash, scenario.hash);
-        EXPECT_EQ(again.vehicle_name, scenario.vehicle_name);
-        EXPECT_EQ(again.driver_name, scenario.driver_name);
+        const Scenario reread = parse_scenario(text, "other_name.yaml");
+        EXPECT_EQ(canonical_text(reread), text);
+        EXPECT_EQ(reread.hash, scenario.hash);
+        EXPECT_EQ(reread.vehicle_name, scenario.vehicle_name);
+        EXPECT_EQ(reread.driver_name, scenario.driver_name);
     }
 }
 
-TEST(CanonicalText, KeepsTitlesAsTheyAre) {
+TEST(CanonicalText, KeepsTitlesUnchanged) {
     for (const std::string title :
          {"a \"quoted\" one", "back\\slash", "# no comment", "- no list", "key: value", " spaces ", "é🚦", "~", "1"}) {
         Scenario scenario = parse_scenario("name: x\n", "x.yaml");
@@ -31,7 +31,7 @@ TEST(CanonicalText, KeepsTitlesAsTheyAre) {
     }
 }
 
-TEST(CanonicalText, AnElectricCarRoundTripsToo) {
+TEST(CanonicalText, KeepsAnElectricCar) {
     const Scenario scenario = parse_scenario("vehicle: electric_100kw\n", "x.yaml");
     EXPECT_EQ(canonical_text(parse_scenario(canonical_text(scenario), "x.yaml")), canonical_text(scenario));
 }
@@ -44,7 +44,7 @@ TEST(Hash, IsFnv1aOfTheCanonicalText) {
     EXPECT_EQ(scenario.hash, expected);
 }
 
-TEST(Hash, DependsOnContentAndNotOnHowItIsWritten) {
+TEST(Hash, DependsOnContentNotOnSpelling) {
     const auto hash = [](const std::string& text) { return parse_scenario(text, "x.yaml").hash; };
     EXPECT_EQ(hash("step: 10 ms\nduration: 200 s\n"), hash("# comment\nduration: 0.2e3 s\n"));
     EXPECT_EQ(hash("demand: {entry_speed: 36 km/h}\n"), hash("demand: {entry_speed: 10 m/s}\n"));

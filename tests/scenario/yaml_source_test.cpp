@@ -17,7 +17,7 @@ std::string refusal(std::string_view text) {
     return input_error_of([&] { parse(text); });
 }
 
-TEST(YamlSource, KnowsWhereEverythingStands) {
+TEST(YamlSource, KnowsThePlaceOfEveryValue) {
     const SourceNode root = parse("# comment\na: 1 s\nb:\n  c: [x, \"y z\"]\n");
     ASSERT_EQ(root.kind, SourceNode::Kind::map);
     ASSERT_EQ(root.keys.size(), 2u);
@@ -32,14 +32,14 @@ TEST(YamlSource, KnowsWhereEverythingStands) {
     EXPECT_EQ(root.find("missing"), nullptr);
 }
 
-TEST(YamlSource, WritesAliasesOut) {
+TEST(YamlSource, ExpandsAliases) {
     const SourceNode root = parse("a: &x {k: v}\nb: *x\nc: &y s\nd: *y\n");
     ASSERT_EQ(root.find("b")->kind, SourceNode::Kind::map);
     EXPECT_EQ(root.find("b")->find("k")->text, "v");
     EXPECT_EQ(root.find("d")->text, "s");
 }
 
-TEST(YamlSource, RefusesWhatIsNotOneDocumentOfPlainMaps) {
+TEST(YamlSource, RefusesUnsupportedYaml) {
     EXPECT_TRUE(contains(refusal("a: 1\nb: 2\na: 3\n"), "test.yaml:3:1: the key 'a' appears twice"));
     EXPECT_TRUE(contains(refusal("a: 1\n---\nb: 2\n"), "a second YAML document"));
     EXPECT_TRUE(contains(refusal("[1, 2]: 3\n"), "test.yaml:1:1: a key must be a plain text"));
@@ -53,7 +53,7 @@ TEST(YamlSource, RefusesWhatIsNotOneDocumentOfPlainMaps) {
     EXPECT_TRUE(contains(refusal("\ta: 1\n"), "not valid YAML"));
 }
 
-TEST(YamlSource, RefusesWhatIsNotText) {
+TEST(YamlSource, RefusesInvalidUtf8) {
     EXPECT_TRUE(
         contains(refusal(std::string("a: 1\nb: x\0y\n", 12)), "test.yaml:2:5: not a YAML text in UTF-8 (byte 0x00)"));
     EXPECT_TRUE(contains(refusal("a: \xff\xfe\n"), "test.yaml:1:4: not a YAML text in UTF-8 (byte 0xFF)"));
@@ -82,7 +82,7 @@ protected:
     }
 };
 
-TEST_F(HostileYaml, BillionLaughs) {
+TEST_F(HostileYaml, RefusesBillionLaughs) {
     std::string text = "a0: &a0 [lol, lol, lol, lol, lol, lol, lol, lol, lol]\n";
     for (int i = 1; i < 10; ++i) {
         const std::string below = "*a" + std::to_string(i - 1);
@@ -93,7 +93,7 @@ TEST_F(HostileYaml, BillionLaughs) {
     expect_refused(text, "more than 200000 values");
 }
 
-TEST_F(HostileYaml, AliasesThatGrowInDepth) {
+TEST_F(HostileYaml, RefusesAliasesThatGrowInDepth) {
     std::string text = "a0: &a0 [x]\n";
     for (int i = 1; i < 100; ++i) {
         text += "a" + std::to_string(i) + ": &a" + std::to_string(i) + " [*a" + std::to_string(i - 1) + "]\n";
@@ -101,13 +101,13 @@ TEST_F(HostileYaml, AliasesThatGrowInDepth) {
     expect_refused(text, "levels deep");
 }
 
-TEST_F(HostileYaml, AnchorsThatNeverEnd) {
+TEST_F(HostileYaml, RefusesAnchorsThatContainThemselves) {
     expect_refused("a: &x [*x]\n", "inside its own anchor");
     expect_refused("a: &x {b: {c: *x}}\n", "inside its own anchor");
     expect_refused("&x a: *x\nb: &y\n  c: *y\n", "inside its own anchor");
 }
 
-TEST_F(HostileYaml, DeepNesting) {
+TEST_F(HostileYaml, RefusesDeepNesting) {
     expect_refused(std::string(1'000'000, '['), "levels deep");
     expect_refused(std::string(1'000'000, '{'), "");
     std::string maps;
@@ -122,40 +122,42 @@ TEST_F(HostileYaml, DeepNesting) {
     EXPECT_NE(refusal(keys), "");
 }
 
-TEST_F(HostileYaml, ManyValues) {
+TEST_F(HostileYaml, RefusesTooManyValues) {
     std::string text = "a: [";
     for (int i = 0; i < 300'000; ++i) text += "1,";
     expect_refused(text + "]\n", "more than 200000 values");
 }
 
-TEST_F(HostileYaml, OneHugeValue) {
+TEST_F(HostileYaml, LimitsTheSizeOfAText) {
     const SourceNode root = parse("a: " + std::string(2u << 20u, 'x') + "\n");
     EXPECT_EQ(root.find("a")->text.size(), 2u << 20u);
     expect_refused(std::string((4u << 20u) + 1, 'x'), "at most 4.0 MB");
 }
 
-TEST(YamlFile, RefusesWhatCannotBeRead) {
+TEST(YamlFile, RefusesUnreadableFiles) {
     const TemporaryFolder folder;
-    const auto of = [](const std::filesystem::path& file) { return input_error_of([&] { read_yaml_file(file); }); };
-    EXPECT_TRUE(contains(of(folder.path() / "none.yaml"), "none.yaml: no such file"));
-    EXPECT_TRUE(contains(of(folder.path()), "is a directory"));
-    EXPECT_TRUE(contains(of(folder.path() / "none" / "none.yaml"), "no such file"));
-    EXPECT_TRUE(contains(of(folder.write("f.yaml", "a: 1\n") / "below.yaml"), "no such file"));
-    EXPECT_TRUE(contains(of("/dev/zero"), "is not a file that can be read"));
+    const auto error_of_file = [](const std::filesystem::path& file) {
+        return input_error_of([&] { read_yaml_file(file); });
+    };
+    EXPECT_TRUE(contains(error_of_file(folder.path() / "none.yaml"), "none.yaml: no such file"));
+    EXPECT_TRUE(contains(error_of_file(folder.path()), "is a directory"));
+    EXPECT_TRUE(contains(error_of_file(folder.path() / "none" / "none.yaml"), "no such file"));
+    EXPECT_TRUE(contains(error_of_file(folder.write("f.yaml", "a: 1\n") / "below.yaml"), "no such file"));
+    EXPECT_TRUE(contains(error_of_file("/dev/zero"), "is not a file that can be read"));
     const auto pipe = folder.path() / "pipe.yaml";
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-    EXPECT_TRUE(contains(of(pipe), "is not a file that can be read"));  // without waiting for a writer
+    EXPECT_TRUE(contains(error_of_file(pipe), "is not a file that can be read"));  // without waiting for a writer
     const auto loop = folder.path() / "loop.yaml";
     std::filesystem::create_symlink(loop, loop);
-    EXPECT_NE(of(loop), "");
+    EXPECT_NE(error_of_file(loop), "");
     if (::geteuid() != 0) {  // root may read everything
         const auto secret = folder.write("secret.yaml", "a: 1\n");
         std::filesystem::permissions(secret, std::filesystem::perms::none);
-        EXPECT_TRUE(contains(of(secret), "cannot be opened"));
+        EXPECT_TRUE(contains(error_of_file(secret), "cannot be opened"));
     }
 }
 
-TEST(YamlFile, RefusesAHugeFileUnread) {
+TEST(YamlFile, RefusesAHugeFileWithoutReadingIt) {
     const TemporaryFolder folder;
     const auto file = folder.write("huge.yaml", "");
     std::filesystem::resize_file(file, std::uintmax_t{5} << 40u);  // an empty file of 5 TB

@@ -20,7 +20,8 @@ TEST(Stages, ServeOneGroupAtATimeWithAllRedBetween) {
             const std::int64_t elapsed = tick - 100;
             for (int g = 0; g < groups; ++g) {
                 const std::int64_t group_elapsed = elapsed - g * stage_ticks;
-                const std::int64_t cycle_tick = group_elapsed < 0 ? groups * stage_ticks : group_elapsed % (groups * stage_ticks);
+                const std::int64_t cycle_tick =
+                    group_elapsed < 0 ? groups * stage_ticks : group_elapsed % (groups * stage_ticks);
                 const Light expected = cycle_tick < 150 ? Light::green : cycle_tick < 180 ? Light::yellow : Light::red;
                 ASSERT_EQ(programmes[static_cast<std::size_t>(g)].light(tick), expected) << g << " at tick " << tick;
             }

@@ -1,5 +1,5 @@
-// Tests of spacing policies: each shipped parameter set against its closed form in the paper, and each registered law against
-// the properties that every law must have.
+// Tests of spacing policies: each shipped parameter set against its closed form in the paper, and each registered law
+// against the properties that every law must have.
 #include "spacing_laws/gap_policy.h"
 
 #include <gtest/gtest.h>
@@ -99,7 +99,8 @@ TEST(EveryLaw, ReturnsItsDerivative) {
         for (const GapPolicySettings& s : arbitrary_settings(law.name)) {
             for (double v = 0.05; v < 40.0; v += 0.1) {
                 if (std::fabs(v - s.switch_speed_mps) < 2.0 * kStep) continue;  // a kink may lie there
-                const double derivative = (evaluate_at(s, v + kStep).gap_m - evaluate_at(s, v - kStep).gap_m) / (2.0 * kStep);
+                const double derivative =
+                    (evaluate_at(s, v + kStep).gap_m - evaluate_at(s, v - kStep).gap_m) / (2.0 * kStep);
                 ASSERT_NEAR(evaluate_at(s, v).slope_s, derivative, 1e-6) << law.name << " at " << v;
             }
         }

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Compares the mesoscale mode with SUMO: vehicles past the stop line in each of ten cycles, with the paper's parameters.
+"""Compares the mesoscale mode with SUMO at a single light: vehicles that pass the stop line in each of ten cycles.
 
     cross_check.py STOPLINE_CALIBRATE
 
-SUMO (pip install eclipse-sumo) drives its own Krauss model with the CTG row of Table 2 on one lane before one light. Exit
-codes: 0 within one vehicle in every cycle, 1 not, 77 SUMO is not installed.
+SUMO (pip install eclipse-sumo) uses its own Krauss model with the CTG parameters of Table 2 in the paper. Exit codes: 0
+the counts differ by at most one vehicle in every cycle, 1 they differ by more, 77 SUMO is not installed.
 """
 
 import csv
@@ -47,7 +47,7 @@ def cycle_of(green):
 
 
 def per_cycle(times, green):
-    """Passages in each of the cycles that are compared."""
+    """Returns the passages in each of the compared cycles."""
     cycle = cycle_of(green)
     counts = [0] * (WARMUP_CYCLES + CYCLES)
     for time in times:
@@ -73,7 +73,7 @@ def sumo_times(sumo, netconvert, green, folder):
 
 
 def stopline_times(program, folder):
-    """By green time, when vehicles of the mesoscale mode with Table 2 passed the stop line."""
+    """Returns, by green time, the passage times of the mesoscale mode with the parameters of Table 2."""
     subprocess.run([program, HERE / "greens.yaml", "--step", "I", "--parameters", "table2", "--output", folder], check=True,
                    stdout=subprocess.DEVNULL)
     times = {green: [] for green in GREENS_S}
@@ -85,12 +85,12 @@ def stopline_times(program, folder):
 
 
 def find_sumo():
-    """Paths of sumo and netconvert, or None."""
+    """Returns the paths of sumo and netconvert, or None."""
     try:
         import sumo as package
         folder = Path(package.SUMO_HOME) / "bin"
         return str(folder / "sumo"), str(folder / "netconvert")
-    except (ImportError, AttributeError):  # AttributeError: some folder of that name
+    except (ImportError, AttributeError):  # AttributeError: a folder with this name, not the package
         found = shutil.which("sumo"), shutil.which("netconvert")
         return found if all(found) else None
 
@@ -100,7 +100,7 @@ def main():
         sys.exit(__doc__)
     programs = find_sumo()
     if programs is None:
-        print("SUMO is not installed (pip install eclipse-sumo): skipped")
+        print("skipped: SUMO is not installed (pip install eclipse-sumo)")
         return 77
     worst = 0
     with tempfile.TemporaryDirectory() as name:
@@ -110,7 +110,7 @@ def main():
             ours = per_cycle(times[green], green)
             worst = max([worst] + [abs(a - b) for a, b in zip(ours, theirs)])
             print(f"green {green:2d} s: ours {ours}, SUMO {theirs}")
-    print(f"largest difference: {worst} vehicles a cycle")
+    print(f"largest difference: {worst} vehicles in a cycle")
     return 0 if worst <= 1 else 1
 
 

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""Runs networks of SUMO's netgenerate, and networks that its package ships, with random trips here, and says what came of it.
+"""Imports SUMO networks, runs them with random trips, and checks for violations.
 
     import_nets.py BIN [--fidelity meso|full] [--seeds N] [--only NAME] [--keep DIR] [--net FILE ROUTES[,ROUTES...]]...
 
-BIN is the folder of stopline-run. SUMO is found by SUMO_HOME or the package eclipse-sumo (pip install eclipse-sumo). For each network the table
-has lanes, signals, trips, arrivals, teleported vehicles, missed turns and violations. Exit code 1 where a run has violations (overlaps,
-entries on red, lost vehicles) or trips do not add up, 77 where SUMO is missing.
+BIN is the folder of stopline-run. The networks come from SUMO's netgenerate and from the SUMO package (pip install
+eclipse-sumo), which is found by SUMO_HOME or as a Python package. --net replaces them by a network and its route files.
+For each run the script prints the numbers of vehicles that entered, arrived, were teleported or missed a turn, the
+backlog, gridlocks and violations. Exit codes: 0 no violations, 1 a run failed or has violations (overlaps, conflicts,
+red-light entries, lost vehicles), 77 SUMO is not installed.
 """
 
 import argparse
@@ -16,7 +18,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-# What netgenerate is called with, but for the seed.
+# Options of netgenerate, without the seed.
 NETS = {
     "grid_1": "--grid --grid.number 4 --grid.length 150 --grid.attach-length 100 --default-junction-type traffic_light",
     "grid_2": "--grid --grid.number 4 --grid.length 180 --grid.attach-length 150 -L 2 --default-junction-type traffic_light",
@@ -35,7 +37,7 @@ NETS = {
     "random_lanes": "--rand --rand.iterations 80 --rand.random-lanenumber -L 3 --default-junction-type traffic_light",
 }
 SEEDED = ("spider", "random")
-# Below SUMO's folder; seconds between two trips. Several are parts of real cities.
+# Networks in SUMO's folder, with the seconds between two trips. Several are parts of real cities.
 SHIPPED = {
     "tools/game/A10KW/osm.net.xml": 1.0,  # a motorway
     "tools/game/DRT/osm.net.xml": 1.0,
@@ -65,7 +67,7 @@ def sumo_home():
 
 
 def make(home, folder, name, options, seed):
-    """Network and trips as files; their names."""
+    """Writes a network and random trips. Returns the paths of both files."""
     net = folder / f"{name}.net.xml.gz"
     subprocess.run([home / "bin" / "netgenerate", *options.split(), "--seed", str(seed), "-o", net], check=True, capture_output=True)
     return net, make_trips(home, folder, name, net, PERIODS.get(name.rsplit("_s", 1)[0], 1.0), seed)
@@ -99,21 +101,21 @@ def run(binary, folder, name, net, routes, fidelity):
 
 
 def judge(name, rows, errors):
-    """Prints a line a run; False where something is wrong."""
+    """Prints a line for each population. Returns False if there is an error or a violation."""
     if rows is None:
         print(f"{name:28} {errors[:300]}")
         return False
-    good = True
+    passed = True
     for row in rows:
-        wrong = {key: int(row[key]) for key in ("overlaps", "conflicts", "red_entries", "lost_vehicles") if int(row[key])}
-        good = good and not wrong
+        violations = {key: int(row[key]) for key in ("overlaps", "conflicts", "red_entries", "lost_vehicles") if int(row[key])}
+        passed = passed and not violations
         print(
             f"{name:28} {row['population']:8} entered {row['entered']:>5} arrived {row['exited']:>5} teleported {row['teleported']:>4} "
-            f"missed turns {row['missed_turns']:>4} backlog {row['backlog']:>4} gridlocks {row['gridlocks']:>3} s {row['travel_time_s']:>8} "
-            f"forced {row['forced_red_entries']:>3} {wrong or ''}",
+            f"missed turns {row['missed_turns']:>4} backlog {row['backlog']:>4} gridlocks {row['gridlocks']:>3} travel time {row['travel_time_s']:>8} s "
+            f"forced red entries {row['forced_red_entries']:>3} {violations or ''}",
             flush=True,
         )
-    return good
+    return passed
 
 
 def main():
@@ -129,33 +131,33 @@ def main():
     if home is None:
         print("skipped: SUMO is not installed (pip install eclipse-sumo)")
         return 77
-    good = True
+    passed = True
     with tempfile.TemporaryDirectory() as temporary:
         folder = (options.keep or Path(temporary)).resolve()
         folder.mkdir(parents=True, exist_ok=True)
         binary = options.binary.resolve()
-        for name, call in NETS.items() if not options.net else []:
+        for name, options_text in NETS.items() if not options.net else []:
             if options.only and options.only not in name:
                 continue
             seeds = range(1, options.seeds + 1) if name.startswith(SEEDED) else [1]
             for seed in seeds:
                 full_name = f"{name}_s{seed}"
-                net, trips = make(home, folder, full_name, call, seed)
-                good = judge(full_name, *run(binary, folder, full_name, net, trips, options.fidelity)) and good
+                net, trips = make(home, folder, full_name, options_text, seed)
+                passed = judge(full_name, *run(binary, folder, full_name, net, trips, options.fidelity)) and passed
         for path, period in SHIPPED.items() if not options.net else []:
             name = Path(path).parts[-2]
             if options.only and options.only not in name:
                 continue
             if not (home / path).is_file():
-                print(f"{name:28} is not among the files of this version of SUMO")
+                print(f"{name:28} is not part of this version of SUMO")
                 continue
             trips = make_trips(home, folder, name, home / path, period, 1)
-            good = judge(name, *run(binary, folder, name, home / path, trips, options.fidelity)) and good
+            passed = judge(name, *run(binary, folder, name, home / path, trips, options.fidelity)) and passed
         for net, routes in options.net:
             name = Path(net).name.split(".")[0]
             files = ", ".join(str(Path(file).resolve()) for file in routes.split(","))
-            good = judge(name, *run(binary, folder, name, Path(net).resolve(), files, options.fidelity)) and good
-    return 0 if good else 1
+            passed = judge(name, *run(binary, folder, name, Path(net).resolve(), files, options.fidelity)) and passed
+    return 0 if passed else 1
 
 
 if __name__ == "__main__":

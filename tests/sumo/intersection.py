@@ -3,8 +3,9 @@
 
     intersection.py FOLDER_OF_STOPLINE_PROGRAMS [--speed]
 
-Counts the vehicles past the eight stop lines in each of ten cycles; with --speed also vehicle updates a second of both programs,
-one thread each, side by side. Exit codes: 0 within one vehicle a lane and cycle (mean of the lanes), 1 not, 77 SUMO is not installed.
+Counts the vehicles that pass the eight stop lines in each of ten cycles. --speed also compares the vehicle updates per
+second of both programs on one thread each. Exit codes: 0 the mean counts per lane differ by at most one vehicle in
+every cycle, 1 they differ by more, 77 SUMO is not installed.
 """
 
 import csv
@@ -17,7 +18,7 @@ from pathlib import Path
 
 from cross_check import CYCLES, GREENS_S, HERE, LIMIT_MPS, WARMUP_CYCLES, cycle_of, find_sumo, per_cycle
 
-ARMS = {"north": (0, 1), "east": (1, 0), "south": (0, -1), "west": (-1, 0)}
+LEGS = {"north": (0, 1), "east": (1, 0), "south": (0, -1), "west": (-1, 0)}
 OPPOSITE = {"north": "south", "south": "north", "east": "west", "west": "east"}
 RADIUS_M = 20.0
 APPROACH_M = 250.0
@@ -31,16 +32,16 @@ CTG = """<vType id="ctg" carFollowModel="Krauss" accel="1.7" decel="4.7" tau="0.
 
 def write_network(netconvert, folder):
     nodes, edges, connections = [], [], []
-    for arm, (x, y) in ARMS.items():
+    for leg, (x, y) in LEGS.items():
         far = RADIUS_M + APPROACH_M
         near = RADIUS_M + EXIT_M
-        nodes.append(f'<node id="{arm}_from" x="{x * far}" y="{y * far}"/>')
-        nodes.append(f'<node id="{arm}_to" x="{x * near}" y="{y * near}"/>')
-        edges.append(f'<edge id="{arm}_in" from="{arm}_from" to="c" numLanes="2" speed="{LIMIT_MPS}"/>')
-        edges.append(f'<edge id="{arm}_out" from="c" to="{arm}_to" numLanes="2" speed="{LIMIT_MPS}"/>')
+        nodes.append(f'<node id="{leg}_from" x="{x * far}" y="{y * far}"/>')
+        nodes.append(f'<node id="{leg}_to" x="{x * near}" y="{y * near}"/>')
+        edges.append(f'<edge id="{leg}_in" from="{leg}_from" to="c" numLanes="2" speed="{LIMIT_MPS}"/>')
+        edges.append(f'<edge id="{leg}_out" from="c" to="{leg}_to" numLanes="2" speed="{LIMIT_MPS}"/>')
         for lane in (0, 1):
             connections.append(
-                f'<connection from="{arm}_in" to="{OPPOSITE[arm]}_out" fromLane="{lane}" toLane="{lane}"/>')
+                f'<connection from="{leg}_in" to="{OPPOSITE[leg]}_out" fromLane="{lane}" toLane="{lane}"/>')
     nodes.append('<node id="c" x="0" y="0" type="traffic_light"/>')
     for name, items in (("nodes", nodes), ("edges", edges), ("connections", connections)):
         (folder / f"i.{name[:3]}.xml").write_text(f"<{name}>" + "\n".join(items) + f"</{name}>")
@@ -50,7 +51,7 @@ def write_network(netconvert, folder):
 
 
 def phases(folder, green):
-    """A tlLogic with north and south first, then east and west, as at the reference intersection."""
+    """Returns a tlLogic: north and south are green first, then east and west."""
     links = {}
     for connection in ElementTree.parse(folder / "i.net.xml").getroot().iter("connection"):
         if connection.get("tl"):
@@ -64,19 +65,19 @@ def phases(folder, green):
 
 
 def run_sumo(sumo, folder, green, seconds, loops):
-    """SUMO's own text of what it did."""
-    added = phases(folder, green)
+    """Runs SUMO. Returns its output."""
+    additional = phases(folder, green)
     if loops:
-        for arm in ARMS:
+        for leg in LEGS:
             for lane in (0, 1):
-                added += f'<instantInductionLoop id="{arm}{lane}" lane="{arm}_in_{lane}" pos="-0.1" file="loop.xml"/>'
-    (folder / "i.add.xml").write_text(f"<additional>{added}</additional>")
+                additional += f'<instantInductionLoop id="{leg}{lane}" lane="{leg}_in_{lane}" pos="-0.1" file="loop.xml"/>'
+    (folder / "i.add.xml").write_text(f"<additional>{additional}</additional>")
     flows = "".join(
-        f'<route id="{arm}" edges="{arm}_in {OPPOSITE[arm]}_out"/>' for arm in ARMS) + "".join(
-        f'<flow id="{arm}{lane}" type="ctg" route="{arm}" begin="0" end="{seconds}" period="1.0" departLane="{lane}" '
-        f'departSpeed="avg" departPos="base"/>' for arm in ARMS for lane in (0, 1))
+        f'<route id="{leg}" edges="{leg}_in {OPPOSITE[leg]}_out"/>' for leg in LEGS) + "".join(
+        f'<flow id="{leg}{lane}" type="ctg" route="{leg}" begin="0" end="{seconds}" period="1.0" departLane="{lane}" '
+        f'departSpeed="avg" departPos="base"/>' for leg in LEGS for lane in (0, 1))
     (folder / "i.rou.xml").write_text(f"<routes>{CTG}{flows}</routes>")
-    # Vehicles that find no place are dropped: a growing backlog would cost SUMO time.
+    # SUMO drops vehicles that cannot be inserted, because a growing backlog would cost it computing time.
     return subprocess.run([sumo, "-n", "i.net.xml", "-r", "i.rou.xml", "-a", "i.add.xml", "--step-length", "0.1", "--end",
                            str(seconds), "--no-step-log", "--duration-log.statistics", "--seed", "1",
                            "--max-depart-delay", "2", "--lanechange.duration", "0"], cwd=folder, check=True,
@@ -84,7 +85,7 @@ def run_sumo(sumo, folder, green, seconds, loops):
 
 
 def sumo_counts(sumo, folder, green):
-    """By lane, vehicles in each cycle."""
+    """Returns SUMO's vehicles in each cycle, by lane."""
     run_sumo(sumo, folder, green, cycle_of(green) * (WARMUP_CYCLES + CYCLES), True)
     times = {}
     for event in ElementTree.parse(folder / "loop.xml").getroot():
@@ -94,7 +95,7 @@ def sumo_counts(sumo, folder, green):
 
 
 def our_counts(programs, folder):
-    """By green time and lane, vehicles in each cycle."""
+    """Returns our vehicles in each cycle, by green time and lane."""
     subprocess.run([programs / "stopline-calibrate", HERE / "intersection_greens.yaml", "--step", "I", "--parameters",
                     "table2", "--output", folder], check=True, stdout=subprocess.DEVNULL)
     times = {green: {} for green in GREENS_S}
@@ -111,12 +112,12 @@ def mean_of(lanes):
 
 
 def compare_speed(sumo, programs, folder):
-    said = run_sumo(sumo, folder, SPEED_GREEN_S, SPEED_S, False)
-    theirs = float(re.search(r"UPS: ([0-9.]+)", said).group(1))
-    ours = subprocess.run([programs / "stopline-sweep", HERE / "intersection_speed.yaml", "--threads", "1", "--output",
-                           folder / "speed"], check=True, capture_output=True, text=True).stdout
-    ups = 1e6 * float(re.search(r"([0-9.]+) million vehicle updates per second", ours).group(1))
-    print(f"vehicle updates a second: ours {ups:.3g}, SUMO {theirs:.3g} (as it says itself): {ups / theirs:.0f} times")
+    sumo_output = run_sumo(sumo, folder, SPEED_GREEN_S, SPEED_S, False)
+    theirs = float(re.search(r"UPS: ([0-9.]+)", sumo_output).group(1))
+    sweep_output = subprocess.run([programs / "stopline-sweep", HERE / "intersection_speed.yaml", "--threads", "1", "--output",
+                                   folder / "speed"], check=True, capture_output=True, text=True).stdout
+    ours = 1e6 * float(re.search(r"([0-9.]+) million vehicle updates per second", sweep_output).group(1))
+    print(f"vehicle updates per second: ours {ours:.3g}, SUMO {theirs:.3g} by its own output, ratio {ours / theirs:.0f}")
 
 
 def main():
@@ -124,7 +125,7 @@ def main():
         sys.exit(__doc__)
     found = find_sumo()
     if found is None:
-        print("SUMO is not installed (pip install eclipse-sumo): skipped")
+        print("skipped: SUMO is not installed (pip install eclipse-sumo)")
         return 77
     programs = Path(sys.argv[1]).resolve()
     worst = 0.0
@@ -136,8 +137,8 @@ def main():
             a = mean_of(ours[green])
             b = mean_of(sumo_counts(found[0], folder, green))
             worst = max([worst] + [abs(x - y) for x, y in zip(a, b)])
-            print(f"green {green:2d} s, vehicles a lane: ours {[round(x, 1) for x in a]}, SUMO {[round(x, 1) for x in b]}")
-        print(f"largest difference: {worst:.2f} vehicles a lane and cycle")
+            print(f"green {green:2d} s, vehicles per lane: ours {[round(x, 1) for x in a]}, SUMO {[round(x, 1) for x in b]}")
+        print(f"largest difference: {worst:.2f} vehicles per lane and cycle")
         if "--speed" in sys.argv:
             compare_speed(found[0], programs, folder)
     return 0 if worst <= 1.0 else 1

@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
-"""Exports scenarios to SUMO, reads the exported networks again, and compares all three.
+"""Exports scenarios to SUMO, imports the exported networks, and compares the traffic.
 
-    round_trip.py FOLDER_OF_STOPLINE_PROGRAMS [--seeds N]        three seeds, if not given
+    round_trip.py FOLDER_OF_STOPLINE_PROGRAMS [--seeds N]        default: three seeds
 
-For the intersection, an arterial and a grid: lanes, connections and lengths of the network that netconvert made beside ours, SUMO's
-run of the export, and our run of the imported network beside the original (vehicles that arrived, their mean time). Conflicts and who
-gives way are compared by round_trip_test.cpp. Of the runs the differences between imported and original, seed by seed, have a mean
-with its 95 % interval (Student): equal is where that contains 0, or where the mean is within the limits below. Exit codes: 0 all is
-equal, 1 not, 77 SUMO is not installed.
+The scenarios are an intersection, an arterial and a grid. The script compares lanes, connections and lengths of
+netconvert's network with the export. It runs the original, the export in SUMO, and the imported network, and compares
+the number of arrivals and the mean travel time. The original and the imported network count as equal if the 95 %
+confidence interval of their differences over the seeds contains 0, or if the mean difference is within the limits
+below. round_trip_test.cpp compares conflicts and right of way. Exit codes: 0 all are equal, 1 there is a difference, 77
+SUMO is not installed.
 """
 
 import argparse
@@ -23,7 +24,7 @@ from cross_check import HERE, find_sumo
 
 LENGTH_M = 0.1
 ARRIVED, DURATION = 2.0, 5.0  # percent
-# Student's t by degrees of freedom from 1 on, 97.5 %.
+# 97.5 % quantiles of Student's t distribution, for 1, 2, 3 ... degrees of freedom.
 STUDENT = [12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.201, 2.179, 2.160, 2.145, 2.131, 2.120, 2.110,
            2.101, 2.093]
 SCENARIOS = HERE.parent.parent / "scenarios"
@@ -32,10 +33,11 @@ CASES = {
     "arterial": ["duration=700 s", "measure.window=400 s"],
     "grid": ["duration=700 s", "measure.window=400 s", "network.grid.columns=3", "network.grid.rows=2"],
 }
-# Of ours, what SUMO has no word for, is left out.
+# Settings of our model that match SUMO's.
 AS_SUMO = ["fidelity=meso", "meso=table2", "driver.free_drive.hesitation=0 s", "driver.stop.decision_deceleration=4.7 m/s2"]
-# The rules of the original are its scenario's. Nobody changes lanes there, which nobody gains enough for here: of imported networks
-# the lanes of an edge are beside each other, and changes for speed even out the queues.
+# The imported network gets the traffic rules of the original scenario. The original has no lane changes. In an imported
+# network the lanes of an edge are neighbours, so a high threshold prevents lane changes for speed, which would even out
+# the queues.
 IMPORTED = """
 fidelity: meso
 duration: 700 s
@@ -57,11 +59,11 @@ RULES["grid"] = RULES["arterial"]
 
 
 def settings(changes):
-    return [word for change in changes for word in ("--set", change)]
+    return [option for change in changes for option in ("--set", change)]
 
 
 def plain(folder):
-    """Lanes by edge, length by edge, and connections, as we wrote them."""
+    """Returns the number of lanes by edge, the length by edge, and the connections of the exported files."""
     edges = {e.get("id"): e for e in ElementTree.parse(folder / "edges.edg.xml").getroot().iter("edge")}
     connections = list(ElementTree.parse(folder / "connections.con.xml").getroot().iter("connection"))
     return ({k: int(e.get("numLanes")) for k, e in edges.items()}, {k: float(e.get("length")) for k, e in edges.items()},
@@ -69,7 +71,7 @@ def plain(folder):
 
 
 def inner_length(lanes, connections, connection):
-    """Of the lanes inside the junction that a connection goes over."""
+    """Returns the total length of the lanes inside the junction that a connection uses, m."""
     length = 0.0
     via = connection.get("via")
     while via:
@@ -81,7 +83,7 @@ def inner_length(lanes, connections, connection):
 
 
 def compare_network(folder):
-    """Differences between what was written and what netconvert made of it."""
+    """Returns differences between the exported network and netconvert's network."""
     lanes_of, length_of, wanted = plain(folder)
     root = ElementTree.parse(folder / "net.net.xml").getroot()
     lanes = {lane.get("id"): lane for lane in root.iter("lane")}
@@ -94,16 +96,16 @@ def compare_network(folder):
     for edge in outside:
         for lane in edge.findall("lane"):
             worst = max(worst, abs(float(lane.get("length")) - length_of[edge.get("id")]))
-    made = {(c.get("from"), c.get("to"), c.get("fromLane"), c.get("toLane")): c for c in connections
+    built = {(c.get("from"), c.get("to"), c.get("fromLane"), c.get("toLane")): c for c in connections
             if not c.get("from").startswith(":")}
-    if set(made) != set(wanted):
-        problems.append(f"connections differ: {sorted(set(made) ^ set(wanted))[:3]}")
-    for key in set(made) & set(wanted):
+    if set(built) != set(wanted):
+        problems.append(f"connections differ: {sorted(set(built) ^ set(wanted))[:3]}")
+    for key in set(built) & set(wanted):
         if wanted[key].get("length"):
-            worst = max(worst, abs(inner_length(lanes, connections, made[key]) - float(wanted[key].get("length"))))
+            worst = max(worst, abs(inner_length(lanes, connections, built[key]) - float(wanted[key].get("length"))))
     if worst > LENGTH_M:
         problems.append(f"lengths differ by {worst:.2f} m")
-    print(f"  {len(lanes_of)} edges, {sum(lanes_of.values())} lanes, {len(made)} connections; largest difference of a length "
+    print(f"  {len(lanes_of)} edges, {sum(lanes_of.values())} lanes, {len(built)} connections; largest difference in length "
           f"{worst:.3f} m")
     return problems
 
@@ -114,7 +116,7 @@ def trips(file):
 
 
 def run_all(name, seed, programs, found, folder):
-    """Of the original, of SUMO and of the imported network: how many arrived, and their mean time."""
+    """Returns the number of arrivals and their mean travel time for the original, for SUMO, and for the imported network."""
     seeded = settings(CASES[name] + AS_SUMO) + ["--seed", str(seed)]
     quiet = {"check": True, "stdout": subprocess.DEVNULL}
     subprocess.run([programs / "stopline-export", "--sumo", folder, SCENARIOS / f"{name}.yaml", "--population", "CTG-Ref", *seeded],
@@ -135,36 +137,36 @@ def run_all(name, seed, programs, found, folder):
             for text, file in (("the original", "ours.xml"), ("SUMO", "sumo.xml"), ("imported", "again.xml"))}
 
 
-def difference(what, before, after, limit):
-    """Of pairs: prints mean and interval. True: equal, as the top of this file says."""
-    percent = [100 * (b / a - 1) for a, b in zip(before, after)]
-    mean, more = statistics.mean(percent), math.inf
+def counts_as_equal(quantity, original, imported, limit):
+    """Prints the mean difference and its interval. Returns True if the values count as equal."""
+    percent = [100 * (b / a - 1) for a, b in zip(original, imported)]
+    mean, half_width = statistics.mean(percent), math.inf
     if len(percent) > 1:
-        more = STUDENT[min(len(percent) - 1, len(STUDENT)) - 1] * statistics.stdev(percent) / math.sqrt(len(percent))
-    print(f"  imported - original, {what}: {mean:+.2f} % +- {more:.2f} %")
-    # One seed has no interval.
-    return abs(mean) <= limit or (math.isfinite(more) and abs(mean) <= more)
+        half_width = STUDENT[min(len(percent) - 1, len(STUDENT)) - 1] * statistics.stdev(percent) / math.sqrt(len(percent))
+    print(f"  imported - original, {quantity}: {mean:+.2f} % +- {half_width:.2f} %")
+    # A single seed gives no interval.
+    return abs(mean) <= limit or (math.isfinite(half_width) and abs(mean) <= half_width)
 
 
 def compare_runs(runs):
     for text in runs[0]:
         print(f"  {text}: {', '.join(f'{run[text][0]} arrived, {run[text][1]:.1f} s' for run in runs)}")
     problems = []
-    for column, what, limit in ((0, "arrived", ARRIVED), (1, "mean time", DURATION)):
+    for column, quantity, limit in ((0, "arrivals", ARRIVED), (1, "mean travel time", DURATION)):
         values = [[run[text][column] for run in runs] for text in ("the original", "imported")]
-        if not difference(what, *values, limit):
-            problems.append(f"{what}: another one on the imported network")
+        if not counts_as_equal(quantity, *values, limit):
+            problems.append(f"the imported network differs from the original: {quantity}")
     return problems
 
 
 def main():
-    parser = argparse.ArgumentParser(description="SUMO's runs and ours of exported networks.")
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("programs", type=Path)
     parser.add_argument("--seeds", type=int, default=3)
     options = parser.parse_args()
     found = find_sumo()
     if found is None:
-        print("SUMO is not installed (pip install eclipse-sumo): skipped")
+        print("skipped: SUMO is not installed (pip install eclipse-sumo)")
         return 77
     failed = False
     with tempfile.TemporaryDirectory() as top:
@@ -174,7 +176,7 @@ def main():
             runs = [run_all(name, k + 1, options.programs.resolve(), found, folder) for k, folder in enumerate(folders)]
             problems = compare_network(folders[0]) + compare_runs(runs)
             for problem in problems:
-                print(f"  NOT AS IT SHOULD BE: {problem}", flush=True)
+                print(f"  FAILED: {problem}", flush=True)
             failed |= bool(problems)
     return 1 if failed else 0
 

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Checks what stopline-run writes for SUMO's tools: --fcd, --tripinfo, --e1.
+"""Checks the output of stopline-run for SUMO's tools: --fcd, --tripinfo, --e1.
 
     tables.py STOPLINE_RUN
 
-All three are well-formed and say what the run's own tables say. Where SUMO is installed (pip install eclipse-sumo lxml) they are
-also valid by its schemas and read by its own tools. Exit codes: 0, 1, 77 all but SUMO's part was checked.
+All three files must be well-formed and agree with the result tables of the run. If SUMO is installed (pip install
+eclipse-sumo lxml), they must also be valid by its schemas and readable by its tools. Exit codes: 0 all checks pass, 1 a
+check fails, 77 the checks without SUMO pass and SUMO is not installed.
 """
 
 import csv
@@ -22,9 +23,9 @@ SETTINGS = ["populations=[CDG]", "measure.baseline=CDG", "network.grid.columns=2
 FILES = {"fcd": "fcd_file.xsd", "tripinfo": "tripinfo_file.xsd", "e1": "det_e1_file.xsd"}
 
 
-def check(condition, what):
+def check(condition, message):
     if not condition:
-        sys.exit(f"FAILED: {what}")
+        sys.exit(f"FAILED: {message}")
 
 
 def run(program, folder):
@@ -38,7 +39,7 @@ def run(program, folder):
 
 
 def check_fcd(fcd, folder):
-    """Against trajectories.csv."""
+    """Compares the floating car data with trajectories.csv."""
     with open(folder / "trajectories.csv", newline="") as file:
         rows = {(float(row["time_s"]), row["vehicle"]): row for row in csv.DictReader(file)}
     count = 0
@@ -55,7 +56,7 @@ def check_fcd(fcd, folder):
 
 
 def check_trips(trips, folder):
-    """Against summary.csv."""
+    """Compares the trips with summary.csv and checks their times and lengths."""
     with open(folder / "summary.csv", newline="") as file:
         summary = next(csv.DictReader(file))
     teleported = int(summary["teleported"])
@@ -63,13 +64,13 @@ def check_trips(trips, folder):
     for trip in trips:
         value = {key: float(trip.get(key)) for key in ("depart", "arrival", "duration", "routeLength", "waitingTime", "timeLoss")}
         check(abs(value["arrival"] - value["depart"] - value["duration"]) < 0.011, f"times of {trip.attrib}")
-        check(value["waitingTime"] <= value["timeLoss"] + 0.05 <= value["duration"] + 0.05, f"losses of {trip.attrib}")
-        # From the entry over one to four intersections to the exit.
+        check(value["waitingTime"] <= value["timeLoss"] + 0.05 <= value["duration"] + 0.05, f"delays of {trip.attrib}")
+        # A trip leads over one to four intersections.
         check(teleported or 200 < value["routeLength"] < 1500, f"length of {trip.attrib}")
 
 
 def check_loops(loops, fcd):
-    """Against the vehicles that the floating car data see behind each stop line."""
+    """Compares the counts with the vehicles that the floating car data have past each stop line."""
     counted = defaultdict(int)
     for interval in loops:
         counted[interval.get("id")] += int(interval.get("nVehContrib"))
@@ -79,19 +80,19 @@ def check_loops(loops, fcd):
         harmonic = float(interval.get("harmonicMeanSpeed"))
         check(harmonic <= speed + 0.011, f"harmonic mean of {interval.attrib}")
     last = {interval.get("id"): float(interval.get("end")) for interval in loops}
-    check(set(last.values()) == {230.0}, f"ends at {set(last.values())}")
-    seen = defaultdict(set)
+    check(set(last.values()) == {230.0}, f"the last intervals end at {set(last.values())}")
+    vehicles_past = defaultdict(set)
     for step in fcd:
         for vehicle in step:
             lane = vehicle.get("lane")
             if lane.startswith(":"):
-                node, arm, number = lane[1:].split("_")[:3]
-                seen[f"{node}_{arm}_in_{number}_stop_line"].add(vehicle.get("id"))
+                node, leg, number = lane[1:].split("_")[:3]
+                vehicles_past[f"{node}_{leg}_in_{number}_stop_line"].add(vehicle.get("id"))
     lines = {name: count for name, count in counted.items() if name.endswith("_stop_line")}
     check(len(lines) == 32, f"{len(lines)} stop lines")
     for name, count in lines.items():
-        check(abs(count - len(seen[name])) <= 2, f"{name}: {count} counted, {len(seen[name])} seen behind it")
-    check(sum(lines.values()) > 300, f"{lines}")
+        check(abs(count - len(vehicles_past[name])) <= 2, f"{name}: {count} counted, {len(vehicles_past[name])} in the floating car data")
+    check(sum(lines.values()) > 300, f"too few passages: {lines}")
 
 
 def sumo_home():
@@ -118,14 +119,14 @@ def check_with_sumo(home, folder, trees):
         with open(folder / f"{name}.csv", newline="") as file:
             rows = list(csv.DictReader(file, delimiter=";"))
         expected = sum(len(step) or 1 for step in trees[name]) if name == "fcd" else len(trees[name])
-        check(len(rows) == expected, f"{name}: SUMO's tool reads {len(rows)} rows of {expected}")
+        check(len(rows) == expected, f"{name}: SUMO's tool reads {len(rows)} rows instead of {expected}")
     print(tool(home, "output/attributeStats.py", folder / "tripinfo.xml", "-a", "duration,timeLoss").strip())
     try:
         import matplotlib
         tool(home, "plot_trajectories.py", folder / "fcd.xml", "-t", "ds", "-o", folder / "plot.png", "--blind")
-        check((folder / "plot.png").stat().st_size > 1000, f"no plot with matplotlib {matplotlib.__version__}")
+        check((folder / "plot.png").stat().st_size > 1000, f"the plot is empty, with matplotlib {matplotlib.__version__}")
     except ImportError:
-        print("no matplotlib: SUMO's plot is not drawn")
+        print("matplotlib is not installed: the plot of SUMO's tool is not checked")
 
 
 def main():
@@ -138,16 +139,16 @@ def main():
         check_fcd(trees["fcd"], folder)
         check_trips(trees["tripinfo"], folder)
         check_loops(trees["e1"], trees["fcd"])
-        print("all three tables say what the run's own say")
+        print("the three files agree with the result tables")
         home = sumo_home()
         try:
             if not home:
                 raise ImportError("sumo")
             check_with_sumo(home, folder, trees)
         except ImportError as missing:
-            print(f"{missing}: valid by SUMO's schemas and read by its tools was not checked (pip install eclipse-sumo lxml)")
+            print(f"the checks with SUMO are skipped (pip install eclipse-sumo lxml): {missing}")
             return 77
-        print("valid by SUMO's schemas and read by its tools")
+        print("the files are valid by SUMO's schemas and readable by its tools")
     return 0
 
 

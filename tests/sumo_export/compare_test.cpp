@@ -1,3 +1,4 @@
+// Tests of the comparison with SUMO: metrics, tables and figures.
 #include "sumo_export/compare.h"
 
 #include <gtest/gtest.h>
@@ -13,14 +14,14 @@
 namespace stopline {
 namespace {
 
-TEST(ComparedMetric, HasNoDifferenceInPercentOfNothing) {
+TEST(ComparedMetric, HasNoPercentageOfZero) {
     EXPECT_NEAR((ComparedMetric{"a", {110.0, 130.0}, {90.0, 110.0}}.difference_percent()), 20.0, 1e-9);
     EXPECT_TRUE(std::isnan((ComparedMetric{"a", {1.0}, {0.0}}.difference_percent())));
     EXPECT_TRUE(std::isnan((ComparedMetric{"a", {0.0}, {0.0}}.difference_percent())));
     EXPECT_NEAR((ComparedMetric{"a", {0.0}, {5.0}}.difference_percent()), -100.0, 1e-9);
 }
 
-TEST(Comparison, WaitingOutsideIsOfSumoAlone) {
+TEST(Comparison, HasDepartureDelayOfSumoOnly) {
     Comparison comparison{"", "CTG-Ref", 0.0, 100.0, {}};
     comparison.runs.emplace_back();
     comparison.runs[0].ours.trips = {{50.0, 30.0, 0.0}};
@@ -36,7 +37,7 @@ TEST(Comparison, WaitingOutsideIsOfSumoAlone) {
     }
 }
 
-TEST(Comparison, OfImportedNetworksComparesWaitingOutside) {
+TEST(Comparison, ComparesDepartureDelayOnImportedNetworks) {
     Comparison comparison{"", "CTG-Ref", 0.0, 100.0};
     comparison.imported = true;
     comparison.has_stop_lines = false;
@@ -51,10 +52,10 @@ TEST(Comparison, OfImportedNetworksComparesWaitingOutside) {
     EXPECT_NEAR(metrics.at("departure_delay_s").difference_percent(), -50.0, 1e-9);
     EXPECT_NEAR(metrics.at("backlog").difference_percent(), 100.0, 1e-9);
     EXPECT_EQ(metrics.at("teleported").sumo, std::vector<double>{9.0});
-    EXPECT_TRUE(std::isnan(metrics.at("stop_line_passages_veh_h").ours.at(0)));  // nowhere is counted
+    EXPECT_TRUE(std::isnan(metrics.at("stop_line_passages_veh_h").ours.at(0)));  // there are no stop lines
 }
 
-TEST(Comparison, HasDescribedColumns) {
+TEST(Comparison, DocumentsItsColumns) {
     Comparison comparison{"", "CTG-Ref", 0.0, 100.0};
     comparison.runs.emplace_back();
     for (const auto& [table, csv] : {std::pair{"compare/comparison.csv", comparison_csv(comparison)},
@@ -65,26 +66,26 @@ TEST(Comparison, HasDescribedColumns) {
     }
 }
 
-// Two seeds: SUMO's arrivals at 10 and 20 s, and at 10 and 40 s.
-TEST(ComparisonFigures, ShowMeansOfTheSeedsAndTheirBand) {
+// With the first seed SUMO's vehicles arrive at 10 s and 20 s, with the second at 10 s and 40 s.
+TEST(ComparisonFigures, ShowMeanAndBandOverSeeds) {
     Comparison comparison{"", "CTG-Ref", 0.0, 50.0};
     comparison.has_stop_lines = false;
     comparison.runs.resize(2);
     comparison.runs[0].sumo.trips = {{10.0, 1.0, 0.0}, {20.0, 1.0, 0.0}};
     comparison.runs[1].sumo.trips = {{40.0, 1.0, 0.0}, {10.0, 1.0, 0.0}};
     comparison.runs[1].ours.trips = {{30.0, 1.0, 0.0}};
-    const std::vector<Figure> two = comparison_figures(comparison, "t");
-    ASSERT_EQ(two.size(), 2U);  // no stop lines
-    EXPECT_EQ(two[0].name, "arrivals");
-    const std::string& rows = two[0].data.at(0).second;
+    const std::vector<Figure> two_seeds = comparison_figures(comparison, "t");
+    ASSERT_EQ(two_seeds.size(), 2U);  // no stop lines
+    EXPECT_EQ(two_seeds[0].name, "arrivals");
+    const std::string& rows = two_seeds[0].data.at(0).second;
     EXPECT_NE(rows.find("\n9,0.000,0.000,0.000,0.000\n"), std::string::npos) << rows;
     EXPECT_NE(rows.find("\n10,0.000,1.000,1.000,1.000\n"), std::string::npos) << rows;
     EXPECT_NE(rows.find("\n35,0.500,1.500,0.000,7.853\n"), std::string::npos) << rows;  // t = 12.706, s = 0.707
-    EXPECT_NE(two[0].body.find("filledcurves"), std::string::npos);
+    EXPECT_NE(two_seeds[0].body.find("filledcurves"), std::string::npos);
     comparison.runs.resize(1);
-    const Figure one = comparison_figures(comparison, "t")[0];
-    EXPECT_EQ(one.body.find("filledcurves"), std::string::npos);
-    EXPECT_NE(one.data.at(0).second.find("\n35,0.000,2.000,,\n"), std::string::npos);
+    const Figure one_seed = comparison_figures(comparison, "t")[0];
+    EXPECT_EQ(one_seed.body.find("filledcurves"), std::string::npos);
+    EXPECT_NE(one_seed.data.at(0).second.find("\n35,0.000,2.000,,\n"), std::string::npos);
 }
 
 }  // namespace

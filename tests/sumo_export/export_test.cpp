@@ -1,3 +1,4 @@
+// Tests of export_to_sumo(): all files, or no trace after an error or an interruption.
 #include "sumo_export/export.h"
 
 #include <gtest/gtest.h>
@@ -8,8 +9,8 @@
 #include <vector>
 
 #include "base/input_error.h"
-#include "runs/interrupted.h"
 #include "base/io/output.h"
+#include "runs/interrupted.h"
 #include "scenario/load_scenario.h"
 #include "scenario/scenario_text.h"
 
@@ -18,29 +19,30 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Scenario small_grid(const std::string& more = "seed=1") {
-    return load_scenario(STOPLINE_SOURCE_DIR "/scenarios/grid.yaml",
-                         {"fidelity=meso", "duration=30 s", "network.grid.columns=2", "network.grid.rows=2", more});
+Scenario small_grid(const std::string& override_text = "seed=1") {
+    return load_scenario(
+        STOPLINE_SOURCE_DIR "/scenarios/grid.yaml",
+        {"fidelity=meso", "duration=30 s", "network.grid.columns=2", "network.grid.rows=2", override_text});
 }
 
 std::vector<std::string> names_in(const fs::path& folder) {
     std::vector<std::string> names;
-    for (const fs::directory_entry& each : fs::directory_iterator(folder)) names.push_back(each.path().filename());
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename());
     std::sort(names.begin(), names.end());
-    std::erase(names, "net.net.xml");  // where SUMO is installed
+    std::erase(names, "net.net.xml");  // exists only if SUMO is installed
     return names;
 }
 
 TEST(Export, WritesAllFilesAndNothingElse) {
     const TemporaryFolder folder;
-    const fs::path made = folder.path() / "new" / "sumo";
-    export_to_sumo(small_grid(), 0, made, {});
-    EXPECT_EQ(names_in(made),
+    const fs::path exported = folder.path() / "new" / "sumo";
+    export_to_sumo(small_grid(), 0, exported, {});
+    EXPECT_EQ(names_in(exported),
               (std::vector<std::string>{"connections.con.xml", "detectors.add.xml", "edges.edg.xml", "lights.tll.xml",
                                         "nodes.nod.xml", "run.sumocfg", "vehicles.rou.xml"}));
 }
 
-TEST(Export, GivesSumoTheScenariosRules) {
+TEST(Export, TranslatesTheTrafficRules) {
     const TemporaryFolder folder;
     const auto configuration = [&](const std::string& rules) {
         export_to_sumo(small_grid("rules=" + rules), 0, folder.path(), {});
@@ -54,14 +56,14 @@ TEST(Export, GivesSumoTheScenariosRules) {
     EXPECT_NE(both.find("<ignore-junction-blocker value=\"30\"/>"), std::string::npos) << both;
 }
 
-TEST(Export, LeavesNothingWhereItIsInterrupted) {
+TEST(Export, LeavesNothingIfInterrupted) {
     const TemporaryFolder folder;
     const auto stop = [](double share) { return share < 0.3; };
     EXPECT_THROW(export_to_sumo(small_grid(), 0, folder.path() / "new" / "sumo", stop), Interrupted);
     EXPECT_FALSE(fs::exists(folder.path() / "new"));
 }
 
-TEST(Export, LeavesAnEarlierOneAsItWasWhereItIsInterrupted) {
+TEST(Export, KeepsAnEarlierExportIfInterrupted) {
     const TemporaryFolder folder;
     write_file(folder.path() / "nodes.nod.xml", "earlier");
     const auto stop = [](double share) { return share < 0.3; };
@@ -72,7 +74,7 @@ TEST(Export, LeavesAnEarlierOneAsItWasWhereItIsInterrupted) {
     EXPECT_NE(read_file(folder.path() / "nodes.nod.xml"), "earlier");
 }
 
-TEST(Export, MakesNoFolderForWhatIsRefused) {
+TEST(Export, CreatesNoFolderIfRefused) {
     const TemporaryFolder folder;
     Scenario scenario = small_grid();
     scenario.network.kind = "sumo";

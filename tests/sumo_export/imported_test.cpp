@@ -1,4 +1,4 @@
-// What SUMO is given of a scenario on an imported network.
+// Tests of the input that SUMO gets for a scenario on an imported network.
 #include "sumo_export/imported.h"
 
 #include <gtest/gtest.h>
@@ -10,14 +10,14 @@
 
 #include <fmt/format.h>
 
-#include "scenario/build_model.h"
 #include "base/io/output.h"
-#include "sumo_import/sumo_xml.h"
+#include "scenario/build_model.h"
 #include "scenario/load_scenario.h"
 #include "scenario/scenario_text.h"
 #include "sumo_export/compare.h"
 #include "sumo_export/export.h"
 #include "sumo_export/facts.h"
+#include "sumo_import/sumo_xml.h"
 #include "support/sumo_files.h"
 
 namespace stopline {
@@ -28,7 +28,7 @@ using testing::signal_net;
 using testing::SumoFiles;
 using testing::two_phases;
 
-// Edge a, 100 m, leads over s, 5 m, to a light, and beyond it to c.
+// Returns a network in which edge a (100 m) leads to s (5 m), which ends at a signal, and s leads to c.
 std::string short_edge_net() {
     return R"(<net version="1.20">
 <edge id=":J_0" function="internal"><lane id=":J_0_0" index="0" speed="9" length="3" shape="100,0 103,0"/></edge>
@@ -50,7 +50,7 @@ std::string short_edge_net() {
 }
 
 Scenario scenario_of(const std::string& net, const std::string& routes, const std::string& additional = "",
-                     const std::string& more = "rules: {}\n") {
+                     const std::string& further_fields = "rules: {}\n") {
     const SumoFiles files;
     files.write("my.net.xml", net);
     files.write("my.rou.xml", "<routes>\n" + routes + "\n</routes>");
@@ -59,11 +59,11 @@ Scenario scenario_of(const std::string& net, const std::string& routes, const st
         "fidelity: meso\nduration: 60 s\n"
         "network: {kind: sumo, net: ./my.net.xml, routes: [./my.rou.xml], additional: [./my.add.xml]}\n"
         "populations: [CTG-Ref]\nmeasure: {window: 60 s}\n" +
-            more,
+            further_fields,
         "my.yaml", {}, files.folder());
 }
 
-// The files of a scenario, each parsed.
+// Writes the SUMO input of a scenario and reads it back.
 class Inputs {
 public:
     explicit Inputs(const Scenario& scenario) {
@@ -72,7 +72,7 @@ public:
         write_imported_inputs(folder_.path(), model, network, stop_line_names(network), scenario.duration_s);
     }
 
-    // Elements of a file, with these of their attributes.
+    // Returns one row for each element of a file, with the given attributes and the route.
     std::vector<std::string> rows(const std::string& file, const char* element,
                                   const std::vector<const char*>& attributes) const {
         const SumoXml xml(folder_.path() / file, {"routes", "additional"});
@@ -94,7 +94,7 @@ private:
 
 using Rows = std::vector<std::string>;
 
-TEST(Imported, VehiclesAreThoseOfTheFilesAtTheirPlannedTimes) {
+TEST(ImportedNetwork, KeepsVehiclesAndTheirPlannedTimes) {
     const Inputs inputs(scenario_of(crossing_net(),
                                     R"(<vType id="truck" vClass="truck"/>
 <trip id="late &amp; slow" depart="20.25" from="w_in" to="n_out" departLane="1" departPos="-40" departSpeed="3"/>
@@ -111,7 +111,7 @@ TEST(Imported, VehiclesAreThoseOfTheFilesAtTheirPlannedTimes) {
     EXPECT_TRUE(inputs.rows("detectors.add.xml", "instantInductionLoop", {"lane"}).empty());
 }
 
-TEST(Imported, TypesCarryTheParametersOfTheMesoscaleMode) {
+TEST(ImportedNetwork, WritesMesoscaleParametersIntoTypes) {
     const Scenario scenario = scenario_of(crossing_net(), "<trip id=\"a\" depart=\"0\" from=\"s_in\" to=\"n_out\"/>");
     const Krauss krauss = build_model(scenario, 0).krauss.at(0);
     EXPECT_EQ(Inputs(scenario).rows("vehicles.rou.xml", "vType", {"accel", "decel", "tau", "sigma"}),
@@ -119,7 +119,7 @@ TEST(Imported, TypesCarryTheParametersOfTheMesoscaleMode) {
                                krauss.reaction_s, krauss.dawdling)});
 }
 
-TEST(Imported, WaysAndLoopsAreOnTheEdgesOfTheFile) {
+TEST(ImportedNetwork, UsesTheOriginalEdgesForRoutesAndLoops) {
     const Scenario scenario = scenario_of(short_edge_net(), "<trip id=\"a\" depart=\"0\" from=\"a\" to=\"c\"/>");
     const Inputs inputs(scenario);
     EXPECT_EQ(inputs.rows("vehicles.rou.xml", "vehicle", {"id"}), Rows{"a: a s c"});
@@ -128,7 +128,7 @@ TEST(Imported, WaysAndLoopsAreOnTheEdgesOfTheFile) {
     EXPECT_EQ(names.stop_line_at_end, (std::map<std::string, std::string>{{"s_0", "a_0"}}));
 }
 
-TEST(Imported, LightsRunAsTheAdditionalFilesSay) {
+TEST(ImportedNetwork, TakesSignalsFromTheAdditionalFiles) {
     const Inputs inputs(scenario_of(signal_net(two_phases()),
                                     "<trip id=\"a\" depart=\"0\" from=\"s_in\" to=\"n_out\"/>",
                                     R"(<tlLogic id="J" programID="0" offset="7.5"/>)"));
@@ -137,7 +137,7 @@ TEST(Imported, LightsRunAsTheAdditionalFilesSay) {
     EXPECT_EQ(inputs.rows("detectors.add.xml", "instantInductionLoop", {"lane"}), (Rows{"s_in_0", "w_in_0", "w_in_1"}));
 }
 
-TEST(Imported, AreRefusedWhereSumoWouldNotLoadTheLights) {
+TEST(ImportedNetwork, RefusesProgrammesThatSumoCannotLoad) {
     std::string net = signal_net(two_phases());
     const std::size_t from = net.find("<tlLogic");
     const std::size_t to = net.find("</tlLogic>") + std::string("</tlLogic>").size();
@@ -151,7 +151,7 @@ TEST(Imported, AreRefusedWhereSumoWouldNotLoadTheLights) {
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "new"));
 }
 
-TEST(Imported, RunsTheScenariosOwnNetworkByItsRules) {
+TEST(ImportedNetwork, UsesTheOriginalNetworkAndTheRules) {
     const std::string trip = "<trip id=\"a\" depart=\"0\" from=\"s_in\" to=\"n_out\"/>";
     const Scenario plain = scenario_of(signal_net(two_phases()), trip);
     const std::string text = Inputs(plain).configuration();
@@ -160,12 +160,12 @@ TEST(Imported, RunsTheScenariosOwnNetworkByItsRules) {
     EXPECT_NE(text.find("<time-to-teleport value=\"-1\"/>"), std::string::npos);
     EXPECT_NE(text.find("<step-length value=\"0.1\"/>"), std::string::npos);
     const double cycle_s = plain.network.sumo->longest_cycle_s();
-    const Scenario ruled = scenario_of(signal_net(two_phases()), trip, "", "rules: {teleport_cycles: 3}\n");
-    EXPECT_NE(Inputs(ruled).configuration().find(fmt::format("<time-to-teleport value=\"{:g}\"/>", 3.0 * cycle_s)),
+    const Scenario with_rules = scenario_of(signal_net(two_phases()), trip, "", "rules: {teleport_cycles: 3}\n");
+    EXPECT_NE(Inputs(with_rules).configuration().find(fmt::format("<time-to-teleport value=\"{:g}\"/>", 3.0 * cycle_s)),
               std::string::npos);
 }
 
-TEST(Imported, WaitingOutsideCountsFromThePlannedDeparture) {
+TEST(ImportedNetwork, CountsDepartureDelayFromThePlannedDeparture) {
     std::string trips;
     for (int k = 0; k < 60; ++k) {
         trips += fmt::format("<trip id=\"{}\" depart=\"1\" from=\"s_in\" to=\"n_out\" departSpeed=\"max\"/>\n", k);
@@ -179,7 +179,8 @@ TEST(Imported, WaitingOutsideCountsFromThePlannedDeparture) {
     run_with_writers(simulation, scenario.duration_s, writers, {});
     ASSERT_GT(facts.trips.size(), 3U);
     EXPECT_NEAR(facts.trips[0].departure_delay_s, 0.0, 1e-9);
-    EXPECT_NEAR(facts.trips[2].departure_delay_s - facts.trips[1].departure_delay_s, facts.trips[1].departure_delay_s, 1.5);
+    EXPECT_NEAR(facts.trips[2].departure_delay_s - facts.trips[1].departure_delay_s, facts.trips[1].departure_delay_s,
+                1.5);
     EXPECT_GT(facts.trips[2].departure_delay_s, 2.0);
     EXPECT_EQ(facts.instants.back().backlog, 60 - static_cast<int>(simulation.state().records.entered));
     EXPECT_GT(facts.instants.back().backlog, 5);

@@ -1,3 +1,4 @@
+// Tests of exported networks: SUMO's plain network, signals, routes, and summaries of runs.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,9 +10,8 @@
 
 #include "base/containers/index.h"
 #include "base/input_error.h"
-#include "scenario/build_model.h"
 #include "base/io/output.h"
-#include "sumo_import/sumo_xml.h"
+#include "scenario/build_model.h"
 #include "scenario/load_scenario.h"
 #include "scenario/scenario_text.h"
 #include "sim/step/simulation.h"
@@ -19,6 +19,7 @@
 #include "sumo_export/export.h"
 #include "sumo_export/facts.h"
 #include "sumo_export/inputs.h"
+#include "sumo_import/sumo_xml.h"
 
 namespace stopline {
 namespace {
@@ -32,78 +33,81 @@ std::string first_word(const std::string& text) { return text.substr(0, text.fin
 
 Model small_grid() { return model_of("grid.yaml", {"network.grid.columns=2", "network.grid.rows=3"}); }
 
-TEST(PlainNetwork, HasEachLaneOutsideIntersectionsOnceFromTheRight) {
+TEST(PlainNetwork, ListsEachEdgeLaneOnceFromTheRight) {
     const Model model = small_grid();
     const PlainNetwork network = plain_network(model.graph);
-    std::set<int> seen;
+    std::set<int> listed;
     for (std::size_t k = 0; k < network.edges.size(); ++k) {
         const PlainEdge& edge = network.edges[k];
         for (std::size_t i = 0; i < edge.lanes.size(); ++i) {
-            EXPECT_TRUE(seen.insert(edge.lanes[i]).second);
-            const PlainNetwork::LanePosition& place = network.position_of[at(edge.lanes[i])];
-            EXPECT_EQ(place.edge, static_cast<int>(k));
-            EXPECT_EQ(place.index, static_cast<int>(i));
+            EXPECT_TRUE(listed.insert(edge.lanes[i]).second);
+            const PlainNetwork::LanePosition& position = network.position_of[at(edge.lanes[i])];
+            EXPECT_EQ(position.edge, static_cast<int>(k));
+            EXPECT_EQ(position.index, static_cast<int>(i));
             const Lane& lane = model.graph.lanes[at(edge.lanes[i])];
             if (i == 0) continue;
-            // The one before lies to the right: seen along the lane, a cross product below zero.
+            // The previous lane lies to the right: the cross product with the direction of travel is negative.
             const Pose here = pose_at(lane.shape, 1.0);
-            const Point there = pose_at(model.graph.lanes[at(edge.lanes[i - 1])].shape, 1.0).point;
-            EXPECT_LT(here.cosine * (there.y_m - here.point.y_m) - here.sine * (there.x_m - here.point.x_m), -1.0);
+            const Point previous_point = pose_at(model.graph.lanes[at(edge.lanes[i - 1])].shape, 1.0).point;
+            EXPECT_LT(
+                here.cosine * (previous_point.y_m - here.point.y_m) - here.sine * (previous_point.x_m - here.point.x_m),
+                -1.0);
         }
     }
-    const auto outside = std::count_if(model.graph.lanes.begin(), model.graph.lanes.end(),
-                                       [](const Lane& lane) { return lane.origin < 0; });
-    EXPECT_EQ(seen.size(), static_cast<std::size_t>(outside));
+    const auto edge_lanes = std::count_if(model.graph.lanes.begin(), model.graph.lanes.end(),
+                                          [](const Lane& lane) { return lane.origin < 0; });
+    EXPECT_EQ(listed.size(), static_cast<std::size_t>(edge_lanes));
 }
 
-TEST(PlainNetwork, HasANodeForEachIntersectionAndEachEnd) {
+TEST(PlainNetwork, HasANodeForEachIntersectionAndStreetEnd) {
     const Model model = small_grid();
     const PlainNetwork network = plain_network(model.graph);
-    const auto lights =
-        std::count_if(network.nodes.begin(), network.nodes.end(), [](const PlainNode& node) { return node.has_signal; });
-    EXPECT_EQ(lights, 6);
-    // Ten streets lead out of 2 x 3 intersections, each with an edge in and one out, whose far ends nothing joins.
+    const auto signals = std::count_if(network.nodes.begin(), network.nodes.end(),
+                                       [](const PlainNode& node) { return node.has_signal; });
+    EXPECT_EQ(signals, 6);
+    // Ten streets lead out of 2 x 3 intersections. Each has an inward and an outward edge with separate outer nodes.
     EXPECT_EQ(network.nodes.size(), 6U + 2U * 10U);
 }
 
-TEST(PlainNetwork, WaysFromStopLineToExitKeepTheirLength) {
+TEST(PlainNetwork, ConnectionsKeepTheirLength) {
     const Model model = small_grid();
     const PlainNetwork network = plain_network(model.graph);
-    std::size_t ways = 0;
+    std::size_t connection_count = 0;
     for (const PlainConnection& c : network.connections) {
         ASSERT_GE(c.connection_lane, 0);
-        const Lane& way = model.graph.lanes[at(c.connection_lane)];
+        const Lane& connection = model.graph.lanes[at(c.connection_lane)];
         const Lane& from = model.graph.lanes[at(c.from)];
-        EXPECT_EQ(way.origin, c.from);
-        EXPECT_EQ(way.next.front(), c.to);
-        EXPECT_NEAR(c.length_m, from.length_m - from.stop_line_m + way.length_m, 1e-9);
+        EXPECT_EQ(connection.origin, c.from);
+        EXPECT_EQ(connection.next.front(), c.to);
+        EXPECT_NEAR(c.length_m, from.length_m - from.stop_line_m + connection.length_m, 1e-9);
         EXPECT_GE(c.link, 0);
-        ++ways;
+        ++connection_count;
     }
-    EXPECT_EQ(ways, static_cast<std::size_t>(std::count_if(model.graph.lanes.begin(), model.graph.lanes.end(),
-                                                           [](const Lane& lane) { return lane.origin >= 0; })));
+    EXPECT_EQ(connection_count,
+              static_cast<std::size_t>(std::count_if(model.graph.lanes.begin(), model.graph.lanes.end(),
+                                                     [](const Lane& lane) { return lane.origin >= 0; })));
 }
 
 TEST(PlainNetwork, RefusesPockets) { EXPECT_THROW(plain_network(model_of("berlin.yaml").graph), InputError); }
 
-TEST(SumoExport, RefusesNetworksThatAreSumosAlready) {
+TEST(SumoExport, RefusesImportedNetworks) {
     Scenario scenario = load_scenario(STOPLINE_SOURCE_DIR "/scenarios/single_light.yaml", {});
     EXPECT_NO_THROW(check_exportable(scenario));
     scenario.network.kind = "sumo";
     EXPECT_THROW(check_exportable(scenario), InputError);
 }
 
-TEST(SumoExport, SaysWhatSumoCannotDo) {
+TEST(SumoExport, NotesTheLimitsOfSumo) {
     const Scenario scenario = load_scenario(STOPLINE_SOURCE_DIR "/scenarios/single_light.yaml", {"fidelity=meso"});
     for (std::size_t k = 0; k < scenario.populations.size(); ++k) {
-        const bool says = !sumo_limits_note(build_model(scenario, k)).empty();
+        const bool has_note = !sumo_limits_note(build_model(scenario, k)).empty();
         const std::string& name = scenario.populations[k].name;
-        EXPECT_EQ(says, name.rfind("CTG", 0) != 0) << name;
+        EXPECT_EQ(has_note, name.rfind("CTG", 0) != 0) << name;
     }
 }
 
-// Every link has a letter in every phase, and the phases make up the cycle.
-TEST(SumoInputs, LightsAreThoseOfTheModel) {
+// Every link has a letter in every phase, and the phases add up to the cycle.
+TEST(SumoInputs, SignalsMatchTheModel) {
     const Model model = small_grid();
     const PlainNetwork network = plain_network(model.graph);
     const TemporaryFolder folder;
@@ -135,19 +139,19 @@ TEST(SumoInputs, LightsAreThoseOfTheModel) {
     EXPECT_EQ(programmes, 6U);
 }
 
-// One green only: nothing repeats, so that all of the run is written.
-TEST(SumoInputs, LightsThatDoNotRepeatLastAsLongAsTheRun) {
+// The programme has one green only and does not repeat, so its phases cover the whole run.
+TEST(SumoInputs, ProgrammesWithoutRepetitionCoverTheRun) {
     const Model model = model_of("single_light.yaml");
     const TemporaryFolder folder;
     write_sumo_inputs(folder.path(), model, plain_network(model.graph), 500.0);
     const SumoXml xml(folder.path() / "lights.tll.xml", {"tlLogics"});
-    double all_s = 0.0;
+    double total_s = 0.0;
     double green_s = 0.0;
     for (const pugi::xml_node phase : xml.root().child("tlLogic").children("phase")) {
-        all_s += xml.number(phase, "duration");
+        total_s += xml.number(phase, "duration");
         if (xml.text(phase, "state")[0] == 'G') green_s += xml.number(phase, "duration");
     }
-    EXPECT_NEAR(all_s, 500.0, 1e-6);
+    EXPECT_NEAR(total_s, 500.0, 1e-6);
     double expected_s = 0.0;
     for (std::int64_t tick = 0; tick < to_ticks(500.0, model.step_s); ++tick) {
         if (model.signals[0].light(tick) == Light::green) expected_s += model.step_s;
@@ -156,8 +160,8 @@ TEST(SumoInputs, LightsThatDoNotRepeatLastAsLongAsTheRun) {
     EXPECT_NEAR(green_s, expected_s, 1e-6);
 }
 
-// Those too that the rules moved on over some edges.
-TEST(SumoInputs, WaysOfVehiclesLeadFromEdgeToEdge) {
+// This includes vehicles that were teleported over several edges.
+TEST(SumoInputs, RoutesAreConnected) {
     const Model model = model_of(
         "grid.yaml", {"network.grid.columns=3", "network.grid.rows=3", "network.grid.column_spacing=150 m",
                       "network.grid.row_spacing=150 m", "network.intersection.approach_length=150 m",
@@ -190,8 +194,8 @@ TEST(SumoInputs, WaysOfVehiclesLeadFromEdgeToEdge) {
     EXPECT_GT(vehicles, 500);
 }
 
-// SUMO puts a vehicle in only where more than the gap of its type is free before it.
-TEST(SumoInputs, QueuesAtTheBeginningHaveRoomForTheGapsOfTheirTypes) {
+// SUMO inserts a vehicle only if the free space ahead exceeds the minGap of its type.
+TEST(SumoInputs, InitialQueuesKeepTheGapsOfTheirTypes) {
     for (const char* const name : {"intersection.yaml", "calibration.yaml"}) {
         const Model model = model_of(name);
         const PlainNetwork network = plain_network(model.graph);
@@ -208,19 +212,19 @@ TEST(SumoInputs, QueuesAtTheBeginningHaveRoomForTheGapsOfTheirTypes) {
             length_m[xml.text(type, "id")] = xml.number(type, "length");
             gap_m[xml.text(type, "id")] = xml.number(type, "minGap");
         }
-        std::map<std::string, std::map<double, std::string>> lanes;  // types by lane and place
+        std::map<std::string, std::map<double, std::string>> lanes;  // types by lane and position
         for (const pugi::xml_node vehicle : xml.root().children("vehicle")) {
             const std::string edge = first_word(xml.text(vehicle.child("route"), "edges"));
             lanes[edge + "_" + xml.text(vehicle, "departLane")][xml.number(vehicle, "departPos")] =
                 xml.text(vehicle, "type");
         }
         int pairs = 0;
-        for (const auto& [lane, places] : lanes) {
-            for (auto behind = places.begin(); std::next(behind) != places.end(); ++behind) {
-                const auto ahead = std::next(behind);
-                const double free_m = ahead->first - length_m[ahead->second] - behind->first;
-                EXPECT_GT(free_m - gap_m[behind->second], 0.0005) << name << " " << lane;
-                EXPECT_LT(free_m - gap_m[behind->second], 0.0015) << name << " " << lane;
+        for (const auto& [lane, queue] : lanes) {
+            for (auto follower = queue.begin(); std::next(follower) != queue.end(); ++follower) {
+                const auto leader = std::next(follower);
+                const double free_m = leader->first - length_m[leader->second] - follower->first;
+                EXPECT_GT(free_m - gap_m[follower->second], 0.0005) << name << " " << lane;
+                EXPECT_LT(free_m - gap_m[follower->second], 0.0015) << name << " " << lane;
                 ++pairs;
             }
         }
@@ -228,7 +232,7 @@ TEST(SumoInputs, QueuesAtTheBeginningHaveRoomForTheGapsOfTheirTypes) {
     }
 }
 
-TEST(RunSummary, SumsUpWhatLiesWithinTheWindow) {
+TEST(RunSummary, CoversTheTimeWindow) {
     RunFacts facts;
     facts.trips = {{10.0, 99.0, 0.0}, {110.0, 30.0, 2.0}, {200.0, 50.0, 4.0}, {201.0, 99.0, 9.0}};
     facts.passed_s["a_0"] = {99.0, 101.0, 150.0};
@@ -245,7 +249,7 @@ TEST(RunSummary, SumsUpWhatLiesWithinTheWindow) {
 }
 
 // SUMO writes meanSpeed="-1.00" for a step without vehicles.
-TEST(RunSummary, LeavesOutOfTheMeanSpeedWhenThereAreNoVehicles) {
+TEST(RunSummary, MeanSpeedIgnoresStepsWithoutVehicles) {
     const TemporaryFolder folder;
     write_file(folder.path() / "trips.out.xml", "<tripinfos/>");
     write_file(folder.path() / "detectors.out.xml", "<instantE1/>");

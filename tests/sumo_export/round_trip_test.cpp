@@ -1,4 +1,4 @@
-// Networks that were exported, and read again as netconvert made them.
+// Tests that an exported network, built by netconvert and imported again, has the conflicts of the original.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,52 +10,52 @@
 
 #include "base/containers/index.h"
 #include "scenario/build_model.h"
-#include "sumo_import/sumo_graph.h"
-#include "sumo_import/sumo_net.h"
 #include "scenario/load_scenario.h"
 #include "scenario/scenario_text.h"
 #include "sumo_export/edges.h"
 #include "sumo_export/export.h"
 #include "sumo_export/inputs.h"
+#include "sumo_import/sumo_graph.h"
+#include "sumo_import/sumo_net.h"
 
 namespace stopline {
 namespace {
 
 constexpr double kClearance_m = 2.0;  // the default of imported networks
 
-// By the names in SUMO of the lanes that a way leads from and to.
-using WayName = std::pair<std::string, std::string>;
-// Each pair of ways that meet, from both sides: who gives way, and where on the first of them they meet.
-struct Meeting {
+// A connection, named by the SUMO names of the lanes at its ends.
+using ConnectionName = std::pair<std::string, std::string>;
+// A conflict of two connections as seen from the first one: the yielding sides and the conflict area.
+struct ConflictView {
     bool yields = false;
     bool other_yields = false;
-    double from_m = 0.0;  // from the stop line
+    double from_m = 0.0;  // distance from the stop line
     double to_m = 0.0;
 };
-using Meetings = std::map<std::pair<WayName, WayName>, Meeting>;
+using ConflictViews = std::map<std::pair<ConnectionName, ConnectionName>, ConflictView>;
 
 template <class NameOfLane>
-Meetings meetings_of(const LaneGraph& graph, const NameOfLane& name_of) {
-    const auto way_name = [&](int way) {
-        const Lane& lane = graph.lanes[at(way)];
-        return WayName{name_of(lane.origin), name_of(lane.next.front())};
+ConflictViews conflicts_of_graph(const LaneGraph& graph, const NameOfLane& name_of) {
+    const auto connection_name = [&](int connection) {
+        const Lane& lane = graph.lanes[at(connection)];
+        return ConnectionName{name_of(lane.origin), name_of(lane.next.front())};
     };
-    Meetings meetings;
-    for (int way = 0; way < static_cast<int>(graph.lanes.size()); ++way) {
-        if (graph.lanes[at(way)].origin < 0) continue;
-        const Lane& origin = graph.lanes[at(graph.lanes[at(way)].origin)];
+    ConflictViews views;
+    for (int connection = 0; connection < static_cast<int>(graph.lanes.size()); ++connection) {
+        if (graph.lanes[at(connection)].origin < 0) continue;
+        const Lane& origin = graph.lanes[at(graph.lanes[at(connection)].origin)];
         const double shared_m = origin.length_m - origin.stop_line_m;
-        for (const Conflict& c : graph.conflicts_of(way)) {
-            meetings[{way_name(way), way_name(c.other)}] = {c.yields, c.other_yields, shared_m + c.from_m,
-                                                            shared_m + c.to_m};
+        for (const Conflict& c : graph.conflicts_of(connection)) {
+            views[{connection_name(connection), connection_name(c.other)}] = {c.yields, c.other_yields,
+                                                                              shared_m + c.from_m, shared_m + c.to_m};
         }
     }
-    return meetings;
+    return views;
 }
 
 class RoundTrip : public ::testing::TestWithParam<std::pair<const char*, std::size_t>> {};
 
-TEST_P(RoundTrip, KeepsConflictsAndWhoGivesWay) {
+TEST_P(RoundTrip, KeepsConflictsAndRightOfWay) {
     if (!has_sumo()) GTEST_SKIP() << "SUMO is not installed";
     const auto& [name, conflicts] = GetParam();
     std::vector<std::string> overrides{"fidelity=meso"};
@@ -67,23 +67,24 @@ TEST_P(RoundTrip, KeepsConflictsAndWhoGivesWay) {
     const TemporaryFolder folder;
     write_sumo_inputs(folder.path(), model, network, 100.0);
     make_net_file(folder.path());
-    const SumoNetwork made = make_sumo_network(read_sumo_net(folder.path() / "net.net.xml"), kClearance_m);
+    const SumoNetwork imported_network = make_sumo_network(read_sumo_net(folder.path() / "net.net.xml"), kClearance_m);
 
-    const Meetings before = meetings_of(model.graph, [&](int lane) { return network.lane_id(lane); });
-    const Meetings after = meetings_of(made.graph, [&](int lane) { return made.graph.lanes[at(lane)].name; });
-    EXPECT_EQ(before.size(), conflicts);
-    EXPECT_EQ(after.size(), conflicts);
-    double farthest_m = 0.0;
-    for (const auto& [pair, meeting] : before) {
-        const auto found = after.find(pair);
-        ASSERT_NE(found, after.end()) << pair.first.first << " to " << pair.first.second;
-        EXPECT_EQ(found->second.yields, meeting.yields) << pair.first.first << " to " << pair.first.second;
-        EXPECT_EQ(found->second.other_yields, meeting.other_yields) << pair.first.first << " to " << pair.first.second;
-        farthest_m = std::max(
-            {farthest_m, std::abs(found->second.from_m - meeting.from_m), std::abs(found->second.to_m - meeting.to_m)});
+    const ConflictViews original = conflicts_of_graph(model.graph, [&](int lane) { return network.lane_id(lane); });
+    const ConflictViews imported = conflicts_of_graph(
+        imported_network.graph, [&](int lane) { return imported_network.graph.lanes[at(lane)].name; });
+    EXPECT_EQ(original.size(), conflicts);
+    EXPECT_EQ(imported.size(), conflicts);
+    double largest_shift_m = 0.0;
+    for (const auto& [pair, view] : original) {
+        const auto found = imported.find(pair);
+        ASSERT_NE(found, imported.end()) << pair.first.first << " to " << pair.first.second;
+        EXPECT_EQ(found->second.yields, view.yields) << pair.first.first << " to " << pair.first.second;
+        EXPECT_EQ(found->second.other_yields, view.other_yields) << pair.first.first << " to " << pair.first.second;
+        largest_shift_m = std::max(
+            {largest_shift_m, std::abs(found->second.from_m - view.from_m), std::abs(found->second.to_m - view.to_m)});
     }
-    RecordProperty("farthest_m", std::to_string(farthest_m));
-    EXPECT_LT(farthest_m, 0.01);
+    RecordProperty("largest_shift_m", std::to_string(largest_shift_m));
+    EXPECT_LT(largest_shift_m, 0.01);
 }
 
 INSTANTIATE_TEST_SUITE_P(Networks, RoundTrip,

@@ -1,3 +1,4 @@
+// Tests of imported SUMO networks: the lane graph, right of way, signals, warnings and errors.
 #include <gtest/gtest.h>
 #include <zlib.h>
 
@@ -23,7 +24,7 @@ using testing::two_phases;
 
 constexpr double kClearance_m = 2.0;
 
-SumoNetwork made_of(const std::string& text, const std::string& additional = "") {
+SumoNetwork network_of(const std::string& text, const std::string& additional = "") {
     const SumoFiles files;
     SumoNet net = read_sumo_net(files.write("my.net.xml", text));
     if (!additional.empty()) read_sumo_additional(files.write("my.add.xml", additional), net);
@@ -40,83 +41,87 @@ const Lane& lane(const LaneGraph& graph, const std::string& name) {
     return graph.lanes.at(static_cast<std::size_t>(lane_of(graph, name)));
 }
 
-const Conflict* conflict(const LaneGraph& graph, const std::string& of, const std::string& with) {
-    const int other = lane_of(graph, with);
-    for (const Conflict& c : graph.conflicts_of(lane_of(graph, of))) {
+const Conflict* conflict(const LaneGraph& graph, const std::string& lane_name, const std::string& other_name) {
+    const int other = lane_of(graph, other_name);
+    for (const Conflict& c : graph.conflicts_of(lane_of(graph, lane_name))) {
         if (c.other == other) return &c;
     }
     return nullptr;
 }
 
-TEST(SumoNetwork, GreensOfALinkGoOnOverPhases) {
-    SumoNetwork made;
-    // The second link is green over three phases and the end of the cycle, the third throughout.
-    made.net.signals.push_back(
+TEST(SumoNetwork, GreenTimesSpanSeveralPhases) {
+    SumoNetwork network;
+    // The second link is green over three phases and across the end of the cycle. The third link is always green.
+    network.net.signals.push_back(
         {"one", "0", 0.0, {{30.0, "GgG"}, {30.0, "rGG"}, {4.0, "ryG"}, {20.0, "rrg"}, {5.0, "rGG"}}, "", true});
-    EXPECT_DOUBLE_EQ(made.longest_cycle_s(), 89.0);
-    EXPECT_DOUBLE_EQ(made.longest_green_s(), 65.0);
-    made.net.signals[0].phases = {{30.0, "G"}};
-    EXPECT_DOUBLE_EQ(made.longest_green_s(), 40.0) << "none ends";
+    EXPECT_DOUBLE_EQ(network.longest_cycle_s(), 89.0);
+    EXPECT_DOUBLE_EQ(network.longest_green_s(), 65.0);
+    network.net.signals[0].phases = {{30.0, "G"}};
+    EXPECT_DOUBLE_EQ(network.longest_green_s(), 40.0) << "the green never ends";
 }
 
-TEST(SumoNetwork, HasTheLanesOfCarsAndTheirNeighbours) {
-    const SumoNetwork made = made_of(crossing_net());
-    check(made.graph);
-    EXPECT_EQ(made.graph.lanes.size(), 6U + 4U);  // without the lane for bicycles
-    EXPECT_EQ(lane_of(made.graph, "n_out_0"), -1);
-    const Lane& left = lane(made.graph, "w_in_1");
-    EXPECT_EQ(left.right, lane_of(made.graph, "w_in_0"));
+TEST(SumoNetwork, HasCarLanesAndTheirNeighbours) {
+    const SumoNetwork network = network_of(crossing_net());
+    check(network.graph);
+    EXPECT_EQ(network.graph.lanes.size(), 6U + 4U);  // without the lane for bicycles
+    EXPECT_EQ(lane_of(network.graph, "n_out_0"), -1);
+    const Lane& left = lane(network.graph, "w_in_1");
+    EXPECT_EQ(left.right, lane_of(network.graph, "w_in_0"));
     EXPECT_EQ(left.left, -1);
     EXPECT_DOUBLE_EQ(left.stop_line_m, 190.0);
     EXPECT_DOUBLE_EQ(left.limit_mps, 13.89);
     EXPECT_EQ(left.next.size(), 2U);
-    EXPECT_EQ(lane(made.graph, "e_out_0").signal_group, -1);
+    EXPECT_EQ(lane(network.graph, "e_out_0").signal_group, -1);
     EXPECT_EQ(left.signal_group, 0);  // always green
 }
 
-TEST(SumoNetwork, JoinsAChainOfViaToOneWay) {
-    const SumoNetwork made = made_of(crossing_net());
-    const Lane& turning = lane(made.graph, ":J_3_0");
+TEST(SumoNetwork, JoinsViaLanesIntoOneConnection) {
+    const SumoNetwork network = network_of(crossing_net());
+    const Lane& turning = lane(network.graph, ":J_3_0");
     EXPECT_EQ(turning.turn, Turn::left);
-    EXPECT_EQ(lane_of(made.graph, ":J_4_0"), -1);
+    EXPECT_EQ(lane_of(network.graph, ":J_4_0"), -1);
     EXPECT_EQ(turning.shape.size(), 5U);
     EXPECT_NEAR(turning.length_m + turning.shape_start_m, length_m(turning.shape), 1e-9);
-    EXPECT_GT(turning.shape_start_m, 1.0);  // what it shares with the way straight on
-    EXPECT_DOUBLE_EQ(turning.shape_start_m, lane(made.graph, ":J_1_1").shape_start_m);
+    EXPECT_GT(turning.shape_start_m, 1.0);  // the stretch shared with the straight connection
+    EXPECT_DOUBLE_EQ(turning.shape_start_m, lane(network.graph, ":J_1_1").shape_start_m);
     EXPECT_DOUBLE_EQ(turning.limit_mps, 7.0);
 }
 
-TEST(SumoNetwork, SharesWhatWaysOfALaneHaveInCommonAndTurnsRoundBeyond) {
-    const SumoNetwork made = made_of(turnaround_net());
-    const std::vector<int>& ways = lane(made.graph, "a_0").next;
-    ASSERT_EQ(ways.size(), 3U);
-    for (const int one : ways) {
-        const Lane& way = made.graph.lanes[static_cast<std::size_t>(one)];
-        EXPECT_NEAR(way.length_m + way.shape_start_m, length_m(way.shape), 1e-9) << way.name;
-        EXPECT_NEAR(way.shape_start_m, lane(made.graph, "a_0").length_m - 100.0, 1e-9);
-        EXPECT_LT(way.diverge_end_m, 0.5) << "the ways part further on than they begin";
-        for (const int two : ways) {
-            if (one == two) continue;
-            const Lane& other = made.graph.lanes[static_cast<std::size_t>(two)];
-            for (double m = way.shape_start_m + way.diverge_end_m; m <= length_m(way.shape); m += 0.1) {
-                EXPECT_GE(distance_m(other.shape, pose_along(way, m).point), kClearance_m - 0.05) << way.name << m;
+TEST(SumoNetwork, ConnectionsOfALaneShareAStretchUntilTheyDiverge) {
+    const SumoNetwork network = network_of(turnaround_net());
+    const std::vector<int>& connections = lane(network.graph, "a_0").next;
+    ASSERT_EQ(connections.size(), 3U);
+    for (const int index : connections) {
+        const Lane& connection = network.graph.lanes[static_cast<std::size_t>(index)];
+        EXPECT_NEAR(connection.length_m + connection.shape_start_m, length_m(connection.shape), 1e-9)
+            << connection.name;
+        EXPECT_NEAR(connection.shape_start_m, lane(network.graph, "a_0").length_m - 100.0, 1e-9);
+        EXPECT_LT(connection.diverge_end_m, 0.5) << "the connections begin before the movements diverge";
+        for (const int other_index : connections) {
+            if (index == other_index) continue;
+            const Lane& other = network.graph.lanes[static_cast<std::size_t>(other_index)];
+            for (double m = connection.shape_start_m + connection.diverge_end_m; m <= length_m(connection.shape);
+                 m += 0.1) {
+                EXPECT_GE(distance_m(other.shape, pose_along(connection, m).point), kClearance_m - 0.05)
+                    << connection.name << m;
             }
         }
     }
-    EXPECT_LT(length_m(lane(made.graph, ":J_2_0").shape), 4.5 + 8.0) << "turns round too far ahead";
+    EXPECT_LT(length_m(lane(network.graph, ":J_2_0").shape), 4.5 + 8.0)
+        << "the U-turn reaches too far into the junction";
 }
 
-TEST(SumoNetwork, ScalesShapesToTheLengthsThatAreStated) {
+TEST(SumoNetwork, ScalesShapesToTheStatedLengths) {
     const std::string longer = replaced(turnaround_net(), "id=\"d_0\" index=\"0\" speed=\"13.89\" length=\"100\"",
                                         "id=\"d_0\" index=\"0\" speed=\"13.89\" length=\"125\"");
-    const SumoNetwork made = made_of(longer);
-    EXPECT_DOUBLE_EQ(lane(made.graph, "d_0").length_m, 125.0);
-    EXPECT_NEAR(pose_along(lane(made.graph, "d_0"), 125.0).point.y_m, -108.0, 1e-9);
-    EXPECT_NEAR(pose_along(lane(made.graph, "c_0"), 25.0).point.x_m, 39.0, 1e-9);
+    const SumoNetwork network = network_of(longer);
+    EXPECT_DOUBLE_EQ(lane(network.graph, "d_0").length_m, 125.0);
+    EXPECT_NEAR(pose_along(lane(network.graph, "d_0"), 125.0).point.y_m, -108.0, 1e-9);
+    EXPECT_NEAR(pose_along(lane(network.graph, "c_0"), 25.0).point.x_m, 39.0, 1e-9);
 }
 
-TEST(SumoNetwork, GivesWayAsTheMatrixSays) {
-    const LaneGraph graph = made_of(crossing_net()).graph;
+TEST(SumoNetwork, YieldsByTheRequestMatrix) {
+    const LaneGraph graph = network_of(crossing_net()).graph;
     const Conflict* const minor = conflict(graph, ":J_0_0", ":J_1_0");
     ASSERT_NE(minor, nullptr);
     EXPECT_TRUE(minor->yields);
@@ -127,20 +132,20 @@ TEST(SumoNetwork, GivesWayAsTheMatrixSays) {
     ASSERT_NE(major, nullptr);
     EXPECT_FALSE(major->yields);
     EXPECT_TRUE(major->other_yields);
-    EXPECT_NE(conflict(graph, ":J_0_0", ":J_3_0"), nullptr);  // they end on one lane
+    EXPECT_NE(conflict(graph, ":J_0_0", ":J_3_0"), nullptr);  // they merge into one lane
     EXPECT_EQ(conflict(graph, ":J_1_0", ":J_1_1"), nullptr);
 }
 
-TEST(SumoNetwork, WhereBothAreAskedToWaitBothDo) {
+TEST(SumoNetwork, BothLinksYieldIfTheMatrixSaysSo) {
     const std::string text = replaced(crossing_net(), "index=\"1\" response=\"0000\"", "index=\"1\" response=\"0001\"");
-    const LaneGraph graph = made_of(text).graph;
+    const LaneGraph graph = network_of(text).graph;
     EXPECT_TRUE(conflict(graph, ":J_0_0", ":J_1_0")->yields);
     EXPECT_TRUE(conflict(graph, ":J_1_0", ":J_0_0")->yields);
     EXPECT_TRUE(conflict(graph, ":J_0_0", ":J_1_1")->yields);
 }
 
-TEST(SumoNetwork, OfTwoLanesThatBecomeOneTheLeftGivesWay) {
-    const LaneGraph graph = made_of(testing::lane_drop_net()).graph;
+TEST(SumoNetwork, TheLeftLaneYieldsAtALaneDrop) {
+    const LaneGraph graph = network_of(testing::lane_drop_net()).graph;
     int yielding = 0;
     for (std::size_t k = 0; k < graph.lanes.size(); ++k) {
         for (const Conflict& conflict : graph.conflicts_of(static_cast<int>(k))) {
@@ -154,36 +159,35 @@ TEST(SumoNetwork, OfTwoLanesThatBecomeOneTheLeftGivesWay) {
 }
 
 TEST(SumoNetwork, LinksThatAreNeverGreenTogetherDoNotYield) {
-    const LaneGraph apart = made_of(signal_net(two_phases())).graph;
+    const LaneGraph apart = network_of(signal_net(two_phases())).graph;
     EXPECT_FALSE(conflict(apart, ":J_0_0", ":J_1_0")->yields);
     EXPECT_FALSE(conflict(apart, ":J_1_0", ":J_0_0")->yields);
-    const LaneGraph together = made_of(signal_net("<phase duration=\"30\" state=\"gGGG\"/>")).graph;
+    const LaneGraph together = network_of(signal_net("<phase duration=\"30\" state=\"gGGG\"/>")).graph;
     EXPECT_TRUE(conflict(together, ":J_0_0", ":J_1_0")->yields);
-    // Major and minor by letters, against the matrix.
+    // The signal letters G and g override the request matrix.
     const std::string text = replaced(signal_net("<phase duration=\"30\" state=\"GggG\"/>"),
                                       "index=\"0\" response=\"1110\"", "index=\"0\" response=\"0000\"");
-    const LaneGraph letters = made_of(text).graph;
+    const LaneGraph letters = network_of(text).graph;
     EXPECT_TRUE(conflict(letters, ":J_1_0", ":J_0_0")->yields);
     EXPECT_FALSE(conflict(letters, ":J_0_0", ":J_1_0")->yields);
 }
 
-TEST(SumoNetwork, MovementsOfALaneCanHaveLightsOfTheirOwn) {
-    const LaneGraph same = made_of(signal_net(two_phases())).graph;
-    EXPECT_EQ(lane(same, ":J_3_0").movement_signal_group, -1);
-    EXPECT_EQ(lane(same, "w_in_0").signal_group, lane(same, "w_in_1").signal_group);
-    const LaneGraph own =
-        made_of(signal_net("<phase duration=\"20\" state=\"rGGr\"/><phase duration=\"9\" state=\"rrrG\"/>")).graph;
-    EXPECT_GE(lane(own, ":J_3_0").movement_signal_group, 1);
-    EXPECT_GE(lane(own, ":J_1_1").movement_signal_group, 1);
-    EXPECT_NE(lane(own, ":J_3_0").movement_signal_group, lane(own, ":J_1_1").movement_signal_group);
+TEST(SumoNetwork, MovementsOfALaneCanHaveTheirOwnSignals) {
+    const LaneGraph common = network_of(signal_net(two_phases())).graph;
+    EXPECT_EQ(lane(common, ":J_3_0").movement_signal_group, -1);
+    EXPECT_EQ(lane(common, "w_in_0").signal_group, lane(common, "w_in_1").signal_group);
+    const LaneGraph separate =
+        network_of(signal_net("<phase duration=\"20\" state=\"rGGr\"/><phase duration=\"9\" state=\"rrrG\"/>")).graph;
+    EXPECT_GE(lane(separate, ":J_3_0").movement_signal_group, 1);
+    EXPECT_GE(lane(separate, ":J_1_1").movement_signal_group, 1);
+    EXPECT_NE(lane(separate, ":J_3_0").movement_signal_group, lane(separate, ":J_1_1").movement_signal_group);
 }
 
-TEST(SumoNetwork, ShortLanesBeforeAStopLineAreEnteredSlowly) {
-    // n_out leads on to a light after 12 m: 2 * 3 m/s2 * 10 m.
+TEST(SumoNetwork, ShortLanesBeforeASignalHaveALowerEntrySpeed) {
+    // n_out ends at a signal after 12 m. The entry speed allows a stop within 10 m at 3 m/s2.
     std::string text = signal_net(two_phases());
-    for (int k = 0; k < 1; ++k)
-        text = replaced(text, "length=\"190.00\" shape=\"1.60,10.00 1.60,200.00\"",
-                        "length=\"12.00\" shape=\"1.60,10.00 1.60,22.00\"");
+    text = replaced(text, "length=\"190.00\" shape=\"1.60,10.00 1.60,200.00\"",
+                    "length=\"12.00\" shape=\"1.60,10.00 1.60,22.00\"");
     text = replaced(
         text, "    <junction id=\"J\"",
         "    <edge id=\"far\" from=\"N\" to=\"S\"><lane id=\"far_0\" index=\"0\" speed=\"13.89\" length=\"100\" "
@@ -191,93 +195,93 @@ TEST(SumoNetwork, ShortLanesBeforeAStopLineAreEnteredSlowly) {
     text = replaced(text, "</net>",
                     "<connection from=\"n_out\" to=\"far\" fromLane=\"1\" toLane=\"0\" tl=\"J\" "
                     "linkIndex=\"0\" dir=\"s\" state=\"o\"/></net>");
-    EXPECT_NEAR(lane(made_of(text).graph, ":J_0_0").limit_mps, std::sqrt(2.0 * 3.0 * 10.0), 1e-9);
+    EXPECT_NEAR(lane(network_of(text).graph, ":J_0_0").limit_mps, std::sqrt(2.0 * 3.0 * 10.0), 1e-9);
 }
 
 TEST(SumoNetwork, AdditionalFilesReplaceProgrammesAndOffsets) {
-    const SumoNetwork offset = made_of(signal_net(two_phases()),
-                                       "<additional><tlLogic id=\"J\" programID=\"0\" "
-                                       "offset=\"7.5\"/></additional>");
+    const SumoNetwork offset = network_of(signal_net(two_phases()),
+                                          "<additional><tlLogic id=\"J\" programID=\"0\" "
+                                          "offset=\"7.5\"/></additional>");
     EXPECT_DOUBLE_EQ(offset.net.signals[0].offset_s, 7.5);
     EXPECT_EQ(offset.net.signals[0].phases.size(), 4U);
     const SumoNetwork other =
-        made_of(signal_net(two_phases()),
-                "<additional><tlLogic id=\"J\" programID=\"b\" offset=\"1\"><phase duration=\"50\" state=\"GGrr\"/>"
-                "</tlLogic><e1Detector id=\"d\" lane=\"w_in_0\" pos=\"-10\" file=\"x\"/></additional>");
+        network_of(signal_net(two_phases()),
+                   "<additional><tlLogic id=\"J\" programID=\"b\" offset=\"1\"><phase duration=\"50\" state=\"GGrr\"/>"
+                   "</tlLogic><e1Detector id=\"d\" lane=\"w_in_0\" pos=\"-10\" file=\"x\"/></additional>");
     EXPECT_EQ(other.net.signals[0].phases.size(), 1U);
     ASSERT_EQ(other.net.loops.size(), 1U);
     EXPECT_DOUBLE_EQ(other.net.loops[0].position_m, 180.0);
 }
 
-// The net of signal_net, whose programme stands elsewhere.
+// Returns signal_net() without its signal programme.
 std::string without_programme() {
     std::string text = signal_net(two_phases());
     const std::size_t from = text.find("<tlLogic");
     return text.erase(from, text.find("</tlLogic>") + 10 - from);
 }
 
-TEST(SumoNetwork, ProgrammesCanStandInAdditionalFilesAlone) {
+TEST(SumoNetwork, ProgrammesMayComeFromAdditionalFilesOnly) {
     const std::string offset = "<tlLogic id=\"J\" programID=\"a\" offset=\"7\"/>";
     const std::string programme = "<tlLogic id=\"J\" programID=\"a\" offset=\"3\">" + two_phases() + "</tlLogic>";
-    const SumoNetwork made = made_of(without_programme(), "<additional>" + programme + "</additional>");
-    const SumoNetwork usual = made_of(signal_net(two_phases()));
-    ASSERT_EQ(made.net.signals.size(), 1U);
-    EXPECT_EQ(made.net.signals[0].phases.size(), 4U);
-    EXPECT_DOUBLE_EQ(made.net.signals[0].offset_s, 3.0);
-    EXPECT_EQ(made.lights.size(), usual.lights.size());
-    EXPECT_EQ(lane(made.graph, "s_in_0").signal_group, lane(usual.graph, "s_in_0").signal_group);
-    EXPECT_FALSE(conflict(made.graph, ":J_0_0", ":J_1_0")->yields);  // they are never green together
+    const SumoNetwork network = network_of(without_programme(), "<additional>" + programme + "</additional>");
+    const SumoNetwork usual = network_of(signal_net(two_phases()));
+    ASSERT_EQ(network.net.signals.size(), 1U);
+    EXPECT_EQ(network.net.signals[0].phases.size(), 4U);
+    EXPECT_DOUBLE_EQ(network.net.signals[0].offset_s, 3.0);
+    EXPECT_EQ(network.lights.size(), usual.lights.size());
+    EXPECT_EQ(lane(network.graph, "s_in_0").signal_group, lane(usual.graph, "s_in_0").signal_group);
+    EXPECT_FALSE(conflict(network.graph, ":J_0_0", ":J_1_0")->yields);  // they are never green together
     EXPECT_DOUBLE_EQ(
-        made_of(without_programme(), "<additional>" + programme + offset + "</additional>").net.signals[0].offset_s,
+        network_of(without_programme(), "<additional>" + programme + offset + "</additional>").net.signals[0].offset_s,
         7.0);
 }
 
-TEST(SumoNetwork, LightsWithoutAProgrammeAreRefused) {
-    const auto says = [](const std::string& additional) {
-        return refusal([&] { made_of(without_programme(), "<additional>\n" + additional + "\n</additional>"); });
+TEST(SumoNetwork, SignalsWithoutAProgrammeAreRefused) {
+    const auto message_of = [](const std::string& additional) {
+        return refusal([&] { network_of(without_programme(), "<additional>\n" + additional + "\n</additional>"); });
     };
-    EXPECT_NE(says("").find("tl=\"J\": neither the network nor the additional files have a tlLogic with this id"),
+    EXPECT_NE(message_of("").find("tl=\"J\": neither the network nor the additional files have a tlLogic with this id"),
               std::string::npos)
-        << says("");
-    EXPECT_EQ(says(R"(<tlLogic id="J" programID="a" offset="1"/>)"),
+        << message_of("");
+    EXPECT_EQ(message_of(R"(<tlLogic id="J" programID="a" offset="1"/>)"),
               "my.add.xml:2: tlLogic 'J' has no phase; it needs at least one");
-    EXPECT_EQ(says(R"(<tlLogic id="K"><phase duration="9" state="G"/></tlLogic>)"),
+    EXPECT_EQ(message_of(R"(<tlLogic id="K"><phase duration="9" state="G"/></tlLogic>)"),
               "my.add.xml:2: tlLogic 'K': the network has no signal with this id");
-    const std::string few = says(R"(<tlLogic id="J"><phase duration="9" state="Grr"/></tlLogic>)");
+    const std::string few = message_of(R"(<tlLogic id="J"><phase duration="9" state="Grr"/></tlLogic>)");
     EXPECT_NE(few.find("linkIndex=\"3\" must be below 3, the number of letters in the phases of tlLogic 'J'"),
               std::string::npos)
         << few;
 }
 
-TEST(SumoNetwork, TellsWhatItDoesNotRead) {
+TEST(SumoNetwork, WarnsAboutUnsupportedSignalTypes) {
     const std::string text = replaced(signal_net(two_phases()), "type=\"static\"", "type=\"actuated\"");
-    const std::vector<std::string> lines = made_of(text).net.warnings.lines();
+    const std::vector<std::string> lines = network_of(text).net.warnings.lines();
     ASSERT_EQ(lines.size(), 1U);
     EXPECT_NE(lines[0].find("/my.net.xml:32: signals of type 'actuated' run as fixed-time signals"), std::string::npos)
         << lines[0];
 }
 
-std::vector<std::string> told(const std::string& text, const std::string& additional = "") {
-    std::vector<std::string> lines = made_of(text, additional).net.warnings.lines();
+std::vector<std::string> warnings_of(const std::string& text, const std::string& additional = "") {
+    std::vector<std::string> lines = network_of(text, additional).net.warnings.lines();
     std::transform(lines.begin(), lines.end(), lines.begin(), testing::without_folder);
     return lines;
 }
 
-TEST(SumoNetwork, TellsOfWhatStandsOnAnyLaneOfAnEdge) {
+TEST(SumoNetwork, WarnsAboutIgnoredElementsOfAnyLane) {
     const std::string left =
         replaced(crossing_net(), "-1.60 -10.00,-1.60\"/>", "-1.60 -10.00,-1.60\"><neigh lane=\"s_in_0\"/></lane>");
-    EXPECT_EQ(told(left),
+    EXPECT_EQ(warnings_of(left),
               std::vector<std::string>{
                   "my.net.xml:19: 'neigh' is ignored: vehicles do not use lanes of the opposite direction"});
     const std::string edge =
         replaced(crossing_net(), "<lane id=\"w_in_0\"", "<stopOffset value=\"2\"/><lane id=\"w_in_0\"");
-    EXPECT_EQ(told(edge), std::vector<std::string>{"my.net.xml:18: 'stopOffset' is ignored"});
+    EXPECT_EQ(warnings_of(edge), std::vector<std::string>{"my.net.xml:18: 'stopOffset' is ignored"});
 }
 
-TEST(SumoNetwork, InductionLoopsCountAllVehiclesWhereverTheyGo) {
-    const auto lines = told(crossing_net(),
-                            "<additional>\n<e1Detector id=\"d\" lane=\"w_in_0\" pos=\"9\" file=\"x\" "
-                            "vTypes=\"bus\" nextEdges=\"e_out\"/></additional>");
+TEST(SumoNetwork, WarnsThatInductionLoopsCountAllVehicles) {
+    const auto lines = warnings_of(crossing_net(),
+                                   "<additional>\n<e1Detector id=\"d\" lane=\"w_in_0\" pos=\"9\" file=\"x\" "
+                                   "vTypes=\"bus\" nextEdges=\"e_out\"/></additional>");
     EXPECT_EQ(lines,
               (std::vector<std::string>{"my.add.xml:2: 'vTypes' is ignored: the detector counts all vehicles",
                                         "my.add.xml:2: 'nextEdges' is ignored: the detector counts all vehicles"}));
@@ -285,8 +289,8 @@ TEST(SumoNetwork, InductionLoopsCountAllVehiclesWhereverTheyGo) {
 
 TEST(SumoNetwork, InductionLoopsBeyondTheLaneAreRefusedUnlessFriendly) {
     const auto loop = [](const std::string& attributes) {
-        return made_of(crossing_net(),
-                       "<additional><e1Detector id=\"d\" lane=\"w_in_0\" file=\"x\" " + attributes + "/></additional>")
+        return network_of(crossing_net(), "<additional><e1Detector id=\"d\" lane=\"w_in_0\" file=\"x\" " + attributes +
+                                              "/></additional>")
             .net.loops.at(0)
             .position_m;
     };
@@ -298,9 +302,9 @@ TEST(SumoNetwork, InductionLoopsBeyondTheLaneAreRefusedUnlessFriendly) {
     EXPECT_DOUBLE_EQ(loop("pos=\"-200\" friendlyPos=\"1\""), 0.0);
 }
 
-TEST(SumoNetwork, LightsThatAreSwitchedOffAreRefused) {
+TEST(SumoNetwork, SignalsThatAreSwitchedOffAreRefused) {
     const std::string message = refusal([] {
-        made_of(signal_net(two_phases()), "<additional>\n<tlLogic id=\"J\" programID=\"off\"/>\n</additional>");
+        network_of(signal_net(two_phases()), "<additional>\n<tlLogic id=\"J\" programID=\"off\"/>\n</additional>");
     });
     EXPECT_EQ(message.find("my.add.xml:2: tlLogic 'J': programID=\"off\" switches the signal off"), 0U) << message;
 }
@@ -312,29 +316,29 @@ std::string without_requests(std::string text) {
     return text;
 }
 
-TEST(SumoNetwork, TellsWhereNobodyGivesWay) {
+TEST(SumoNetwork, WarnsAboutJunctionsWithoutRequests) {
     const std::string text = without_requests(crossing_net());
     for (const std::string type : {"unregulated", "traffic_light_unregulated"}) {
         const std::string of_type = replaced(text, "type=\"priority\"", "type=\"" + type + "\"");
-        EXPECT_EQ(told(of_type),
+        EXPECT_EQ(warnings_of(of_type),
                   std::vector<std::string>{"my.net.xml:32: junction 'J' of type '" + type +
                                            "' has no requests: vehicles do not yield there, and drive through "
                                            "each other where their paths cross"});
     }
-    const std::string message = refusal([&] { made_of(text); });
+    const std::string message = refusal([&] { network_of(text); });
     EXPECT_NE(message.find("junction 'J' of type 'priority' has 4 links in 'intLanes' but 0 requests"),
               std::string::npos)
         << message;
 }
 
-TEST(SumoNetwork, WithoutRequestsTheLaterLinkOfThoseThatEndOnOneLaneGivesWay) {
+TEST(SumoNetwork, WithoutRequestsTheLaterOfTwoMergingLinksYields) {
     const std::string text = without_requests(replaced(signal_net("<phase duration=\"30\" state=\"GGGG\"/>"),
                                                        "type=\"traffic_light\"", "type=\"traffic_light_unregulated\""));
-    const LaneGraph graph = made_of(text).graph;
+    const LaneGraph graph = network_of(text).graph;
     ASSERT_NE(conflict(graph, ":J_3_0", ":J_0_0"), nullptr);
     EXPECT_TRUE(conflict(graph, ":J_3_0", ":J_0_0")->yields);
     EXPECT_FALSE(conflict(graph, ":J_0_0", ":J_3_0")->yields);
-    EXPECT_EQ(conflict(graph, ":J_0_0", ":J_1_0"), nullptr);  // they cross
+    EXPECT_EQ(conflict(graph, ":J_0_0", ":J_1_0"), nullptr);  // crossing links without a conflict
 }
 
 TEST(SumoNetwork, ReadsGzippedFiles) {
@@ -352,88 +356,91 @@ TEST(SumoNetwork, ReadsGzippedFiles) {
     EXPECT_NE(message.find(": the gzip data are damaged or end too early here"), std::string::npos) << message;
 }
 
-TEST(SumoNetwork, KnowsTheEntitiesOfXmlAndLeavesCommentsAlone) {
+TEST(SumoNetwork, ReadsXmlEntitiesAndSkipsComments) {
     const std::string text =
         replaced(signal_net(two_phases()), "<net version",
                  "<!-- &up; a & b < c -->\n<?tool &up;?>\n<net title=\"&amp;&lt;&#65;&#x41;\" version");
-    EXPECT_EQ(made_of(text).net.edges.size(), 8U);
+    EXPECT_EQ(network_of(text).net.edges.size(), 8U);
     const std::string after = replaced(text, "programID=\"0\"", "programID=\"&up;\"");
-    EXPECT_EQ(refusal([&] { made_of(after); }).find("my.net.xml:34: "), 0U);
+    EXPECT_EQ(refusal([&] { network_of(after); }).find("my.net.xml:34: "), 0U);
 }
 
-// netconvert writes 0 for the second of two lanes inside a junction on which vehicles wait.
-TEST(SumoNetwork, InternalLanesAreCountedByTheirIds) {
-    EXPECT_EQ(made_of(replaced(crossing_net(), "\":J_1_1\" index=\"1\"", "\":J_1_1\" index=\"0\"")).graph.lanes.size(),
-              10U);
+// netconvert writes index 0 for the second of two waiting lanes inside a junction.
+TEST(SumoNetwork, InternalLanesAreNumberedByTheirIds) {
+    EXPECT_EQ(
+        network_of(replaced(crossing_net(), "\":J_1_1\" index=\"1\"", "\":J_1_1\" index=\"0\"")).graph.lanes.size(),
+        10U);
 }
 
-struct Hostile {
+struct InvalidNet {
     const char* from;
     const char* to;
-    const char* says;
+    const char* expected_text;
 };
 
-class SumoNetworkErrors : public ::testing::TestWithParam<Hostile> {};
+class SumoNetworkErrors : public ::testing::TestWithParam<InvalidNet> {};
 
 TEST_P(SumoNetworkErrors, NameFileAndLine) {
-    const auto& [from, to, says] = GetParam();
+    const auto& [from, to, expected_text] = GetParam();
     const std::string text = replaced(signal_net(two_phases()), from, to);
-    const std::string message = refusal([&] { made_of(text); });
-    EXPECT_NE(message.find(says), std::string::npos) << message;
+    const std::string message = refusal([&] { network_of(text); });
+    EXPECT_NE(message.find(expected_text), std::string::npos) << message;
     EXPECT_EQ(message.find("my.net.xml"), 0U) << message;
 }
 
 INSTANTIATE_TEST_SUITE_P(
     All, SumoNetworkErrors,
     ::testing::Values(
-        Hostile{"<net version", "<!DOCTYPE net [<!ENTITY a \"b\">]>\n<net version",
-                "my.net.xml:2: the file has a DOCTYPE"},
-        Hostile{"length=\"190.00\"", "length=\"190.00\" length=\"9\"",
-                ":18: element 'lane': attribute 'length' is given twice"},
-        Hostile{"programID=\"0\"", "programID=\"&up;\"", ":32: element 'tlLogic': '&up' is not an XML entity"},
-        Hostile{"programID=\"0\"", "programID=\"a & b\"", ":32: element 'tlLogic': '&' is not an XML entity"},
-        Hostile{"programID=\"0\"", "programID=\"&#x;\"", ":32: element 'tlLogic': '&#x' is not an XML entity"},
-        Hostile{"</net>", "", "my.net.xml:58: the file is not well-formed XML"},
-        Hostile{"<net ", "<sumo ", "my.net.xml:"}, Hostile{"length=\"190.00\"", "length=\"-1\"", ":18: length=\"-1\""},
-        Hostile{"length=\"190.00\"", "length=\"nan\"", ":18: element 'lane': length=\"nan\" is not a finite number"},
-        Hostile{"speed=\"13.89\" length=\"190.00\"", "speed=\"inf\" length=\"190.00\"", ":18: element 'lane': speed"},
-        Hostile{"length=\"190.00\"", "length=\"1e999\"", ":18: element 'lane'"},
-        Hostile{"-200.00,-4.80", "-200.00,x", ":18: 'shape' has a point"},
-        Hostile{"-200.00,-4.80 -10.00,-4.80", "1,1", ":18: 'shape' needs at least two different points"},
-        Hostile{"edge id=\"s_in\"", "edge id=\"w_in\"", ":25: there are two edges 'w_in'"},
-        Hostile{"<lane id=\"w_in_1\" index=\"1\"", "<lane id=\"w_in_1\" index=\"3\"", ":19: lanes of edge 'w_in'"},
-        Hostile{"junction id=\"E\"", "junction id=\"W\"", "there are two junctions 'W'"},
-        Hostile{"junction id=\"E\"", "junction id=\":J_4_0\"", "there are two junctions ':J_4_0'"},
-        Hostile{"from=\"W\"", "from=\"X\"", ":17: edge 'w_in': from=\"X\": there is no junction with this id"},
-        Hostile{"to=\"E\"", "to=\"X\"", ":21: edge 'e_out': to=\"X\": there is no junction with this id"},
-        Hostile{" from=\"W\"", "", ":17: element 'edge' has no attribute 'from'"},
-        Hostile{"lane id=\"w_in_1\"", "lane id=\"w_in_0\"", ":19: lane id=\"w_in_0\" must be 'w_in_1'"},
-        Hostile{"lane id=\":J_1_1\" index=\"1\"", "lane id=\":J_1_0\" index=\"0\"",
-                ":9: lane id=\":J_1_0\" must be ':J_1_1'"},
-        Hostile{"incLanes=\"s_in_0", "incLanes=\"s_in_1",
-                "junction 'J': 'incLanes' names the lane 's_in_1', which does not exist"},
-        Hostile{"incLanes=\"s_in_0", "incLanes=\"s_in",
-                "junction 'J': 'incLanes' names the lane 's_in', which does not exist"},
-        Hostile{"intLanes=\":J_0_0 ", "intLanes=\":J_0_9 ",
-                "junction 'J': 'intLanes' names the lane ':J_0_9', which does not exist"},
-        Hostile{"incLanes=\":J_3_0 ", "incLanes=\":J_3_1 ", "junction ':J_4_0': 'incLanes' names the lane ':J_3_1'"},
-        Hostile{"to=\"e_out\" fromLane=\"0\"", "to=\"nowhere\" fromLane=\"0\"", ": to: there is no edge 'nowhere'"},
-        Hostile{"fromLane=\"0\" toLane=\"0\" via=\":J_1_0\"", "fromLane=\"7\" toLane=\"0\" via=\":J_1_0\"",
-                "edge 'w_in' has no lane 7"},
-        Hostile{"via=\":J_1_0\"", "via=\":J_9_0\"", "via: there is no lane ':J_9_0'"},
-        Hostile{"<connection from=\":J_3\" to=\"n_out\"", "<connection from=\":J_3\" to=\"e_out\"",
-                "the chain of 'via' lanes does not lead to lane 1 of edge 'n_out'"},
-        Hostile{"tl=\"J\" linkIndex=\"0\"", "tl=\"K\" linkIndex=\"0\"",
-                "tl=\"K\": neither the network nor the additional files have"},
-        Hostile{"tl=\"J\" linkIndex=\"0\"", "tl=\"J\" linkIndex=\"4\"",
-                "linkIndex=\"4\" must be below 4, the number of letters"},
-        Hostile{"state=\"ryyy\"", "state=\"ryy\"", ":34: 'state' has 3 letters"},
-        Hostile{"state=\"ryyy\"", "state=\"ryXy\"", ":34: 'state' has the unknown letter 'X'"},
-        Hostile{"duration=\"4\"", "duration=\"-4\"", ":34: duration"},
-        Hostile{"response=\"1110\"", "response=\"110\"", "'response' and 'foes' of request 0 must have 4 bits"},
-        Hostile{"intLanes=\"", "intLanes=\":J_9_0 ", "has 5 links in 'intLanes' but 4 requests"},
-        Hostile{"request index=\"1\"", "request index=\"2\"", "requests must be numbered"},
-        Hostile{"<net version=\"1.20\"", "<net version=\"1.20\" lefthand=\"true\"", "left-hand"}));
+        InvalidNet{"<net version", "<!DOCTYPE net [<!ENTITY a \"b\">]>\n<net version",
+                   "my.net.xml:2: the file has a DOCTYPE"},
+        InvalidNet{"length=\"190.00\"", "length=\"190.00\" length=\"9\"",
+                   ":18: element 'lane': attribute 'length' is given twice"},
+        InvalidNet{"programID=\"0\"", "programID=\"&up;\"", ":32: element 'tlLogic': '&up' is not an XML entity"},
+        InvalidNet{"programID=\"0\"", "programID=\"a & b\"", ":32: element 'tlLogic': '&' is not an XML entity"},
+        InvalidNet{"programID=\"0\"", "programID=\"&#x;\"", ":32: element 'tlLogic': '&#x' is not an XML entity"},
+        InvalidNet{"</net>", "", "my.net.xml:58: the file is not well-formed XML"},
+        InvalidNet{"<net ", "<sumo ", "my.net.xml:"},
+        InvalidNet{"length=\"190.00\"", "length=\"-1\"", ":18: length=\"-1\""},
+        InvalidNet{"length=\"190.00\"", "length=\"nan\"", ":18: element 'lane': length=\"nan\" is not a finite number"},
+        InvalidNet{"speed=\"13.89\" length=\"190.00\"", "speed=\"inf\" length=\"190.00\"",
+                   ":18: element 'lane': speed"},
+        InvalidNet{"length=\"190.00\"", "length=\"1e999\"", ":18: element 'lane'"},
+        InvalidNet{"-200.00,-4.80", "-200.00,x", ":18: 'shape' has a point"},
+        InvalidNet{"-200.00,-4.80 -10.00,-4.80", "1,1", ":18: 'shape' needs at least two different points"},
+        InvalidNet{"edge id=\"s_in\"", "edge id=\"w_in\"", ":25: there are two edges 'w_in'"},
+        InvalidNet{"<lane id=\"w_in_1\" index=\"1\"", "<lane id=\"w_in_1\" index=\"3\"", ":19: lanes of edge 'w_in'"},
+        InvalidNet{"junction id=\"E\"", "junction id=\"W\"", "there are two junctions 'W'"},
+        InvalidNet{"junction id=\"E\"", "junction id=\":J_4_0\"", "there are two junctions ':J_4_0'"},
+        InvalidNet{"from=\"W\"", "from=\"X\"", ":17: edge 'w_in': from=\"X\": there is no junction with this id"},
+        InvalidNet{"to=\"E\"", "to=\"X\"", ":21: edge 'e_out': to=\"X\": there is no junction with this id"},
+        InvalidNet{" from=\"W\"", "", ":17: element 'edge' has no attribute 'from'"},
+        InvalidNet{"lane id=\"w_in_1\"", "lane id=\"w_in_0\"", ":19: lane id=\"w_in_0\" must be 'w_in_1'"},
+        InvalidNet{"lane id=\":J_1_1\" index=\"1\"", "lane id=\":J_1_0\" index=\"0\"",
+                   ":9: lane id=\":J_1_0\" must be ':J_1_1'"},
+        InvalidNet{"incLanes=\"s_in_0", "incLanes=\"s_in_1",
+                   "junction 'J': 'incLanes' names the lane 's_in_1', which does not exist"},
+        InvalidNet{"incLanes=\"s_in_0", "incLanes=\"s_in",
+                   "junction 'J': 'incLanes' names the lane 's_in', which does not exist"},
+        InvalidNet{"intLanes=\":J_0_0 ", "intLanes=\":J_0_9 ",
+                   "junction 'J': 'intLanes' names the lane ':J_0_9', which does not exist"},
+        InvalidNet{"incLanes=\":J_3_0 ", "incLanes=\":J_3_1 ", "junction ':J_4_0': 'incLanes' names the lane ':J_3_1'"},
+        InvalidNet{"to=\"e_out\" fromLane=\"0\"", "to=\"nowhere\" fromLane=\"0\"", ": to: there is no edge 'nowhere'"},
+        InvalidNet{"fromLane=\"0\" toLane=\"0\" via=\":J_1_0\"", "fromLane=\"7\" toLane=\"0\" via=\":J_1_0\"",
+                   "edge 'w_in' has no lane 7"},
+        InvalidNet{"via=\":J_1_0\"", "via=\":J_9_0\"", "via: there is no lane ':J_9_0'"},
+        InvalidNet{"<connection from=\":J_3\" to=\"n_out\"", "<connection from=\":J_3\" to=\"e_out\"",
+                   "the chain of 'via' lanes does not lead to lane 1 of edge 'n_out'"},
+        InvalidNet{"tl=\"J\" linkIndex=\"0\"", "tl=\"K\" linkIndex=\"0\"",
+                   "tl=\"K\": neither the network nor the additional files have"},
+        InvalidNet{"tl=\"J\" linkIndex=\"0\"", "tl=\"J\" linkIndex=\"4\"",
+                   "linkIndex=\"4\" must be below 4, the number of letters"},
+        InvalidNet{"state=\"ryyy\"", "state=\"ryy\"", ":34: 'state' has 3 letters"},
+        InvalidNet{"state=\"ryyy\"", "state=\"ryXy\"", ":34: 'state' has the unknown letter 'X'"},
+        InvalidNet{"duration=\"4\"", "duration=\"-4\"", ":34: duration"},
+        InvalidNet{"response=\"1110\"", "response=\"110\"", "'response' and 'foes' of request 0 must have 4 bits"},
+        InvalidNet{"intLanes=\"", "intLanes=\":J_9_0 ", "has 5 links in 'intLanes' but 4 requests"},
+        InvalidNet{"request index=\"1\"", "request index=\"2\"", "requests must be numbered"},
+        InvalidNet{"<net version=\"1.20\"", "<net version=\"1.20\" lefthand=\"true\"", "left-hand"}));
 
 TEST(SumoNetwork, MessagesNameTheFileWithItsFolder) {
     const SumoFiles files;
@@ -446,19 +453,19 @@ TEST(SumoNetwork, MessagesNameTheFileWithItsFolder) {
     }
 }
 
-TEST(SumoNetwork, RefusesFilesThatAreNone) {
+TEST(SumoNetwork, RefusesFilesThatAreNotNetworks) {
     const SumoFiles files;
-    const auto says = [&](const std::string& text) {
+    const auto message_of = [&](const std::string& text) {
         return refusal([&] { read_sumo_net(files.write("my.net.xml", text)); });
     };
-    EXPECT_EQ(says(""), "my.net.xml:1: the file is empty");
-    EXPECT_EQ(says(" \n "), "my.net.xml:1: the file is empty");
-    EXPECT_NE(says(std::string(100'000, 'x')).find("my.net.xml"), std::string::npos);
-    EXPECT_NE(says(std::string(1000, '\0')).find("my.net.xml"), std::string::npos);
-    EXPECT_NE(says("<net/>").find("the network has no lane for passenger cars"), std::string::npos);
+    EXPECT_EQ(message_of(""), "my.net.xml:1: the file is empty");
+    EXPECT_EQ(message_of(" \n "), "my.net.xml:1: the file is empty");
+    EXPECT_NE(message_of(std::string(100'000, 'x')).find("my.net.xml"), std::string::npos);
+    EXPECT_NE(message_of(std::string(1000, '\0')).find("my.net.xml"), std::string::npos);
+    EXPECT_NE(message_of("<net/>").find("the network has no lane for passenger cars"), std::string::npos);
     std::string deep;
     for (int k = 0; k < 200'000; ++k) deep += "<net>";
-    EXPECT_NE(says(deep).find("not well-formed"), std::string::npos);
+    EXPECT_NE(message_of(deep).find("not well-formed"), std::string::npos);
     EXPECT_EQ(refusal([&] { read_sumo_net(files.folder() / "none.net.xml"); }), "none.net.xml: there is no such file");
     EXPECT_NE(refusal([&] { read_sumo_net(files.folder()); }).find("is a folder"), std::string::npos);
     EXPECT_EQ(refusal([&] { read_sumo_net("/dev/zero"); }).find("/dev/zero: this is a device or a pipe"), 0U);

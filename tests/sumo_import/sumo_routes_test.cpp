@@ -1,3 +1,4 @@
+// Tests of reading SUMO route files: vehicles, flows, types, warnings and errors.
 #include "sumo_import/sumo_routes.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +27,7 @@ SumoTraffic read(const std::string& body, const std::string& additional = "") {
     return read_sumo_routes(names, network, kUntil_s, 1);
 }
 
-TEST(SumoRoutes, VehiclesFollowTheirRoutesInTheOrderOfDeparture) {
+TEST(SumoRoutes, SortsVehiclesByDeparture) {
     const SumoTraffic traffic = read(R"(<vType id="truck" vClass="truck"/>
 <route id="straight" edges="w_in e_out"/>
 <vehicle id="late" depart="5.5" route="straight" departLane="1" departSpeed="max"/>
@@ -50,7 +51,7 @@ TEST(SumoRoutes, VehiclesFollowTheirRoutesInTheOrderOfDeparture) {
     EXPECT_DOUBLE_EQ(traffic.shortest_vehicle_m(), 5.0);
 }
 
-TEST(SumoRoutes, DeparturesHaveAPlace) {
+TEST(SumoRoutes, ReadsDepartPos) {
     const auto trip = [](const std::string& position) {
         return read("<trip id=\"t\" depart=\"0\" from=\"w_in\" to=\"e_out\" " + position + "/>").trips[0];
     };
@@ -64,7 +65,7 @@ TEST(SumoRoutes, DeparturesHaveAPlace) {
     EXPECT_FLOAT_EQ(trip("departPos=\"190\"").front_m, 190.0F);
 }
 
-TEST(SumoRoutes, FlowsGiveAsManyAsTheySay) {
+TEST(SumoRoutes, FlowsCreateTheStatedNumberOfVehicles) {
     const auto count = [](const std::string& attributes) {
         return read("<flow id=\"f\" from=\"w_in\" to=\"e_out\" " + attributes + "/>").trips.size();
     };
@@ -79,7 +80,7 @@ TEST(SumoRoutes, FlowsGiveAsManyAsTheySay) {
     EXPECT_EQ(flow.ids[2], "f.2");
 }
 
-TEST(SumoRoutes, DistributionsAreDrawn) {
+TEST(SumoRoutes, DrawsFromDistributions) {
     const SumoTraffic traffic = read(R"(<vTypeDistribution id="mix">
 <vType id="short" length="4" probability="0.75"/><vType id="long" length="10" probability="0.25"/></vTypeDistribution>
 <routeDistribution id="both"><route id="a" edges="w_in e_out" probability="0.2"/><route edges="w_in n_out" probability="0.8"/></routeDistribution>
@@ -95,7 +96,7 @@ TEST(SumoRoutes, DistributionsAreDrawn) {
     EXPECT_NEAR(left, 320, 30);
 }
 
-TEST(SumoRoutes, TypesCanStandInAdditionalFiles) {
+TEST(SumoRoutes, TypesMayComeFromAdditionalFiles) {
     const SumoTraffic traffic =
         read(R"(<trip id="t" depart="0" type="van" from="w_in" to="e_out"/>)",
              R"(<additional><poi id="p" x="1" y="2"/><vType id="van" length="6.2"/></additional>)");
@@ -103,11 +104,11 @@ TEST(SumoRoutes, TypesCanStandInAdditionalFiles) {
     EXPECT_TRUE(traffic.warnings.lines().empty());
 }
 
-TEST(SumoRoutes, AttributesOfTypesThatAreNotReadAreToldOf) {
-    const std::string read_ones = R"( id="t" length="5" vClass="taxi" color="1,0,0" guiShape="taxi")";
+TEST(SumoRoutes, WarnsAboutIgnoredTypeAttributes) {
+    const std::string known_attributes = R"( id="t" length="5" vClass="taxi" color="1,0,0" guiShape="taxi")";
     for (const std::string name : {"width", "laneChangeModel", "lcKeepRight", "jmTimegapMinor", "impatience",
                                    "startupDelay", "actionStepLength"}) {
-        const SumoTraffic traffic = read("<vType" + read_ones + " " + name + R"(="1"/>
+        const SumoTraffic traffic = read("<vType" + known_attributes + " " + name + R"(="1"/>
 <trip id="a" depart="0" from="w_in" to="e_out"/>)");
         const std::vector<std::string> lines = traffic.warnings.lines();
         ASSERT_EQ(lines.size(), 1U) << name;
@@ -115,13 +116,13 @@ TEST(SumoRoutes, AttributesOfTypesThatAreNotReadAreToldOf) {
                   "my.rou.xml:2: '" + name +
                       "' is ignored: the scenario's populations and drivers define the driving behaviour");
     }
-    const SumoTraffic nested = read("<vType" + read_ones + R"(><carFollowing-IDM tau="1"/></vType>
+    const SumoTraffic nested = read("<vType" + known_attributes + R"(><carFollowing-IDM tau="1"/></vType>
 <trip id="a" depart="0" from="w_in" to="e_out"/>)");
     ASSERT_EQ(nested.warnings.lines().size(), 1U);
     EXPECT_EQ(without_folder(nested.warnings.lines()[0]), "my.rou.xml:2: the element 'carFollowing-IDM' is ignored");
 }
 
-TEST(SumoRoutes, OthersThanMotorVehiclesAreLeftOutAndToldOf) {
+TEST(SumoRoutes, WarnsAboutIgnoredVehiclesAndStops) {
     const SumoTraffic traffic = read(R"(<vType id="b" vClass="bicycle"/>
 <trip id="t" type="b" depart="0" from="w_in" to="e_out"/>
 <person id="p" depart="0"/>
@@ -135,73 +136,80 @@ TEST(SumoRoutes, OthersThanMotorVehiclesAreLeftOutAndToldOf) {
     EXPECT_EQ(without_folder(lines[2]), "my.rou.xml:5: 'stop' is ignored: vehicles make no stops");
 }
 
-TEST(SumoRoutes, FilesThatAreNoneAreRefusedWithTheirLine) {
+TEST(SumoRoutes, MalformedFilesAreRefusedWithTheirLine) {
     const SumoFiles files;
     const SumoNetwork network = make_sumo_network(read_sumo_net(files.write("my.net.xml", crossing_net())), 2.0);
-    const auto says = [&](const std::string& text, bool additional) {
+    const auto message_of = [&](const std::string& text, bool additional) {
         const std::filesystem::path file = files.write("my.xml", text);
         const SumoRouteFiles names = additional ? SumoRouteFiles{{file}, {}} : SumoRouteFiles{{}, {file}};
         return refusal([&] { read_sumo_routes(names, network, kUntil_s, 1); });
     };
     for (const bool additional : {false, true}) {
-        EXPECT_EQ(says("", additional), "my.xml:1: the file is empty");
-        EXPECT_EQ(says("\n<!DOCTYPE routes>\n<routes/>", additional).find("my.xml:2: the file has a DOCTYPE"), 0U);
-        EXPECT_EQ(says("\x1f\x8b\x08 cut", additional), "my.xml:1: the gzip data are damaged or end too early here");
-        EXPECT_EQ(says("<routes>\n<trip id='a' id='b'/>\n</routes>", additional).find("my.xml:2: "), 0U);
+        EXPECT_EQ(message_of("", additional), "my.xml:1: the file is empty");
+        EXPECT_EQ(message_of("\n<!DOCTYPE routes>\n<routes/>", additional).find("my.xml:2: the file has a DOCTYPE"),
+                  0U);
+        EXPECT_EQ(message_of("\x1f\x8b\x08 cut", additional),
+                  "my.xml:1: the gzip data are damaged or end too early here");
+        EXPECT_EQ(message_of("<routes>\n<trip id='a' id='b'/>\n</routes>", additional).find("my.xml:2: "), 0U);
     }
 }
 
-struct Hostile {
+struct InvalidBody {
     const char* body;
-    const char* says;
+    const char* expected_text;
 };
-class SumoRouteErrors : public ::testing::TestWithParam<Hostile> {};
+class SumoRouteErrors : public ::testing::TestWithParam<InvalidBody> {};
 
 TEST_P(SumoRouteErrors, NameFileAndLine) {
     const std::string message = refusal([] { read(GetParam().body); });
     EXPECT_EQ(message.find("my.rou.xml:2: "), 0U) << message;
-    EXPECT_NE(message.find(GetParam().says), std::string::npos) << message;
+    EXPECT_NE(message.find(GetParam().expected_text), std::string::npos) << message;
 }
 
 INSTANTIATE_TEST_SUITE_P(
     All, SumoRouteErrors,
     ::testing::Values(
-        Hostile{R"(<trip id="a" depart="0" from="nowhere" to="e_out"/>)", "from: there is no edge 'nowhere'"},
-        Hostile{R"(<trip id="a" depart="0" from="e_out" to="w_in"/>)", "there is no route for cars from edge 'e_out'"},
-        Hostile{R"(<trip id="a" depart="-1" from="w_in" to="e_out"/>)", "depart=\"-1\""},
-        Hostile{R"(<trip id="a" depart="nan" from="w_in" to="e_out"/>)", "depart=\"nan\""},
-        Hostile{R"(<trip id="a" from="w_in" to="e_out"/>)", "element 'trip' has no attribute 'depart'"},
-        Hostile{R"(<vehicle id="a" depart="0"><route edges="w_in s_in"/></vehicle>)",
-                "edge 'w_in' does not lead to edge 's_in'"},
-        Hostile{R"(<vehicle id="a" depart="0"><route edges=" "/></vehicle>)", "'edges' is empty"},
-        Hostile{R"(<vehicle id="a" depart="0" route="r"/>)", "there is no route 'r'"},
-        Hostile{R"(<vehicle id="a" depart="0" type="t"><route edges="w_in"/></vehicle>)", "there is no vType 't'"},
-        Hostile{R"(<trip id="a" depart="0" from="w_in" to="e_out" departLane="2"/>)", "edge 'w_in' has no lane 2"},
-        Hostile{R"(<trip id="a" depart="0" from="w_in" to="e_out" departPos="191"/>)",
-                "departPos=\"191\" must lie on edge 'w_in', which is 190.00 m long"},
-        Hostile{R"(<trip id="a" depart="0" from="w_in" to="e_out" departPos="-191"/>)", "must lie on edge 'w_in'"},
-        Hostile{R"(<trip id="a" depart="0" from="w_in" to="e_out" departPos="nan"/>)", "departPos"},
-        Hostile{R"(<trip id="a" depart="0" from="w_in" to="e_out" departPos="middle"/>)", "departPos"},
-        Hostile{R"(<trip id="a" depart="0" from="w_in" to="e_out"/><trip id="a" depart="0" from="w_in" to="e_out"/>)",
-                "there are two vehicles 'a'"},
-        Hostile{R"(<vType id="t" length="-3"/>)", "length=\"-3\" must be"},
-        Hostile{R"(<vType id="t" length="inf"/>)", "not a finite number"},
-        Hostile{R"(<vType id="t"/><vType id="t"/>)", "there are two types 't'"},
-        Hostile{R"(<vTypeDistribution id="t" vTypes="t"/>)", "there is no vType 't'"},
-        Hostile{R"(<routeDistribution id="r" routes="r"/>)", "there is no route 'r' before this"},
-        Hostile{R"(<route id="r" edges="w_in"/><route id="r" edges="w_in"/>)", "there are two routes 'r'"},
-        Hostile{R"(<route id="r" edges="w_in" repeat="3"/>)", "'repeat' is not supported"},
-        Hostile{R"(<flow id="f" from="w_in" to="e_out" begin="0"/>)", "a flow needs 'number'"},
-        Hostile{R"(<flow id="f" from="w_in" to="e_out" begin="9" end="3" number="2"/>)",
-                "the flow ends before it begins"},
-        Hostile{R"(<flow id="f" from="w_in" to="e_out" period="0"/>)", "headway of the flow must be at least"},
-        Hostile{R"(<flow id="f" from="w_in" to="e_out" vehsPerHour="-5"/>)", "vehsPerHour=\"-5\" must be more than 0"},
-        Hostile{R"(<flow id="f" from="w_in" to="e_out" perHour="0"/>)", "perHour=\"0\" must be more than 0"},
-        Hostile{R"(<flow id="f" fromTaz="1" toTaz="2" period="1"/>)", "'fromTaz' is not supported"},
-        Hostile{R"(<trip id="a" depart="0" depart="1" from="w_in" to="e_out"/>)", "attribute 'depart' is given twice"},
-        Hostile{R"(<trip id="a&b;" depart="0" from="w_in" to="e_out"/>)", "element 'trip': '&b' is not an XML entity"},
-        Hostile{R"(<!DOCTYPE routes>)", "not well-formed"},
-        Hostile{R"(<include href="more.xml"/>)", "'include' is not supported"}));
+        InvalidBody{R"(<trip id="a" depart="0" from="nowhere" to="e_out"/>)", "from: there is no edge 'nowhere'"},
+        InvalidBody{R"(<trip id="a" depart="0" from="e_out" to="w_in"/>)",
+                    "there is no route for cars from edge 'e_out'"},
+        InvalidBody{R"(<trip id="a" depart="-1" from="w_in" to="e_out"/>)", "depart=\"-1\""},
+        InvalidBody{R"(<trip id="a" depart="nan" from="w_in" to="e_out"/>)", "depart=\"nan\""},
+        InvalidBody{R"(<trip id="a" from="w_in" to="e_out"/>)", "element 'trip' has no attribute 'depart'"},
+        InvalidBody{R"(<vehicle id="a" depart="0"><route edges="w_in s_in"/></vehicle>)",
+                    "edge 'w_in' does not lead to edge 's_in'"},
+        InvalidBody{R"(<vehicle id="a" depart="0"><route edges=" "/></vehicle>)", "'edges' is empty"},
+        InvalidBody{R"(<vehicle id="a" depart="0" route="r"/>)", "there is no route 'r'"},
+        InvalidBody{R"(<vehicle id="a" depart="0" type="t"><route edges="w_in"/></vehicle>)", "there is no vType 't'"},
+        InvalidBody{R"(<trip id="a" depart="0" from="w_in" to="e_out" departLane="2"/>)", "edge 'w_in' has no lane 2"},
+        InvalidBody{R"(<trip id="a" depart="0" from="w_in" to="e_out" departPos="191"/>)",
+                    "departPos=\"191\" must lie on edge 'w_in', which is 190.00 m long"},
+        InvalidBody{R"(<trip id="a" depart="0" from="w_in" to="e_out" departPos="-191"/>)", "must lie on edge 'w_in'"},
+        InvalidBody{R"(<trip id="a" depart="0" from="w_in" to="e_out" departPos="nan"/>)", "departPos"},
+        InvalidBody{R"(<trip id="a" depart="0" from="w_in" to="e_out" departPos="middle"/>)", "departPos"},
+        InvalidBody{
+            R"(<trip id="a" depart="0" from="w_in" to="e_out"/><trip id="a" depart="0" from="w_in" to="e_out"/>)",
+            "there are two vehicles 'a'"},
+        InvalidBody{R"(<vType id="t" length="-3"/>)", "length=\"-3\" must be"},
+        InvalidBody{R"(<vType id="t" length="inf"/>)", "not a finite number"},
+        InvalidBody{R"(<vType id="t"/><vType id="t"/>)", "there are two types 't'"},
+        InvalidBody{R"(<vTypeDistribution id="t" vTypes="t"/>)", "there is no vType 't'"},
+        InvalidBody{R"(<routeDistribution id="r" routes="r"/>)", "there is no route 'r' before this"},
+        InvalidBody{R"(<route id="r" edges="w_in"/><route id="r" edges="w_in"/>)", "there are two routes 'r'"},
+        InvalidBody{R"(<route id="r" edges="w_in" repeat="3"/>)", "'repeat' is not supported"},
+        InvalidBody{R"(<flow id="f" from="w_in" to="e_out" begin="0"/>)", "a flow needs 'number'"},
+        InvalidBody{R"(<flow id="f" from="w_in" to="e_out" begin="9" end="3" number="2"/>)",
+                    "the flow ends before it begins"},
+        InvalidBody{R"(<flow id="f" from="w_in" to="e_out" period="0"/>)", "headway of the flow must be at least"},
+        InvalidBody{R"(<flow id="f" from="w_in" to="e_out" vehsPerHour="-5"/>)",
+                    "vehsPerHour=\"-5\" must be more than 0"},
+        InvalidBody{R"(<flow id="f" from="w_in" to="e_out" perHour="0"/>)", "perHour=\"0\" must be more than 0"},
+        InvalidBody{R"(<flow id="f" fromTaz="1" toTaz="2" period="1"/>)", "'fromTaz' is not supported"},
+        InvalidBody{R"(<trip id="a" depart="0" depart="1" from="w_in" to="e_out"/>)",
+                    "attribute 'depart' is given twice"},
+        InvalidBody{R"(<trip id="a&b;" depart="0" from="w_in" to="e_out"/>)",
+                    "element 'trip': '&b' is not an XML entity"},
+        InvalidBody{R"(<!DOCTYPE routes>)", "not well-formed"},
+        InvalidBody{R"(<include href="more.xml"/>)", "'include' is not supported"}));
 
 }  // namespace
 }  // namespace stopline

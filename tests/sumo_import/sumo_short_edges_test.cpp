@@ -1,3 +1,4 @@
+// Tests of merge_short_edges(): short edges become part of the edge upstream.
 #include "sumo_import/sumo_short_edges.h"
 
 #include <gtest/gtest.h>
@@ -9,15 +10,16 @@ namespace stopline {
 namespace {
 
 SumoEdge edge(const std::string& id, double from_m, double length_m) {
-    SumoEdge made{id, id[0] == ':'};
+    SumoEdge result{id, id[0] == ':'};
     for (int lane = 0; lane < 2; ++lane) {
         const double y_m = 3.2 * lane;
-        made.lanes.push_back({length_m, 13.89, true, {{from_m, y_m}, {from_m + length_m, y_m}}});
+        result.lanes.push_back({length_m, 13.89, true, {{from_m, y_m}, {from_m + length_m, y_m}}});
     }
-    return made;
+    return result;
 }
 
-// a, 100 m, leads by a way of 3 m to s, 5 m, and that over a junction to b; lane by lane.
+// Returns a network in which edge a (100 m) leads over an internal edge of 3 m to s (5 m), and s over a junction to b.
+// All have two lanes, connected lane by lane.
 SumoNet chain() {
     SumoNet net;
     net.edges = {edge("a", 0.0, 100.0), edge(":v", 100.0, 3.0), edge("s", 103.0, 5.0), edge(":x", 108.0, 10.0),
@@ -32,24 +34,24 @@ SumoNet chain() {
     return net;
 }
 
-TEST(SumoShortEdges, BecomeTheEndOfTheEdgeBefore) {
+TEST(SumoShortEdges, ExtendTheEdgeUpstream) {
     SumoNet net = chain();
     merge_short_edges(net);
     EXPECT_EQ(net.edges[2].merged_into, 0);
-    int onward = 0;
+    int connections_to_b = 0;
     for (const SumoConnection& c : net.connections) {
         if (net.edges[static_cast<std::size_t>(c.from)].internal) continue;
         EXPECT_FALSE(c.from == 2 || c.to == 2) << c.from << " to " << c.to;
-        onward += c.from == 0 && c.to == 4 && c.from_lane == c.to_lane && c.via == 3 ? 1 : 0;
+        connections_to_b += c.from == 0 && c.to == 4 && c.from_lane == c.to_lane && c.via == 3 ? 1 : 0;
     }
-    EXPECT_EQ(onward, 2);
+    EXPECT_EQ(connections_to_b, 2);
     for (const SumoLane& lane : net.edges[0].lanes) {
         EXPECT_DOUBLE_EQ(lane.length_m, 108.0);
         EXPECT_DOUBLE_EQ(lane.shape.back().x_m, 108.0);
     }
 }
 
-TEST(SumoShortEdges, KeepTheirDetectorsWhereTheyAre) {
+TEST(SumoShortEdges, KeepTheirDetectors) {
     SumoNet net = chain();
     merge_short_edges(net);
     EXPECT_EQ(net.loops[0].edge, 0);
@@ -59,7 +61,7 @@ TEST(SumoShortEdges, KeepTheirDetectorsWhereTheyAre) {
     EXPECT_EQ(net.loops[2].edge, 4);
 }
 
-TEST(SumoShortEdges, StayWhereALightOrAnotherEdgeLeadsToThem) {
+TEST(SumoShortEdges, StayBehindASignalOrIfLongEnough) {
     SumoNet with_light = chain();
     with_light.connections[0].tl = 0;
     merge_short_edges(with_light);

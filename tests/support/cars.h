@@ -1,5 +1,5 @@
-// The shipped vehicles for tests of a single powertrain, and their driving resistances written from the settings alone, so
-// that a test does not lean on what it tests.
+// Shipped vehicles for tests of a single powertrain. Their driving resistances are computed from the settings alone, so
+// that a test does not depend on the code that it tests.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ struct Car {
     }
     double ratio(int gear) const { return settings.gear_ratio[static_cast<std::size_t>(gear)] * settings.final_drive; }
     double rotating(int gear) const { return settings.rotating_mass_factor[static_cast<std::size_t>(gear)]; }
-    // Force at the wheels at full load.
+    // Returns the force at the wheels at full load, N.
     double full_force_N(double v_mps, int gear) const {
         const double floor_rpm = gear == 0 ? settings.launch_rpm : settings.idle_rpm;
         const double torque_Nm = interpolate(settings.full_load, std::max(floor_rpm, rpm(v_mps, gear)));
@@ -49,7 +49,7 @@ struct Car {
     bool electric() const { return settings.gear_ratio.size() == 1; }
 };
 
-// Cruising at this speed since long ago.
+// Returns the state after long cruising at a speed.
 inline CarState cruising(const Car& car, double v_mps) {
     CarState s{};
     s.speed_mps = v_mps;
@@ -63,7 +63,7 @@ inline CarState advance(const Car& car, const CarState& s, double request_mps2, 
     return powertrain_step<double>(car.tables, s, request_mps2, grade_N, dt);
 }
 
-// For tests over names.
+// Returns the parameter as a valid test name.
 inline std::string as_test_name(const testing::TestParamInfo<std::string>& name) {
     std::string text = name.param;
     for (char& c : text) c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';

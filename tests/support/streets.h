@@ -1,4 +1,4 @@
-// Streets that several tests use: two intersections 200 m apart on a major street with three lanes, and minor streets of one.
+// Streets for tests: two intersections 200 m apart, a major street with three lanes, minor streets with one lane.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace stopline {
 
-// A pedestrian light has arms in the west and east only.
+// Returns an intersection. Without `minor` it is a pedestrian light, which has legs in the west and east only.
 inline StreetIntersection street_node(const std::string& name, double x_m, bool minor = true) {
     StreetIntersection node;
     node.name = name;
@@ -43,7 +43,7 @@ inline StreetSettings two_streets() {
     return streets;
 }
 
-// Pockets of 60 m for left turns on both sides of the first intersection, with a green of their own.
+// Returns two_streets() with protected left turns from pockets of 60 m at both major legs of the first intersection.
 inline StreetSettings streets_with_pockets() {
     StreetSettings streets = two_streets();
     StreetIntersection& node = streets.intersections[0];

@@ -1,4 +1,4 @@
-// Small SUMO networks for tests, written by hand, and files in a folder of their own.
+// Small hand-written SUMO networks for tests, and a temporary folder for their files.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -35,39 +35,40 @@ private:
     std::filesystem::path folder_;
 };
 
-// Where streets begin and end; one character an id.
+// Returns dead-end junctions. Each character of `ids` is one id.
 inline std::string dead_ends(const std::string& ids) {
     std::string text;
     for (const char id : ids) text += std::string("<junction id=\"") + id + "\" type=\"dead_end\" x=\"0\" y=\"0\"/>\n";
     return text;
 }
 
+// Returns the text with the first `from` replaced. Fails the test if the text does not contain `from`.
 inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
     const std::size_t at = text.find(from);
     EXPECT_NE(at, std::string::npos) << from;
     return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
-// Without the folder of those above.
+// Returns the message without the temporary folder of SumoFiles.
 inline std::string without_folder(const std::string& message) {
     const std::string folder = (std::filesystem::temp_directory_path() / "stopline_sumo_").string();
     return message.starts_with(folder) ? message.substr(message.find('/', folder.size()) + 1) : message;
 }
 
-// What an action that must be refused says, without the folder of its file.
+// Returns the message of the InputError that an action throws, without the temporary folder.
 template <class Act>
-std::string refusal(const Act& act) {
+std::string refusal(const Act& action) {
     try {
-        act();
+        action();
     } catch (const InputError& error) {
         return without_folder(error.what());
     }
     return "(nothing was refused)";
 }
 
-// Two streets of 200 m that cross: edges w_in (two lanes) and e_out from west to east, s_in and n_out from south to north; from the
-// left lane of w_in one can also turn to the north, by an internal junction. Links: 0 s_in straight, 1 w_in right lane straight,
-// 2 w_in left lane straight, 3 w_in left. The street from the west comes first.
+// Returns two crossing streets of 200 m: w_in (two lanes) leads to e_out, s_in to n_out. The left lane of w_in also
+// allows a left turn to n_out, over an internal junction. Links: 0 s_in straight, 1 and 2 the right and left lane of
+// w_in straight, 3 the left turn of w_in. Traffic on w_in has priority.
 inline std::string crossing_net() {
     return R"(<?xml version="1.0" encoding="UTF-8"?>
 <net version="1.20">
@@ -124,14 +125,14 @@ inline std::string crossing_net() {
 )";
 }
 
-// Edges a and b, 100 m, join to s, `short_m` long, which leads on to c, 100 m. Who comes from a gives way.
+// Returns edges a and b (100 m) that merge into s (`short_m` long), which leads to c (100 m). Traffic from a yields.
 inline std::string merge_net(const std::string& short_m) {
     const auto edge = [](const std::string& id, const std::string& length_m, const std::string& shape) {
         const std::string internal = id[0] == ':' ? " function=\"internal\"" : " from=\"A\" to=\"B\"";
         return "<edge id=\"" + id + "\"" + internal + "><lane id=\"" + id +
                "_0\" index=\"0\" speed=\"13.89\" length=\"" + length_m + "\" shape=\"" + shape + "\"/></edge>\n";
     };
-    const auto leads = [](const std::string& from, const std::string& to, const std::string& via) {
+    const auto connection = [](const std::string& from, const std::string& to, const std::string& via) {
         return "<connection from=\"" + from + "\" to=\"" + to + "\" fromLane=\"0\" toLane=\"0\"" +
                (via.empty() ? "" : " via=\"" + via + "_0\"") + " dir=\"s\" state=\"M\"/>\n";
     };
@@ -142,12 +143,13 @@ inline std::string merge_net(const std::string& short_m) {
 <request index="0" response="10" foes="10" cont="0"/><request index="1" response="00" foes="01" cont="0"/></junction>
 <junction id="K" type="priority" x="13" y="0" incLanes="s_0" intLanes=":K_0_0" shape="0,0 1,1">
 <request index="0" response="0" foes="0" cont="0"/></junction>
-)" + leads("a", "s", ":J_0") +
-           leads("b", "s", ":J_1") + leads("s", "c", ":K_0") + leads(":J_0", "s", "") + leads(":J_1", "s", "") +
-           leads(":K_0", "c", "") + dead_ends("AB") + "</net>\n";
+)" + connection("a", "s", ":J_0") +
+           connection("b", "s", ":J_1") + connection("s", "c", ":K_0") + connection(":J_0", "s", "") +
+           connection(":J_1", "s", "") + connection(":K_0", "c", "") + dead_ends("AB") + "</net>\n";
 }
 
-// Who comes from b, 100 m, goes over s, 2 m, to c, or leaves for x before; who comes from a gives way where s ends.
+// Returns part of a roundabout. Traffic from b (100 m) goes over s (2 m) to c, or exits to x before s. Traffic from a
+// yields at the end of s.
 inline std::string roundabout_net() {
     return R"(<net version="1.20">
 <edge id=":J_0" function="internal"><lane id=":J_0_0" index="0" speed="8" length="4" shape="0,0 4,0"/></edge>
@@ -175,7 +177,7 @@ inline std::string roundabout_net() {
            "</net>\n";
 }
 
-// From a, 100 m, one goes straight on to c, right to d, or round to b, on the spot as netconvert has it.
+// Returns edge a (100 m) with connections straight to c, right to d, and a tight U-turn to b as netconvert draws it.
 inline std::string turnaround_net() {
     return R"(<net version="1.20">
 <edge id=":J_0" function="internal"><lane id=":J_0_0" index="0" speed="9" length="9.2" shape="0,-1.6 3,-2.2 5.2,-4.6 6,-8"/></edge>
@@ -198,7 +200,7 @@ inline std::string turnaround_net() {
            "</net>\n";
 }
 
-// Two lanes of an edge, 100 m, that become one on a short edge, which leads on.
+// Returns an edge with two lanes (100 m) that merge into the single lane of a short edge, and an edge beyond it.
 inline std::string lane_drop_net() {
     return R"(<net version="1.20">
 <edge id=":J_0" function="internal"><lane id=":J_0_0" index="0" speed="13.89" length="4" shape="0,0 4,0"/></edge>
@@ -223,7 +225,7 @@ inline std::string lane_drop_net() {
            "</net>\n";
 }
 
-// Two streets of one lane, from west and east, where those who turn left, to the north and the south, wait inside for the others.
+// Returns a street with one lane in each direction. Left turns yield to oncoming traffic inside the junction.
 inline std::string opposing_lefts_net() {
     return R"(<net version="1.20">
 <edge id=":J_0" function="internal"><lane id=":J_0_0" index="0" speed="13.89" length="24" shape="-12,-3.2 12,-3.2"/></edge>
@@ -251,7 +253,7 @@ inline std::string opposing_lefts_net() {
            "</net>\n";
 }
 
-// The same as the crossing with lights; the phases are for links 0 to 3.
+// Returns crossing_net() with signals. Each phase has one letter for each of the links 0 to 3.
 inline std::string signal_net(const std::string& phases) {
     std::string text = crossing_net();
     text = replaced(text, "    <junction id=\"J\" type=\"priority\"",

@@ -1,5 +1,5 @@
-// A simulation under a test's control: vehicles are placed by hand, one of them may be driven by hand, and every step checks
-// what must hold in every step of every run - nobody lost, no overlap, nobody past a red light, order kept.
+// A simulation under a test's control. A test places vehicles by hand and may prescribe their motion. Every step checks
+// the invariants of all runs: no lost vehicle, no overlap, no red-light violation, unchanged order on a lane.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -22,23 +22,23 @@ namespace stopline::testing_support {
 
 inline constexpr double kForever_s = 1e5;
 
-// Straight lanes side by side, one policy, one vehicle type.
+// Straight parallel lanes with one policy and one vehicle type.
 struct TrackPlan {
     std::string vehicle = "petrol_eu4_72kw";
-    std::string policy = "CDG";  // or a population of the scenario, such as MIX
+    std::string policy = "CDG";  // or the name of a population of the scenario, such as MIX
     int lanes = 1;
-    double length_m = 2000.0;  // to the stop line
+    double length_m = 2000.0;  // up to the stop line
     double exit_m = 500.0;
     double limit_mps = 50.0 / 3.6;
     double gradient = 0.0;
-    double green_from_s = 0.0;  // kForever_s: red throughout
+    double green_from_s = 0.0;  // kForever_s keeps the signal red
     double green_s = kForever_s;
     double step_s = 0.01;
     bool scalar = false;
-    std::vector<std::string> overrides;  // of the scenario's fields, as --set takes them
+    std::vector<std::string> overrides;  // overrides of scenario fields, in the form of --set
 };
 
-// The population of that name, or the one in which all follow the policy of that name.
+// Returns the population of that name, or a population whose vehicles all use the policy of that name.
 inline PopulationSettings population_of(const Scenario& scenario, const std::string& name) {
     for (const PopulationSettings& population : scenario.populations) {
         if (population.name == name) return population;
@@ -63,15 +63,15 @@ inline Scenario scenario_of(const TrackPlan& plan) {
     return scenario;
 }
 
-// What is seen of one vehicle.
-struct Seen {
+// The state of one vehicle.
+struct VehicleView {
     int id;
-    double position_m;  // from the start of its lane
+    double position_m;  // from the start of the lane
     double speed_mps;
     double acceleration_mps2;
     double request_mps2;
-    double gap_m;  // to the vehicle ahead on the lane; for the first one 1e9
-    bool leads;
+    double gap_m;  // net gap to the leader on the lane; 1e9 without leader
+    bool is_platoon_leader;
 };
 
 class Track {
@@ -85,14 +85,14 @@ public:
     const Model& model() const { return *model_; }
     Simulation& simulation() { return *simulation_; }
     const State& state() const { return simulation_->state(); }
-    // The one that the engine works on.
-    State& editable() { return const_cast<State&>(simulation_->state()); }
+    // Returns the state that the engine works on, for changes by a test.
+    State& mutable_state() { return const_cast<State&>(simulation_->state()); }
     double step_s() const { return model_->step_s; }
     double time_s() const { return simulation_->time_s(); }
 
-    // Puts a vehicle behind the last one of a lane. Returns its id.
+    // Inserts a vehicle behind the last vehicle of a lane. Returns its id.
     int place(int lane, double position_m, double speed_mps, int policy = 0, int type = 0) {
-        State& state = editable();
+        State& state = mutable_state();
         const int slot = append_slot(state, lane);
         VehicleArrays& v = state.vehicles;
         const std::size_t i = at(slot);
@@ -118,25 +118,25 @@ public:
         return v.id[i];
     }
 
-    // A platoon of `followers` behind a vehicle at `front_m`, all in equilibrium.
+    // Inserts a vehicle at `front_m` and `followers` vehicles behind it, all in equilibrium.
     void place_platoon(int lane, double front_m, double speed_mps, int followers) {
         const double gap_m = equilibrium_gap_m(model_->policies[0].settings, speed_mps);
         for (int k = 0; k <= followers; ++k) {
             place(lane, front_m - k * (model_->vehicles[0].length_m + gap_m), speed_mps);
-            if (k > 0) follows(lane, k);
+            if (k > 0) make_follower(lane, k);
         }
     }
 
-    // A lane's k-th vehicle is no leader of a platoon (any more).
-    void follows(int lane, int k) { editable().vehicles.is_platoon_leader[slot(lane, k)] = 0.0; }
+    // Marks the k-th vehicle of a lane as a follower within a platoon.
+    void make_follower(int lane, int k) { mutable_state().vehicles.is_platoon_leader[slot(lane, k)] = 0.0; }
 
-    // Slot of a lane's k-th vehicle from the front.
+    // Returns the slot of the k-th vehicle of a lane, counted from the front.
     std::size_t slot(int lane, int k) const { return at(state().blocks[at(lane)].first + k); }
 
-    // Drives a vehicle by hand: what it is at the beginning of the next step, and what it tells the one behind.
+    // Prescribes a vehicle's state at the beginning of the next step and the request that it sends to its follower.
     void drive(int lane, int k, double position_m, double speed_mps, double acceleration_mps2, double request_mps2,
                double lag_s) {
-        VehicleArrays& v = editable().vehicles;
+        VehicleArrays& v = mutable_state().vehicles;
         const std::size_t i = slot(lane, k);
         v.position_m[i] = position_m;
         v.speed_mps[i] = speed_mps;
@@ -149,7 +149,7 @@ public:
 
     int count(int lane) const { return state().blocks[at(lane)].count; }
 
-    Seen seen(int lane, int k) const {
+    VehicleView vehicle(int lane, int k) const {
         const VehicleArrays& v = state().vehicles;
         const std::size_t i = slot(lane, k);
         const double gap_m = k == 0 ? 1e9 : v.position_m[i - 1] - v.length_m[i - 1] - v.position_m[i];
@@ -164,10 +164,10 @@ public:
 
     void step() {
         simulation_->step();
-        // What a vehicle driven by hand asks for is what it tells, not what its driver would have asked for.
-        for (const Driven& driven : driven_) {
-            const std::size_t told = state().v2v.now + slot(driven.lane, driven.k);
-            editable().vehicles.v2v_request_mps2[told] = static_cast<float>(driven.request_mps2);
+        // The message to the follower must carry the prescribed request, not the request of the driver model.
+        for (const PrescribedRequest& driven : driven_) {
+            const std::size_t message_slot = state().v2v.now + slot(driven.lane, driven.k);
+            mutable_state().vehicles.v2v_request_mps2[message_slot] = static_cast<float>(driven.request_mps2);
         }
         driven_.clear();
         expect_invariants();
@@ -178,7 +178,7 @@ public:
         while (state().tick < end) step();
     }
 
-    // Stops at the first failure: ASSERT in the caller by testing::Test::HasFatalFailure is not needed.
+    // Checks the invariants. Returns at the first failure.
     void expect_invariants() const {
         const State& s = state();
         std::int64_t present = 0;
@@ -187,7 +187,7 @@ public:
             ASSERT_GE(block.first, block.begin);
             ASSERT_LE(block.past_last(), block.end);
             if (!model_->graph.approaches.empty()) continue;
-            // Ids are given in the order of entering: where nobody changes lanes they rise from front to back.
+            // Ids rise in the order of insertion. Without lane changes they rise from front to rear on each lane.
             for (int k = block.first + 1; k < block.past_last(); ++k) {
                 ASSERT_LT(s.vehicles.id[at(k - 1)], s.vehicles.id[at(k)]) << "order changed at " << time_s() << " s";
             }
@@ -199,16 +199,16 @@ public:
     }
 
 private:
-    struct Driven {
+    struct PrescribedRequest {
         int lane, k;
         double request_mps2;
     };
-    std::vector<Driven> driven_;  // in this step
+    std::vector<PrescribedRequest> driven_;  // vehicles with a prescribed state in this step
     std::unique_ptr<Model> model_;
     std::unique_ptr<Simulation> simulation_;
 };
 
-// Every shipped policy with every shipped vehicle.
+// A combination of a shipped policy and a shipped vehicle.
 struct Pairing {
     std::string policy;
     std::string vehicle;
@@ -226,7 +226,7 @@ inline void PrintTo(const Pairing& pairing, std::ostream* out) {
     *out << pairing.policy << " with " << pairing.vehicle;
 }
 
-// Names of cases, as ctest lists them.
+// Returns the parameter as a valid test name.
 inline std::string as_name(const testing::TestParamInfo<std::string>& info) {
     std::string text = info.param;
     for (char& c : text) c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';

@@ -1,4 +1,4 @@
-// The store keeps what was put, for its own sweep and program only.
+// The store keeps finished runs. Only its own sweep and program can use it.
 #include "sweeps/run_store.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 
 StoreIdentity identity() { return {"green", "00ff", "stopline 0.1, program 1", 5, "", "{}\n"}; }
 
-std::map<std::size_t, std::string> all_of(const RunStore& store) {
+std::map<std::size_t, std::string> runs_in(const RunStore& store) {
     std::map<std::size_t, std::string> runs;
     store.for_each_run([&](std::size_t point, const std::string& result) { runs[point] = result; });
     return runs;
@@ -36,13 +36,13 @@ TEST_F(RunStoreTest, KeepsRuns) {
         store.put(3, "a=1\n");
         store.put(0, std::string("b=\xc3\xa4 ' \n"));
     }
-    const RunStore again = RunStore::open_or_make(file_, identity());
-    EXPECT_EQ(again.done(), (std::vector<bool>{true, false, false, true, false}));
-    EXPECT_EQ(all_of(again), (std::map<std::size_t, std::string>{{0, "b=\xc3\xa4 ' \n"}, {3, "a=1\n"}}));
-    EXPECT_EQ(again.identity().provenance, "{}\n");
+    const RunStore reopened = RunStore::open_or_make(file_, identity());
+    EXPECT_EQ(reopened.done(), (std::vector<bool>{true, false, false, true, false}));
+    EXPECT_EQ(runs_in(reopened), (std::map<std::size_t, std::string>{{0, "b=\xc3\xa4 ' \n"}, {3, "a=1\n"}}));
+    EXPECT_EQ(reopened.identity().provenance, "{}\n");
 }
 
-TEST_F(RunStoreTest, IsNotUsedForAnythingElse) {
+TEST_F(RunStoreTest, BelongsToOneSweepProgramAndShard) {
     static_cast<void>(RunStore::open_or_make(file_, identity()));
     StoreIdentity other = identity();
     other.sweep = "0100";
@@ -63,13 +63,13 @@ TEST_F(RunStoreTest, IsNotUsedForAnythingElse) {
     EXPECT_EQ(open_error(identity()), "");
 }
 
-TEST_F(RunStoreTest, IsForOneProgramAtATime) {
+TEST_F(RunStoreTest, IsLockedWhileAProgramHasItOpen) {
     const RunStore store = RunStore::open_or_make(file_, identity());
     EXPECT_TRUE(contains(open_error(identity()), "another program has this store open"));
     EXPECT_TRUE(contains(input_error_of([&] { static_cast<void>(RunStore::open(file_)); }), "another program"));
 }
 
-TEST_F(RunStoreTest, RefusesFilesThatAreNone) {
+TEST_F(RunStoreTest, RefusesOtherFiles) {
     EXPECT_TRUE(contains(input_error_of([&] { static_cast<void>(RunStore::open(file_)); }), "no such file"));
     folder_.write("green.sqlite", std::string(5000, 'x'));
     EXPECT_TRUE(contains(open_error(identity()), "not a store"));
@@ -84,27 +84,28 @@ TEST_F(RunStoreTest, RefusesFilesThatAreNone) {
     EXPECT_TRUE(contains(open_error(identity()), file_.string()));
 }
 
-TEST_F(RunStoreTest, AnEmptyFileIsANewStore) {
+TEST_F(RunStoreTest, AcceptsAnEmptyFileAsANewStore) {
     folder_.write("green.sqlite", "");
-    EXPECT_EQ(open_error(identity()), "") << "what a program leaves that is killed before its first transaction";
+    EXPECT_EQ(open_error(identity()), "")
+        << "a program that is killed before its first transaction leaves an empty file";
 }
 
-TEST_F(RunStoreTest, PutAllIsAllOrNothing) {
+TEST_F(RunStoreTest, TransactionStoresAllRunsOrNone) {
     {
         RunStore store = RunStore::open_or_make(file_, identity());
         EXPECT_THROW(store.put_in_one_transaction([&] {
             store.put(1, "x=1\n");
-            throw std::runtime_error("half way");
+            throw std::runtime_error("failure within the transaction");
         }),
                      std::runtime_error);
     }
     RunStore store = RunStore::open(file_);
-    EXPECT_TRUE(all_of(store).empty());
+    EXPECT_TRUE(runs_in(store).empty());
     store.put_in_one_transaction([&] {
         store.put(1, "x=1\n");
         store.put(2, "x=2\n");
     });
-    EXPECT_EQ(all_of(store).size(), 2U);
+    EXPECT_EQ(runs_in(store).size(), 2U);
     EXPECT_TRUE(contains(input_error_of([&] { store.put(1, "x=3\n"); }), "UNIQUE")) << "a run is never replaced";
 }
 

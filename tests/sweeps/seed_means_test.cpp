@@ -1,4 +1,4 @@
-// Means and differences over seeds against numbers worked out by hand.
+// Compares means and differences over seeds with values calculated by hand.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,17 +23,17 @@ double number(const CsvTable& table, std::size_t row, const char* column) {
     return std::stod(table.rows[row][table.column(column)]);
 }
 
-TEST(SeedMeans, AreStudentsIntervalsAndPairedDifferences) {
+TEST(SeedMeans, HaveStudentIntervalsAndPairedDifferences) {
     const CsvTable results = parse_csv(kTable, "table");
     ASSERT_TRUE(has_seeds(results));
     const CsvTable means = parse_csv(seed_means_csv(results, "population"), "means");
-    ASSERT_EQ(means.rows.size(), 4u);  // one number a combination; the words and the updates are no metrics
+    ASSERT_EQ(means.rows.size(), 4u);  // one metric per combination; texts and updates are no metrics
     constexpr double kT = 4.302653;    // t(0.975, 2)
     EXPECT_EQ(means.rows[0][means.column("metric")], "throughput_veh_h");
     EXPECT_NEAR(number(means, 0, "mean"), 104.0, 1e-9);
     EXPECT_NEAR(number(means, 0, "ci95_high"), 104.0 + kT * 4.0 / std::sqrt(3.0), 1e-3);
     EXPECT_EQ(means.rows[0][means.column("difference")], "");
-    // B - A is 11, 10, 9: its interval is far narrower than those of A and B.
+    // The differences B - A are 11, 10 and 9. Their interval is far narrower than those of A and B.
     EXPECT_NEAR(number(means, 1, "difference"), 10.0, 1e-9);
     EXPECT_NEAR(number(means, 1, "difference_ci95_low"), 10.0 - kT * 1.0 / std::sqrt(3.0), 1e-3);
     EXPECT_NEAR(number(means, 1, "difference_ci95_high"), 10.0 + kT * 1.0 / std::sqrt(3.0), 1e-3);
@@ -46,7 +46,7 @@ TEST(SeedMeans, NeedSeveralSeeds) {
     EXPECT_FALSE(has_seeds(parse_csv("point,x\n0,5\n", "table")));
 }
 
-TEST(SeedMeans, TakeTheAxisOfPopulationsByWhatItIs) {
+TEST(SeedMeans, AcceptAnyNameOfThePopulationAxis) {
     const CsvTable results = parse_csv("point,p,seed,x\n0,A,1,5\n1,A,2,7\n2,B,1,6\n3,B,2,9\n", "table");
     ASSERT_TRUE(has_seeds(results));
     const CsvTable means = parse_csv(seed_means_csv(results, "p"), "means");

@@ -1,12 +1,12 @@
-// A sweep of runs that take a few milliseconds: two green times, two vehicles, three populations, two seeds.
+// A sweep whose runs take a few milliseconds: two green times, two vehicles, three populations, two seeds.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "sweeps/sweep.h"
-#include "scenario/sweep_file/load_sweep.h"
 #include "scenario/scenario_text.h"
+#include "scenario/sweep_file/load_sweep.h"
+#include "sweeps/sweep.h"
 
 namespace stopline {
 
@@ -30,7 +30,7 @@ axes:
 repetitions: 2
 )";
 
-// The two files in a folder of their own, and the sweep loaded from there.
+// Writes the scenario and the sweep file into a temporary folder and loads the sweep from there.
 class ShortSweep {
 public:
     explicit ShortSweep(const std::string& text = kShortSweep) {
@@ -43,6 +43,7 @@ public:
         options.threads = threads;
         return Sweep(load_sweep(file), options);
     }
+    // Returns the error message of loading the sweep; empty: no error.
     std::string error(const std::vector<std::string>& overrides = {}) const {
         return input_error_of([&] { static_cast<void>(load(overrides)); });
     }

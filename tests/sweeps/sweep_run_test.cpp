@@ -1,4 +1,4 @@
-// Running, continuing and joining sweeps: the same table whatever happens on the way.
+// Sweeps give the same table when they run at once, continue after an interruption, or are joined from shards.
 #include "sweeps/sweep_run.h"
 
 #include <gtest/gtest.h>
@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "base/io/csv.h"
-#include "runs/interrupted.h"
 #include "base/io/output.h"
+#include "runs/interrupted.h"
 #include "sweeps/short_sweep.h"
 #include "sweeps/sweep_merge.h"
 #include "sweeps/sweep_results.h"
@@ -15,7 +15,7 @@
 namespace stopline {
 namespace {
 
-// Runs of the sweeps in these tests take no time.
+// Returns made-up metrics without a simulation.
 std::vector<RunMetric> quick_run(const Scenario& scenario, std::size_t population,
                                  const std::function<bool()>& keep_going) {
     if (!keep_going()) return {};
@@ -59,7 +59,7 @@ protected:
     Sweep sweep_ = files_.load();
 };
 
-TEST_F(SweepRunTest, TableHasARowARunInTheOrderOfPoints) {
+TEST_F(SweepRunTest, TableHasOneRowPerRunInTheOrderOfPoints) {
     const CsvTable table = parse_csv(whole_csv(), "table");
     ASSERT_EQ(table.rows.size(), sweep_.points());
     EXPECT_EQ(table.columns, (std::vector<std::string>{"point", "green_s", "vehicle", "population", "seed",
@@ -72,13 +72,13 @@ TEST_F(SweepRunTest, TableHasARowARunInTheOrderOfPoints) {
     }
 }
 
-TEST_F(SweepRunTest, RealRunsAreTheSameOnAnyNumberOfThreads) {
-    RunStore one = store("one.sqlite");
-    RunStore three = store("three.sqlite");
-    EXPECT_EQ(run(one, 1, {}, run_metrics).runs, sweep_.points());
-    const SweepSession session = run(three, 3, {}, run_metrics);
-    const SweepTable table = sweep_results(three);
-    EXPECT_EQ(sweep_results(one).csv, table.csv);
+TEST_F(SweepRunTest, SimulationsGiveTheSameTableOnAnyNumberOfThreads) {
+    RunStore one_thread = store("one.sqlite");
+    RunStore three_threads = store("three.sqlite");
+    EXPECT_EQ(run(one_thread, 1, {}, run_metrics).runs, sweep_.points());
+    const SweepSession session = run(three_threads, 3, {}, run_metrics);
+    const SweepTable table = sweep_results(three_threads);
+    EXPECT_EQ(sweep_results(one_thread).csv, table.csv);
     EXPECT_EQ(session.updates, table.totals.updates);
     EXPECT_GT(session.updates, 0);
     EXPECT_EQ(table.totals.runs_with_violations, 0U);
@@ -88,21 +88,21 @@ TEST_F(SweepRunTest, RealRunsAreTheSameOnAnyNumberOfThreads) {
     EXPECT_GT(std::stoi(rows.rows[0][rows.column("passed_2_veh")]), 3);
 }
 
-TEST_F(SweepRunTest, ContinuesWhereItWasStopped) {
+TEST_F(SweepRunTest, ContinuesAfterAnInterruption) {
     const std::string whole = whole_csv();
     RunStore part = store("part.sqlite");
     int calls = 0;
     const auto until_fifth = [&](double) { return ++calls < 5; };
     EXPECT_THROW(run_points(sweep_, missing_points(sweep_, {}, part), part, {1, until_fifth, quick_run}), Interrupted);
-    const std::size_t left = missing_points(sweep_, {}, part).size();
-    EXPECT_GT(left, 0U);
-    EXPECT_LT(left, sweep_.points());
-    EXPECT_EQ(run(part).runs, left);
+    const std::size_t remaining = missing_points(sweep_, {}, part).size();
+    EXPECT_GT(remaining, 0U);
+    EXPECT_LT(remaining, sweep_.points());
+    EXPECT_EQ(run(part).runs, remaining);
     EXPECT_EQ(sweep_results(part).csv, whole);
     EXPECT_EQ(run(part).runs, 0U);
 }
 
-TEST_F(SweepRunTest, AFailingRunCostsOnlyItself) {
+TEST_F(SweepRunTest, FailingRunsDoNotStopTheOthers) {
     RunStore part = store("part.sqlite");
     const SweepSession session = run(part, 2, {}, failing_run);
     ASSERT_EQ(session.failures.size(), 4U);
@@ -113,7 +113,7 @@ TEST_F(SweepRunTest, AFailingRunCostsOnlyItself) {
     EXPECT_EQ(sweep_results(part).csv, whole_csv());
 }
 
-TEST_F(SweepRunTest, AChangedScenarioEndsTheWork) {
+TEST_F(SweepRunTest, ChangedScenarioStopsTheSweep) {
     RunStore part = store("part.sqlite");
     files_.folder.write("short.yaml", std::string(kShortSweepScenario) + "step: 20 ms\n");
     EXPECT_TRUE(contains(input_error_of([&] { run(part, 2); }), "has changed"));
@@ -133,10 +133,10 @@ TEST_F(SweepRunTest, ShardsJoinToTheSameTable) {
     EXPECT_EQ(read_file(path("sweep.csv")), whole);
     EXPECT_EQ(read_file(path("sweep.provenance.json")), "{}\n");
     EXPECT_TRUE(missing_points(sweep_, {}, RunStore::open(path("sweep.sqlite"))).empty());
-    EXPECT_TRUE(contains(merge_error({"shard1", "shard2", "shard3"}), "there is a store"));
+    EXPECT_TRUE(contains(merge_error({"shard1", "shard2", "shard3"}), "the store exists already"));
 }
 
-TEST_F(SweepRunTest, StoresOfOtherSweepsAreNotJoined) {
+TEST_F(SweepRunTest, StoresOfDifferentSweepsAreNotJoined) {
     static_cast<void>(store("own"));
     StoreIdentity other = identity();
     other.sweep = "0";
@@ -148,11 +148,11 @@ TEST_F(SweepRunTest, StoresOfOtherSweepsAreNotJoined) {
     EXPECT_TRUE(contains(merge_error({"own", "built"}), "different builds"));
 }
 
-TEST(SweepResults, AnAxisMayNotHaveTheNameOfAResult) {
+TEST(SweepResults, AxesMustNotHaveTheNameOfAMetric) {
     const ShortSweep files("scenario: short.yaml\naxes:\n- {name: measured, path: demand.vehicles, values: [8]}\n");
     const Sweep sweep = files.load();
     EXPECT_TRUE(
-        contains(input_error_of([&] { result_text(sweep, 0, {count_metric("measured", "", 1)}); }), "rename it"));
+        contains(input_error_of([&] { result_text(sweep, 0, {count_metric("measured", "", 1)}); }), "rename the axis"));
     EXPECT_EQ(count_in("a=1\nupdates=-12\nb=\n", "updates"), -12);
     EXPECT_EQ(count_in("a=1\nb=\n", "b"), 0);
 }
@@ -166,7 +166,7 @@ SweepTotals totals_with(RunFunction function) {
     return sweep_results(store).totals;
 }
 
-TEST(SweepTotals, CountDeadlocksWhereTheyAreLookedFor) {
+TEST(SweepTotals, CountDeadlocksOnlyForSingleIntersections) {
     const SweepTotals light = totals_with(quick_run);
     EXPECT_FALSE(light.deadlocks.has_value());
     EXPECT_FALSE(light.gridlocks.has_value());
@@ -204,7 +204,7 @@ TEST(SweepResults, ReadStoresOfTheLastRelease) {
     EXPECT_TRUE(contains(table.warnings[0], "'moved_on' is now called 'teleported'"));
 }
 
-TEST(SweepProvenance, HoldsAxesParametersAndNoPath) {
+TEST(SweepProvenance, ContainsAxesAndParametersButNoPath) {
     const ShortSweep files;
     const std::string json = sweep_provenance(files.load(), "stopline-sweep sweep.yaml");
     EXPECT_TRUE(contains(json, "\"signal.green\""));

@@ -1,4 +1,5 @@
-// Points: every combination once, in an order that follows from the file; what cannot be run is refused before anything runs.
+// Points of a sweep: every combination of values once, in the order of the file. Invalid sweeps are refused before any
+// run.
 #include "sweeps/sweep.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +15,7 @@ using Cells = std::vector<std::string>;
 
 std::string error_of_sweep(const std::string& rest) { return ShortSweep("scenario: short.yaml\n" + rest).error(); }
 
-TEST(Sweep, HasEveryCombinationOnceTheLastAxisFastest) {
+TEST(Sweep, HasEveryCombinationOnceWithTheLastAxisFastest) {
     const Sweep sweep = ShortSweep().load();
     ASSERT_EQ(sweep.points(), 2U * 2U * 3U * 2U);
     EXPECT_EQ(sweep.combinations(), 4U);
@@ -32,7 +33,7 @@ TEST(Sweep, HasEveryCombinationOnceTheLastAxisFastest) {
     EXPECT_EQ(sweep.describe(2), "green = 15 s, vehicle = petrol_eu4_72kw, population = MIX, seed = 1");
 }
 
-TEST(Sweep, ScenariosOfPointsAreThoseOfTheirCells) {
+TEST(Sweep, PointsUseTheScenariosOfTheirCells) {
     const ShortSweep files;
     const Sweep sweep = files.load();
     for (std::size_t point = 0; point < sweep.points(); ++point) {
@@ -43,7 +44,7 @@ TEST(Sweep, ScenariosOfPointsAreThoseOfTheirCells) {
     }
 }
 
-TEST(Sweep, PopulationsCanBeAnAxisAtAnyPlace) {
+TEST(Sweep, PopulationsCanBeAnAxisAtAnyPosition) {
     const ShortSweep files(R"(
 scenario: short.yaml
 axes:
@@ -82,7 +83,7 @@ axes:
     EXPECT_EQ(scenario.demand.entry_speed_mps, scenario.network.approach.speed_limit_mps);
 }
 
-TEST(Sweep, ShowsAllFieldsThatAreSetTogetherWhereTheFirstDoesNotTellThemApart) {
+TEST(Sweep, ShowsAllFieldsOfAnAxisIfTheFirstIsAmbiguous) {
     const Sweep sweep = ShortSweep(R"(
 scenario: short.yaml
 axes:
@@ -100,7 +101,7 @@ axes:
     EXPECT_EQ(titles.at({"population", "MIX"}), "population MIX");
 }
 
-TEST(Sweep, RefusesAnAxisWithTheNameOfAResult) {
+TEST(Sweep, RefusesAnAxisWithTheNameOfAResultColumn) {
     const std::string error = error_of_sweep(
         "axes:\n- {name: queue_emptied, path: signal.green, values: [15 s, 20 s]}\n"
         "- {name: passed_3_veh, path: vehicle, values: [petrol_eu4_72kw]}\n");
@@ -116,11 +117,11 @@ TEST(Sweep, RefusesAnAxisWithTheNameOfAResult) {
                          "another column 'a_s'"));
 }
 
-TEST(Sweep, KeyFollowsEverythingThatResultsDependOn) {
+TEST(Sweep, KeyCoversEverythingThatAffectsResults) {
     ShortSweep files;
     const std::string key = files.load().key();
     EXPECT_EQ(key, files.load({}, 2).key());
-    EXPECT_EQ(key, ShortSweep().load().key()) << "the folder is no part of it";
+    EXPECT_EQ(key, ShortSweep().load().key()) << "the key must not depend on the folder";
     EXPECT_NE(key, files.load({"seed=2"}).key());
     EXPECT_NE(key, files.load({"signal.yellow=4 s"}).key());
     std::string text = kShortSweep;
@@ -130,14 +131,14 @@ TEST(Sweep, KeyFollowsEverythingThatResultsDependOn) {
     EXPECT_NE(key, files.load().key());
 }
 
-TEST(Sweep, NoticesThatItsScenarioChangesWhileItRuns) {
+TEST(Sweep, DetectsAChangeOfItsScenario) {
     const ShortSweep files;
     const Sweep sweep = files.load();
     files.folder.write("short.yaml", std::string(kShortSweepScenario) + "step: 20 ms\n");
     EXPECT_TRUE(contains(input_error_of([&] { static_cast<void>(sweep.scenario(0)); }), "has changed"));
 }
 
-TEST(Sweep, NamesTheCombinationThatCannotBeUsed) {
+TEST(Sweep, NamesTheInvalidCombination) {
     const std::string error = error_of_sweep(
         "axes:\n- {name: green, path: signal.green, values: [15 s, 5 s]}\n"
         "- {name: mass, path: vehicle.mass, values: [1 t, 2 t]}\n");
@@ -145,7 +146,7 @@ TEST(Sweep, NamesTheCombinationThatCannotBeUsed) {
     EXPECT_TRUE(contains(error, "measure.green[1]"));
 }
 
-TEST(Sweep, RefusesWhatCannotBeRun) {
+TEST(Sweep, RefusesInvalidAxes) {
     EXPECT_TRUE(contains(error_of_sweep("axes:\n- {name: p, populations: [CDG, CTG]}\n"), "no population 'CTG'"));
     EXPECT_TRUE(contains(error_of_sweep("axes:\n- {name: g, path: signal.green, values: [60 s, 1 min]}\n"),
                          "sweep.yaml:3:48: field 'axes[g].values[1]': '1 min' is the same value as '60 s'"));
@@ -160,16 +161,17 @@ TEST(Sweep, RefusesWhatCannotBeRun) {
     EXPECT_TRUE(contains(ShortSweep("scenario: none.yaml\n").error(), "none.yaml: no such file"));
 }
 
-TEST(Sweep, RefusesTooManyRunsBeforeItExpandsThem) {
-    struct Of100 {
+TEST(Sweep, RefusesTooManyRunsBeforeLoadingThem) {
+    struct HundredValues {
         const char* path;
         const char* unit;
         int from;
     };
     std::string axes = "axes:\n";
-    for (const Of100& axis : {Of100{"driver.cacc.v2v_delay", "ms", 100}, Of100{"driver.cacc.radar_delay", "ms", 100},
-                              Of100{"network.approach.length", "m", 500}, Of100{"vehicle.mass", "kg", 1000},
-                              Of100{"network.approach.exit_length", "m", 500}, Of100{"demand.vehicles", "", 1}}) {
+    for (const HundredValues& axis :
+         {HundredValues{"driver.cacc.v2v_delay", "ms", 100}, HundredValues{"driver.cacc.radar_delay", "ms", 100},
+          HundredValues{"network.approach.length", "m", 500}, HundredValues{"vehicle.mass", "kg", 1000},
+          HundredValues{"network.approach.exit_length", "m", 500}, HundredValues{"demand.vehicles", "", 1}}) {
         axes += std::string("- {name: ") + axis.path + ", path: " + axis.path + ", values: [";
         for (int i = 0; i < 100; ++i) {
             axes += (i == 0 ? "" : ", ") + std::to_string(axis.from + i) + " " + axis.unit;
@@ -199,7 +201,7 @@ TEST(Shard, DividesThePointsEvenly) {
     }
 }
 
-TEST(Shard, GivesEachShardAllValuesOfAnAxisOfItsSize) {
+TEST(Shard, CoversAllValuesOfAnAxisWithAsManyValuesAsShards) {
     std::set<std::size_t> values;
     for (std::size_t point = 0; point < 24; ++point) {
         if (Shard{2, 3}.has(point)) values.insert(point % 3);
@@ -207,7 +209,7 @@ TEST(Shard, GivesEachShardAllValuesOfAnAxisOfItsSize) {
     EXPECT_EQ(values.size(), 3U);
 }
 
-TEST(Shard, RefusesWhatIsNone) {
+TEST(Shard, RefusesInvalidTexts) {
     EXPECT_EQ(parse_shard("2/8").index, 2U);
     EXPECT_EQ(parse_shard("8/8").count, 8U);
     for (const char* text :

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Checks pages: valid HTML5, and nothing that they would load from elsewhere.
+"""Checks that pages are valid HTML5 and load nothing from other places.
 
     check_html.py FILE...
 
-Parses each with html5lib in its strict mode (Debian package python3-html5lib), then looks at what no parser does: each id once, links
-within the page and to files beside it lead somewhere, each picture has an alternative text and lies inside the page. Ends with 77,
-skipped, where html5lib is missing.
+Parses each page with html5lib in strict mode (Debian package python3-html5lib). Further checks: ids are unique, links
+within the page and to files beside it exist, and each picture is embedded and has an alternative text. Exit codes: 0
+all pages are valid, 1 a page has problems, 77 html5lib is not installed.
 """
 
 import sys
@@ -20,11 +20,12 @@ except ImportError:
 
 
 def problems_of(path):
+    """Returns the problems of a page as messages."""
     text = path.read_text(encoding="utf-8")
     try:
         page = html5lib.HTMLParser(strict=True, namespaceHTMLElements=False).parse(text)
     except html5lib.html5parser.ParseError as error:
-        return [f"not valid: {error}"]
+        return [f"the HTML is not valid: {error}"]
     problems = []
     if page.get("lang") is None:
         problems.append("<html> has no lang")
@@ -37,24 +38,24 @@ def problems_of(path):
             if target[1:] not in ids:
                 problems.append(f"no element has the id {target[1:]}")
         elif target is not None and (":" in target or not (path.parent / unquote(target)).is_file()):
-            problems.append(f"leads nowhere, or to another machine: {target}")
+            problems.append(f"the link leads to a missing file or to another host: {target}")
         if element.tag == "img" and not element.get("alt"):
             problems.append("a picture has no alternative text")
         source = element.get("src")
         if source is not None and not source.startswith("data:"):
-            problems.append(f"loads {source}")
+            problems.append(f"the page loads {source}")
     if page.find(".//head/title") is None or page.find(".//h1") is None:
-        problems.append("no title or no heading")
+        problems.append("the page has no title or no heading")
     return problems
 
 
 def main():
-    bad = 0
+    problem_count = 0
     for name in sys.argv[1:]:
         for problem in problems_of(Path(name)):
             print(f"{name}: {problem}")
-            bad += 1
-    return 1 if bad else 0
+            problem_count += 1
+    return 1 if problem_count else 0
 
 
 if __name__ == "__main__":

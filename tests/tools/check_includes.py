@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
-"""Checks that includes go one way between the rooms of core/, and that folders and files stay small.
+"""Checks that includes between the rooms of core/ go one way only, and that folders and files stay small.
 
     check_includes.py [PROJECT]
 
-Reads every #include "..." of core/ and apps/ under PROJECT (default: the project of this script). A room is a folder of
-core/, or an inner folder of core/sim. The check fails if
+Reads every #include "..." of core/ and apps/ in PROJECT (default: the project of this script). A room is a folder of
+core/, or a folder of core/sim. The check fails if
 
   - a room includes a room that is not in its list below, or a file that does not exist,
   - a heavy library is included outside the files that may use it, or in a header of the project,
   - a folder has more than MAX_FILES files, or a file more than MAX_LINES lines,
   - a CMakeLists.txt of core/ links a library of the project that no include of the folder needs,
-  - the rooms include each other in a circle.
+  - the includes between rooms form a cycle.
 """
 
 import re
@@ -19,8 +19,8 @@ from pathlib import Path
 
 SIM_BELOW = ["base", "network", "signals", "demand", "vehicle", "driver", "spacing_laws"]
 
-# The rooms that each room may include besides itself. `measure` sees events and the network, never a vehicle or a driver,
-# so that measures cannot depend on the fidelity. `vehicle` and `driver` do not know each other.
+# The rooms that each room may include besides itself. `measure` may use events and the network, but not vehicles or
+# drivers, so metrics cannot depend on the fidelity. `vehicle` and `driver` must not include each other.
 ALLOWED = {
     "base": [],
     "network": ["base"],
@@ -31,7 +31,7 @@ ALLOWED = {
     "demand": ["base", "network"],
     "sumo_import": ["base", "network", "demand", "signals"],
     "sim/state": SIM_BELOW,
-    "sim/perception": SIM_BELOW + ["sim/state"],
+    "sim/perception": SIM_BELOW + ["sim/state", "sim/performance"],
     "sim/performance": SIM_BELOW + ["sim/state"],
     "sim/full_dynamics": SIM_BELOW + ["sim/state", "sim/perception", "sim/performance"],
     "sim/mesoscale": SIM_BELOW + ["sim/state", "sim/perception", "sim/performance"],
@@ -61,7 +61,7 @@ HEAVY = {
     "fmt/ranges.h": r".*\.cpp",
     "Eigen/": r".*\.cpp",
     "boost/": r".*\.cpp",
-    "pugixml": r"core/sumo_import/.*\.cpp",
+    "pugixml": r"core/sumo_import/.*",
 }
 MAX_LINES = 450
 MAX_FILES = 25
@@ -75,7 +75,7 @@ def sources(folder):
 
 
 def includes(path):
-    """(line number, '<' or '"', included path) of each include of a file."""
+    """Yields (line number, '<' or '"', included path) for each include of a file."""
     for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
         match = INCLUDE.match(line)
         if match:
@@ -83,12 +83,12 @@ def includes(path):
 
 
 def room_of(path):
-    """The room of a path below core/: 'scenario' or 'sim/state'."""
+    """Returns the room of a path in core/, for example 'scenario' or 'sim/state'."""
     parts = path.split("/")
     return "/".join(parts[:2]) if parts[0] == "sim" else parts[0]
 
 
-def allows(room, included):
+def may_include(room, included):
     target = room_of(included)
     return any(
         entry in (target, included) or (entry.endswith("/*") and target.startswith(entry[:-1]))
@@ -105,10 +105,10 @@ def check_core_file(path, project, problems):
         place = f"{where}:{number}"
         if "/" in included and included.split("/")[0] in TOP_FOLDERS:
             if quote == "<":
-                problems.append(f'{place}: write "{included}", as for every file of the project')
+                problems.append(f'{place}: write "{included}" with quotes, as for every file of the project')
             elif not (project / "core" / included).is_file():
                 problems.append(f"{place}: there is no core/{included}")
-            if not allows(room, included):
+            if not may_include(room, included):
                 problems.append(f"{place}: {room} must not include {included}; it may include {', '.join([room, *ALLOWED[room]])}")
         elif quote == '"' and included != "version_text.h":
             problems.append(f'{place}: "{included}" does not begin with a folder of core/ ({", ".join(sorted(TOP_FOLDERS))})')
@@ -120,11 +120,11 @@ def check_heavy(files, project, problems):
         for number, _, included in includes(path):
             for library, users in HEAVY.items():
                 if included.startswith(library) and not re.fullmatch(users, name):
-                    problems.append(f"{name}:{number}: <{included}> is slow to compile and belongs into {users} only")
+                    problems.append(f"{name}:{number}: <{included}> is slow to compile; only {users} may include it")
 
 
 def check_links(project, problems):
-    """Each library of the project that a folder links is included by the folder."""
+    """Reports libraries of the project that a folder links but does not include."""
     for folder in sorted(TOP_FOLDERS):
         cmake = project / "core" / folder / "CMakeLists.txt"
         if not cmake.is_file():
@@ -135,8 +135,8 @@ def check_links(project, problems):
                 problems.append(f"core/{folder}/CMakeLists.txt: links stopline_{linked}, but no file of the folder includes it")
 
 
-def check_circles(project, problems):
-    """Includes between rooms form no circle."""
+def check_cycles(project, problems):
+    """Reports a cycle of includes between rooms."""
     edges = {}
     for path in sources(project / "core"):
         room = room_of(str(path.relative_to(project / "core")))
@@ -149,7 +149,7 @@ def check_circles(project, problems):
         if state.get(room) == "done":
             return
         if room in trail:
-            problems.append("rooms include each other in a circle: " + " -> ".join(trail[trail.index(room):] + [room]))
+            problems.append("the includes between rooms form a cycle: " + " -> ".join(trail[trail.index(room):] + [room]))
             return
         for target in sorted(edges.get(room, ())):
             visit(target, trail + [room])
@@ -163,11 +163,11 @@ def check_sizes(project, files, problems):
     for path in files:
         lines = len(path.read_text(encoding="utf-8").splitlines())
         if lines > MAX_LINES:
-            problems.append(f"{path.relative_to(project)}: {lines} lines; split it, {MAX_LINES} is the limit")
+            problems.append(f"{path.relative_to(project)}: {lines} lines; split the file, the limit is {MAX_LINES}")
     for folder in sorted({path.parent for path in files}):
         count = sum(1 for path in folder.iterdir() if path.is_file() and path.name != "CMakeLists.txt")
         if count > MAX_FILES:
-            problems.append(f"{folder.relative_to(project)}: {count} files at one level; {MAX_FILES} is the limit")
+            problems.append(f"{folder.relative_to(project)}: {count} files in one folder; the limit is {MAX_FILES}")
 
 
 def main():
@@ -182,7 +182,7 @@ def main():
         check_core_file(path, project, problems)
     check_heavy(core_files + app_files, project, problems)
     check_links(project, problems)
-    check_circles(project, problems)
+    check_cycles(project, problems)
     check_sizes(project, core_files + app_files, problems)
 
     for problem in problems:

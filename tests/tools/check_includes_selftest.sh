@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# Shows that check_includes.py finds what it should: breaks a small tree in each way, one at a time.
+# Tests check_includes.py: breaks a small project in one way after another and expects the matching message.
 set -euo pipefail
 check="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)/check_includes.py"
 tree="$(mktemp -d)"
 trap 'rm -rf "$tree"' EXIT
 
+# lay_out: writes a small project without problems
 lay_out() {
     rm -rf "${tree:?}"/*
     mkdir -p "$tree"/core/{base,network,vehicle,driver,sim/state,sim/step,sim/junction,sim/insertion,measure,record,runs} "$tree/apps"
@@ -19,15 +20,15 @@ lay_out() {
     printf '#include "driver/policy.h"\n#include "vehicle/engine.h"\n' >"$tree/apps/stopline_run.cpp"
 }
 
-# expect_problem TEXT: the tree as it is now must fail, with TEXT in the output.
+# expect_problem TEXT: expects the check to fail with TEXT in its output, then restores the project
 expect_problem() {
     local output
     if output="$(python3 "$check" "$tree")"; then
-        echo "not found: $1" >&2
+        echo "the check did not fail; expected: $1" >&2
         exit 1
     fi
     if ! grep --quiet --fixed-strings -- "$1" <<<"$output"; then
-        printf 'failed without saying "%s":\n%s\n' "$1" "$output" >&2
+        printf 'the output does not contain "%s":\n%s\n' "$1" "$output" >&2
         exit 1
     fi
     lay_out
@@ -67,11 +68,11 @@ expect_problem "core/runs/provenance.h:1: <nlohmann/json.hpp> is slow to compile
 printf 'stopline_library(measure PUBLIC stopline_network stopline_sim stopline_driver)\n' >"$tree/core/measure/CMakeLists.txt"
 expect_problem "links stopline_driver, but no file of the folder includes it"
 printf '#include "sim/step/simulation.h"\n' >"$tree/core/sim/junction/stop_lines.h"
-expect_problem "rooms include each other in a circle"
+expect_problem "the includes between rooms form a cycle"
 mkdir "$tree/core/extra" && touch "$tree/core/extra/thing.h"
 expect_problem "core/extra is not a known room"
 printf '\n%.0s' {1..451} >"$tree/apps/stopline_run.cpp"
 expect_problem "451 lines"
 touch "$tree/core/driver/law_"{01..26}.h
-expect_problem "27 files at one level"
-echo "all broken trees were found"
+expect_problem "27 files in one folder"
+echo "all problems were found"

@@ -5,4 +5,4 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 mapfile -t files < <(find apps tests .ci -type f \( -name '*.sh' -o -path .ci/run \) | sort)
 shellcheck --shell=bash "${files[@]}"
-echo "${#files[@]} scripts"
+echo "${#files[@]} scripts are clean"

@@ -1,28 +1,30 @@
 # shellcheck shell=bash
-# What every script of tests/cli begins with: `. "$STOPLINE_SOURCE/tests/tools/cli.sh"`. It ends with `exit $((failures > 0))`.
+# Helpers for the scripts of tests/cli. Each script begins with `. "$STOPLINE_SOURCE/tests/tools/cli.sh"` and ends with
+# `exit $((failures > 0))`. $work is a temporary folder.
 
 failures=0
 work=$(mktemp -d)
 trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
 
+# fail MESSAGE...: prints a failure and counts it
 fail() {
     echo "FAILED: $*"
     failures=$((failures + 1))
 }
 
-# columns_of TABLE: the columns of the table in scenarios/COLUMNS.md, one a line
+# columns_of TABLE: prints the columns that scenarios/COLUMNS.md describes for the table, one per line
 columns_of() {
     # shellcheck disable=SC2016 # the backticks are those of the page
     awk -v title="## $1" '/^## / { inside = $0 == title; next } inside && /^\| `/ { split($0, parts, "`"); print parts[2] }' \
         "$STOPLINE_SOURCE/scenarios/COLUMNS.md"
 }
 
-# expect_documented FILE TABLE [AXIS...]: every column of the CSV file is in the table in scenarios/COLUMNS.md, or an AXIS.
-# CAPITALS in a documented name stand for any word.
+# expect_documented FILE TABLE [AXIS...]: expects scenarios/COLUMNS.md to describe every column of the CSV file, except
+# each AXIS. CAPITALS in a described name stand for any word.
 expect_documented() {
     local file=$1 table=$2 column
     shift 2
-    [ -s "$file" ] || { fail "$table: no file $file"; return; }
+    [ -s "$file" ] || { fail "$table: $file is missing or empty"; return; }
     columns_of "$table" | sed -E 's/[.]/[.]/g; s/[A-Z]+/[A-Za-z0-9_.-]+/g' >"$work/documented"
     [ -s "$work/documented" ] || { fail "scenarios/COLUMNS.md has no table $table"; return; }
     printf '%s\n' "$@" >>"$work/documented"
@@ -32,7 +34,8 @@ expect_documented() {
     done <"$work/columns"
 }
 
-# wait_for COMMAND...: until it succeeds, for up to two minutes, so that no test depends on how fast the machine is
+# wait_for COMMAND...: repeats COMMAND until it succeeds, for up to two minutes, so that tests do not depend on the
+# machine's speed
 wait_for() {
     local end=$((SECONDS + 120))
     until "$@" 2>/dev/null; do
@@ -41,8 +44,8 @@ wait_for() {
     done
 }
 
-# on_terminal PATTERN COMMAND...: runs it on a terminal of its own, and interrupts it once the terminal shows PATTERN. What
-# was shown is in $work/typescript.
+# on_terminal PATTERN COMMAND...: runs COMMAND on a new terminal and interrupts it as soon as the terminal shows
+# PATTERN. The terminal's text is in $work/typescript.
 on_terminal() {
     local pattern=$1 words
     shift
@@ -50,7 +53,7 @@ on_terminal() {
     rm -f "$work/typescript" "$work/pid"
     script --quiet --flush --command "echo \$\$ >'$work/pid'; exec $words" "$work/typescript" </dev/null >/dev/null &
     local terminal=$!
-    wait_for grep -qE "$pattern" "$work/typescript" || fail "the terminal never shows '$pattern'"
+    wait_for grep -qE "$pattern" "$work/typescript" || fail "the terminal does not show '$pattern'"
     kill -INT "$(cat "$work/pid")" 2>/dev/null
     wait $terminal
 }

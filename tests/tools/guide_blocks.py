@@ -3,20 +3,19 @@
 
     guide_blocks.py GUIDE.md FOLDER BLOCKS
 
-A comment on the line before a fenced block marks it:
+A comment on the line before a fenced block marks it. Both can be indented alike, in a list:
     <!-- file: NAME -->          the block is written to FOLDER/NAME
     <!-- tested -->              the shell block is a test
     <!-- tested: PROGRAM -->     the same, only where PROGRAM is installed
-Each shell block is written to a file in BLOCKS. Its file, its line in the guide and PROGRAM are printed, one block a line. A marked
-file exists from the start of the guide on, as readers save all files before they run commands on them.
+Each shell block is written to a file in BLOCKS. The output has one line for each: this file, the line in the guide, and PROGRAM.
 """
 
 import re
 import sys
 from pathlib import Path
 
-MARK = re.compile(r"<!-- (file|tested)(?:: (\S+))? -->\s*$")
-FENCE = re.compile(r"```(\w*)\s*$")
+MARK = re.compile(r"( *)<!-- (file|tested)(?:: (\S+))? -->\s*$")
+FENCE = re.compile(r" *```(\w*)\s*$")
 
 
 def blocks_of(text, guide):
@@ -26,19 +25,19 @@ def blocks_of(text, guide):
     while number < len(lines):
         mark = MARK.match(lines[number])
         if mark is None:
-            if re.match(r"<!-- *(file|tested)", lines[number]):
-                sys.exit(f"{guide}:{number + 1}: unknown form of mark: {lines[number]}")
+            if re.match(r"\s*<!--\s*(file|tested)", lines[number]):
+                sys.exit(f"{guide}:{number + 1}: the mark '{lines[number].strip()}' has an unknown form")
             number += 1
             continue
-        kind, argument = mark.groups()
+        indent, kind, argument = mark.groups()
         fence = FENCE.match(lines[number + 1]) if number + 1 < len(lines) else None
         if fence is None or (kind == "file" and not argument) or (kind == "tested" and fence[1] != "sh"):
-            sys.exit(f"{guide}:{number + 1}: no fenced block of the right kind follows the mark, or the file has no name")
+            sys.exit(f"{guide}:{number + 1}: a block ```sh must follow 'tested', and 'file' needs a name and a block")
         try:
-            end = lines.index("```", number + 2)
+            end = lines.index(indent + "```", number + 2)
         except ValueError:
             sys.exit(f"{guide}:{number + 2}: the block has no end")
-        yield kind, argument, number + 2, "\n".join(lines[number + 2:end]) + "\n"
+        yield kind, argument, number + 2, "".join(line.removeprefix(indent) + "\n" for line in lines[number + 2:end])
         number = end + 1
 
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Puts a clang-tidy three times as fast as Debian 12's (which spends its time in system headers) into build/clang-tidy, from the
-# Python package index. When that can't be done, says so and goes on: lint.py then uses Debian's.
+# Installs clang-tidy from the Python package index into build/clang-tidy. It is three times as fast as the version of
+# Debian 12, which spends its time in system headers. If the installation fails, it prints a message, and lint.py uses
+# Debian's version.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
@@ -15,5 +16,5 @@ trap 'rm -f "$log"' EXIT
 if ! { python3 -m venv "$folder" && "$folder/bin/pip" install --quiet --disable-pip-version-check "clang-tidy==$version" &&
     "$folder/bin/clang-tidy" --version; } >"$log" 2>&1; then
     rm -rf "$folder"
-    echo "clang-tidy $version can't be installed (the lint check takes three times as long with Debian's): $(tail -n 1 "$log")" >&2
+    echo "clang-tidy $version cannot be installed; the lint check uses Debian's version and takes three times as long: $(tail -n 1 "$log")" >&2
 fi

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Runs clang-tidy over the sources of core/ and apps/, one process a core, and remembers what was clean.
+"""Runs clang-tidy on the sources of core/ and apps/, in parallel, and caches which files are clean.
 
     lint.py BUILD [FILE...]
 
-clang-tidy is that of install_clang_tidy.sh if it is there, or else Debian's, which takes three times as long.
+BUILD is a configured build directory with compile_commands.json. With FILEs, only these are checked. A clean file is
+checked again only after a change of its text, of a project header that it includes, of its compile command, of
+.clang-tidy or of clang-tidy.
 
-BUILD is a configured build directory (its compile_commands.json tells how a file is compiled). With FILEs only those are
-looked at. A file that was clean is looked at again only when something that can change the verdict has changed: its text, a
-project header that it includes directly or not, its compile command, .clang-tidy, or clang-tidy itself.
+Uses the clang-tidy of install_clang_tidy.sh if it is installed, otherwise Debian's, which takes three times as long.
 """
 
 import concurrent.futures
@@ -20,7 +20,7 @@ import sys
 from pathlib import Path
 
 PROJECT = Path(__file__).resolve().parents[2]
-OWN_CLANG_TIDY = PROJECT / "build/clang-tidy/bin/clang-tidy"  # of tests/tools/install_clang_tidy.sh
+OWN_CLANG_TIDY = PROJECT / "build/clang-tidy/bin/clang-tidy"  # installed by tests/tools/install_clang_tidy.sh
 CLANG_TIDY = str(OWN_CLANG_TIDY) if OWN_CLANG_TIDY.is_file() else "clang-tidy-14"
 GCC_HEADERS = Path(subprocess.run(["g++", "-print-file-name=include/omp.h"], capture_output=True, text=True, check=True).stdout).parent
 FOLDERS = ["core", "apps"]
@@ -28,23 +28,23 @@ INCLUDE_ROOTS = [PROJECT / "core", PROJECT / "apps"]
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
 
 
-def text_with_headers(path, seen):
-    """The text of a file and of all project headers it reaches, each once."""
-    if path in seen:
+def text_with_headers(path, visited):
+    """Returns the text of a file and of all project headers that it includes, directly or indirectly."""
+    if path in visited:
         return b""
-    seen.add(path)
+    visited.add(path)
     text = path.read_bytes()
     for included in INCLUDE.findall(text.decode("utf-8", "replace")):
         for root in [path.parent, *INCLUDE_ROOTS]:
             header = (root / included).resolve()
             if header.is_file():
-                text += text_with_headers(header, seen)
+                text += text_with_headers(header, visited)
                 break
     return text
 
 
 def key(entry, tool):
-    """What the verdict on a file depends on, as a hash."""
+    """Returns a hash of everything that can change the result for a file."""
     digest = hashlib.sha256(tool)
     digest.update((entry.get("command") or " ".join(entry["arguments"])).encode())
     digest.update(text_with_headers(Path(entry["file"]), set()))
@@ -58,9 +58,9 @@ def lint(entry, build):
         f"--config-file={PROJECT / '.clang-tidy'}",
         f"-p={build}",
         f"--header-filter=^{re.escape(str(PROJECT))}/({'|'.join(FOLDERS)})/",
-        "--extra-arg=-Wno-unknown-warning-option",  # the commands are gcc's
+        "--extra-arg=-Wno-unknown-warning-option",  # the compile commands are for gcc
         f"--extra-arg=-idirafter{GCC_HEADERS}",  # for omp.h
-        "--extra-arg=-Wno-deprecated-declarations",  # in the standard library's own code; gcc warns of those in ours
+        "--extra-arg=-Wno-deprecated-declarations",  # for code of the standard library; gcc gives these warnings for our code
         entry["file"],
     ]
     result = subprocess.run(command, capture_output=True, text=True, check=False)
@@ -81,7 +81,7 @@ def main():
         sources = [Path(name).resolve() for name in sys.argv[2:]]
     missing = [path for path in sources if path not in entries]
     for path in missing:
-        print(f"{path}: no target builds it (or it is newer than the last build)")
+        print(f"{path}: no target builds this file, or it is newer than the last build")
 
     version = subprocess.run([CLANG_TIDY, "--version"], capture_output=True, check=True).stdout
     tool = version + (PROJECT / ".clang-tidy").read_bytes() + Path(__file__).read_bytes()
@@ -100,7 +100,7 @@ def main():
             else:
                 failed += 1
                 print(output.strip(), flush=True)
-    print(f"{len(sources)} files, {len(sources) - len(to_do) - len(missing)} known to be clean, {failed} with findings")
+    print(f"{len(sources)} files, {len(sources) - len(to_do) - len(missing)} clean from earlier runs, {failed} with findings")
     return 1 if failed or missing else 0
 
 

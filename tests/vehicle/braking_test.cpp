@@ -60,7 +60,8 @@ TEST_P(Braking, NeverExceedsFriction) {
             const double tyres_N = -s.acceleration_mps2 * car.mass_kg() - car.resistance_N(s.speed_mps);
             max_friction_use = std::max(max_friction_use, tyres_N / car.friction_N());
         }
-        EXPECT_LT(max_friction_use, 1.02) << friction;  // an electric motor's torque changes faster than the brake force
+        EXPECT_LT(max_friction_use, 1.02)
+            << friction;  // 1 plus a margin for motor torque, which responds faster than brakes
         EXPECT_GT(max_friction_use, 0.9) << friction;
     }
 }
@@ -84,7 +85,7 @@ TEST_P(Braking, HoldsStandstillUphillAndDownhill) {
     const Car car(GetParam());
     for (const double gradient : {-0.12, -0.06, 0.06, 0.12}) {
         CarState s = cruising(car, 0.0);
-        s.brake_N = car.grade_N(0.12);  // brake force left from the stop
+        s.brake_N = car.grade_N(0.12);  // brake force after the stop
         for (int k = 0; k < 6000; ++k) {
             s = advance(car, s, -0.3, car.grade_N(gradient), kStep_s);
             ASSERT_EQ(s.speed_mps, 0.0) << "gradient " << gradient << " after " << k * kStep_s << " s";

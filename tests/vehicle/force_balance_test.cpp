@@ -11,8 +11,8 @@ using namespace testing_support;
 class ForceBalance : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(EveryVehicle, ForceBalance, testing::ValuesIn(car_names()), as_test_name);
 
-// Returns the vehicle with a single gear and an engine without torque and drag. It coasts at any request, so the low-level
-// controller cannot hide a wrong resistance.
+// Returns the vehicle with a single gear and an engine without torque and drag. It coasts at any request, so the
+// low-level controller cannot hide a wrong resistance.
 Car without_engine(const std::string& name, std::size_t gear) {
     PowertrainSettings s = load_vehicle(name);
     for (double& torque : s.full_load.y) torque = 0.0;
@@ -75,8 +75,8 @@ TEST_P(ForceBalance, FullLoadAccelerationFollowsTheTorqueCurve) {
     }
 }
 
-// With one gear and no clutch, the motor's work becomes kinetic energy and losses in driveline, resistances and brake. This
-// holds for any sequence of requests.
+// With one gear and no clutch, the motor's work becomes kinetic energy and losses in driveline, resistances and brake.
+// This holds for any sequence of requests.
 TEST(ElectricCar, ConservesEnergy) {
     const Car car("electric_100kw");
     const double efficiency = car.settings.driveline_efficiency;

@@ -31,8 +31,8 @@ TEST_P(Gearbox, NeverHunts) {
                 }
                 if (changes <= 1) continue;
                 ++hunting_cases;
-                EXPECT_GT(hunting_cases, 10) << "speed " << v << ", request " << request << ", gradient " << gradient << ": "
-                                       << changes << " changes in 20 s, now in gear " << s.gear + 1;
+                EXPECT_GT(hunting_cases, 10) << "speed " << v << ", request " << request << ", gradient " << gradient
+                                             << ": " << changes << " changes in 20 s, now in gear " << s.gear + 1;
             }
         }
     }

@@ -25,8 +25,8 @@ CarState settled(const Car& car, double v_mps, double request_mps2, double grade
     return s;
 }
 
-// Returns true if engine and brake can deliver the force in this gear. A slipping clutch transmits only part of the engine's
-// inertia, so the force must be feasible with and without rotating masses.
+// Returns true if engine and brake can deliver the force in this gear. A slipping clutch transmits only part of the
+// engine's inertia, so the force must be feasible with and without rotating masses.
 bool feasible(const Car& car, double v_mps, int gear, double request_mps2, double grade_N) {
     const double resistance_N = car.resistance_N(v_mps) + grade_N;
     for (const double rotating : {1.0, car.rotating(gear)}) {

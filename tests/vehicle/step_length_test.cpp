@@ -24,7 +24,7 @@ double request_at(double t) {
 }
 
 struct Journey {
-    std::vector<double> speed_mps;  // every 0.1 s
+    std::vector<double> speed_mps;  // one value every 0.1 s
     double distance_m = 0.0;
 };
 

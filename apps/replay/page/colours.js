@@ -1,4 +1,4 @@
-// Colours and their labels. Okabe and Ito's palette and cividis (for speeds) suit every kind of colour vision.
+// Colours and their labels. The palettes suit every kind of colour vision: Okabe and Ito, and cividis for speeds.
 'use strict';
 
 const LIGHT_COLOURS = ['#d55e00', '#009e73', '#f0c000'];  // red, green, yellow
@@ -18,8 +18,8 @@ const CAUSES = {
     wrong_lane: ['#009e73', 'wrong lane (waits for a gap)'],
 };
 
-// Returns the colour modes by name. Each has colours, their labels, and a function `of` for the colour index of
-// vehicle k.
+// Returns the ways to colour vehicles, by name. Each has colours, their labels, and a function `of` that returns the
+// index of the colour of vehicle k in a frame.
 function colourModes(head) {
     const classes = SPEED_COLOURS.length;
     return {

@@ -25,7 +25,8 @@ class Bytes {
 
 const unzigzag = (difference) => (difference >>> 1) ^ -(difference & 1);
 
-// The vehicle in a seat. `position` and `speed` are in units of the header, as in the recording.
+// The vehicle in a seat. A seat is a number that a vehicle has while it is in the network. `position` and `speed` are
+// whole multiples of the units in the header of the recording.
 class Vehicle {
     constructor(number, policy, length_m, lane, next) {
         Object.assign(this, {number, policy, length_m, lane, next, previous: -1, cause: 0, waitedFor: -1});
@@ -34,7 +35,7 @@ class Vehicle {
     }
 }
 
-// A frame for drawing. Each array has one entry per vehicle.
+// The state at one recorded time, ready for drawing. Each array has one entry per vehicle.
 class Frame {
     constructor(count) {
         this.number = new Int32Array(count);
@@ -43,14 +44,14 @@ class Frame {
         this.waitedFor = new Int32Array(count);
         this.lane = new Int32Array(count);
         this.next = new Int32Array(count);      // next lane; -1: the vehicle leaves the network
-        this.previous = new Int32Array(count);  // lane before this one; -1: unknown
+        this.previous = new Int32Array(count);  // previous lane; -1: unknown
         this.length_m = new Float32Array(count);
         this.position_m = new Float32Array(count);
         this.speed_mps = new Float32Array(count);
         this.lights = null;
-        this.index = null;  // Map from vehicle number to entry, built on first use
+        this.index = null;  // Map from vehicle number to the index in the arrays, built on first use
     }
-    // Returns the entry of a vehicle, or -1 if it is not in the network.
+    // Returns the index of a vehicle in the arrays, or -1 if the vehicle is not in the network.
     indexOf(number) {
         if (!this.index) {
             this.index = new Map();
@@ -75,7 +76,7 @@ class SectionDecoder {
 
     frame() {
         this.readEvents();
-        this.in.varint();  // skip the counts of entries and exits: the series has them
+        this.in.varint();  // skip the counts of entries and exits, which Recording.series has
         this.in.varint();
         this.readColumns();
         return this.drawableFrame();
@@ -139,7 +140,7 @@ class SectionDecoder {
         }
     }
 
-    // Returns the current state as a Frame. A delay cause counts only while the vehicle is stopped.
+    // Returns the current state as a Frame. Only stopped vehicles have a delay cause there.
     drawableFrame() {
         const present = this.seats.filter((vehicle) => vehicle);
         const frame = new Frame(present.length);
@@ -158,11 +159,12 @@ class SectionDecoder {
     }
 }
 
-// The recording in the page. Sections are unpacked when they are needed, and the last used ones are kept.
+// The recording in the page. A section of up to 128 frames is unpacked when it is needed. The sections used last are
+// kept in memory.
 class Recording {
     constructor(payload) {
         this.payload = payload;
-        this.sections = new Map();  // from section number to the promise of its frames; the last used section is last
+        this.sections = new Map();  // from section number to the promise of its frames, ordered by last use
         this.ready = new Map();     // from section number to its frames, once they are unpacked
         this.onReady = () => {};
         this.onError = () => {};
@@ -171,7 +173,8 @@ class Recording {
     async open() {
         this.head = JSON.parse(new TextDecoder().decode(await this.unpack(this.payload.head)));
         const series = await this.unpack(this.payload.series);
-        // Four numbers per frame: vehicles in the network, then entries, exits and stop-line passages since the start.
+        // Four numbers per frame: vehicles in the network, then entries, exits and passages of stop lines since the
+        // start.
         this.series = new Uint32Array(series.buffer, series.byteOffset, series.byteLength / 4);
         this.frameCount = this.series.length / 4;
         return this;
@@ -207,7 +210,7 @@ class Recording {
         return (section + 1 < starts.length ? starts[section + 1] : this.frameCount) - starts[section];
     }
 
-    // Returns the frame, or null if its section is not unpacked yet. Then it starts to unpack the section.
+    // Returns a frame. If its section is not unpacked yet, starts to unpack the section and returns null.
     frame(number) {
         const section = this.sectionOf(number);
         const frames = this.ready.get(section);

@@ -1,7 +1,7 @@
-// The page: connects the recording, the map, the diagram and the controls. Tests use the global `replay`.
+// Connects the recording, the map, the time-space diagram and the controls of the page. Tests use the global `replay`.
 'use strict';
 
-const FLOW_S = 300;  // averaging time of the flows
+const FLOW_S = 300;  // averaging time of the flows among the counters
 const byId = (id) => document.getElementById(id);
 
 class Replay {
@@ -122,7 +122,8 @@ class Replay {
         if (this.playing) {
             const elapsed_s = this.lastTick_ms === undefined ? 0 : (now_ms - this.lastTick_ms) / 1000;
             this.lastTick_ms = now_ms;
-            const MAX_STEP_S = 0.25;  // limits the jump after the browser was inactive
+            // Longest elapsed time per drawing, which limits the jump after the browser was inactive.
+            const MAX_STEP_S = 0.25;
             if (this.hasFrame) this.time_s += Math.min(elapsed_s, MAX_STEP_S) * this.rate;
             if (this.time_s >= this.last_s) {
                 this.time_s = this.last_s;
@@ -244,7 +245,7 @@ class Replay {
     }
 }
 
-// Applies the address: #t=120&vehicle=35 begins at 120 s with vehicle 35 selected.
+// Applies the end of the page address: #t=120&vehicle=35 starts at 120 s with vehicle 35 selected.
 function goToAddress(replay) {
     const parameters = new URLSearchParams(location.hash.slice(1));
     if (parameters.has('t')) replay.seek(Number(parameters.get('t')));

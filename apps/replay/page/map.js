@@ -1,11 +1,12 @@
-// The canvas with the network: view, drawing and pointer input.
+// The map of the network on a canvas: view, drawing and pointer input.
 'use strict';
 
 class MapView {
     constructor(canvas, network, onPick) {
         Object.assign(this, {canvas, network, onPick});
         this.ctx = canvas.getContext('2d');
-        this.roads = document.createElement('canvas');  // background image, redrawn only when the view changes
+        // Background image; redrawn only if the view or the marked street changes.
+        this.roads = document.createElement('canvas');
         this.pointers = new Map();
         this.fitted = true;
         canvas.addEventListener('wheel', (event) => this.onWheel(event), {passive: false});
@@ -70,7 +71,8 @@ class MapView {
         ctx.setTransform(s, 0, 0, -s, width / 2 - s * this.centre[0], height / 2 + s * this.centre[1]);
     }
 
-    // Draws the state between two frames. `street` is marked on the map. `selected` is the number of a vehicle, or -1.
+    // Draws the state at `share` (0 to 1) of the time between two frames. Marks `street`, and the vehicle with the
+    // number `selected` (-1: none).
     draw(from, to, share, frame_s, mode, street, selected) {
         const {ctx} = this;
         if (this.stale || this.drawnStreet !== street) this.drawRoads(street);
@@ -89,7 +91,7 @@ class MapView {
         ctx.fillRect(0, 0, this.roads.width, this.roads.height);
         this.setTransform(ctx);
         this.network.drawRoads(ctx, this.scale);
-        ctx.strokeStyle = '#8a5a9e';  // the street of the time-space diagram
+        ctx.strokeStyle = '#8a5a9e';  // marks the street of the time-space diagram
         ctx.lineWidth = 1.5 * this.ratio / this.scale;
         ctx.beginPath();
         for (const {lane} of street.pieces) {
@@ -107,12 +109,13 @@ class MapView {
     drawVehicles(from, to, share, frame_s, mode, selected) {
         const {ctx, scale} = this;
         const paths = mode.colours.map(() => new Path2D());
-        const boxes = mode.colours.map(() => []);  // axis-parallel vehicles; fillRect is faster than a path
+        // Rectangles of axis-parallel vehicles; fillRect is faster than a path.
+        const boxes = mode.colours.map(() => []);
         const half_m = Math.max(VEHICLE_WIDTH_M, 2.2 * this.ratio / scale) / 2;
         const [left, top] = this.toWorld(-20, -20);
         const [right, bottom] = this.toWorld(this.canvas.width + 20, this.canvas.height + 20);
         let mark = null;
-        this.drawnVehicles = [];  // x, y, number of each vehicle in view, for picking
+        this.drawnVehicles = [];  // x, y and number of each vehicle in view, for pick()
         interpolate(this.network, from, to, share, frame_s, (k, [fx, fy, rx, ry]) => {
             if (fx < left || fx > right || fy > top || fy < bottom) return;
             const length = Math.hypot(fx - rx, fy - ry) || 1;

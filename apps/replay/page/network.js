@@ -1,21 +1,23 @@
-// The recorded network, the positions of vehicles on it, and its drawing. World coordinates are metres, with y upwards.
+// The lanes of the recorded network, the positions of vehicles on them, and their drawing. World coordinates are in
+// metres, with y upwards.
 'use strict';
 
 const VEHICLE_WIDTH_M = 1.8;
 
 // The centre line of a lane.
 class Shape {
-    // `scale`: metres of the shape per metre of the lane. All distances are in metres of the lane.
+    // `scale` is the length of the shape over the length of the lane. All distances are in metres along the lane.
     constructor(numbers, scale) {
         this.numbers = numbers;
-        this.along_m = [0];  // distance of each point from the start
+        this.along_m = [0];  // distance of each point from the start of the lane
         for (let k = 2; k < numbers.length; k += 2) {
             const step = Math.hypot(numbers[k] - numbers[k - 2], numbers[k + 1] - numbers[k - 1]);
             this.along_m.push(this.along_m[this.along_m.length - 1] + step / scale);
         }
         this.length_m = this.along_m[this.along_m.length - 1];
     }
-    // Writes the point at a distance to out[at] and out[at + 1]. The line continues straight beyond its ends.
+    // Writes x and y of the point at a distance to out[at] and out[at + 1]. Beyond its ends, the centre line continues
+    // straight.
     pointAt(distance_m, out, at) {
         const {numbers, along_m} = this;
         let k = 1;
@@ -40,7 +42,8 @@ class Network {
         for (const lane of this.lanes) this.addLane(lane);
     }
 
-    // Returns the lanes without a predecessor, or all lanes if there are none. Imported networks list no entries.
+    // Returns the lanes outside intersections that have no predecessor, or all lanes outside intersections if each has
+    // one. Imported networks need this, because they list no entries.
     firstLanes() {
         const successors = new Set(this.lanes.flatMap((lane) => lane.next));
         const roadLanes = this.lanes.filter((lane) => lane.origin === undefined);
@@ -95,8 +98,8 @@ class Network {
         }
     }
 
-    // Returns the distance from placement k of one frame to placement j of a later frame. Returns -1 unless the vehicle
-    // stays on its lane or moves to the next one.
+    // Returns the distance along the lanes from placement k of one frame to placement j of a later frame. Returns -1
+    // unless the vehicle stays on its lane or moves to the next one.
     distance_m(a, k, b, j) {
         if (a.lane[k] === b.lane[j]) return b.front_m[j] - a.front_m[k];
         const lane = this.lanes[a.lane[k]];
@@ -129,7 +132,7 @@ class Network {
             ctx.stroke(path);
         }
         if (scale < 1.5) return;
-        ctx.strokeStyle = '#b4bdc6';  // centre lines, so that the connections can be told apart
+        ctx.strokeStyle = '#b4bdc6';  // centre lines, which make overlapping connections distinguishable
         ctx.lineWidth = 1 / scale;
         ctx.setLineDash([1.5, 3]);
         ctx.stroke(this.connections);
@@ -156,10 +159,10 @@ class Network {
     }
 }
 
-// Calls visit(k, points) for each vehicle k of frame `from`, with x and y of front and rear at a time between two
-// frames. `share` is the elapsed part of the frame, 0 to 1. Vehicles move along their lanes and match the speeds of
-// both frames. A vehicle that changes to an adjacent lane, or passes a whole lane within the frame, moves along a
-// straight line.
+// Calls visit(k, points) for each vehicle k of the frame `from`. `points` holds x and y of its front and its rear at a
+// time between two frames. `share` is the elapsed share of this interval, 0 to 1. Vehicles move along their lanes and
+// match the speeds of both frames. A vehicle that changes to an adjacent lane, or passes a whole lane between the
+// frames, moves along a straight line.
 function interpolate(network, from, to, share, frame_s, visit) {
     const a = network.placements(from);
     const b = to ? network.placements(to) : a;
@@ -184,7 +187,8 @@ function interpolate(network, from, to, share, frame_s, visit) {
         }
         const done = distance_m < 0.01 ? 0 :
             hermite(share, from.speed_mps[k] * frame_s / distance_m, to.speed_mps[j] * frame_s / distance_m);
-        const on_next_m = b.front_m[j] - (1 - done) * distance_m;  // distance along the lane of the later frame
+        // Distance of the front along its lane of the later frame.
+        const on_next_m = b.front_m[j] - (1 - done) * distance_m;
         if (straight) {
             for (let i = 0; i < 4; ++i) p[i] += done * (q[i] - p[i]);
         } else if (a.lane[k] === b.lane[j] || on_next_m < 0) {
@@ -196,7 +200,8 @@ function interpolate(network, from, to, share, frame_s, visit) {
     }
 }
 
-// Returns the cubic Hermite curve from 0 to 1 at u, with the given slopes at both ends.
+// Returns the value at u of the cubic Hermite curve from 0 to 1. The slopes at both ends are limited to 3, so that the
+// curve never falls.
 function hermite(u, slope0, slope1) {
     const [m0, m1] = [Math.min(slope0, 3), Math.min(slope1, 3)];
     return u * (1 - u) * (1 - u) * m0 + u * u * (3 - 2 * u) + u * u * (u - 1) * m1;

@@ -1,4 +1,5 @@
-// The time-space diagram: vehicles of one street over the last seconds, with red and yellow at the stop lines.
+// The time-space diagram of one street: trajectories from 100 s before to 20 s after the current time, with red and
+// yellow at the stop lines.
 'use strict';
 
 const PAST_S = 100;
@@ -59,12 +60,13 @@ class TimeSpace {
         this.drawAxes(now_s);
     }
 
-    // Returns the drawn section, or null if its frames are not unpacked yet.
+    // Returns a canvas with the trajectories of a section. If its frames are not unpacked yet, starts to unpack them
+    // and returns null.
     strip(section) {
         if (this.strips.has(section)) return this.strips.get(section);
         const {recording} = this;
         const frames = recording.ready.get(section);
-        const previousFrames = recording.ready.get(section - 1);  // its last frame is the start of the trajectories
+        const previousFrames = recording.ready.get(section - 1);  // the trajectories start at the last of these frames
         if (!frames || (section > 0 && !previousFrames)) {
             recording.load(section);
             recording.load(section - 1);
@@ -85,7 +87,7 @@ class TimeSpace {
         const ctx = strip.getContext('2d');
         const y = (distance_m) => this.plot.height * (1 - distance_m / this.street.length_m);
         const paths = this.mode.colours.map(() => new Path2D());
-        let previous_m = new Map();  // from vehicle to its distance along the street in the frame before
+        let previous_m = new Map();  // from vehicle to its distance along the street in the previous frame
         frames.forEach((frame, n) => {
             const now_m = new Map();
             for (let k = 0; frame && k < frame.number.length; ++k) {

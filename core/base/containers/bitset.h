@@ -1,4 +1,5 @@
-// A set of numbers below a fixed size, with one bit per number. Visiting is fast if the set is sparse.
+// A set of whole numbers below a fixed limit, stored with one bit per number. Visiting all members is fast if the set
+// has few members.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 
 namespace stopline {
 
-// Numbers that share one word of a Bitset.
+// Several numbers that share one 64-bit word of a Bitset: the index of the word, and one set bit per number.
 struct BitsetMask {
     std::size_t word = 0;
     std::uint64_t bits = 0;
@@ -27,16 +28,16 @@ public:
         return std::any_of(masks.begin(), masks.end(),
                            [this](const BitsetMask& mask) { return (words_[mask.word] & mask.bits) != 0; });
     }
-    // Removes all numbers in the word of `number`.
+    // Removes `number` and all other numbers that share its 64-bit word.
     void clear_word_of(std::size_t number) { words_[number / kWordBits] = 0; }
     const std::uint64_t* word_of(std::size_t number) const { return &words_[number / kWordBits]; }
 
-    // Visits the numbers in ascending order. A number stays in the set if visit(number) returns true.
+    // Calls visit(number) for all members in ascending order. Removes each number for which `visit` returns false.
     template <class Visit>
     void retain_if(Visit visit) {
         retain_if(0, words_.size(), visit);
     }
-    // Visits the numbers in words [first_word, end_word) only.
+    // Does the same for the members in the 64-bit words first_word .. end_word - 1 only.
     template <class Visit>
     void retain_if(std::size_t first_word, std::size_t end_word, Visit visit) {
         for (std::size_t k = first_word; k < end_word; ++k) {

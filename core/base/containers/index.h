@@ -1,4 +1,4 @@
-// The conversion of an index to the type that containers take.
+// Conversion of an integer to std::size_t, the index type of the standard containers.
 #pragma once
 
 #include <concepts>
@@ -6,7 +6,7 @@
 
 namespace stopline {
 
-// Returns `index`, which must not be negative, as std::size_t.
+// Returns `index` as std::size_t. `index` must not be negative.
 constexpr std::size_t at(std::integral auto index) { return static_cast<std::size_t>(index); }
 
 }  // namespace stopline

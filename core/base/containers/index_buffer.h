@@ -1,4 +1,5 @@
-// A list of indices that is filled anew in each step. Memory is reserved beforehand, so that appending needs no branch.
+// A list of indices that every simulation step empties and fills again. reset() reserves enough memory, so the
+// functions that append an index need no check of the capacity.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +19,7 @@ public:
         indices_[size_] = index;
         size_ += condition ? 1U : 0U;
     }
-    // Appends `first`, `first` + 1 and so on, below `end`.
+    // Appends the indices from `first` to `end` - 1.
     void push_range(int first, int end) {
         for (std::size_t k = 0; k < kUnconditional; ++k) indices_[size_ + k] = first + static_cast<int>(k);
         for (int k = first + static_cast<int>(kUnconditional); k < end; ++k) {
@@ -34,7 +35,8 @@ public:
     const int* end() const { return indices_.data() + size_; }
 
 private:
-    static constexpr std::size_t kUnconditional = 4;  // elements that push_range() always writes
+    // push_range() writes this many elements even if its range is shorter.
+    static constexpr std::size_t kUnconditional = 4;
 
     std::vector<int> indices_ = std::vector<int>(kUnconditional);
     std::size_t size_ = 0;

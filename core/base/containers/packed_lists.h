@@ -10,7 +10,7 @@ namespace stopline {
 template <class T>
 class PackedLists {
 public:
-    // Appends a list; its number is the count of lists before it.
+    // Appends a list. Lists are numbered from 0 in the order in which they are added.
     template <class List>
     void add(const List& list) {
         elements_.insert(elements_.end(), list.begin(), list.end());
@@ -21,12 +21,13 @@ public:
         return {elements_.data() + first, offsets_[static_cast<std::size_t>(list) + 1] - first};
     }
 
-    // Calls visit(begin, end) for the memory of one list: its offsets and its elements.
+    // Calls visit(begin, end) for the two memory ranges that belong to a list: its offsets, then its elements.
     template <class Visit>
     void visit_memory(int list, Visit visit) const {
         visit_offsets(list, visit);
         visit(of(list).data(), of(list).data() + of(list).size());
     }
+    // Calls visit(begin, end) for the memory range of the list's offsets only.
     template <class Visit>
     void visit_offsets(int list, Visit visit) const {
         visit(offsets_.data() + list, offsets_.data() + list + 2);

@@ -1,4 +1,4 @@
-// Base64 text (RFC 4648, section 4).
+// Encoding of bytes as base64 text (RFC 4648, section 4).
 #pragma once
 
 #include <string>

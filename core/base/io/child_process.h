@@ -1,4 +1,4 @@
-// Runs another program and waits for its end.
+// Runs another program and waits until it ends.
 #pragma once
 
 #include <filesystem>
@@ -15,8 +15,8 @@ struct ProcessResult {
     bool failed() const { return start_error != 0 || wait_status != 0; }
 };
 
-// Runs `command` in `folder` with empty standard input. The first word is the program, which is searched in PATH.
-// Failures are reported in the result, not thrown.
+// Runs `command` in `folder` with empty standard input. The first word is the name of the program, which is searched in
+// PATH. A failure is reported in the result; no exception is thrown.
 ProcessResult run_process(std::vector<std::string> command, const std::filesystem::path& folder);
 
 }  // namespace stopline

@@ -22,7 +22,8 @@ std::string quoted(const std::string& field) {
     return text + '"';
 }
 
-// Reads records from one text. It reads single characters, so that line breaks within quotes belong to the field.
+// Reads the records of a CSV text. The reader does not split the text into lines first, because a quoted field can
+// contain line breaks.
 class CsvReader {
 public:
     CsvReader(std::string_view text, const std::string& label) : text_(text), label_(label) {}
@@ -37,7 +38,7 @@ public:
             fields.push_back(read_field());
         }
         if (!at_end() && text_[next_] == '\r') ++next_;
-        if (!at_end()) ++next_;  // the line break
+        if (!at_end()) ++next_;  // skips the line break
         ++line_;
         return fields;
     }
@@ -101,7 +102,7 @@ CsvTable parse_csv(std::string_view text, const std::string& label) {
     while (!reader.at_end()) {
         const int line = reader.line();
         std::vector<std::string> fields = reader.read_record();
-        if (fields.size() == 1 && fields.front().empty()) continue;  // an empty line
+        if (fields.size() == 1 && fields.front().empty()) continue;  // skips an empty line
         if (fields.size() != table.columns.size()) {
             throw InputError(fmt::format("{}:{}: the number of fields is {}, but the header has {} columns", label,
                                          line, fields.size(), table.columns.size()));

@@ -1,5 +1,5 @@
-// Comma-separated values as in RFC 4180: a field with a comma, a quote or a line break is quoted. A column name ends
-// with its unit (time_s, speed_mps, improvement_percent). An empty field means "no value".
+// Writing and reading of comma-separated values (RFC 4180). A field that contains a comma, a quote or a line break is
+// quoted. A column name ends with its unit (time_s, speed_mps, improvement_percent). An empty field means "no value".
 #pragma once
 
 #include <optional>
@@ -23,23 +23,24 @@ private:
     std::string text_;
 };
 
-// Returns the number with a fixed count of decimals, with "0.000" in place of "-0.000". NaN gives the empty field.
+// Returns the number as text with the given number of decimals. Negative zero becomes "0.000", and NaN becomes "".
 std::string fixed(double number, int decimals);
 
 struct CsvTable {
-    std::string label;  // name of the file in messages
+    std::string label;  // name of the file, for error messages
     std::vector<std::string> columns;
     std::vector<std::vector<std::string>> rows;
-    std::vector<int> lines;  // [row] number of its first line in the file
+    std::vector<int> lines;  // [row] line of the file in which the row begins, counted from 1
 
-    // Returns the index of a column. Throws InputError with a list of the columns if there is none of that name.
+    // Returns the index of the column `name`. Throws InputError, which lists all columns, if there is no such column.
     std::size_t column(std::string_view name) const;
 };
 
-// Parses a table. Throws InputError with label and line for an unclosed quote or a wrong number of fields.
+// Parses a table whose first line holds the column names. `label` names the file in error messages. Throws InputError
+// if the text is empty, a quote is not closed, or a row has the wrong number of fields.
 CsvTable parse_csv(std::string_view text, const std::string& label);
 
-// Returns the number, or nothing if the text as a whole is not a finite number.
+// Converts the whole text to a number. Returns nothing if it is not a finite number.
 std::optional<double> parse_number(const std::string& text);
 
 }  // namespace stopline

@@ -7,15 +7,15 @@
 
 namespace stopline {
 
-// Creates the folder and its parents, and checks that files can be created in it. Call it before a long run, so that a
-// wrong path is found early. Throws InputError with path and reason.
+// Creates the folder and its parents, and checks that files can be created in the folder. Throws InputError with path
+// and reason if not. Call the function before a long run, so that the user learns early of a wrong path.
 void prepare_folder(const std::filesystem::path& folder);
 
-// Writes the file atomically (see base/io/replaced_file.h). On failure the old content remains, and an InputError with
-// path and reason is thrown. A device or a pipe is written directly.
+// Writes the file atomically (see base/io/replaced_file.h); a device or a pipe is written directly. On failure the old
+// content of the file remains, and the function throws InputError with path and reason.
 void write_file(const std::filesystem::path& file, std::string_view text);
 
-// Returns the text of a file. Throws InputError with path and reason.
+// Returns the text of a file. Throws InputError with path and reason if the file cannot be read.
 std::string read_file(const std::filesystem::path& file);
 
 }  // namespace stopline

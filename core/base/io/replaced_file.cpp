@@ -1,7 +1,7 @@
 #include "base/io/replaced_file.h"
 
 #include <fcntl.h>
-#include <signal.h>  // kill is POSIX
+#include <signal.h>  // declares the POSIX function kill()
 #include <unistd.h>
 
 #include <cerrno>
@@ -26,13 +26,13 @@ constexpr std::string_view kTemporarySuffix = ".part";
     throw InputError(fmt::format("{}: cannot write: {}", path.string(), std::generic_category().message(error)));
 }
 
-// Returns a path in the folder of the target. It contains the process id, because several programs may write the same
-// target at once.
+// Returns the path of the temporary file, in the folder of the target. The name contains the process id, because
+// several programs may write the same target at the same time.
 fs::path temporary_path(const fs::path& target) {
     return target.parent_path() / fmt::format(".{}.{}{}", target.filename().string(), ::getpid(), kTemporarySuffix);
 }
 
-// Returns the process id in the name of a temporary file, or nothing for any other name.
+// Returns the id of the process that wrote the temporary file `name`, or nothing if `name` is no temporary file.
 std::optional<pid_t> writer_of(const std::string& name) {
     if (!name.starts_with('.') || !name.ends_with(kTemporarySuffix)) return std::nullopt;
     const std::string rest = name.substr(0, name.size() - kTemporarySuffix.size());
@@ -86,7 +86,7 @@ void ReplacedFile::commit() {
     temporary_.clear();
 }
 
-// Throws if closing fails, because some file systems report a full disk only then.
+// Closes the file. Throws InputError on failure, because some file systems report a full disk only on closing.
 void ReplacedFile::close() {
     const int result = ::close(descriptor_);
     descriptor_ = -1;

@@ -1,4 +1,4 @@
-// Small branch-free functions for kernels, over double, Single or Batch (see simd.h).
+// Small branch-free functions for kernels. The number type R is double, Single or Batch (see simd.h).
 #pragma once
 
 #include "base/simd/simd_memory.h"
@@ -30,8 +30,8 @@ STOPLINE_INLINE R square(const R& value) {
     return value * value;
 }
 
-// Returns 0 for a value of magnitude below 1e-12. A state that decays would otherwise become subnormal, and arithmetic
-// with subnormal numbers is about ten times slower.
+// Returns 0 if the magnitude of the value is below 1e-12, else the value. A decaying value would otherwise become
+// subnormal, and arithmetic with subnormal numbers is about ten times slower.
 template <class R>
 STOPLINE_INLINE R flush_tiny(const R& value) {
     constexpr double kTiny = 1e-12;
@@ -40,9 +40,9 @@ STOPLINE_INLINE R flush_tiny(const R& value) {
 
 // Returns exp(-x) for x >= 0. The absolute error is below 3e-7; the relative error is below 1e-7 up to x = 2.
 //
-// The method is a Taylor polynomial of degree 5 at x / 16, raised to the 16th power. It is evaluated up to x = 32 only,
-// where exp(-x) is about 1e-14, because the polynomial changes its sign near x = 35. The C library has no exp for
-// vectors that is correctly rounded.
+// The method is a Taylor polynomial of degree 5 for exp(-x / 16), raised to the 16th power. A larger x counts as 32,
+// where exp(-x) is about 1e-14, because the polynomial changes its sign near x = 35. The C library has no correctly
+// rounded exp for vectors.
 template <class R>
 STOPLINE_INLINE R exp_negative(const R& x) {
     const R y = min_of(x, 32.0) * (-1.0 / 16.0);
@@ -51,15 +51,15 @@ STOPLINE_INLINE R exp_negative(const R& x) {
     return square(square(p));
 }
 
-// Returns the share of the remaining difference that a first-order lag with time constant tau covers within dt.
-// This approximates 1 - exp(-dt / tau) by a rational function of second order, with an error of (dt / tau)^3 / 12.
+// Returns the share of the distance to its target that a first-order lag with the time constant `tau` covers within
+// `dt`. The result approximates 1 - exp(-dt / tau) with an error of about (dt / tau)^3 / 12.
 template <class R>
 STOPLINE_INLINE R lag_share(double dt, const R& tau) {
     return dt / (tau + 0.5 * dt);
 }
 
-// Returns the linear interpolation in a table over a uniform grid. `position` counts grid cells from 0. The result is
-// constant outside the grid.
+// Interpolates linearly between the values at the nodes of a uniform grid. `position` is the distance from the first
+// node in grid cells. Outside the grid the result is the value of the first or last node.
 template <class R, class Number, std::size_t kEntries>
 STOPLINE_INLINE R interpolate_on_grid(const std::array<Number, kEntries>& node, const R& position) {
     constexpr double kLast = static_cast<double>(kEntries) - 1.0;

@@ -1,6 +1,6 @@
-// Memory for large arrays on huge pages of 2 MiB. For every lane a step touches a few cache lines in each of some forty
-// arrays. With pages of 4 KiB each of them lies on another page. From a few thousand vehicles on these pages exceed the
-// address cache (TLB) of the processor.
+// Memory for large arrays on huge pages of 2 MiB. For every lane, a simulation step accesses a few cache lines in each
+// of about forty arrays. With the usual pages of 4 KiB, these cache lines all lie on different pages. With several
+// thousand vehicles, there are more such pages than the processor's address cache (TLB) can hold.
 #pragma once
 
 #include <sys/mman.h>
@@ -31,13 +31,13 @@ struct HugePageAllocator {
         if (bytes < kMinHugeBytes) {
             return static_cast<T*>(throw_if_null(std::aligned_alloc(kLineBytes, rounded_up(bytes, kLineBytes))));
         }
-        // Arrays that begin at the same offset in their pages compete for the same cache lines, so each array gets a
-        // different offset. The cache line before the array stores the address that free() needs.
+        // Arrays that begin at the same offset within a page compete for the same cache lines, so consecutive arrays
+        // get different offsets. The cache line before the array stores the address that free() needs.
         static std::atomic<std::size_t> arrays{0};
         const std::size_t offset = kLineBytes * (1 + 17 * (arrays++ % 60));
         const std::size_t memory_bytes = rounded_up(bytes + offset, kPageBytes);
         void* const memory = throw_if_null(std::aligned_alloc(kPageBytes, memory_bytes));
-        // If the kernel refuses huge pages, the memory is slower but usable.
+        // If the operating system refuses huge pages, the memory is slower but usable.
         static_cast<void>(madvise(memory, memory_bytes, MADV_HUGEPAGE));
         char* const array = static_cast<char*>(memory) + offset;
         std::memcpy(array - kLineBytes, &memory, sizeof memory);
@@ -54,7 +54,7 @@ struct HugePageAllocator {
     friend bool operator==(const HugePageAllocator& /*a*/, const HugePageAllocator& /*b*/) { return true; }
 
 private:
-    static constexpr std::size_t kLineBytes = 64;  // cache line
+    static constexpr std::size_t kLineBytes = 64;  // size of a cache line
     static std::size_t rounded_up(std::size_t bytes, std::size_t unit) { return (bytes + unit - 1) / unit * unit; }
     static void* throw_if_null(void* memory) {
         if (memory == nullptr) throw std::bad_alloc();

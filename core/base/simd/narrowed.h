@@ -1,5 +1,5 @@
-// Conversion of parameter structures to single precision. Such a structure is a template over the number type: settings
-// are compiled to S<double>, and kernels read S<float>.
+// Conversion of parameter structures to single precision. Such a structure is a template S over the number type. The
+// parameters are computed in double precision as S<double>, and kernels read S<float>.
 #pragma once
 
 #include <array>

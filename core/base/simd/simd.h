@@ -1,17 +1,20 @@
-// Vectorisation of kernels. The equations of a model are written once, as function templates over a number type R:
+// Vectorisation of kernels, the functions that compute the motion of many vehicles. The equations of a model are
+// written once, as function templates over a number type R:
 //
-//     double       for closed-form results, and to measure the error of single precision,
-//     Single       one vehicle at a time in single precision, the reference for Batch,
-//     Batch        as many vehicles at a time as a vector register holds.
+//     double       one vehicle in double precision: for closed-form results, and to measure the error of Single
+//     Single       one vehicle in single precision: the reference for Batch
+//     Batch        as many vehicles in single precision as a vector register holds
 //
-// Single and Batch give the same bits. Every operation is correctly rounded as in IEEE 754. The compiler neither fuses
-// multiply and add nor reorders (see the flags in the top CMakeLists.txt). The batches are explicit, because compilers
-// silently fail to vectorise loops of this length. Single precision fits twice as many vehicles into a register and
-// needs half the memory. Positions and speeds are stored in double, because they accumulate small increments.
+// Single and Batch give the same results to the bit: every operation is correctly rounded (IEEE 754), and the compiler
+// neither fuses multiplications with additions nor reorders operations (see the flags in the top CMakeLists.txt).
+// Batches are explicit vectors, because compilers silently fail to vectorise loops with so long a body. With single
+// precision, a register holds twice as many vehicles as with double precision, and arrays need half the memory.
+// Positions and speeds are stored in double precision, because they accumulate small increments.
 //
 // Each kernel file is compiled once for each instruction set (see sim/CMakeLists.txt), with a batch as wide as a
-// register. sim/full_dynamics/full_kernels.cpp selects one of the copies at run time. A target attribute on a function
-// would not work: g++ splits vector operations for the target of the file before it reads the attribute.
+// register. sim/full_dynamics/full_kernels.cpp selects one of the copies at run time. A target attribute on the kernel
+// functions would not work: g++ splits vector operations for the instruction set of the file before it reads the
+// attribute.
 #pragma once
 
 #include <array>
@@ -30,23 +33,23 @@
 #define STOPLINE_BATCH_WIDTH 4
 #endif
 
-// Marks the functions that kernels call. They are always inlined, so the linker cannot use a copy that was compiled for
-// one instruction set in code for another.
+// Marks the functions that kernels call. These functions are always inlined. Otherwise the linker could merge copies of
+// a function that were compiled for different instruction sets.
 #define STOPLINE_INLINE inline __attribute__((always_inline))
 #define STOPLINE_INLINE_LAMBDA __attribute__((always_inline))
 
 #if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wpsabi"  // only inlined functions pass batches to each other
+#pragma GCC diagnostic ignored "-Wpsabi"  // harmless: all functions with batches as parameters are inlined
 #endif
 
 namespace stopline {
 
-// Width of the widest batch. Arrays of vehicles are padded to a multiple of it.
+// Number of vehicles in the widest batch. The arrays of vehicle data are padded to a multiple of this number.
 inline constexpr int kSimdWidth = 16;
-// Number of vehicles in a batch of the file that includes this header.
+// Number of vehicles in a batch, for the instruction set of the source file that includes this header.
 static constexpr int kBatchWidth = STOPLINE_BATCH_WIDTH;
 
-// A compiler vector of kWidth numbers. For kWidth = 1 it is the plain number type.
+// The vector type of the compiler (GCC, Clang) with kWidth numbers. For kWidth = 1 it is the plain number type.
 template <class Number, int kWidth>
 struct VectorOf {
     using Type __attribute__((vector_size(kWidth * sizeof(Number)))) = Number;
@@ -116,13 +119,13 @@ STOPLINE_INLINE PackedOf<double, kWidth> packed(const Vector<double, kWidth>& do
     return {doubles, typename PackedOf<double, kWidth>::FromNumbers{}};
 }
 
-// Returns `value` in every element.
+// Returns a number or batch whose elements are all equal to `value`.
 template <class R>
 STOPLINE_INLINE R splat(double value) {
     return R(value);
 }
 
-// Returns, for each element, `yes` where the condition holds and `no` elsewhere.
+// Returns, for each element separately, `yes` if the condition holds, else `no`.
 STOPLINE_INLINE double select(bool condition, double yes, double no) { return condition ? yes : no; }
 template <class Number, int kWidth>
 STOPLINE_INLINE PackedOf<Number, kWidth> select(const MaskOf<Number, kWidth>& condition,
@@ -136,16 +139,16 @@ STOPLINE_INLINE PackedOf<Number, kWidth> select(bool condition, const PackedOf<N
     return condition ? yes : no;
 }
 
-// A flag is a condition as a number, 1 for true and 0 for false. Conditions that are combined or used twice are stored
-// as flags: "and" is the product, "or" the maximum, "not" is 1 - flag.
+// A flag is a condition that is stored as a number, 1 for true and 0 for false. Use flags for conditions that are
+// combined or used twice: "and" is the product, "or" is the maximum, and "not" is 1 - flag.
 #define STOPLINE_FLAG(R, condition) select((condition), splat<R>(1.0), splat<R>(0.0))
 template <class R>
 STOPLINE_INLINE R choose(const R& flag, const R& yes, const R& no) {
     return select(flag > 0.5, yes, no);
 }
 
-// Returns true if the flag of any element is set. Kernels use it to skip work that no vehicle of the batch needs, which
-// cannot change the results.
+// Returns true if the flag of any element is set. Kernels call any() to skip work that no vehicle of the batch needs.
+// Skipping this work does not change the results.
 STOPLINE_INLINE bool any(double flag) { return flag > 0.5; }
 template <int kWidth>
 STOPLINE_INLINE bool any(const Packed<kWidth>& flag) {

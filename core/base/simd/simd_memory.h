@@ -13,7 +13,7 @@ STOPLINE_INLINE Vector<float, 2 * kHalf> join(const Vector<float, kHalf>& low, c
     return __builtin_shufflevector(low, high, kLane...);
 }
 
-// Returns 2 kHalf numbers in single precision. part(k) returns the kHalf numbers from index k on, in double precision.
+// Converts 2 kHalf numbers from double to single precision. part(k) returns the numbers k .. k + kHalf - 1 as a vector.
 template <int kHalf, class Function>
 STOPLINE_INLINE Packed<2 * kHalf> from_doubles(Function part) {
     const auto low = __builtin_convertvector(part(0), Vector<float, kHalf>);
@@ -30,7 +30,7 @@ STOPLINE_INLINE Wide read(const Number* from) {
 
 }  // namespace packed_details
 
-// Reads consecutive numbers from memory and converts them to the precision of R.
+// Reads as many consecutive numbers as R has elements, and converts them to the precision of R.
 template <class R, class Number>
 STOPLINE_INLINE R load(const Number* from) {
     using namespace packed_details;
@@ -49,8 +49,8 @@ STOPLINE_INLINE R load(const Number* from) {
     }
 }
 
-// Returns a - b, subtracted in double precision. Positions on a lane are large numbers with small differences, so
-// single precision would lose digits.
+// Returns a - b for each element. The subtraction is in double precision: positions on a lane are large numbers with
+// small differences, so single precision would lose digits.
 template <class R>
 STOPLINE_INLINE R load_difference(const double* a, const double* b) {
     using namespace packed_details;
@@ -75,13 +75,13 @@ STOPLINE_INLINE R load_difference(double a, const double* b) {
     }
 }
 
-// Writes the numbers to consecutive memory.
+// Writes the elements of `value` to consecutive memory.
 template <int kWidth>
 STOPLINE_INLINE void store(float* to, const Packed<kWidth>& value) {
     std::memcpy(to, &value.v, sizeof value.v);
 }
 
-// Returns the numbers first, first + 1, and so on. They must be below 2^24 to be exact in single precision.
+// Returns a batch with the elements first, first + 1, and so on. They are exact only below 2^24 (single precision).
 template <class R>
 STOPLINE_INLINE R counting_from(int first) {
     Vector<std::int32_t, kWidthOf<R>> numbers{};
@@ -94,9 +94,9 @@ STOPLINE_INLINE R counting_from(int first) {
     }
 }
 
-// Returns table[index] for a table with 8, 16 or 32 entries. The index must be a whole number. Such a table fits into a
-// few registers of AVX2 and AVX-512, so a look-up takes a few permutations. Gather instructions would be slower than
-// single loads on processors with the mitigation against data sampling.
+// Returns table[index] for each element of `index`, which must hold whole numbers. The table has 8, 16 or 32 entries,
+// so it fits into a few registers of AVX2 and AVX-512, and a look-up takes a few permutation instructions. Gather
+// instructions would be slower than single loads on processors with the mitigation against Gather Data Sampling.
 template <std::size_t kEntries>
 STOPLINE_INLINE double look_up(const std::array<double, kEntries>& table, double index) {
     return table[static_cast<std::size_t>(index)];
@@ -110,7 +110,7 @@ STOPLINE_INLINE Packed<kWidth> look_up(const std::array<float, kEntries>& table,
     } else {
         const auto k = __builtin_convertvector(index.v, Vector<std::int32_t, kWidth>);
 #if defined(__AVX2__) && !defined(__clang__)
-        // A permutation of one register uses the index modulo the width; of two registers, modulo twice the width.
+        // A permutation of one register takes indices modulo kWidth. A permutation of two takes them modulo 2 kWidth.
         if constexpr (kWidth == 16 && kEntries == 8) {
             const auto eight = read<Vector<float, 8>>(table.data());
             const auto twice = join<8>(eight, eight, std::make_integer_sequence<int, 16>{});

@@ -20,7 +20,7 @@ namespace {
 std::string legend_text(const std::string& text) { return "'" + text + "'"; }
 
 // Returns the axis label for a result column. The last part of its name is the unit: "travel_time_94m_s" becomes
-// "travel time, zone of 94m [s]".
+// "travel time, zone of 94 m [s]".
 std::string axis_label(std::string column) {
     const std::size_t veh_h = column.find("_veh_h");
     const std::size_t last = veh_h == std::string::npos ? column.rfind('_') : veh_h;
@@ -37,10 +37,10 @@ std::string axis_label(std::string column) {
     return fmt::format("{} [{}]", quantity, unit == "percent" ? "%" : unit);
 }
 
-// More lines cannot be distinguished.
+// Highest number of curves in a figure of counters. A reader cannot distinguish more colours.
 constexpr std::size_t kMaxLines = 8;
 
-// Returns the detectors with the most passages.
+// Returns the kMaxLines detectors with the most passages.
 std::vector<int> busiest_detectors(const PairedTimes& pairs) {
     std::map<int, int> count;
     for (const PassagePair& pair : pairs.pairs) ++count[pair.detector];
@@ -80,7 +80,8 @@ Figure counters(const std::string& name, const std::string& what, const PairedTi
     return figure;
 }
 
-// Draws the shares of pairs by difference, in bins of 0.1 s. The outer bins hold all larger differences.
+// Draws a histogram of the differences between passage times, in bins of 0.1 s. The outer bins hold all larger
+// differences.
 Figure histogram(const std::vector<TimingResult>& results) {
     constexpr int kZeroBin = 20;
     constexpr int kBins = 2 * kZeroBin + 1;

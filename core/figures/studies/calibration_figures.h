@@ -9,13 +9,14 @@
 
 namespace stopline {
 
-// Returns the figures of step I: detector counters of both fidelities over time (Fig. 11) for the median and the worst
-// permutation, a histogram of the differences, and the history of the fit if there is one.
+// Returns the figures of step I of the calibration: detector counters of both fidelities over time (Fig. 11) for the
+// median and the worst permutation, a histogram of the differences between passage times, and the history of the fit if
+// there is one. A permutation is a combination of axis values.
 std::vector<Figure> timing_figures(const std::vector<TimingResult>& results, const std::vector<CalibrationCase>& cases,
                                    const std::vector<FitEvaluation>& history);
 
-// Returns the figures of step II: bands of full dynamics and means of the mesoscale mode for each permutation (Fig.
-// 12).
+// Returns the figures of step II of the calibration, one for each metric: confidence bands of full dynamics and means
+// of the mesoscale mode for all permutations (Fig. 12).
 std::vector<Figure> band_figures(const BandCheck& check);
 
 }  // namespace stopline

@@ -14,9 +14,9 @@ namespace stopline {
 namespace {
 
 constexpr std::size_t kMetrics = kSweepMetrics.size();
-constexpr std::size_t kMaxNamedLines = 12;  // with more lines, the legend lists populations and axis values separately
+constexpr std::size_t kMaxNamedLines = 12;  // largest number of lines that the legend names one by one
 
-// The counts of dashes and points have no common factor, so 88 combinations differ.
+// 8 dashes and 11 points: these numbers have no common factor, so 88 lines have different combinations.
 constexpr std::array<const char*, 8> kDashes{"1",      "(9,4)",          "(2,4)",      "(12,4,2,4)",
                                              "(18,5)", "(12,4,2,4,2,4)", "(5,3,5,10)", "(2,9)"};
 constexpr std::array<int, 11> kPoints{6, 4, 8, 12, 10, 14, 1, 2, 7, 5, 9};
@@ -35,7 +35,7 @@ CurveStyle curve_style(const SweepPlanes& all, std::size_t population, std::size
     return {style.colour, kDashes[line % kDashes.size()], kPoints[line % kPoints.size()]};
 }
 
-// Returns tick positions at the axis values. A value is skipped if its number would touch the previous one.
+// Returns tick positions at the axis values. A tick is left out if its number would touch the previous number.
 std::string ticks_of(const std::vector<double>& values) {
     constexpr double kPanel_px = 235.0;  // width of the narrowest panel
     constexpr double kDigit_px = 8.0;
@@ -60,7 +60,7 @@ std::string cells_of(const std::optional<SeedSpread>& spread) {
     return cell(spread->mean) + cell(spread->min) + cell(spread->max);
 }
 
-// Writes one data block for each line of the figure.
+// Returns one data block for each line of the figure.
 std::string data_of(const SweepPlanes& all, const SweepPlane& plane) {
     std::string data = fmt::format(
         "# {}; mean, minimum and maximum of throughput, travel time and density; then of their changes in percent\n",
@@ -87,7 +87,7 @@ struct KeyEntry {
     std::string title;
 };
 
-// Names each line in the legend. If there are too many, colours and dashes get separate entries.
+// Returns the legend. It names each line. With more than kMaxNamedLines lines, colours and dashes get separate entries.
 std::vector<KeyEntry> key_of(const SweepPlanes& all) {
     constexpr const char* kGrey = "#404040";
     const std::size_t populations = all.populations.size();

@@ -1,5 +1,5 @@
-// Throughput, travel time and density of a sweep over several intersections as lines. A second row of panels shows the
-// change against the first population (Fig. 17 to 20 of the paper; surfaces.h draws the same as maps).
+// Figure of a sweep over several intersections: throughput, travel time and density as lines. A second row of panels
+// shows the change against the first population (Fig. 17 to 20 of the paper). surfaces.h draws the same values as maps.
 #pragma once
 
 #include "figures/gnuplot.h"
@@ -7,8 +7,8 @@
 
 namespace stopline {
 
-// Draws one line for each population (colour) and each value of the line axis (dash and point). Whiskers show the
-// minimum and maximum of several seeds.
+// Draws the figure network_`number`. Each population has a colour and each value of the line axis has a dash and a
+// point. With several seeds, whiskers show minimum and maximum.
 Figure sweep_lines_figure(const SweepPlanes& all, const SweepPlane& plane, std::size_t number);
 
 }  // namespace stopline

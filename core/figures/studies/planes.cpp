@@ -33,7 +33,8 @@ bool has_column(const CsvTable& table, const std::string& name) {
     return index_of(table.columns, name) < table.columns.size();
 }
 
-// Splits a column name into name and unit, for a table that is read without its sweep: "green_s" is green in s.
+// Splits the name of a column into name and unit: "green_s" is green in s. This is for a table that is read without its
+// sweep.
 std::pair<std::string, std::string> name_and_unit(const std::string& column) {
     const std::size_t cut = column.rfind('_');
     if (cut == std::string::npos) return {column, ""};
@@ -41,7 +42,7 @@ std::pair<std::string, std::string> name_and_unit(const std::string& column) {
     return {column.substr(0, cut), unit == "percent" ? "%" : unit};
 }
 
-// Returns the text for a cell in titles, such as "green 15 s".
+// Returns the value of an axis as text for titles, such as "green 15 s".
 std::string cell_title(const CellTitles& titles, const std::string& column, const std::string& cell) {
     const auto found = titles.find({column, cell});
     if (found != titles.end()) return found->second;
@@ -49,7 +50,8 @@ std::string cell_title(const CellTitles& titles, const std::string& column, cons
     return name + " " + cell + (unit.empty() ? "" : " ") + unit;
 }
 
-// Takes name and unit from the title of a cell: "green 15 s" or, for an axis that sets two fields, "green 15 s / 7 s".
+// Sets name and unit of an axis from the title of one of its values: "green 15 s" or, for an axis that sets two fields,
+// "green 15 s / 7 s".
 void name_axis(PlotAxis& axis, const std::string& title, const std::string& cell) {
     const std::size_t end = title.find(" " + cell);
     axis.name = title.substr(0, end);
@@ -57,7 +59,7 @@ void name_axis(PlotAxis& axis, const std::string& title, const std::string& cell
     if (rest.starts_with(" ") && !rest.starts_with(" / ")) axis.unit = rest.substr(1, rest.find(" / ") - 1);
 }
 
-// Returns nothing if a cell is not a number.
+// Returns the axis in a column, or nothing if a cell of the column is not a number.
 std::optional<PlotAxis> numeric_axis(const CsvTable& results, const std::string& column, const CellTitles& titles) {
     std::map<double, std::string> cells;
     for (const std::vector<std::string>& row : results.rows) {
@@ -77,8 +79,8 @@ std::optional<PlotAxis> numeric_axis(const CsvTable& results, const std::string&
     return axis;
 }
 
-// Chooses the x axis and the line axis, in this order. Returns one axis if only one varies, and none if no choice is
-// clear.
+// Returns the x axis and the line axis of the figures, in this order. Returns the x axis alone if a single axis varies,
+// and nothing if no numeric axis varies. If green and offset both have a single value, green is the x axis.
 std::vector<PlotAxis> drawn_axes(const CsvTable& results, const CellTitles& titles,
                                  const std::string& population_column) {
     std::vector<PlotAxis> all;
@@ -95,7 +97,7 @@ std::vector<PlotAxis> drawn_axes(const CsvTable& results, const CellTitles& titl
     std::vector<PlotAxis> varied = paper.size() == 2 && !std::all_of(paper.begin(), paper.end(), single) ? paper : all;
     std::erase_if(varied, single);
     if (varied.empty() && paper.size() == 2) return {paper.front()};
-    if (varied.size() > 2) varied.resize(2);  // each value of the other axes gets figures of its own
+    if (varied.size() > 2) varied.resize(2);  // each combination of the other axes gets figures of its own
     // As in the paper, green is the x axis and offset the line axis.
     if (varied.size() == 2 && (varied[0].column == kOffsetColumn || varied[1].column == kGreenColumn)) {
         std::swap(varied[0], varied[1]);
@@ -107,7 +109,7 @@ bool has_paper_axes(const SweepPlanes& all) {
     return all.x_axis.column == kGreenColumn && all.line_axis.column == kOffsetColumn;
 }
 
-// Counts the combinations of the axes that are neither x axis nor line axis.
+// Returns the number of combinations of the axes that are neither x axis nor line axis.
 std::size_t plane_count(const CsvTable& results, const SweepPlanes& all, const std::string& population_column) {
     std::set<std::vector<std::string>> combinations;
     for (const std::vector<std::string>& row : results.rows) {

@@ -1,10 +1,10 @@
-// The results of a sweep over several intersections, arranged for its figures. A figure has an x axis and, if there are
-// two varied axes, a line axis. Each combination of all other axes is a plane and gets figures of its own. A plane
-// holds one value for each point of the two axes, population and seed.
+// The results of a sweep over several intersections, arranged for its figures. Each figure has an x axis and, if two
+// axes vary, a line axis. All other axes are constant in a figure, so each combination of their values gets figures of
+// its own. The results for one combination are called a plane.
 //
 // As in the paper, the x axis is green and the line axis is offset, provided that both are axes of the sweep and at
-// least one of them varies. Otherwise the first one or two numeric axes are used. An axis with a single value appears
-// in the title only.
+// least one of them varies. Otherwise the first one or two numeric axes that vary are used. An axis with a single value
+// appears in the title only.
 #pragma once
 
 #include <array>
@@ -41,17 +41,17 @@ inline constexpr std::array<SweepMetric, 3> kSweepMetrics{
 
 // The x axis or the line axis of a figure.
 struct PlotAxis {
-    std::string column;                     // empty: the axis does not exist, and a single value stands for it
+    std::string column;                     // name of the results column; empty if there is no such axis
     std::string name;                       // such as "green"
     std::string unit;                       // such as "s"; empty: plain numbers
-    std::vector<double> values = {0.0};     // ascending
-    std::vector<std::string> value_titles;  // [value] "green 15 s"; empty if the axis does not exist
+    std::vector<double> values = {0.0};     // ascending; a single 0 if there is no such axis
+    std::vector<std::string> value_titles;  // [value] text such as "green 15 s"; empty if there is no such axis
 
     bool exists() const { return !column.empty(); }
     std::string label() const { return unit.empty() ? name : name + " [" + unit + "]"; }
 };
 
-// A point of a plane: indices on the x axis and the line axis, and of the population.
+// Place of a result in a plane: index of the x value, of the value on the line axis, and of the population.
 struct PlanePoint {
     std::size_t x = 0;
     std::size_t line = 0;
@@ -68,7 +68,7 @@ struct SeedSpread {
 
 class SweepPlane {
 public:
-    std::string title;  // values of the other axes
+    std::string title;  // values of the axes that are constant in the plane
 
     void add(std::size_t metric, const PlanePoint& point, const std::string& seed, double value) {
         values_[{metric, point}][seed] = value;
@@ -77,8 +77,8 @@ public:
 
     bool has(std::size_t metric) const;
     std::optional<SeedSpread> value(std::size_t metric, const PlanePoint& point) const;
-    // Returns the change against the first population in percent. `mean` compares the means. `min` and `max` compare
-    // runs with the same seed.
+    // Returns the change against the first population in percent. `mean` is the change of the mean over seeds. `min`
+    // and `max` are the extremes of the changes between runs with the same seed.
     std::optional<SeedSpread> change(std::size_t metric, const PlanePoint& point) const;
     // Returns the numbers of seeds that are stable, semi-stable and unstable.
     std::array<std::size_t, 3> stabilities(const PlanePoint& point) const;
@@ -98,22 +98,23 @@ struct SweepPlanes {
     std::size_t seeds = 1;
     std::vector<SweepPlane> planes;
 
-    // Returns the title of a figure, which may be empty. `seed_note` is appended if there are several seeds; its {} is
-    // replaced by their number.
+    // Returns the title of the figures of a plane, which may be empty. `seed_note` is appended if there are several
+    // seeds; its {} is replaced by their number.
     std::string title(const SweepPlane& plane, const std::string& seed_note) const;
-    std::string change_label(const SweepMetric& metric) const;  // names the reference population
+    std::string change_label(const SweepMetric& metric) const;  // contains the name of the first population
 };
 
-// Returns true if the table has the metrics of several intersections.
+// Returns true if the table has the metrics of runs over several intersections.
 bool has_network_metrics(const CsvTable& results, const std::string& population_column);
 
 // Returns the columns of all axes except the population axis.
 std::vector<std::string> axis_columns(const CsvTable& results, const std::string& population_column);
 
-// Upper limit of planes, unless the axes are green and offset.
+// Highest number of planes (combinations of the constant axes) that get figures. A sweep with more planes gets figures
+// only if its x axis is green and its line axis is offset.
 inline constexpr std::size_t kMaxPlanes = 24;
 
-// Arranges the results. Returns nothing if no numeric axis varies or if there are too many planes.
+// Arranges the results in planes. Returns nothing if no numeric axis varies or if there are too many planes.
 std::optional<SweepPlanes> sweep_planes(const CsvTable& results, const CellTitles& titles,
                                         const std::string& population_column);
 

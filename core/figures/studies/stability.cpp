@@ -18,7 +18,7 @@ namespace {
 struct StabilityMark {
     const char* colour;
     const char* fill;
-    int point;  // gnuplot point type; the marks differ without colours too
+    int point;  // gnuplot point type; a reader can distinguish the marks even without colours
 };
 constexpr std::array<StabilityMark, kStabilityNames.size()> kMarks{StabilityMark{"#009e73", "#cdeee3", 7},
                                                                    StabilityMark{"#e69f00", "#fbe9c3", 5},
@@ -29,7 +29,8 @@ struct StabilityMap {
     std::string data;
 };
 
-// Writes one cell: both indices, the worst stability, and the share of seeds that had it, such as 2/6.
+// Returns the data of one cell: index on both axes, worst stability, and the share of seeds with this stability, such
+// as 2/6.
 std::string cell_of(const SweepPlane& plane, const PlanePoint& point, std::size_t y) {
     const auto counts = plane.stabilities(point);
     const std::size_t seeds = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
@@ -39,8 +40,8 @@ std::string cell_of(const SweepPlane& plane, const PlanePoint& point, std::size_
     return fmt::format("{} {} {} {}/{}\n", point.x, y, worst, counts[worst], seeds);
 }
 
-// Returns one map for each population, or a single map with the populations as rows if there is one axis only. Its
-// first population is at the top.
+// Returns one map for each population. If there is no line axis, returns a single map with the populations as rows, the
+// first one at the top.
 std::vector<StabilityMap> maps_of(const SweepPlanes& all, const SweepPlane& plane) {
     const bool map_per_population = all.line_axis.exists();
     const std::size_t populations = all.populations.size();

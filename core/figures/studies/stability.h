@@ -6,8 +6,8 @@
 
 namespace stopline {
 
-// Draws the worst result of all seeds in each cell and, with several seeds, the number of seeds that had it. If the
-// sweep has one varied axis only, the populations are the second axis.
+// Draws in each cell the worst stability of all seeds. With several seeds, the cell also shows the share of seeds with
+// this stability. If only one axis of the sweep varies, the populations are the second axis.
 Figure sweep_stability_figure(const SweepPlanes& all, const SweepPlane& plane, std::size_t number);
 
 }  // namespace stopline

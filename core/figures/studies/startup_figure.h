@@ -1,4 +1,4 @@
-// Figure of a simulated start: its speed and gear, compared with measured starts.
+// Figure of a simulated start: speed, compared with measured starts, and gear.
 #pragma once
 
 #include "calibration/startup_report.h"
@@ -6,7 +6,7 @@
 
 namespace stopline {
 
-// Draws speed and gear over time, with the bands that the measured curve has.
+// Draws speed and gear over time, with those bands of speed that the measured curve has.
 Figure startup_figure(const StartupReport& report);
 
 }  // namespace stopline

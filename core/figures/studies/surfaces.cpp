@@ -22,10 +22,10 @@ struct ColourScale {
     double min = 0.0;
     double max = 1.0;
     int decimals = 0;
-    bool signs = false;  // positive numbers are written with a plus sign
+    bool signs = false;  // true: positive numbers are written with a plus sign
 };
 
-// Returns viridis. Its lightness rises with the value, also for colour-blind readers and in grey print.
+// Returns the palette viridis. Its lightness rises with the value, also for colour-blind readers and in grey print.
 Palette ordered_palette() {
     constexpr std::size_t kColours = 8;
     Palette palette;
@@ -33,13 +33,13 @@ Palette ordered_palette() {
     return palette;
 }
 
-// Returns red to blue if positive changes are better, or orange to purple if they are neither better nor worse.
+// Returns a palette from red to blue if a positive change is an improvement, otherwise a palette from orange to purple.
 Palette diverging_palette(bool improves) {
     if (improves) return {"#b2182b", "#ef8a62", "#fddbc7", "#f7f7f7", "#d1e5f0", "#67a9cf", "#2166ac"};
     return {"#b35806", "#f1a340", "#fee0b6", "#f7f7f7", "#d8daeb", "#998ec3", "#542788"};
 }
 
-// Returns the number of decimals that leaves about three digits.
+// Returns the number of decimals with which the largest value has about three digits.
 int decimals_for(double largest) {
     constexpr double kWhole = 100.0;
     constexpr double kTenths = 10.0;
@@ -49,7 +49,7 @@ int decimals_for(double largest) {
 struct Panel {
     std::size_t metric;
     std::size_t population;
-    bool change;  // shows the change against the first population
+    bool change;  // true: changes against the first population; false: values
 };
 
 std::optional<double> value_in(const SweepPlane& plane, const Panel& panel, std::size_t x, std::size_t line) {
@@ -59,7 +59,7 @@ std::optional<double> value_in(const SweepPlane& plane, const Panel& panel, std:
     return spread ? std::optional(spread->mean) : std::nullopt;
 }
 
-// Returns one scale for all populations, so that equal colours mean equal values.
+// Returns one colour scale for all populations, so that equal colours mean equal values.
 ColourScale scale_of(const SweepPlanes& all, const SweepPlane& plane, std::size_t metric, bool change) {
     std::vector<double> values;
     for (std::size_t p = change ? 1 : 0; p < all.populations.size(); ++p) {
@@ -80,7 +80,7 @@ ColourScale scale_of(const SweepPlanes& all, const SweepPlane& plane, std::size_
     scale.min = change ? -largest : *min;
     scale.max = change ? largest : *max;
     if (scale.min < scale.max) return scale;
-    scale.min -= 1.0;  // gnuplot needs a range
+    scale.min -= 1.0;  // gnuplot cannot draw an empty range
     scale.max += 1.0;
     return scale;
 }
@@ -94,8 +94,8 @@ Rgb rgb_of(const std::string& colour) {
             static_cast<double>(std::stoi(colour.substr(5, 2), nullptr, kHex))};
 }
 
-// Returns black or white, whichever has more contrast. Relative luminance and contrast are those of WCAG 2, with gamma
-// 2.2.
+// Returns the colour of the text on a cell: black or white, whichever has more contrast. Relative luminance and
+// contrast are those of WCAG 2, with gamma 2.2.
 int ink_on(const ColourScale& scale, double value) {
     constexpr double kEqualContrast = 0.179;
     constexpr double kGamma = 2.2;
@@ -120,7 +120,7 @@ std::string number_of(const ColourScale& scale, double value) {
     return (scale.signs && value > 0.0 && !zero ? "+" : "") + text;
 }
 
-// Writes one line for each cell that has a value: both indices, the value, its text and the colour of the text.
+// Returns one line for each cell that has a value: index on both axes, the value, its text and the colour of the text.
 std::string cells_of(const SweepPlanes& all, const SweepPlane& plane, const Panel& panel, const ColourScale& scale) {
     std::string text;
     for (std::size_t x = 0; x < all.x_axis.values.size(); ++x) {

@@ -21,8 +21,8 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// Returns advice for an axis that sets several fields. The name of its column then has no unit, so it is not
-// recognised.
+// Returns advice if the axis `name` sets several fields. The name of its column then has no unit, so the axis is not
+// recognised as green or offset.
 std::string advice_for(const CsvTable& results, const std::vector<std::string>& axes, const std::string& name) {
     if (!contains(axes, name)) return "";
     return fmt::format(

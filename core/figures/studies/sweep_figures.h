@@ -1,6 +1,6 @@
 // Figures of a sweep over the green times and offsets of several intersections: throughput, travel time and density,
-// their change against the first population (Fig. 17 to 20 of the paper), and stability (Fig. 21). They need only the
-// results table.
+// their change against the first population (Fig. 17 to 20 of the paper), and stability (Fig. 21). The results table
+// contains all that they need.
 #pragma once
 
 #include <string>
@@ -15,15 +15,15 @@ namespace stopline {
 // Returns true if the table has the axes green, offset and population and the metrics of several intersections.
 bool is_network_sweep(const CsvTable& results);
 
-// Returns three figures for each combination of the other axes: network_N (lines), surfaces_N (maps) and stability_N.
-// The title names the combination. Values are means over seeds, with minimum and maximum. planes.h says how the axes of
-// the figures are chosen. Returns nothing for a table that is not of several intersections. There are no maps with one
-// axis only.
+// Returns the figures of a results table: network_N (lines), surfaces_N (maps) and stability_N. planes.h says how their
+// axes are chosen. Each combination of the other axes has a number N, and the titles name the combination. Values are
+// means over seeds, with minimum and maximum. Without a second varied axis there are no maps. Returns nothing if the
+// results are not those of several intersections.
 std::vector<Figure> network_sweep_figures(const CsvTable& results, const CellTitles& titles,
                                           const std::string& population_column = "population");
 
-// Returns a note to the user of a sweep without the axes green and offset: the required column names, and the axes that
-// are drawn instead. Returns an empty text if both axes exist.
+// Returns a note to the user if the sweep lacks an axis green or offset: the required column names, and the axes that
+// the figures use instead. Returns an empty text if both axes exist.
 std::string network_sweep_note(const CsvTable& results, const CellTitles& titles,
                                const std::string& population_column = "population");
 

@@ -15,7 +15,7 @@ namespace stopline {
 namespace {
 
 struct Metric {
-    const char* column;  // prefix of the column name
+    const char* column;  // beginning of the column name
     const char* label;
 };
 constexpr std::array<Metric, 3> kMetrics{Metric{"throughput", "throughput [veh/h]"},
@@ -24,7 +24,7 @@ constexpr std::array<Metric, 3> kMetrics{Metric{"throughput", "throughput [veh/h
 
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
-// Returns the first column whose name starts with `prefix`.
+// Returns the index of the first column whose name starts with `prefix`, or kNone.
 std::size_t column_named(const CsvTable& results, const std::string& prefix) {
     for (std::size_t k = 0; k < results.columns.size(); ++k) {
         if (results.columns[k].starts_with(prefix)) return k;
@@ -81,7 +81,7 @@ private:
     std::map<std::tuple<std::string, double, Turns, std::string>, std::pair<double, int>> sums_;
 };
 
-// Writes a row for each pair of turn ratios and a column for each population.
+// Returns the data of a figure: a row for each pair of turn ratios and a column for each population.
 std::string data_of(const Means& means, const char* metric, double green_s) {
     std::string text = "# left/right in percent, then one column for each population\n";
     for (const Turns& turns : means.turns()) {
@@ -163,54 +163,54 @@ std::string table1_csv(const CsvTable& results, const std::vector<Target>& targe
 
 namespace {
 
-// Returns 25 for "P25", or nothing for another name.
+// Returns the share of CDG in a mixed population: 25 for "P25". Returns nothing for another name.
 std::optional<double> percent_of(const std::string& population) {
     return population.starts_with("P") ? parse_number(population.substr(1)) : std::nullopt;
 }
 
 void add_step(const Means& means, double green_s, const std::string& population, const Turns& from, const Turns& to,
-              Orders& orders) {
+              ThroughputTrends& trends) {
     const std::optional<double> before = means.find("throughput", green_s, from, population);
     const std::optional<double> after = means.find("throughput", green_s, to, population);
     if (!before || !after) return;
-    ++orders.steps;
+    ++trends.steps;
     if (*after <= *before) return;
-    ++orders.rises;
+    ++trends.rises;
     const double percent = 100.0 * (*after / *before - 1.0);
-    if (percent <= orders.largest_rise_percent) return;
-    orders.largest_rise_percent = percent;
-    orders.largest_rise = fmt::format("{}, green {:g} s, left/right {:g}/{:g} to {:g}/{:g} %", population, green_s,
+    if (percent <= trends.largest_rise_percent) return;
+    trends.largest_rise_percent = percent;
+    trends.largest_rise = fmt::format("{}, green {:g} s, left/right {:g}/{:g} to {:g}/{:g} %", population, green_s,
                                       from.left, from.right, to.left, to.right);
 }
 
 }  // namespace
 
-Orders orders_of(const CsvTable& results) {
+ThroughputTrends throughput_trends(const CsvTable& results) {
     const Means means(results);
-    Orders orders;
+    ThroughputTrends trends;
     const std::vector<Turns>& turns = means.turns();
     for (const double green_s : means.greens_s) {
         for (const Turns& from : turns) {
-            // The next larger share of right turns, and of left turns.
+            // Turn ratios with the next larger share of right turns, and with the next larger share of left turns.
             const auto right = std::find_if(turns.begin(), turns.end(), [&](const Turns& t) {
                 return t.left == from.left && t.right > from.right;
             });
             const auto left = std::find_if(turns.begin(), turns.end(),
                                            [&](const Turns& t) { return t.right == from.right && t.left > from.left; });
             for (const std::string& population : means.populations) {
-                if (right != turns.end()) add_step(means, green_s, population, from, *right, orders);
-                if (left != turns.end()) add_step(means, green_s, population, from, *left, orders);
+                if (right != turns.end()) add_step(means, green_s, population, from, *right, trends);
+                if (left != turns.end()) add_step(means, green_s, population, from, *left, trends);
                 const std::optional<double> share = percent_of(population);
                 const std::optional<double> none = means.find("throughput", green_s, from, "CTG-Ref");
                 const std::optional<double> all = means.find("throughput", green_s, from, "CDG");
                 const std::optional<double> here = means.find("throughput", green_s, from, population);
                 if (!share || !none || !all || !here) continue;
-                ++orders.points;
-                if (*here > *none + 0.01 * *share * (*all - *none)) ++orders.above_line;
+                ++trends.points;
+                if (*here > *none + 0.01 * *share * (*all - *none)) ++trends.above_line;
             }
         }
     }
-    return orders;
+    return trends;
 }
 
 }  // namespace stopline

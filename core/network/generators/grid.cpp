@@ -14,9 +14,9 @@ namespace stopline {
 
 namespace {
 
-// Directions are numbered 0 east, 1 north, 2 west, 3 south. Traffic from leg k arrives in direction k.
-constexpr std::array<const char*, 4> kFrom{"west", "south", "east", "north"};  // [leg] its side
-constexpr std::array<const char*, 4> kTo{"east", "north", "west", "south"};    // [direction] where it leads to
+// Directions are numbered 0 east, 1 north, 2 west, 3 south. Leg k is the leg whose approach lanes have direction k.
+constexpr std::array<const char*, 4> kFrom{"west", "south", "east", "north"};  // [leg] side of the intersection
+constexpr std::array<const char*, 4> kTo{"east", "north", "west", "south"};    // [direction] name
 
 const char* name_of(Turn turn) { return turn == Turn::left ? "left" : turn == Turn::right ? "right" : "straight"; }
 
@@ -35,12 +35,12 @@ struct Builder {
     std::vector<int> in = {};         // [index(intersection, leg, lane)] approach lane
     std::vector<int> out = {};        // [index(intersection, direction, lane)] exit lane
     std::vector<int> node_at = {};    // [row * columns + column] intersection; -1: none
-    std::vector<double> shared = {};  // [lane] see shared_stretch
-    int first_connection = 0;         // index of the first connection
+    std::vector<double> shared = {};  // [lane of a leg] result of shared_stretch(), m
+    int first_connection = 0;         // index of the first connection in graph.lanes
 
     int lanes() const { return static_cast<int>(s.lanes.size()); }
     // Returns the distance of the lane's centre line from the middle of the road. Traffic keeps right, and lane 0 is
-    // the leftmost one.
+    // the leftmost lane.
     double offset_m(int lane) const { return (lane + 0.5) * s.lane_width_m; }
     std::size_t index(int node, int leg, int lane) const { return at((node * 4 + leg) * lanes() + lane); }
 
@@ -52,7 +52,7 @@ struct Builder {
     }
     double spacing_m(int leg) const { return leg % 2 == 0 ? grid.column_spacing_m : grid.row_spacing_m; }
 
-    // Returns the next intersection in a direction, or -1.
+    // Returns the next intersection in a direction, or -1 if there is none.
     int neighbour(int node, int direction) const {
         constexpr std::array<GridPosition, 4> kStep{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
         const int column = positions[at(node)].column + kStep[at(direction)].column;
@@ -61,10 +61,11 @@ struct Builder {
         return within ? node_at[at(row * grid.columns + column)] : -1;
     }
 
-    // Returns the exit lane that a lane leads to. Turning lanes lead to the exit lanes nearest to them, counted from
-    // the side that they turn to.
+    // Returns the index of the exit lane to which an approach lane leads. The leftmost lane with a left turn leads to
+    // the leftmost exit lane, the second to the second, and so on. Right turns are assigned in the same way from the
+    // right.
     int exit_lane(Turn turn, int lane) const {
-        int rank = 0;  // number of lanes with the same turn nearer to that side
+        int rank = 0;  // number of lanes further left with a left turn, or further right with a right turn
         if (turn == Turn::straight) return lane;
         if (turn == Turn::left) {
             for (int k = 0; k < lane; ++k) rank += allows(s.lanes[at(k)], turn) ? 1 : 0;
@@ -74,7 +75,8 @@ struct Builder {
         return lanes() - 1 - rank;
     }
 
-    // Returns the path from the stop line to the exit lane, in a frame where the vehicle arrives in direction +x.
+    // Returns the path from the stop line to the exit lane. The origin of the coordinates is the centre of the
+    // intersection, and the vehicle arrives in direction +x.
     Polyline path(Turn turn, int lane) const {
         const double r = s.radius_m;
         const Point from{-r, -offset_m(lane)};
@@ -125,7 +127,7 @@ struct Builder {
     }
 
     double shared_m(int lane) const { return shared[at(lane)]; }
-    // Returns the length of the stretch beyond the stop line where the movements of the lane have not diverged yet.
+    // Returns the distance from the stop line at which all movements of the lane have diverged, m.
     double shared_stretch(int lane) const {
         double longest_m = 0.0;
         for (const Turn one : {Turn::straight, Turn::right, Turn::left}) {
@@ -146,7 +148,7 @@ struct Builder {
         lane.limit_mps = turn == Turn::straight ? s.speed_limit_mps : s.turn_speed_mps;
         lane.turn = turn;
         lane.origin = in[index(node, leg, k)];
-        const int rotation = turn == Turn::straight ? 0 : turn == Turn::left ? 1 : 3;  // quarter turns
+        const int rotation = turn == Turn::straight ? 0 : turn == Turn::left ? 1 : 3;  // quarter turns to the left
         lane.next = {out[index(node, (leg + rotation) % 4, exit_lane(turn, k))]};
         return lane;
     }
@@ -165,8 +167,8 @@ struct Builder {
         }
     }
 
-    // Finds the conflicts of the first intersection and copies them to the others. This is possible because all
-    // intersections are equal and number their connections in the same order.
+    // Finds the conflicts of the first intersection and copies them to all others. This is possible because all
+    // intersections are equal and have their connections in the same order.
     void find_all_conflicts(int nodes) {
         graph.conflicts.assign(graph.lanes.size(), {});
         const auto count = static_cast<int>(graph.lanes.size());

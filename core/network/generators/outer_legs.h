@@ -16,7 +16,8 @@ struct OuterLeg {
     double exit_length_m = 0.0;     // from the intersection to the border; 0: no exit lane
 };
 
-// Returns the outer legs. Where all legs of a network are equal, one leg represents them. An imported network has none.
+// Returns the outer legs. If all legs of a network are equal, the result holds a single leg. The result is empty for an
+// imported network.
 std::vector<OuterLeg> outer_legs(const NetworkSettings& network);
 
 }  // namespace stopline

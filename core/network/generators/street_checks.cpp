@@ -15,7 +15,7 @@ namespace stopline {
 
 namespace {
 
-constexpr double kMinLink_m = 10.0;  // longer than a vehicle
+constexpr double kMinLink_m = 10.0;  // minimum length of a road between two intersections
 constexpr double kTolerance = 1e-9;
 
 class Checks {
@@ -120,8 +120,8 @@ private:
         }
     }
 
-    // From the left, the lanes must serve left turns, then straight traffic, then right turns. Otherwise connections of
-    // the same approach would cross.
+    // Checks that the lanes, from the left, serve left turns, then straight traffic, then right turns. Otherwise
+    // connections of the same approach would cross.
     void check_lane_order(const Leg& leg) {
         const auto& lanes = leg.settings.lanes;
         for (std::size_t k = 1; k < lanes.size(); ++k) {

@@ -1,4 +1,5 @@
-// Checks of streets that concern several fields together. The ranges of single fields are checked elsewhere.
+// Checks that the user's settings of streets (street_settings.h) fit together. The field tables in scenario/schema
+// check the range of each single setting.
 #pragma once
 
 #include <string>
@@ -13,13 +14,13 @@ struct StreetProblem {
     std::string message;
 };
 
-// Returns all problems that prevent building a lane graph. A check is skipped if an earlier check found a problem that
-// it depends on.
+// Returns the problems that prevent building a lane graph. If an early check finds a problem, later checks are skipped,
+// because they rely on it.
 std::vector<StreetProblem> street_problems(const StreetSettings& streets);
 
-// Returns a message if the clearance is too large for the lane width, else "". Vehicles touch where their centre lines
-// are closer than the clearance. Within a turn the connections of neighbouring lanes are closer than the lane width, so
-// the clearance must be 0.5 m below it.
+// Returns a message if the clearance is too large for the lane width, else "". Vehicles on two lanes can touch where
+// the centre lines are closer than the clearance. In a turn, the centre lines of adjacent lanes are closer than the
+// lane width. So the clearance must be at least 0.5 m below the lane width.
 std::string clearance_problem(double clearance_m, double lane_width_m);
 
 }  // namespace stopline

@@ -11,7 +11,7 @@ namespace stopline {
 
 namespace {
 
-constexpr double kSameLine_m = 1.0;  // intersections lie on one line if their centres are within this distance of it
+constexpr double kSameLine_m = 1.0;  // two intersections lie on one road if their sideways offset is at most this
 
 }  // namespace
 
@@ -51,7 +51,7 @@ int StreetLayout::nearest(int n, int side) const {
     double nearest_m = std::numeric_limits<double>::infinity();
     const Point here{node(n).x_m, node(n).y_m};
     for (int other = 0; other < nodes(); ++other) {
-        // Position in a frame whose x axis points to the side.
+        // Position of the other intersection relative to this one. The x axis points toward `side`.
         const Point offset = rotated({{node(other).x_m - here.x_m, node(other).y_m - here.y_m}}, (6 - side) % 4)[0];
         const double ahead_m = offset.x_m;
         if (other == n || ahead_m <= 0.0 || ahead_m >= nearest_m || std::abs(offset.y_m) > kSameLine_m) continue;

@@ -1,9 +1,9 @@
 // Positions and connections of the lanes of streets, for the checks and for the builder of the lane graph.
 //
-// Sides are numbered 0 west, 1 south, 2 east, 3 north. A vehicle from side s leaves straight on at side s + 2, after a
-// right turn at side s + 1 and after a left turn at side s + 3 (modulo 4). Lanes are counted from the left, as seen by
-// their drivers. Turn pockets lie beside the through lanes, which are as long as the approach; left pockets lie in the
-// median.
+// Sides are numbered 0 west, 1 south, 2 east, 3 north. A vehicle from side s leaves the intersection at side s + 2 if
+// it goes straight on, at s + 1 after a right turn, and at s + 3 after a left turn (modulo 4). Lanes are counted from
+// the left, as seen by the driver. Through lanes are as long as the approach. Turn pockets lie beside the through
+// lanes; the pockets on the left lie in the median.
 #pragma once
 
 #include <array>
@@ -23,8 +23,7 @@ bool allows(const StreetLane& lane, Turn turn);
 // Returns the side where a vehicle from `side` leaves the intersection after the turn.
 int exit_side(int side, Turn turn);
 inline int opposite(int side) { return (side + 2) % 4; }
-// Returns the lanes of the leg that allow the turn. They are in order from the right for right turns, else from the
-// left.
+// Returns the lanes of the leg that allow the turn, from the right for right turns, else from the left.
 std::vector<int> lanes_with(const StreetLeg& leg, Turn turn);
 
 class StreetLayout {
@@ -35,13 +34,14 @@ public:
     const StreetIntersection& node(int node) const { return streets_->intersections[static_cast<std::size_t>(node)]; }
     // Returns null if the intersection has no leg on that side.
     const StreetLeg* leg(int node, int side) const;
-    // Returns the nearest intersection straight ahead on that side, or -1.
+    // Returns the nearest intersection that lies straight toward `side`, or -1 if there is none.
     int nearest(int node, int side) const;
-    // Returns the intersection at the other end of the road on that side, or -1. It is the nearest one, and it must
-    // have a leg that faces this one.
+    // Returns the intersection at the other end of the road on `side`, or -1. The result is nearest(node, side) if both
+    // intersections have a leg on this road.
     int neighbour(int node, int side) const;
 
-    // Return the distance of a lane's centre line to the right of the line between the two directions of traffic.
+    // The next two functions return how far the centre line of a lane lies to the right of the middle of the road,
+    // which separates the two directions of traffic. offset_m() is for approach lanes, exit_offset_m() for exit lanes.
     double offset_m(int node, int side, int lane) const;
     double exit_offset_m(int side, int lane) const;
 
@@ -49,12 +49,13 @@ public:
     static int left_pockets(const StreetLeg& leg);
     // Returns the number of lanes that are as long as the approach.
     static int through_lanes(const StreetLeg& leg);
-    // Returns the length of the through lanes, up to the stop line.
+    // Returns the length of the through lanes of a leg, up to the stop line.
     double length_m(int node, int side) const;
 
-    // Returns the index of the exit lane that a lane leads to. Turning lanes lead to the exit lanes nearest to them,
-    // counted from the side that they turn to. Straight lanes keep their order and have the smallest sum of sideways
-    // shifts.
+    // Returns the index of the exit lane to which an approach lane leads. The leftmost lane with a left turn leads to
+    // the leftmost exit lane, the second to the second, and so on. Right turns are assigned in the same way from the
+    // right. Lanes that go straight on keep their order and lead to the exit lanes for which the sum of sideways shifts
+    // is least.
     int exit_lane(int node, int side, int lane, Turn turn) const;
 
     // Returns the path from the stop line to the exit lane.
@@ -66,10 +67,10 @@ public:
 
 private:
     double median_m(int side) const { return side % 2 == 0 ? streets_->median_m : streets_->minor_median_m; }
-    // Returns the point of the plane that lies `ahead_m` ahead and `right_m` to the right of the centre, for traffic
-    // that comes from `side`.
+    // Returns the point that lies `ahead_m` ahead of and `right_m` to the right of the centre of the intersection, as
+    // seen by traffic that comes from `side`.
     Point point_at(int node, int side, double ahead_m, double right_m) const;
-    // Returns the number of exit lanes to the left of the one that the leftmost straight lane leads to.
+    // Returns the index of the exit lane to which the leftmost lane with straight traffic leads.
     int straight_shift(int node, int side) const;
 
     const StreetSettings* streets_;

@@ -22,15 +22,15 @@ struct Builder {
     const StreetSettings& s;
     StreetLayout layout{s};
     LaneGraph graph = {};
-    std::vector<BySide> in = {};   // [intersection][side][lane]
-    std::vector<BySide> out = {};  // [intersection][side][exit]
+    std::vector<BySide> in = {};   // [intersection][side][k] approach lane k
+    std::vector<BySide> out = {};  // [intersection][side][k] exit lane k
 
     int add(const Lane& lane) {
         graph.lanes.push_back(lane);
         return static_cast<int>(graph.lanes.size()) - 1;
     }
 
-    // Returns the length of the stretch beyond the stop line where the movements of the lane have not diverged yet.
+    // Returns the distance from the stop line at which all movements of the lane have diverged.
     double shared_m(int node, int side, int lane) const {
         double longest_m = 0.0;
         const StreetLane& settings = layout.leg(node, side)->lanes[at(lane)];
@@ -161,7 +161,7 @@ struct Builder {
             add_exits(node, side);
         });
         for_each_leg([&](int node, int side) { connect_exits(node, side); });
-        std::vector<int> first_connection;  // [intersection], then the total number of lanes
+        std::vector<int> first_connection;  // [intersection] its first connection; last element: number of lanes
         for_each_leg([&](int node, int side) {
             if (static_cast<int>(first_connection.size()) == node) {
                 first_connection.push_back(static_cast<int>(graph.lanes.size()));

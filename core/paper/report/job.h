@@ -35,7 +35,7 @@ struct JobContext {
     std::filesystem::path folder;  // folder of this job
     std::filesystem::path stores;  // folder of the stored runs of all jobs
     Reductions reductions;         // empty: the full job
-    std::string key;               // identifies all that the results depend on
+    std::string key;               // identifies the program, its input files, and full or reduced jobs
     int threads = 1;
     std::function<bool(double)> on_progress;  // gets the share done; false: stop
     std::function<void(double)> on_stored;    // gets the share that was stored before

@@ -16,8 +16,8 @@ bool in_iv_or_vi(const std::string& section) { return in_iv(section) || in_vi(se
 }  // namespace
 
 const std::vector<Job>& all_jobs() {
-    // Expected seconds on one thread of a virtual machine with two processors (AMD EPYC). times.csv has the measured
-    // ones.
+    // The two numbers are the expected seconds of the full and of the reduced job, on one thread of a virtual machine
+    // with two processors (AMD EPYC). A reproduction writes the measured durations to times.csv.
     static const std::vector<Job> kJobs{
         {"startup", "III", "start of a platoon leader", 1, 1, in_iii, run_startup_job},
         {"single_light", "III", "single signal", 2, 2, in_iii, run_single_light_job},

@@ -6,7 +6,7 @@
 
 #include "figures/gnuplot.h"
 #include "paper/report/job.h"
-#include "paper/scorecard_sweeps.h"
+#include "paper/sections/scorecard_sweeps.h"
 #include "scenario/scenario.h"
 
 namespace stopline {

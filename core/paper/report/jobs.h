@@ -2,7 +2,7 @@
 #pragma once
 
 #include "paper/report/job.h"
-#include "paper/scorecard_sweeps.h"
+#include "paper/sections/scorecard_sweeps.h"
 
 namespace stopline {
 

@@ -248,7 +248,8 @@ std::string repeat_html(const ReportContent& content) {
     if (!content.reduced()) return html + "</section>\n";
     HtmlTable table("Reductions of --quick (data/paper/quick.csv)", {"File", "Field", "Value here"});
     for (const Reductions::Row& row : content.reductions.rows()) {
-        table.row({{"scenarios/" + (row.what.starts_with("scenarios/") ? row.what.substr(10) : row.what) + ".yaml"},
+        table.row({{"scenarios/" +
+                    (row.applies_to.starts_with("scenarios/") ? row.applies_to.substr(10) : row.applies_to) + ".yaml"},
                    {row.field},
                    {row.value}});
     }

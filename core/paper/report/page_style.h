@@ -33,7 +33,7 @@ th, td { text-align: left; vertical-align: top; padding: .3rem .55rem; border-bo
 thead th { background: var(--band); font-weight: 600; border-bottom: 2px solid var(--line); }
 tbody tr:nth-child(even) { background: #fbfcfd; }
 td.number, thead th.number { text-align: right; font-variant-numeric: tabular-nums; }
-td.words { min-width: 16rem; }
+td.words { min-width: 12rem; }
 td.short { white-space: nowrap; }
 .inside { color: var(--in); font-weight: 600; white-space: nowrap; }
 .miss { color: var(--out); font-weight: 700; white-space: nowrap; }
@@ -51,8 +51,11 @@ footer { margin-top: 3rem; color: var(--soft); font-size: .88rem; border-top: 1p
 @media screen and (max-width: 860px) {
   nav ol, ul.files { columns: 1; }
   dl.facts { grid-template-columns: 1fr; gap: 0; }
-  .pictures { grid-template-columns: 1fr; }
   dl.facts dd { margin: 0 0 .4rem; }
+  .pictures { grid-template-columns: 1fr; }
+  figure { padding: .5rem; }
+}
+@media screen and (max-width: 1180px) {
   table, tbody, tr, td, tbody th { display: block; width: 100%; }
   caption { display: block; }
   thead { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); }
@@ -63,7 +66,6 @@ footer { margin-top: 3rem; color: var(--soft); font-size: .88rem; border-top: 1p
   td.words { min-width: 0; }
   td:empty { display: none; }
   td[data-label]::before { content: attr(data-label) ": "; color: var(--soft); font-weight: 400; font-style: normal; }
-  figure { padding: .5rem; }
 }
 @media print {
   @page { margin: 14mm; }

@@ -12,7 +12,7 @@ public:
     // `expected_s` [job] is the duration on one thread of the reference machine.
     WorkEstimate(const std::vector<double>& expected_s, int threads);
 
-    void skip(std::size_t job);  // the job was done before this session
+    void skip(std::size_t job);  // marks a job that was done before this session
     void begin(std::size_t job, double now_s);
     void stored(double share);    // share of the current job that was done before this session
     void progress(double share);  // share of the current job that is done, stored share included
@@ -34,8 +34,8 @@ private:
     std::size_t current_ = 0;
     bool running_ = false;
     double begin_s_ = 0.0;         // start of the current job
-    double current_done_s_ = 0.0;  // expected seconds of the current job that this session has done
-    double done_s_ = 0.0;          // expected seconds of ended jobs that this session has done
+    double current_done_s_ = 0.0;  // work of this session on the current job, in expected seconds
+    double done_s_ = 0.0;          // work of this session on the ended jobs, in expected seconds
     double spent_s_ = 0.0;         // real time spent on the ended jobs
 };
 

@@ -1,4 +1,4 @@
-// Little-endian numbers in a string of bytes.
+// Writes and reads little-endian numbers in a string of bytes.
 #pragma once
 
 #include <cstddef>
@@ -10,20 +10,21 @@
 
 namespace stopline {
 
-// Appends an unsigned number with all its bytes.
+// Appends all bytes of an unsigned number, the lowest byte first.
 template <class Number>
 void put_number(std::string& bytes, Number number) {
     for (std::size_t k = 0; k < sizeof(Number); ++k) bytes += static_cast<char>((number >> (8 * k)) & 0xFFU);
 }
 
-// Appends a number with 7 bits per byte, the lowest bits first. The highest bit of a byte tells that another byte
-// follows.
+// Appends a number with 7 bits per byte, the lowest bits first. If another byte of the number follows, the highest bit
+// of the byte is set.
 inline void put_varint(std::string& bytes, std::uint64_t number) {
     for (; number >= 0x80U; number >>= 7U) bytes += static_cast<char>((number & 0x7FU) | 0x80U);
     bytes += static_cast<char>(number);
 }
 
-// Reads numbers from bytes. All functions throw InputError if the bytes end too early or a number is out of range.
+// Reads numbers from bytes, one after the other. All functions throw InputError if the bytes end too early or a number
+// is out of range.
 class ByteReader {
 public:
     explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
@@ -48,7 +49,7 @@ public:
         return value;
     }
 
-    // Reads a number from 0 to `max`.
+    // Reads a number that put_varint() wrote. The number must not be above `max`.
     std::uint64_t varint(std::uint64_t max) {
         std::uint64_t value = 0;
         for (unsigned shift = 0; shift < 64; shift += 7) {
@@ -61,7 +62,7 @@ public:
         }
         throw InputError("a number has more than 10 bytes");
     }
-    // Reads an index into an array of `size` elements.
+    // Reads an index that put_varint() wrote. The index must be below `size`.
     int index(std::size_t size) {
         if (size == 0) throw InputError("an index refers to an empty list");
         return static_cast<int>(varint(size - 1));

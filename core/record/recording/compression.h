@@ -17,7 +17,7 @@ public:
     Compressor& operator=(Compressor&&) = delete;
     ~Compressor();
 
-    // Returns the compressed bytes. They are valid until the next call.
+    // Compresses the bytes. The result is a view that is valid until the next call.
     std::string_view compress(std::string_view bytes);
 
 private:

@@ -1,4 +1,4 @@
-// The times of the frames that a writer records.
+// The times at which a writer records the state of a run. Each recorded state is a frame.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ struct RecordingWindow {
     double until_s = std::numeric_limits<double>::infinity();
 };
 
-// Converts a window to ticks. Frames lie at multiples of the interval.
+// Tells at which ticks a frame is due. Frames lie at multiples of the interval, within the window.
 class FrameClock {
 public:
     FrameClock(const RecordingWindow& window, double step_s)

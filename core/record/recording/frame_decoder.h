@@ -1,4 +1,4 @@
-// Decodes the frames of a section of a recording (recording_format.h), as FrameEncoder wrote them.
+// Decodes the frames of one section of a recording. FrameEncoder wrote them in the format of recording_format.h.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,7 @@
 
 namespace stopline {
 
+// The vehicle in one seat of a frame. A vehicle keeps its seat while it is in the network (recording_format.h).
 struct RecordedVehicle {
     int vehicle = -1;  // -1: the seat is empty
     int policy = 0;
@@ -17,9 +18,9 @@ struct RecordedVehicle {
     int lane = 0;
     int next = -1;               // next lane; -1: the vehicle leaves the network
     int cause = 0;               // index in RecordedRun::causes
-    int waited_for = -1;         // vehicle that causes the stop; -1: none
-    std::uint16_t position = 0;  // distance of the front from the start of the lane, in units of the header
-    std::uint16_t speed = 0;     // in units of the header
+    int waited_for = -1;         // vehicle for which this vehicle waits; -1: none
+    std::uint16_t position = 0;  // distance of the front from the start of the lane, in FrameGrid::position_unit_m
+    std::uint16_t speed = 0;     // in kSpeedUnit_mps
 };
 
 class FrameDecoder {
@@ -34,8 +35,9 @@ public:
 
     const std::vector<RecordedVehicle>& seats() const { return seats_; }
     const std::vector<std::uint8_t>& lights() const { return lights_; }  // [signal group] 0 red, 1 green, 2 yellow
-    std::int64_t entered() const { return entered_; }                    // vehicles since the frame before
-    std::int64_t exited() const { return exited_; }                      // vehicles since the frame before
+    // Return the numbers of vehicles that entered and exited the network since the previous frame.
+    std::int64_t entered() const { return entered_; }
+    std::int64_t exited() const { return exited_; }
 
 private:
     RecordedVehicle& read_seat();

@@ -92,8 +92,8 @@ void FrameEncoder::encode_lights(std::int64_t tick) {
     }
 }
 
-// Updates the slots of all lanes. Slots that a lane gave up become empty here, before other vehicles are placed in
-// them.
+// Updates the slots of all lanes. Slots that a lane no longer uses become empty here, before vehicles of other lanes
+// are placed in them.
 void FrameEncoder::vacate_slots(const Snapshot& snapshot) {
     for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
         const Snapshot::Slots now = snapshot.lanes[lane];
@@ -107,7 +107,7 @@ void FrameEncoder::vacate_slots(const Snapshot& snapshot) {
     }
 }
 
-// Empties a slot. Its vehicle has moved or left the network; encode_exits() finds out which.
+// Empties a slot. Its vehicle has moved to another slot or left the network; encode_exits() tells these cases apart.
 void FrameEncoder::vacate(int slot) {
     if (seat_in_slot_[at(slot)] >= 0) vacated_.push_back(seat_in_slot_[at(slot)]);
     seat_in_slot_[at(slot)] = -1;
@@ -127,7 +127,7 @@ void FrameEncoder::encode_placement(const Snapshot::Placement& placement) {
     last_motion_[at(placement.slot)] = kUnknownMotion;
 }
 
-// Writes the next lane of a vehicle beyond its stop line if it has changed. Route choice can be that late.
+// Writes the next lane of a vehicle if it has changed. A vehicle can still choose its route beyond the stop line.
 void FrameEncoder::encode_next_lane(const Snapshot::BeyondStopLine& vehicle) {
     const int seat = seat_in_slot_[at(vehicle.slot)];
     if (seats_[at(seat)].next == vehicle.next_lane) return;
@@ -135,7 +135,8 @@ void FrameEncoder::encode_next_lane(const Snapshot::BeyondStopLine& vehicle) {
     last_motion_[at(vehicle.slot)] = kUnknownMotion;
 }
 
-// Marks the seats whose motion must be written. A vehicle at rest needs nothing, and about half of all vehicles rest.
+// Marks the seats whose position and speed must be written. Nothing is written for a vehicle that stays at rest, and
+// many vehicles do.
 void FrameEncoder::compare_motion(const Snapshot& snapshot) {
     const std::uint32_t* motion = snapshot.motion.data();
     for (const Snapshot::Slots& slots : lanes_) {
@@ -206,7 +207,8 @@ void FrameEncoder::encode_exits() {
     }
 }
 
-// Writes changed reasons for stops. The simulation updates the delay causes only now and then.
+// Writes the delay causes that have changed. The simulation updates them only every `watch_ticks_` ticks, so most calls
+// return at once.
 void FrameEncoder::encode_causes(const Snapshot& snapshot) {
     const std::int64_t cause_tick = last_cause_tick(watch_ticks_, snapshot.tick);
     if (cause_tick == cause_tick_) return;

@@ -1,5 +1,6 @@
-// Encodes snapshots of a run as frames of a recording (recording_format.h). The encoder tracks vehicles by slot: it
-// reads placements for new occupants of a slot, and only position and speed for all others.
+// Encodes snapshots of a run as frames of a recording (recording_format.h). The encoder tracks vehicles by slot, which
+// is the index of a vehicle in the arrays of the simulation. A snapshot has a Placement for each vehicle that is new in
+// its slot, and only position and speed for all other vehicles.
 #pragma once
 
 #include <array>
@@ -17,16 +18,17 @@ class FrameEncoder {
 public:
     FrameEncoder(const Model& model, const FrameGrid& grid);
 
-    // Begins a section that can be read without the frames before it. The next snapshot must list all placements.
+    // Begins a section that can be read without earlier sections. The next snapshot must list the placements of all
+    // vehicles.
     void start_section();
     // Appends the next frame to `bytes`.
     void append(const Snapshot& snapshot, std::string& bytes);
 
-    // Returns the number of vehicles in all frames together.
+    // Returns the sum, over all frames, of the number of vehicles in the frame.
     std::int64_t vehicle_states() const { return vehicle_states_; }
 
 private:
-    // The vehicle in a seat, with lane and next lane as the reader knows them.
+    // The vehicle in a seat of the recording. `lane` and `next` (its next lane) have the values that were written last.
     struct Seat {
         int vehicle = -1;
         int slot = -1;
@@ -35,16 +37,17 @@ private:
     };
     struct Reason {
         DelayCause cause = DelayCause::none;
-        int waited_for = -1;  // vehicle
+        int waited_for = -1;  // vehicle for which the stopped vehicle waits; -1: none
         bool operator==(const Reason&) const = default;
     };
+    // The delay cause of the vehicle in a seat. The simulation updates the delay causes at regular intervals.
     struct Wait {
-        Reason reason = {};       // at the last update of the delay causes
-        Reason written = {};      // the last reason in the recording
-        bool is_current = false;  // the vehicle was stopped at the last update
+        Reason reason = {};       // reason of the stop, from the latest update that found the vehicle stopped
+        Reason written = {};      // reason that was written last
+        bool is_current = false;  // the latest update found the vehicle stopped
         bool is_listed = false;   // the seat is in waiting_seats_
     };
-    // Position and speed in units of the header.
+    // Position in FrameGrid::position_unit_m and speed in kSpeedUnit_mps.
     struct Motion {
         std::uint16_t position = 0;
         std::uint16_t speed = 0;
@@ -59,7 +62,7 @@ private:
     // The kinds of events, in the order in which they are written.
     enum EventKind : std::size_t { light_events, exit_events, entry_events, lane_events, wait_events, event_kinds };
 
-    // A value that differs from the motion of any vehicle.
+    // A value of Snapshot::motion that no vehicle has.
     static constexpr std::uint32_t kUnknownMotion = 0xFFFFFFFF;
 
     void resize_slots(const std::vector<Snapshot::Slots>& lanes);
@@ -83,24 +86,24 @@ private:
     std::int64_t watch_ticks_;
     FrameGrid grid_;
     std::vector<Seat> seats_;
-    std::vector<int> free_seats_;  // the next one at the back
-    std::vector<int> seat_of_;     // [vehicle]; -1: none
-    // The next three members hold the state in the frame before.
-    std::vector<int> seat_in_slot_;            // [slot]; -1: none
-    std::vector<std::uint32_t> last_motion_;   // [slot]
-    std::vector<Snapshot::Slots> lanes_;       // [lane]
-    std::vector<int> vacated_;                 // seats of vehicles that moved or left the network
+    std::vector<int> free_seats_;  // seats without a vehicle; the next seat to assign is at the back
+    std::vector<int> seat_of_;     // [vehicle] its seat; -1: none
+    // The next three members describe the previous frame.
+    std::vector<int> seat_in_slot_;            // [slot] seat of the vehicle in the slot; -1: the slot is empty
+    std::vector<std::uint32_t> last_motion_;   // [slot] value of Snapshot::motion
+    std::vector<Snapshot::Slots> lanes_;       // [lane] slots of the lane
+    std::vector<int> vacated_;                 // seats of vehicles that moved to another slot or left the network
     std::vector<Wait> waits_;                  // [seat]
-    std::vector<int> waiting_seats_;           // seats with a delay cause
-    std::vector<Motion> reader_motion_;        // [seat] motion as the reader knows it
-    std::vector<std::uint64_t> changed_bits_;  // one bit per seat: its motion is written in this frame
+    std::vector<int> waiting_seats_;           // seats whose vehicle has a delay cause
+    std::vector<Motion> reader_motion_;        // [seat] motion that a reader of the recording knows so far
+    std::vector<std::uint64_t> changed_bits_;  // one bit per seat; set: the motion of the seat is written in this frame
     std::string speeds_, positions_, wide_speeds_, wide_positions_;
-    std::vector<Motion> motion_;  // [seat] in this frame
-    std::vector<Light> lights_;   // [signal group]
+    std::vector<Motion> motion_;  // [seat] motion in this frame
+    std::vector<Light> lights_;   // [signal group] light that was written last
     std::array<Events, event_kinds> events_;
-    std::int64_t cause_tick_ = -1;  // last update of the delay causes
-    std::int64_t entered_ = 0;      // since the beginning of the run
-    std::int64_t exited_ = 0;       // since the beginning of the run
+    std::int64_t cause_tick_ = -1;  // tick of the latest update of the delay causes
+    std::int64_t entered_ = 0;      // vehicles that entered since the beginning of the run
+    std::int64_t exited_ = 0;       // vehicles that exited since the beginning of the run
     std::int64_t vehicle_states_ = 0;
 };
 

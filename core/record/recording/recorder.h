@@ -1,5 +1,5 @@
-// Writes the recording of one run during the run (recording_format.h). The file appears after finish(). The run only
-// copies its state; a second thread encodes, compresses and writes.
+// Writes the recording of a run (recording_format.h) while the run continues. The thread of the simulation only copies
+// the state. A second thread encodes and compresses the copies and writes the file, which appears after finish().
 #pragma once
 
 #include <cstdint>
@@ -27,8 +27,8 @@ struct RecordingSize {
 
 class Recorder {
 public:
-    // Keeps no reference to the model. All functions throw InputError if the file cannot be written; the error can
-    // come some frames late.
+    // Keeps no reference to the model. All functions throw InputError if the file cannot be written. observe() can
+    // throw some frames after the failed write.
     Recorder(const std::filesystem::path& file, const RecordingWindow& window, const RunOrigin& origin,
              const Model& model);
 
@@ -36,7 +36,7 @@ public:
     void observe(const State& state) {
         if (clock_.is_due(state.tick)) record(state);
     }
-    // Completes the file.
+    // Completes the file and returns its size.
     RecordingSize finish();
 
 private:
@@ -50,15 +50,15 @@ private:
     FrameGrid grid_;
     SnapshotTaker taker_;
     int snapshots_in_section_ = 0;
-    std::int64_t cause_tick_ = -1;  // update of the delay causes in the last snapshot that has them
-    // Used by the worker thread until it has finished.
+    std::int64_t cause_tick_ = -1;  // tick of the latest update of the delay causes that was copied
+    // Until finish() has stopped the second thread, only this thread uses the next six members.
     ReplacedFile file_;
     Compressor compressor_;
     FrameEncoder encoder_;
     std::int64_t frames_ = 0;
     int frames_in_section_ = 0;
     std::string section_;
-    SnapshotWorker worker_;  // last, so that the thread ends before the members above
+    SnapshotWorker worker_;  // last member: its destructor ends the thread before the other members are destroyed
 };
 
 }  // namespace stopline

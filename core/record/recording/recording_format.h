@@ -9,8 +9,8 @@
 //     ENDS      = number of frames (u64), number of vehicle states (u64); a file without this section is incomplete
 //
 // All numbers are little-endian. A varint has 7 bits per byte, the lowest bits first; the highest bit is set in all
-// bytes but the last. A vehicle has a seat while it is in the network. Events name vehicles by seat, and positions and
-// speeds are columns over all seats.
+// bytes but the last. A seat is a number that a vehicle gets when it enters and keeps until it exits the network.
+// Events name vehicles by seat. Positions and speeds are columns with one element per seat.
 //
 //     frame     = changed lights: n, then n times group, light (0 red, 1 green, 2 yellow)
 //                 exited vehicles: n, then n times seat; the seat is free from the next frame on
@@ -18,20 +18,21 @@
 //                 vehicles with a new lane or next lane: n, then n times seat, lane, next lane + 1
 //                 vehicles with a new delay cause: n, then n times seat, cause, vehicle waited for + 1; the cause
 //                   applies while the vehicle is stopped (below 0.1 m/s), until another cause follows
-//                 number of vehicles that entered the network since the frame before, then number that exited it
+//                 number of vehicles that entered the network since the previous frame, then number that exited it
 //                 number of seats; all numbers up to here are varints
-//                 one bit per seat: its speed or position differs from the prediction
+//                 one bit per seat; a seat without a set bit is empty, or its vehicle stays at rest
 //                 one byte per set bit for the speed, then one byte per set bit for the position
 //                 16 bits for each speed byte that is 255, then 16 bits for each position byte that is 255
 //
-// Speeds and positions are 16-bit multiples of the units in the header. The columns contain differences from a
-// prediction: the speed of the frame before, and the position that the mean of both speeds leads to. Differences 0,
-// -1, 1, -2 ... are written as 0, 1, 2, 3 ... modulo 2^16. For a vehicle that entered or changed lanes, the prediction
-// starts at position 0. Seats without a vehicle have position and speed 0. At the start of a FRMS section all seats are
-// empty and all lights are red.
+// Speeds and positions are 16-bit multiples of the units in the header. The columns contain differences from predicted
+// values. The predicted speed is the speed in the previous frame. The predicted position is the position in the
+// previous frame plus the advance at the mean of the old and the new speed. Differences 0, -1, 1, -2 ... are written as
+// 0, 1, 2, 3 ... modulo 2^16. For a vehicle that entered or changed lanes, the prediction starts at position 0. Seats
+// without a vehicle have position and speed 0. At the start of a FRMS section all seats are empty and all lights are
+// red.
 //
-// Rejected alternatives: floating-point columns are larger; one row per vehicle compresses less well; full columns for
-// all seats take longer to write, because many vehicles are stopped.
+// Why not another format? Floating-point columns would be larger. One row per vehicle would compress less well. Columns
+// with an element for every seat would take longer to write, because many vehicles are stopped.
 #pragma once
 
 #include <array>
@@ -40,7 +41,8 @@
 
 namespace stopline {
 
-inline constexpr std::string_view kRecordingMagic{"\x89SLR\r\n\x1a\n", 8};  // as in PNG: a transfer as text damages it
+// As in PNG files, a transfer in text mode changes these bytes, so that a reader notices the damage.
+inline constexpr std::string_view kRecordingMagic{"\x89SLR\r\n\x1a\n", 8};
 inline constexpr std::uint16_t kRecordingVersion = 1;
 inline constexpr std::uint16_t kByteOrderMark = 0x0102;
 inline constexpr std::string_view kHeadTag = "HEAD";
@@ -48,15 +50,16 @@ inline constexpr std::string_view kFramesTag = "FRMS";
 inline constexpr std::string_view kEndTag = "ENDS";
 inline constexpr int kFramesInSection = 128;
 inline constexpr std::uint32_t kMaxSectionBytes = 1U << 28U;
-inline constexpr std::uint16_t kWideCode = 255;  // marks a difference that follows with 16 bits
+inline constexpr std::uint16_t kWideCode = 255;  // byte that marks a difference stored with 16 bits
 
 inline constexpr double kSpeedUnit_mps = 0.01;
 inline constexpr double kFinestPosition_m = 0.01;
 
-inline constexpr std::uint32_t kMaxAdvance = 0x7FFF;  // maximum of advance_q12: the product below fits into 32 bits
+// Maximum of advance_q12. It keeps the product in expected_advance() below 2^32.
+inline constexpr std::uint32_t kMaxAdvance = 0x7FFF;
 
-// Returns the predicted advance within a frame in position units. `speed_sum` is the sum of the speeds at both ends of
-// the frame in speed units. `advance_q12` is the advance for one unit of that sum, in 1/4096 position units.
+// Returns the predicted advance from one frame to the next, in position units. `speed_sum` is the sum of the speeds in
+// the two frames, in speed units. `advance_q12` is the advance per unit of `speed_sum`, in 1/4096 position units.
 inline std::uint32_t expected_advance(std::uint32_t speed_sum, std::uint32_t advance_q12) {
     return (speed_sum * advance_q12) >> 12U;
 }

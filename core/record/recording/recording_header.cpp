@@ -28,7 +28,7 @@ std::string turn_name(Turn turn) {
 // Returns a length in metres, rounded to millimetres.
 double round_to_mm(double length_m) { return std::round(length_m * 1000.0) / 1000.0; }
 
-// Returns a lane as JSON. Signal group 0 of an imported network is always green and is not drawn.
+// Returns a lane as JSON. Signal group 0 of an imported network is always green, so the JSON omits it.
 Json lane_json(const Lane& lane, bool imported) {
     Json json{{"name", lane.name}, {"length_m", lane.length_m}, {"limit_mps", lane.limit_mps}, {"next", lane.next}};
     if (lane.signal_group >= (imported ? 1 : 0)) json["signal_group"] = lane.signal_group;

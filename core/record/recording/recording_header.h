@@ -5,7 +5,7 @@
 //     policies: [name], causes: [name], signal_groups: number, lane_width_m
 //     lanes: [{name, length_m, limit_mps, next: [lane], shape: [x, y, ...], shape_start_m, shape_scale unless it is 1,
 //              stop_line_m and signal_group if the lane has them, turn and origin if the lane is a connection}]
-//     entries: [lane]
+//     entries: [lane where vehicles enter the network]
 // Lanes, signal groups, policies and causes are numbered in the order of these lists, from 0. network/lane_graph.h
 // explains shape_start_m and shape_scale.
 #pragma once
@@ -20,9 +20,9 @@
 
 namespace stopline {
 
-// The origin of a run. The model does not contain it.
+// Facts about the origin of a run, which the model does not contain.
 struct RunOrigin {
-    std::string command;  // command line that makes the recording again
+    std::string command;  // command line that makes the same recording again
     std::string scenario;
     std::string title;
     std::string scenario_hash;
@@ -31,7 +31,7 @@ struct RunOrigin {
     double lane_width_m = 3.5;
 };
 
-// The times of the frames and the units of their columns.
+// The times of the frames, and the units of the positions in them.
 struct FrameGrid {
     std::int64_t first_tick = 0;
     std::int64_t frame_ticks = 1;  // ticks from one frame to the next
@@ -39,17 +39,18 @@ struct FrameGrid {
     double position_unit_m = 0.01;
     std::uint32_t advance_q12 = 0;  // see expected_advance()
 
-    // Returns the time of a frame.
+    // Returns the time of a frame, s. Frames are counted from 0.
     double time_s(std::int64_t frame) const { return static_cast<double>(first_tick + frame * frame_ticks) * step_s; }
 };
 
-// Returns the grid for a model. Positions have the finest unit with which the longest lane fits into 16 bits.
+// Returns the grid for a model. The position unit is the smallest multiple of kFinestPosition_m with which every
+// position on the longest lane fits into 16 bits.
 FrameGrid make_frame_grid(const Model& model, const FrameClock& clock);
 
 // Returns the header as JSON text.
 std::string recording_header(const Model& model, const RunOrigin& origin, const FrameGrid& grid);
 
-// The part of the header that a reader of the frames needs.
+// The part of the header that a program needs to read the frames.
 struct RecordedRun {
     struct RecordedLane {
         std::string name;

@@ -1,5 +1,5 @@
-// Reads a recording section by section and checks that it is complete. All functions throw InputError with the path of
-// the file.
+// Reads a recording section by section. All functions throw InputError, which names the file, if the recording is
+// damaged or incomplete.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ public:
 
     const RecordedRun& run() const { return run_; }
     const std::string& header() const { return header_; }  // JSON
-    // Reads the next section. Returns false, after checking the end of the file, if there is none.
+    // Reads the next section of frames. After the last section it checks that the file is complete and returns false.
     bool next(RecordedSection& section);
     // Returns the number of frames read so far.
     std::int64_t frames() const { return frames_; }

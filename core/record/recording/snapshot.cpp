@@ -12,7 +12,8 @@ namespace {
 constexpr double kSpeedUnitsPer_mps = 1.0 / kSpeedUnit_mps;
 constexpr double kMaxCode = 65535.0;
 
-// Returns the value as a 16-bit number of units. The form of the comparisons compiles to one maximum and one minimum.
+// Returns the value in units, rounded and limited to 16 bits. The comparisons are written so that they compile to one
+// maximum and one minimum instruction.
 std::uint32_t code_of(double value, double units_per_value) {
     const double code = value * units_per_value + 0.5;
     const double clipped = code > 0.0 ? code : 0.0;
@@ -78,8 +79,8 @@ void SnapshotTaker::take(const State& state, bool with_stopped, Snapshot& snapsh
     if (with_stopped) copy_stopped(state.congestion.watch, snapshot.stopped);
 }
 
-// Copies the slots of all lanes and returns the number of vehicles. Slots that a lane gave up become empty here,
-// before another lane's vehicles are placed in them.
+// Copies the slots of all lanes and returns the number of vehicles. Slots that a lane no longer uses become empty here,
+// before vehicles of other lanes are placed in them.
 std::size_t SnapshotTaker::update_lanes(const State& state, Snapshot& snapshot) {
     std::size_t vehicles = 0;
     for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {

@@ -1,7 +1,8 @@
-// A copy of the state that a recording needs. The run continues while another thread encodes the copy.
+// A copy of those parts of the state that a recording needs. The run continues while another thread encodes the copy.
 //
-// The copy is the only cost for the run, so it is small. It lists the vehicle in a slot only if the slot did not have
-// this vehicle in the copy before, and it holds positions and speeds in the units of the recording.
+// The copy is small, because the run must wait while the copy is made. A slot is the index of a vehicle in the arrays
+// of the simulation. The copy names the vehicle in a slot only if the slot was empty or held another vehicle in the
+// previous copy. Positions and speeds are in the units of the recording.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +22,7 @@ struct Snapshot {
         int past_last() const { return first + count; }
         bool operator==(const Slots&) const = default;
     };
-    // A vehicle that was not in this slot in the snapshot before.
+    // A vehicle in a slot that was empty or held another vehicle in the previous snapshot.
     struct Placement {
         int slot = -1;
         int lane = -1;
@@ -38,20 +39,21 @@ struct Snapshot {
     };
     struct StoppedVehicle {
         int vehicle = -1;
-        int waited_for = -1;  // the vehicle that causes the stop; -1: none
+        int waited_for = -1;  // vehicle for which the stopped vehicle waits; -1: none
         DelayCause cause = DelayCause::none;
     };
 
     std::int64_t tick = 0;
-    std::int64_t entered = 0;  // vehicles since the beginning of the run
-    std::int64_t exited = 0;   // vehicles since the beginning of the run
-    std::vector<Slots> lanes;  // [lane]
+    std::int64_t entered = 0;  // vehicles that entered since the beginning of the run
+    std::int64_t exited = 0;   // vehicles that exited since the beginning of the run
+    std::vector<Slots> lanes;  // [lane] slots of the lane
     std::vector<Placement> placements;
     std::vector<BeyondStopLine> beyond_stop_line;
-    // Position (low 16 bits) and speed (high 16 bits) of every vehicle in units of the header, in the order of lanes
-    // and slots. The position is the distance of the front from the start of the lane.
+    // Position (low 16 bits) and speed (high 16 bits) of every vehicle, in the order of lanes and slots. The units are
+    // FrameGrid::position_unit_m and kSpeedUnit_mps. The position is the distance of the front from the start of the
+    // lane.
     std::vector<std::uint32_t> motion;
-    std::vector<StoppedVehicle> stopped;  // at the last update of the delay causes
+    std::vector<StoppedVehicle> stopped;  // vehicles that were stopped at the latest update of the delay causes
 };
 
 constexpr std::uint32_t position_of(std::uint32_t motion) { return motion & 0xFFFFU; }
@@ -63,7 +65,8 @@ public:
 
     // Makes the next snapshot list the placement of every vehicle.
     void start_section();
-    // Copies the state into `snapshot`. The stopped vehicles change less often, so they are copied only on request.
+    // Copies the state into `snapshot`. The list of stopped vehicles is copied only if `with_stopped` is set, because
+    // it changes only when the delay causes are updated.
     void take(const State& state, bool with_stopped, Snapshot& snapshot);
 
 private:
@@ -73,13 +76,13 @@ private:
                               Snapshot& snapshot) const;
 
     double positions_per_m_;
-    std::vector<std::uint32_t> stop_line_;  // [lane] in position units
-    std::vector<Snapshot::Slots> lanes_;    // [lane] in the snapshot before
-    std::vector<int> vehicle_in_slot_;      // [slot] in the snapshot before; -1: none
+    std::vector<std::uint32_t> stop_line_;  // [lane] stop line, or end of a lane without one, in position units
+    std::vector<Snapshot::Slots> lanes_;    // [lane] slots in the previous snapshot
+    std::vector<int> vehicle_in_slot_;      // [slot] vehicle in the previous snapshot; -1: none
 };
 
-// Returns the tick of the last update of the delay causes before the state at `tick`, or -1 if there was none. The
-// causes are updated every `interval_ticks`.
+// Returns the tick of the latest update of the delay causes before `tick`, or -1 if there was no update. The simulation
+// updates the delay causes every `interval_ticks` ticks.
 inline std::int64_t last_cause_tick(std::int64_t interval_ticks, std::int64_t tick) {
     return interval_ticks <= 0 || tick == 0 ? -1 : (tick - 1) / interval_ticks * interval_ticks;
 }

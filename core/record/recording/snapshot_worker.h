@@ -23,15 +23,16 @@ public:
     SnapshotWorker& operator=(const SnapshotWorker&) = delete;
     SnapshotWorker(SnapshotWorker&&) = delete;
     SnapshotWorker& operator=(SnapshotWorker&&) = delete;
-    // Drops the snapshots that are not processed yet.
+    // Discards the snapshots in the queue, waits until `process` has returned, and ends the thread.
     ~SnapshotWorker();
 
-    // Returns a snapshot to fill in and submit. Waits while all snapshots are in the queue. Rethrows an exception of
-    // `process`; no further snapshot is processed after it.
+    // Returns a snapshot to fill in and submit. Waits while all snapshots are in use. If `process` has thrown an
+    // exception, acquire() throws it again, and no further snapshot is processed.
     Snapshot& acquire();
     // Puts the acquired snapshot into the queue.
     void submit();
-    // Waits until all snapshots are processed. Rethrows an exception of `process`. Submit nothing afterwards.
+    // Waits until all submitted snapshots are processed. If `process` has thrown an exception, finish() throws it
+    // again. Do not call submit() afterwards.
     void finish();
 
 private:
@@ -39,14 +40,15 @@ private:
     void stop();
     void rethrow();
 
-    // Enough that the run seldom waits while a section is compressed.
+    // Number of snapshots in memory. The run waits only if all are in use, such as during a slow compression.
     static constexpr std::size_t kSnapshots = 24;
-    // The worker polls the queue. Waking it costs the run more than copying a snapshot, so the run wakes it only when
-    // the queue has reached kWakeSize.
+    // The worker thread polls the queue every kPollInterval. Waking the thread would cost the run more time than
+    // copying a snapshot. So submit() wakes it only when the queue has grown to kWakeSize snapshots.
     static constexpr std::chrono::milliseconds kPollInterval{2};
     static constexpr std::size_t kWakeSize = kSnapshots / 2;
     std::array<Snapshot, kSnapshots> snapshots_;
-    std::vector<Snapshot*> free_;  // the last processed one at the back, because its memory is still in the cache
+    // Snapshots that are not in use. The one processed last is reused first, because its memory is still in the cache.
+    std::vector<Snapshot*> free_;
     Snapshot* acquired_ = nullptr;
     std::deque<Snapshot*> queue_;
     std::function<void(const Snapshot&)> process_;

@@ -1,4 +1,4 @@
-// One run of a single intersection (Section IV of the paper), from the scenario to its results.
+// Runs a scenario with a single intersection (Section IV of the paper), and measures the results.
 #pragma once
 
 #include <cstdint>
@@ -14,45 +14,47 @@
 
 namespace stopline {
 
-// A vehicle to be drawn, in plane coordinates.
+// A vehicle in a figure, with the x and y coordinates of its rear and its front.
 struct DrawnVehicle {
     Point rear;
     Point front;
-    int policy = 0;
+    int policy = 0;  // index into PopulationSettings::components
 };
 
 struct IntersectionResult {
     std::string population;
-    TimeWindow window;              // measured window: whole cycles
-    double throughput_veh_h = 0.0;  // vehicles that leave the intersection
-    std::vector<ZoneResult> zones;  // [zone] as in measure.zones
+    TimeWindow window;              // result of measured_window()
+    double throughput_veh_h = 0.0;  // vehicles that leave the intersection within the window
+    std::vector<ZoneResult> zones;  // [zone] in the order of measure.zones
     std::vector<double> delay_s;    // [zone] travel time minus travel time at the speed limit
     Discharge discharge;
-    double vehicles_present = 0.0;  // mean over the window
-    double occupied = 0.0;          // share of all lane metres that vehicles occupy, 0 .. 1
+    double vehicles_present = 0.0;  // mean number of vehicles in the network over the window
+    double occupied = 0.0;          // share of the lane length that vehicles occupy, 0 .. 1
     double queue_veh = 0.0;         // queued vehicles at the start of green, mean over lanes and greens
     double longest_queue_m = 0.0;   // longest queue at the start of green
-    // Shares of the vehicles that leave the intersection within the window, 0 .. 1.
+    // Shares of the three movements among the vehicles that leave the intersection within the window, 0 .. 1.
     double straight_share = 0.0, right_share = 0.0, left_share = 0.0;
     std::int64_t gaps_accepted = 0;
-    double longest_in_junction_s = 0.0;  // from the front at the stop line to the rear on the exit lane
-    double snapshot_s = 0.0;             // time of the snapshot: middle of the first green of the second stage
+    double longest_in_junction_s = 0.0;  // longest time from a front at the stop line to the rear on the exit lane
+    double snapshot_s = 0.0;             // time of the snapshot: middle of the second stage's first measured green
     std::vector<DrawnVehicle> snapshot;
-    std::vector<Light> snapshot_lights;  // [signal group]
+    std::vector<Light> snapshot_lights;  // [signal group] at the time of the snapshot
     Violations violations;
     std::int64_t entered = 0;
     std::int64_t exited = 0;
-    std::int64_t updates = 0;  // vehicles times steps
+    std::int64_t updates = 0;  // number of vehicles in the network, summed over all steps
     std::uint64_t state_hash = 0;
     bool complete = false;  // false: the run was stopped early
 };
 
-// Returns the measured window: whole cycles up to the end of the run.
+// Returns the measured window. It begins after the warm-up cycles. It ends after measure.cycles cycles or, if
+// duration_s is not 0, at the end of the run.
 TimeWindow measured_window(const Scenario& scenario);
 // Returns the first cycle of the measured window.
 TimeWindow first_cycle(const Scenario& scenario);
 
-// Runs one population. `on_step` is called before every step; the run stops early when it returns false.
+// Runs scenario.populations[population]. `on_step` is called before every step; if it returns false, the run stops
+// early.
 IntersectionResult run_intersection(const Scenario& scenario, std::size_t population,
                                     const std::function<bool(const Simulation&)>& on_step = {},
                                     const Observation& observation = {});

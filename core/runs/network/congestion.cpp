@@ -21,7 +21,7 @@ double CongestionSampler::SpeedSum::mean_mps() const {
 
 std::optional<double> Congestion::congested_from_s(std::size_t approach) const {
     const std::vector<ApproachInterval>& intervals = approaches.at(approach).intervals;
-    std::size_t slow = 0;  // consecutive intervals
+    std::size_t slow = 0;  // number of successive slow intervals
     for (std::size_t k = 0; k < intervals.size(); ++k) {
         slow = intervals[k].upstream_speed_mps < kCongested_mps ? slow + 1 : 0;
         if (slow == kCongestedIntervals) return static_cast<double>(k + 1 - kCongestedIntervals) * interval_s;
@@ -55,7 +55,7 @@ CongestionSampler::CongestionSampler(const Model& model, double interval_s)
 }
 
 void CongestionSampler::sample_lane(const State& state, int lane) {
-    constexpr double kMinCosine = 0.9;  // vehicles with another heading are left out of the map
+    constexpr double kMinCosine = 0.9;  // vehicles that head neither east nor west are left out of the map
     const VehicleArrays& v = state.vehicles;
     const Lane& road = model_.graph.lanes[at(lane)];
     const double from_m = road.start_offset_m;

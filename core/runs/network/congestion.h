@@ -1,4 +1,4 @@
-// Speeds by approach, place and time: they show where queues do not clear and how far back they reach.
+// Samples speeds by approach, place and time. They show which queues do not clear and how far upstream they reach.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,11 @@
 
 namespace stopline {
 
-// One approach in one interval. The values are means over its vehicles, sampled once a second.
+// The traffic on one approach in one interval, sampled once a second.
 struct ApproachInterval {
-    double vehicles = 0.0;
-    double speed_mps = 0.0;           // NaN: no vehicle
-    double upstream_speed_mps = 0.0;  // in the upstream third of the approach; NaN: no vehicle
+    double vehicles = 0.0;            // mean number of vehicles
+    double speed_mps = 0.0;           // mean speed; NaN: no vehicle
+    double upstream_speed_mps = 0.0;  // mean speed in the upstream third of the approach; NaN: no vehicle
 };
 
 struct ApproachSeries {
@@ -22,12 +22,12 @@ struct ApproachSeries {
     std::vector<ApproachInterval> intervals;
 };
 
-// Mean speeds over place and time, by heading. The places are stretches of kStretch_m along the x axis.
+// Mean speeds by interval, stretch of road and heading. The x axis is divided into stretches of kStretch_m.
 struct SpeedMap {
     static constexpr double kStretch_m = 25.0;
-    double from_m = 0.0;                             // x at the start of the first stretch
-    std::vector<std::vector<double>> eastwards_mps;  // [interval][stretch] heading along +x; NaN: no vehicle
-    std::vector<std::vector<double>> westwards_mps;  // [interval][stretch] heading along -x; NaN: no vehicle
+    double from_m = 0.0;                             // x coordinate of the start of the first stretch
+    std::vector<std::vector<double>> eastwards_mps;  // [interval][stretch] vehicles that head east (+x); NaN: none
+    std::vector<std::vector<double>> westwards_mps;  // [interval][stretch] vehicles that head west (-x); NaN: none
 };
 
 struct Congestion {
@@ -35,18 +35,18 @@ struct Congestion {
     std::vector<ApproachSeries> approaches;
     SpeedMap map;
 
-    // Returns the time from which an approach is congested, s; nothing if it never is. An approach is congested once
-    // the mean speed in its upstream third is below 12 km/h for five intervals. Without a queue it is more than twice
-    // as high.
+    // Returns the time from which an approach is congested, s; std::nullopt if it is never congested. An approach is
+    // congested if the mean speed in its upstream third is below 12 km/h for five successive intervals. Without a
+    // queue, this mean speed is more than twice as high.
     std::optional<double> congested_from_s(std::size_t approach) const;
 };
 
-// Samples the speeds of a run. Networks without approaches give an empty result.
+// Samples the speeds of a run. The result is empty if LaneGraph::approaches is empty.
 class CongestionSampler {
 public:
     CongestionSampler(const Model& model, double interval_s);
 
-    // Call before each step and after the last one.
+    // Takes a sample once a second. Must be called before each step and after the last step.
     void sample(const State& state);
     const Congestion& congestion() const { return congestion_; }
 
@@ -68,10 +68,10 @@ private:
     std::int64_t second_ticks_;
     std::int64_t interval_ticks_;
     Congestion congestion_;
-    // Sums of the current interval.
-    std::vector<SpeedSum> approach_;               // [approach]
-    std::vector<SpeedSum> upstream_;               // [approach]
-    std::vector<SpeedSum> eastwards_, westwards_;  // [stretch]
+    // Sums over the current interval.
+    std::vector<SpeedSum> approach_;               // [approach] all vehicles on the approach
+    std::vector<SpeedSum> upstream_;               // [approach] vehicles in the upstream third of the approach
+    std::vector<SpeedSum> eastwards_, westwards_;  // [stretch] vehicles with this heading
 };
 
 }  // namespace stopline

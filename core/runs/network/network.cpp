@@ -27,12 +27,12 @@ const std::string& lane_name(const NetworkReport& report, int lane) {
     return lane < 0 ? kNone : report.lanes.at(static_cast<std::size_t>(lane));
 }
 
-// Returns the time as a cell; an empty cell if the measured window is empty.
+// Returns a limit of the measured window as a table cell; an empty cell if the window is empty.
 std::string window_time(const NetworkResult& result, double time_s) {
     return result.measured.window.length_s() > 0.0 ? fixed(time_s, 0) : "";
 }
 
-// Returns the number as a cell; an empty cell for -1.
+// Returns a vehicle number as a table cell; an empty cell for -1, which means no vehicle.
 std::string id_cell(int number) { return number < 0 ? "" : std::to_string(number); }
 
 }  // namespace
@@ -67,8 +67,8 @@ NetworkReport run_networks(const Scenario& scenario, const NetworkOptions& optio
     for (const Lane& lane : make_network(scenario.network).lanes) {
         report.lanes.push_back(lane.name);
     }
-    // All threads share a single run. Several runs get one thread each, because nested teams of threads would be formed
-    // anew in every step.
+    // A single run is shared by all threads. Of several runs, each run gets one thread, because OpenMP would create
+    // nested teams of threads anew in every step.
     const int threads_per_run = report.populations.size() == 1 ? options.threads : 1;
     run_side_by_side(report.populations.size(), options.threads, options.on_progress,
                      [&](std::size_t k, const std::function<bool(double)>& report_progress) {

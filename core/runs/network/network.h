@@ -1,4 +1,4 @@
-// All populations of a scenario with several intersections, and their result tables.
+// Runs all populations of a scenario with several intersections, and writes the result tables.
 #pragma once
 
 #include <functional>
@@ -11,35 +11,37 @@ namespace stopline {
 
 struct NetworkReport {
     Scenario scenario;
-    std::vector<NetworkResult> populations;  // in the order of the scenario
-    std::vector<std::string> lanes;          // [lane] name
+    std::vector<NetworkResult> populations;  // in the order of scenario.populations
+    std::vector<std::string> lanes;          // [lane] name of the lane
 
-    // Returns the gain in throughput over the baseline, %; NaN without a baseline.
+    // Returns the gain in throughput over the population measure.baseline, %; NaN without a baseline.
     double improvement_percent(const NetworkResult& result) const;
-    // Returns the reduction of travel time below the baseline, %. Returns NaN without a baseline, and if the travel
-    // time of either is biased.
+    // Returns the reduction of travel time against the baseline, %. Returns NaN without a baseline. Also returns NaN if
+    // is_travel_time_biased() is true for the result or for the baseline.
     double time_saved_percent(const NetworkResult& result) const;
     bool no_violations() const;
 };
 
-// Returns true if travel times understate the delay, because they cover only vehicles that leave the area. This is the
-// case if vehicles in the area over exits (Little's law) is more than 1.5 times the mean travel time.
+// Returns true if the travel time by Little's law (vehicles in the area divided by throughput) is more than 1.5 times
+// the measured travel time. The measured travel time is then too short, because it covers only vehicles that leave the
+// area.
 bool is_travel_time_biased(const NetworkResult& result);
 
 struct NetworkOptions {
     int threads = 1;
-    std::function<bool(double)> on_progress;  // takes the share done, 0 .. 1; return false to stop
+    std::function<bool(double)> on_progress;  // gets the completed share, 0 .. 1; returns false to stop
     Observation observation = {};
 };
 
-// Runs all populations side by side in threads. The results are the same to the bit for any number of threads. Throws
-// Interrupted if on_progress returns false.
+// Runs all populations at the same time in threads. The results are the same to the bit for any number of threads.
+// Throws Interrupted if on_progress returns false.
 NetworkReport run_networks(const Scenario& scenario, const NetworkOptions& options);
 
-// Returns a text with the measured window. It gives the reason if the window differs from measure.window.
+// Returns a text for the user with the start and the end of the measured window. If the window is not the last
+// measure.window of the run, the text gives the reason.
 std::string window_text(const NetworkReport& report);
 
-// The result tables as CSV text; scenarios/COLUMNS.md explains the columns.
+// These functions return the result tables as CSV text. scenarios/COLUMNS.md explains the columns.
 std::string network_csv(const NetworkReport& report);         // summary.csv
 std::string network_series_csv(const NetworkReport& report);  // series.csv
 std::string origin_destination_csv(const NetworkReport& report);

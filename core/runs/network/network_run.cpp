@@ -16,7 +16,7 @@ namespace stopline {
 
 namespace {
 
-// Returns true if vehicles reach the lane from outside the network: it is an entry lane, or lies beside one.
+// Returns true if the lane is an entry lane of the network, or belongs to the same approach as an entry lane.
 bool is_fed_from_outside(const LaneGraph& graph, int lane) {
     const int approach = graph.lanes[at(lane)].approach;
     return std::any_of(graph.entries.begin(), graph.entries.end(), [&](int entry) {
@@ -24,7 +24,8 @@ bool is_fed_from_outside(const LaneGraph& graph, int lane) {
     });
 }
 
-// Adds a detector for the start and one for the end of trips. The whole imported network is the measured area.
+// Adds one detector for the start and one for the end of each trip. In an imported network, the measured area is the
+// whole network.
 void add_trip_detectors(Model& model) {
     model.trips_begin = static_cast<int>(model.detectors.size());
     model.detectors.push_back({-1, 0.0, Detector::Kind::zone, 0, false});
@@ -32,7 +33,8 @@ void add_trip_detectors(Model& model) {
     model.detectors.push_back({-1, 0.0, Detector::Kind::zone, 0, true});
 }
 
-// Adds a detector at each inlet inside the measured area. All other vehicles on these lanes are in the area already.
+// Adds a detector at the start of each lane inside the measured area on which vehicles enter the network. Vehicles that
+// reach such a lane from upstream are in the area already.
 void add_inner_inlet_detectors(Model& model) {
     for (const DemandPlan::Inlet& inlet : model.demand.inlets) {
         if (inlet.vehicles == 0 || is_fed_from_outside(model.graph, inlet.lane)) continue;
@@ -40,8 +42,8 @@ void add_inner_inlet_detectors(Model& model) {
     }
 }
 
-// Adds detectors at the boundary of the measured area, on the entry and exit lanes of the network. Pockets that lie
-// wholly inside the area have none, because vehicles enter them from the lane beside.
+// Adds detectors at the boundary of the measured area, on the entry and exit lanes of the network. Turning pockets
+// wholly inside the area get no detector, because vehicles reach them from the adjacent lane.
 void add_area_detectors(const Scenario& scenario, Model& model) {
     if (scenario.network.is_sumo()) return add_trip_detectors(model);
     std::erase_if(model.detectors, [](const Detector& d) { return d.kind != Detector::Kind::stop_line; });
@@ -61,8 +63,8 @@ void add_area_detectors(const Scenario& scenario, Model& model) {
     add_inner_inlet_detectors(model);
 }
 
-// Returns the length of all lanes in the measured area, m. An intersection counts once, straight across, for each lane
-// that leads to it.
+// Returns the length of all lanes in the measured area, m. Except in SUMO networks, the length of a lane that leads to
+// an intersection includes the straight way across this intersection.
 double area_lane_m(const Scenario& scenario, const Model& model) {
     double sum_m = 0.0;
     const double margin_m = scenario.measure.area_margin_m;
@@ -82,7 +84,8 @@ double area_lane_m(const Scenario& scenario, const Model& model) {
     return sum_m;
 }
 
-// Samples what events do not record: delay and teleported vehicles of each interval, vehicles present in each second.
+// Samples values that the events of a run do not contain: delay and number of teleported vehicles in each interval, and
+// number of vehicles in the network in each second.
 class IntervalSampler {
 public:
     IntervalSampler(const Scenario& scenario, const Model& model)
@@ -119,13 +122,14 @@ public:
 private:
     std::int64_t interval_ticks_;
     std::int64_t second_ticks_;
-    std::array<double, kDelayCauseNames.size()> last_delay_s_{};  // [cause] since the start of the run
+    std::array<double, kDelayCauseNames.size()> last_delay_s_{};  // [cause] sum up to the end of the previous interval
     std::int64_t last_teleported_ = 0;
     std::vector<NetworkInterval> series_;
-    std::vector<int> present_;  // [second] vehicles
+    std::vector<int> present_;  // [second] number of vehicles in the network
 };
 
-// Returns the mean over the whole intervals from `from_s` on. Values without data are NaN.
+// Returns the result over all intervals that begin at `from_s` or later. The exits are a sum, the other values are
+// means. Values without data are NaN.
 AreaResult mean_from(const std::vector<NetworkInterval>& series, double from_s) {
     AreaResult mean;
     double travel_s = 0.0;
@@ -148,13 +152,14 @@ AreaResult mean_from(const std::vector<NetworkInterval>& series, double from_s) 
     return mean;
 }
 
-// Returns true if the gridlock still exists at the end and has lasted for six cycles or more.
+// Returns true if the gridlock still exists at the end of the run and has lasted for six signal cycles or more.
 bool is_permanent(const Gridlock& gridlock, double end_s, double cycle_s) {
-    constexpr double kLasting_cycles = 6.0;  // twice the three cycles after which vehicles are teleported
+    constexpr double kLasting_cycles = 6.0;  // twice the value 3 of rules.teleport_cycles in the shipped scenarios
     return end_s - gridlock.to_s <= cycle_s && gridlock.to_s - gridlock.from_s >= kLasting_cycles * cycle_s;
 }
 
-// Decides whether a run is stable. It uses the exits in each signal cycle, so that measure.interval has no influence.
+// Judges the stability of a run by the number of exits in each signal cycle. It does not use the time series of
+// measure.interval, so the interval has no influence on the verdict.
 class StabilityJudge {
 public:
     StabilityJudge(NetworkResult& result, const std::vector<AreaResult>& cycles, double cycle_s)
@@ -186,8 +191,8 @@ private:
         result_.collapse_s = since_s;
     }
 
-    // Returns the first cycle in which the network has filled. It uses means of five cycles, because single cycles
-    // scatter.
+    // Returns the index of the first cycle after the network has filled: the end of the initial rise of throughput. It
+    // uses means over five cycles, because the throughput of single cycles scatters.
     std::size_t first_full_cycle() const {
         constexpr std::size_t kCycles = 5;
         std::vector<double> means;
@@ -199,7 +204,7 @@ private:
         return rise_end(means) * kCycles;
     }
 
-    // Returns the start of the first cycle with the lower throughput, s; nothing if throughput does not drop.
+    // Returns the start of the first cycle after throughput has dropped for good, s; std::nullopt if it does not drop.
     std::optional<double> throughput_drop_s() const {
         std::vector<double> flow;
         for (const AreaResult& cycle : cycles_) flow.push_back(cycle.exited);
@@ -208,7 +213,7 @@ private:
         return cycles_[first_full_ + collapse->index].window.from_s;
     }
 
-    // Returns the end of the last cycle in which the share of teleported vehicles was below the limit, s.
+    // Returns the end of the last cycle up to which the share of teleported vehicles was below kSemiStableShare, s.
     double teleport_limit_s() const {
         double since_s = 0.0;
         double exited = 0.0;
@@ -227,7 +232,7 @@ private:
     NetworkResult& result_;
     const std::vector<AreaResult>& cycles_;
     double cycle_s_;
-    std::size_t first_full_;  // index into cycles_
+    std::size_t first_full_;  // index into cycles_ of the first cycle after the network has filled
 };
 
 void measure(const Scenario& scenario, const Model& model, const State& state, const IntervalSampler& sampler,
@@ -243,7 +248,7 @@ void measure(const Scenario& scenario, const Model& model, const State& state, c
         vehicles.push_back(areas[k].vehicles);
     }
     result.warm_up_s = static_cast<double>(warm_up(vehicles)) * scenario.measure.interval_s;
-    // A run that is not longer than measure.window is measured from the end of the warm-up on.
+    // If the run is not longer than measure.window, the measurement begins at the end of the warm-up.
     const double window_from_s = end_s - scenario.measure.window_s;
     result.measured = mean_from(result.series, window_from_s > 0.0 ? window_from_s : result.warm_up_s);
     if (model.trips_begin < 0) {
@@ -252,7 +257,8 @@ void measure(const Scenario& scenario, const Model& model, const State& state, c
     }
 }
 
-// Number of vehicles from which a second thread is worth its cost. A step then takes some tens of microseconds.
+// Smallest number of vehicles for which several threads share a step. With fewer vehicles, a step takes only some tens
+// of microseconds, and a second thread costs more than it saves.
 constexpr int kSharedFromMeso = 4000;
 constexpr int kSharedFromFull = 500;
 

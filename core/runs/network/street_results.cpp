@@ -14,19 +14,19 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kHour_s = 3600.0;
-constexpr double kKmh = 3.6;  // per m/s
+constexpr double kKmh = 3.6;  // km/h per m/s
 
 std::size_t index_of(Side side) { return static_cast<std::size_t>(side); }
 std::size_t index_of(Turn turn) { return static_cast<std::size_t>(turn); }
 
-// Returns the share of one turn among right, left and straight on, %; NaN if there is no vehicle.
+// Returns the share of one movement among right, left and straight on, %; NaN if there is no vehicle.
 double share_percent(const std::array<std::int64_t, kMaxTurns>& turned, Turn turn) {
     const std::int64_t all =
         turned[index_of(Turn::straight)] + turned[index_of(Turn::right)] + turned[index_of(Turn::left)];
     return all == 0 ? kNone : 100.0 * static_cast<double>(turned[index_of(turn)]) / static_cast<double>(all);
 }
 
-// Means over a period of the run; NaN if the run ends before the period does.
+// Means over a period of the run. They are NaN if the run ends before the period.
 struct PeriodMeans {
     double throughput_veh_h = kNone;
     double travel_time_s = kNone;
@@ -34,7 +34,7 @@ struct PeriodMeans {
     std::array<double, 4> inflow_veh_h{kNone, kNone, kNone, kNone};
 };
 
-// Returns the means over the whole intervals between two times.
+// Returns the means over all intervals that lie wholly between `from_s` and `to_s`.
 PeriodMeans means_of(const NetworkResult& f, double interval_s, double from_s, double to_s) {
     PeriodMeans means;
     if (f.series.empty() || f.series.back().area.window.to_s < to_s) return means;

@@ -15,7 +15,7 @@ namespace stopline {
 
 namespace {
 
-// Returns the lane that follows straight on; -1: none.
+// Returns the next lane for vehicles that go straight on; -1 if there is none.
 int straight_on(const LaneGraph& graph, int lane) {
     for (const int next : graph.lanes[at(lane)].next) {
         const Turn turn = graph.lanes[at(next)].turn;
@@ -24,7 +24,7 @@ int straight_on(const LaneGraph& graph, int lane) {
     return -1;
 }
 
-// Returns the distance of the start of a lane from the origin, toward a side, m.
+// Returns the coordinate of the start of a lane, m. The axis points from the origin toward `side`.
 double outwards_m(const Lane& lane, Side side) {
     const auto& begin = lane.shape[0];
     if (side == Side::west) return -begin.x_m;
@@ -35,7 +35,7 @@ double outwards_m(const Lane& lane, Side side) {
 // Returns the name of an approach lane without its number, such as "c0r2_west_in_".
 std::string approach_prefix(const Lane& lane) { return lane.name.substr(0, lane.name.find_last_of('_') + 1); }
 
-// Returns the prefix of the entry lanes of the middle row or column of a grid.
+// Returns the name prefix of the lanes on which vehicles enter the middle row or column of a grid from the side `from`.
 std::string grid_inlet_prefix(const GridSettings& grid, const std::string& from) {
     int column = grid.columns / 2;
     int row = grid.rows / 2;
@@ -43,11 +43,12 @@ std::string grid_inlet_prefix(const GridSettings& grid, const std::string& from)
     if (from == "east") column = grid.columns - 1;
     if (from == "south") row = 0;
     if (from == "north") row = grid.rows - 1;
-    const bool single = grid.columns == 1 && grid.rows == 1;  // its lane names hold no row and column
+    const bool single = grid.columns == 1 && grid.rows == 1;  // lane names then contain no row and column
     return single ? from + "_in_" : fmt::format("c{}r{}_{}_in_", column, row, from);
 }
 
-// Returns the prefix of the entry lanes that begin furthest out on a side and lead straight on; empty if there is none.
+// Returns the name prefix of the entry lanes that begin furthest out on `side`. Entry lanes without a straight
+// connection do not count. Returns "" if there is no such lane.
 std::string street_inlet_prefix(const LaneGraph& graph, Side side) {
     const Lane* furthest = nullptr;
     for (const int entry : graph.entries) {
@@ -58,11 +59,11 @@ std::string street_inlet_prefix(const LaneGraph& graph, Side side) {
     return furthest == nullptr ? "" : approach_prefix(*furthest);
 }
 
-// A lane and the lanes that follow it straight on.
+// An entry lane and the lanes that follow for a vehicle that always goes straight on.
 struct StraightPath {
     std::vector<int> lanes;
     double length_m = 0.0;
-    bool reaches_exit = false;  // the last lane leaves the network
+    bool reaches_exit = false;  // true: the last lane leaves the network
 
     double reach_m() const { return reaches_exit ? std::numeric_limits<double>::infinity() : length_m; }
 };
@@ -77,8 +78,9 @@ StraightPath straight_path_from(const LaneGraph& graph, int first) {
     return path;
 }
 
-// Returns the longest straight path from the chosen side; empty if no street leads through the network. Lanes are
-// numbered from the left, so the rightmost of several equal lanes is taken.
+// Returns the longest straight path from the side measure.time_space_side; an empty path if no street begins there. A
+// path to an exit counts as longer than any other path. Of equal paths, the path on the rightmost lane is taken,
+// because lanes are numbered from the left.
 StraightPath find_path(const Scenario& scenario, const LaneGraph& graph) {
     const std::string& from = scenario.measure.time_space_side;
     const bool streets = scenario.network.is_streets();

@@ -1,4 +1,5 @@
-// Positions of the vehicles of one street over time, with its red signals: the time-space diagrams of Fig. 16.
+// Records the positions of the vehicles on one street and the red phases of its signals, for the time-space diagrams
+// (Fig. 16 of the paper).
 #pragma once
 
 #include <cstdint>
@@ -10,14 +11,14 @@
 
 namespace stopline {
 
-// Time between two samples of a vehicle.
+// Time between two samples of a vehicle, s.
 inline constexpr double kTimeSpaceSample_s = 1.0;
 
-// A sample of one vehicle. Distances are measured along the street from the start of its first lane.
+// A sample of one vehicle. In this file, positions are measured along the street from the start of its first lane.
 struct StreetPoint {
     double time_s;
-    double position_m;  // of the front
-    int vehicle;        // number
+    double position_m;  // position of the front
+    int vehicle;        // number of the vehicle
     int policy;         // index into StreetTrace::policies
 };
 
@@ -35,26 +36,27 @@ struct StreetTrace {
     std::string first_lane;
     double from_s = 0.0;
     double to_s = 0.0;
-    double length_m = 0.0;     // 0: no street leads through the network
-    bool reaches_exit = true;  // false: no lane leads straight through the network; this is the longest one
+    double length_m = 0.0;     // length of the traced lanes; 0: there is no such street
+    bool reaches_exit = true;  // false: no path leads straight to an exit, and the longest path is traced
 };
 
-// Samples one street during the last measure.time_space of a run. The street begins on the side
-// measure.time_space_side; in a grid it is the middle row or column. The tracer follows its rightmost lane that leads
-// straight through the network.
+// Samples one street in the last part of a run, which is measure.time_space long. The street begins on the side
+// measure.time_space_side; in a grid it is the middle row or column. The tracer follows the rightmost lane of the
+// street that leads straight through the network.
 class StreetTracer {
 public:
     StreetTracer(const Scenario& scenario, const Model& model);
 
-    // Call before each step.
+    // Takes a sample every kTimeSpaceSample_s. Must be called before each step.
     void sample(const State& state);
     const StreetTrace& trace() const { return trace_; }
 
 private:
+    // A lane of the traced street.
     struct Piece {
         int lane;
-        double from_m;  // start of the lane along the street
-        int red;        // index into trace_.reds of the current red phase; -1: not red
+        double from_m;  // position of the start of the lane along the street
+        int red;        // index of the current red phase in trace_.reds; -1: the signal is not red
     };
     const Model& model_;
     std::vector<Piece> pieces_;

@@ -9,7 +9,7 @@ namespace stopline {
 
 namespace {
 
-// Returns the interpolated speed of the leader, m/s.
+// Returns the speed of the leader at a time, interpolated between the samples, m/s.
 double speed_at(std::span<const SpeedSample> samples, double time_s) {
     const auto after = std::upper_bound(samples.begin(), samples.end(), time_s,
                                         [](double time, const SpeedSample& sample) { return time < sample.time_s; });
@@ -20,8 +20,8 @@ double speed_at(std::span<const SpeedSample> samples, double time_s) {
     return before->speed_mps + share * (after->speed_mps - before->speed_mps);
 }
 
-// Returns the speed v >= 0 with v dt + gap(v) = available_m, m/s. It uses Newton steps from `guess_mps`, which are
-// exact on each linear piece of a gap law.
+// Returns the speed v >= 0 with v dt + gap(v) = available_m, m/s. Uses Newton steps from `guess_mps`. A Newton step is
+// exact where the gap law is linear.
 double gap_keeping_speed_mps(const GapPolicySettings& policy, const GapLaw& law, double available_m, double guess_mps) {
     double speed_mps = guess_mps;
     constexpr int kSteps = 20;
@@ -32,7 +32,7 @@ double gap_keeping_speed_mps(const GapPolicySettings& policy, const GapLaw& law,
         const double next_mps =
             std::max(speed_mps - (speed_mps * kIdealStep_s + gap_m - available_m) / (kIdealStep_s + slope_s), 0.0);
         if (std::abs(next_mps - speed_mps) < 1e-12) break;
-        // At a kink of the law Newton steps can alternate, so later steps are halved.
+        // At a kink of the gap law, Newton steps can alternate between two speeds, so later steps are halved.
         speed_mps = k < kSteps / 2 ? next_mps : 0.5 * (speed_mps + next_mps);
     }
     return speed_mps;

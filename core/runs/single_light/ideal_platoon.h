@@ -1,12 +1,12 @@
 // An ideal platoon: each follower keeps the gap of its policy at all times, without a controller, delay or acceleration
-// limit. The leader has a given speed. The result is what a spacing policy allows behind a given start; the simulated
-// platoon differs from it by its controller and powertrain.
+// limit. The speed of the leader over time is given. The result is the best discharge that a spacing policy allows
+// behind this leader. A simulated platoon differs from it because of controller and powertrain.
 //
 //     front_{i-1}(t) - length - front_i(t) = gap_i(v_i(t)),   dfront_i / dt = v_i >= 0
 //
 // The platoon starts as a queue with standstill gaps. The equations are solved with backward Euler steps of
-// kIdealStep_s. Each step finds the speed v with v dt + gap(v) = d. Here d is the net gap after the vehicle ahead has
-// moved and before the vehicle itself moves. The left side increases with v.
+// kIdealStep_s. Each step finds the speed v with v dt + gap(v) = d. Here d is the net gap after the leader has moved
+// and before the follower moves. The left side increases with v, so there is one solution.
 #pragma once
 
 #include <span>
@@ -25,9 +25,9 @@ struct SpeedSample {
 
 inline constexpr double kIdealStep_s = 0.01;
 
-// Returns the times at which fronts pass a line, s, in the order of the platoon. Passages after `until_s` are left out.
-// `policies` has one entry for each vehicle, the leader first. `to_line_m` is the initial distance of the leader to the
-// line.
+// Returns the times at which the fronts of the vehicles pass a line, s, in the order of the platoon. Passages after
+// `until_s` are left out. `policies` has one entry for each vehicle, the leader first. `length_m` is the length of each
+// vehicle. `to_line_m` is the initial distance from the front of the leader to the line.
 std::vector<double> ideal_passages_s(std::span<const SpeedSample> leader,
                                      const std::vector<const GapPolicySettings*>& policies, double length_m,
                                      double to_line_m, double until_s);

@@ -18,15 +18,15 @@ bool at_limit(const TrajectoryPoint& point, double limit_mps) {
     return std::abs(point.speed_mps - limit_mps) <= kAtLimit_mps;
 }
 
-// Returns the last sample of one vehicle in steady state; null if there is none.
+// Returns the last sample at which a vehicle is in steady state; null if there is none. `points` are its samples.
 const TrajectoryPoint* last_steady_point(std::span<const TrajectoryPoint> points, double interval_s, double limit_mps) {
     const auto window = static_cast<std::size_t>(std::lround(kSteadyTime_s / interval_s));
     const TrajectoryPoint* last = nullptr;
-    std::size_t steady = 0;  // consecutive samples at the limit
+    std::size_t steady = 0;  // number of successive samples at the speed limit
     for (std::size_t k = 0; k < points.size(); ++k) {
         steady = at_limit(points[k], limit_mps) ? steady + 1 : 0;
         if (steady <= window) continue;
-        // Without a leader the gap is NaN and the comparison is false.
+        // Without a leader the net gap is NaN and the comparison is false.
         if (std::abs(points[k].net_gap_m - points[k - window].net_gap_m) <= kSteadyGapChange_m) last = &points[k];
     }
     return last;

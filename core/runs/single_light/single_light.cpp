@@ -22,7 +22,7 @@ std::int64_t ticks_of(double interval_s, double step_s) {
 }
 
 const GapPolicySettings& policy_named(const Scenario& scenario, const std::string& name) {
-    // The loader has checked that the policy exists.
+    // load_scenario() has checked that the policy exists.
     return *std::find_if(scenario.policies.begin(), scenario.policies.end(),
                          [&](const GapPolicySettings& policy) { return policy.name == name; });
 }
@@ -56,7 +56,8 @@ QueueGaps queue_gaps(const std::vector<double>& gaps_m) {
     return {mean(gaps_m), *smallest, *largest};
 }
 
-// Returns the points downstream of the stop line. Upstream of it late arrivals can drive at the limit too.
+// Returns the points downstream of the stop line. Upstream of it, vehicles that arrive after the queue can drive at the
+// limit too, and must not count as steady.
 std::vector<TrajectoryPoint> downstream_points(const std::vector<TrajectoryPoint>& points, double line_m) {
     std::vector<TrajectoryPoint> downstream;
     std::copy_if(points.begin(), points.end(), std::back_inserter(downstream),
@@ -64,7 +65,8 @@ std::vector<TrajectoryPoint> downstream_points(const std::vector<TrajectoryPoint
     return downstream;
 }
 
-// Returns the start of the platoon leader: the first vehicle at the stop line of the first lane.
+// Returns the start of the platoon leader, which is the first vehicle to pass the stop line of the first lane. Times
+// count from the start of green.
 LeaderStart leader_of(const Scenario& scenario, const std::vector<LinePassage>& line,
                       const std::vector<TrajectoryPoint>& points, double green_start_s) {
     if (line.empty()) return {kNone, kNone};
@@ -75,7 +77,7 @@ LeaderStart leader_of(const Scenario& scenario, const std::vector<LinePassage>& 
     return start;
 }
 
-// Returns the speeds from a time on. Their times count from there.
+// Returns the speeds from `start_s` on. The times of the samples count from `start_s`.
 std::vector<SpeedSample> speeds_from(const std::vector<TrajectoryPoint>& points, double start_s) {
     std::vector<SpeedSample> samples;
     for (const TrajectoryPoint& point : points) {
@@ -84,12 +86,13 @@ std::vector<SpeedSample> speeds_from(const std::vector<TrajectoryPoint>& points,
     return samples;
 }
 
-// Returns the passages of the queues at the start of green, each lane as an ideal platoon behind its leader.
+// Returns the passages of ideal platoons (ideal_platoon.h) over the stop line. On each lane, the platoon is the queue
+// at the start of green, and its leader has the simulated speed.
 Counter ideal_counter(const Scenario& scenario, const PopulationSettings& population,
                       const std::vector<TrajectoryPoint>& points, double green_start_s) {
     const double line_m = scenario.network.approach.length_m;
     const double sample_s = kSampleInterval_s;
-    std::map<int, std::vector<TrajectoryPoint>> queues;  // by lane
+    std::map<int, std::vector<TrajectoryPoint>> queues;  // lane -> points of its queue
     for (const TrajectoryPoint& point : points) {
         if (point.time_s < green_start_s || point.time_s >= green_start_s + 0.5 * sample_s) continue;
         if (point.distance_m < line_m) queues[point.lane].push_back(point);

@@ -12,8 +12,8 @@ namespace stopline {
 
 namespace {
 
-// A '*' in a table name stands for any text. A '*' in both column names stands for the same text. The first row that
-// matches applies.
+// The old and the current name of a column. A '*' in `table` stands for any text. A '*' in `old_name` stands for any
+// text, and the '*' in `name` for the same text. If several rows match, the first row applies.
 struct ColumnAlias {
     std::string_view table;
     std::string_view old_name;
@@ -77,6 +77,7 @@ constexpr std::array kColumns{
     ColumnAlias{"sweep/NAME_means.csv", "difference_high", "difference_ci95_high"},
 };
 
+// The old and the current form of a cell value.
 struct ValueAlias {
     std::string_view table;
     std::string_view column;
@@ -95,6 +96,7 @@ constexpr std::array kValues{
     ValueAlias{"sweep/NAME.csv", "unstable_by", "moved_on", "teleported"},
 };
 
+// The old file name of a table.
 struct FileAlias {
     std::string_view table;
     std::string_view old_file;
@@ -107,7 +109,8 @@ constexpr std::array kFiles{
 constexpr std::string_view kSweepTable = "sweep/NAME.csv";
 constexpr std::string_view kMeansTable = "sweep/NAME_means.csv";
 
-// Returns the text that '*' stands for; nothing if the text does not match the pattern.
+// Returns the part of `text` at the place of the '*' in `pattern`; "" if the pattern has no '*'. Returns std::nullopt
+// if the text does not match the pattern.
 std::optional<std::string_view> match(std::string_view pattern, std::string_view text) {
     const std::size_t star = pattern.find('*');
     if (star == std::string_view::npos) return pattern == text ? std::optional(std::string_view()) : std::nullopt;
@@ -126,7 +129,8 @@ std::string filled(std::string_view pattern, std::string_view text) {
     return name;
 }
 
-// Returns the column name after replacing `from` by `to`, which are members of ColumnAlias.
+// Translates a column name. The members `from` and `to` of ColumnAlias give the direction: from old to current names,
+// or back.
 std::string renamed_column(std::string_view table, const std::string& name, std::string_view ColumnAlias::*from,
                            std::string_view ColumnAlias::*to) {
     for (const ColumnAlias& alias : kColumns) {
@@ -144,7 +148,8 @@ std::string renamed_value(std::string_view table, std::string_view column, const
     return value;
 }
 
-// Returns the index of the first column that can have an old name. The first columns of a sweep table are its axes.
+// Returns the index of the first column that can have an old name. The columns before it in a sweep table hold axis
+// values.
 std::size_t first_result_column(std::string_view table, const std::vector<std::string>& columns) {
     const char* const last_axis = table == kSweepTable ? "seed" : "metric";
     if (table != kSweepTable && table != kMeansTable) return 0;

@@ -1,5 +1,5 @@
-// Old names of result files, columns and cell values. They are kept for one release: tables with old names are read
-// with a warning, and --old-column-names writes them.
+// Old names of result files, columns and cell values. They are kept for one release. Programs read tables with old
+// names and give a warning. The option --old-column-names makes programs write old names.
 #pragma once
 
 #include <map>
@@ -10,38 +10,39 @@
 
 namespace stopline {
 
-// Names in result tables: those of this release, or those of the last one.
+// The kind of names in result tables: names of this release, or names of the last release.
 enum class ColumnNames { current, old };
 
 inline constexpr const char* kOldNamesWarning =
     "--old-column-names: the next release removes this option; scenarios/COLUMNS.md lists the current names";
 
-// Replaces old names while a table is read. Tables are named as in column_docs.h.
+// Translates the old names in one table while it is read. `table` is a table name as in column_docs.h.
 class OldNameReader {
 public:
     explicit OldNameReader(std::string table) : table_(std::move(table)) {}
 
-    // Returns the current name of a column.
+    // Returns the current name of a column. An old name adds a warning.
     std::string column(const std::string& name);
-    // Returns the current form of a cell value in the column with the current name `column`.
+    // Returns the current form of a cell value. `column` is the current name of its column.
     std::string value(const std::string& column, const std::string& value);
-    // One line for each old column name that was replaced.
+    // Returns one line for each old column name that was replaced.
     const std::vector<std::string>& warnings() const { return warnings_; }
 
 private:
     std::string table_;
-    std::map<std::string, std::string> known_;  // name in the table, current name
+    std::map<std::string, std::string> known_;  // name in the table -> current name
     std::vector<std::string> warnings_;
 };
 
-// Returns a table with the old names of its columns and cell values.
+// Returns the CSV text with the old names of its columns and cell values.
 std::string with_old_names(std::string_view table, const std::string& csv);
 
 struct ResultFile {
     std::string name;
     std::string text;
 };
-// Returns the file to write for a result table: unchanged, or with old file, column and value names.
+// Returns name and text of the file to write for a result table. If `names` is `old`, replaces the names of the file,
+// of the columns and of cell values by old names.
 ResultFile result_file(std::string_view table, std::string file, std::string csv, ColumnNames names);
 
 // Returns all old names of columns, values and files as a Markdown section.

@@ -1,4 +1,4 @@
-// Descriptions of all columns of all result tables. scenarios/COLUMNS.md is made from them.
+// Descriptions of all columns of all result tables. columns_markdown() makes the page scenarios/COLUMNS.md from them.
 //
 // The name of a table is its group and its file, such as "network/summary.csv". The group is the kind of network or the
 // program that writes the table. CAPITALS in names stand for varying parts, such as the NAME of a sweep.
@@ -21,27 +21,27 @@ struct ColumnDoc {
 
 struct TableDoc {
     std::string_view name;
-    std::string_view rows;  // what a row is, and when the file is written
+    std::string_view rows;  // meaning of a row, and the runs for which the file is written
     std::vector<ColumnDoc> columns;
 };
 
-// Returns all tables in the order of the page.
+// Returns the descriptions of all tables, in the order of scenarios/COLUMNS.md.
 const std::vector<TableDoc>& table_docs();
 
-// Returns the group of the tables that stopline-run writes for a network.
+// Returns the group of the tables that stopline-run writes for a network, such as "intersection".
 std::string table_group(const NetworkSettings& network);
 
-// Each returns the tables of one group.
+// Each of these functions returns the tables of one group or of some programs.
 std::vector<TableDoc> network_table_docs();
 std::vector<TableDoc> intersection_table_docs();
 std::vector<TableDoc> single_light_table_docs();
 std::vector<TableDoc> sweep_table_docs();
-std::vector<TableDoc> program_table_docs();  // stopline-calibrate, -startup, -compare and -scorecard
+std::vector<TableDoc> program_table_docs();  // see program_columns.cpp
 
 // Returns the description of a column. Throws std::logic_error if there is none.
 ColumnDoc column_doc(const std::vector<TableDoc>& tables, std::string_view table, std::string_view column);
 
-// Returns the page of all columns as Markdown.
+// Returns the text of scenarios/COLUMNS.md.
 std::string columns_markdown();
 
 }  // namespace stopline

@@ -1,4 +1,4 @@
-// Columns of the tables of grids, streets and imported networks.
+// Descriptions of the columns in the tables of grids, streets and imported networks.
 #include "runs/tables/column_docs.h"
 
 namespace stopline {
@@ -13,7 +13,7 @@ std::vector<ColumnDoc> summary_columns() {
         {"throughput_veh_h", "veh/h", "window", "vehicles that leave the area; imported networks: trips that end"},
         {"improvement_percent", "%", "window", "throughput above that of `measure.baseline`; empty without a baseline"},
         {"travel_time_s", "s", "window",
-         "mean time in the area of the vehicles that leave it in the window; queues upstream of the area do not count. "
+         "mean time in the area of the vehicles that leave it in this time; queues upstream of the area do not count. "
          "Imported networks: mean time from entering the network to the end of the trip"},
         {"travel_time_saved_percent", "%", "window",
          "travel time below that of `measure.baseline`. Empty without a baseline. Also empty if in either run the "
@@ -27,8 +27,8 @@ std::vector<ColumnDoc> summary_columns() {
         {"max_present", "veh", "run", "largest number of vehicles in the network, sampled every second"},
         {"window_from_s", "s", "",
          "start of the measured window. The window consists of the whole intervals (`measure.interval`) in the last "
-         "`measure.window` of the run. A run that is not longer than this is measured from `warm_up_s` on. Empty: the "
-         "window contains no whole interval"},
+         "`measure.window` of the run. A run that is not longer than `measure.window` is measured from `warm_up_s` on. "
+         "Empty: the window contains no whole interval"},
         {"window_to_s", "s", "", "end of the measured window"},
         {"warm_up_s", "s", "run",
          "end of the warm-up, found from the number of vehicles in the area with the rule MSER-5"},
@@ -51,7 +51,7 @@ std::vector<ColumnDoc> summary_columns() {
          "vehicles removed by `rules.teleport_cycles`, including those that are not reinserted yet. Imported networks: "
          "missed turns are included"},
         {"passed_blockers", "", "run",
-         "pairs of a vehicle and a blocker that are in one conflict area by `rules.pass_blocker_greens`; each pair "
+         "pairs of a vehicle and a blocker in one conflict area, as `rules.pass_blocker_greens` allows; each pair "
          "counts once"},
         {"delay_signal_h", "veh h", "run", "delay by red and yellow signals"},
         {"delay_yielding_h", "veh h", "run", "delay by vehicles with priority"},
@@ -77,7 +77,7 @@ std::vector<ColumnDoc> summary_columns() {
         {"conflicts", "", "run",
          "pairs of vehicles in one conflict area, counted in each step, except passed blockers; a violation"},
         {"red_entries", "veh", "run",
-         "vehicles that passed a stop line on red, although the signal changed in time to stop; a violation"},
+         "vehicles that passed a stop line on red, although they could have stopped; a violation"},
         {"forced_red_entries", "veh", "run",
          "vehicles that passed a stop line on red because they could not stop any more; no violation"},
         {"lost_vehicles", "veh", "run",
@@ -161,8 +161,8 @@ std::vector<TableDoc> network_table_docs() {
           {"lane", "", "", "its lane; `passed_blocker`: its connection through the intersection"},
           {"blocker", "", "", "vehicle that is passed or that blocks the way; empty: none"},
           {"stopped_s", "s", "",
-           "time for which the teleported vehicle has been stopped, or the blocker. `passed_blocker`: as it was "
-           "when passing was allowed"}}},
+           "`teleported`, `reinserted`: time for which the vehicle has been stopped. `keep_clear`: time for which the "
+           "blocker has been stopped. `passed_blocker`: the same, when passing was allowed"}}},
         {"network/inflow.csv",
          "Streets only. One row for each population and interval.",
          {kPopulation,
@@ -174,7 +174,7 @@ std::vector<TableDoc> network_table_docs() {
         {"network/approaches.csv",
          "Streets only. One row for each population, approach and interval. Vehicles are sampled every second.",
          {kPopulation,
-          {"approach", "", "", "name of its lanes without their number"},
+          {"approach", "", "", "name of the approach: the name of its lanes without their number"},
           {"from_s", "s", "", "start of the interval"},
           {"vehicles", "veh", "interval", "mean number of vehicles on the approach"},
           {"speed_kmh", "km/h", "interval", "their mean speed; empty: no vehicle"},
@@ -183,7 +183,7 @@ std::vector<TableDoc> network_table_docs() {
         {"network/turns.csv",
          "Streets only. One row for each population and approach.",
          {kPopulation,
-          {"approach", "", "", "name of its lanes without their number"},
+          {"approach", "", "", "name of the approach: the name of its lanes without their number"},
           {"vehicles", "veh", "run", "vehicles that entered the intersection from the approach"},
           {"right_percent", "%", "run", "share of them that turned right"},
           {"right_target_percent", "%", "", "share that the streets file sets"},
@@ -191,7 +191,7 @@ std::vector<TableDoc> network_table_docs() {
           {"left_target_percent", "%", "", "share that the streets file sets"},
           {"congested_from_s", "s", "run",
            "time from which the mean speed in the upstream third of the approach is below 12 km/h for five "
-           "intervals; empty: never"}}},
+           "successive intervals; empty: never"}}},
         {"network/time_space.csv",
          "Written if `measure.time_space` is set, for the last `measure.time_space` of the run. One row for each "
          "second and\n"

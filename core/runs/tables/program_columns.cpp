@@ -1,4 +1,5 @@
-// Columns of the tables of stopline-calibrate, stopline-startup, stopline-compare and stopline-scorecard.
+// Descriptions of the columns in the tables of stopline-calibrate, stopline-startup, stopline-compare and
+// stopline-scorecard.
 #include "runs/tables/column_docs.h"
 
 namespace stopline {
@@ -18,7 +19,7 @@ std::vector<TableDoc> program_table_docs() {
           {"pairs", "", "run", "number of pairs"},
           unpaired,
           {"within_limit_percent", "%", "run",
-           "pairs that differ by 1 s or less; unpaired passages count as beyond it"},
+           "share of pairs that differ by 1 s or less; unpaired passages count as differing by more"},
           {"median_difference_s", "s", "run", "median of the absolute differences"},
           {"p95_difference_s", "s", "run", "95th percentile of the absolute differences"},
           {"largest_difference_s", "s", "run", "largest absolute difference"},
@@ -31,7 +32,7 @@ std::vector<TableDoc> program_table_docs() {
           {"passage", "", "", "number of the passage, from 1"},
           {"full_s", "s", "run", "time of the passage in full dynamics"},
           {"meso_s", "s", "run", "time of the passage in the mesoscale mode"},
-          {"difference_s", "s", "run", "second minus first"}}},
+          {"difference_s", "s", "run", "`meso_s` minus `full_s`"}}},
         {"calibrate/misses.csv",
          "Step I, last parameter set. One row for each detector with pairs beyond the limit or unpaired passages.",
          {permutation,
@@ -61,8 +62,8 @@ std::vector<TableDoc> program_table_docs() {
           {"paper_high", "of the metric", "seeds", "upper bound of this band"},
           {"student_low", "of the metric", "seeds", "lower bound of the Student confidence interval of full dynamics"},
           {"student_high", "of the metric", "seeds", "upper bound of this interval"},
-          {"inside_paper", "", "seeds", "1 if `meso_mean` is inside the first band, else 0"},
-          {"inside_student", "", "seeds", "1 if `meso_mean` is inside the second band, else 0"}}},
+          {"inside_paper", "", "seeds", "1 if `meso_mean` is between `paper_low` and `paper_high`, else 0"},
+          {"inside_student", "", "seeds", "1 if `meso_mean` is between `student_low` and `student_high`, else 0"}}},
         {"startup/startup.csv",
          "One row for each time of the measured starts.",
          {{"time_s", "s", "", "time since the vehicle moves"},
@@ -82,8 +83,8 @@ std::vector<TableDoc> program_table_docs() {
          "One row for each metric and seed.",
          {{"metric", "", "",
            "name of the metric with its unit. `departure_delay_s`: imported networks, time from the planned "
-           "departure to the entry; others, how much later than in the mesoscale mode a vehicle enters in SUMO. "
-           "`backlog`: vehicles that have not entered at the end"},
+           "departure to the entry; other networks, how much later a vehicle enters in SUMO than in the mesoscale "
+           "mode. `backlog`: vehicles that have not entered at the end"},
           {"seed", "", "", "seed of both runs"},
           {"ours", "of the metric", "window", "value of the mesoscale mode"},
           {"sumo", "of the metric", "window", "value of SUMO"}}},
@@ -100,7 +101,7 @@ std::vector<TableDoc> program_table_docs() {
           {"ours", "", "", "value or result of this project; empty: no result"},
           {"unit", "", "", "unit of both values"},
           {"tolerance", "", "", "allowed difference"},
-          {"verdict", "", "", "`inside` the tolerance, `miss`, or `open`: no result"},
+          {"verdict", "", "", "`inside` the tolerance, `miss`, or `open`: no result or no tolerance"},
           {"explanation", "", "", "how the value is measured, and why it misses the paper's value"}}},
     };
 }

@@ -1,4 +1,4 @@
-// Columns of the tables of a single intersection and of a single light.
+// Descriptions of the columns in the tables of a single intersection and of a single light.
 #include "runs/tables/column_docs.h"
 
 namespace stopline {
@@ -46,7 +46,7 @@ std::vector<TableDoc> intersection_table_docs() {
           {"saturation_flow_veh_h", "veh/h", "window",
            "flow at the mean headway from the fifth vehicle of a queue on; empty: no fifth vehicle"},
           {"startup_lost_time_s", "s", "window",
-           "time that the first four vehicles of a queue take beyond that headway"},
+           "sum over the first four vehicles of a queue: headway minus the mean headway from the fifth vehicle on"},
           {"queue_veh", "veh", "window", "queued vehicles at the start of green, mean over lanes and greens"},
           {"longest_queue_m", "m", "window", "longest of these queues"},
           {"turned_right_percent", "%", "window", "share of the vehicles that leave the intersection to the right"},
@@ -58,8 +58,8 @@ std::vector<TableDoc> intersection_table_docs() {
           as_network("forced_red_entries"),
           as_network("lost_vehicles"),
           {"deadlocks", "", "run",
-           "1 if a vehicle stays in the intersection for two cycles beyond the slowest unobstructed crossing, else "
-           "0; a violation"}}},
+           "1 if a vehicle stays in the intersection for two cycles longer than the slowest unobstructed crossing "
+           "takes, else 0; a violation"}}},
         {"intersection/headways.csv",
          "One row for each population and queue position.",
          {kPopulation,
@@ -105,7 +105,8 @@ std::vector<TableDoc> single_light_table_docs() {
           {"last_ten_headway_s", "s", "green", "mean headway at the stop line over the last ten vehicles of each lane"},
           {"last_ten_speed_mps", "m/s", "green", "mean speed at the stop line over the last ten vehicles of each lane"},
           {"leader_start_s", "s", "green", "time from the start of green until the first vehicle moves"},
-          {"leader_time_to_limit_s", "s", "green", "time from then until the first vehicle reaches the speed limit"},
+          {"leader_time_to_limit_s", "s", "green",
+           "time from this start until the first vehicle reaches the speed limit"},
           {"queue_gap_mean_m", "m", "start of green", "mean net gap in the queue"},
           {"queue_gap_smallest_m", "m", "start of green", "smallest net gap in the queue"},
           {"queue_gap_largest_m", "m", "start of green", "largest net gap in the queue"},
@@ -123,7 +124,7 @@ std::vector<TableDoc> single_light_table_docs() {
           {"passed_veh", "veh", "green", "vehicles that pass the stop line within this time"},
           {"baseline", "", "", "name of the baseline population; empty without one"},
           {"baseline_passed_veh", "veh", "green", "vehicles of the baseline that pass the stop line within this time"},
-          {"improvement_percent", "%", "green", "vehicles above those of the baseline"}}},
+          {"improvement_percent", "%", "green", "`passed_veh` above `baseline_passed_veh`"}}},
         {"single_light/passages.csv",
          "One row for each vehicle that passes the stop line in the green.",
          {kPopulation,
@@ -135,7 +136,7 @@ std::vector<TableDoc> single_light_table_docs() {
           {"headway_s", "s", "green", "time since the previous vehicle on the same lane; empty for the first"},
           {"speed_mps", "m/s", "green", "speed at the stop line"}}},
         {"single_light/trajectories.csv",
-         "Written with `--trajectories`, from 5 s before the green to 25 s after it. One row for each vehicle and "
+         "Written with `--trajectories`, from 5 s before the green to 25 s after its end. One row for each vehicle and "
          "each\n"
          "`--interval`.",
          joined({kPopulation,

@@ -1,4 +1,4 @@
-// Columns of the tables of sweeps.
+// Descriptions of the columns in the tables of sweeps.
 #include "runs/tables/column_docs.h"
 
 namespace stopline {
@@ -26,7 +26,7 @@ std::vector<ColumnDoc> run_columns() {
     };
     const auto add = [&](std::initializer_list<ColumnDoc> docs) { columns.insert(columns.end(), docs); };
 
-    // Networks.
+    // Columns of networks of several intersections.
     copy(network, kNetwork, {"throughput_veh_h", "travel_time_s", "density_percent"});
     add({{"throughput_SIDE_SIDE_veh_h", "veh/h", "window",
           "grids and streets: throughput straight through the network, from the first side to the second"},
@@ -55,7 +55,7 @@ std::vector<ColumnDoc> run_columns() {
           "delay_queue_discharge_h",
           "delay_upstream_h",
           "backlog"});
-    // Streets.
+    // Columns of streets.
     add({{"throughput_STRETCH_veh_h", "veh/h", "stretch, area",
           "streets: vehicles that leave the area in minutes 15 to 60 (`early`) and 65 to 120 (`late`); empty if the "
           "run is shorter"},
@@ -70,7 +70,7 @@ std::vector<ColumnDoc> run_columns() {
          {"discretionary_lane_changes", "", "run", "streets: lane changes for a higher speed"}});
     copy(network, kNetwork, {"longest_stop_s", "longest_in_junction_s"});
 
-    // Single intersections.
+    // Columns of single intersections.
     copy(intersection, kIntersection,
          {"travel_time_RADIUSm_s", "delay_RADIUSm_s", "density_RADIUSm_percent", "density_network_percent",
           "vehicles_per_green"});
@@ -80,12 +80,12 @@ std::vector<ColumnDoc> run_columns() {
          {"startup_lost_time_s", "queue_veh", "longest_queue_m", "turned_right_percent", "turned_left_percent"});
     add({{"gaps_accepted", "", "run", "single intersections: gaps that left-turning vehicles accepted"}});
 
-    // Single lights.
+    // Columns of single lights.
     add({{"passed_K_veh", "veh", "green",
           "single lights: vehicles that pass the stop line within the K-th green time of `measure.green`"}});
     copy(single_light, kSingleLight, {"queue_emptied_s", "steady_vehicles", "steady_headway_s", "steady_net_gap_m"});
 
-    // All kinds of networks.
+    // Columns of all kinds of networks.
     add({{"vehicles_entered", "veh", "run", "vehicles that entered the network"},
          {"vehicles_exited", "veh", "run", "vehicles that left the network"},
          {"overlaps", "", "run", "sum of `overlaps` and `conflicts` of `network/summary.csv`; a violation"}});
@@ -130,7 +130,7 @@ std::vector<TableDoc> sweep_table_docs() {
           {"right_percent", "%", "", "share of right turns"},
           {"paper_percent", "%", "", "improvement over CTG-Ref in the paper"},
           {"ours_percent", "%", "seeds", "improvement over CTG-Ref in the sweep; empty: not in the sweep"},
-          {"difference_percent", "%", "seeds", "second minus first, in percentage points"}}},
+          {"difference_percent", "%", "seeds", "`ours_percent` minus `paper_percent`, in percentage points"}}},
     };
 }
 

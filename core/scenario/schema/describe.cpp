@@ -1,4 +1,4 @@
-// The list of all fields, as text for a terminal and as a Markdown page.
+// Writes the list of all fields, as text for a terminal and as a Markdown page.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -22,9 +22,9 @@ struct FieldLine {
     std::string meaning;
 };
 
-// The fields of one table.
+// The lines for all fields of one table.
 struct TableBlock {
-    std::string path;  // empty: the top level of the file
+    std::string path;  // path of the section or list; empty: the top level of the file
     std::string title;
     std::vector<FieldLine> lines;
 };
@@ -46,7 +46,7 @@ std::string meaning_text(const Field& field) {
     return text;
 }
 
-// Adds a block for the table, then the blocks of its sections and lists. `settings` has the default values.
+// Adds a block for the table, then blocks for its sections and lists. `settings` is a struct with the default values.
 void add_blocks(const Table& table, const std::string& path, const void* settings, std::vector<TableBlock>& blocks) {
     TableBlock block{path, table.title, {}};
     for (const Field& field : table.fields) {
@@ -79,15 +79,16 @@ std::vector<TableBlock> sweep_blocks() {
     return blocks;
 }
 
-// --- Text ---
+// --- Text for a terminal ---
 
-constexpr std::size_t kColumnWidthMax = 20;  // longer defaults are listed at the end
+constexpr std::size_t kColumnWidthMax = 20;  // longer defaults are listed below the tables
 
 std::string short_default(const FieldLine& line) {
     return line.default_value.size() <= kColumnWidthMax ? line.default_value : "see below";
 }
 
-// Pads with spaces. The width counts characters, not bytes, because a unit may have a superscript.
+// Returns the text, filled with spaces up to `width` characters. Characters are counted instead of bytes, because a
+// unit may have a superscript.
 std::string padded(const std::string& text, std::size_t width) {
     const auto characters = static_cast<std::size_t>(std::count_if(
         text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; }));
@@ -182,7 +183,7 @@ std::string fields_markdown() {
     for (const TableBlock& block : scenario_blocks()) text += block_markdown(block);
     text += "## Sweep file\n\n";
     for (const TableBlock& block : sweep_blocks()) text += block_markdown(block);
-    text.pop_back();  // no empty line at the end
+    text.pop_back();  // removes the empty line at the end
     return text;
 }
 

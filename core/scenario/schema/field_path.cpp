@@ -10,7 +10,8 @@ const Field* find_current_or_old(const Table& table, const std::string& name) {
     return field != nullptr ? field : table.find_old_name(name);
 }
 
-// Returns the table of the fields inside a section or of a list entry; null for other kinds.
+// Returns the table of a section, or the table of the entries of a list if the path names an entry. Returns null
+// otherwise.
 const Table* inner_table(const Field& field, bool has_entry) {
     if (const auto* const section = std::get_if<SectionField>(&field.kind)) {
         return has_entry ? nullptr : &section->table();

@@ -1,4 +1,4 @@
-// Paths to fields, as overrides and sweep axes write them: signal.green, populations[0].components[1].share,
+// Paths of fields in overrides and sweep axes, such as signal.green, populations[0].components[1].share or
 // policies[CTG-Ref].time_gap.
 #pragma once
 
@@ -10,25 +10,29 @@
 
 namespace stopline {
 
-// One step of a path: the name of a field, and the list entries chosen in it by index or by name.
+// One step of a path: the name of a field, and the texts in the brackets after it. Each text in brackets is the index
+// or the name of a list entry.
 struct PathStep {
     std::string name;
     std::vector<std::string> entries;
 };
 
+// Splits a path at its dots and brackets.
 std::vector<PathStep> path_steps(const std::string& path);
 
-// Returns "populations[MIX]", or "populations[4]" for an entry without a usable name.
+// Returns the path of a list entry with its name, such as "populations[MIX]". For an entry without a valid name,
+// returns the path with the index, such as "populations[4]".
 std::string entry_path(const std::string& list_path, const SourceNode& entry, std::size_t index);
 
-// The field at a path, as far as the tables can tell. Only the file tells whether a list has a certain entry.
+// The result of find_field().
 struct FieldAtPath {
-    const Table* table = nullptr;  // the table of the field
+    const Table* table = nullptr;  // table that has the row of the field; null if there is a problem
     const Field* field = nullptr;  // null if there is a problem, or if the path ends in a list entry
     std::string problem;           // error text, such as "field 'signal.gren' is unknown; ..."
 };
 
-// Old names are found too.
+// Finds the field at a path, which may use old names of fields. Does not check that a list has the entry in brackets,
+// because this depends on the scenario file.
 FieldAtPath find_field(const Table& root, const std::string& path);
 
 // Returns the path with old field names replaced by the current ones.

@@ -1,4 +1,4 @@
-// Makes rows of a table of fields from pointers to members, see field_table.h.
+// Makes the rows of a table of fields from pointers to struct members, see field_table.h.
 #pragma once
 
 #include <initializer_list>
@@ -24,23 +24,25 @@ struct Row {
         field.fallback = std::move(yaml);
         return std::move(*this);
     }
-    // The field exists only if the choice has one of the values, see Field::condition_field.
+    // Restricts the field to settings in which the choice `choice_field` has one of `values`, see
+    // Field::condition_field.
     Row only_if(std::string choice_field, std::vector<std::string> values) && {
         field.condition_field = std::move(choice_field);
         field.condition_values = std::move(values);
         return std::move(*this);
     }
-    // The field is a parameter of a rule with the values off and on, see Field::is_rule_parameter.
+    // Makes the field a parameter of a traffic rule. The choice field `rule` switches the rule on and off. See
+    // Field::is_rule_parameter.
     Row enabled_by(std::string rule) && {
         field.is_rule_parameter = true;
         return std::move(*this).only_if(std::move(rule), {"on"});
     }
-    // The field had another name in the last release, see old_names.h.
+    // Adds a name that the field had in the last release, see old_names.h.
     Row renamed_from(std::string old_name) && {
         field.old_names.push_back(std::move(old_name));
         return std::move(*this);
     }
-    // A value of the choice had another name in the last release.
+    // Adds a name that the choice value `name` had in the last release.
     Row value_renamed(std::string old_name, std::string name) && {
         field.old_values.push_back({std::move(old_name), std::move(name)});
         return std::move(*this);
@@ -100,7 +102,7 @@ auto texts(std::string name, TextField::Rule rule, Count size, std::string meani
         {std::move(name), std::move(meaning), TextsField{field_rows::access<M>(), rule, size}}};
 }
 
-// Makes a choice from a string member. `names` are its allowed values.
+// Makes the row of a choice from a string member. `names` are the allowed values.
 template <auto M>
 auto choice(std::string name, std::vector<std::string> names, std::string meaning) {
     using S = field_rows::StructOf<M>;
@@ -109,7 +111,7 @@ auto choice(std::string name, std::vector<std::string> names, std::string meanin
                                [](void* s, const std::string& value) { static_cast<S*>(s)->*M = value; }}}};
 }
 
-// Makes a choice from an enumeration member. `names` are the names of its enumerators 0, 1, 2 and so on.
+// Makes the row of a choice from an enumeration member. `names` are the names of the enumerators 0, 1, 2 and so on.
 template <auto M>
 auto enumeration(std::string name, const std::vector<std::string>& names, std::string meaning) {
     using S = field_rows::StructOf<M>;
@@ -136,7 +138,7 @@ struct CurveAxis {
     Range range;
 };
 
-// Makes a curve from one member for x and one for y.
+// Makes the row of a curve from two vector members, one for x and one for y.
 template <auto X, auto Y>
 auto curve(std::string name, CurveAxis x, CurveAxis y, Count size, std::string meaning) {
     static_assert(std::is_same_v<field_rows::StructOf<X>, field_rows::StructOf<Y>>);
@@ -145,7 +147,7 @@ auto curve(std::string name, CurveAxis x, CurveAxis y, Count size, std::string m
                                                     x.range, &unit(y.unit), y.range, size}}};
 }
 
-// Makes a curve from one member that has the vectors x and y.
+// Makes the row of a curve from one member that is a struct with the vectors x and y.
 template <auto M>
 auto curve(std::string name, CurveAxis x, CurveAxis y, Count size, std::string meaning) {
     using S = field_rows::StructOf<M>;

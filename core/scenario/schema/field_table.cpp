@@ -71,7 +71,7 @@ struct TypeName {
     }
 };
 
-// Returns the value of the choice at a path of section names and a field name, joined by dots.
+// Returns the value of the choice at `path`, which is section names and a field name joined by dots.
 std::string choice_at(const Table& table, const std::string& path, const void* settings) {
     const auto dot = path.find('.');
     const FieldKind& kind = table.find(path.substr(0, dot))->kind;

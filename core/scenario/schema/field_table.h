@@ -1,11 +1,12 @@
-// The table of fields: one row per field of a settings struct. The rows drive reading (read_fields.h), writing
-// (write_fields.h), the list of fields (describe.cpp) and the JSON schema (json_schema.cpp), so these always agree.
+// The table of fields: one row per field of a settings struct. Reading (read_fields.h), writing (write_fields.h), the
+// list of fields (describe.cpp) and the JSON schema (json_schema.cpp) use the same rows, so they always agree.
 //
-// A row binds a name in the file to a struct member:
+// A row binds the name of a field in the file to a struct member:
 //     number<&SignalSettings::green_s>("green", "s", {0.1, 7200}, "green time")
-// The struct gives the defaults. `.required()` marks a field without default. `.fallback(text)` gives a default as YAML
-// text. One table has rows of different types, so a row reaches its member through untyped pointers. field_rows.h makes
-// the rows, and the compiler checks that a table for S has rows of S only.
+// The initialiser of the member is the default of the field. `.required()` marks a field without default.
+// `.fallback(text)` gives a default as YAML text. The members of a struct have different types, so a row accesses its
+// member through a void pointer to the struct. field_rows.h makes the rows. The compiler checks that all rows of a
+// table belong to the same struct.
 #pragma once
 
 #include <cstddef>
@@ -26,17 +27,18 @@ namespace stopline {
 
 struct Table;
 
-// Both ends are allowed. The values are in the unit of the field.
+// The allowed values of a number: from min to max, both included, in the unit of the field.
 struct Range {
     double min = 0.0;
     double max = std::numeric_limits<double>::max();
 };
+// The allowed values of a whole number, or the allowed sizes of a list: from min to max, both included.
 struct Count {
     std::uint64_t min = 0;
     std::uint64_t max = std::numeric_limits<std::uint64_t>::max();
 };
 
-// Reaches a member of type T in a struct that is known by its address only.
+// Functions that return a reference to a struct member of type T. `settings` is the address of the struct.
 template <class T>
 struct Access {
     T& (*write)(void* settings);
@@ -55,13 +57,13 @@ struct WholeField {
 };
 struct TextField {
     enum class Rule {
-        name,  // fit for a file name and a CSV cell
+        name,  // usable in file names and CSV cells, see is_name()
         title  // one line of text
     };
     Access<std::string> at;
     Rule rule;
 };
-// A list of texts. A single text may stand for a list of one.
+// A list of texts. The file may give a single text instead of a list with one entry.
 struct TextsField {
     Access<std::vector<std::string>> at;
     TextField::Rule rule;
@@ -79,7 +81,7 @@ struct NumbersField {
     Count size;
     bool rising;
 };
-// A sampled function, written as a map "x: y" with strictly rising x.
+// A function given by points. The file gives them as a map "x: y" with strictly rising x.
 struct CurveField {
     Access<std::vector<double>> x;
     Access<std::vector<double>> y;
@@ -89,16 +91,17 @@ struct CurveField {
     Range y_range;
     Count size;
 };
-// A nested map. `library` is a folder of the data directory, or empty. With a library, the name of a file in it may
-// stand for the map. The map may also name such a file as `base` and give only the fields that differ from it.
+// A nested map. If `library` is not empty, it is a folder of the data directory. The scenario may then give the name of
+// a file in this folder instead of the map. It may also give a map in which the field `base` names such a
+// file, and in which all other fields overwrite fields of the file.
 struct SectionField {
     void* (*write)(void* settings);
     const void* (*read)(const void* settings);
     const Table& (*table)();
     std::string library;
 };
-// A list of maps. `library` is "folder/file" in the data directory, or empty. With a library, the list of that file
-// comes first. An entry with the same name replaces the entry of the file.
+// A list of maps. If `library` is not empty, it is a file "folder/name" of the data directory, and the list begins with
+// the entries of this file. An entry of the scenario replaces the library entry of the same name.
 struct ListField {
     std::size_t (*size)(const void* settings);
     const void* (*item)(const void* settings, std::size_t index);
@@ -111,7 +114,7 @@ struct ListField {
 using FieldKind = std::variant<NumberField, WholeField, TextField, TextsField, ChoiceField, NumbersField, CurveField,
                                SectionField, ListField>;
 
-// A value of a choice that has another name now.
+// The old and the current name of one value of a choice.
 struct OldValue {
     std::string old_name;
     std::string name;
@@ -122,42 +125,44 @@ struct Field {
     std::string meaning;
     FieldKind kind;
     bool required = false;
-    std::string fallback = {};  // YAML text of the default; empty: the default of the struct
-    // The field exists only if the choice at `condition_field` has one of these values. The choice is a field of the
-    // same table, or of a section before this field, such as network.kind. Empty: the field always exists.
+    std::string fallback = {};  // default as YAML text; empty: the initialiser of the struct member
+    // The field exists only if the choice `condition_field` has one of `condition_values`. The choice is a field of the
+    // same table, or of a section before this field, such as network.kind. If empty, the field always exists.
     std::string condition_field = {};
     std::vector<std::string> condition_values = {};
-    // The field belongs to the rule in `condition_field`. While the rule is off, the value 'off' is accepted. If only
-    // an override switched the rule off, any value of the file is accepted, so that the file need not change.
+    // True for a parameter of a traffic rule that `condition_field` switches on and off. While the rule is off, a file
+    // may still give the parameter the value 'off'. If an override switches the rule off, the file may keep any value
+    // of the parameter.
     bool is_rule_parameter = false;
-    std::vector<std::string> old_names = {};  // of the last release, accepted with a warning, see old_names.h
-    std::vector<OldValue> old_values = {};    // of a choice, likewise
+    std::vector<std::string> old_names = {};  // names of the last release, accepted with a warning (old_names.h)
+    std::vector<OldValue> old_values = {};    // old names of choice values, accepted with a warning
 };
 
 struct Table {
     std::string title;
     std::vector<Field> fields;
     std::shared_ptr<void> (*make_default)() = nullptr;
-    std::function<void(const void* settings, Checker&)> check;  // compares several fields; may be empty
-    SourceNode (*expand)(const SourceNode& scalar) = nullptr;   // makes a map from a single word; may be null
+    std::function<void(const void* settings, Checker&)> check;  // checks that compare several fields; may be empty
+    SourceNode (*expand)(const SourceNode& scalar) = nullptr;   // makes a map from an entry that is a single word
 
-    // Both return null if there is no such field.
+    // Return the field with this current name or this old name; null if there is no such field.
     const Field* find(std::string_view name) const;
     const Field* find_old_name(std::string_view name) const;
     std::vector<std::string> names() const;
 };
 
-// Returns true if the field exists in these settings, see Field::condition_field.
+// Returns true if the settings fulfil the condition of the field, see Field::condition_field.
 bool applies(const Table& table, const Field& field, const void* settings);
 
 // Returns true if the text follows TextField::Rule::name: 1 to 64 letters, digits and - _ . + signs, not only signs.
 bool is_name(const std::string& text);
 
-// Returns the allowed values in words: "0.1 s to 7200 s", "one of: full, meso".
+// Returns the allowed values as text, such as "0.1 s to 7200 s" or "one of: full, meso".
 std::string allowed_text(const FieldKind& kind);
-// Returns "s", "km/h" and so on, or "" for a field without unit.
+// Returns the unit of a field, such as "s" or "km/h"; "" for a field without unit.
 std::string unit_text(const FieldKind& kind);
-// Returns the unit, or else the type: "number", "whole number", "text", "choice", "list", "section".
+// Returns the unit of a field. For a field without unit, returns its type: "number", "whole number", "text", "choice",
+// "list", "section".
 std::string type_text(const FieldKind& kind);
 
 }  // namespace stopline

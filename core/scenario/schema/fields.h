@@ -1,4 +1,4 @@
-// The tables of fields, one per settings struct. A new field is one row in fields_*.cpp, bound to a struct member.
+// The tables of fields, one per settings struct. A new field needs a struct member and one row in fields_*.cpp.
 #pragma once
 
 #include <string>
@@ -22,14 +22,16 @@ const Table& gap_policy_table();  // GapPolicySettings
 const Table& population_table();  // PopulationSettings
 const Table& measure_table();     // MeasureSettings
 
-// Returns the names of all combinations of movements that an approach lane may allow.
+// Returns the names of all combinations of movements that an approach lane may allow, such as "straight+left".
 const std::vector<std::string>& lane_movements();
 
 const Table& sweep_table();  // SweepSettings (sweep_settings.h): the root of a sweep file
 
-const Table& accepted_table();  // AcceptedFile (load_accepted.h): the root of a file of accepted differences
+// AcceptedFile: the root of a file with differences between full dynamics and the mesoscale mode that a user accepts
+// (load_accepted.h).
+const Table& accepted_table();
 
-// The root of data/policies/*.yaml.
+// The content of a file data/policies/*.yaml.
 struct PolicyFile {
     std::vector<GapPolicySettings> policies;
 };

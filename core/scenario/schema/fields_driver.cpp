@@ -1,4 +1,4 @@
-// Fields of the driver, of the rules at blocked intersections, of spacing policies and of populations.
+// Fields of drivers, traffic rules, spacing policies and populations.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -115,8 +115,8 @@ const Table& lane_change_table() {
         "lane changes on the approaches of streets",
         {
             number<&S::strategic_m>("strategic_distance", "m", {10, 10'000},
-                                    "mandatory changes: the search for a target lane begins this far before the stop "
-                                    "line, times the number of changes needed"),
+                                    "mandatory changes: distance before the stop line at which the search for a target "
+                                    "lane begins; multiplied by the number of changes needed"),
             number<&S::urgent_m>("urgent_distance", "m", {10, 1000},
                                  "mandatory changes: from this distance before the stop line the speed is adapted to "
                                  "gaps in the target lane"),
@@ -125,7 +125,8 @@ const Table& lane_change_table() {
                 "smallest accepted lead gap and lag gap, as a share of the gap that the policy keeps"),
             number<&S::urgent_gap_share>(
                 "urgent_gap_share", "%", {0, 200},
-                "gap_share of a mandatory change at the stop line; linear from urgent_distance on"),
+                "mandatory changes: value of gap_share at the stop line; from urgent_distance on, gap_share changes "
+                "linearly to this value"),
             choice<&S::look_ahead>(
                 "look_ahead", {"off", "on"},
                 "on: vehicles choose a lane also for their turn at the intersection after the next one"),
@@ -164,14 +165,15 @@ const Table& give_way_table() {
     return table;
 }
 
-// Returns a scalar with another text at the same place.
+// Returns a copy of the scalar with another text and the same position.
 SourceNode with_text(const SourceNode& scalar, std::string text) {
     SourceNode node = scalar;
     node.text = std::move(text);
     return node;
 }
 
-// Expands `CDG` to {name: CDG, components: [{policy: CDG, share: 100 %}]}.
+// Makes the population in which all vehicles follow one policy. Expands `CDG` to
+// {name: CDG, components: [{policy: CDG, share: 100 %}]}.
 SourceNode population_of_one_policy(const SourceNode& policy) {
     SourceNode component;
     component.kind = SourceNode::Kind::map;
@@ -225,8 +227,8 @@ const Table& rules_table() {
                 .renamed_from("light_ahead"),
             number<&S::teleport_cycles>(
                 "teleport_cycles", "", {0, 1000},
-                "teleport: number of signal cycles after which a stopped vehicle, the first of its lane, is moved past "
-                "the intersection; 0: never"),
+                "teleport: the first vehicle of a lane, if stopped for this number of signal cycles, is moved past the "
+                "intersection; 0: never"),
             number<&S::pass_blocker_greens>(
                 "pass_blocker_greens", "", {0, 1000},
                 "number of green times after which crossing vehicles may pass a vehicle that blocks the intersection; "

@@ -52,7 +52,7 @@ const Table& meso_table() {
         {
             text<&S::name>("name", TextField::Rule::name, "name; default: the name of the file"),
             number<&S::step_s>("step", "s", {0.01, 0.5},
-                               "time step; a longer one would let vehicles pass a signal that has just turned red"),
+                               "time step; with longer steps, vehicles could pass a signal that has just turned red"),
             number<&S::leader_speed_share>("leader_speed_share", "%", {50, 100},
                                            "speed of a vehicle without leader, as a share of the speed limit, so that "
                                            "followers can catch up (Section V.A)")
@@ -77,8 +77,8 @@ const Table& meso_table() {
                 "leader_acceleration; stopline-calibrate measures it in full dynamics (empty: none, as in the paper)"),
             whole_number<&S::start_relay_vehicles>(
                 "start_relay_vehicles", {0, 50},
-                "queue discharge with constant-distance policies: number of stopped vehicles behind the next one that "
-                "a V2V start message reaches in the same step (0: none, as in the paper)")
+                "queue discharge with constant-distance policies: number of stopped vehicles that a V2V start message "
+                "reaches in one step, in addition to the next vehicle (0: none, as in the paper)")
                 .renamed_from("relayed"),
             number<&S::start_delay_s>("start_delay", "s", {0, 5},
                                       "start-up delay of the first vehicle at a stop line, from its powertrain; the "

@@ -67,8 +67,8 @@ const Table& grid_table() {
     static const Table table = make_table<S>(
         "a grid of equal intersections",
         {
-            whole_number<&S::columns>("columns", {1, 200}, "number of streets from south to north"),
-            whole_number<&S::rows>("rows", {1, 200}, "number of streets from west to east"),
+            whole_number<&S::columns>("columns", {1, 200}, "number of streets that run from south to north"),
+            whole_number<&S::rows>("rows", {1, 200}, "number of streets that run from west to east"),
             number<&S::column_spacing_m>("column_spacing", "m", {50, 10'000},
                                          "distance between intersection centres from west to east"),
             number<&S::row_spacing_m>("row_spacing", "m", {50, 10'000},
@@ -174,25 +174,26 @@ const Table& demand_table() {
                 .only_if("kind", {"queue"}),
             number<&DemandSettings::inflow_1ps>(
                 "inflow", "veh/h", {1, 100'000},
-                "arrival rate per approach; evenly spaced in time and spread evenly over its lanes")
+                "arrival rate per approach; the arrivals are evenly spaced in time and spread evenly over the lanes")
                 .only_if("kind", {"rate"}),
             number<&DemandSettings::cross_inflow_1ps>(
                 "cross_inflow", "veh/h", {0, 100'000},
                 "arrival rate per approach from south and north, while the others are saturated; "
                 "0 veh/h: all are saturated")
                 .only_if("kind", {"saturated"}),
-            number<&DemandSettings::entry_speed_mps>("entry_speed", "km/h", {0, 150}, "speed at the entry"),
+            number<&DemandSettings::entry_speed_mps>("entry_speed", "km/h", {0, 150},
+                                                     "speed at the entry, at most the speed limit"),
             number<&DemandSettings::right_share>(
                 "right", "%", {0, 100},
-                "share of right turns on each lane that allows right turns and another movement; left + right is at "
-                "most 100 % on a lane with both turns; on a lane without straight only their ratio counts"),
+                "share of right turns on each lane that allows right turns and another movement; lanes with both "
+                "turns: left + right is at most 100 %; lanes for turns only: the ratio of left to right decides"),
             number<&DemandSettings::left_share>(
                 "left", "%", {0, 100},
                 "share of left turns on each lane that allows left turns and another movement, see right"),
             choice<&DemandSettings::cross_turns>(
                 "cross_turns", {"same", "separate"},
-                "turn shares of the streets from south to north; same: right and left; separate: cross_right "
-                "and cross_left")
+                "turn shares of the streets from south to north; same: the shares are right and left, as elsewhere; "
+                "separate: they are cross_right and cross_left")
                 .value_renamed("alike", "same")
                 .value_renamed("own", "separate"),
             number<&DemandSettings::cross_right_share>(

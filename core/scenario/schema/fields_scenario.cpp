@@ -1,4 +1,4 @@
-// Fields of a scenario and of its measurements, and the checks across the parts of a scenario.
+// Fields of a scenario and of its measurements, and the checks that compare several parts of a scenario.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -27,7 +27,8 @@ void check_street_steps(const Scenario& scenario, const StepCheck& require_whole
 
 bool is_whole(double number) { return std::abs(number - std::round(number)) <= 1e-6; }
 
-// Networks of several intersections count their vehicles once per second, so a second must be a whole number of steps.
+// Checks that a second is a whole number of steps. Vehicles in networks of several intersections are counted once per
+// second.
 void check_seconds(const Scenario& scenario, Checker& check) {
     if (!is_whole(1.0 / scenario.tick_s())) {
         check.error(scenario.is_meso() ? "meso.step" : "step",
@@ -40,7 +41,7 @@ void check_seconds(const Scenario& scenario, Checker& check) {
     }
 }
 
-// Time is counted in steps, so signals can change only between two steps.
+// Checks that all times are whole numbers of steps. A signal can change only between two steps.
 void check_steps(const Scenario& scenario, Checker& check) {
     const auto require_whole_steps = [&](const std::string& field, double time_s) {
         if (is_whole(time_s / scenario.tick_s())) return;
@@ -49,7 +50,7 @@ void check_steps(const Scenario& scenario, Checker& check) {
     };
     require_whole_steps("duration", scenario.duration_s);
     if (scenario.network.has_several_intersections()) check_seconds(scenario, check);
-    if (scenario.network.is_sumo()) return;  // imported programmes are rounded to steps
+    if (scenario.network.is_sumo()) return;  // the import rounds signal times to steps
     if (scenario.network.is_streets()) return check_street_steps(scenario, require_whole_steps);
     require_whole_steps("signal.first_green", scenario.signal.first_green_s);
     require_whole_steps("signal.green", scenario.signal.green_s);
@@ -163,7 +164,7 @@ void check_times(const Scenario& scenario, Checker& check) {
     }
 }
 
-// The cycle of an intersection is the sum of its two stages.
+// Checks that signal.cycle is not set for intersections. Their cycle is the sum of their two stages.
 void check_cycle(const Scenario& scenario, Checker& check) {
     const std::string& kind = scenario.network.kind;
     if (scenario.signal.cycle_s == 0.0 || (kind != "intersection" && kind != "grid")) return;

@@ -1,4 +1,4 @@
-// Fields of a sweep file, and the checks across its axes.
+// Fields of a sweep file, and the checks that compare several fields of its axes.
 #include <algorithm>
 #include <set>
 #include <string>
@@ -13,7 +13,8 @@
 namespace stopline {
 namespace {
 
-// Columns of the table of results beside those of the axes, see core/sweeps/sweep_results.h.
+// Names that an axis must not have, because the result table has other columns of these names
+// (sweeps/sweep_results.h).
 constexpr const char* kReserved[] = {"point", "seed"};
 
 void check_paths(const SweepAxis& axis, Checker& check) {

@@ -35,7 +35,8 @@ void check_gears(const S& car, Checker& check) {
     if (car.shift_up_full_load_rpm > car.limiter_rpm)
         check.error("shift_up_full_load", "must be at most limiter_speed");
     if (car.shift_down_rpm <= car.idle_rpm) check.error("shift_down", "must be greater than idle_speed");
-    // After an upshift the engine must be faster than the downshift speed. Otherwise the gearbox would hunt.
+    // After an upshift the engine speed must be above the downshift speed. Otherwise the gearbox would shift down
+    // again.
     for (std::size_t i = 1; i < gears; ++i) {
         const double after_rpm = car.shift_up_part_load_rpm * car.gear_ratio[i] / car.gear_ratio[i - 1];
         if (after_rpm > car.shift_down_rpm) continue;

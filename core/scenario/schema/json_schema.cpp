@@ -1,4 +1,4 @@
-// The tables of fields as a JSON schema (draft 07), with which editors complete and check scenario files.
+// Writes the tables of fields as a JSON schema (draft 07). Editors use it to complete and check scenario files.
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -27,13 +27,13 @@ void set_size(Json& schema, const Count& size, const char* minimum, const char* 
     if (size.max != std::numeric_limits<std::uint64_t>::max()) schema[maximum] = size.max;
 }
 
-// A YAML editor takes a text of digits for a number, so a name may be a number too.
+// A YAML editor reads an unquoted name of digits as a number, so the schema allows numbers as names.
 Json text_schema(TextField::Rule rule) {
     if (rule == TextField::Rule::title) return Json{{"type", "string"}, {"maxLength", 200}};
     return Json{{"type", {"string", "number"}}, {"pattern", "^[-A-Za-z0-9_.+]{1,64}$"}};
 }
 
-// Returns the schema of a field by its kind.
+// Returns the schema of a field. The kind of the field selects the operator().
 struct KindSchema {
     const void* settings;
 
@@ -111,7 +111,8 @@ Json table_schema(const Table& table, const void* settings) {
             properties[old_name]["deprecated"] = true;
         }
         properties[field.name] = std::move(schema);
-        // A field with a condition is not always present. A field with an old name may be present under that name.
+        // The schema does not require a field with a condition, because it may be absent. It does not require a field
+        // with an old name either, because the file may use the old name.
         const bool always = field.condition_field.empty() && field.old_names.empty();
         if (field.required && always) required.push_back(field.name);
     }

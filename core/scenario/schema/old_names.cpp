@@ -43,7 +43,7 @@ void replace_old_names(const Table& table, SourceNode& map, const std::string& p
         const Field* field = table.find(key.text);
         if (field == nullptr) {
             field = table.find_old_name(key.text);
-            if (field == nullptr) {  // the reader reports unknown fields
+            if (field == nullptr) {  // read_fields.cpp reports unknown fields
                 ++i;
                 continue;
             }

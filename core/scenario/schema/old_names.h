@@ -1,7 +1,7 @@
-// Names of the last release that files may still use, for fields and for values of choices.
+// Replaces names of fields and of choice values that were valid in the last release and that files may still use.
 //
-// A tree is changed to the current names before anything else reads it, so that all other code knows the current names
-// only. Each old name gives a warning with its place. The old names of a field are in its row, see Row::renamed_from.
+// The old names in a YAML tree are replaced before other code reads the tree, so all other code handles current names
+// only. Each old name gives a warning with its file and line. Row::renamed_from() adds an old name to a field.
 #pragma once
 
 #include <string>

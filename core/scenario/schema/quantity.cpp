@@ -94,7 +94,7 @@ std::string with_unit(const std::string& number, const Unit& in) {
 }  // namespace
 
 const std::vector<Unit>& units() {
-    // The SI unit comes first in each dimension, or rpm for engine speeds.
+    // The first unit of each dimension is the SI unit, or rpm for engine speeds. exact_text() relies on this order.
     static const std::vector<Unit> all{
         {"", Dimension::number},
         {"%", Dimension::number, 1.0, 100.0},
@@ -189,7 +189,8 @@ std::string exact_text(double si, const Unit& unit) {
         const ParsedQuantity parsed = parse_quantity(text, unit);
         return parsed.problem.empty() && parsed.si == si;
     };
-    // The exact conversion may end in rounding noise such as 35.00000000000001. A value with 14 digits is tried first.
+    // The exact conversion may end in a rounding error such as 35.00000000000001, so a value with 14 digits is tried
+    // first.
     std::array<char, 40> rounded{};
     const auto [end, error] = std::to_chars(rounded.data(), rounded.data() + rounded.size(), from_si(si, unit),
                                             std::chars_format::general, 14);

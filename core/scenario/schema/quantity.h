@@ -1,7 +1,7 @@
 // Quantities with units, as files write them: "50 km/h", "0.87 s", "2.5 m/s2", "30 %".
 //
-// A missing unit is an error, never a guess. A unit of the wrong dimension is an error too, and so is a unit on a plain
-// number. All values are converted to SI here. Engine speeds stay in rpm, as in the settings.
+// A missing unit is an error, and no unit is assumed. A unit of the wrong dimension is an error too, and so is a unit
+// after a plain number. All values are converted to SI units, except engine speeds, which stay in rpm.
 #pragma once
 
 #include <string>
@@ -30,40 +30,44 @@ enum class Dimension {
 struct Unit {
     std::string_view text;
     Dimension dimension;
-    // SI value = value * multiply / divide. With two factors, 50 km/h gives exactly 50 / 3.6.
+    // SI value = value * multiply / divide. Two factors are used, because 1 / 3.6 would be rounded: 50 km/h is
+    // 50 / 3.6 m/s.
     double multiply = 1.0;
     double divide = 1.0;
 };
 
-// Returns all units, with each spelling as an entry of its own.
+// Returns all units. Each spelling has an entry of its own, such as m2 and m^2.
 const std::vector<Unit>& units();
-// Returns the unit with this spelling; "" and "%" are plain numbers. Throws std::logic_error for any other text.
+// Returns the unit with this spelling; "" and "%" are the units of plain numbers. Throws std::logic_error if there is
+// no such unit.
 const Unit& unit(std::string_view text);
 std::string_view name_of(Dimension dimension);  // "time", "length", ...
 
 double to_si(double value, const Unit& in);
 double from_si(double si, const Unit& in);
 
-// `problem` is empty for a finite quantity of the expected dimension. Else it ends the sentence "value '...' ".
+// The result of parse_quantity(). `problem` is empty for a finite quantity of the expected dimension. Otherwise it
+// completes the sentence "value '...' ...", such as "has no unit".
 struct ParsedQuantity {
     double si = 0.0;
     std::string problem;
 };
 ParsedQuantity parse_quantity(std::string_view text, const Unit& expected);
 
-// A whole number without unit, from 0 to 2^64 - 1.
+// The result of parse_whole(): a whole number without unit, from 0 to 2^64 - 1, or a problem as in ParsedQuantity.
 struct ParsedWhole {
     unsigned long long value = 0;
     std::string problem;
 };
 ParsedWhole parse_whole(std::string_view text);
 
-// Returns the shortest text in `unit` from which parse_quantity gives exactly `si`, or such a text in the SI unit.
+// Returns a text from which parse_quantity() gives exactly `si`. The text is in `unit` if possible, else in the SI
+// unit.
 std::string exact_text(double si, const Unit& unit);
-// Returns a text with seven significant digits.
+// Returns the value in `unit` as text, rounded to seven significant digits.
 std::string short_text(double si, const Unit& unit);
 
-// Returns a regular expression (ECMA 262) for quantities of a dimension, for the JSON schema.
+// Returns a regular expression (ECMA 262) that matches quantities of a dimension. The JSON schema uses it.
 std::string quantity_pattern(Dimension dimension);
 
 }  // namespace stopline

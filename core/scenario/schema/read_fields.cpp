@@ -22,7 +22,7 @@ std::string kind_name(const SourceNode& node) {
     }
 }
 
-constexpr const char* kNoUnit = "has no unit";  // a problem of parse_quantity
+constexpr const char* kNoUnit = "has no unit";  // text of ParsedQuantity::problem for a missing unit
 
 bool is_title(const std::string& text) {
     return text.size() <= 200 && std::none_of(text.begin(), text.end(),
@@ -175,7 +175,8 @@ private:
         if (!scalar(node, path)) return false;
         const ParsedQuantity parsed = parse_quantity(node.text, unit);
         const bool too_large = parsed.si > to_si(range.max, unit);
-        // A share may be a plain number, 0.3 for 30 %. A plain 30 probably means 30 %.
+        // A share may be a plain number, such as 0.3 for 30 %. A plain 30 probably means 30 %, so the message asks for
+        // a unit.
         const bool lacks_percent = too_large && unit.text == "%" && node.text.find('%') == std::string::npos;
         if (parsed.problem == kNoUnit || (parsed.problem.empty() && lacks_percent)) {
             bad_value(node, path,
@@ -206,7 +207,7 @@ void report_unknown_keys(const Table& table, const SourceNode& map, const std::s
     }
 }
 
-// Returns true if a file may give a parameter of a rule that is off, see Field::is_rule_parameter.
+// Returns true if the file may give this parameter although its rule is off, see Field::is_rule_parameter.
 bool may_stay(const Field& field, const SourceNode& value, const SourceNode& map) {
     if (!field.is_rule_parameter) return false;
     const SourceNode* const rule = map.find(field.condition_field);
@@ -238,7 +239,7 @@ void read_fields(const Table& table, const SourceNode& node, const std::string& 
     }
     const std::size_t errors_before_map = report.error_count();
     report_unknown_keys(table, node, path, report);
-    std::set<std::string> unreadable_choices;  // fields that depend on them are not checked
+    std::set<std::string> unreadable_choices;  // choices with errors; fields with a condition on them are skipped
     for (const Field& field : table.fields) {
         if (unreadable_choices.contains(field.condition_field)) continue;
         const std::string field_path = join_path(path, field.name);

@@ -1,5 +1,5 @@
-// Fills settings from a tree of text by a table of fields. Each value that cannot be used gives an error with its place
-// and with what is allowed. Absent fields keep the defaults of the struct.
+// Reads a YAML tree into a settings struct, as a table of fields describes it. Each unusable value gives an error with
+// its position and the allowed values. Fields that the tree does not give keep the defaults of the struct.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace stopline {
 // the map in messages, "" for the root. The settings are usable only if the report has no error afterwards.
 void read_fields(const Table& table, const SourceNode& node, const std::string& path, void* settings, Report& report);
 
-// Reads the value of one field of such a struct.
+// Reads the value of one field into `settings`, which points to a struct of the type of the field's table.
 void read_value(const Field& field, const SourceNode& node, const std::string& path, void* settings, Report& report);
 
 }  // namespace stopline

@@ -1,4 +1,5 @@
-// Collects the errors and warnings of loading, each with its place, so that a user sees all mistakes of a file at once.
+// Collects the errors and warnings from loading a file, each with its position, so that a user sees all mistakes at
+// once.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +16,7 @@ class Report {
 public:
     void error(const Place& place, const std::string& message);
     std::size_t error_count() const { return errors_.size(); }
-    // Throws an InputError with one line per error in file order, at most 20 lines. Returns if there is no error.
+    // Throws an InputError if there is an error. Its text has one line per error in file order, for at most 20 errors.
     void throw_if_any() const;
 
     // A warning does not stop loading.
@@ -23,10 +24,11 @@ public:
     // Returns one line per warning in file order, without repetitions.
     std::vector<std::string> warnings() const;
 
-    // Stores the place of a field by its path, such as "populations[0].name".
+    // Stores the position of a field under its path, such as "populations[0].name".
     void remember(const std::string& path, const Place& place) { places_[path] = place; }
+    // Returns true if the file gives the field at `path`.
     bool given(const std::string& path) const { return places_.contains(path); }
-    // Returns the place of a field; for a field that the file does not give, the place of its parent.
+    // Returns the position of a field. For a field that the file does not give, returns the position of its parent.
     Place place_of(std::string path) const;
 
 private:
@@ -42,8 +44,8 @@ private:
     std::map<std::string, Place> places_;
 };
 
-// Reports errors of a check that compares several fields. Paths are relative to the checked struct; "" is the struct
-// itself.
+// Takes the errors from a check that compares several fields (Table::check). Paths are relative to the checked struct;
+// "" is the struct itself.
 class Checker {
 public:
     Checker(Report& report, std::string path) : report_(report), path_(std::move(path)) {}
@@ -57,7 +59,7 @@ private:
     std::string path_;
 };
 
-// Returns "parent.name". An empty parent or name adds no dot, and neither does a name that begins with '['.
+// Returns "parent.name". Adds no dot if the parent or the name is empty, or if the name begins with '['.
 std::string join_path(const std::string& parent, const std::string& name);
 
 }  // namespace stopline

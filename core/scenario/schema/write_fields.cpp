@@ -12,10 +12,10 @@ std::string quoted(const std::string& text) {
     return result + "\"";
 }
 
-// Returns the text after "name:". It begins with a space or a line break.
+// Returns the YAML text of a value, as it follows "name:". It begins with a space or a line break.
 struct ValueWriter {
     const void* settings;
-    int indent;  // of the lines that follow the key, in spaces
+    int indent;  // number of spaces before the further lines of the value
 
     std::string margin() const { return std::string(static_cast<std::size_t>(indent), ' '); }
 
@@ -61,7 +61,7 @@ struct ValueWriter {
     }
 };
 
-// An empty title or name stands for an absent field.
+// Returns true for an empty text. write_fields() leaves out such a field.
 bool is_empty_text(const FieldKind& kind, const void* settings) {
     const auto* const text = std::get_if<TextField>(&kind);
     return text != nullptr && text->at.read(settings).empty();

@@ -1,4 +1,4 @@
-// Writes settings as YAML text by a table of fields: every field that applies, each number exactly (exact_text).
+// Writes a settings struct as YAML text, as a table of fields describes it.
 #pragma once
 
 #include <string>
@@ -7,10 +7,12 @@
 
 namespace stopline {
 
-// `indent` is the number of spaces before each line.
+// Returns the YAML text of a settings struct, with exact numbers (exact_text()). Fields whose condition is not
+// fulfilled and empty texts are left out. `indent` is the number of spaces before each line.
 std::string write_fields(const Table& table, const void* settings, int indent = 0);
 
-// Returns the value of one field in a line with rounded numbers, as the default column shows it. Nested maps give "".
+// Returns the value of one field in one line with rounded numbers, for the defaults in the list of fields. Returns ""
+// for sections, lists of maps or texts, and curves.
 std::string value_text(const FieldKind& kind, const void* settings);
 
 }  // namespace stopline

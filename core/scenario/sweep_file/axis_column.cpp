@@ -19,7 +19,7 @@ namespace stopline {
 
 namespace {
 
-// Returns the end of a column name for a unit: "_kmh" for km/h, "_mps2" for m/s2.
+// Returns the suffix of a column name for a unit, such as "_kmh" for km/h and "_mps2" for m/s2.
 std::string column_suffix(std::string_view unit_text) {
     if (unit_text.empty()) return {};
     if (unit_text == "%") return "_percent";
@@ -29,14 +29,14 @@ std::string column_suffix(std::string_view unit_text) {
     return suffix;
 }
 
-// Returns the unit of a number field; null for all other kinds of fields.
+// Returns the unit of the number field at `path`; null if the field is of another kind.
 const Unit* unit_of(const std::string& path) {
     const Field* const field = find_field(scenario_table(), path).field;
     const auto* const number = field == nullptr ? nullptr : std::get_if<NumberField>(&field->kind);
     return number == nullptr ? nullptr : number->unit;
 }
 
-// Returns the number of a quantity in the given unit: "10" for "10 s" in seconds.
+// Returns the quantity `text` as a number in `unit`, without the unit: "10" for "10 s" in seconds.
 std::string number_of(const std::string& text, const Unit& unit) {
     const double si = parse_quantity(text, unit).si;
     const std::string exact = exact_text(si, unit);
@@ -52,7 +52,7 @@ std::vector<std::string> texts_of(const SweepAxis& axis, std::size_t value) {
     return texts;
 }
 
-// Returns a value in words: "saturated, left 5 %" for {kind: saturated, left: 5 %}.
+// Returns a value as text for a title: "saturated, left 5 %" for {kind: saturated, left: 5 %}.
 std::string words_of(const SourceNode& node) {
     if (node.kind != SourceNode::Kind::map && node.kind != SourceNode::Kind::list) return node.text;
     std::vector<std::string> words;
@@ -69,7 +69,7 @@ std::string title_of(const std::vector<std::string>& parts) {
         try {
             words.push_back(words_of(parse_yaml(part, std::make_shared<Source>())));
         } catch (const YamlError&) {
-            words.push_back(part);  // loading the combinations reports the error
+            words.push_back(part);  // Sweep reports the error when it loads the combinations
         }
     }
     const bool same =

@@ -1,4 +1,4 @@
-// Names of the values of an axis in the table of results and in titles.
+// Makes the texts that stand for the values of a sweep axis in the result table and in the titles of figures.
 #pragma once
 
 #include <cstddef>
@@ -9,17 +9,17 @@
 
 namespace stopline {
 
-// Returns the value of each field that one value of the axis sets, in the unit of the field. Values that mean the same
-// give the same texts, such as 60 s and 1 min.
+// Returns axis.values[value] as texts, one for each path of the axis, in the unit of the field. Equal quantities such
+// as 60 s and 1 min give equal texts.
 std::vector<std::string> axis_parts(const SweepAxis& axis, std::size_t value);
 
-// The column of an axis in the table of results. If an axis sets several fields, the first field represents them as a
-// number in a column with a unit, such as 5 in turns_percent. If its values are not all different, a cell lists all
-// fields: "5 % / 10 %".
+// The column of an axis in the result table. A cell shows the value of the first path of the axis, as a number in the
+// unit of the column, such as 5 in turns_percent. If two cells would be equal, each cell shows the values of all paths
+// instead, such as "5 % / 10 %".
 struct AxisColumn {
     std::string name;
-    std::vector<std::string> cells;   // [value]
-    std::vector<std::string> titles;  // [value], all fields: "5 % / 10 %", "saturated, left 5 %"
+    std::vector<std::string> cells;   // [value] text in the result table
+    std::vector<std::string> titles;  // [value] values of all paths, such as "5 % / 10 %" or "saturated, left 5 %"
 };
 AxisColumn axis_column(const SweepAxis& axis);
 

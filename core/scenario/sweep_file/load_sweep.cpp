@@ -35,7 +35,7 @@ std::vector<std::string> split(const std::string& text, char at) {
     return parts;
 }
 
-// Replaces old names of values in one value of an axis, if its field is a choice.
+// Replaces old names of choice values in axis.values[value]. Warns of each old name.
 void use_current_choices(SweepAxis& axis, std::size_t value, Report& report) {
     const std::vector<std::string> overrides = axis_overrides(axis, value);
     std::vector<std::string> parts;
@@ -56,8 +56,8 @@ void use_current_choices(SweepAxis& axis, std::size_t value, Report& report) {
     if (changed) axis.values[value] = joined(parts, " | ");
 }
 
-// Replaces old names in the paths of the axes and in values of choices. Values that are maps keep their text. Loading
-// the combinations warns of old names in them.
+// Replaces old field names in the paths of the axes, and old names of choice values. Axis values that are maps keep
+// their text. Sweep warns of old names in such maps when it loads the combinations.
 void use_current_names(SweepSettings& sweep, Report& report) {
     for (SweepAxis& axis : sweep.axes) {
         for (std::size_t k = 0; k < axis.paths.size(); ++k) {
@@ -71,8 +71,8 @@ void use_current_names(SweepSettings& sweep, Report& report) {
     }
 }
 
-// Checks one value by reading it into settings that are discarded. Nested values and list entries need the whole
-// scenario, so loading the combinations checks them.
+// Checks one axis value by reading it into settings that are discarded. Skips sections, lists and list entries, because
+// they need the whole scenario. Sweep checks them when it loads the combinations.
 void check_value(const SweepAxis& axis, const std::string& path, const std::string& value, const Place& place,
                  Report& report) {
     const FieldAtPath at = find_field(scenario_table(), path);
@@ -103,7 +103,8 @@ void check_values(const SweepSettings& sweep, Report& report) {
     }
 }
 
-// Checks that no two values of an axis mean the same. Their rows in the table of results would look equal.
+// Checks that no two values of an axis are equal quantities, such as 60 s and 1 min. Their rows in the result table
+// would look the same.
 void check_values_differ(const SweepSettings& sweep, Report& report) {
     for (const SweepAxis& axis : sweep.axes) {
         std::map<std::vector<std::string>, std::size_t> first_index;
@@ -118,8 +119,8 @@ void check_values_differ(const SweepSettings& sweep, Report& report) {
     }
 }
 
-// Checks that the scenario file exists, so that the message names a place in the sweep file. Errors inside the scenario
-// file are reported with its own lines.
+// Checks that the scenario file exists. The message for a missing file names a line of the sweep file, but messages for
+// errors inside the scenario file name lines of the scenario file.
 void check_scenario_file(const SweepSettings& sweep, const std::filesystem::path& file, Report& report) {
     std::error_code error;
     const std::filesystem::file_type type = std::filesystem::status(file, error).type();
@@ -170,7 +171,8 @@ std::vector<std::string> axis_overrides(const SweepAxis& axis, std::size_t value
     for (std::size_t i = 0; i < parts.size() && i < axis.paths.size(); ++i) {
         overrides.push_back(axis.paths[i] + "=" + parts[i]);
     }
-    // An additional empty override for a surplus part tells the checks by the count that the value does not fit.
+    // A value with more parts than paths gets an additional empty override. check_values() in fields_sweep.cpp then
+    // counts more overrides than paths and reports the value.
     if (parts.size() > axis.paths.size()) overrides.emplace_back();
     return overrides;
 }

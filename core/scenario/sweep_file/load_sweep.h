@@ -1,4 +1,4 @@
-// Loads sweep files, with the same kind of field tables and messages as scenarios (load_scenario.h).
+// Loads sweep files. Field tables and messages are like those of scenario files (load_scenario.h). Example:
 //
 //     scenario: ../intersection.yaml
 //     axes:
@@ -16,17 +16,18 @@
 
 namespace stopline {
 
-// Loads a sweep file and checks every value against its field. Throws InputError for a file that cannot be used. Checks
-// that compare several fields come later, when the combinations are loaded (sweeps/sweep.h).
+// Loads a sweep file and checks each axis value by the table row of its field. Throws InputError for a file that cannot
+// be used. Checks that compare several fields are made later, when Sweep loads the combinations (sweeps/sweep.h).
 SweepSettings load_sweep(const std::filesystem::path& file);
 // Loads a sweep from text. `label` stands for the file in messages. Relative paths in the text start at `directory`.
 SweepSettings parse_sweep(std::string_view text, const std::string& label,
                           const std::filesystem::path& directory = ".");
 
-// Returns the overrides for load_scenario that one value of an axis stands for. An axis of populations has none.
+// Returns the overrides for load_scenario() that set the fields of an axis to axis.values[value]. Returns none for an
+// axis of populations.
 std::vector<std::string> axis_overrides(const SweepAxis& axis, std::size_t value);
 
-// Returns the list of all fields of a sweep file for a terminal.
+// Returns a list of all fields of a sweep file for a terminal.
 std::string describe_sweep_fields();
 
 }  // namespace stopline

@@ -1,4 +1,5 @@
-// A sweep as loaded from YAML: values for some fields of a scenario, run in all combinations. Plain data.
+// A sweep as loaded from YAML. Each axis lists values of scenario fields, and all combinations of axis values are run.
+// Plain data.
 #pragma once
 
 #include <string>
@@ -6,22 +7,22 @@
 
 namespace stopline {
 
-// One axis of a sweep: fields with their values, or populations of the scenario.
+// One axis of a sweep. It lists either values of one or more fields, or populations of the scenario.
 struct SweepAxis {
     std::string name;
-    std::vector<std::string> paths;        // fields that change together
-    std::vector<std::string> values;       // written as for --set; "a | b" gives each path its own value
-    std::vector<std::string> populations;  // names, or "all" for all populations of the scenario
-    std::string place;                     // "file:line:column" of the name
+    std::vector<std::string> paths;        // paths of the scenario fields that change together
+    std::vector<std::string> values;       // written as for --set; "a | b" gives each of two paths its own value
+    std::vector<std::string> populations;  // names of populations, or "all" for all populations of the scenario
+    std::string place;                     // position of the axis name, "file:line:column"
 };
 
 struct SweepSettings {
     std::string name;
     std::string title;
-    std::string scenario;  // file, relative to the current directory
+    std::string scenario;  // path of the scenario file, relative to the current directory
     std::vector<SweepAxis> axes;
-    int repetitions = 1;                     // runs per combination, with the seed of the scenario + 0, 1, ...
-    std::vector<std::string> warnings = {};  // of loading, one line each, such as old names of fields
+    int repetitions = 1;                     // runs per combination; run k (from 0) has the scenario's seed + k
+    std::vector<std::string> warnings = {};  // warnings from loading, one line each, such as old names of fields
 };
 
 inline constexpr const char* kAllPopulations = "all";

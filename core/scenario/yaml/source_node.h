@@ -1,5 +1,5 @@
-// A tree of uninterpreted text with positions, made from a YAML file, an override or a data file. One reader
-// (read_fields.h) checks all of them, and every message can name a place.
+// A tree of texts with their positions, made from a YAML file or from an override on the command line. read_fields.h
+// converts the texts to numbers and checks them. Each message can name the file, the line and the column.
 #pragma once
 
 #include <filesystem>
@@ -12,11 +12,12 @@ namespace stopline {
 
 // The origin of a text: a file, or an override on the command line.
 struct Source {
-    std::string label;                // name in messages
-    std::filesystem::path directory;  // relative paths in the text start here
+    std::string label;                // name of the file or the override in messages
+    std::filesystem::path directory;  // folder at which relative paths in the text start
     bool has_lines = true;            // false for an override: messages show the label without line and column
 };
 
+// A position in a source.
 struct Place {
     std::shared_ptr<const Source> source;
     int line = 1;
@@ -29,10 +30,10 @@ std::string to_string(const Place& place);
 struct SourceNode {
     enum class Kind {
         empty,   // a key without a value, or null
-        scalar,  // `text`
-        list,    // `items`
-        map,     // `items`; keys[i] is the key of items[i]
-        broken   // its error is already reported: skip the node
+        scalar,  // a single value, in `text`
+        list,    // its entries are in `items`
+        map,     // its values are in `items`; keys[i] is the key of items[i]
+        broken   // unusable; the error has been reported, so later code skips the node
     };
     struct Key {
         std::string text;
@@ -45,10 +46,10 @@ struct SourceNode {
     std::vector<Key> keys;
     std::vector<SourceNode> items;
 
-    // Returns the value of a key in a map, or null.
+    // Returns the value of a key in a map; null if the map does not have the key.
     SourceNode* find(std::string_view key);
     const SourceNode* find(std::string_view key) const;
-    // Appends an entry to a map and returns its value.
+    // Appends an entry to a map. Returns a reference to the appended value.
     SourceNode& add(Key key, SourceNode value);
 };
 

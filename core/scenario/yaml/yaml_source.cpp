@@ -20,7 +20,7 @@ namespace {
 
 [[noreturn]] void fail(const Place& place, const std::string& message) { throw YamlError(place, message); }
 
-// Builds the tree from the events of the parser.
+// Builds the tree of nodes from the events of the yaml-cpp parser.
 class TreeBuilder : public YAML::EventHandler {
 public:
     explicit TreeBuilder(std::shared_ptr<const Source> source) : source_(std::move(source)) {}
@@ -72,9 +72,9 @@ private:
         SourceNode node;
         YAML::anchor_t anchor = 0;
         std::size_t nodes_before = 0;
-        std::size_t depth = 0;  // nesting levels inside
+        std::size_t depth = 0;  // number of nesting levels, including the container itself
         std::unordered_set<std::string> keys;
-        bool has_key = false;  // the map still lacks the value of its last key
+        bool has_key = false;  // true: the last key of the map has no value yet
     };
     struct Anchored {
         SourceNode tree;
@@ -89,7 +89,7 @@ private:
     }
 
     void refuse_tag(const std::string& tag, const YAML::Mark& mark) const {
-        // yaml-cpp marks plain scalars with "?", quoted ones with "!".
+        // yaml-cpp gives plain scalars the tag "?" and quoted scalars the tag "!".
         if (!tag.empty() && tag != "?" && tag != "!") fail(at(mark), "the YAML tag '" + tag + "' is not supported");
     }
 
@@ -125,7 +125,7 @@ private:
         put(std::move(closed.node), 0);
     }
 
-    // Records that the innermost open container holds a node with so many nesting levels.
+    // Records that the innermost open container holds a node with `levels` nesting levels.
     void deepen(std::size_t levels) {
         if (!open_.empty()) open_.back().depth = std::max(open_.back().depth, levels + 1);
     }
@@ -141,7 +141,7 @@ private:
         if (parent.node.kind == SourceNode::Kind::list) {
             parent.node.items.push_back(std::move(node));
         } else if (parent.has_key) {
-            // The parser notices a missing value only at the next token, which may be some lines below.
+            // For a missing value the parser gives the position of the next token, which can be some lines below.
             if (node.kind == SourceNode::Kind::empty) node.place = parent.node.keys.back().place;
             parent.node.items.push_back(std::move(node));
             parent.has_key = false;

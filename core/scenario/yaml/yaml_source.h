@@ -1,9 +1,9 @@
 // Reads YAML text into a tree of nodes. Limits on size, nesting and number of nodes protect memory, stack and run time.
-// Aliases count as written out, so a "billion laughs" file is refused. The reader also refuses duplicate keys, several
-// documents, tags, keys that are not plain text, and bytes that are not UTF-8 text.
+// Each alias counts as a full copy of its anchor, so a "billion laughs" file is refused. The reader also refuses
+// duplicate keys, several documents in a file, YAML tags, keys that are lists or maps, and text that is not UTF-8.
 //
-// The reader uses the event interface of yaml-cpp instead of YAML::Node. Limits then hold while reading. Aliases are
-// copied, so no cycle can arise. Every node knows its line and column.
+// The reader uses the event interface of yaml-cpp instead of YAML::Node. It can thus check the limits while it reads,
+// and store line and column in every node. It copies the node of an alias, so that the tree has no cycles.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ inline constexpr std::uintmax_t kYamlBytesMax = 4u << 20u;
 inline constexpr std::size_t kYamlDepthMax = 32;
 inline constexpr std::size_t kYamlNodesMax = 200'000;
 
-// The text of the error is "place: message".
+// An error in a YAML text. what() returns "place: message".
 class YamlError : public InputError {
 public:
     YamlError(const Place& place, const std::string& message)
@@ -33,9 +33,9 @@ private:
     std::string message_;
 };
 
-// Throws YamlError at the first error.
+// Parses a YAML text. Throws YamlError at the first error.
 SourceNode parse_yaml(std::string_view text, const std::shared_ptr<const Source>& source);
-// Throws InputError if the file cannot be read or is not valid.
+// Reads and parses a YAML file. Throws InputError if the file cannot be read or is not valid YAML.
 SourceNode read_yaml_file(const std::filesystem::path& file);
 
 }  // namespace stopline

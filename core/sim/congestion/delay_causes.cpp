@@ -51,7 +51,8 @@ private:
         return model_.rules.long_wait_ticks > 0 && now_ - v_.stopped_since[at(slot)] >= model_.rules.long_wait_ticks;
     }
 
-    // Follows each chain of waiting vehicles to its end, then sets the causes from the end back to the start.
+    // Follows each chain of waiting vehicles from blocker to blocker. Then sets the causes, starting with the last
+    // vehicle found.
     void find_causes() {
         int traversal = 0;
         for (const int start : w_.stopped_slots) {
@@ -76,19 +77,22 @@ private:
         }
     }
 
-    // Sets the cause of a vehicle from its direct cause and the cause of its blocker, which must be known.
+    // Sets the cause of a vehicle from its direct cause and the cause of its blocker. If the blocker is stopped, its
+    // cause must have been set before.
     void set_cause(int slot) {
         if (w_.cause[at(slot)] == DelayCause::gridlock) return;
         const int blocker = w_.waits_for[at(slot)];
         const DelayCause direct = w_.direct_cause[at(slot)];
-        const DelayCause beyond = blocker >= 0 && is_stopped(blocker) ? w_.cause[at(blocker)] : DelayCause::none;
+        const DelayCause blocker_cause = blocker >= 0 && is_stopped(blocker) ? w_.cause[at(blocker)] : DelayCause::none;
         w_.queue_head[at(slot)] = slot;
         if (direct == DelayCause::none && blocker >= 0) w_.queue_head[at(slot)] = w_.queue_head[at(blocker)];
-        w_.cause[at(slot)] = beyond == DelayCause::gridlock ? beyond : direct == DelayCause::none ? beyond : direct;
+        w_.cause[at(slot)] = blocker_cause == DelayCause::gridlock ? blocker_cause
+                             : direct == DelayCause::none          ? blocker_cause
+                                                                   : direct;
         if (w_.cause[at(slot)] == DelayCause::none) w_.cause[at(slot)] = DelayCause::queue_discharge;
     }
 
-    // Records the cycle of vehicles that contains `start`.
+    // Records the gridlock that contains the vehicle in slot `start`, and sets the cause of its vehicles.
     void record_gridlock(int start) {
         std::vector<int> slots;
         int slot = start;
@@ -116,8 +120,8 @@ private:
         gridlocks.push_back(std::move(found));
     }
 
-    // Returns the index of an open gridlock that shares a vehicle with `found` and was not yet seen in this step; -1:
-    // none.
+    // Returns the index of an open gridlock that shares a vehicle with `found` and has not been observed in this step
+    // yet; -1: none.
     int find_open_gridlock(const Gridlock& found) const {
         std::vector<int> members = found.vehicles;
         std::sort(members.begin(), members.end());
@@ -130,7 +134,8 @@ private:
         return -1;
     }
 
-    // Adds the delay of the interval to the totals and to the episode of the queue's first vehicle.
+    // Adds the delay since the last observation to the totals, and to the episode of the queue in which the vehicle
+    // stands.
     void add_delays() {
         const double interval_s = model_.time_s(model_.rules.watch_ticks);
         std::array<int, kDelayCauses> vehicles{};
@@ -157,7 +162,8 @@ private:
         return !begins_m.empty() && v_.position_m[at(slot)] < begins_m[at(w_.lane[at(slot)])];
     }
 
-    // Returns the open episode of a lane and cause. Opens one if there is none.
+    // Returns the open episode for a cause and for the lane of the vehicle in slot `queue_head`. Opens an episode if
+    // there is none.
     DelayEpisode& episode_of(int queue_head, DelayCause cause) {
         std::vector<DelayEpisode>& episodes = log_.episodes;
         const int lane = w_.lane[at(queue_head)];
@@ -194,7 +200,7 @@ private:
     const VehicleArrays& v_;
     DelayLog& log_;
     DelayWatch& w_;
-    int now_;  // tick
+    int now_;  // present tick
     double now_s_;
 };
 
@@ -210,7 +216,7 @@ void prepare_delay_watch(const Model& model, const State& state, DelayWatch& w) 
         w.waits_for.resize(slots), w.direct_cause.resize(slots), w.cause.resize(slots), w.queue_head.resize(slots);
         w.lane.resize(slots), w.vehicle.resize(slots), w.traversal.resize(slots);
     }
-    // These are indexed by lane, so they stay valid when vehicles change slots.
+    // The following arrays are indexed by lane, so their contents stay valid when vehicles change slots.
     w.last_blockers.resize(model.graph.lanes.size());
     w.open_episode.resize(model.graph.lanes.size() * kDelayCauseNames.size(), -1);
 }

@@ -1,11 +1,13 @@
-// Attribution of delay to causes (Section VI.A of the paper), in intervals of RulesPlan::watch_ticks.
+// Attributes delay to causes (Section VI.A of the paper), in intervals of RulesPlan::watch_ticks.
 //
-// A stopped vehicle waits for one thing: its signal, its leader, room in its exit lane, a vehicle in a conflict area or
-// a vehicle with priority. At a red signal it also waits for a vehicle stopped close ahead inside the intersection, or
-// for the vehicle that held it at the last green, as long as that has not moved since. The chain from vehicle to
-// vehicle ends at a signal, at a moving vehicle, or in a cycle, which is a gridlock. The delay of a vehicle is
-// attributed to the cause that stops the first vehicle of its own queue; a queue that ends in a cycle is part of the
-// gridlock.
+// A stopped vehicle waits for one thing: its signal, its leader, room in its exit lane, a vehicle in a conflict area, a
+// vehicle with priority, or a gap in the adjacent lane. A vehicle at a red signal can have a blocker as well. This is a
+// vehicle that is stopped close ahead past the stop line, or else the blocker of the last green if it has not moved
+// since.
+//
+// The chain from blocker to blocker ends at a vehicle without a stopped blocker, or in a cycle of vehicles, which is a
+// gridlock. The delay of a vehicle is attributed to the cause that stops the first vehicle of its queue. If the chain
+// of a queue ends in a gridlock, the cause is the gridlock.
 #pragma once
 
 #include "sim/state/model.h"
@@ -16,11 +18,11 @@ namespace stopline {
 // Returns true if delays are attributed in this step.
 bool delay_watch_is_due(const Model& model, const State& state);
 
-// Sizes the scratch memory of the watch.
+// Allocates the working memory of the delay attribution.
 void prepare_delay_watch(const Model& model, const State& state, DelayWatch& watch);
 
-// Attributes the delay of all stopped vehicles. find_stopped_vehicles() and find_wait_reasons() must have run for all
-// partitions.
+// Attributes the delay of all stopped vehicles. In this step, find_stopped_vehicles() and find_wait_reasons() must have
+// run for all partitions before.
 void attribute_delays(const Model& model, const State& state, CongestionState& congestion);
 
 // Runs all phases of delay attribution on one thread.

@@ -17,12 +17,12 @@ namespace stopline {
 
 namespace {
 
-// Returns the exit lane of the intersection ahead of a vehicle; -1: the vehicle is behind its last intersection.
+// Returns the exit lane of the intersection ahead of a vehicle; -1: no intersection is ahead.
 int exit_lane_ahead(const Model& model, const State& state, int lane, int slot) {
     const Route& route = model.graph.routes[at(state.vehicles.record[at(slot)].route)];
     if (route.lanes.size() < 2) return -1;  // the trip ends on this lane
-    const bool before = model.graph.lanes[at(lane)].signal_group >= 0 || model.graph.lanes[at(lane)].origin >= 0;
-    return before ? route.lanes.back() : -1;
+    const bool is_upstream = model.graph.lanes[at(lane)].signal_group >= 0 || model.graph.lanes[at(lane)].origin >= 0;
+    return is_upstream ? route.lanes.back() : -1;
 }
 
 void record_rule_use(const Model& model, State& state, RuleUse::Kind kind, int slot, int lane) {
@@ -40,7 +40,7 @@ bool remove_for_teleport(const Model& model, State& state, int lane) {
     const int slot = block.first;
     const int target_lane = exit_lane_ahead(model, state, lane, slot);
     if (target_lane < 0 || congestion.teleporting.past_last() == congestion.teleporting.end) return false;
-    // Detectors ahead of the vehicle will not record it.
+    // The removed vehicle no longer counts as upstream of a detector, so the detectors on the lane do not record it.
     for (const int detector : state.detectors.on_lane[at(lane)]) {
         int& upstream = state.detectors.upstream[at(detector)];
         upstream = std::min(upstream, block.count - 1);
@@ -60,7 +60,8 @@ bool trip_ends_on_next_edge(const State& state, const VehicleRecord& record) {
     return record.trip >= 0 && state.plan.turn_of_trip(record.trip, record.trip_edge + 1) == Turn::none;
 }
 
-// Returns true if a vehicle on a trip, reinserted on an empty lane, has room to its leader beyond the lane.
+// Returns true if a vehicle on a trip, reinserted on an empty lane, has its standstill gap to the leader downstream of
+// the lane.
 bool has_room_beyond_lane(const Model& model, const State& state, int lane, int slot, double front_m) {
     const VehicleArrays& v = state.vehicles;
     const VehicleRecord& record = v.record[at(slot)];
@@ -75,8 +76,8 @@ bool has_room_beyond_lane(const Model& model, const State& state, int lane, int 
     return rear_m - front_m >= static_cast<double>(v.standstill_gap_m[at(slot)]);
 }
 
-// Reinserts the k-th teleported vehicle at the start of its lane, with its rear just behind the intersection. Returns
-// false if there is no room.
+// Reinserts the k-th teleported vehicle at the start of its target lane, with its rear just past the intersection.
+// Returns false if there is no room.
 bool reinsert_teleported(const Model& model, State& state, int k) {
     VehicleArrays& v = state.vehicles;
     const int target_lane = state.congestion.teleport_targets[at(k)].lane;
@@ -87,7 +88,7 @@ bool reinsert_teleported(const Model& model, State& state, int k) {
     const double length_m = v.length_m[at(waiting)];
     double front_m = length_m;
     double speed_mps = lane.limit_mps;
-    if (v.record[at(waiting)].trip >= 0) {  // edges of imported networks can be shorter than the vehicle
+    if (v.record[at(waiting)].trip >= 0) {  // imported network: the edge can be shorter than the vehicle
         if (length_m >= lane.stop_line_m && !trip_ends_on_next_edge(state, v.record[at(waiting)])) return false;
         front_m = std::min(length_m, lane.stop_line_m);
         const double to_line_m = lane.stop_line_m - front_m;
@@ -124,8 +125,8 @@ bool reinsert_teleported(const Model& model, State& state, int k) {
     return true;
 }
 
-// Moves the target of a waiting vehicle behind the next intersection once the vehicle would have driven along its full
-// target lane.
+// Moves the target of a vehicle that waits for reinsertion to the exit lane of the next intersection. Does so when the
+// waiting time exceeds the travel time along the present target lane.
 void advance_target(const Model& model, State& state, int waiting, TeleportTarget& target) {
     const Lane& lane = model.graph.lanes[at(target.lane)];
     const double waiting_s = model.time_s(state.tick - target.waiting_since);

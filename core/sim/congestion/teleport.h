@@ -1,4 +1,4 @@
-// Teleporting: removes a blocked vehicle and reinserts it behind the intersection (TrafficRules).
+// Teleports blocked vehicles: removes them and reinserts them downstream of the intersection (TrafficRules).
 #pragma once
 
 #include "sim/state/model.h"
@@ -6,12 +6,12 @@
 
 namespace stopline {
 
-// Removes the first vehicle of a lane, to be reinserted behind the intersection. Returns false if the vehicle is behind
-// its last intersection already, or if there is no free slot.
+// Removes the first vehicle of a lane, which will be reinserted downstream of the intersection ahead. Returns false if
+// no intersection is ahead of the vehicle, or if there is no free slot.
 bool remove_for_teleport(const Model& model, State& state, int lane);
 
-// Reinserts teleported vehicles where there is room, and removes vehicles that have been stopped for too long at the
-// head of a lane.
+// Reinserts teleported vehicles that have room. Then removes the first vehicle of each lane if it has been stopped for
+// too long.
 void teleport_blocked_vehicles(const Model& model, State& state);
 
 }  // namespace stopline

@@ -13,7 +13,7 @@ namespace stopline {
 namespace {
 
 constexpr double kQueueGap_m = 15.0;     // largest net gap between stopped vehicles of one queue
-constexpr double kSearchRange_m = 30.0;  // for a leader beyond the lane
+constexpr double kSearchRange_m = 30.0;  // range of the search for a leader downstream of the lane
 
 class WaitSearch {
 public:
@@ -27,7 +27,8 @@ public:
         LastBlocker& last = w_.last_blockers[at(lane)];
         int& waits_for = w_.waits_for[at(slot)];
         if (w_.direct_cause[at(slot)] == DelayCause::signal) {
-            // A vehicle at a red signal also waits for a leader stopped beyond the line, or for its last blocker.
+            // A vehicle at a red signal can have a blocker as well: a leader stopped past the stop line, or its last
+            // blocker. wait_for_leader() changes the direct cause, so the signal is set again.
             wait_for_leader(slot, lane);
             w_.direct_cause[at(slot)] = DelayCause::signal;
             if (waits_for < 0) waits_for = find_unmoved_blocker(last, v_.id[at(slot)]);
@@ -39,7 +40,8 @@ public:
 private:
     bool is_stopped(int slot) const { return v_.speed_mps[at(slot)] < kStoppedSpeed_mps; }
 
-    // The blocker of the keep-clear rule can crawl. The vehicle waits for it all the same.
+    // Finds the blocker of a stopped vehicle and the direct cause of the wait. Only a stopped vehicle can be a blocker,
+    // except under the keep-clear rule, where the blocker may crawl.
     void find_direct_cause(int slot, int lane) {
         if (const YieldStop* const stop = yield_stop_of(slot, lane); stop != nullptr) {
             if (stop->blocker < 0) return set(slot, -1, DelayCause::wrong_lane);
@@ -83,7 +85,8 @@ private:
         set(slot, leader, is_exit_of(lane, w_.lane[at(leader)]) ? full_exit_cause(slot) : DelayCause::none);
     }
 
-    // Returns the slot of the last blocker of a vehicle if it has not moved since; -1 otherwise.
+    // Returns the slot of the vehicle that blocked `vehicle` at the last green, if this blocker has not moved since;
+    // else -1.
     int find_unmoved_blocker(const LastBlocker& last, int vehicle) const {
         if (last.vehicle != vehicle) return -1;
         const LaneBlock& block = state_.blocks[at(last.blocker_lane)];
@@ -93,8 +96,7 @@ private:
         return -1;
     }
 
-    // Returns true if `exit` is an exit lane of an intersection and `lane` leads there: a connection or an approach
-    // lane.
+    // Returns true if `lane` is a connection to the lane `exit`, or the approach lane of a connection to it.
     bool is_exit_of(int lane, int exit) const {
         if (lane == exit) return false;
         const std::vector<int>& connections = model_.connections_to[at(exit)];
@@ -103,11 +105,11 @@ private:
         });
     }
 
-    // Returns the cause of a vehicle whose exit lane is full: turn blocking if it turns, else spillback.
+    // Returns the delay cause of a vehicle whose exit lane is full: turn blocking if the vehicle turns, else spillback.
     DelayCause full_exit_cause(int slot) const {
         const int lane = w_.lane[at(slot)];
         const bool is_inside = model_.graph.lanes[at(lane)].origin >= 0;
-        const int connection = is_inside ? lane : v_.next_lane[at(slot)];  // -1: its lane does not serve its route
+        const int connection = is_inside ? lane : v_.next_lane[at(slot)];  // -1: the vehicle must change lanes first
         const bool turns = connection >= 0 && model_.graph.lanes[at(connection)].turn != Turn::straight;
         return turns ? DelayCause::turn_blocking : DelayCause::spillback;
     }

@@ -1,4 +1,4 @@
-// What each stopped vehicle waits for.
+// Finds what each stopped vehicle waits for.
 #pragma once
 
 #include "sim/state/model.h"
@@ -6,10 +6,10 @@
 
 namespace stopline {
 
-// Lists the stopped vehicles of a partition and updates the tick since which each vehicle has been stopped.
+// Lists the stopped vehicles of a partition. Updates VehicleArrays::stopped_since of all vehicles.
 void find_stopped_vehicles(State& state, Partition& part);
 
-// Finds the vehicle that each stopped vehicle of a partition waits for, and the direct cause. All partitions must have
+// Finds the blocker of each stopped vehicle of a partition, and the direct cause of the wait. All partitions must have
 // listed their stopped vehicles before.
 void find_wait_reasons(const Model& model, const State& state, DelayWatch& watch, const Partition& part);
 

@@ -1,5 +1,5 @@
-// A step of full dynamics has two parts. The driver requests an acceleration from the state at the beginning of the
-// step. The vehicle answers with its powertrain and moves.
+// Full dynamics: moves vehicles by one step. First the driver requests an acceleration from the state at the beginning
+// of the step. Then the powertrain responds to the request, and the vehicle moves.
 #pragma once
 
 #include <span>
@@ -10,16 +10,16 @@
 
 namespace stopline {
 
-// Tables of the model in single precision, as the kernels read them.
+// Driver tables and vehicle tables of the model, converted to single precision for the kernels.
 struct FullTables {
     DriverTablesOf<float> driver;
-    std::vector<PowertrainTablesOf<float>> vehicles;  // [type]
+    std::vector<PowertrainTablesOf<float>> vehicles;  // [vehicle type]
 };
 FullTables full_tables(const Model& model);
 
 // Moves the vehicles of a lane group by one step. The lanes may be in any order. `part.full_group` must have room for
-// all vehicles of the group. `next`: LaneGroup::lines of the next group, which is prefetched meanwhile; empty: no
-// prefetch.
+// all vehicles of the group. `next`: LaneGroup::prefetch_slots of the next group, whose data are prefetched during the
+// step; empty: no prefetch.
 void step_full(const Model& model, const FullTables& tables, const LaneGroup& lanes, std::span<const int> next,
                State& state, Partition& part);
 

@@ -1,5 +1,5 @@
 // Source of the full-dynamics kernels. One file for each instruction set includes it. The kernels have internal
-// linkage, so that the builds do not mix.
+// linkage, so that the linker does not mix the builds.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -17,32 +17,33 @@ namespace stopline {
 
 namespace {
 
-// A vehicle slower than kBrakeHoldSpeed_mps without a request to start is held by its brake, as by a hill holder.
+// The brake holds a vehicle slower than kBrakeHoldSpeed_mps with kHold_mps2 until its request exceeds kStart_mps2.
 constexpr double kStart_mps2 = 0.01;
 constexpr double kHold_mps2 = -0.3;
 
-// Reads a sample of a delay line. Interpolates between two rows if the delay is no multiple of the step.
+// Reads a sample of a delay line. Interpolates between two rows if the delay is not a multiple of the step.
 template <class R>
 STOPLINE_INLINE R delayed(const DelayRows& rows, const float* delayed_row, const float* older_row, int i) {
     const R sample = load<R>(delayed_row + i);
     return rows.older_share == 0.0 ? sample : rows.delayed_share * sample + rows.older_share * load<R>(older_row + i);
 }
 
-// Copies the vehicle in slot i of a lane to place k of the group. With R = Batch it copies a batch from there on.
+// Copies the vehicle in slot i of a lane to place k of the group. With R = Batch it copies a batch of vehicles that
+// begins there.
 template <class R>
 STOPLINE_INLINE void gather_at(const FullStreams& s, const DelayRows& radar, const DelayRows& v2v, const LaneStep& lane,
                                int i, int k, double dt, const FullGroup& g) {
     const R speed = load<R>(s.speed + i);
-    // Radar measurement of this step. Without a radar delay it is read again below.
+    // Radar measurement of this step. Without a radar delay, delayed() reads it just below.
     store(s.gap_now + i, load_difference<R>(s.position + i - 1, s.position + i) - load<R>(s.length + i - 1));
     store(s.closing_now + i, speed - load<R>(s.speed + i - 1));
-    // Delayed knowledge of the leader.
+    // Delayed data about the leader.
     store(g.gap + k, delayed<R>(radar, s.gap_delayed, s.gap_older, i));
     store(g.closing + k, delayed<R>(radar, s.closing_delayed, s.closing_older, i));
     store(g.heard_acceleration + k, delayed<R>(v2v, s.heard_acceleration, s.heard_acceleration_older, i - 1));
     store(g.heard_request + k, delayed<R>(v2v, s.heard_request, s.heard_request_older, i - 1));
     store(g.heard_rate + k, delayed<R>(v2v, s.heard_rate, s.heard_rate_older, i - 1));
-    // Road.
+    // Data of the lane.
     store(g.to_next_limit + k, load_difference<R>(lane.next_limit_m, s.position + i));
     store(g.limit + k, splat<R>(lane.limit_mps));
     store(g.sine + k, splat<R>(lane.sine));
@@ -61,8 +62,9 @@ STOPLINE_INLINE void gather_at(const FullStreams& s, const DelayRows& radar, con
     if (s.type != nullptr) std::memcpy(g.type + k, s.type + i, kWidthOf<R> * sizeof(int));
 }
 
-// Calls treat(R(0), i) for each batch of a lane; i is the first slot of the batch. The last batch is half as wide if
-// that is enough for the remaining vehicles.
+// Calls treat(number, i) for each batch of a lane; i is the first slot of the batch. The type of `number` tells treat()
+// the width of the batch. If R has 16 numbers or more, the last batch has half the width when the remaining vehicles
+// fit.
 template <class R, class Treat>
 STOPLINE_INLINE void for_each_batch(const LaneStep& lane, Treat treat) {
     int i = lane.begin;
@@ -74,8 +76,8 @@ STOPLINE_INLINE void for_each_batch(const LaneStep& lane, Treat treat) {
     }
 }
 
-// Prefetches the data of the next group, a share of it with each batch of this group. Loading thus overlaps with
-// computing. The hardware does not prefetch by itself, because the part of an array that belongs to one lane is too
+// Prefetches the data of the next group, one share during each batch of the current group. Loading thus overlaps with
+// computing. The prefetcher of the hardware does not help, because the part of an array that belongs to one lane is too
 // short.
 class GroupPrefetch {
 public:
@@ -85,7 +87,8 @@ public:
         slots_per_batch_ = slots.empty() ? 0 : (slots.size() + batches - 1) / batches;
     }
 
-    // Prefetches a share of the data of the driver kernel, during batch k: positions, vehicle data and measurements.
+    // Prefetches a share of the next group's positions, vehicle data and measurements. The driver kernel calls it
+    // during batch k.
     STOPLINE_INLINE void prefetch_driver_data(int k) const {
         for_each_slot(k, [&](int i) STOPLINE_INLINE_LAMBDA {
             const FullStreams& s = streams_;
@@ -97,7 +100,8 @@ public:
                            s.closing_delayed, s.is_platoon_leader);
         });
     }
-    // Prefetches a share of the data of the vehicle kernel, during batch k: powertrain state and V2V messages.
+    // Prefetches a share of the next group's powertrain state and V2V messages. The vehicle kernel calls it during
+    // batch k.
     STOPLINE_INLINE void prefetch_vehicle_data(int k) const {
         for_each_slot(k, [&](int i) STOPLINE_INLINE_LAMBDA {
             const FullStreams& s = streams_;
@@ -128,7 +132,7 @@ private:
 template <class R>
 void gather(const FullStreams& streams, const DelayRows& radar_rows, const DelayRows& v2v_rows, const LaneGroup& lanes,
             double dt, const FullGroup& group) {
-    const FullStreams s = streams;  // local copies, which stores cannot alias
+    const FullStreams s = streams;  // local copies, so that the compiler knows that stores do not change them
     const FullGroup g = group;
     const DelayRows radar = radar_rows;
     const DelayRows v2v = v2v_rows;
@@ -145,7 +149,8 @@ void gather(const FullStreams& streams, const DelayRows& radar_rows, const Delay
     }
 }
 
-// Plans the request of the vehicle at place k of the group. With R = Batch it plans a batch from there on.
+// Computes the request of the vehicle at place k of the group. With R = Batch it computes a batch of vehicles that
+// begins there.
 template <class R>
 STOPLINE_INLINE void plan_at(const DriverTablesOf<float>& d, const FullGroup& g, double dt, int k) {
     const CaccSettingsOf<float>& c = d.cacc;
@@ -178,31 +183,33 @@ STOPLINE_INLINE void plan_at(const DriverTablesOf<float>& d, const FullGroup& g,
     const R follow = follow_acceleration(c, speed, acceleration, lag, rate, last_request, desired_gap, gap_growth_m,
                                          get(g.slope), p, dt);
     const R emergency = min_of(emergency_acceleration(c, speed, p), keep_room_acceleration(c, speed, gap_growth_m, p));
-    // Stopping behind a stopping leader. Other stops are among the demands of the lane.
+    // Stopping behind a leader that is about to stop. Stops at stop lines and conflict areas are in g.demand.
     const R behind = stop_behind_acceleration(d, speed, standstill_gap, p);
 
-    // The lowest acceleration applies. A platoon leader becomes a follower once following demands less than free
-    // driving.
+    // The lowest acceleration applies. A platoon leader becomes a follower once the acceleration for following is below
+    // that of free driving.
     const R is_platoon_leader = get(g.is_platoon_leader) * STOPLINE_FLAG(R, follow > as_leader);
     const R drive = min_of(choose(is_platoon_leader, as_leader, catch_up_acceleration(d, speed, limit)), slow_down);
     const R smallest = min_of(min_of(min_of(drive, follow), emergency), min_of(get(g.demand), behind));
     const R smooth = clamped<R>(smallest, last_request - c.jerk_down_mps3 * dt, last_request + c.jerk_up_mps3 * dt);
-    // The request of a stopped vehicle does not fall below 0, so that its next start begins from there.
+    // The request of a stopped vehicle does not fall below 0, so that its next start begins from 0.
     const R lowest = select(speed <= kBrakeHoldSpeed_mps, splat<R>(0.0), splat<R>(-c.deceleration_emergency_mps2));
     const R request = max_of(smooth, lowest);
     store(g.request + k, request);
-    // Within the step the request changes linearly from the last one to this one.
+    // The request changes linearly within the step, so its mean is the average of the last and the new request. For a
+    // vehicle that is held by its brake, kHold_mps2 replaces this mean.
     const R held = STOPLINE_FLAG(R, speed <= kBrakeHoldSpeed_mps) * STOPLINE_FLAG(R, request <= kStart_mps2);
     store(g.mean_request + k, choose(held, splat<R>(kHold_mps2), 0.5 * (last_request + request)));
     store(g.is_platoon_leader + k, is_platoon_leader);
-    // V2V message. The request is in force at the end of this step. The acceleration is a mean over the last step; the
-    // first-order lag extrapolates it to the same time.
+    // V2V message for the end of this step, when the request takes effect. The acceleration is a mean over the last
+    // step, so it is extrapolated to that time by the first-order lag.
     const R reached = min_of(1.5 * dt * rate, 1.0);
     store(g.sent_acceleration + k, acceleration + (request - acceleration) * reached);
     store(g.sent_rate + k, rate);
 }
 
-// Drives the vehicles from place k on that have type `only`; below 0: all of them.
+// Computes the response of the powertrains for a batch of vehicles that begins at place k. Only vehicles of type `only`
+// change. If `only` is below 0, all vehicles change.
 template <class R>
 STOPLINE_INLINE void drive_at(const PowertrainTablesOf<float>& t, const FullGroup& g, double dt, int only, int k) {
     const auto get = [k](const auto* array) STOPLINE_INLINE_LAMBDA { return load<R>(array + k); };

@@ -1,4 +1,5 @@
-// Full-dynamics kernels for the baseline instruction set (SSE2 on x86-64).
+// Full-dynamics kernels for the baseline instruction set (SSE2 on x86-64), and kernels that compute one vehicle at a
+// time.
 #include "sim/full_dynamics/full_kernels.inl"
 
 namespace stopline {

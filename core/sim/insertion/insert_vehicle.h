@@ -8,18 +8,19 @@ namespace stopline {
 
 struct NewVehicle {
     int lane = -1;
-    double position_m = 0.0;  // front
+    double position_m = 0.0;  // position of the front, from the start of the lane
     double speed_mps = 0.0;
     double length_m = 0.0;
     int policy = 0;
     int route = -1;
-    bool behind_last = true;  // upstream of all vehicles of the lane; false: anywhere on the lane
+    bool behind_last = true;  // true: upstream of all vehicles on the lane; false: sorted in by position_m
 };
 
-// Inserts a vehicle and returns its slot. Its place on the route is not set yet.
+// Inserts a vehicle and returns its slot. The caller must then set the position of the vehicle on its route, and call
+// finish_insertion().
 int insert_vehicle(const Model& model, State& state, const NewVehicle& vehicle);
 
-// Initialises the sensors and records the entry. Call it after the route has been set.
+// Initialises the sensors of an inserted vehicle and records its entry. The route of the vehicle must have been set.
 void finish_insertion(const Model& model, State& state, int lane, int slot);
 
 }  // namespace stopline

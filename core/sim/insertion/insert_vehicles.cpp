@@ -18,9 +18,9 @@ namespace stopline {
 namespace {
 
 constexpr double kBeforeStart_s = -1e9;
-constexpr double kBacklogHeadway_s = 2.0;  // of vehicles that had to wait for room
+constexpr double kBacklogHeadway_s = 2.0;  // entry headway of vehicles that may have waited for room
 
-// Draws policy and route of the next vehicle of an inlet, once a vehicle.
+// Draws spacing policy and route of the next vehicle of an inlet, unless they have been drawn already.
 void draw_next_vehicle(const Model& model, State& state, int number) {
     InletState& inlet = state.insertion.inlets[at(number)];
     if (inlet.next_policy >= 0) return;
@@ -28,10 +28,10 @@ void draw_next_vehicle(const Model& model, State& state, int number) {
     inlet.next_route = draw_route(model, state, number, inlet.entered, false);
 }
 
-// Position and speed with which a vehicle would enter.
+// The position and speed with which a vehicle can enter.
 struct Entry {
-    bool is_possible = false;
-    double position_m = 0.0;  // front
+    bool is_possible = false;  // false: there is no room
+    double position_m = 0.0;   // position of the front
     double speed_mps = 0.0;
 };
 
@@ -41,7 +41,7 @@ bool is_connection_occupied(const Model& model, const State& state, int lane) {
                        [&](int connection) { return state.blocks[at(connection)].count > 0; });
 }
 
-// Returns the entry on a link without vehicles, behind the leader beyond the link.
+// Returns the entry on a link lane without vehicles. The leader is the next vehicle downstream of the link.
 Entry entry_on_empty_link(const Model& model, const State& state, int number, int policy, double max_entry_mps) {
     const int lane = model.demand.inlets[at(number)].lane;
     const double front_m = model.vehicles[0].length_m;
@@ -58,8 +58,8 @@ Entry entry_on_empty_link(const Model& model, const State& state, int number, in
     return {gap_m >= desired_gap_m(model, policy, speed_mps), front_m, speed_mps};
 }
 
-// Returns the entry at an inlet. On a link the vehicle enters with its rear at the start of the lane, so that the
-// intersection upstream stays clear.
+// Returns the entry at an inlet. On a link lane the new vehicle must lie wholly on the lane, so that it does not reach
+// into the intersection upstream.
 Entry entry_at(const Model& model, const State& state, int number, int policy) {
     const int lane = model.demand.inlets[at(number)].lane;
     const double max_entry_mps = std::min(model.demand.entry_speed_mps, model.graph.lanes[at(lane)].limit_mps);
@@ -84,7 +84,8 @@ Entry entry_at(const Model& model, const State& state, int number, int policy) {
     return {rear_m - min_front_m >= room_m, min_front_m, speed_mps};
 }
 
-// Copies acceleration and powertrain of the leader, as if both were part of an endless platoon.
+// Copies acceleration and powertrain state from the leader to a new vehicle. The vehicle thus enters as part of an
+// endless platoon.
 void copy_longitudinal_state(VehicleArrays& v, std::size_t i, std::size_t leader) {
     v.acceleration_mps2[i] = v.acceleration_mps2[leader];
     v.is_platoon_leader[i] = 0.0F;
@@ -117,7 +118,8 @@ void insert_at_inlet(const Model& model, State& state, int number, const Entry& 
     inlet.last_entry_s = model.time_s(state.tick + 1);
 }
 
-// Marks detectors upstream of inserted queues as passed. Zones are excluded: vehicles in them count as entered.
+// Marks the vehicles of the initial queues as past all detectors upstream of them, without recording a crossing.
+// Detectors of zones are excluded, so that they record the vehicles as entering the zone.
 void mark_detectors_passed(const Model& model, State& state) {
     for (std::size_t k = 0; k < model.detectors.size(); ++k) {
         const Detector& detector = model.detectors[k];
@@ -130,7 +132,8 @@ void mark_detectors_passed(const Model& model, State& state) {
     }
 }
 
-// Reserves memory for all queues at once. Growing lane by lane would move all other vehicles each time.
+// Reserves memory for the queues of all lanes at once. If the blocks grew one by one, all vehicles would be moved each
+// time.
 void reserve_initial_queues(const Model& model, State& state) {
     std::vector<int> expected(model.graph.lanes.size(), 0);
     for (const DemandPlan::Inlet& inlet : model.demand.inlets) {
@@ -140,12 +143,12 @@ void reserve_initial_queues(const Model& model, State& state) {
     reserve_blocks(state, expected);
 }
 
-// Returns the random offset of the first vehicle of an evenly spaced inlet, in headways.
+// Returns the random delay of the first vehicle of an evenly spaced inlet, as a share of the headway.
 double first_entry_offset(const Model& model, int number) {
     return random_uniform(model.seed, static_cast<std::uint64_t>(number), 0, Purpose::insertion);
 }
 
-// Returns the earliest time at which the next vehicle of an inlet enters.
+// Returns the earliest time in s at which the next vehicle of an inlet may enter.
 double next_entry_s(const Model& model, const State& state, int number) {
     if (model.demand.is_saturated(number)) return kBeforeStart_s;
     const InletState& inlet = state.insertion.inlets[at(number)];

@@ -1,4 +1,4 @@
-// Inserts vehicles at inlets: saturated, at a rate, or in a queue before the first step.
+// Inserts vehicles at inlets: from an endless backlog, at given headways, or as queues before the first step.
 #pragma once
 
 #include <cstdint>
@@ -8,13 +8,14 @@
 
 namespace stopline {
 
-// Inserts the queues that the demand asks for before the first step.
+// Inserts a queue at every inlet before the first step if the demand asks for it (DemandPlan::starts_queued).
 void insert_initial_queues(const Model& model, State& state);
 
-// Inserts the vehicles that are due and have room.
+// Inserts the next vehicle of each inlet if it is due and has room.
 void insert_vehicles(const Model& model, State& state);
 
-// Returns the number of vehicles that are due and have found no room: trips, and vehicles of inlets with even headways.
+// Returns the number of vehicles that are due but have found no room to enter. Only vehicles on trips and vehicles of
+// evenly spaced inlets count.
 std::int64_t insertion_backlog(const Model& model, const State& state);
 
 }  // namespace stopline

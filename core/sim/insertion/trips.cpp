@@ -22,12 +22,14 @@ namespace stopline {
 
 namespace {
 
-// A vehicle inserted nearer to the stop line can surprise crossing vehicles, which have decided without it.
+// Crossing vehicles have decided without the vehicle that is being inserted. Within this distance of the stop line, it
+// is inserted only if no crossing vehicle is on its way through its route.
 constexpr double kNearLine_m = 40.0;
-// Positions in route files are rounded. A queue read from a file keeps its positions within this tolerance.
+// Positions in route files are rounded, so the gaps in a queue from a file can be a little too small. This tolerance
+// allows them.
 constexpr double kPositionRounding_m = 0.01;
 
-// Returns the rear of the last vehicle on a lane, or 1e6 on an empty lane.
+// Returns the position of the rear of the last vehicle on a lane, or 1e6 if the lane is empty.
 double last_rear_m(const State& state, int lane) {
     const LaneBlock& block = state.blocks[at(lane)];
     if (block.count == 0) return 1e6;
@@ -35,7 +37,7 @@ double last_rear_m(const State& state, int lane) {
     return v.position_m[at(block.last())] - static_cast<double>(v.length_m[at(block.last())]);
 }
 
-// Returns the departure lane of a trip.
+// Returns the lane on which the vehicle of a trip enters.
 int departure_lane(const Model& model, const State& state, int number) {
     const Trip& trip = model.demand.trips[at(number)];
     const std::vector<int>& lanes = model.graph.approaches[at(trip.approach)].lanes;
@@ -61,20 +63,23 @@ int departure_lane(const Model& model, const State& state, int number) {
     return best;
 }
 
+// The lane and the position at which a vehicle is to be inserted.
 struct InsertionPoint {
     int lane = -1;
-    int index = 0;  // of the new vehicle, counted from the first vehicle of the lane
+    int index = 0;  // index of the new vehicle on the lane, counted from the first vehicle
     double front_m = 0.0;
 };
 
-// Returns a random share of the lane, in [0, 1). `free` positions are drawn again in each step.
+// Returns a random number in [0, 1) for the departure position of a trip. For DepartPosition::free it is a new number
+// in each step.
 double random_position(const Model& model, const State& state, int number) {
     const bool draws_each_step = model.demand.trips[at(number)].depart_position == Trip::DepartPosition::free;
     const std::uint64_t draw = draws_each_step ? 3 + static_cast<std::uint64_t>(state.tick) : 2;
     return random_uniform(model.seed, static_cast<std::uint64_t>(number), draw, Purpose::insertion);
 }
 
-// Returns the position furthest downstream from which a vehicle can still yield.
+// Returns the front position furthest downstream at which a vehicle may enter. It is at the stop line or upstream of
+// it, and far enough from the first conflict area for the vehicle to yield.
 double max_departure_m(const Model& model, const State& state, int lane, int number) {
     const Lane& road = model.graph.lanes[at(lane)];
     const int route = state.plan.adjacent(lane).turn_option(model.demand.turn_of_trip(number, 0)).route;
@@ -83,7 +88,8 @@ double max_departure_m(const Model& model, const State& state, int lane, int num
     return std::max(std::min(road.stop_line_m, road.length_m + first_conflict_m - model.give_way.margin_m), 0.0);
 }
 
-// Returns the front of a new vehicle. Where vehicles can arrive from upstream, its rear is on the lane.
+// Returns the front position of a new vehicle. If the lane is a link, the rear of the vehicle is placed on the lane,
+// too.
 double departure_front_m(const Model& model, const State& state, int lane, int number) {
     using enum Trip::DepartPosition;
     const Trip& trip = model.demand.trips[at(number)];
@@ -122,7 +128,7 @@ InsertionPoint insertion_point(const Model& model, const State& state, int numbe
 
 constexpr double kNoLeader_m = 1e6;
 
-// The leader of a new vehicle.
+// The gap to the leader of a new vehicle, and the speed of the leader.
 struct EntryLeader {
     double gap_m = kNoLeader_m;  // net gap
     double speed_mps = 0.0;
@@ -145,7 +151,8 @@ EntryLeader entry_leader(const Model& model, const State& state, const Insertion
     return {rear_m - point.front_m, v.speed_mps[at(leader.slot)]};
 }
 
-// Returns true if the follower of the new vehicle has its desired gap plus the distance for comfortable braking.
+// Returns true if the follower of the new vehicle has enough room. This is its desired gap plus the distance to brake
+// comfortably to the speed of the new vehicle.
 bool follower_has_room(const Model& model, const State& state, const InsertionPoint& point, double rear_m,
                        double speed_mps) {
     const LaneBlock& block = state.blocks[at(point.lane)];
@@ -158,7 +165,8 @@ bool follower_has_room(const Model& model, const State& state, const InsertionPo
            desired_gap_m(model, v.policy[follower], follower_mps) + braking_m;
 }
 
-// Returns the departure speed behind a leader; below 0: the gap is too small.
+// Returns the speed with which a new vehicle can enter behind its leader. A result below 0 means that the gap is too
+// small.
 double departure_speed_mps(const Model& model, const Trip& trip, int number, int policy, double limit_mps,
                            const EntryLeader& leader) {
     using enum Trip::DepartSpeed;
@@ -178,7 +186,8 @@ double departure_speed_mps(const Model& model, const Trip& trip, int number, int
     return trip.depart_speed != given && is_safe(leader_mps) ? leader_mps : -1.0;
 }
 
-// Returns true if a yielding vehicle is crossing the path of a new vehicle with priority, or has accepted a gap there.
+// Returns true if a vehicle without priority is crossing the route of the new vehicle, or has accepted a gap to cross
+// it.
 bool crossing_vehicle_is_committed(const State& state, int route) {
     const std::span<const int> lanes = state.plan.route(route);
     if (lanes.size() < 2) return false;
@@ -197,7 +206,7 @@ bool crossing_vehicle_is_committed(const State& state, int route) {
     return false;
 }
 
-// Inserts the vehicle of a trip. Returns false if there is no room.
+// Inserts the vehicle of a trip at a point of its departure lane. Returns false if there is no room.
 bool insert_trip(const Model& model, State& state, int number, const InsertionPoint& point) {
     const Trip& trip = model.demand.trips[at(number)];
     const Lane& road = model.graph.lanes[at(point.lane)];
@@ -208,7 +217,8 @@ bool insert_trip(const Model& model, State& state, int number, const InsertionPo
     const RoutePosition position{lane_route >= 0 ? lane_route : route, 0, number, 0};
     const EntryLeader leader = entry_leader(model, state, point, position);
     double limit_mps = state.plan.free_speed_mps(point.lane);
-    if (lane_route < 0) limit_mps = std::min(limit_mps, 0.5 * road.stop_line_m);  // slow enough to change lanes
+    if (lane_route < 0)
+        limit_mps = std::min(limit_mps, 0.5 * road.stop_line_m);  // slow enough to change lanes for the turn
     const double to_line_m = road.stop_line_m - point.front_m;
     const double stoppable_mps = std::sqrt(2.0 * model.driver.stop.deceleration_mps2 * to_line_m);
     if (road.signal_group >= 0) limit_mps = std::min(limit_mps, stoppable_mps);
@@ -225,19 +235,19 @@ bool insert_trip(const Model& model, State& state, int number, const InsertionPo
     finish_insertion(model, state, point.lane, slot);
     const LaneBlock& block = state.blocks[at(point.lane)];
     reset_leader(state.vehicles, slot + 1, block);
-    // The first vehicle that can stop at the line may be another one now.
+    // Let decide_stop_lines() choose the stopping vehicle anew, because the new vehicle may be the first that can stop.
     if (slot < block.last()) state.stop_lines.lines[at(point.lane)].stopping_vehicle = -1;
     record_trip_crossing(state.records, state.vehicles, model.time_s(state.tick + 1), slot, model.trips_begin);
     return true;
 }
 
-// Inserts the backlog of an approach in the order of departure. A trip that finds no room blocks later trips on its
-// lane only.
+// Inserts waiting vehicles on an approach, in the order of their departure times. A vehicle without room blocks only
+// later vehicles that depart on the same lane.
 void insert_backlog(const Model& model, State& state, int approach) {
     constexpr std::size_t kMaxFailures = 16;
     std::vector<int>& trips = state.insertion.waiting_trips[at(approach)];
     const std::size_t lanes = model.graph.approaches[at(approach)].lanes.size();
-    std::bitset<kMaxFailures> full;  // [lane index]; lanes with a higher index share the last bit
+    std::bitset<kMaxFailures> full;  // [lane index] the lane has no room; lanes with a higher index share the last bit
     std::size_t kept = 0;
     std::size_t k = 0;
     for (; k < trips.size() && full.count() < lanes && kept < kMaxFailures; ++k) {

@@ -1,4 +1,4 @@
-// Inserts vehicles with a trip of their own (DemandPlan::trips).
+// Inserts the vehicles of trips (DemandPlan::trips).
 #pragma once
 
 #include "sim/state/model.h"
@@ -6,7 +6,7 @@
 
 namespace stopline {
 
-// Inserts the vehicles whose trip is due and that have room.
+// Inserts the vehicles of all trips that are due, as far as there is room. The other vehicles stay in the backlog.
 void insert_trips(const Model& model, State& state);
 
 }  // namespace stopline

@@ -12,8 +12,8 @@ namespace stopline {
 
 namespace {
 
-constexpr double kCloseBehind_m = 6.0;
-constexpr double kQueueLookAhead_m = 20.0;
+constexpr double kCloseBehind_m = 6.0;      // a slow vehicle with a shorter net gap is blocked by its leader
+constexpr double kQueueLookAhead_m = 20.0;  // range of the search for a leader beyond the end of the lane
 
 }  // namespace
 
@@ -45,8 +45,8 @@ bool is_blocked_by_leader(const State& state, int slot) {
 
 namespace {
 
-// Returns true if the vehicle's lane belongs to the same intersection as `lane`. At other intersections it is not
-// certain that the yielding state of vehicles has been updated in this step.
+// Returns true if the vehicle is on a lane of the intersection to which `lane` belongs. The yielding states of vehicles
+// at other intersections cannot be used: they may be updated before or after this call in the same step.
 bool is_at_same_intersection(const State& state, int lane, int slot) {
     const VehicleRecord& record = state.vehicles.record[at(slot)];
     const int own_lane = state.plan.route(record.route)[at(record.route_index)];
@@ -56,7 +56,7 @@ bool is_at_same_intersection(const State& state, int lane, int slot) {
 }  // namespace
 
 bool is_behind_yielding_vehicle(const State& state, int lane, const JunctionOccupant& occupant) {
-    constexpr int kMaxQueue = 8;  // vehicles of the queue that are examined
+    constexpr int kMaxQueue = 8;  // longest queue that is searched, in vehicles
     int slot = occupant.slot;
     int current_lane = occupant.front_m > 0.0 ? lane : state.plan.lane(lane).origin;
     for (int k = 0; k < kMaxQueue && is_blocked_by_leader(state, slot); ++k) {
@@ -78,8 +78,9 @@ bool is_behind_yielding_vehicle(const State& state, int lane, const JunctionOccu
 
 namespace {
 
-// Returns the slot of the vehicle that stops at the line of `lane` and holds up the traffic to `connection`; -1: none.
-// If the connection has green, only a vehicle that stops for the signal of another movement holds it up.
+// Returns the slot of a vehicle that stops at the stop line of `lane` and blocks the traffic from there to
+// `connection`; -1: none. While the signal of `connection` is green, only a vehicle that stops for the signal of
+// another movement counts.
 int vehicle_stopping_at_signal(const State& state, int lane, int connection) {
     const int stopping = state.stop_lines.stop_slot[at(lane)];
     if (state.stop_lines.lights[at(state.plan.signal_group_for(lane, connection))] != Light::green) return stopping;
@@ -88,13 +89,14 @@ int vehicle_stopping_at_signal(const State& state, int lane, int connection) {
     return state.stop_lines.lights[at(state.plan.signal_group_for(lane, next))] == Light::green ? -1 : stopping;
 }
 
-// A lane from whose start the search goes upstream. The search looks for moving vehicles that will take `connection`
-// from the lane. It reads no decision made for these vehicles in this step.
+// The arguments of one call of look_upstream(). The function searches upstream of `lane` for moving vehicles that will
+// drive over `lane` to `connection`. It reads no decisions made for these vehicles in this step, because another thread
+// may be making them.
 struct Upstream {
     int lane;
     int connection;
-    double to_area_m;  // from the lane's start to the conflict area
-    int depth;         // lanes searched before this one
+    double to_area_m;  // distance from the start of `lane` to the conflict area
+    int depth;         // recursion depth of the call; 0: first call
 };
 
 void look_upstream(const Model& model, const State& state, const Upstream& here, double horizon_s, Arrival& soonest) {
@@ -105,8 +107,8 @@ void look_upstream(const Model& model, const State& state, const Upstream& here,
     const auto consider = [&](int slot, double distance_m, double limit_mps) {
         if (v.speed_mps[at(slot)] < kCrawlingSpeed_mps || distance_m > horizon_s * limit_mps) return;
         const VehicleRecord& record = v.record[at(slot)];
-        // A vehicle that has not drawn its turn yet may take the connection. A vehicle whose trip ends on this lane
-        // does not.
+        // A vehicle without a trip may have no following turn yet. It may then take the connection. A vehicle with a
+        // trip but without a following turn ends its trip on `here.lane`.
         const bool unknown = record.trip < 0 && record.following_turn == Turn::none;
         if (here.depth == 0 && !unknown && record.following_turn != turn) return;
         const double acceleration_mps2 = model.give_way.approach_acceleration_mps2;

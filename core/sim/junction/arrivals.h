@@ -1,5 +1,5 @@
-// Predicts when the next vehicle reaches a conflict area, and finds vehicles that are blocked or yielding themselves.
-// All functions read the state at the beginning of the step.
+// Predicts when the next vehicle reaches a conflict area. Finds vehicles that will not arrive soon, because they yield
+// or stand in a queue. All positions and speeds are those at the beginning of the step.
 #pragma once
 
 #include "base/speed_thresholds.h"
@@ -10,37 +10,38 @@ namespace stopline {
 
 inline constexpr double kNoArrival_s = 1e9;
 
-// Returns true if the vehicle is slower than kCrawlingSpeed_mps and had to yield before a conflict area in this step or
-// the last one. Such a vehicle is not expected to arrive: the vehicles that it waits for go first.
+// Returns true if the vehicle is slower than kCrawlingSpeed_mps and had to wait before a conflict area in this step or
+// the last one. A yielding vehicle is not expected to arrive soon, because it lets other vehicles go first.
 bool is_yielding(const State& state, int slot);
 
-// Returns true if the vehicle is yielding at or before `area_m`, a position along its connection. A vehicle that yields
-// further on still enters an area that begins before its waiting position.
+// Returns true if the vehicle yields and its waiting position is at or upstream of `area_m`, the start of a conflict
+// area on its connection. A vehicle with a waiting position further downstream still drives into the area.
 bool is_yielding_before(const State& state, int slot, double area_m);
 
-// Returns true if the vehicle and its leader are both slower than kCrawlingSpeed_mps and close together. Neither the
-// vehicle nor its followers are then expected to arrive.
+// Returns true if the vehicle and its leader are close together and both slower than kCrawlingSpeed_mps. Neither the
+// vehicle nor its followers are expected to arrive soon.
 bool is_blocked_by_leader(const State& state, int slot);
 
-// Returns true if a queue of slow vehicles leads from an occupant of connection `lane` to a yielding vehicle ahead. The
-// yielding vehicle may be on another connection that shares the stretch behind the stop line.
+// Returns true if `occupant`, a vehicle on connection `lane`, stands in a queue of slow vehicles whose first vehicle
+// yields. The yielding vehicle may be on another connection from the same approach lane, where both connections still
+// overlap.
 bool is_behind_yielding_vehicle(const State& state, int lane, const JunctionOccupant& occupant);
 
-// Returns the time in s to cover a distance while accelerating up to the speed limit.
+// Returns the time in s to cover a distance while the vehicle accelerates up to the speed limit.
 double earliest_arrival_s(double distance_m, double speed_mps, double acceleration_mps2, double limit_mps);
 
-// The next vehicle to reach a conflict area, and the earliest time at which it can be there.
+// The next vehicle that reaches a conflict area, and its earliest possible arrival.
 struct Arrival {
-    double time_s = kNoArrival_s;  // from now
-    int slot = -1;                 // -1: no arrival
+    double time_s = kNoArrival_s;  // time from now until the arrival
+    int slot = -1;                 // slot of the vehicle; -1: no arrival
 
     void keep_earlier(double other_time_s, int other_slot) {
         if (other_time_s < time_s) *this = {other_time_s, other_slot};
     }
 };
-// Returns the next arrival on the other connection, from the connection itself, from before its stop line or from
-// further upstream. Vehicles that will stop at the signal do not count. Upstream lanes are searched as far as
-// `horizon_s`.
+// Returns the next arrival of a vehicle at the conflict area on connection `conflict.other`. The search covers the
+// connection, its approach lane, and the lanes further upstream from which a vehicle can arrive within `horizon_s`.
+// Vehicles that yield, stop for the signal or stand in a queue do not count.
 Arrival next_arrival(const Model& model, const State& state, const Conflict& conflict, double horizon_s);
 
 }  // namespace stopline

@@ -1,5 +1,5 @@
-// Counts pairs of vehicles from different connections that occupy the same conflict area. Giving way
-// (right_of_way.cpp) must prevent such pairs.
+// Counts conflicts: pairs of vehicles from different connections in the same conflict area. The decisions in
+// right_of_way.cpp should prevent all of them.
 #include "sim/junction/count_conflicts.h"
 
 #include <algorithm>
@@ -13,8 +13,8 @@ namespace stopline {
 
 namespace {
 
-// Returns true if the pass-blocker rule lets one of two vehicles in the same area pass the other. Records the rule use
-// in the first step in which both are in the area.
+// Returns true if the pass-blocker rule lets one of two vehicles in the same conflict area pass the other. Records the
+// use of the rule in the first step in which both vehicles are in the area.
 bool pass_is_allowed(const Model& model, const State& state, Partition& part, int slot_a, int lane_a, int slot_b,
                      int lane_b) {
     const std::pair<int, int> pair = std::minmax(state.vehicles.id[at(slot_a)], state.vehicles.id[at(slot_b)]);
@@ -32,7 +32,8 @@ bool pass_is_allowed(const Model& model, const State& state, Partition& part, in
     return false;
 }
 
-// Returns the number of vehicle pairs in the conflict area, without the pairs that the pass-blocker rule allows.
+// Returns the number of vehicle pairs in conflict area `c` of connection `lane`, and records each pair as a violation.
+// Pairs that the pass-blocker rule allows do not count.
 std::int64_t count_pairs(const Model& model, const State& state, Partition& part, int lane, const Conflict& c) {
     std::int64_t pairs = 0;
     for (const JunctionOccupant& own : state.junctions.occupants[at(lane)]) {
@@ -49,8 +50,8 @@ std::int64_t count_pairs(const Model& model, const State& state, Partition& part
     return pairs;
 }
 
-// Returns the number of such pairs in all conflict areas of a lane. Only other lanes with a higher index count, so that
-// each pair is counted once.
+// Returns the number of conflicts in all conflict areas of connection `lane`. Only checks connections with a higher
+// index than `lane`, so that each pair is counted once.
 std::int64_t count_conflicts_of_lane(const Model& model, const State& state, Partition& part, int lane) {
     std::int64_t pairs = 0;
     for (const Conflict& c : state.plan.conflicts(lane)) {

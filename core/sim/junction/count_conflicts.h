@@ -1,4 +1,4 @@
-// Counts vehicles from different connections in the same conflict area.
+// Counts pairs of vehicles from different connections in the same conflict area.
 #pragma once
 
 #include "sim/state/model.h"
@@ -6,7 +6,7 @@
 
 namespace stopline {
 
-// Adds the conflicts of this step to the violations of a partition.
+// Adds the conflicts of this step at the intersections of a partition to the violations of the partition.
 void count_conflicts(const Model& model, const State& state, Partition& part);
 
 }  // namespace stopline

@@ -1,5 +1,5 @@
-// Lists the vehicles inside intersections. A vehicle is inside from passing the stop
-// line until its rear is on the exit lane.
+// Lists the vehicles inside intersections. A vehicle enters an intersection when its front passes the stop line, and
+// leaves it when its rear reaches the exit lane.
 #include "sim/junction/occupants.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ public:
     OccupantSearch(const State& state, JunctionState& junctions, Partition& part)
         : state_(state), v_(state.vehicles), junctions_(junctions), part_(part) {}
 
-    // Clears the results of the last step.
+    // Clears the lists and sets that the last step filled.
     void clear_lists() {
         for (const int lane : part_.occupied_connections) {
             junctions_.occupants[at(lane)].clear();
@@ -30,7 +30,8 @@ public:
         part_.occupied_connections.clear();
     }
 
-    // Adds vehicles on an exit lane whose rear is still inside the intersection. Returns false if no rear reaches back.
+    // Adds vehicles on an exit lane whose rear is still inside the intersection. Returns false if the lane's last
+    // vehicle is wholly on the lane, or if the lane is empty.
     bool add_from_exit(int exit) {
         const LaneBlock& block = state_.blocks[at(exit)];
         const auto reaches_back = [&](int slot) { return v_.position_m[at(slot)] < v_.length_m[at(slot)]; };
@@ -99,7 +100,8 @@ private:
 void find_junction_occupants(const State& state, JunctionState& junctions, Partition& part) {
     OccupantSearch search(state, junctions, part);
     search.clear_lists();
-    // This order of the searches lists the occupants of each connection from the front.
+    // Each list must begin with the vehicle furthest downstream. Exit lanes are therefore searched first, then
+    // connections, then approach lanes.
     part.exit_candidates.retain_if([&](std::size_t place) {
         advance_prefetch(state, part.prefetch);
         return search.add_from_exit(part.exits[place]);

@@ -1,15 +1,16 @@
-// Right of way inside intersections: decides which vehicle must wait before which conflict area. All decisions read the
-// state at the beginning of the step. Only the first waiting vehicle of a lane searches for a gap. Its followers still
-// keep out of areas that are occupied.
+// Right of way inside intersections: decides which vehicles must wait, and before which conflict area. All decisions
+// use the positions and speeds at the beginning of the step. On each connection only the first waiting vehicle checks
+// gaps. The vehicles behind it wait for it, and they also keep out of occupied areas.
 //
 // A vehicle may enter a conflict area under these conditions:
-//   - No vehicle of the other connection is in the area, or on its way to it after accepting a gap.
-//   - If the vehicle must yield: the next vehicle with priority needs longer to the area than the critical gap plus the
-//     travel time of this vehicle. The decision covers all areas where the vehicle must yield. It is repeated while the
-//     vehicle can still stop comfortably, because vehicles that waited before may have started since.
-//   - If neither has priority (movements of different signal groups): no vehicle that passed its stop line earlier is
-//     still on its way to the area. Of two vehicles that wait for each other, one proceeds (DeadlockResolution).
-// The pass-blocker rule (driver/traffic_rules.h) lets a vehicle pass another one that has been stopped inside for long.
+//   - No vehicle of the other connection is in the area, or on its way to it with an accepted gap.
+//   - If the vehicle must yield, it needs a gap: the next vehicle with priority arrives at least one critical gap after
+//     this vehicle reaches its waiting position. The gap must suffice in all areas where the vehicle must yield. It is
+//     checked again while the vehicle can still stop comfortably, because vehicles with priority may have started.
+//   - If neither connection has priority (movements of different signal groups), no vehicle that passed its stop line
+//     earlier is still on its way to the area. If two vehicles wait for each other, one proceeds (DeadlockResolution).
+// The pass-blocker rule (driver/traffic_rules.h) lets a vehicle pass a vehicle that has been stopped inside the
+// intersection for long.
 #include "sim/junction/right_of_way.h"
 
 #include <algorithm>
@@ -26,7 +27,8 @@ namespace stopline {
 
 namespace {
 
-// Returns the time in s to a waiting position, braking to `limit_mps`, the speed limit of the connection behind it.
+// Returns the travel time over a distance, s. A vehicle faster than `limit_mps`, the speed limit of its connection,
+// brakes to the limit within the distance.
 double travel_time_s(const Model& model, double distance_m, double speed_mps, double limit_mps) {
     constexpr double kMinSpeed_mps = 2.0;
     const double b = model.driver.deceleration_mps2;
@@ -36,17 +38,17 @@ double travel_time_s(const Model& model, double distance_m, double speed_mps, do
     return (speed_mps - std::sqrt(square(speed_mps) - 2.0 * b * std::max(distance_m, 0.0))) / b;
 }
 
-// A vehicle whose right of way is decided.
+// A vehicle for which right of way is decided.
 struct Candidate {
     int slot;
-    double front_m;  // front position along the connection, below 0 before it
+    double front_m;  // front position along the connection; below 0: on the approach lane
     bool inside;     // the front is past the stop line
     bool stopped;    // slower than kCrawlingSpeed_mps
 };
 
-// Returns true if `vehicle` may pass `blocker`, which has been stopped inside for long. Vehicles with the same exit
-// lane cannot pass each other. A permission lasts until the vehicle is through, because it may be unable to stop when
-// the blocker starts.
+// Returns true if the pass-blocker rule lets `vehicle` on connection `lane` pass `blocker` on connection `other`. The
+// blocker must have been stopped for long, and the connections must lead to different exit lanes. A permission stays
+// valid when the blocker starts, because the passing vehicle may then be unable to stop.
 bool may_pass(const Model& model, State& state, Partition& part, int vehicle, int lane, int blocker, int other) {
     const VehicleArrays& v = state.vehicles;
     if (model.rules.pass_blocker_ticks == 0) return false;
@@ -62,7 +64,7 @@ bool may_pass(const Model& model, State& state, Partition& part, int vehicle, in
     return true;
 }
 
-// Returns the deadlock resolution that lets the vehicle in `first_slot` proceed and the one in `second_slot` wait;
+// Returns the deadlock resolution that lets the vehicle in `first_slot` proceed and the vehicle in `second_slot` wait;
 // nullptr: none.
 DeadlockResolution* find_resolution(const State& state, Partition& part, int first_slot, int second_slot) {
     const VehicleArrays& v = state.vehicles;
@@ -73,8 +75,8 @@ DeadlockResolution* find_resolution(const State& state, Partition& part, int fir
     return found == part.deadlock_resolutions.end() ? nullptr : &*found;
 }
 
-// Returns the slot of a vehicle on the other connection that keeps this one out of the area, regardless of gaps; -1:
-// none.
+// Returns the slot of a vehicle on connection `conflict.other` that keeps candidate `v` out of the conflict area; -1:
+// none. The gap to approaching vehicles with priority is checked elsewhere (near_priority_vehicle()).
 int area_blocker(const Model& model, State& state, Partition& part, int lane, const Conflict& conflict,
                  const Candidate& v) {
     const std::int64_t since = state.vehicles.record[at(v.slot)].junction_entry_tick;
@@ -90,13 +92,14 @@ int area_blocker(const Model& model, State& state, Partition& part, int lane, co
             if (has_gap) return occupant.slot;
             continue;
         }
-        // Two vehicles wait for each other: the first that can go proceeds. The resolution expires soon after something
-        // else stops the proceeding vehicle.
+        // Neither connection has priority. If both vehicles wait for each other, a deadlock resolution decides which
+        // one proceeds.
         if (find_resolution(state, part, occupant.slot, v.slot) != nullptr) return occupant.slot;
         if (DeadlockResolution* const resolution = find_resolution(state, part, v.slot, occupant.slot)) {
-            resolution->last_needed_tick = state.tick;
+            resolution->last_needed_tick = state.tick;  // keeps the resolution from expiring
             continue;
         }
+        // The occupant waits too, so the candidate proceeds.
         if (v.stopped &&
             (is_yielding(state, occupant.slot) || is_behind_yielding_vehicle(state, conflict.other, occupant))) {
             part.deadlock_resolutions.push_back(
@@ -109,8 +112,8 @@ int area_blocker(const Model& model, State& state, Partition& part, int lane, co
     return -1;
 }
 
-// Returns the time in s beyond the critical gap that a slow vehicle needs to clear a long area, for example in a
-// U-turn. Only imported networks have such areas.
+// Returns the extra time in s that a slow vehicle needs to cross a long conflict area, for example in a U-turn. It is
+// added to the critical gap. Only imported networks have long conflict areas.
 double slow_crossing_extra_gap_s(const Model& model, int lane, const Conflict& conflict, double limit_mps,
                                  double length_m) {
     constexpr double kSpare_s = 1.5;
@@ -119,8 +122,9 @@ double slow_crossing_extra_gap_s(const Model& model, int lane, const Conflict& c
     return std::max(through_s - model.give_way.critical_gap_s, 0.0);
 }
 
-// Returns the slot of a vehicle that proceeds although this stopped vehicle has priority over it; -1: none. This
-// resolves a yield cycle, in which several stopped vehicles each give way to the next.
+// Returns the slot of a vehicle that has accepted a gap although it must yield to candidate `v`; -1: none. A stopped
+// candidate lets this vehicle go first. Otherwise several stopped vehicles could give way to each other in a cycle and
+// never start.
 int yield_cycle_winner(const Model& model, const State& state, int lane, const Candidate& v) {
     if (model.demand.trips.empty() || !v.stopped) return -1;
     for (const Conflict& conflict : state.plan.conflicts(lane)) {
@@ -134,8 +138,9 @@ int yield_cycle_winner(const Model& model, const State& state, int lane, const C
     return -1;
 }
 
-// Returns the slot of a vehicle without priority that can no longer stop before the first conflict area of the other
-// connection; -1: none. It may have accepted its gap while this vehicle was stopped.
+// Returns the slot of a vehicle without priority that approaches connection `conflict.other`, has accepted a gap, and
+// can no longer stop before the first conflict area of this connection; -1: none. The gap may have become too short: a
+// vehicle with priority that was stopped when the gap was accepted may have started since.
 int committed_vehicle(const Model& model, const State& state, const Conflict& conflict) {
     const VehicleArrays& v = state.vehicles;
     const LanePlan& origin = state.plan.lane(state.plan.lane(conflict.other).origin);
@@ -152,8 +157,8 @@ int committed_vehicle(const Model& model, const State& state, const Conflict& co
     return -1;
 }
 
-// Returns the slot of a vehicle with priority that arrives too soon for this one to go; -1: none. Stores in the record
-// of this vehicle whether it accepts the gap.
+// Returns the slot of the vehicle to which candidate `v` must yield; -1: none. This is a vehicle with priority that
+// arrives too soon, or the winner of a yield cycle. Stores in the candidate's record whether it accepts the gap.
 int near_priority_vehicle(const Model& model, State& state, Partition& part, int lane, const Candidate& v,
                           double to_wait_m) {
     VehicleArrays& arrays = state.vehicles;
@@ -174,7 +179,7 @@ int near_priority_vehicle(const Model& model, State& state, Partition& part, int
         if (arrival.time_s < until_s) return arrival.slot;
     }
     record.accepted_gap_on = lane;
-    // Clear the yielding state at once: in a yield cycle the other vehicles must see that this one proceeds.
+    // Clear the yielding state at once, so that the other vehicles of a yield cycle see that this vehicle proceeds.
     if (!model.demand.trips.empty()) record.yield_tick = -2;
     if (!model.records_all || had_accepted_gap) return -1;
     part.gaps_accepted.push_back({model.time_s(state.tick), arrays.id[at(v.slot)], lane,
@@ -182,8 +187,9 @@ int near_priority_vehicle(const Model& model, State& state, Partition& part, int
     return -1;
 }
 
-// Returns true if the committed vehicle `other` is still in the area at the earliest arrival of this moving vehicle
-// with priority. The committed vehicle has then been later or slower than predicted when it accepted its gap.
+// Returns true if the committed vehicle in slot `other` will still be in the conflict area at the earliest possible
+// arrival of candidate `v`, which has priority. The committed vehicle is then later or slower than predicted when it
+// accepted its gap.
 bool occupies_area_on_arrival(const Model& model, const State& state, int lane, const Conflict& conflict,
                               const Candidate& v, int other) {
     const VehicleArrays& arrays = state.vehicles;
@@ -198,16 +204,17 @@ bool occupies_area_on_arrival(const Model& model, const State& state, int lane, 
            in_s;
 }
 
-// The position where a vehicle must wait, and the vehicle that it waits for.
-constexpr double kNoWait_m = 1e9;
+constexpr double kNoWait_m = 1e9;  // stands for the waiting position of a vehicle that need not wait
+
+// The position where a candidate must wait, and the vehicle for which it waits.
 struct Wait {
-    double place_m = kNoWait_m;  // along the connection; kNoWait_m: it need not wait
-    int blocker = -1;            // slot of the vehicle that it waits for
-    bool priority = false;       // the blocker has priority; else it keeps the area occupied
+    double place_m = kNoWait_m;         // waiting position along the connection; kNoWait_m: no wait
+    int blocker = -1;                   // slot of the vehicle for which the candidate waits
+    bool blocker_has_priority = false;  // false: the blocker is in the area or about to enter it
 };
 
-// Returns the stop line as waiting position, m along the connection, if the connection forbids waiting inside and the
-// vehicle can still stop before the line; else kNoWait_m.
+// Returns the waiting position at the stop line, m along the connection. Returns kNoWait_m if vehicles may wait inside
+// the intersection on this connection, or if the candidate can no longer stop at the line.
 double stop_line_wait_m(const Model& model, const State& state, int lane, const Candidate& v) {
     if (v.inside || state.plan.may_wait_inside(lane)) return kNoWait_m;
     const LanePlan& origin = state.plan.lane(state.plan.lane(lane).origin);
@@ -216,14 +223,15 @@ double stop_line_wait_m(const Model& model, const State& state, int lane, const 
     return v.stopped || line_m - v.front_m >= comfortable_braking_distance_m(model, speed_mps) ? line_m : kNoWait_m;
 }
 
-// Returns where a vehicle must wait, and for which other one. `ahead`: slot of a vehicle that waits ahead on the same
-// connection, -1: none. A vehicle behind it searches for no gap.
+// Returns where candidate `v` must wait, and for which vehicle. `ahead`: slot of a waiting vehicle further ahead on the
+// same connection, -1: none. Where the candidate must yield, it waits for the vehicle `ahead` without checking gaps.
 Wait find_wait(const Model& model, State& state, Partition& part, int lane, const Candidate& v, int ahead) {
     VehicleArrays& arrays = state.vehicles;
     const double speed = arrays.speed_mps[at(v.slot)];
     const double margin_m = model.give_way.margin_m;
     const double decision_m = decision_distance_m(model, speed);
-    // A stopped leader makes an accepted gap unusable. Drop the gap, so that other vehicles do not wait for this one.
+    // A vehicle behind a stopped leader cannot use its accepted gap. Drop the gap, so that other vehicles do not wait
+    // for this vehicle.
     if (v.stopped && is_blocked_by_leader(state, v.slot)) arrays.record[at(v.slot)].accepted_gap_on = -1;
     bool has_decided = arrays.record[at(v.slot)].accepted_gap_on == lane;
     const double to_first_m = state.plan.lane(lane).first_conflict_m - margin_m - v.front_m;
@@ -264,13 +272,14 @@ Wait find_wait(const Model& model, State& state, Partition& part, int lane, cons
     return {};
 }
 
-// Records that a vehicle waits. Each lane keeps only its first few waiting vehicles.
+// Stores in the vehicle's record that it waits, and adds a yield stop at `place_m` on `lane`. A lane keeps only the
+// stops of its first few waiting vehicles.
 void record_wait(State& state, Partition& part, int lane, int slot, double place_m, const Wait& wait) {
     VehicleRecord& record = state.vehicles.record[at(slot)];
     record.yield_tick = static_cast<int>(state.tick);
     record.yield_position_m =
         static_cast<float>(place_m - (state.plan.lane(lane).origin < 0 ? state.plan.lane(lane).length_m : 0.0));
-    add_yield_stop(state.junctions, part, lane, {slot, place_m, wait.blocker, wait.priority});
+    add_yield_stop(state.junctions, part, lane, {slot, place_m, wait.blocker, wait.blocker_has_priority});
 }
 
 void decide(const Model& model, State& state, Partition& part, int lane) {
@@ -283,8 +292,8 @@ void decide(const Model& model, State& state, Partition& part, int lane) {
         const Wait found = find_wait(model, state, part, lane, candidate, ahead);
         if (found.place_m < kNoWait_m) {
             ahead = candidate.slot;
-            // A vehicle that stops before it uses an accepted gap loses it: other vehicles may come before it starts
-            // again.
+            // Drop the accepted gap of a vehicle that will stop, because vehicles with priority may arrive before it
+            // starts again.
             double room_m = found.place_m - candidate.front_m;
             for (const Conflict& c : state.plan.conflicts(lane)) {
                 const double to_area_m = c.from_m - model.give_way.margin_m - candidate.front_m;
@@ -315,7 +324,7 @@ void decide(const Model& model, State& state, Partition& part, int lane) {
 }  // namespace
 
 void decide_right_of_way(const Model& model, State& state, Partition& part) {
-    // The same pair of vehicles may meet again in a second conflict area some steps later.
+    // A resolution is kept for some steps, because the same two vehicles may meet again in a second conflict area.
     constexpr std::int64_t kResolutionMemory_steps = 5;
     std::erase_if(part.deadlock_resolutions, [&](const DeadlockResolution& resolution) {
         return state.tick - resolution.last_needed_tick > kResolutionMemory_steps;

@@ -18,8 +18,9 @@ namespace stopline {
 
 namespace {
 
-// Returns true if braking with `deceleration_mps2` stops the vehicle before the line. The braking begins late: after
-// the brake lag and the time in which the limited jerk changes the request. Until then the vehicle keeps accelerating.
+// Returns true if the vehicle stops before the line by braking with `deceleration_mps2`. The braking begins after a
+// delay: the brake lag plus half the time in which the limited jerk changes the request. Until then the vehicle keeps
+// accelerating.
 bool can_stop(const Model& model, const VehicleArrays& v, int slot, double line_m, double deceleration_mps2) {
     const double speed = v.speed_mps[at(slot)];
     const double lag_s = model.vehicles[at(v.type[at(slot)])].brake_lag_s;
@@ -29,15 +30,15 @@ bool can_stop(const Model& model, const VehicleArrays& v, int slot, double line_
     return square(speed + present_mps2 * delay_s) <= 2.0 * deceleration_mps2 * room_m;
 }
 
-// Returns the deceleration that drivers use to stop for a signal: a limited one on yellow, all that the brakes give on
-// red.
+// Returns the highest deceleration with which drivers stop for a signal: `stop.decision_deceleration` on yellow, the
+// maximum braking on red.
 double stopping_deceleration_mps2(const Model& model, Light light) {
     return light == Light::yellow ? model.driver.stop.decision_deceleration_mps2
                                   : model.driver.cacc.deceleration_emergency_mps2;
 }
 
-// Returns true if stopping takes more than 90 % of the maximum braking, so that the vehicle may overrun the line.
-// Downshifts can cost up to a tenth of the braking, which can_stop() ignores. The mesoscale mode has no gears.
+// Returns true if a stop needs more than 90 % of the maximum braking. The vehicle may then overrun the line, because
+// downshifts can cost up to a tenth of the braking and can_stop() ignores them. The mesoscale mode has no gears.
 bool may_overrun_line(const Model& model, const VehicleArrays& v, int slot, double line_m, Light light) {
     constexpr double kReliableShare = 0.9;
     const double reliable_mps2 = kReliableShare * model.driver.cacc.deceleration_emergency_mps2;
@@ -53,7 +54,7 @@ int slot_of(const VehicleArrays& v, const LaneBlock& block, int id) {
     return -1;
 }
 
-// Returns the slot of the first vehicle that can stop before the line; -1: none.
+// Returns the slot of the first vehicle that can stop before the line for a signal that shows `light`; -1: none.
 int choose_stopper(const Model& model, const State& state, const LaneBlock& block, double line_m, Light light) {
     const double deceleration_mps2 = stopping_deceleration_mps2(model, light);
     for (int slot = block.first; slot < block.past_last(); ++slot) {
@@ -63,10 +64,10 @@ int choose_stopper(const Model& model, const State& state, const LaneBlock& bloc
     return -1;
 }
 
-// Returns true if vehicles may pass the stop line.
+// Returns true if the signal is green and the first vehicle no longer hesitates.
 bool line_is_open(const Model& model, const State& state, int signal_group, const StopLineState& line) {
     if (state.stop_lines.lights[at(signal_group)] != Light::green) return false;
-    // A vehicle that is stopped at the line hesitates at the start of green.
+    // A vehicle that stopped for the red signal hesitates at the start of green.
     return line.stopping_vehicle < 0 ||
            state.tick >= model.signals[at(signal_group)].light_start_tick(state.tick) + model.hesitation_ticks;
 }
@@ -75,8 +76,8 @@ double space_needed_m(const VehicleArrays& v, int slot) {
     return static_cast<double>(v.length_m[at(slot)]) + static_cast<double>(v.standstill_gap_m[at(slot)]);
 }
 
-// Returns the slot of the first vehicle that can stop and whose own signal is not green; -1: none. For lanes whose
-// movements have separate signals.
+// Returns the slot of the first vehicle that must stop for the signal of its own movement and can stop; -1: none. A
+// vehicle that hesitates at the start of green counts as well. Used for lanes whose movements have separate signals.
 int choose_stopper_per_movement(const Model& model, const State& state, int index, const StopLineState& line) {
     const LaneBlock& block = state.blocks[at(index)];
     const VehicleArrays& v = state.vehicles;
@@ -94,8 +95,9 @@ int choose_stopper_per_movement(const Model& model, const State& state, int inde
     return -1;
 }
 
-// Returns true if the signal at the lane's end is not green for the last vehicle. All vehicles of the lane will then
-// stop.
+// Returns true if the lane ends at a signal that is not green for the lane's last vehicle. With
+// `count_queue_at_red_exit` all moving vehicles on the lane then count as already stopped. Returns false without this
+// setting.
 bool queue_ends_at_red(const Model& model, const State& state, int lane) {
     const LanePlan& plan = state.plan.lane(lane);
     if (!model.rules.count_queue_at_red_exit || plan.signal_group < 0) return false;
@@ -119,7 +121,7 @@ const ExitRoom& exit_room(const Model& model, State& state, int exit) {
     room = {state.tick, 1e9, -1};
     const LaneBlock& block = state.blocks[at(exit)];
     if (block.count == 0) return room;
-    const double line_m = state.plan.lane(exit).next_limit_m;  // stop line, or end of the lane
+    const double line_m = state.plan.lane(exit).next_limit_m;  // stop line, or end of a lane without a stop line
     const bool ends_at_red = line_m <= model.rules.sight_m && queue_ends_at_red(model, state, exit);
     if (!ends_at_red && !has_slow_vehicle(state, block)) return room;
     double moving_m = 0.0;   // space that moving vehicles need when they stop
@@ -147,8 +149,8 @@ const ExitRoom& exit_room(const Model& model, State& state, int exit) {
     return room;
 }
 
-// Returns the slot of a stopped vehicle from a crossing street that blocks this connection and may not be passed; -1:
-// none.
+// Returns the slot of a stopped vehicle from a crossing street that blocks `connection`; -1: none. A vehicle that may
+// be passed under the pass-blocker rule does not block.
 int crossing_blocker(const Model& model, const State& state, int connection) {
     if (!state.junctions.with_stopped.has_any(state.plan.conflicting(connection))) return -1;
     const VehicleArrays& v = state.vehicles;
@@ -166,16 +168,16 @@ int crossing_blocker(const Model& model, const State& state, int connection) {
     return -1;
 }
 
-// Keep-clear state of one connection from the stop line.
+// State of one connection that the keep-clear rule checks.
 struct ConnectionState {
     int connection;
-    int stopped_in_exit;  // see ExitRoom
-    int crossing_slot;    // slot of a stopped vehicle that blocks the connection; -1: none
-    double room_m;        // free room in the exit lane
-    bool is_free;         // no crossing blocker, and room for all vehicles of the lane
+    int stopped_in_exit;  // ExitRoom::stopped_slot of the exit lane
+    int crossing_slot;    // result of crossing_blocker()
+    double room_m;        // free room in the exit lane for the vehicles that are not checked yet
+    bool is_free;         // no crossing blocker, and room for all vehicles of the approach lane
 };
 
-// Keep-clear states of the connections that vehicles of one lane take. Each is evaluated on first use.
+// The ConnectionState of each connection that vehicles of one approach lane take. Each is evaluated on first use.
 class ConnectionStates {
 public:
     // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): states_ is written before it is read
@@ -207,31 +209,31 @@ private:
 
     const Model& model_;
     State& state_;
-    double ample_room_m_;                     // room that suffices for all vehicles of the lane
+    double ample_room_m_;                     // room that suffices for all vehicles of the approach lane
     std::array<ConnectionState, 16> states_;  // not initialised, to save time in every step
     std::size_t count_ = 0;
-    ConnectionState* last_ = nullptr;  // most vehicles take the connection of their leader
+    ConnectionState* last_ = nullptr;  // result of the last call; most vehicles take the connection of their leader
 };
 
-// Returns true if the keep-clear rule can still hold the vehicle before the line by comfortable braking. Drivers begin
-// to brake late (`stop.deceleration`), so a vehicle that does not brake yet must count as able to stop. In the
-// mesoscale mode brakes have no lag, and the vehicle counts as able to stop until it is close to the line.
+// Returns true if the vehicle can still stop before the line for the keep-clear rule. The limit is the highest
+// deceleration of a normal stop, or the comfortable deceleration if that is higher. A normal stop reaches its highest
+// deceleration only near the end, because the brake lags. The mesoscale mode has no brake lag.
 bool can_hold_for_keep_clear(const Model& model, const VehicleArrays& v, int slot, double line_m) {
-    constexpr double kLagFactor = 1.4;  // the brake lag makes the final braking this much harder than its start
+    constexpr double kLagFactor = 1.4;  // ratio of the highest deceleration in a stop to stop.deceleration (brake lag)
     const CaccSettings& cacc = model.driver.cacc;
-    const double final_mps2 =
+    const double peak_mps2 =
         std::min(kLagFactor * model.driver.stop.deceleration_mps2, cacc.deceleration_emergency_mps2);
-    if (final_mps2 <= cacc.deceleration_comfort_mps2) {
+    if (peak_mps2 <= cacc.deceleration_comfort_mps2) {
         return can_stop(model, v, slot, line_m, cacc.deceleration_comfort_mps2);
     }
-    if (!model.meso) return can_stop(model, v, slot, line_m, final_mps2);
-    return square(v.speed_mps[at(slot)]) <= 2.0 * final_mps2 * (line_m - v.position_m[at(slot)]);
+    if (!model.meso) return can_stop(model, v, slot, line_m, peak_mps2);
+    return square(v.speed_mps[at(slot)]) <= 2.0 * peak_mps2 * (line_m - v.position_m[at(slot)]);
 }
 
-// Returns the slot of the first vehicle that the keep-clear rule holds before the line; -1: none. Its exit lane has no
-// room, or a stopped vehicle blocks its connection.
+// Returns the slot of the first vehicle that the keep-clear rule holds before the line; -1: none. Stores the reason in
+// StopLines::held_at_green: the exit lane has no room, or a stopped vehicle blocks the connection.
 int choose_keep_clear_stop(const Model& model, State& state, int index) {
-    constexpr double kDecisionDistance_m = 80.0;  // distance before the stop line
+    constexpr double kDecisionDistance_m = 80.0;  // vehicles further from the stop line are not held
     const VehicleArrays& v = state.vehicles;
     const double line_m = state.plan.lane(index).stop_line_m;
     const LaneBlock& block = state.blocks[at(index)];
@@ -251,7 +253,8 @@ int choose_keep_clear_stop(const Model& model, State& state, int index) {
     return -1;
 }
 
-// Records the rule use when the keep-clear rule begins to hold a vehicle.
+// Records the use of the keep-clear rule when it begins to hold a vehicle. `slot`: the vehicle held in this step; -1:
+// none.
 void record_keep_clear_use(const Model& model, const State& state, Partition& part, int index, int slot,
                            StopLineState& line) {
     const VehicleArrays& v = state.vehicles;
@@ -265,7 +268,8 @@ void record_keep_clear_use(const Model& model, const State& state, Partition& pa
     line.keep_clear_vehicle = id;
 }
 
-// Stores which vehicle stops at the line for its signal, and whether it may overrun the line. `slot` -1: none.
+// Stores which vehicle stops at the line for its signal, and whether it may overrun the line. `slot` -1: no vehicle
+// stops.
 void set_stopper(const Model& model, const State& state, int index, int slot, StopLineState& line) {
     const VehicleArrays& v = state.vehicles;
     const int id = slot < 0 ? -1 : v.id[at(slot)];
@@ -276,9 +280,9 @@ void set_stopper(const Model& model, const State& state, int index, int slot, St
     line.stopping_vehicle = id;
 }
 
-// Makes the stopping vehicle the platoon leader of the next green. If it stands past the line, it counts as entering
-// the intersection only now. Before the line its entry tick must not change: its rear may still be in the previous
-// intersection, which another thread reads.
+// Makes the stopping vehicle the platoon leader of the next green. A vehicle that stands past the line counts as
+// entering the intersection only now. The entry tick of a vehicle before the line must not change: its rear may still
+// be in the previous intersection, where another thread reads the tick.
 void make_platoon_leader(State& state, const LanePlan& lane, int slot) {
     state.vehicles.is_platoon_leader[at(slot)] = 1.0F;
     if (state.vehicles.position_m[at(slot)] > lane.stop_line_m) {
@@ -288,8 +292,8 @@ void make_platoon_leader(State& state, const LanePlan& lane, int slot) {
 
 // Lists the vehicles of an approach lane that will not stop at the line and are near a conflict area.
 void list_approaching(const Model& model, State& state, int index) {
-    constexpr double kLookBack_m = 60.0;           // covers a comfortable stop from 50 km/h
-    constexpr double kFastRoadLookBack_m = 160.0;  // for the faster roads of imported networks
+    constexpr double kLookBack_m = 60.0;           // before the lane's end; covers a comfortable stop from 50 km/h
+    constexpr double kFastRoadLookBack_m = 160.0;  // the same distance for the faster roads of imported networks
     const bool has_trips = !model.demand.trips.empty();
     const double look_back_m = has_trips ? kFastRoadLookBack_m : kLookBack_m;
     const VehicleArrays& v = state.vehicles;
@@ -303,7 +307,7 @@ void list_approaching(const Model& model, State& state, int index) {
         const LanePlan& connection_plan = state.plan.lane(next);
         if (connection_plan.origin != index || connection_plan.bitset_index < 0) continue;
         // A vehicle with priority needs no decision while all conflicting connections are empty. In imported networks
-        // it may still have to wait for a vehicle that comes too fast to yield.
+        // it may still have to wait, for a vehicle without priority that is too fast to stop.
         if (!has_trips && !connection_plan.yields && !state.junctions.occupied.has_any(state.plan.conflicting(next)))
             continue;
         double to_area_m = to_end_m + connection_plan.first_conflict_m - model.give_way.margin_m;

@@ -1,4 +1,4 @@
-// Signals and stop lines.
+// Decisions at signals and stop lines.
 #pragma once
 
 #include "sim/state/model.h"
@@ -6,11 +6,11 @@
 
 namespace stopline {
 
-// Reads the signals of this step.
+// Stores the light that each signal group shows at `tick`.
 void update_signals(const Model& model, std::int64_t tick, StopLines& stop_lines);
 
-// Decides which vehicle stops at each stop line of a partition, for its signal or for the keep-clear rule. Lists the
-// approaching vehicles for which right of way must be decided.
+// Decides for each stop line of a partition which vehicle stops there, for its signal or for the keep-clear rule. Lists
+// the approaching vehicles for which right of way must be decided.
 void decide_stop_lines(const Model& model, State& state, Partition& part);
 
 }  // namespace stopline

@@ -1,5 +1,5 @@
 // Speed adaptation for mandatory lane changes. Near the stop line a vehicle aligns its speed with a gap in the target
-// lane, and finally waits for one before the line.
+// lane. If it finds no gap, it stops before the line and waits for one.
 #include "sim/lane_change/gap_search.h"
 
 #include <algorithm>
@@ -16,11 +16,10 @@ namespace stopline {
 
 namespace {
 
-// A vehicle that falls back behind another one is this much slower than it.
-constexpr double kFallBack_mps = 3.0;
-constexpr double kMinSpeed_mps = 1.0;
+constexpr double kFallBack_mps = 3.0;      // speed difference of a vehicle that falls back behind another vehicle
+constexpr double kMinSpeed_mps = 1.0;      // lowest target speed of a vehicle that falls back
 constexpr double kTargetGapFactor = 1.1;   // aims for 110 % of the required gap, because the approach is asymptotic
-constexpr double kDroppingBack_mps = 0.5;  // a follower that is slower by more than this falls back by itself
+constexpr double kDroppingBack_mps = 0.5;  // a follower slower than the changing vehicle by this falls back anyway
 
 class GapSearch {
 public:
@@ -50,8 +49,8 @@ private:
         add_yield_stop(state_.junctions, part_, lane_, {me.slot, place_m, -1, false});
     }
 
-    // Returns the speed at which a vehicle reaches the required gap behind `ahead`. It falls no more than kFallBack_mps
-    // below the speed of `ahead`.
+    // Returns the speed at which a vehicle reaches the required gap behind `ahead`. The speed is at least that of
+    // `ahead` minus kFallBack_mps.
     double gap_reaching_speed_mps(const Neighbour& ahead, int policy, double speed_mps) const {
         const double braking_mps2 = model_.driver.stop.deceleration_mps2;
         const double share = kTargetGapFactor * model_.lane_change.gap_share;
@@ -61,33 +60,36 @@ private:
                         ahead.speed_mps - kFallBack_mps);
     }
 
-    // Returns true if the vehicle in `slot` on the other lane wants to change to this lane. Of two vehicles that want
-    // to swap lanes, the one behind falls back.
+    // Returns true if the vehicle in `slot` of lane `other` must change to this lane, while `me` must change to lane
+    // `other`. Of two vehicles that want to swap lanes, the vehicle further upstream falls back.
     bool wants_to_swap(int other, int slot, const LaneChangeRequest& me) const {
         const LaneBlock& block = state_.blocks[at(other)];
         if (slot < block.first || slot >= block.past_last()) return false;
         return me.lane_changes * lane_change_request(model_, state_, other, slot).lane_changes < 0;
     }
 
-    bool must_let_pass(int other, const Neighbour& behind, const LaneChangeRequest& me, double to_line_m) const {
-        if (behind.slot < 0 || behind.speed_mps + kDroppingBack_mps < me.speed_mps) return false;
+    // Returns true if the lag gap to `follower` is too short and does not grow by itself. Returns false if the follower
+    // wants to swap lanes with `me`, because the follower then falls back.
+    bool must_let_pass(int other, const Neighbour& follower, const LaneChangeRequest& me, double to_line_m) const {
+        if (follower.slot < 0 || follower.speed_mps + kDroppingBack_mps < me.speed_mps) return false;
         const double share = urgent_share(model_, to_line_m);
-        const double needed_m = required_gap_m(model_, behind.policy, behind.speed_mps, me.speed_mps, share);
-        return behind.gap_m < needed_m && !wants_to_swap(other, behind.slot, me);
+        const double needed_m = required_gap_m(model_, follower.policy, follower.speed_mps, me.speed_mps, share);
+        return follower.gap_m < needed_m && !wants_to_swap(other, follower.slot, me);
     }
 
-    // Returns true if the follower may open the gap: it is on the other lane itself, and comfortable braking to this
-    // vehicle's speed suffices.
-    bool can_open_gap(int other, const Neighbour& behind, const LaneChangeRequest& me) const {
+    // Returns true if `follower` can open a gap for vehicle `me`. The follower must be on lane `other` already, and
+    // comfortable braking to the speed of `me` must suffice. Returns false if gap opening is off.
+    bool can_open_gap(int other, const Neighbour& follower, const LaneChangeRequest& me) const {
         const LaneBlock& block = state_.blocks[at(other)];
         const double braking_m =
-            braking_distance_m(behind.speed_mps, me.speed_mps, model_.driver.stop.deceleration_mps2);
-        return model_.lane_change.gap_opening == "on" && behind.slot >= block.first &&
-               behind.slot < block.past_last() && std::max(behind.gap_m, 0.0) >= braking_m;
+            braking_distance_m(follower.speed_mps, me.speed_mps, model_.driver.stop.deceleration_mps2);
+        return model_.lane_change.gap_opening == "on" && follower.slot >= block.first &&
+               follower.slot < block.past_last() && std::max(follower.gap_m, 0.0) >= braking_m;
     }
 
-    // Aligns the speed with a gap in the adjacent lane, or asks the follower there to open one. `changes`: signed as
-    // TurnOption::lane_changes. `to_line_m`: distance to the stop line before which they must be done.
+    // Aligns the speed of `me` with a gap in the adjacent lane, or makes the follower there open a gap. `changes`:
+    // required lane changes, signed as TurnOption::lane_changes. `to_line_m`: distance to the stop line before which
+    // the lane changes must be done.
     void align_with_gap(const LaneChangeRequest& me, int changes, double to_line_m) {
         const AdjacentLanes& adjacent = state_.plan.adjacent(lane_);
         const int other = changes < 0 ? adjacent.left : adjacent.right;
@@ -96,19 +98,20 @@ private:
         if (there_m < me.length_m) return;
         const LaneNeighbours there = neighbours_at(model_, state_, other, there_m, me.length_m, route_from(other, me));
         double target_mps = kUnlimitedSpeed_mps;
-        // Beside a standing queue the vehicle drives on.
+        // If the leader in the adjacent lane is slow, the vehicle does not align with it but drives on beside the
+        // queue.
         if (there.leader.slot >= 0 && there.leader.speed_mps > kFallBack_mps) {
             target_mps = gap_reaching_speed_mps(there.leader, me.policy, me.speed_mps);
         }
-        const Neighbour& behind = there.follower;
-        if (must_let_pass(other, behind, me, to_line_m)) {
-            if (can_open_gap(other, behind, me)) {
-                const Neighbour mine{me.slot, behind.gap_m, me.speed_mps, me.policy};
-                add_alignment(other,
-                              {behind.slot,
-                               std::max(gap_reaching_speed_mps(mine, behind.policy, behind.speed_mps), kMinSpeed_mps)});
+        const Neighbour& follower = there.follower;
+        if (must_let_pass(other, follower, me, to_line_m)) {
+            if (can_open_gap(other, follower, me)) {
+                const Neighbour mine{me.slot, follower.gap_m, me.speed_mps, me.policy};
+                add_alignment(
+                    other, {follower.slot, std::max(gap_reaching_speed_mps(mine, follower.policy, follower.speed_mps),
+                                                    kMinSpeed_mps)});
             } else {
-                target_mps = std::min(target_mps, std::max(behind.speed_mps - kFallBack_mps, kMinSpeed_mps));
+                target_mps = std::min(target_mps, std::max(follower.speed_mps - kFallBack_mps, kMinSpeed_mps));
             }
         }
         if (target_mps < me.speed_mps + 1.0) add_alignment(lane_, {me.slot, target_mps});

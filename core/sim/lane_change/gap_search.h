@@ -1,4 +1,4 @@
-// Preparation of mandatory lane changes.
+// Prepares mandatory lane changes.
 #pragma once
 
 #include "sim/state/model.h"
@@ -6,8 +6,8 @@
 
 namespace stopline {
 
-// Aligns vehicles that must change lanes with gaps in the target lane, opens gaps for them, and stops them before the
-// stop line if they find none.
+// Aligns the speed of vehicles that must change lanes with gaps in the target lane, and makes other vehicles open gaps
+// for them. A vehicle that finds no gap stops before the stop line.
 void prepare_lane_changes(const Model& model, State& state, Partition& part);
 
 }  // namespace stopline

@@ -18,13 +18,14 @@ namespace stopline {
 
 namespace {
 
-constexpr double kDecisionInterval_s = 0.5;  // interval at which each vehicle decides
-constexpr double kMinInterval_s = 2.0;       // minimum time between two changes, about the duration of one
-// Within this time a vehicle does not return to its last lane for speed. Own choice: adjacent queues may move in turn.
+constexpr double kDecisionInterval_s = 0.5;  // time between two decisions of a vehicle
+constexpr double kMinInterval_s = 2.0;       // pause before the next mandatory change, about as long as a change
+// Within this time after a change, a vehicle does not return to the previous lane for speed. Otherwise it could change
+// back and forth between adjacent queues that move in turn. Our choice.
 constexpr double kReturnPause_s = 30.0;
 
-// Returns the acceleration of the intelligent driver model (Treiber, Hennecke, Helbing 2000). The policy's gap replaces
-// s_0 + v T.
+// Returns the acceleration of the intelligent driver model (Treiber, Hennecke, Helbing 2000). The desired gap of the
+// policy replaces the term s_0 + v T.
 double idm_mps2(const Model& model, int policy, double speed_mps, double limit_mps, double gap_m, double ahead_mps) {
     const LaneChangeSettings& c = model.lane_change;
     constexpr double kNoLeader_m = 1e5;
@@ -41,7 +42,8 @@ double follower_mps2(const Model& model, const Neighbour& follower, double limit
     return idm_mps2(model, follower.policy, follower.speed_mps, limit_mps, gap_m, ahead_mps);
 }
 
-// Returns the MOBIL incentive for a change of `me` to another lane, m/s2.
+// Returns the MOBIL incentive of vehicle `me` for a lane change, m/s2. `here`: its neighbours on its lane. `there`: its
+// neighbours on the target lane.
 double incentive_mps2(const Model& model, const State& state, const LaneChangeRequest& me, const LaneNeighbours& here,
                       const LaneNeighbours& there, bool to_the_right) {
     const LaneChangeSettings& c = model.lane_change;
@@ -74,8 +76,9 @@ bool gaps_suffice(const Model& model, const LaneChangeRequest& me, const LaneNei
                     required_gap_m(model, there.follower.policy, there.follower.speed_mps, me.speed_mps, share));
 }
 
-// Returns the lane changes that remain behind the intersection if the vehicle takes `turn` from `lane`. They count for
-// the following turn, or for the rest of a trip. Returns kMany if the lane does not allow the turn.
+// Returns the number of lane changes that remain downstream of the intersection if the vehicle takes `turn` from
+// `lane`. These are the changes for its following turn, or for the rest of its trip. Returns kMany if `lane` does not
+// allow the turn.
 int changes_after(const State& state, int lane, Turn turn, const VehicleRecord& vehicle) {
     constexpr int kMany = 100;
     const int route = state.plan.adjacent(lane).turn_option(turn).route;
@@ -87,8 +90,9 @@ int changes_after(const State& state, int lane, Turn turn, const VehicleRecord& 
                : std::abs(state.plan.adjacent(state.plan.route(route).back()).turn_option(following).lane_changes);
 }
 
-// Returns the offset to the nearest lane from which the fewest changes remain behind the intersection, signed as
-// TurnOption::lane_changes. All lanes up to that lane allow the turn.
+// Returns the offset to the best lane, signed as TurnOption::lane_changes. From the best lane the fewest lane changes
+// remain downstream of the intersection. Among equally good lanes the nearest one is best. All lanes from the current
+// lane to the best lane allow the turn.
 int find_preferred_offset(const State& state, int lane, Turn turn, const VehicleRecord& vehicle) {
     int fewest = changes_after(state, lane, turn, vehicle);
     int offset = 0;
@@ -113,7 +117,8 @@ int find_preferred_offset(const State& state, int lane, Turn turn, const Vehicle
     return offset;
 }
 
-// Returns true if the whole vehicle fits on both lanes and it can still stop before the stop line.
+// Returns true if the whole vehicle is on its lane and fits on the target lane, and if it can still stop before the
+// stop line.
 bool can_move_beside(const Model& model, const LaneChangeRequest& me, double front_there_m) {
     return me.front_m >= me.length_m && front_there_m >= me.length_m &&
            me.to_line_m + model.driver.stop.margin_m >= lane_change_stopping_distance_m(model, me.speed_mps);
@@ -127,7 +132,7 @@ public:
           me_(lane_change_request(model, state, lane, slot)),
           since_change_s_(time_since_change_s(slot)) {}
 
-    // Changes lanes if the vehicle wants to and can. Returns true if it has left the lane.
+    // Changes lanes if the vehicle wants to change and the gaps suffice. Returns true if the vehicle has left its lane.
     bool execute() {
         const AdjacentLanes& adjacent = state_.plan.adjacent(me_.lane);
         if (me_.lane_changes != 0 && me_.to_line_m < model_.lane_change.strategic_m * std::abs(me_.lane_changes)) {
@@ -164,8 +169,9 @@ private:
         return true;
     }
 
-    // Returns true if the other lane serves the route at least as well as the current one.
-    bool serves_route(int other) const {
+    // Returns true if the vehicle may change to lane `other` for speed. The lane must serve the route at least as well
+    // as the current lane.
+    bool may_change_for_speed(int other) const {
         if (other < 0 || !can_move_beside(model_, me_, adjacent_position_m(state_, me_.lane, me_.front_m, other)))
             return false;
         const VehicleRecord& vehicle = state_.vehicles.record[at(me_.slot)];
@@ -177,8 +183,8 @@ private:
     }
 
     bool change_for_speed(int right, int left) {
-        const bool may_right = serves_route(right);
-        const bool may_left = serves_route(left);
+        const bool may_right = may_change_for_speed(right);
+        const bool may_left = may_change_for_speed(left);
         if (!may_right && !may_left) return false;
         const LaneBlock& block = state_.blocks[at(me_.lane)];
         const VehicleArrays& v = state_.vehicles;
@@ -235,7 +241,7 @@ private:
         reset_leader(state_.vehicles, slot, state_.blocks[at(other)]);
         reset_leader(state_.vehicles, slot + 1, state_.blocks[at(other)]);
         reset_leader(state_.vehicles, state_.blocks[at(me_.lane)].first + from, state_.blocks[at(me_.lane)]);
-        // Another vehicle may now be the one that stops at the line.
+        // The vehicle that stops at the line must be chosen again, because the changed vehicle may be ahead of it.
         state_.stop_lines.lines[at(other)].stopping_vehicle = -1;
         state_.records.lane_changes.push_back(
             {model_.time_s(state_.tick + 1), id, me_.lane, other, static_cast<float>(me_.front_m), for_route});
@@ -279,7 +285,7 @@ double waiting_position_m(const Model& model, const State& state, const LaneChan
     const double spacing_m = me.length_m + 2.0 * state.vehicles.standstill_gap_m[at(me.slot)];
     const int places_behind_line = std::abs(me.lane_changes) - (me.lane_changes < 0 ? 1 : 0);
     const int other = me.lane_changes < 0 ? state.plan.adjacent(me.lane).left : state.plan.adjacent(me.lane).right;
-    // The target lane must have begun at the waiting position.
+    // The waiting position must be beside the target lane. The target lane may start further downstream than this lane.
     const double min_position_m = adjacent_position_m(state, other, 0.0, me.lane) + me.length_m + 1.0;
     const double line_m = state.plan.lane(me.lane).stop_line_m - model.driver.stop.margin_m;
     return std::min(std::max(line_m - places_behind_line * spacing_m, min_position_m), line_m);

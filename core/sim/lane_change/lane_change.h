@@ -1,9 +1,9 @@
-// Lane changes on the approaches of intersections: which vehicle wants to change, and when it is safe. A change takes
-// no time.
+// Lane changes on the approaches of intersections: decides which vehicle wants to change lanes, and whether the change
+// is safe. A lane change takes no time.
 //
 // Mandatory changes serve the route. They follow the strategic changes of SUMO's LC2013 (Erdmann 2015, "SUMO's
 // lane-changing model"). A vehicle on a lane that does not serve its route changes as soon as the gaps allow it. Near
-// the stop line it aligns its speed with a gap, and finally waits for one before the line.
+// the stop line it aligns its speed with a gap. If it finds no gap, it stops before the line and waits for one.
 //
 // Discretionary changes serve the speed. They follow MOBIL (Kesting, Treiber, Helbing 2007, "General lane-changing
 // model MOBIL for car-following models"). A vehicle changes if the other lane allows a higher acceleration, computed
@@ -14,7 +14,7 @@
 
 namespace stopline {
 
-// A vehicle on a lane with adjacent lanes, and the lane changes that it wants.
+// A vehicle that may change lanes, and the lane changes that it wants.
 struct LaneChangeRequest {
     int lane = -1;
     int slot = -1;
@@ -23,24 +23,25 @@ struct LaneChangeRequest {
     double speed_mps = 0.0;
     int policy = 0;
     Turn turn = Turn::none;
-    int lane_changes = 0;    // changes that the route requires, signed as TurnOption::lane_changes
+    int lane_changes = 0;    // lane changes before the stop line, signed as TurnOption::lane_changes; 0: none required
     double to_line_m = 0.0;  // distance to the stopping position before the line
-    // Set if the route requires no change here and the following turn is known: offset to the nearest lane from which
-    // the fewest changes remain behind the intersection, and the distance to the next stop line there.
-    int preferred_offset = 0;
-    double to_next_line_m = 0.0;
+    // The last two members are set if no lane change is required and the following turn is known. The offset is signed
+    // as TurnOption::lane_changes.
+    int preferred_offset = 0;     // offset to the lane that requires the fewest changes past the intersection
+    double to_next_line_m = 0.0;  // distance to the stop line of the second intersection ahead
 };
 // Returns the request of the vehicle in `slot` of `lane`.
 LaneChangeRequest lane_change_request(const Model& model, const State& state, int lane, int slot);
 
-// Returns the share of the policy's gap that a mandatory change requires. It falls towards the stop line.
+// Returns the share of the policy's gap that a mandatory change requires. The share falls towards the stop line.
 double urgent_share(const Model& model, double to_line_m);
 
-// Returns where a vehicle waits before the stop line to change lanes, m from the lane's start. Left-bound vehicles wait
-// nearer to the stop line than right-bound ones, so two vehicles that want to swap lanes do not block each other.
+// Returns the position where a vehicle waits before the stop line to change lanes, m from the start of the lane.
+// Left-bound vehicles wait nearer to the stop line than right-bound ones. Two vehicles that want to swap lanes thus do
+// not block each other.
 double waiting_position_m(const Model& model, const State& state, const LaneChangeRequest& me);
 
-// Changes the lanes of all vehicles for which a change is due and safe.
+// Carries out the lane changes of all vehicles that decide in this step.
 void change_lanes(const Model& model, State& state);
 
 }  // namespace stopline

@@ -1,4 +1,5 @@
-// Chooses the route of each vehicle from its current lane, and its turn at the following intersection.
+// Chooses the route of each vehicle from its current lane, and its following turn: the turn at the second intersection
+// ahead.
 #include "sim/lane_change/route_choice.h"
 
 #include <algorithm>
@@ -14,7 +15,8 @@ namespace stopline {
 
 namespace {
 
-// Returns the lower speed limit that the route sets at the end of the current lane; kNoLowerLimit_mps: none.
+// Returns the speed limit of the next lane on the route if it is lower than the limit of the current lane; else
+// kNoLowerLimit_mps.
 float end_speed(const State& state, std::span<const int> route, int index) {
     if (at(index) + 1 >= route.size()) return kNoLowerLimit_mps;
     const double here = state.plan.lane(route[at(index)]).limit_mps;
@@ -22,8 +24,8 @@ float end_speed(const State& state, std::span<const int> route, int index) {
     return next < here ? static_cast<float>(next) : kNoLowerLimit_mps;
 }
 
-// Returns the parallel route to the exit lane from which the fewest lane changes remain. Parallel routes start on the
-// same lane with the same turn. Among equally good routes the vehicle's id decides.
+// Returns the parallel route whose exit lane requires the fewest later lane changes. Parallel routes have the same
+// first lane and the same turn but different exit lanes. Among equally good routes the vehicle's id decides.
 int best_parallel_route(const Model& model, const State& state, int route, int slot) {
     const auto changes = [&](int candidate) {
         const VehicleRecord& vehicle = state.vehicles.record[at(slot)];
@@ -85,12 +87,12 @@ void draw_following_turn(const Model& model, State& state, int slot, bool chose_
     record.following_turn = state.plan.turn_of(route);
 }
 
-void enter_trip_edge(const Model& model, State& state, int lane, int slot, int leg) {
+void enter_trip_edge(const Model& model, State& state, int lane, int slot, int trip_edge) {
     VehicleRecord& record = state.vehicles.record[at(slot)];
-    record.trip_edge = leg;
-    record.following_turn = state.plan.turn_of_trip(record.trip, leg + 1);
+    record.trip_edge = trip_edge;
+    record.following_turn = state.plan.turn_of_trip(record.trip, trip_edge + 1);
     record.route =
-        state.plan.route_with(model.graph.lanes[at(lane)].approach, state.plan.turn_of_trip(record.trip, leg));
+        state.plan.route_with(model.graph.lanes[at(lane)].approach, state.plan.turn_of_trip(record.trip, trip_edge));
     adopt_lane_route(model, state, lane, slot);
 }
 

@@ -1,4 +1,5 @@
-// The routes of vehicles: turns drawn at random, turns of trips, and the route that fits the present lane.
+// Chooses the routes of vehicles. A turn is drawn at random or given by a trip, and the route must fit the vehicle's
+// lane.
 #pragma once
 
 #include <cstdint>
@@ -8,23 +9,25 @@
 
 namespace stopline {
 
-// Sets the place of a vehicle on its route, its next lane and the speed limit at the end of its lane.
+// Sets the route index of a vehicle, its next lane and the speed limit at the end of its lane.
 void set_route_index(State& state, int slot, int route_index);
 
-// Returns the route of an inlet's k-th vehicle. `chose_lane`: the route must start on the inlet's lane.
+// Returns the route of the k-th vehicle of an inlet, drawn at random. `chose_lane`: the vehicle has chosen the lane of
+// the inlet to suit its turn (DemandPlan::Inlet::lane_shares).
 int draw_route(const Model& model, State& state, int inlet, std::int64_t k, bool chose_lane);
 
-// Draws the turn at the next intersection but one. `chose_lane`: see draw_route().
+// Draws the following turn of a vehicle: the turn at the second intersection ahead. Sets it to none if there is no such
+// intersection or if the driver does not look ahead. `chose_lane`: see draw_route().
 void draw_following_turn(const Model& model, State& state, int slot, bool chose_lane);
 
-// Gives a vehicle that has reached the start of a link its next route.
+// Gives a vehicle that has reached the start of `lane` its next route. Does nothing if no route begins on this lane.
 void choose_next_route(const Model& model, State& state, int lane, int slot);
 
-// Replaces the route by a route with the same turn from the vehicle's lane. Without one the vehicle keeps its route and
-// has no next lane: it must change lanes.
+// Replaces the vehicle's route by a route with the same turn that begins on `lane`. If there is none, the vehicle keeps
+// its route but has no next lane, and must change lanes.
 void adopt_lane_route(const Model& model, State& state, int lane, int slot);
 
-// Gives a vehicle on a trip the route of an edge of the trip.
+// Gives a vehicle with a trip the route that begins on edge `trip_edge` of the trip. `lane`: the lane of the vehicle.
 void enter_trip_edge(const Model& model, State& state, int lane, int slot, int trip_edge);
 
 }  // namespace stopline

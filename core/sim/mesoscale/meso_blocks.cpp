@@ -1,8 +1,9 @@
-// Selects the vehicles that the mesoscale kernels move in a step, and caps the speed of vehicles that must stop or
-// adapt.
+// Selects the vehicles that the mesoscale kernels move in a step. Caps the speed of vehicles that must stop or align
+// with a gap.
 //
-// Vehicles inside a standing queue are left out, because nothing that they react to changes. A lane sleeps while its
-// first vehicle rests before a red signal, because nothing is to be decided on it.
+// The kernels skip vehicles inside a standing queue, because nothing changes to which these vehicles react. A lane
+// sleeps while its first vehicle rests before a red signal. The search for leaders and the decisions at stop lines skip
+// a sleeping lane.
 #include "sim/mesoscale/meso_blocks.h"
 
 #include <algorithm>
@@ -16,15 +17,16 @@ namespace stopline {
 
 namespace {
 
-// Updates the standing queue of a lane: drops vehicles that started at its head, and adds vehicles that stopped behind
-// it.
+// Updates the standing queue of a lane: removes vehicles that started at the head of the queue, and adds vehicles that
+// stopped at its end.
 void update_queue(const VehicleArrays& v, const LaneBlock& block, std::int64_t tick, StandingQueue& queue) {
     const auto is_at_rest = [&](int place) {
         const std::size_t i = at(block.first + place);
         return v.speed_mps[i] == 0.0 && v.acceleration_mps2[i] == 0.0F;
     };
     while (queue.first < queue.end && !is_at_rest(queue.first)) ++queue.first;
-    // A vehicle that received the start message may have closed up although its leader did not start.
+    // A vehicle that received the start message may have closed up although its leader did not start. The queue then
+    // ends before this vehicle.
     for (int place = queue.first + 1; place < std::min(queue.released, queue.end); ++place) {
         if (!is_at_rest(place)) queue.end = place;
     }
@@ -37,13 +39,13 @@ void update_queue(const VehicleArrays& v, const LaneBlock& block, std::int64_t t
     while (queue.end < block.count && is_at_rest(queue.end)) ++queue.end;
 }
 
-// Relays the start of a queue by V2V to vehicles that keep a constant distance. Returns how many vehicles get the
-// message. The message passes several vehicles per step, because a vehicle forwards it before it moves. A vehicle with
-// a time gap starts later and ends the relay. The messages take effect when vehicles move, as other lanes still read
-// their state.
+// Relays the start of a queue by V2V to vehicles that keep a constant distance. Returns the number of vehicles that
+// receive the message. A vehicle forwards the message before it moves, so the message passes several vehicles in one
+// step. A vehicle with a time gap ends the relay, because it starts later. The messages take effect when vehicles move,
+// because other lanes still read the state.
 int relay_start(const Model& model, const VehicleArrays& v, const LaneBlock& block, StandingQueue& queue,
                 std::vector<StartMessage>& messages) {
-    constexpr double kClosedUp_m = 0.5;  // a vehicle with a larger excess gap starts later
+    constexpr double kClosedUp_m = 0.5;  // a vehicle whose gap exceeds its desired gap by more than this starts later
     if (queue.first == 0) return 0;
     const std::size_t last_started = at(block.first + queue.first - 1);
     const float relayed_mps2 = v.acceleration_mps2[last_started];
@@ -91,7 +93,7 @@ public:
             return add_blocks(first + queue.end, block_.past_last());
         }
         if (is_near_end()) part_.lanes_near_end.push(lane_);
-        v_.speed_cap_mps[at(first)] = kUnlimitedSpeed_mps;  // clears the cap of a sleeping lane
+        v_.speed_cap_mps[at(first)] = kUnlimitedSpeed_mps;  // removes the cap that was set for the sleeping lane
         cap_aligning_vehicles();
         if (last_stopping_slot() > first + queue.first) queue.last_external_tick = state_.tick;
         update_queue(v_, block_, state_.tick, queue);
@@ -103,7 +105,7 @@ public:
         }
         if (queue.first == 0 && queue.end > 0 && waits_only_for_signal()) {
             sleep_group = state_.plan.signal_group_for(lane_, v_.next_lane[at(first)]);
-            v_.speed_cap_mps[at(first)] = 0.0;  // the kernel may move other vehicles of its block
+            v_.speed_cap_mps[at(first)] = 0.0;  // holds the vehicle if the kernel moves others of its block
             return add_blocks(first + queue.end, block_.past_last());
         }
         cap_all();
@@ -113,13 +115,13 @@ public:
     }
 
 private:
-    // Returns the last slot that must stop at the line or at a yield stop; -1: none.
+    // Returns the slot of the last vehicle that must stop at the stop line or at a yield stop; -1: none.
     int last_stopping_slot() const {
         return std::max(stop_slot_, yield_stops_.count == 0 ? -1 : yield_stops_.stops[at(yield_stops_.count - 1)].slot);
     }
 
-    // Returns true if the first vehicle, at the free speed of the lane, can reach the lane's end or stop line in this
-    // step.
+    // Returns true if the first vehicle could reach the end of the lane or the stop line in this step, at the free
+    // speed of the lane.
     bool is_near_end() const {
         const double end_m = plan_.signal_group < 0 ? plan_.length_m : std::min(plan_.length_m, plan_.stop_line_m);
         const double step_m = state_.plan.free_speed_mps(lane_) * model_.step_s;
@@ -132,7 +134,7 @@ private:
         const double braking_step_mps = GapAlignment::kDeceleration_mps2 * model_.step_s;
         for (const GapAlignment& alignment : state_.gap_alignments[at(lane_)]) {
             const double speed_mps = v_.speed_mps[at(alignment.slot)];
-            // At rest the cap stays unchanged, because it may hold the first vehicle of a sleeping lane.
+            // The cap of a vehicle at rest stays unchanged, because it may hold the first vehicle of a sleeping lane.
             if (speed_mps > 0.0)
                 cap_speed(alignment.slot, std::max(alignment.target_speed_mps, speed_mps - braking_step_mps));
         }
@@ -142,7 +144,7 @@ private:
         return plan_.stop_line_m - model_.driver.stop.margin_m - v_.position_m[at(slot)];
     }
 
-    // Returns true if only its signal keeps the first vehicle at rest.
+    // Returns true if the first vehicle of the lane, which is at rest, is held by nothing but its signal.
     bool waits_only_for_signal() const {
         const int first = block_.first;
         if (stop_slot_ != first || state_.stop_lines.lines[at(lane_)].stopping_vehicle != v_.id[at(first)])
@@ -151,7 +153,8 @@ private:
         return snap_to_standstill(stopping_speed_mps(model_, v_, first, room_to_line_m(first))) == 0.0;
     }
 
-    // Caps vehicles behind the first that wait to change lanes. The first vehicle of the sleeping lane keeps its cap.
+    // Sleeping lane: caps the speed of vehicles that wait to change lanes, except the first vehicle, which already has
+    // a cap.
     void cap_behind_first() {
         for (int k = 0; k < yield_stops_.count; ++k) {
             const YieldStop& stop = yield_stops_.stops[at(k)];
@@ -181,7 +184,8 @@ private:
         part_.capped_slots.push_back(slot);
     }
 
-    // Adds the blocks of slots [from, to). Calls come in ascending order of slots, so each block is added once.
+    // Adds the blocks that contain the slots [from, to). The slots of successive calls must ascend, so that each block
+    // is added once.
     void add_blocks(int from, int to) {
         if (from == to) return;
         part_.moving_blocks.push_range(std::max(from >> shift_, part_.moving_blocks.last_or(-1) + 1),
@@ -189,7 +193,7 @@ private:
     }
 
     const Model& model_;
-    int shift_;  // binary logarithm of the slots in a block
+    int shift_;  // binary logarithm of the number of slots in a block
     State& state_;
     VehicleArrays& v_;
     Partition& part_;
@@ -202,9 +206,9 @@ private:
 
 }  // namespace
 
-// Runs right after the decisions of a partition, while its data are still in the cache.
+// Called right after the decisions of a partition, while the data of the partition are still in the cache.
 void collect_moving_blocks(const Model& model, State& state, Partition& part) {
-    // Upper bound: one block for each vehicle, and a reserve for each lane.
+    // Upper bound of the number of moving blocks: one for each vehicle, and a reserve for each lane.
     constexpr std::size_t kReservePerLane = 4;
     const int shift = std::countr_zero(static_cast<unsigned>(meso_kernels(model.scalar_kernels).size));
     part.lanes_near_end.reset(part.occupied.size());

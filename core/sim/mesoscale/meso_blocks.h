@@ -6,8 +6,8 @@
 
 namespace stopline {
 
-// Lists the blocks of slots with vehicles that can move, and sets the speed caps of vehicles that must stop. Standing
-// queues are left out.
+// Lists the blocks of slots whose vehicles can move, and caps the speed of vehicles that must stop. The list does not
+// contain standing queues.
 void collect_moving_blocks(const Model& model, State& state, Partition& part);
 
 }  // namespace stopline

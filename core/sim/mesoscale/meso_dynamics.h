@@ -1,5 +1,5 @@
-// A step of the mesoscale mode: car following of the Krauss family (driver/krauss.h). Every vehicle reacts to the state
-// at the beginning of the step.
+// Mesoscale mode: moves vehicles by one step of car following with the Krauss family (driver/krauss.h). Every vehicle
+// reacts to the state at the beginning of the step.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,12 @@
 
 namespace stopline {
 
-// Returns the highest next speed from which a vehicle still stops within `room_m`. The result never asks for more than
-// maximum braking.
+// Returns the highest speed for the next step from which the vehicle in `slot` can still stop comfortably within
+// `room_m`. The speed does not fall faster than with maximum braking.
 double stopping_speed_mps(const Model& model, const VehicleArrays& v, int slot, double room_m);
 
-// Returns the next speed of a vehicle without a leader. It approaches the leader's share of the limit (Model).
+// Returns the speed for the next step of a vehicle without a leader. The speed approaches Model::leader_speed_share of
+// `limit_mps`.
 double leading_speed_mps(const Model& model, double speed_mps, double limit_mps);
 
 // Return the arguments of the kernels. `prefetches`: see MesoStep.

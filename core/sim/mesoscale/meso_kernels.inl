@@ -1,6 +1,6 @@
 // Source of the mesoscale kernels. One file for each build includes it. The kernels have internal linkage, so that the
-// builds do not mix. R is the number type of the equations: a vector with one double for each slot of a block, or one
-// double.
+// linker does not mix the builds. R is the number type of the equations: one double, or a vector with one double for
+// each slot of a block.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -19,7 +19,7 @@ namespace stopline {
 
 namespace {
 
-// Doubles in a vector register. A block has as many slots.
+// Number of doubles in a vector register, and number of slots in a block.
 constexpr int kWide = kBatchWidth / 2;
 using Wide = PackedOf<double, kWide>;
 using Words = Vector<std::uint64_t, kWide>;
@@ -32,12 +32,12 @@ STOPLINE_INLINE To same_bits(const From& from) {
     return to;
 }
 
-// Converts a vector to another number type. Intrinsics do it for 512 bits, because the compiler would convert in two
-// halves.
+// Converts the numbers of a vector to another type. For 512 bits it uses intrinsics, because the compiler would convert
+// in two halves.
 template <class To, class From>
 STOPLINE_INLINE Vector<To, kWide> converted(const Vector<From, kWide>& from) {
 #if defined(__AVX512F__)
-    constexpr __mmask8 kAll = 0xff;  // the unmasked functions cause warnings in g++
+    constexpr __mmask8 kAll = 0xff;  // the unmasked intrinsics cause warnings in g++
     if constexpr (kWide == 8 && std::is_same_v<From, float> && std::is_same_v<To, double>) {
         return same_bits<Vector<To, kWide>>(_mm512_maskz_cvtps_pd(kAll, same_bits<__m256>(from)));
     } else if constexpr (kWide == 8 && std::is_same_v<From, double> && std::is_same_v<To, float>) {
@@ -51,7 +51,7 @@ STOPLINE_INLINE Vector<To, kWide> converted(const Vector<From, kWide>& from) {
     return __builtin_convertvector(from, Vector<To, kWide>);
 }
 
-// Loads the values of one block as R.
+// get() loads the values of one block as R, and put() stores them. They convert between the stored type and double.
 template <class R, class Stored>
 STOPLINE_INLINE R get(const Stored* from) {
     if constexpr (std::is_same_v<R, double>) {
@@ -72,7 +72,7 @@ STOPLINE_INLINE void put(Stored* to, const Wide& value) {
     std::memcpy(to, &values, sizeof values);
 }
 
-// Returns the random number of each vehicle, uniform in [0, 1).
+// Returns the random number of each vehicle for its dawdling, uniform in [0, 1).
 template <class R>
 STOPLINE_INLINE R dawdle(const MesoStep& t, const int* id) {
     if constexpr (std::is_same_v<R, double>) {
@@ -97,7 +97,7 @@ STOPLINE_INLINE auto occupied_slots(const int* id) {
     }
 }
 
-// Returns the parameters of each vehicle if there are two policies.
+// Returns the parameters of each vehicle in a run with two policies: `a` for policy 0, `b` for policy 1.
 template <class R>
 STOPLINE_INLINE KraussPerVehicle<R> of_two_policies(const R& policy, const Krauss& a, const Krauss& b) {
     const auto second = policy > 0.0;
@@ -118,22 +118,22 @@ STOPLINE_INLINE KraussPerVehicle<R> of_two_policies(const R& policy, const Kraus
             pick(a.below_band_speed_share, b.below_band_speed_share)};
 }
 
-// Returns the next speed on the way to a limit. A vehicle above the limit takes it at once, a slower one gains a share
-// of the difference.
+// Returns the next speed of a vehicle under a speed limit. A vehicle above the limit takes the limit at once. A slower
+// vehicle gains a share of the difference.
 template <class R>
 STOPLINE_INLINE R approach_limit(const R& speed_mps, const R& limit_mps, double share) {
     const R gaining_mps = speed_mps + share * (limit_mps - speed_mps);
-    return min_of(gaining_mps, limit_mps);  // above the limit gaining_mps is not lower, because share <= 1
+    return min_of(gaining_mps, limit_mps);  // above the limit the result is limit_mps, because share <= 1
 }
 
-// Returns the next speed before a turn, where the allowed speed falls with the distance. This is
-// slow_down_acceleration() of full dynamics.
+// Returns the next speed before a turn. `allowed_mps`: allowed speed, which falls towards the turn. `braked_mps`: speed
+// change of one step of braking. The equation is that of slow_down_acceleration() in full dynamics.
 template <class R>
 STOPLINE_INLINE R approach_turn(const R& speed_mps, const R& allowed_mps, double share, double braked_mps) {
     return speed_mps + share * (allowed_mps - speed_mps) - braked_mps * speed_mps / max_of(allowed_mps, R(1.0));
 }
 
-// Returns true if the float of any vehicle differs from `value` in its bits.
+// Returns true if any float of the block differs from `value`.
 template <class R>
 STOPLINE_INLINE bool any_differs(const float* floats, float value) {
     if constexpr (std::is_same_v<R, double>) {
@@ -155,12 +155,12 @@ STOPLINE_INLINE bool any_differs(const float* floats, float value) {
     }
 }
 
-// Returns the highest next speed that the limits allow.
+// Returns the highest next speed that the speed limits and the speed caps allow.
 template <class R, bool kInstantSlowdown>
 STOPLINE_INLINE R allowed_mps(const MesoStreams& s, const MesoStep& t, int i, const R& position, const R& speed) {
     const R here_mps = min_of(approach_limit(speed, get<R>(s.limit + i), t.approach_share), get<R>(s.speed_cap + i));
     if (!any_differs<R>(s.end_speed + i, kNoLowerLimit_mps)) return here_mps;
-    // Braking towards a lower limit at the end of the lane: v^2 = v_end^2 + 2 b distance.
+    // Braking before a lower speed limit at the end of the lane: v^2 = v_end^2 + 2 b distance.
     const R end_mps = get<R>(s.end_speed + i);
     const R to_next_limit_m = max_of(R(get<R>(s.next_limit + i) - position), R(0.0));
     const R allowed_before_turn_mps = square_root(end_mps * end_mps + 2.0 * t.slow_down_mps2 * to_next_limit_m);
@@ -170,10 +170,11 @@ STOPLINE_INLINE R allowed_mps(const MesoStreams& s, const MesoStep& t, int i, co
     return select(end_mps < static_cast<double>(kNoLowerLimit_mps), min_of(here_mps, turn_mps), here_mps);
 }
 
-constexpr double kNoLeader_m = 1e5;  // a longer gap means that there is no leader
+constexpr double kNoLeader_m = 1e5;  // a vehicle with a longer gap has no leader
 
 #if defined(__AVX512DQ__)
-// Returns the table value of each vehicle's bin. Permutes 16 values at a time instead of loading one for each vehicle.
+// Returns the table value of each vehicle's bin. Permutes 16 table values at a time, which is faster than one load for
+// each vehicle.
 template <std::size_t bins>
 STOPLINE_INLINE Wide permute_table(const std::array<double, bins>& table, const Wide& bin) {
     const __m512i index = _mm512_cvttpd_epi64(same_bits<__m512d>(bin));
@@ -190,7 +191,7 @@ STOPLINE_INLINE Wide permute_table(const std::array<double, bins>& table, const 
 }
 #endif
 
-// Returns the table value of each vehicle's bin. Bins beyond the table take its last value.
+// Returns the table value of each vehicle's bin. A bin past the end of the table gets the last value.
 template <class R, std::size_t bins>
 STOPLINE_INLINE R table_value(const std::array<double, bins>& table, const R& bin) {
     const R within = clamped(bin, 0.0, static_cast<double>(bins) - 1.0);
@@ -210,7 +211,8 @@ STOPLINE_INLINE R table_value(const std::array<double, bins>& table, const R& bi
 template <class R>
 STOPLINE_INLINE R platoon_leader_acceleration_mps2(const MesoStep& t, const R& speed_mps) {
     if (t.leader_profile != nullptr) {
-        // Evaluated at the speed in the middle of the step. The speed at its start would miss gear changes.
+        // The profile is evaluated at the speed in the middle of the step. The speed at the start of the step would
+        // miss gear changes.
         const LeaderProfile& profile = *t.leader_profile;
         const R first_mps2 = table_value(profile.acceleration_mps2, R(speed_mps * profile.bins_per_mps));
         const R middle_mps = speed_mps + first_mps2 * (0.5 * t.dt);
@@ -220,9 +222,10 @@ STOPLINE_INLINE R platoon_leader_acceleration_mps2(const MesoStep& t, const R& s
            R(t.leader_constant_power_speed_mps / max_of(speed_mps, R(t.leader_constant_power_speed_mps)));
 }
 
-// Returns the next speeds of platoon leaders. They all accelerate alike, whatever their policy, until following demands
-// less. A leader at rest remains leader until it moves. `foreseen_mps`: from anticipated_safe_speed_mps(). `next`: next
-// speeds of the other vehicles. `has_policy`: 1 for vehicles with the policy of model `k`.
+// Returns `next` with the speeds of platoon leaders replaced. Platoon leaders accelerate alike, whatever their policy.
+// A platoon leader becomes a follower once following demands a lower speed, but not while it is at rest.
+// `foreseen_mps`: result of anticipated_safe_speed_mps(). `next`: next speeds of the vehicles as followers.
+// `has_policy`: 1 for vehicles with the policy of model `k`, else 0.
 template <class R, class Model>
 STOPLINE_INLINE R platoon_leader_speed(const Model& k, const MesoStep& t, const KraussInputOf<R>& in,
                                        const R& foreseen_mps, const R& next, const R& has_policy,
@@ -246,14 +249,14 @@ STOPLINE_INLINE R platoon_leader_speed(const Model& k, const MesoStep& t, const 
 
 constexpr double kNoExtraGap[kWide] = {};
 
-// Properties of a run that select an instance of the kernels.
+// Properties of a run. The kernels are compiled once for each combination.
 struct MesoVariant {
-    int policies;           // 1 or 2; 0: more
-    bool power_limit;       // the power of a policy limits its acceleration
-    bool instant_slowdown;  // vehicles follow the speed profile before a lower limit without delay
+    int policies;           // number of policies: 1 or 2; 0: more than 2
+    bool power_limit;       // constant power can limit the acceleration of a policy
+    bool instant_slowdown;  // vehicles take the allowed speed before a turn at once (turn_share = 1)
 };
 
-// Moves one block. Returns 1 for each vehicle that overlaps its leader, else 0.
+// Moves the vehicles of one block. Returns 1 for each vehicle that overlaps its leader, else 0.
 template <class R, MesoVariant kVariant>
 STOPLINE_INLINE R step_slots(const MesoStreams& s, int i, std::span<const Krauss> models, const double* extra_gap,
                              const MesoStep& t) {
@@ -315,13 +318,13 @@ STOPLINE_INLINE void prefetch_block(const MesoStreams& s, int i) {
     for (const int* const stream : {s.id, s.policy}) __builtin_prefetch(stream + i);
 }
 
-// Moves the blocks from last to first, because the first vehicle of a block reacts to the unmoved last vehicle of the
-// block before.
+// Moves the vehicles of all blocks and returns the number of overlaps. Moves the last block first: the first vehicle of
+// a block reacts to the last vehicle of the block before, which must not have moved yet.
 template <class R, MesoVariant kVariant>
 inline int step_blocks(const MesoStreams& streams, std::span<const int> blocks, std::span<const Krauss> models,
                        ExtraGap extra_gaps, const MesoStep& step) {
     constexpr int kSize = std::is_same_v<R, double> ? 1 : kWide;
-    const MesoStreams s = streams;  // local copies, which stores cannot alias
+    const MesoStreams s = streams;  // local copies, so that the compiler knows that stores do not change them
     const MesoStep t = step;
     R overlaps = 0.0;
     constexpr std::size_t kPrefetchBlocks = 8;

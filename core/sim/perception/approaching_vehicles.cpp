@@ -7,7 +7,7 @@ namespace stopline {
 
 namespace {
 
-constexpr double kApproach_m = 60.0;  // distance before the intersection in which approaching vehicles are checked
+constexpr double kApproach_m = 60.0;  // distance upstream of a connection within which approaching vehicles are checked
 
 }  // namespace
 

@@ -1,6 +1,6 @@
 // Full dynamics: adds braking for hidden leaders. A vehicle follows the nearest vehicle ahead. Where connections
-// diverge or a trip ends, that leader may leave the vehicle's route and hide a slow vehicle on it. The follower brakes
-// for the hidden vehicle as well, because it would see it too late.
+// diverge or a trip ends, this leader may leave the follower's route and hide a slow vehicle further along the route.
+// The follower also brakes for the hidden vehicle, because it would otherwise see it too late.
 #include "sim/perception/hidden_leaders.h"
 
 #include <algorithm>
@@ -16,31 +16,33 @@ namespace stopline {
 
 namespace {
 
-// Adds a braking demand for `own`, the next vehicle on the route beyond the lane. The vehicle follows another leader.
-void add_demand(const Model& model, const State& state, int lane, int slot, const LeaderAhead& own, Partition& part) {
+// Adds a braking demand on the vehicle in `slot`, whose leader hides the vehicle `hidden`. The hidden vehicle is the
+// nearest one on the route beyond the end of `lane`.
+void add_demand(const Model& model, const State& state, int lane, int slot, const LeaderAhead& hidden,
+                Partition& part) {
     const VehicleArrays& v = state.vehicles;
     const double speed_mps = v.speed_mps[at(slot)];
-    double rear_m = own.lane_start_m;
-    if (!rear_is_on_merging_path(state, lane, slot, own.slot)) {
-        rear_m += v.position_m[at(own.slot)] - static_cast<double>(v.length_m[at(own.slot)]);
+    double rear_m = hidden.lane_start_m;
+    if (!rear_is_on_merging_path(state, lane, slot, hidden.slot)) {
+        rear_m += v.position_m[at(hidden.slot)] - static_cast<double>(v.length_m[at(hidden.slot)]);
     }
     LeaderView<double> p{};
     p.gap_m = rear_m - v.position_m[at(slot)];
     const double standstill_m = v.standstill_gap_m[at(slot)];
     if (p.gap_m > stopping_distance_m(model.driver, speed_mps) + standstill_m) return;
-    p.closing_mps = speed_mps - v.speed_mps[at(own.slot)];
-    p.acceleration_mps2 = v.acceleration_mps2[at(own.slot)];
-    p.request_mps2 = v.request_mps2[at(own.slot)];
+    p.closing_mps = speed_mps - v.speed_mps[at(hidden.slot)];
+    p.acceleration_mps2 = v.acceleration_mps2[at(hidden.slot)];
+    p.request_mps2 = v.request_mps2[at(hidden.slot)];
     const double gap_growth_m = desired_gap_m(model, v.policy[at(slot)], speed_mps) - standstill_m;
     const double demand_mps2 =
         hidden_leader_acceleration(model.driver, speed_mps, standstill_m, std::max(gap_growth_m, 0.0), p);
     if (demand_mps2 < kUnconstrained_mps2) part.extra_demands.push_back({slot, demand_mps2});
 }
 
-// Adds demands for vehicles behind the first one on the lane: for each further connection, the first vehicle that takes
-// it.
+// Adds braking demands on followers of the lane's first vehicle. For each connection that the first vehicle does not
+// take, only the first follower that takes it gets a demand.
 void react_to_leaders_hidden_from_followers(const Model& model, const State& state, int lane, Partition& part) {
-    constexpr double kMinLookBack_m = 60.0;  // from the lane's end; covers a comfortable stop from 50 km/h
+    constexpr double kMinLookBack_m = 60.0;  // before the lane's end; covers a comfortable stop from 50 km/h
     constexpr std::size_t kMaxConnections = 8;
     const VehicleArrays& v = state.vehicles;
     const LaneBlock& block = state.blocks[at(lane)];
@@ -58,8 +60,8 @@ void react_to_leaders_hidden_from_followers(const Model& model, const State& sta
             std::find(handled.begin(), handled.begin() + count, connection) != handled.begin() + count)
             continue;
         const double range_m = stopping_distance_m(model.driver, v.speed_mps[at(slot)]) + v.standstill_gap_m[at(slot)];
-        const LeaderAhead own = last_vehicle_on_route(state, lane, slot, range_m);
-        if (own.slot >= 0) add_demand(model, state, lane, slot, own, part);
+        const LeaderAhead hidden = last_vehicle_on_route(state, lane, slot, range_m);
+        if (hidden.slot >= 0) add_demand(model, state, lane, slot, hidden, part);
         handled[count++] = connection;
         if (count == connection_count) return;
     }
@@ -71,8 +73,8 @@ void react_to_hidden_leaders(const Model& model, const State& state, int lane, c
                              Partition& part) {
     const int first = state.blocks[at(lane)].first;
     if (hidden.slot >= 0) add_demand(model, state, lane, first, hidden, part);
-    // No follower can get past a first vehicle that is stopped.
     const bool can_diverge = state.plan.lane(lane).branches || !model.demand.trips.empty();
+    // While the first vehicle is stopped, its followers cannot reach a hidden vehicle.
     if (can_diverge && state.vehicles.speed_mps[at(first)] > 0.0) {
         react_to_leaders_hidden_from_followers(model, state, lane, part);
     }

@@ -21,7 +21,7 @@ double rear_m(const VehicleArrays& v, int slot) {
     return v.position_m[at(slot)] - static_cast<double>(v.length_m[at(slot)]);
 }
 
-// Returns the nearest leader beyond the end of the lane.
+// Returns the leader beyond the end of the lane: the nearest vehicle on `route`, or on any next lane if `route` is -1.
 Neighbour leader_beyond_lane(const State& state, int lane, double front_m, int route) {
     const VehicleArrays& v = state.vehicles;
     if (route >= 0) {
@@ -39,8 +39,8 @@ Neighbour leader_beyond_lane(const State& state, int lane, double front_m, int r
     return nearest;
 }
 
-// Returns the nearest upstream vehicle on its way to the lane. `rear_at_m`: position on the lane to which the gap is
-// measured.
+// Returns the nearest vehicle that approaches the lane from upstream. Its gap is measured to `rear_at_m`, a position on
+// the lane.
 Neighbour follower_upstream(const Model& model, const State& state, int lane, double rear_at_m) {
     const VehicleArrays& v = state.vehicles;
     Neighbour nearest;
@@ -86,8 +86,8 @@ LaneNeighbours neighbours_at(const Model& model, const State& state, int lane, d
 }
 
 double required_gap_m(const Model& model, int policy, double speed_mps, double ahead_mps, double share) {
-    // In full dynamics radar and brake are delayed, and each follower brakes harder than its leader. The gap must
-    // therefore suffice for gentle braking.
+    // Full dynamics: radar and brake respond with a delay, so each follower in a platoon brakes harder than its leader.
+    // The required gap therefore assumes gentle braking of the first follower.
     constexpr double kGentleBraking_mps2 = 2.0;
     constexpr double kDelay_s = 0.3;
     const double b_mps2 = model.meso ? model.krauss[at(policy)].deceleration_mps2 : kGentleBraking_mps2;

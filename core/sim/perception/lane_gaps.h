@@ -1,4 +1,4 @@
-// Finds the lead and lag gaps at a position on a lane, and the gaps that a lane change requires.
+// Finds the lead gap and the lag gap at a position on a lane. Computes the gaps that a lane change requires.
 #pragma once
 
 #include "sim/state/model.h"
@@ -14,16 +14,16 @@ struct Neighbour {
     int policy = 0;
 };
 
-// The leader and follower of a vehicle at a position on a lane, and its place among the vehicles there.
+// The leader and the follower that a vehicle would have at a position on a lane.
 struct LaneNeighbours {
-    int index = 0;  // place that the vehicle would have on the lane, counted from the first vehicle
+    int index = 0;  // number of vehicles on the lane that would be ahead of the vehicle
     Neighbour leader;
     Neighbour follower;
 };
 
-// Returns the neighbours of a vehicle of `length_m` whose front would be at `front_m` on a lane. Beyond the lane's end
-// the search follows `route`; with -1 it checks the last vehicle of each next lane. Upstream it covers all lanes that
-// lead to the lane.
+// Returns the leader and the follower that a vehicle of length `length_m` would have with its front at `front_m` on
+// `lane`. Beyond the end of the lane, the leader is searched along `route`. If `route` is -1, the last vehicle of each
+// next lane is checked. Upstream, the follower is searched on all lanes that lead to the lane.
 LaneNeighbours neighbours_at(const Model& model, const State& state, int lane, double front_m, double length_m,
                              int route);
 
@@ -32,9 +32,10 @@ inline double adjacent_position_m(const State& state, int lane, double front_m, 
     return front_m + state.plan.adjacent(lane).start_offset_m - state.plan.adjacent(other).start_offset_m;
 }
 
-// Returns the net gap in m that a vehicle needs behind a leader after a lane change. It is `share` of the policy's gap
-// at `speed_mps`, but at least the standstill gap, plus the distance to brake to the leader's speed `ahead_mps`. This
-// is the secure gap of SUMO's lane changer, with the gap of the policy.
+// Returns the net gap in m that a vehicle needs behind its leader after a lane change. The gap is the sum of two parts.
+// The first part is `share` of the policy's gap at `speed_mps`, but at least the standstill gap. The second part is the
+// distance in which the vehicle brakes to the leader's speed `ahead_mps`. This is the secure gap of SUMO's lane
+// changer, computed with the gap of the policy.
 double required_gap_m(const Model& model, int policy, double speed_mps, double ahead_mps, double share);
 
 }  // namespace stopline

@@ -1,4 +1,4 @@
-// Finds the leader of the first vehicle of each lane, beyond the end of the lane.
+// Finds the leader of each lane's first vehicle. This leader is beyond the end of the lane.
 #include "sim/perception/look_ahead.h"
 
 #include <algorithm>
@@ -15,15 +15,16 @@ namespace {
 
 constexpr double kFar_m = 1e9;
 
-// The area behind the end of a lane where its connections still overlap. Finds the vehicle there whose rear is furthest
-// back. Only vehicles whose front is more than `front_m` beyond the end of the lane count.
+// The stretch just downstream of a lane's end, where the connections from the lane still overlap. Finds the vehicle on
+// this stretch whose rear is furthest upstream. Ignores vehicles whose front is less than `front_m` downstream of the
+// lane's end.
 class DivergeArea {
 public:
     DivergeArea(const State& state, int lane, double front_m = kAll_m)
         : state_(state), v_(state.vehicles), end_m_(state.plan.lane(lane).length_m), front_m_(front_m) {
         for (const int next : state.plan.next(lane)) search_connection(next);
     }
-    // Return the vehicle found, and the position of its rear from the start of the lane.
+    // Return the vehicle found, and the position of its rear, m from the start of the lane.
     LeaderAhead vehicle() const { return found_; }
     double rear_m() const { return rear_m_; }
 
@@ -42,8 +43,9 @@ private:
         }
     }
 
-    // Keeps the vehicle if its rear is the furthest back so far. `start_m`: start of its lane, from the end of the
-    // diverging lane. Returns false if the vehicle is clear of the other connections.
+    // Keeps the vehicle if its rear is the furthest upstream so far. `start_m`: start of the vehicle's lane, m
+    // downstream of the lane's end. Returns false if the vehicle is clear of the other connections: its rear is past
+    // `clear_m`.
     bool consider(int slot, double start_m, double clear_m) {
         const double front_m = start_m + v_.position_m[at(slot)];
         const double beyond_m = front_m - v_.length_m[at(slot)];
@@ -55,7 +57,7 @@ private:
     }
 
     static constexpr double kAll_m = -1.0;
-    static constexpr int kReachBack = 2;  // vehicles on the exit lane whose rear can reach back over the connection
+    static constexpr int kReachBack = 2;  // highest number of vehicles on an exit lane whose rear is on the connection
 
     const State& state_;
     const VehicleArrays& v_;
@@ -65,19 +67,19 @@ private:
     LeaderAhead found_;
 };
 
-// Returns the leader beyond the end of the route, on the next edges of the trip, within `range_m`. The route itself
-// must be empty ahead of the vehicle.
+// Returns the leader beyond the end of the route, on the following edges of the trip, within `range_m`. There must be
+// no vehicle ahead on the route itself.
 LeaderAhead ahead_on_trip(const State& state, int lane, double position_m, const RoutePosition& position,
                           double range_m) {
     const std::span<const int> route = state.plan.route(position.route);
-    double start_m = 0.0;  // start of `current_lane`, from the start of the vehicle's lane
+    double start_m = 0.0;  // start of `current_lane`, from the start of `lane`
     int current_lane = lane;
     for (std::size_t k = at(position.route_index) + 1; k < route.size(); ++k) {
         start_m += state.plan.lane(current_lane).length_m;
         current_lane = route[k];
     }
-    for (int leg = position.trip_edge + 1;; ++leg) {
-        const Turn turn = state.plan.turn_of_trip(position.trip, leg);
+    for (int trip_edge = position.trip_edge + 1;; ++trip_edge) {
+        const Turn turn = state.plan.turn_of_trip(position.trip, trip_edge);
         const int turn_route = turn == Turn::none ? -1 : state.plan.adjacent(current_lane).turn_option(turn).route;
         const LeaderAhead diverging = DivergeArea(state, current_lane).vehicle();
         if (diverging.slot >= 0) return {diverging.slot, start_m + diverging.lane_start_m};
@@ -93,8 +95,9 @@ LeaderAhead ahead_on_trip(const State& state, int lane, double position_m, const
     }
 }
 
-// Returns the last vehicle on the lanes of a route from `index` on. `start_m`: start of the lane at `index`, from the
-// start of the vehicle's lane.
+// Returns the nearest vehicle ahead on a route: the last vehicle of the first occupied lane from lane `index` on.
+// `start_m`: start of lane `index`, from the start of the observer's lane. Lanes that start more than `range_m` from
+// `position_m` are ignored.
 STOPLINE_INLINE LeaderAhead last_vehicle_on(const State& state, std::span<const int> route, std::size_t index,
                                             double start_m, double position_m, double range_m) {
     for (std::size_t k = index; k < route.size(); ++k) {
@@ -106,17 +109,18 @@ STOPLINE_INLINE LeaderAhead last_vehicle_on(const State& state, std::span<const 
     return {};
 }
 
-// Returns true if `own` came to the route from a lane outside it and there is a vehicle in the diverge area. While the
-// rear of `own` is off the route, the vehicle in the diverge area may be nearer.
-bool may_merge_behind(const State& state, std::span<const int> route, const LeaderAhead& own,
-                      const LeaderAhead& diverging_leader) {
+// Returns true if the previous lane of `own`, the leader on the route, is not on the route. The rear of `own` may then
+// still be off the route, and the vehicle in the diverge area may be the nearer leader. Returns false if there is no
+// vehicle in the diverge area.
+bool rear_may_be_off_route(const State& state, std::span<const int> route, const LeaderAhead& own,
+                           const LeaderAhead& diverging_leader) {
     if (diverging_leader.slot < 0) return false;
     const int previous_lane = state.vehicles.record[at(own.slot)].previous_lane;
     return previous_lane >= 0 && std::find(route.begin(), route.end(), previous_lane) == route.end();
 }
 
-// Returns the leader on the route, or a nearer vehicle in the diverge area. In the second case `hidden` receives the
-// vehicle on the route. Inlined because it runs once per lane and step.
+// Returns the leader on the route, or a vehicle in the diverge area if it is nearer. In the second case `hidden`
+// receives the leader on the route. The function is inlined because it runs once per lane and step.
 STOPLINE_INLINE LeaderAhead ahead_on_route(const State& state, int lane, double position_m, int route_number, int index,
                                            double range_m, LeaderAhead* hidden = nullptr) {
     const VehicleArrays& v = state.vehicles;
@@ -125,7 +129,7 @@ STOPLINE_INLINE LeaderAhead ahead_on_route(const State& state, int lane, double 
     LeaderAhead diverging_leader;
     double beside_rear_m = kFar_m;
     const std::span<const int> route = state.plan.route(route_number);
-    const bool ends_here = at(index) + 1 == route.size();  // other vehicles may drive on
+    const bool ends_here = at(index) + 1 == route.size();  // other vehicles may drive on beyond the end of the route
     if (here.branches || ends_here) {
         const DivergeArea diverge_area(state, lane);
         diverging_leader = diverge_area.vehicle();
@@ -139,7 +143,7 @@ STOPLINE_INLINE LeaderAhead ahead_on_route(const State& state, int lane, double 
     const LeaderAhead own = last_vehicle_on(state, route, at(index) + 1, here.length_m, position_m, range_m);
     if (own.slot >= 0) {
         double rear_m = own.lane_start_m + v.position_m[at(own.slot)] - v.length_m[at(own.slot)];
-        if (rear_m < own.lane_start_m && may_merge_behind(state, route, own, diverging_leader))
+        if (rear_m < own.lane_start_m && rear_may_be_off_route(state, route, own, diverging_leader))
             rear_m = own.lane_start_m;
         if (rear_m <= beside_rear_m) return own;
         if (hidden != nullptr && own.slot != diverging_leader.slot) *hidden = own;
@@ -153,7 +157,8 @@ namespace {
 
 STOPLINE_INLINE LeaderAhead ahead_of(const State& state, int lane, int slot, double range_m,
                                      LeaderAhead* hidden = nullptr) {
-    // A vehicle without a next lane leaves the network or waits to change lanes.
+    // A vehicle without a next lane leaves the network or waits to change lanes. Its leader can only be in the diverge
+    // area.
     if (state.vehicles.next_lane[at(slot)] < 0) {
         return DivergeArea(state, lane).vehicle();
     }
@@ -191,7 +196,7 @@ LeaderAhead leader_ahead(const State& state, int lane, double position_m, int ro
 
 namespace {
 
-// Copies the V2V messages of the leader to the sentinel, or neutral values if there is no leader.
+// Copies the V2V messages of the leader to the lane's sentinel slot, or neutral values if there is no leader.
 void copy_v2v(const DelayRows& rows, VehicleArrays& v, std::size_t sentinel, std::size_t ahead, bool has_leader) {
     for (const std::size_t row : {rows.delayed, rows.older}) {
         const std::size_t to = row + sentinel;
@@ -214,9 +219,9 @@ bool rear_is_on_merging_path(const State& state, int lane, int slot, int ahead) 
         return std::find(route.begin(), route.end(), other_lane) != route.end();
     };
     if (leader.previous_lane >= 0 && state.plan.lane(leader.previous_lane).origin == lane)
-        return false;  // the leader diverges at the end of this lane
+        return false;  // the vehicle `ahead` drove over this lane, so it does not merge
     if (leader.previous_lane >= 0 && !is_on_route(leader.previous_lane)) return true;
-    // The rear may reach back over a lane that is shorter than the vehicle.
+    // If the previous lane is shorter than the vehicle, the rear may still be on the lane before it.
     if (leader.previous_lane >= 0) rear_m += state.plan.lane(leader.previous_lane).length_m;
     return rear_m < 0.0 && leader.second_previous_lane >= 0 && !is_on_route(leader.second_previous_lane);
 }
@@ -242,7 +247,7 @@ void find_leaders_beyond_lanes(const Model& model, const State& state, VehicleAr
             v.length_m[sentinel] = static_cast<float>(std::max(reach_m - kTouch_m, 0.0));
         }
         const double rear_m = v.position_m[sentinel] - v.length_m[sentinel];
-        // In the mesoscale mode the kernels count these overlaps too.
+        // In the mesoscale mode the kernels count overlaps with these leaders.
         if (!model.meso && has_leader && rear_m < v.position_m[at(head)]) {
             ++part.violations.overlaps;
             part.violations.record(
@@ -254,7 +259,7 @@ void find_leaders_beyond_lanes(const Model& model, const State& state, VehicleAr
         }
         const int id = has_leader ? v.id[leader_slot] : -1;
         if (v.record[at(head)].leader_id == id) continue;
-        // A new leader: its first radar measurement fills the radar history.
+        // The first radar measurement of a new leader fills the radar history.
         v.record[at(head)].leader_id = id;
         v.is_platoon_leader[at(head)] = 1.0F;
         const double gap_m = rear_m - v.position_m[at(head)];

@@ -6,36 +6,38 @@
 
 namespace stopline {
 
-// A vehicle found ahead.
+// The leader that an observer finds beyond the end of its lane.
 struct LeaderAhead {
     int slot = -1;              // -1: none within the range
-    double lane_start_m = 0.0;  // start of its lane, from the start of the observer's lane
+    double lane_start_m = 0.0;  // start of the leader's lane, from the start of the observer's lane
 };
 
-// A place on the route of a vehicle. With a trip, the search continues on the edges after the route.
+// The position of a vehicle on its route and on its trip. With a trip, the search for the leader continues on the edges
+// after the route.
 struct RoutePosition {
     int route = -1;
     int route_index = 0;
-    int trip = -1;  // -1: none
+    int trip = -1;  // -1: no trip
     int trip_edge = 0;
 };
 
-// Return the nearest vehicle beyond the end of a lane, for the first vehicle of the lane, or for a front at
-// `position_m`.
+// Return the nearest vehicle beyond the end of a lane within `range_m`. The observer is the first vehicle of the lane,
+// in `slot`, or a front at `position_m`.
 LeaderAhead leader_ahead(const State& state, int lane, int slot, double range_m);
 LeaderAhead leader_ahead(const State& state, int lane, double position_m, int route, int route_index, double range_m);
 LeaderAhead leader_ahead(const State& state, int lane, double position_m, const RoutePosition& position,
                          double range_m);
 
-// Returns the last vehicle on the lanes of the route beyond the vehicle's own lane. Ignores vehicles on other lanes.
+// Returns the nearest vehicle on the route of the vehicle in `slot`, beyond the end of its lane. Ignores vehicles that
+// are not on the route, such as those in the diverge area.
 LeaderAhead last_vehicle_on_route(const State& state, int lane, int slot, double range_m);
 
-// Returns true if the rear of the vehicle in slot `ahead` is still on a path that merges with the own route further on.
-// Until then contact is prevented by right of way, not by following.
+// Returns true if the rear of the vehicle in slot `ahead` is still on a lane that merges into the route of the vehicle
+// in `slot`. Right of way then prevents contact with this rear, so the vehicle in `slot` need not keep a gap to it.
 bool rear_is_on_merging_path(const State& state, int lane, int slot, int ahead);
 
-// Copies the leader beyond each awake lane to the lane's sentinel slot. Resets the sensors of a first vehicle whose
-// leader has changed.
+// Copies the leader of each awake lane's first vehicle to the lane's sentinel slot. Resets the radar history of a first
+// vehicle whose leader has changed. Full dynamics: also adds the braking demands of hidden leaders.
 void find_leaders_beyond_lanes(const Model& model, const State& state, VehicleArrays& vehicles, Partition& part);
 
 }  // namespace stopline

@@ -1,4 +1,4 @@
-// Choice of the kernel build with the widest vectors that the processor supports.
+// Chooses the build of the kernels with the widest vectors that the processor supports.
 #pragma once
 
 namespace stopline {

@@ -11,10 +11,10 @@ namespace stopline {
 namespace {
 
 constexpr std::uintptr_t kCacheLine = 64;  // bytes
-constexpr std::size_t kLinesPerCall = 4;   // the processor drops requests beyond a few at once
-constexpr int kInspectedVehicles = 7;      // vehicles of a queue that the phases inspect near the stop line
+constexpr std::size_t kLinesPerCall = 4;   // cache lines per call; the processor drops requests beyond a few
+constexpr int kInspectedVehicles = 7;      // vehicles near the stop line that the phases of a step usually read
 
-// These helpers must be inlined: the compiler removes calls of functions that only prefetch.
+// These functions must be inlined, because the compiler removes calls of functions that only prefetch.
 template <class Array>
 STOPLINE_INLINE void prefetch(const Array& array, int index) {
     __builtin_prefetch(&array[at(index)]);
@@ -59,7 +59,7 @@ public:
             lines_.push_back(line);
         }
     }
-    // Returns each line once, in the order of memory.
+    // Returns each cache line once, in ascending order of addresses.
     std::vector<const char*> sorted() {
         std::sort(lines_.begin(), lines_.end());
         lines_.erase(std::unique(lines_.begin(), lines_.end()), lines_.end());
@@ -107,7 +107,7 @@ void list_cache_lines(const Model& model, State& state, Partition& part) {
 void begin_prefetch(State& state, std::size_t number, std::size_t end) {
     PrefetchProgress& progress = state.partitions[number].prefetch;
     progress = {};
-    // Smaller networks stay in a third-level cache, so prefetching would cost more than it saves.
+    // The data of fewer vehicles stay in the third-level cache. Prefetching would cost more than it saves.
     constexpr int kMinVehicles = 30000;
     if (state.present() < kMinVehicles) return;
     if (number + 1 < end) progress.next = &state.partitions[number + 1];
@@ -122,7 +122,7 @@ void advance_prefetch_step(const State& state, PrefetchProgress& progress) {
     }
     const Partition& next = *progress.next;
     const std::size_t k = progress.lane++;
-    const IndexBuffer& occupied = next.occupied;  // of the last step
+    const IndexBuffer& occupied = next.occupied;  // list of the last step, not updated yet
     if (k < occupied.size()) {
         prefetch_lane_ends(state, occupied[k]);
     } else if (k - occupied.size() < next.exits.size()) {

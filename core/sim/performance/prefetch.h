@@ -1,5 +1,5 @@
-// Prefetches the data of the next partitions while the present one is decided. The processor cannot foresee which data
-// a lane leads to.
+// Loads the data of the next partitions into the cache during the decisions of the present partition. The processor
+// cannot predict the addresses itself, because the data of a lane are in many places.
 #pragma once
 
 #include "sim/state/model.h"
@@ -7,15 +7,17 @@
 
 namespace stopline {
 
-// Lists the cache lines that each step reads of a partition. Call once after make_state().
+// Lists the cache lines of a partition that every step reads. Call it once after make_state().
 void list_cache_lines(const Model& model, State& state, Partition& part);
 
-// Starts the prefetching for the partitions after `number`, up to `end`. Does nothing if the data fit into the cache.
+// Starts the prefetching of the two partitions after partition `number`. Partitions from `end` on belong to another
+// thread. Does nothing if the data of all vehicles fit into the cache.
 void begin_prefetch(State& state, std::size_t number, std::size_t end);
 
+// Prefetches a few cache lines. The prefetching must have been started.
 void advance_prefetch_step(const State& state, PrefetchProgress& progress);
 
-// Prefetches a few cache lines. Phases call it once a lane.
+// Prefetches a few cache lines if the prefetching has been started. Each phase calls it once for each lane.
 inline void advance_prefetch(const State& state, PrefetchProgress& progress) {
     if (progress.next != nullptr) advance_prefetch_step(state, progress);
 }

@@ -1,8 +1,8 @@
-// Decides whether threads share the next step. Threads that wait for each other are much slower than one thread if
-// other programs use the processors. Results are the same either way.
+// Decides whether the next step uses one thread or all threads. If other programs use the processors, threads that wait
+// for each other are much slower than a single thread. The results of a step are the same in both cases.
 //
-// A trial times some steps with one thread and some with all threads. The faster way is kept until the next trial,
-// which begins after a pause. The pause is so long that trials take a small share of the time.
+// A trial times some steps with one thread, then some steps with all threads. The faster choice is kept until the next
+// trial. The pause between two trials is so long that trials take only a small share of the run time.
 #pragma once
 
 #include <chrono>
@@ -11,9 +11,9 @@ namespace stopline {
 
 class ThreadingHeuristic {
 public:
-    // Returns true if threads should share the next step.
+    // Returns true if the next step should use all threads.
     bool use_threads() const { return use_threads_; }
-    // Records the duration of a step and the number of vehicles in it.
+    // Records the duration of a step and the number of vehicles that it moved.
     void record_step(std::chrono::nanoseconds duration, int vehicles);
 
 private:
@@ -27,10 +27,10 @@ private:
     void finish_trial();
 
     bool use_threads_ = false;
-    bool in_trial_ = true;  // a trial times one thread first
+    bool in_trial_ = true;  // a run begins with a trial
     Timing one_thread_;
     Timing all_threads_;
-    double pause_ns_ = 0.0;  // time until the next trial
+    double pause_ns_ = 0.0;  // remaining time until the next trial
 };
 
 }  // namespace stopline

@@ -1,4 +1,4 @@
-// State of delay attribution and teleporting. Owner: sim/congestion.
+// The data of delay attribution and teleporting. Owner: sim/congestion.
 #pragma once
 
 #include <cstdint>
@@ -11,40 +11,41 @@ namespace stopline {
 
 // A teleported vehicle that waits for room to be reinserted.
 struct TeleportTarget {
-    int lane = -1;                   // lane of reinsertion
-    std::int64_t waiting_since = 0;  // tick from which the vehicle has waited for room on this lane
+    int lane = -1;                   // lane on which the vehicle will be reinserted
+    std::int64_t waiting_since = 0;  // tick since which the vehicle has waited for room on the lane
 };
 
-// The vehicle that blocked the first vehicle of a lane when its signal was last green.
+// The vehicle that blocked the first vehicle of a lane when the signal of the lane was last green.
 struct LastBlocker {
-    int vehicle = -1;       // id of the first vehicle
-    int blocker = -1;       // id of the vehicle that it waited for
+    int vehicle = -1;       // id of the blocked vehicle
+    int blocker = -1;       // id of the vehicle that blocked it
     int blocker_lane = -1;  // lane of the blocker
-    int tick = 0;
+    int tick = 0;           // tick of the last observation of the blocker
 };
 
-// Scratch memory and open episodes of delay attribution. Entries of stopped vehicles are valid in the step of the last
-// observation only, since vehicles change slots.
+// Working memory of delay attribution. The arrays indexed by slot are valid only in the step that attributed the
+// delays, since vehicles change slots. Unless noted otherwise they hold values for stopped vehicles only.
 struct DelayWatch {
-    std::vector<int> waits_for;              // [slot] slot of the blocker, which may crawl; -1: none
-    std::vector<DelayCause> direct_cause;    // [slot] reason of the wait; none: the vehicle follows its leader
-    std::vector<DelayCause> cause;           // [slot] cause to which the delay is attributed
-    std::vector<int> queue_head;             // [slot] first vehicle of the queue, which the cause stops
-    std::vector<int> lane;                   // [slot] all vehicles
-    std::vector<int> vehicle;                // [slot] id, all vehicles
-    std::vector<int> traversal;              // [slot] number of the traversal that visited the vehicle; 0: none
-    std::vector<int> path;                   // slots visited by the present traversal
-    std::vector<int> stopped_slots;          // all stopped vehicles
+    std::vector<int> waits_for;  // [slot] slot of the blocker, the vehicle that this vehicle waits for; -1: none
+    std::vector<DelayCause>
+        direct_cause;                // [slot] own reason to wait; none: only the leader stops the vehicle, or nothing
+    std::vector<DelayCause> cause;   // [slot] cause to which the delay of the vehicle is attributed
+    std::vector<int> queue_head;     // [slot] slot of the first vehicle of the queue, which the cause stops directly
+    std::vector<int> lane;           // [slot] lane of the vehicle, also for moving vehicles
+    std::vector<int> vehicle;        // [slot] id of the vehicle, also for moving vehicles
+    std::vector<int> traversal;      // [slot] number of the traversal that visited the vehicle; 0: none
+    std::vector<int> path;           // slots that the present traversal has visited
+    std::vector<int> stopped_slots;  // slots of all stopped vehicles
     std::vector<LastBlocker> last_blockers;  // [lane]
     std::vector<int> open_episode;           // [lane * causes + cause] index of the open episode; -1: none
-    std::vector<int> open_episodes;          // keys lane * causes + cause of all open episodes
-    std::vector<int> open_gridlocks;         // indices into DelayLog::gridlocks
+    std::vector<int> open_episodes;          // keys of all open episodes; key: lane * causes + cause
+    std::vector<int> open_gridlocks;         // indices of the open gridlocks in DelayLog::gridlocks
 };
 
 struct CongestionState {
-    LaneBlock teleporting;                         // block of the teleported vehicles ...
-    std::vector<TeleportTarget> teleport_targets;  // ... and the target of each
-    std::int64_t missed_turns = 0;  // vehicles on trips that reached the stop line in a lane without their turn
+    LaneBlock teleporting;                         // slots of vehicles that are removed and not yet reinserted
+    std::vector<TeleportTarget> teleport_targets;  // target of each vehicle in `teleporting`, in the order of slots
+    std::int64_t missed_turns = 0;  // vehicles on trips that reached the end of a lane that does not allow their turn
     DelayLog delays;
     DelayWatch watch;
 };

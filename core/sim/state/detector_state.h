@@ -1,5 +1,5 @@
-// Detectors and the vehicles upstream of them. Owner: sim/step/detectors.cpp; sim/state/lane_blocks.cpp updates the
-// counts when vehicles enter or leave a lane.
+// The detectors of each lane, and the vehicles that have not passed them. Owner: sim/step/detectors.cpp.
+// sim/state/lane_blocks.cpp updates the counts when vehicles enter or leave a lane.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 namespace stopline {
 
 struct DetectorState {
-    std::vector<std::vector<int>> on_lane;  // [lane] detectors
-    std::vector<int> upstream;              // [detector] vehicles on its lane that have not passed it
+    std::vector<std::vector<int>> on_lane;  // [lane] indices of the detectors on the lane
+    std::vector<int> upstream;  // [detector] number of vehicles on the detector's lane that are still upstream of it
 };
 
 }  // namespace stopline

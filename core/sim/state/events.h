@@ -1,4 +1,5 @@
-// The events of a run, from which everything is measured. Times are interpolated within the step.
+// The events of a run, from which travel times, flows and other measures are computed. Event times are interpolated
+// within the step.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +7,7 @@
 
 namespace stopline {
 
-// A vehicle's front passes from one lane to the next. Lane -1 stands for outside the network.
+// The front of a vehicle passes from one lane to the next. The lane index -1 means: outside the network.
 struct Passage {
     double time_s;
     int vehicle;
@@ -16,7 +17,7 @@ struct Passage {
     float speed_mps;
 };
 
-// A vehicle's front passes a detector.
+// The front of a vehicle passes a detector.
 struct Crossing {
     double time_s;
     int vehicle;
@@ -30,9 +31,9 @@ struct Crossing {
 struct GapAccepted {
     double time_s;
     int vehicle;
-    int lane;  // connection on which the vehicle crosses
+    int lane;  // connection that the vehicle takes
     float gap_s;
-    float needed_s;
+    float needed_s;  // gap that the vehicle needs: critical gap plus travel time to the conflict area
 };
 
 // A vehicle changes to an adjacent lane.
@@ -41,17 +42,17 @@ struct LaneChange {
     int vehicle;
     int from_lane;
     int to_lane;
-    float position_m;  // front, on the lane that the vehicle left
-    bool for_route;    // mandatory change for the route; false: discretionary change for speed
+    float position_m;  // position of the front on from_lane
+    bool for_route;    // true: mandatory change for the route; false: discretionary change for a higher speed
 };
 
 // One observed violation of an invariant.
 struct Violation {
     enum class Kind : std::uint8_t { overlap, conflict, red_entry };
-    double time_s = -1.0;  // below 0: no violation
+    double time_s = -1.0;  // below 0: no violation has occurred
     Kind kind = Kind::overlap;
     int lane = -1;
-    int vehicle = -1;  // vehicle id
+    int vehicle = -1;  // id of the first vehicle
     int other = -1;    // id of the second vehicle; -1: none
 
     bool precedes(const Violation& b) const {
@@ -59,17 +60,18 @@ struct Violation {
     }
 };
 
-// Counts of violated invariants. Every step of every run is checked.
+// Numbers of violations of each invariant. The invariants are checked in every step of every run.
 struct Violations {
-    std::int64_t overlaps = 0;            // vehicle-steps with a negative net gap
-    std::int64_t conflicts = 0;           // steps of vehicle pairs in the same conflict area
-    std::int64_t red_entries = 0;         // vehicles that passed the stop line on red although they could stop
-    std::int64_t forced_red_entries = 0;  // vehicles that passed on red and could not stop; not a violation
-    std::int64_t lost_vehicles = 0;       // entered minus exited minus present
-    std::int64_t deadlocks = 0;           // runs in which a vehicle stayed in a junction too long (intersection_run.h)
-    Violation first = {};                 // earliest overlap, conflict or red entry
+    std::int64_t overlaps = 0;            // vehicles with a negative net gap, summed over all steps
+    std::int64_t conflicts = 0;           // pairs of vehicles in the same conflict area, summed over all steps
+    std::int64_t red_entries = 0;         // vehicles that passed the stop line on red although they could have stopped
+    std::int64_t forced_red_entries = 0;  // vehicles that could not stop and passed on red; this is no violation
+    std::int64_t lost_vehicles = 0;       // entered minus exited minus present vehicles
+    std::int64_t deadlocks = 0;  // runs in which a vehicle stayed inside a junction for too long (intersection_run.cpp)
+    Violation first = {};        // earliest overlap, conflict or red entry
 
-    // Keeps the earlier of `violation` and the first one so far. The result does not depend on the order of calls.
+    // Stores `violation` in `first` if it is earlier than the violation stored there. The result does not depend on the
+    // order of calls.
     void record(const Violation& violation) {
         if (violation.time_s >= 0.0 && (first.time_s < 0.0 || violation.precedes(first))) first = violation;
     }

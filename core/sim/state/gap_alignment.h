@@ -1,14 +1,15 @@
-// Speeds that lane changing asks for. Owner: sim/lane_change/gap_search.cpp.
+// The adaptation of speeds to gaps before lane changes. Owner: sim/lane_change/gap_search.cpp.
 #pragma once
 
 namespace stopline {
 
-// A vehicle that adapts its speed to a gap in the adjacent lane, or opens a gap for a vehicle there.
+// A vehicle that adapts its speed to a gap in the adjacent lane, or that opens a gap for a vehicle of the adjacent
+// lane.
 struct GapAlignment {
     int slot = -1;
     double target_speed_mps = 0.0;
 
-    static constexpr double kDeceleration_mps2 = 1.0;  // gentle braking towards the target speed
+    static constexpr double kDeceleration_mps2 = 1.0;  // strongest braking towards the target speed
 };
 
 }  // namespace stopline

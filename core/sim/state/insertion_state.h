@@ -1,4 +1,5 @@
-// Inlets, trips and drawn turns. Owner: sim/insertion; sim/lane_change/route_choice.cpp draws the turns.
+// The data of the insertion: inlets, trips that wait for room, and drawn turns. Owner: sim/insertion.
+// sim/lane_change/route_choice.cpp draws the turns.
 #pragma once
 
 #include <array>
@@ -10,24 +11,25 @@
 
 namespace stopline {
 
-// A lane on which routes begin: an entry of the network, or a lane between two intersections.
+// A lane on which routes begin: an entry lane of the network, or a link lane between two intersections. The vehicles of
+// an inlet are numbered from 0, in the order in which they get their route.
 struct InletState {
-    std::int64_t entered = 0;  // vehicles that got a route here
-    int next_policy = -1;      // policy of the next vehicle; -1: not drawn yet
-    int next_route = -1;
-    double last_entry_s = -1e9;
+    std::int64_t entered = 0;    // vehicles that have got their route here
+    int next_policy = -1;        // spacing policy of the next vehicle; -1: not drawn yet
+    int next_route = -1;         // route of the next vehicle
+    double last_entry_s = -1e9;  // time of the last insertion on this lane
 };
 
-// Vehicles of an inlet are numbered in the order of entry.
 struct InsertionState {
     std::vector<InletState> inlets;
-    std::vector<int> open_inlets;  // entries, and lanes between intersections that still insert vehicles; ascending
-    std::vector<int> inlet_of;     // [lane] -1: no route begins there
-    std::vector<std::array<std::int64_t, kMaxTurns>> drawn_turns;  // [approach][Turn] if approach shares are given
-    std::size_t next_trip = 0;                                     // first trip that is not due yet
-    std::vector<std::vector<int>> waiting_trips;                   // [approach] trips of the backlog, oldest first
-    std::vector<int> approaches_with_backlog;                      // ascending
-    int next_id = 0;
+    std::vector<int> open_inlets;  // indices of all entries, and of links that still insert vehicles; ascending
+    std::vector<int> inlet_of;     // [lane] index of the inlet; -1: no route begins on the lane
+    std::vector<std::array<std::int64_t, kMaxTurns>>
+        drawn_turns;                              // [approach][Turn] draws, if there are approach shares
+    std::size_t next_trip = 0;                    // index of the first trip that is not due yet
+    std::vector<std::vector<int>> waiting_trips;  // [approach] due trips that have found no room yet, oldest first
+    std::vector<int> approaches_with_backlog;     // approaches with waiting trips, ascending
+    int next_id = 0;                              // id of the next vehicle
 };
 
 }  // namespace stopline

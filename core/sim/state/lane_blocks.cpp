@@ -5,39 +5,46 @@
 #include "base/containers/index.h"
 #include "base/simd/simd.h"
 
-// Full dynamics: a block has room for a full lane, since kernels write whole batches beyond the last vehicle. Mesoscale
-// mode: a block has room for the present vehicles and some more. Blocks lie in the order in which lanes are processed,
-// so that memory is read sequentially. A full block takes room from a neighbour. If no neighbour has any, all blocks
-// are laid out again, which is rare.
+// The blocks lie in the order in which lanes are processed, so that memory is read sequentially.
+//
+// Full dynamics: a block has room for a full lane and never moves. The kernels write whole batches of slots, also
+// beyond the last vehicle. The slots there must therefore not belong to another lane.
+//
+// Mesoscale mode: a block has room for the present vehicles and some more. A full block takes free slots from a block
+// nearby. If no block nearby has free slots, all blocks are laid out again, which is rare.
 namespace stopline {
 
 namespace {
 
 int rounded_up(int n) { return (n + kSimdWidth - 1) / kSimdWidth * kSimdWidth; }
 
-// Returns the number of vehicles that fit on the lane bumper to bumper.
+// Returns the number of vehicles that fit on the lane bumper to bumper, plus a reserve of two.
 int max_vehicles(const Model& model, const Lane& lane) {
     return static_cast<int>(lane.length_m / shortest_vehicle_m(model)) + 2;
 }
 
-// Vehicles at the start of their block are aligned to a cache line. Lanes with at most this many vehicles are shifted
-// to the start whenever a vehicle leaves, longer lanes when the end of the block is reached.
+// Full dynamics: the vehicles of a lane are aligned to a cache line if the first one is in the first slot of the block.
+// A lane with at most kMaxShifted vehicles is shifted there whenever a vehicle leaves it. A lane with more vehicles is
+// shifted only when it reaches the end of its block.
 constexpr int kMaxShifted = 64;
 
+// Moves the vehicles of a block to its first slots.
 void shift_to_begin(State& state, LaneBlock& block) {
     if (block.first == block.begin) return;
     state.vehicles.move(block.first, block.count, block.begin);
     block.first = block.begin;
 }
 
-// Mesoscale mode: the size of a block for a number of vehicles.
+// Mesoscale mode: returns the size of a block for a number of vehicles, with a reserve for more.
 int capacity_for(int vehicles) { return vehicles + 2 + vehicles / 4; }
 
-// Returns the free slots before the block of a lane. Kernels read beyond the last vehicle of the lane before, which may
-// belong to the partition of another thread.
+// Returns the number of free slots before the block of a lane. One slot is for the sentinel of the lane. The first lane
+// of a partition has more, because the kernels also compute slots beyond the last vehicle of the previous partition.
+// Another thread may process that partition.
 int slots_before(const Partition& part, int lane) { return lane == part.lanes.front() ? kSimdWidth : 1; }
 
-// Lays out all blocks again and wakes all lanes. `expected`: vehicles about to be inserted, [lane], or empty.
+// Lays out the blocks of all lanes again and wakes all lanes. `expected`: see reserve_blocks(); empty: the blocks must
+// hold the present vehicles only.
 void repack(State& state, const std::vector<int>& expected) {
     const auto capacity_of = [&](int lane) {
         return capacity_for(std::max(state.blocks[at(lane)].count, expected.empty() ? 0 : expected[at(lane)]));
@@ -50,7 +57,8 @@ void repack(State& state, const std::vector<int>& expected) {
     }
     slots += kSimdWidth;
     if (slots > state.vehicles.slots) state.vehicles.grow(slots + slots / 4);
-    // First pack all blocks at the front, then spread them out from the last one.
+    // First move all vehicles to the front of the arrays. Then distribute the blocks, from the last one to the first,
+    // so that no block overwrites vehicles of another one.
     int next = kSimdWidth;
     const auto pack = [&](LaneBlock& block) {
         block.begin = next;
@@ -79,7 +87,7 @@ void repack(State& state, const std::vector<int>& expected) {
 double shortest_vehicle_m(const Model& model) {
     double shortest_m = 1e9;
     for (const PowertrainTables& type : model.vehicles) shortest_m = std::min(shortest_m, type.length_m);
-    return std::min(shortest_m, model.demand.shortest_trip_m);
+    return std::min(shortest_m, model.demand.shortest_vehicle_m);
 }
 
 void allocate_lane_blocks(const Model& model, State& state) {
@@ -98,14 +106,15 @@ void allocate_lane_blocks(const Model& model, State& state) {
         block.end = slots = block.begin + vehicles;
     };
     for (const int lane : state.plan.lane_order()) {
-        // Half of the block stays free, so that shifting to the start is rare.
+        // The block has room for 50 % more vehicles than fit on the lane. The vehicles then rarely have to be shifted
+        // to the start of the block.
         const int most = max_vehicles(model, model.graph.lanes[at(lane)]);
         append(state.blocks[at(lane)], rounded_up(most + std::max(most / 2, kSimdWidth)));
     }
     if (model.rules.teleport_ticks > 0 || !model.demand.trips.empty()) {
         append(state.congestion.teleporting, rounded_up(64 + lanes));
     }
-    slots = rounded_up(slots) + kSimdWidth;  // the last batch of a lane reaches beyond its block
+    slots = rounded_up(slots) + kSimdWidth;  // the last batch of a block can reach beyond its end
     state.vehicles.resize(slots, model.radar.rows, model.v2v.rows);
 }
 
@@ -115,7 +124,7 @@ void reserve_blocks(State& state, const std::vector<int>& expected) {
 
 namespace {
 
-constexpr int kMaxDistance = 8;  // lanes, to a neighbour that gives room
+constexpr int kMaxDistance = 8;  // lanes on each side that are searched for free slots
 
 // Shifts the block of a lane and its vehicles by `slots`, and wakes the lane.
 void shift(State& state, int lane, int slots) {
@@ -127,7 +136,8 @@ void shift(State& state, int lane, int slots) {
     state.queues.sleeps_until_green[at(lane)] = -1;
 }
 
-// Takes half of the free slots of the nearest lane of the same partition. Returns false if no near lane has any.
+// Enlarges the block of a lane by half of the free slots of the nearest lane that has any. Lanes of other partitions
+// are not considered. Returns false if no lane within kMaxDistance has free slots.
 bool take_from_neighbours(State& state, int lane) {
     const LaneLocation& location = state.location_of[at(lane)];
     const std::vector<int>& lanes = state.partitions[location.partition].lanes;
@@ -155,7 +165,8 @@ bool take_from_neighbours(State& state, int lane) {
     return false;
 }
 
-// Returns true if there is a free slot behind the last vehicle, after shifting to the start if necessary.
+// Returns true if the slot after the last vehicle is free. If the vehicles have reached the end of the block, shifts
+// them to its start first.
 bool has_free_slot(State& state, LaneBlock& block) {
     if (block.past_last() == block.end) shift_to_begin(state, block);
     return block.past_last() < block.end;
@@ -175,7 +186,7 @@ void ensure_teleport_slot(State& state) {
 
 namespace {
 
-// Mesoscale mode: sets the data of a slot that belong to the lane.
+// Mesoscale mode: sets the values of a slot that depend on the lane.
 void set_lane_of(State& state, int lane, int slot) {
     VehicleArrays& v = state.vehicles;
     if (v.has_powertrain()) return;
@@ -184,7 +195,7 @@ void set_lane_of(State& state, int lane, int slot) {
     v.speed_cap_mps[at(slot)] = kUnlimitedSpeed_mps;
 }
 
-// Notes in the partitions that a lane has got a vehicle.
+// Adds a lane that gets a vehicle to the sets Partition::occupied_candidates and, for an exit lane, exit_candidates.
 void mark_occupied(State& state, int lane) {
     const LaneLocation& location = state.location_of[at(lane)];
     state.partitions[location.partition].occupied_candidates.set(location.index);
@@ -193,7 +204,7 @@ void mark_occupied(State& state, int lane) {
     }
 }
 
-// Wakes a lane and dissolves its standing queue, after the order of its vehicles has changed.
+// Wakes a lane and dissolves its standing queue. Must be called after the order of its vehicles has changed.
 void wake(State& state, int lane) {
     state.queues.sleeps_until_green[at(lane)] = -1;
     state.queues.standing[at(lane)] = {0, 0, state.tick};

@@ -1,7 +1,7 @@
-// The memory of each lane's vehicles: adding, moving and removing vehicles in the slots of lanes.
+// Adds, moves and removes vehicles in the slots of the lanes.
 //
-// Functions that add a vehicle can change the slots of all vehicles. A sleeping lane (QueueState) holds slots, so these
-// functions wake the lanes that they change.
+// A function that adds a vehicle to a lane can shift the vehicles of any lane to other slots. The state of a sleeping
+// lane (QueueState) refers to slots, so these functions wake every lane whose vehicles they shift.
 #pragma once
 
 #include <vector>
@@ -11,32 +11,34 @@
 
 namespace stopline {
 
+// Returns the length of the shortest vehicle that can occur in the run, m.
 double shortest_vehicle_m(const Model& model);
 
 // Sets up the blocks of all lanes before the first step.
 void allocate_lane_blocks(const Model& model, State& state);
 
-// Mesoscale mode: makes room for vehicles that are about to be inserted, [lane].
+// Mesoscale mode: enlarges the blocks of all lanes before many vehicles are inserted. `expected`: [lane] number of
+// vehicles that the block must hold. Does nothing in full dynamics.
 void reserve_blocks(State& state, const std::vector<int>& expected);
 
-// Ensures that the next vehicle can be appended to a lane.
+// Ensures that a lane has a free slot after its last vehicle.
 void ensure_free_slot(State& state, int lane);
 
-// Ensures that the next vehicle can be appended to the teleported vehicles (mesoscale mode).
+// Ensures that the block of teleported vehicles has a free slot. In full dynamics the block can be full all the same.
 void ensure_teleport_slot(State& state);
 
-// Appends a slot at the upstream end of a lane and returns it.
+// Adds a slot for a new last vehicle of a lane and returns the slot.
 int append_slot(State& state, int lane);
 
-// Adds a slot for a vehicle with its front at `front_m`, between the vehicles of a lane, and returns it. Detectors
-// downstream of the front will record the vehicle.
+// Adds a slot between the vehicles of a lane, for a vehicle whose front is at `front_m`. Returns the slot. Only
+// detectors downstream of the front will record the vehicle.
 int insert_slot(const Model& model, State& state, int lane, double front_m);
 
 // Removes the first vehicle of a lane.
 void remove_first(State& state, int lane);
 
-// Moves the vehicle with index `from` of a lane to index `index` of another lane, with its front at `front_m`. Indices
-// count from the first vehicle. Returns the new slot.
+// Moves a vehicle from index `from` on `lane` to index `index` on the lane `other`, where its front is at `front_m`.
+// Indices count from the first vehicle of a lane. Returns the new slot.
 int move_to_lane(const Model& model, State& state, int lane, int from, int other, int index, double front_m);
 
 }  // namespace stopline

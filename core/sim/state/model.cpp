@@ -7,7 +7,7 @@
 namespace stopline {
 
 DelayLine make_delay(double delay_s, double step_s) {
-    constexpr double kRounding = 1e-9;  // 0.15 / 0.01 counts as 15 steps
+    constexpr double kRounding = 1e-9;  // a delay of 0.15 s is 15 steps of 0.01 s in spite of rounding
     DelayLine line;
     const double exact = delay_s / step_s;
     line.steps = static_cast<int>(std::floor(exact + kRounding));

@@ -21,26 +21,27 @@ struct CompiledPolicy {
     const GapLaw* law = nullptr;
 };
 
-// A delay as samples of the past: the delayed value is interpolated between the sample `steps` steps ago and the sample
-// before it. Results thus do not depend on the step length.
+// A sensor or message delay that is realised by storing samples of past steps. The delayed value is interpolated
+// between the sample `steps` steps ago and the next older one. The delay thus does not depend on the step length.
 struct DelayLine {
-    int steps = 0;       // whole steps of delay
+    int steps = 0;       // number of whole steps in the delay
     double share = 0.0;  // weight of the older sample
-    int rows = 1;        // samples that must be kept
+    int rows = 1;        // number of samples that must be stored
 };
+// Returns the delay line that realises a delay.
 DelayLine make_delay(double delay_s, double step_s);
 
-// The traffic rules (driver/traffic_rules.h) in ticks; 0 ticks: never.
+// The traffic rules (driver/traffic_rules.h) with all times in ticks. A rule with a time of 0 ticks never applies.
 struct RulesPlan {
     bool keep_clear = false;
     double sight_m = 0.0;
     bool count_queue_at_red_exit = false;
     std::int64_t teleport_ticks = 0;
     std::int64_t pass_blocker_ticks = 0;
-    std::int64_t watch_ticks = 0;      // interval of delay attribution
-    std::int64_t gridlock_ticks = 0;   // a gridlock observed again within this time continues
-    std::int64_t long_wait_ticks = 0;  // a vehicle stopped for this long appears in the episodes whatever the cause
-    std::int64_t memory_ticks = 0;     // a permission to pass a blocker expires this long after its last use
+    std::int64_t watch_ticks = 0;      // interval between delay attributions; 0: delays are not attributed
+    std::int64_t gridlock_ticks = 0;   // a gridlock that is observed again within this time is the same gridlock
+    std::int64_t long_wait_ticks = 0;  // stop time from which a vehicle counts in delay episodes, whatever the cause
+    std::int64_t memory_ticks = 0;     // time from the last use of a BlockerPass until it expires
 
     bool watches() const { return watch_ticks > 0; }
 };
@@ -54,33 +55,34 @@ struct Model {
     std::vector<PowertrainTables> vehicles;
     std::vector<CompiledPolicy> policies;
     DriverTables driver;
-    std::int64_t hesitation_ticks = 0;  // reaction time of the first vehicle at a stop line to the start of green
+    std::int64_t hesitation_ticks = 0;  // reaction time to green of the first vehicle at a stop line
     DemandPlan demand;
     std::vector<Detector> detectors;
     std::vector<std::string> loop_names;
-    std::vector<double> area_begins_m;  // [lane] start of the measured area, 0 within it; empty: the whole network
+    std::vector<double> area_begins_m;  // [lane] position where the measured area begins; empty: all lanes are measured
     GiveWaySettings give_way;
     LaneChangeSettings lane_change;
     RulesPlan rules;
-    DelayLine radar;
+    DelayLine radar;  // radar delay minus one step, because a request takes effect at the end of the step
     DelayLine v2v;
-    bool scalar_kernels = false;  // kernels treat one vehicle at a time and skip none, with the same results
-    bool records_all = true;      // records passages, accepted gaps and all crossings; false: crossings of zones only
-    bool records_detectors = false;  // records the crossings of all detectors although records_all is false
-    // Detectors for the start and end of trips, at positions that no vehicle passes; -1: none.
+    // true: the kernels compute one vehicle at a time and do not skip standing queues. The results are the same.
+    bool scalar_kernels = false;
+    bool records_all = true;  // true: record passages, accepted gaps and all crossings; false: only crossings of zones
+    bool records_detectors = false;  // true: record the crossings of all detectors even if records_all is false
+    // Indices of the two detectors that stand for the start and the end of a trip. They are on no lane. -1: none.
     int trips_begin = -1;
     int trips_end = -1;
-    // The mesoscale mode.
-    bool meso = false;                // false: full dynamics
-    std::vector<Krauss> krauss;       // [policy]
-    double speed_factor = 1.0;        // of all speed limits
-    double leader_speed_share = 1.0;  // share of that speed driven without a leader
-    double approach_share = 1.0;      // share of the difference to the limit that a step closes
-    double turn_share = 1.0;          // share of the difference to the speed profile before a turn that a step closes
-    double leader_mps2 = 0.0;         // acceleration of platoon leaders; 0: that of the policy's model
-    double leader_constant_power_speed_mps = 0.0;  // speed above which that acceleration falls
-    LeaderProfile leader_profile;                  // replaces the two values above if it has bins
-    int start_relay_vehicles = 0;                  // stopped vehicles that a start message reaches in one step
+    // Settings of the mesoscale mode.
+    bool meso = false;                // true: mesoscale mode; false: full dynamics
+    std::vector<Krauss> krauss;       // [policy] car-following model
+    double speed_factor = 1.0;        // factor on all speed limits
+    double leader_speed_share = 1.0;  // share of the speed limit at which a vehicle without a leader drives
+    double approach_share = 1.0;  // share of the difference to the speed limit that a slower vehicle gains in a step
+    double turn_share = 1.0;      // before a turn: share of the difference to the allowed speed gained in a step
+    double leader_mps2 = 0.0;  // acceleration of platoon leaders; 0: acceleration of the policy's car-following model
+    double leader_constant_power_speed_mps = 0.0;  // speed above which leader_mps2 falls
+    LeaderProfile leader_profile;  // replaces leader_mps2 and leader_constant_power_speed_mps if it has bins
+    int start_relay_vehicles = 0;  // number of stopped vehicles that a start message reaches in one step
 
     double time_s(std::int64_t tick) const { return static_cast<double>(tick) * step_s; }
 };

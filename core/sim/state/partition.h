@@ -1,5 +1,6 @@
-// The unit of parallel work in a step: the lanes of some whole intersections, with their scratch memory and reports.
-// The lanes of all partitions in order are the same sequence for any number of partitions, and so are the reports.
+// The unit of parallel work in a step: the lanes of some whole intersections, with their working memory and reports.
+// All partitions together hold the lanes in a fixed order, whatever the number of partitions. Their reports, merged in
+// this order, do not depend on the number either.
 #pragma once
 
 #include <array>
@@ -16,94 +17,97 @@
 
 namespace stopline {
 
-// A vehicle that may pass a blocker, which has been stopped inside the intersection for long.
+// The permission to pass a blocker that has been stopped inside an intersection for long.
 struct BlockerPass {
-    int vehicle = -1;  // vehicle id
-    int blocker = -1;  // vehicle id
-    std::int64_t last_needed_tick = 0;
-    std::int64_t blocker_stopped_ticks = 0;  // when the pass was granted
-    bool begun = false;                      // both have been in the same conflict area
+    int vehicle = -1;                        // id of the vehicle that may pass
+    int blocker = -1;                        // id of the blocker
+    std::int64_t last_needed_tick = 0;       // last tick at which the blocker was in the way of the vehicle
+    std::int64_t blocker_stopped_ticks = 0;  // stop time of the blocker when the permission was given
+    bool begun = false;                      // true: the two vehicles have been in the same conflict area
 };
 
-// Two vehicles without priority waited for each other while stopped. One proceeds, the other yields.
+// The decision between two stopped vehicles that wait for each other and have no priority over each other. One
+// proceeds, the other yields.
 struct DeadlockResolution {
-    int proceeds = -1;  // vehicle id
-    int yields = -1;    // vehicle id
-    std::int64_t last_needed_tick = 0;
+    int proceeds = -1;                  // id of the vehicle that proceeds
+    int yields = -1;                    // id of the vehicle that yields
+    std::int64_t last_needed_tick = 0;  // last tick at which the decision was applied
 };
 
 struct Partition;
 
-// How far the memory of the next two partitions has been prefetched.
+// The data of the next two partitions that have been prefetched so far.
 struct PrefetchProgress {
-    const Partition* next = nullptr;
-    const Partition* second = nullptr;  // the partition after the next
-    std::size_t lane = 0;               // index of the next lane to prefetch, in Partition::occupied of `next`
-    std::size_t line = 0;               // index of the next line to prefetch, in Partition::cache_lines of `second`
+    const Partition* next = nullptr;    // the next partition; nullptr: no prefetching
+    const Partition* second = nullptr;  // the partition after `next`; nullptr: none
+    std::size_t lane = 0;               // number of prefetched lanes of `next`: its occupied lanes, then its exits
+    std::size_t line = 0;               // number of prefetched cache_lines of `second`
 };
 
-// A V2V message that the queue ahead starts. It is applied when vehicles move, since other lanes still read the state.
+// The V2V message to a stopped vehicle that the queue ahead starts. It takes effect when vehicles move. Until then
+// other lanes still read the acceleration that it replaces.
 struct StartMessage {
-    int slot;
-    float acceleration_mps2;
+    int slot;                 // slot of the receiver
+    float acceleration_mps2;  // acceleration of the vehicle that started last
 };
 
-// The acceleration demanded by a hidden leader, full dynamics.
+// Full dynamics: the acceleration that a hidden leader demands of the vehicle in `slot`.
 struct BrakingDemand {
     int slot;
     double acceleration_mps2;
 };
 
 struct Partition {
-    std::vector<int> lanes;        // by intersection
-    std::vector<int> connections;  // lanes inside an intersection that cross or merge with others
-    std::size_t first_word = 0;    // words [first_word, end_word) of the bitsets hold these connections
+    std::vector<int> lanes;        // grouped by intersection
+    std::vector<int> connections;  // connections that cross or merge with other connections
+    std::size_t first_word = 0;    // words [first_word, end_word) of the JunctionState bitsets hold `connections`
     std::size_t end_word = 0;
-    std::vector<int> exits;      // exit lanes of the connections
-    std::vector<int> detectors;  // on the lanes
-    // Lanes that got a vehicle since they were last found empty, and exits that may have a vehicle reaching back.
-    Bitset occupied_candidates;  // [index in lanes]
-    Bitset exit_candidates;      // [index in exits]
-    // Cache lines that each step reads, in the order of memory (sim/performance/prefetch.h).
+    std::vector<int> exits;      // exit lanes of `connections`
+    std::vector<int> detectors;  // detectors on `lanes`
+    // Lanes that may be occupied, because they have got a vehicle since they were last found empty.
+    Bitset occupied_candidates;  // [index in `lanes`]
+    // Exit lanes that may have a vehicle whose rear is still inside the intersection.
+    Bitset exit_candidates;  // [index in `exits`]
+    // Cache lines that each step reads, in ascending order of addresses (sim/performance/prefetch.h).
     std::vector<const char*> cache_lines;
     PrefetchProgress prefetch;
 
-    // Valid for one step.
+    // These members are valid for one step.
     IndexBuffer occupied;                      // lanes with vehicles
     IndexBuffer awake;                         // occupied lanes that do not sleep (QueueState)
     IndexBuffer awake_approaches;              // awake lanes with a stop line
-    IndexBuffer awake_connections;             // awake lanes inside an intersection
+    IndexBuffer awake_connections;             // awake lanes that are connections
     std::vector<int> occupied_connections;     // connections with occupants
-    std::vector<BrakingDemand> extra_demands;  // full dynamics: by lane as in `awake`, then by slot
+    std::vector<BrakingDemand> extra_demands;  // full dynamics: demands of hidden leaders, in the order of slots
     std::vector<int> lanes_with_yield_stops;
     std::vector<int> lanes_with_alignments;
-    IndexBuffer stopped_slots;                 // valid if delays are attributed in this step
-    int earliest_stop_tick = 0;                // tick since which one of these has been stopped
-    IndexBuffer lanes_near_end;                // mesoscale mode: lanes whose first vehicle may reach the end
-    std::vector<int> lanes_to_transfer;        // lanes whose first vehicle has reached the end
-    std::vector<StartMessage> start_messages;  // mesoscale mode
-    // Kept from step to step.
+    IndexBuffer stopped_slots;           // slots of stopped vehicles; valid in steps that attribute delays
+    int earliest_stop_tick = 0;          // earliest tick since which a vehicle of stopped_slots has been stopped
+    IndexBuffer lanes_near_end;          // mesoscale mode: lanes whose first vehicle may leave the lane in this step
+    std::vector<int> lanes_to_transfer;  // lanes whose first vehicle has left the lane in this step
+    std::vector<StartMessage> start_messages;  // mesoscale mode: start messages of this step
+    // These members are kept from step to step.
     std::vector<BlockerPass> blocker_passes;
     std::vector<DeadlockResolution> deadlock_resolutions;
 
-    // Reports, merged into the records after each step.
-    std::int64_t present = 0;  // vehicles
-    std::int64_t updates = 0;
-    std::int64_t longest_in_junction = 0;  // ticks
+    // These members are reports. They are merged into the records of the run after each step.
+    std::int64_t present = 0;              // vehicles on the lanes at the start of the step
+    std::int64_t updates = 0;              // moved vehicles
+    std::int64_t longest_in_junction = 0;  // longest time of a vehicle inside a junction, ticks
     std::int64_t passed_blockers = 0;
     Violations violations;
     std::vector<Crossing> crossings;
     std::vector<GapAccepted> gaps_accepted;
     std::vector<RuleUse> rule_uses;
 
-    // Full dynamics: lanes go through the kernels in groups of at least this many vehicles.
+    // Full dynamics: a group takes further lanes until it has at least this many vehicles.
     static constexpr int kGroupVehicles = 128;
-    std::array<LaneGroup, 2> groups;  // present and next group
+    std::array<LaneGroup, 2> groups;  // the group that the kernels compute, and the next one
     FullGroupArrays full_group;
-    // Mesoscale mode: blocks of slots to move, slots with a speed cap, and their ExtraGap values.
-    IndexBuffer moving_blocks;
-    std::vector<int> capped_slots;
-    std::vector<double> extra_gap_m;
+    // Mesoscale mode. A block is a batch of consecutive slots that the kernels move together.
+    IndexBuffer moving_blocks;        // blocks to move in this step
+    std::vector<int> capped_slots;    // slots with a speed cap in this step
+    std::vector<double> extra_gap_m;  // ExtraGap values of all slots in moving_blocks
 };
 
 }  // namespace stopline

@@ -1,4 +1,4 @@
-// Standing queues that the mesoscale mode leaves out of its kernels. Owner: sim/mesoscale.
+// The standing queues that the kernels of the mesoscale mode skip. Owner: sim/mesoscale.
 #pragma once
 
 #include <cstdint>
@@ -6,22 +6,23 @@
 
 namespace stopline {
 
-// Consecutive vehicles of a lane that stood in the last step for no other reason than their leader. All but the first
-// stay at rest in this step, because nothing that they react to has changed. Indices count from the lane's first
-// vehicle.
+// Consecutive vehicles of one lane that are at rest at the start of a step only because of their leader. All of them
+// but the first stay at rest in the step, because nothing that they react to has changed. Indices count from the first
+// vehicle of the lane.
 struct StandingQueue {
-    int first = 0;
-    int end = 0;
-    // Last tick at which something other than its leader stopped one of them (except the first), or at which a vehicle
-    // was inserted into the lane.
+    int first = 0;  // index of the first vehicle of the queue
+    int end = 0;    // index after the last vehicle of the queue
+    // The last tick at which a vehicle was inserted into the lane, or at which a vehicle of the queue after the first
+    // had to stop for something other than its leader.
     std::int64_t last_external_tick = -1;
-    int released = 0;  // vehicles before this index received the start message in the last step
+    int released = 0;  // vehicles with a lower index may have moved in the last step after a start message
 };
 
 struct QueueState {
     std::vector<StandingQueue> standing;  // [lane]
-    // [lane] signal group of a sleeping lane, -1: awake. The first vehicle of a sleeping lane rests before its red
-    // signal; nothing is decided on the lane until the signal is green or a vehicle is added.
+    // [lane] signal group for whose green the lane sleeps; -1: the lane is awake. The first vehicle of a sleeping lane
+    // rests before its red signal. Nothing is decided on the lane until the signal is green or a vehicle joins or
+    // leaves the lane.
     std::vector<int> sleeps_until_green;
 };
 

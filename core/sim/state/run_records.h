@@ -1,4 +1,5 @@
-// Events and counters since the start of a run. Every phase may append. The simulation reads only the vehicle count.
+// The events and counters since the start of a run. Every phase may append to them. The simulation itself reads only
+// `entered` and `exited`, to get the number of vehicles present.
 #pragma once
 
 #include <array>
@@ -10,18 +11,18 @@
 
 namespace stopline {
 
-// Events are in the order of their steps.
+// The events of each list are in the order of the steps.
 struct RunRecords {
     std::vector<Passage> passages;
     std::vector<Crossing> crossings;
     std::vector<GapAccepted> gaps_accepted;
     std::vector<LaneChange> lane_changes;
-    std::vector<std::array<std::int64_t, kMaxTurns>> turned;  // [approach][Turn] vehicles
+    std::vector<std::array<std::int64_t, kMaxTurns>> turned;  // [approach][Turn] vehicles that have made the turn
     Violations violations;
     std::int64_t entered = 0;
     std::int64_t exited = 0;
-    std::int64_t updates = 0;              // vehicles times steps, including vehicles at rest
-    std::int64_t longest_in_junction = 0;  // longest stay of any JunctionOccupant, ticks
+    std::int64_t updates = 0;              // vehicles present, summed over all steps; includes vehicles at rest
+    std::int64_t longest_in_junction = 0;  // longest time of any vehicle inside a junction, ticks
 };
 
 }  // namespace stopline

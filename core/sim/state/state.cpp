@@ -9,7 +9,7 @@ namespace stopline {
 
 DelayRows delay_rows_at(const DelayLine& line, std::int64_t tick, int slots) {
     const std::int64_t present = tick % line.rows;
-    const auto row = [&](int age) {  // age <= line.rows
+    const auto row = [&](int age) {  // age: steps before `tick`, at most line.rows
         const std::int64_t wrapped = present >= age ? present - age : present - age + line.rows;
         return static_cast<std::size_t>(wrapped) * static_cast<std::size_t>(slots);
     };
@@ -33,15 +33,15 @@ void add_yield_stop(JunctionState& junctions, Partition& part, int lane, const Y
 
 namespace {
 
-// Splits the network between intersections into partitions of about equal length of road.
+// Splits the network into partitions with about the same total length of lanes. No intersection is split.
 std::vector<Partition> make_partitions(const Model& model, const State& state, int threads) {
     const std::vector<int>& order = state.plan.lane_order();
     const auto length_of = [&](int lane) { return state.plan.lane(lane).length_m; };
     double total_m = 0.0;
     double longest_m = 0.0;
     for (const int lane : order) total_m += length_of(lane), longest_m = std::max(longest_m, length_of(lane));
-    // The lanes and vehicles of an intersection take about 20 kB. A partition and the data prefetched for the next ones
-    // should stay in the second-level cache.
+    // The lanes and vehicles of one intersection take about 20 kB. The data of a partition and the prefetched data of
+    // the next ones should fit into the second-level cache together.
     const int intersections_a_partition = model.meso ? 8 : 16;
     const int count = std::max(threads, state.plan.intersection_count() / intersections_a_partition);
     std::vector<std::vector<int>> detectors(order.size());
@@ -72,7 +72,8 @@ std::vector<Partition> make_partitions(const Model& model, const State& state, i
         if (!is_exit[at(exit)]) part.exits.push_back(exit);
         is_exit[at(exit)] = true;
     }
-    // A group is complete with the lane that reaches kGroupVehicles, so it can hold one full lane more.
+    // A group takes lanes until it has kGroupVehicles. The last lane can exceed this number by all vehicles that fit on
+    // it.
     const int group_vehicles =
         Partition::kGroupVehicles + static_cast<int>(longest_m / shortest_vehicle_m(model)) + 2 * kSimdWidth;
     for (Partition& part : partitions) {
@@ -110,9 +111,9 @@ void size_junctions(const Model& model, JunctionState& junctions, const State& s
     const double shortest_m = shortest_vehicle_m(model);
     for (const Partition& part : state.partitions) {
         for (const int lane : part.connections) {
-            constexpr std::size_t kBeforeAndBehind = 3;
+            constexpr std::size_t kPartlyInside = 3;  // occupants whose front or rear is not on the connection
             const double fitting = state.plan.lane(lane).length_m / shortest_m;
-            junctions.occupants[at(lane)].reserve(static_cast<std::size_t>(fitting) + kBeforeAndBehind);
+            junctions.occupants[at(lane)].reserve(static_cast<std::size_t>(fitting) + kPartlyInside);
             junctions.approaching[at(lane)].reserve(16);
         }
     }

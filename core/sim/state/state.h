@@ -21,12 +21,12 @@
 
 namespace stopline {
 
-// The place of a lane in the partitions.
+// The position of a lane in the lists of the partitions.
 struct LaneLocation {
     std::size_t partition = 0;
-    std::size_t index = 0;       // in Partition::lanes
-    int exit_partition = -1;     // partition that has the lane among its exits; -1: none
-    std::size_t exit_index = 0;  // in Partition::exits
+    std::size_t index = 0;       // index in Partition::lanes
+    int exit_partition = -1;     // partition that has the lane in its list of exits; -1: none
+    std::size_t exit_index = 0;  // index in Partition::exits
 };
 
 struct State {
@@ -34,8 +34,8 @@ struct State {
     NetworkPlan plan;
     VehicleArrays vehicles;
     std::vector<LaneBlock> blocks;  // [lane]
-    DelayRows radar;                // rows of this step
-    DelayRows v2v;                  // rows of this step
+    DelayRows radar;                // rows of the radar delay line in this step
+    DelayRows v2v;                  // rows of the V2V delay line in this step
     std::vector<Partition> partitions;
     std::vector<LaneLocation> location_of;  // [lane]
     StopLines stop_lines;
@@ -50,13 +50,13 @@ struct State {
     explicit State(const Model& model) : plan(model) {}
     // Returns the number of vehicles in the network, including teleported vehicles.
     int present() const { return static_cast<int>(records.entered - records.exited); }
-    // Returns true if the vehicles do not fit into a second-level cache of 1 MiB. A step uses about 150 bytes a
-    // vehicle.
+    // Returns true if the data of all vehicles exceed a second-level cache of 1 MiB. A step uses about 150 bytes for
+    // each vehicle.
     bool outgrows_cache() const { return present() > 4000; }
 };
 
-// Returns the state before the first step, without vehicles. The network is split into at least `threads` partitions if
-// it has as many intersections.
+// Returns the state before the first step, without vehicles. Makes at least `threads` partitions if the network has
+// enough intersections.
 State make_state(const Model& model, int threads);
 
 }  // namespace stopline

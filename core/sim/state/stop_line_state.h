@@ -1,4 +1,4 @@
-// Signals, stop lines and exit lanes in one step. Owner: sim/junction/stop_lines.cpp.
+// The state of signals, stop lines and exit lanes in one step. Owner: sim/junction/stop_lines.cpp.
 #pragma once
 
 #include <cstdint>
@@ -10,29 +10,33 @@ namespace stopline {
 
 // The stop line at the end of a lane.
 struct StopLineState {
-    int stopping_vehicle = -1;    // id of the vehicle that stops for the signal; -1: none
-    bool may_overrun = false;     // stopping needs more than 90 % of the maximum braking: overrunning is no violation
+    int stopping_vehicle = -1;    // id of the vehicle that stops at the line for the signal; -1: none
+    bool may_overrun = false;     // stopping takes over 90 % of the maximum braking, so overrunning is no violation
     int keep_clear_vehicle = -1;  // id of the vehicle that the keep-clear rule holds at green; -1: none
 };
 
 // The reason why the keep-clear rule holds a vehicle at a green signal.
 struct KeepClearHold {
-    int blocker = -1;      // slot of the stopped vehicle beyond the stop line; -1: none
+    int blocker = -1;      // slot of the vehicle past the stop line that blocks the way; -1: the rule holds no vehicle
     bool in_exit = false;  // the blocker is in the exit lane; false: in a conflict area
 };
 
-// Free length of an exit lane.
+// The free length of an exit lane, as the keep-clear rule computes it.
 struct ExitRoom {
     std::int64_t tick = -1;  // step for which the values are valid
-    double room_m = 1e9;  // up to the last stopped vehicle within sight, less the space of vehicles on their way there
-    int stopped_slot = -1;  // slot of that vehicle; the lane's last vehicle if the whole lane will wait for its signal
+    // The free length ends at the last stopped vehicle within sight. The space of moving vehicles upstream of it is
+    // subtracted. If the signal at the end of the lane is red, moving vehicles can count as stopped there
+    // (RulesPlan::count_queue_at_red_exit). 1e9: no vehicle is stopped.
+    double room_m = 1e9;
+    // Slot of the vehicle that ends the free length. If all vehicles count as stopped: slot of the last one. -1: none.
+    int stopped_slot = -1;
 };
 
 struct StopLines {
     std::vector<Light> lights;                 // [signal group]
     std::vector<StopLineState> lines;          // [lane]
     std::vector<int> stop_slot;                // [lane] slot of the vehicle that stops at the line; -1: none
-    std::vector<KeepClearHold> held_at_green;  // [lane] reason if the vehicle in stop_slot is held at green
+    std::vector<KeepClearHold> held_at_green;  // [lane] reason why the vehicle in stop_slot is held at green
     std::vector<ExitRoom> exit_rooms;          // [exit lane]
 };
 

@@ -8,14 +8,16 @@ namespace stopline {
 
 namespace {
 
-// Notes the entry into the intersection, and a violation if the vehicle passes on red although it could have stopped.
+// Records that a vehicle enters the intersection. Counts a violation if it passes the line on red although it could
+// have stopped.
 void pass_stop_line(const Model& model, State& state, Partition& part, int lane, int slot) {
     VehicleRecord& record = state.vehicles.record[at(slot)];
     record.junction_entry_tick = static_cast<int>(state.tick);
     const int next = state.vehicles.next_lane[at(slot)];
     if (state.stop_lines.lights[at(state.plan.signal_group_for(lane, next))] != Light::red) return;
-    if (record.trip >= 0 && next < 0) return;  // its trip ends here, or it cannot enter in this lane
-    // A vehicle is chosen to stop only if it can.
+    if (record.trip >= 0 && next < 0) return;  // the trip ends on this lane, or the lane does not allow the turn
+    // A vehicle that was chosen to stop for the signal could stop at that time (stop_lines.cpp). If it passes on red
+    // all the same, this is a violation, unless stopping needed almost maximum braking (may_overrun).
     const StopLineState& line = state.stop_lines.lines[at(lane)];
     if (line.stopping_vehicle == state.vehicles.id[at(slot)] && !line.may_overrun) {
         ++part.violations.red_entries;
@@ -28,7 +30,8 @@ void pass_stop_line(const Model& model, State& state, Partition& part, int lane,
 
 }  // namespace
 
-// Vehicles pass a detector in the order of the lane, so only the first vehicle upstream of it must be inspected.
+// Vehicles pass a detector in their order on the lane. The search therefore ends at the first vehicle that is still
+// upstream of the detector.
 void record_detector_crossings(const Model& model, State& state, Partition& part) {
     const VehicleArrays& v = state.vehicles;
     for (const int number : part.detectors) {

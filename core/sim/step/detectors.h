@@ -1,4 +1,4 @@
-// Records the fronts that pass detectors.
+// Records the vehicles whose front passes a detector.
 #pragma once
 
 #include "sim/state/model.h"
@@ -6,7 +6,7 @@
 
 namespace stopline {
 
-// Records the crossings of this step on the lanes of a partition, and entries on red.
+// Records all crossings of this step on the lanes of a partition, and counts entries on red.
 void record_detector_crossings(const Model& model, State& state, Partition& part);
 
 }  // namespace stopline

@@ -14,8 +14,8 @@ namespace stopline {
 
 namespace {
 
-// Appends a lane to a group with all external demands on its vehicles. `hidden_leader_demands`: the demands of the
-// partition that have not been appended yet; the lane's demands are removed from its front.
+// Appends a lane to a group, with all external demands on the vehicles of the lane. `hidden_leader_demands`: demands in
+// the partition that no group contains yet. The function removes the demands of this lane from the front.
 void add_lane(const Model& model, const State& state, int lane, std::span<const BrakingDemand>& hidden_leader_demands,
               LaneGroup& group) {
     const VehicleArrays& v = state.vehicles;
@@ -47,13 +47,13 @@ void add_lane(const Model& model, const State& state, int lane, std::span<const 
     }
     group.lanes.push_back(
         {block.first, block.past_last(), plan.next_limit_m, plan.limit_mps, static_cast<double>(plan.sine)});
-    // Blocks and arrays begin with a cache line.
+    // List one slot for each cache line. Arrays begin on a cache line, so every kSimdWidth-th slot begins one, too.
     const int first_of_line = block.first / kSimdWidth * kSimdWidth;
     for (int slot = first_of_line; slot < block.past_last(); slot += kSimdWidth) group.prefetch_slots.push_back(slot);
     group.vehicles += block.count;
 }
 
-// Fills a group with occupied lanes, starting with the k-th one, and advances k.
+// Fills a group with occupied lanes, starting with the k-th one. Advances k to the first lane that is not in the group.
 void collect_group(const Model& model, const State& state, const Partition& part, std::size_t& k,
                    std::span<const BrakingDemand>& hidden_leader_demands, LaneGroup& group) {
     group.clear();
@@ -62,7 +62,8 @@ void collect_group(const Model& model, const State& state, const Partition& part
     }
 }
 
-// Groups are small enough for the first-level cache.
+// Full dynamics: moves the vehicles of a partition, one lane group after the other. The data of a group fit into the
+// first-level cache.
 void step_full_groups(const Model& model, const FullTables& tables, State& state, Partition& part) {
     LaneGroup& group = part.groups[0];
     LaneGroup& next = part.groups[1];

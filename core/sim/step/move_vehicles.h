@@ -7,7 +7,7 @@
 
 namespace stopline {
 
-// Moves the vehicles and lists the lanes whose first vehicle has reached the end.
+// Moves the vehicles, then lists the lanes whose first vehicle has left its lane (Partition::lanes_to_transfer).
 void move_vehicles(const Model& model, const FullTables& tables, State& state, Partition& part);
 
 }  // namespace stopline

@@ -1,11 +1,11 @@
-// The lanes with vehicles.
+// Finds the lanes with vehicles.
 #pragma once
 
 #include "sim/state/state.h"
 
 namespace stopline {
 
-// Lists the lanes of a partition that hold vehicles, and wakes sleeping lanes whose signal is green.
+// Lists the lanes of a partition that hold vehicles. Wakes a sleeping lane if its signal is green.
 void find_occupied_lanes(const State& state, QueueState& queues, Partition& part);
 
 }  // namespace stopline

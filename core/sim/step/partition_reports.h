@@ -5,10 +5,10 @@
 
 namespace stopline {
 
-// Moves the reports of all partitions into the records, in the order of partitions.
+// Moves the reports of all partitions into the records of the run, in the order of the partitions.
 void merge_partition_reports(State& state);
 
-// Counts lost vehicles in all lanes.
+// Counts the vehicles on all lanes anew and updates the number of lost vehicles.
 void count_lost_vehicles(State& state);
 
 }  // namespace stopline

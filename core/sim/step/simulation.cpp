@@ -34,7 +34,7 @@ State checked_state(const Model& model, int threads) {
     return make_state(model, threads);
 }
 
-// The partitions [begin, end) of one thread.
+// One thread processes the partitions [begin, end).
 struct Share {
     std::size_t begin;
     std::size_t end;
@@ -77,8 +77,8 @@ void Simulation::decide(Partition& part) {
     if (model_.meso) collect_moving_blocks(model_, state_, part);
 }
 
-// Moves from the last partition to the first. The partitions that were decided last, and those with which the next step
-// begins, are then still in the cache.
+// Moves the partitions from the last to the first. The data of the last partitions are still in the cache after
+// decide(). The data of the first partitions are then in the cache when the next step begins with them.
 void Simulation::move(int thread, int threads) {
     const Share share = share_of(state_.partitions.size(), thread, threads);
     for (std::size_t k = share.end; k-- > share.begin;) move(state_.partitions[k]);
@@ -90,7 +90,8 @@ void Simulation::move(Partition& part) {
     record_detector_crossings(model_, state_, part);
 }
 
-// Runs watch_delays() in a team of threads.
+// Does the same as watch_delays(), but divides the partitions among the threads. All threads of an OpenMP team must
+// call it.
 void Simulation::watch_delays_in_parallel() {
     const auto for_each_partition = [&](int thread, auto visit) {
         const Share share = share_of(state_.partitions.size(), thread, threads_);

@@ -1,4 +1,5 @@
-// One run: a Model (constant) and a State (all that changes), advanced step by step. The phases of a step:
+// One run: a constant Model, and a State that the simulation advances step by step. The phases of a step,
+// with what each phase determines or changes, and with its source file:
 //
 //   for each partition:
 //     occupied    lanes with vehicles                                           step/occupied_lanes
@@ -12,16 +13,16 @@
 //     delay       stopped vehicles and the causes of their delay                congestion/delay_causes
 //   for each partition:
 //     move        request, powertrain, speed and position of all vehicles       step/move_vehicles
-//     detectors   fronts that pass a detector                                   step/detectors
+//     detectors   vehicles whose front passes a detector                        step/detectors
 //   for the whole network:
-//     reports     events and counters of the partitions                         step/partition_reports
+//     reports     merging of events and counters of the partitions              step/partition_reports
 //     transfer    vehicles that have reached the end of their lane              step/transfer
 //     insertion   vehicles that enter the network                               insertion/
 //     teleport    vehicles that have been stopped for too long                  congestion/teleport
 //     change      lane changes                                                  lane_change/lane_change
 //
-// All partitions read the state at the beginning of the step and write only their own part. Results therefore do not
-// depend on the number of partitions and threads.
+// The decisions of a partition read the state at the beginning of the step, and write only data of the partition.
+// Results therefore do not depend on the number of partitions and threads.
 #pragma once
 
 #include <cstdint>
@@ -35,27 +36,29 @@ namespace stopline {
 
 class Simulation {
 public:
-    // Keeps a reference to the model, which must outlive the simulation. `threads`: number of threads for this run.
-    // Throws InputError if the parts of the model contradict each other.
+    // Keeps a reference to the model, which must outlive the simulation. `threads`: maximum number of threads for this
+    // run. Throws InputError if the parts of the model contradict each other.
     explicit Simulation(const Model& model, int threads = 1);
 
-    // Uses threads only if at least `vehicles` vehicles are present and threads are faster (ThreadingHeuristic). By
-    // default threads are always used. Synchronisation costs more than threads save in small networks. Results do not
-    // change.
+    // Uses several threads only if at least `vehicles` vehicles are present and several threads are faster
+    // (ThreadingHeuristic). Without this call the simulation always uses all threads. In small networks synchronisation
+    // costs more than threads save. Results are the same in all cases.
     void share_from(int vehicles) {
         share_from_ = vehicles;
         always_shares_ = false;
     }
 
+    // Runs all phases of one step.
     void step();
-    // Steps up to a time and counts lost vehicles.
+    // Runs steps up to a time, then counts lost vehicles.
     void run_until(double time_s);
     double time_s() const { return model_.time_s(state_.tick); }
 
     const State& state() const { return state_; }
     const Model& model() const { return model_; }
 
-    // Returns a hash of all vehicles in lane order and of all counters. Equal hashes mean equal bits.
+    // Returns a hash of the vehicles in lane order, of the passages and of the main counters. If two runs have the same
+    // hash, their results agree in every bit.
     std::uint64_t state_hash() const;
 
 private:

@@ -13,8 +13,8 @@ namespace stopline {
 
 namespace {
 
-// Handles a vehicle at the end of a lane without its turn: teleports it behind the intersection, or stops it at once if
-// that is impossible.
+// Handles a vehicle on a trip that has reached the end of a lane without a connection for its turn. Teleports the
+// vehicle past the intersection. If that is impossible, stops it at the end of the lane.
 void miss_turn(const Model& model, State& state, int lane) {
     ++state.congestion.missed_turns;
     if (remove_for_teleport(model, state, lane)) return;
@@ -32,7 +32,7 @@ void transfer_first(const Model& model, State& state, int lane) {
     const bool leaves = next < 0;
     if (leaves && v.record[at(first)].trip >= 0 && !is_on_last_edge(state, first)) return miss_turn(model, state, lane);
     if (!leaves) ensure_free_slot(state, next);
-    const int slot = state.blocks[at(lane)].first;  // ensure_free_slot() can change it
+    const int slot = state.blocks[at(lane)].first;  // ensure_free_slot() can shift the vehicle to another slot
     const bool has_trip = v.record[at(slot)].trip >= 0;
     const int route_index = v.record[at(slot)].route_index + 1;
     const double line_m = leaves && has_trip ? state.plan.lane(lane).stop_line_m : length_m;

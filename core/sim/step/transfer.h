@@ -1,4 +1,4 @@
-// Transfers vehicles that have reached the end of their lane.
+// Transfers vehicles from one lane to the next.
 #pragma once
 
 #include "sim/state/model.h"
@@ -6,7 +6,7 @@
 
 namespace stopline {
 
-// Moves these vehicles to the next lane of their route, or out of the network.
+// Moves each vehicle that has reached the end of its lane to the next lane of its route, or out of the network.
 void transfer_vehicles(const Model& model, State& state);
 
 }  // namespace stopline

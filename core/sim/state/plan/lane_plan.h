@@ -1,4 +1,4 @@
-// Constant data of one lane as the phases read them.
+// The constant data of one lane that the phases of a step read.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace stopline {
 
-// One cache line. A connection is a lane inside an intersection.
+// The struct fills one cache line. A connection is a lane inside an intersection.
 struct alignas(64) LanePlan {
     double length_m = 0.0;
     double stop_line_m = 0.0;
@@ -17,26 +17,26 @@ struct alignas(64) LanePlan {
     double first_conflict_m = 1e9;      // connection: start of its first conflict area
     float sine = 0.0F;                  // sine of the slope angle
     int signal_group = -1;              // -1: no stop line
-    int origin = -1;                    // connection: lane that it leaves; -1: not a connection
-    int exit = -1;                      // connection: lane that it leads to
-    int bitset_index = -1;              // connection that meets others: its number in bitsets
-    bool yields = false;                // gives way to another lane
-    bool branches = false;              // several lanes follow
+    int origin = -1;                    // connection: its approach lane; -1: not a connection
+    int exit = -1;                      // connection: its exit lane
+    int bitset_index = -1;              // number of the connection in the bitsets; -1: it has no conflict area
+    bool yields = false;                // connection: gives way to another connection
+    bool branches = false;              // more than one lane follows
     bool has_movement_signals = false;  // approach lane: each movement has its own signal group
     bool keep_clear = true;             // connection: the keep-clear rule applies
 };
 
-// How to continue with one turn from a lane.
+// The possibilities to make one turn from a lane: a route that begins on the lane, or lane changes before it.
 struct TurnOption {
-    int route = -1;        // first route from this lane with the turn; -1: none
-    int lane_changes = 0;  // to the nearest lane with such a route; positive to the right, negative to the left
+    int route = -1;        // first route with this turn that begins on the lane; -1: none
+    int lane_changes = 0;  // changes to the nearest lane where a route with this turn begins; below 0: to the left
 };
 
 // The position of an approach lane among its neighbours.
 struct AdjacentLanes {
-    int left = -1;
+    int left = -1;  // adjacent lane; -1: none
     int right = -1;
-    int index = 0;                // on the approach, from the left
+    int index = 0;                // index of the lane on the approach, counted from the left
     double start_offset_m = 0.0;  // start of the lane, from the start of the longest lane of the approach
     std::array<TurnOption, kMaxTurns> turn_options = {};  // [Turn]
 

@@ -12,12 +12,12 @@ namespace stopline {
 
 namespace {
 
-// Disjoint sets of lanes that depend on each other (union-find).
+// Disjoint sets of lanes (union-find). The lanes of one set depend on each other within a step.
 class LaneSets {
 public:
     explicit LaneSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
 
-    // Returns the lowest member of the set of a lane.
+    // Returns the lowest lane of the set that contains lane `member`.
     int of(int member) {
         while (parent_[at(member)] != member) {
             parent_[at(member)] = parent_[at(parent_[at(member)])];
@@ -70,8 +70,9 @@ double max_space_per_vehicle(const Model& model) {
     return longest_vehicle_m(model) + gap_m;
 }
 
-// A connection depends on its origin and on the connections that it meets. An exit lane without a stop line joins them,
-// so that its data lie nearby.
+// Joins the lanes of each intersection to one set. A connection depends on its approach lane and on the connections
+// that it meets. An exit lane without a stop line joins the set of its connections, so that their data are close
+// together.
 void join_intersections(const Model& model, LaneSets& sets) {
     for (int index = 0; index < static_cast<int>(model.graph.lanes.size()); ++index) {
         const Lane& lane = model.graph.lanes[at(index)];
@@ -85,7 +86,7 @@ void join_intersections(const Model& model, LaneSets& sets) {
     }
 }
 
-// Sets the lane changes from each lane of an approach to the nearest lane with a route for a turn.
+// Sets TurnOption::lane_changes of one turn for each lane of an approach.
 void count_lane_changes(const Approach& approach, std::size_t turn, std::vector<AdjacentLanes>& adjacent) {
     const auto lanes = static_cast<int>(approach.lanes.size());
     const auto option = [&](int k) -> TurnOption& { return adjacent[at(approach.lanes[at(k)])].turn_options[turn]; };
@@ -100,7 +101,8 @@ void count_lane_changes(const Approach& approach, std::size_t turn, std::vector<
     }
 }
 
-// Routes from one lane with one turn form a chain through `next_parallel_route`, the last route first.
+// Returns the neighbours and turn options of all lanes. Fills `next_parallel_route`, which links the routes with the
+// same first lane and turn to a chain. The route with the highest index comes first, and -1 ends the chain.
 std::vector<AdjacentLanes> plan_adjacent_lanes(const LaneGraph& graph, const std::vector<Turn>& turns,
                                                std::vector<int>& next_parallel_route) {
     std::vector<AdjacentLanes> adjacent(graph.lanes.size());

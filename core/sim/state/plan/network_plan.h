@@ -1,5 +1,5 @@
-// The network as the phases of a step read it: one cache line a lane, routes in one array, and lanes in the order of
-// their intersections, which is the unit of distribution to threads.
+// The network in the layout that the phases of a step read. The data of a lane fill one cache line, and all routes lie
+// in one array. Lanes are ordered by intersection, because threads share the work by whole intersections.
 #pragma once
 
 #include <array>
@@ -23,54 +23,61 @@ public:
 
     const LanePlan& lane(int lane) const { return lanes_[static_cast<std::size_t>(lane)]; }
     int lanes() const { return static_cast<int>(lanes_.size()); }
-    // Returns the length of the longest vehicle plus the largest standstill gap.
+    // Returns the length of the longest vehicle plus the largest standstill gap, m.
     double max_space_per_vehicle_m() const { return max_space_per_vehicle_m_; }
-    // Returns the highest speed of vehicles of the mesoscale mode on a lane.
+    // Returns the speed limit of a lane times Model::speed_factor.
     double free_speed_mps(int lane) const { return speed_factor_ * this->lane(lane).limit_mps; }
     std::span<const int> route(int route) const { return routes_.of(route); }
     std::span<const int> next(int lane) const { return next_.of(lane); }
     const AdjacentLanes& adjacent(int lane) const { return adjacent_[static_cast<std::size_t>(lane)]; }
     const std::vector<int>& lanes_with_neighbours() const { return lanes_with_neighbours_; }
-    // Returns a route from any lane of an approach with a turn; -1: none.
+    // Returns the index of a route with this turn that begins on any lane of the approach; -1: none.
     int route_with(int approach, Turn turn) const {
         return routes_with_[static_cast<std::size_t>(approach)][static_cast<std::size_t>(turn)];
     }
     Turn turn_of(int route) const { return turns_[static_cast<std::size_t>(route)]; }
-    // Returns the next route with the same first lane and turn that leads to another exit lane; -1: none.
+    // Returns the next route with the same first lane and turn, which leads to another exit lane; -1: none.
     int next_parallel_route(int route) const { return next_parallel_route_[static_cast<std::size_t>(route)]; }
-    // Returns the signal group that controls a vehicle on an approach lane with connection `next` (-1: none yet).
+    // Returns the signal group that a vehicle on an approach lane obeys. `next`: connection that the vehicle will take;
+    // -1: none.
     int signal_group_for(int lane, int next) const {
         const LanePlan& plan = this->lane(lane);
         const int own = plan.has_movement_signals && next >= 0 ? movement_groups_[static_cast<std::size_t>(next)] : -1;
         return own >= 0 ? own : plan.signal_group;
     }
-    // Returns the position on a connection beyond which a rear is clear of the other connections of its origin.
+    // Returns the end of the area in which a connection diverges, as a position on the connection. A vehicle whose rear
+    // is past this position is clear of the other connections of the same approach lane.
     double diverge_end_m(int lane) const { return diverges_[static_cast<std::size_t>(lane)].end_m; }
-    // Returns true if a vehicle on the exit lane can reach back into the part of the connection that is not clear.
+    // Returns true if a vehicle with its front on the exit lane can have its rear upstream of diverge_end_m().
     bool exit_reaches_back(int lane) const { return diverges_[static_cast<std::size_t>(lane)].exit_reaches_back; }
-    // Returns true if vehicles may yield inside the intersection on this connection; else they yield at the stop line.
+    // Returns true if vehicles on this connection may yield inside the intersection. Otherwise they yield at the stop
+    // line.
     bool may_wait_inside(int lane) const { return may_wait_inside_[static_cast<std::size_t>(lane)] != 0; }
-    // Returns the turn at the end of an edge of a trip; none: the trip ends there.
+    // Returns the turn of a trip at the end of one of its edges; Turn::none: the trip ends on this edge.
     Turn turn_of_trip(int trip, int trip_edge) const { return demand_->turn_of_trip(trip, trip_edge); }
-    // Returns the lane changes that a trip needs beyond an edge if the vehicle leaves the edge from `lane`.
+    // Returns the number of lane changes that a trip needs on later edges if the vehicle leaves the edge from `lane`.
     int lane_changes_after(int trip, int trip_edge, int lane) const {
         return trip_lanes_.after(demand_->trips[static_cast<std::size_t>(trip)], trip_edge, adjacent(lane).index);
     }
-    // Returns the lane changes that a trip needs on and beyond an edge of `lanes` lanes, starting on `lane`.
+    // Returns the number of lane changes that a trip needs on this edge and later ones if the vehicle begins the edge
+    // on `lane`. `lanes`: number of lanes of the edge.
     int lane_changes_from(int trip, int trip_edge, int lane, int lanes) const {
         return trip_lanes_.from(demand_->trips[static_cast<std::size_t>(trip)], trip_edge, adjacent(lane).index, lanes);
     }
     STOPLINE_INLINE void prefetch_conflicts(int lane) const {
         for (const Conflict& conflict : conflicts_.of(lane)) __builtin_prefetch(&conflict);
     }
-    // Returns the conflict areas of a connection, from its start.
+    // Returns the conflict areas of a connection, in the order from its start to its end.
     std::span<const Conflict> conflicts(int lane) const { return conflicts_.of(lane); }
-    // Returns the connections that a connection meets.
+    // Returns the connections that have a conflict area with a connection, as masks for the bitsets.
     std::span<const BitsetMask> conflicting(int lane) const { return conflicting_.of(lane); }
-    // Connections that meet others have numbers in bitsets, in the order of lanes. Intersections share no word.
+    // Each connection with conflict areas has a number, which is its bit in the bitsets. The numbers follow
+    // lane_order(). No two intersections share a word of a bitset, so some numbers are unused.
     std::size_t bitset_size() const { return connections_.size(); }
-    int connection_at(std::size_t bitset_index) const { return connections_[bitset_index]; }  // -1: unused number
-    // Calls visit(begin, end) for the memory that steps read of a lane.
+    int connection_at(std::size_t bitset_index) const {
+        return connections_[bitset_index];
+    }  // -1: the number is unused
+    // Calls visit(begin, end) for each range of memory that a step reads for this lane.
     template <class Visit>
     void for_each_memory_range(int lane, Visit visit) const {
         const auto element = [&](const auto& array) { visit(array.data() + lane, array.data() + lane + 1); };
@@ -83,7 +90,7 @@ public:
     // Returns all lanes, grouped by intersection.
     const std::vector<int>& lane_order() const { return lane_order_; }
     int intersection_count() const { return intersection_count_; }
-    // Lanes with the same number depend on each other within a step.
+    // Returns the intersection number of a lane. Lanes with the same number depend on each other within a step.
     int intersection_of(int lane) const { return intersection_of_[static_cast<std::size_t>(lane)]; }
 
 private:
@@ -105,8 +112,8 @@ private:
     std::vector<Turn> turns_;                              // [route]
     std::vector<std::array<int, kMaxTurns>> routes_with_;  // [approach][turn]
     std::vector<int> next_parallel_route_;                 // [route]
-    std::vector<int> movement_groups_;                     // [lane] signal group of the movement; -1: none
-    std::vector<char> may_wait_inside_;                    // [lane]
+    std::vector<int> movement_groups_;   // [lane] signal group of the movement of a connection; -1: none
+    std::vector<char> may_wait_inside_;  // [lane]
     struct DivergePlan {
         double end_m = 0.0;
         bool exit_reaches_back = false;

@@ -1,10 +1,13 @@
-// The best lane on each edge of a trip: the lane with the fewest lane changes on the edges that follow. A vehicle thus
-// reaches the lane of its turn even if the edge before the intersection is short. Dynamic programming from the end:
+// Finds the best lane on each edge of a trip: the lane from which the vehicle needs the fewest lane changes on the
+// following edges. A vehicle thus reaches the lane of its turn even if the edge before the intersection is short.
+// Dynamic programming from the end of the trip gives two numbers of lane changes:
 //
-//     after(edge, lane) = min of from(edge + 1, lane it leads to), over its connections with the turn of that edge
-//     from(edge, lane)  = min of |lane - other| + after(edge, other), over all lanes of the edge
+//     after(edge, lane): changes on later edges if the vehicle leaves the edge from `lane`. This is the minimum of
+//         from(edge + 1, exit) over all exit lanes to which `lane` leads with the turn at the end of the edge.
+//     from(edge, lane): changes on this edge and later ones if the vehicle begins the edge on `lane`. This is the
+//         minimum of |lane - other| + after(edge, other) over all lanes of the edge.
 //
-// Lane changes on an edge of kLongEdge_m or more are not counted, since there is time for them.
+// Lane changes on an edge of kLongEdge_m or more are not counted, because a vehicle has enough time for them.
 #pragma once
 
 #include <cstdint>
@@ -18,13 +21,14 @@ class NetworkPlan;
 
 class TripLanes {
 public:
-    static constexpr int kNoConnection = 15;  // the lane has no connection with the turn of that edge
+    static constexpr int kNoConnection = 15;  // after(): the lane does not allow the turn at the end of the edge
     static constexpr double kLongEdge_m = 300.0;
 
     TripLanes() = default;
     TripLanes(const Model& model, const NetworkPlan& plan);
 
-    // Return lane changes, 14 for 14 and more. Edges are counted along the trip, lanes from the left.
+    // Return the numbers of lane changes that are defined above. after() returns 14 for 14 or more changes. `edge` is
+    // counted along the trip from 0, `lane_index` from the left.
     int after(const Trip& trip, int edge, int lane_index) const {
         if (edge >= trip.turn_count || lane_index >= kMaxLanes) return 0;
         const std::uint64_t packed = after_[static_cast<std::size_t>(trip.first_turn + edge)];
@@ -36,7 +40,8 @@ private:
     static constexpr int kMaxLanes = 16;
     void plan_trip(const Model& model, const NetworkPlan& plan, const Trip& trip);
 
-    std::vector<std::uint64_t> after_;  // [index in DemandPlan::trip_turns] four bits a lane
+    // [index in DemandPlan::trip_turns] after() of all lanes of the edge, four bits for each lane.
+    std::vector<std::uint64_t> after_;
 };
 
 }  // namespace stopline

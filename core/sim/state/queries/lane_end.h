@@ -1,4 +1,4 @@
-// Where vehicles leave their lane.
+// Tests whether a vehicle has reached the end of its lane or its trip.
 #pragma once
 
 #include "base/containers/index.h"
@@ -6,14 +6,16 @@
 
 namespace stopline {
 
-// Returns true on the last edge of a trip. The vehicle is removed at the stop line and ignores its signal.
+// Returns true if the vehicle is on the last edge of its trip. It will be removed at the stop line and ignores the
+// signal there.
 inline bool is_on_last_edge(const State& state, int slot) {
     if (state.vehicles.next_lane[at(slot)] >= 0) return false;
     const VehicleRecord& record = state.vehicles.record[at(slot)];
     return record.trip >= 0 && state.plan.turn_of(record.route) == Turn::none;
 }
 
-// Returns true if a vehicle has passed the end of its lane, or the stop line where its trip ends.
+// Returns true if the front of a vehicle has passed the end of its lane. On the last edge of a trip the stop line is
+// the end.
 inline bool has_left_lane(const State& state, int lane, int slot) {
     const LanePlan& plan = state.plan.lane(lane);
     const double position_m = state.vehicles.position_m[at(slot)];

@@ -1,4 +1,4 @@
-// Detection of overlapping vehicles on a lane.
+// Detects vehicles that overlap their leader on the same lane.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,12 @@
 
 namespace stopline {
 
-// Returns the number of vehicles on some lanes whose front is beyond the rear of their leader on the same lane.
+// Returns the number of vehicles on the given lanes whose front is downstream of their leader's rear. Leaders on other
+// lanes do not count.
 std::int64_t count_overlaps(const VehicleArrays& vehicles, std::span<const LaneStep> lanes);
 
-// Records the first overlap of a partition. Call it only if there is one, since it searches all vehicles.
+// Searches all vehicles of a partition and records the first overlap. The search is slow, so call it only after
+// count_overlaps() or a kernel has found an overlap.
 void record_first_overlap(const Model& model, const State& state, Partition& part);
 
 }  // namespace stopline

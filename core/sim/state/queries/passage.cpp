@@ -9,7 +9,7 @@ namespace stopline {
 double passing_time_s(const Model& model, const State& state, int slot, double line_m) {
     const VehicleArrays& v = state.vehicles;
     const double speed_mps = v.speed_mps[at(slot)];
-    // Mesoscale mode: the whole step is driven at the new speed.
+    // In the mesoscale mode a vehicle drives the whole step at its new speed.
     const double speed_before = model.meso ? speed_mps : speed_mps - v.acceleration_mps2[at(slot)] * model.step_s;
     const double mean_mps = std::max(0.5 * (speed_before + speed_mps), 1e-6);
     const double since_s = (v.position_m[at(slot)] - line_m) / mean_mps;

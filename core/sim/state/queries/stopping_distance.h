@@ -1,4 +1,4 @@
-// Braking and stopping distances, one function for each purpose. Positions in m, speeds in m/s.
+// Braking and stopping distances in m, one function for each purpose. Positions are in m, speeds in m/s.
 #pragma once
 
 #include <algorithm>
@@ -12,46 +12,50 @@
 
 namespace stopline {
 
-// Returns the distance in which constant braking changes the speed, without reaction time; 0 if `to_mps` is higher.
+// Returns the distance in which constant braking changes the speed from `from_mps` to `to_mps`. Returns 0 if `to_mps`
+// is the higher speed. The reaction time is not included.
 inline double braking_distance_m(double from_mps, double to_mps, double deceleration_mps2) {
     return 0.5 * std::max(square(from_mps) - square(to_mps), 0.0) / deceleration_mps2;
 }
 
-// Returns the distance of a comfortable stop (stop.deceleration), without reaction time.
+// Returns the braking distance of a comfortable stop. The deceleration is the driver's stop.deceleration. The reaction
+// time is not included.
 inline double comfortable_braking_distance_m(const Model& model, double speed_mps) {
     return 0.5 * square(speed_mps) / model.driver.stop.deceleration_mps2;
 }
 
-// Returns the distance of a comfortable stop. Full dynamics: including the lag of the brake.
+// Returns the distance of a comfortable stop. In full dynamics it includes the lag of the brake.
 inline double reliable_stopping_distance_m(const Model& model, double speed_mps) {
     return model.meso ? comfortable_braking_distance_m(model, speed_mps) : stopping_distance_m(model.driver, speed_mps);
 }
 
-// Returns the distance of an emergency stop, without reaction time.
+// Returns the braking distance of an emergency stop. The reaction time is not included.
 inline double emergency_braking_distance_m(const Model& model, double speed_mps) {
     return 0.5 * square(speed_mps) / model.driver.cacc.deceleration_emergency_mps2;
 }
 
-// Returns the distance to a conflict area within which right of way is decided: a comfortable stop plus a reserve.
+// Returns the distance to a conflict area within which right of way is decided: the distance of a comfortable stop plus
+// a reserve.
 inline double decision_distance_m(const Model& model, double speed_mps) {
     return 0.5 * square(speed_mps) / model.driver.stop.deceleration_mps2 + 1.5 * speed_mps + 3.0;
 }
 
-// Returns the distance to the stop line that a lane change needs, so that the vehicle can still stop comfortably.
+// Returns the smallest distance to the stop line at which a vehicle can change lanes and then still stop comfortably.
 inline double lane_change_stopping_distance_m(const Model& model, double speed_mps) {
     constexpr double kReaction_s = 0.5;
     return 0.5 * square(speed_mps) / model.driver.stop.deceleration_mps2 + kReaction_s * speed_mps;
 }
 
-// Returns the distance in which a vehicle stops behind a vehicle that is inserted ahead, including its standstill gap.
+// Returns the gap that a vehicle needs to stop behind another vehicle that is inserted ahead of it. The standstill gap
+// is included.
 inline double insertion_stopping_distance_m(const Model& model, double speed_mps, double standstill_gap_m) {
     constexpr double kReaction_s = 1.0;
     return speed_mps * kReaction_s + 0.5 * square(speed_mps) / model.driver.cacc.deceleration_comfort_mps2 +
            standstill_gap_m;
 }
 
-// Returns the highest speed from which a vehicle inserted at `front_m` stops comfortably before the stop line, or
-// kUnlimitedSpeed_mps if there is no stop line ahead.
+// Returns the highest speed from which a vehicle inserted at `front_m` can stop comfortably before the stop line.
+// Returns kUnlimitedSpeed_mps if there is no stop line ahead.
 inline double max_stoppable_speed_mps(const Model& model, int lane, double front_m) {
     const Lane& road = model.graph.lanes[at(lane)];
     if (road.signal_group < 0 || front_m > road.stop_line_m) return kUnlimitedSpeed_mps;

@@ -1,4 +1,4 @@
-// The rows of a delay line at one tick.
+// The rows of a delay line that are written and read in one step.
 #pragma once
 
 #include <cstddef>
@@ -8,12 +8,13 @@
 
 namespace stopline {
 
-// Offsets into [row][slot] arrays: the row of the present sample and the two rows between which the delayed sample
-// lies.
+// Offsets of rows in an array [row][slot]. `now` is the row of the present sample. The delayed sample lies between the
+// rows `delayed` and `older`.
 struct DelayRows {
     std::size_t now = 0, delayed = 0, older = 0;
-    double delayed_share = 1.0, older_share = 0.0;  // weights of the two rows
+    double delayed_share = 1.0, older_share = 0.0;  // weights of the rows `delayed` and `older`
 };
+// Returns the rows of a delay line at a tick.
 DelayRows delay_rows_at(const DelayLine& line, std::int64_t tick, int slots);
 
 }  // namespace stopline

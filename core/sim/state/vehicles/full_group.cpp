@@ -9,7 +9,7 @@ namespace stopline {
 
 namespace {
 
-// Divides an array into streams of n elements.
+// Resizes an array and divides it into streams of n elements, all of value 1.
 template <class Number>
 void divide(LargeArray<Number>& array, std::size_t n, std::initializer_list<Number**> streams) {
     array.resize(n * streams.size(), Number{1});
@@ -23,12 +23,13 @@ void divide(LargeArray<Number>& array, std::size_t n, std::initializer_list<Numb
 }  // namespace
 
 void FullGroupArrays::resize(int vehicles) {
-    constexpr std::size_t kUnit = kSimdWidth;  // every stream begins with a cache line
+    constexpr std::size_t kUnit = kSimdWidth;  // every stream begins on a cache line
     vehicles_ = (static_cast<std::size_t>(vehicles) + kUnit - 1) / kUnit * kUnit;
     streams();
 }
 
-// The kernels also compute elements without a vehicle. All elements start as 1, so that no divisor is 0.
+// The kernels also compute elements without a vehicle. divide() therefore sets all elements to 1, so that no divisor is
+// 0.
 FullGroup FullGroupArrays::streams() {
     FullGroup s{};
     divide(doubles_, vehicles_, {&s.coming_speed, &s.desired_gap, &s.slope, &s.law_gap, &s.law_slope});

@@ -1,5 +1,6 @@
-// Memory of a group of vehicles from several lanes, gathered so that the full-dynamics kernels work on whole batches.
-// One value a vehicle, in the order of the lanes. Values after the last vehicle are computed and never read.
+// The working memory of the full-dynamics kernels for one lane group. The vehicles of several lanes lie next to each
+// other, so that the kernels compute whole batches. Elements after the last vehicle are computed too, but nothing reads
+// them.
 #pragma once
 
 #include <cstddef>
@@ -9,28 +10,29 @@
 
 namespace stopline {
 
-// Plain pointers to the arrays of a group, which the compiler can treat as independent streams. SI units.
+// Pointers to the arrays of a group. Each array has one value for each vehicle, in the order of the lanes. SI units.
 struct FullGroup {
-    // Knowledge and place of a vehicle.
-    double* coming_speed;                         // speed at the end of the step, when the plan comes into force
-    float *speed, *acceleration, *lag, *request;  // request: of the last step, then of this one
-    float *gap, *closing;                         // delayed radar measurement of the leader
-    float *heard_acceleration, *heard_request, *heard_rate;
+    // State of the vehicle, its measurements, and the road at its position.
+    double* coming_speed;                         // speed at the end of the step, when the new request takes effect
+    float *speed, *acceleration, *lag, *request;  // request: that of the last step, then that of this step
+    float *gap, *closing;                         // net gap and closing speed, from the delayed radar measurement
+    float *heard_acceleration, *heard_request, *heard_rate;  // delayed V2V message of the leader
     float *to_next_limit, *limit, *end_speed, *standstill_gap, *sine;
-    float* demand;  // lowest external demand; kUnconstrained_mps2: none
+    float* demand;  // lowest acceleration of all external demands; kUnconstrained_mps2: none
     float *is_platoon_leader, *torque, *brake, *gear_time, *gear;
-    float* mean_request;  // mean over the step, for the powertrain
-    float *sent_acceleration, *sent_rate;
+    float* mean_request;                   // mean request within the step, for the powertrain
+    float *sent_acceleration, *sent_rate;  // V2V message to the follower
     int *policy, *type;
-    // Demands of the gap policy.
+    // Desired gap of the spacing policy, and its slope over speed.
     double *desired_gap, *slope;
-    double *law_gap, *law_slope;  // results of one law where policies are mixed
+    double *law_gap, *law_slope;  // results of one spacing law, if the model has several policies
 };
 
 class FullGroupArrays {
 public:
     void resize(int vehicles);
-    // Grows the memory if the group is larger than planned. Overlapping vehicles can make a lane hold more than fit.
+    // Grows the memory if a group has more vehicles than expected. A lane can hold more vehicles than fit on it if they
+    // overlap.
     void reserve(int vehicles) {
         if (static_cast<std::size_t>(vehicles) + kSpare > vehicles_) resize(2 * vehicles + static_cast<int>(kSpare));
     }

@@ -1,4 +1,4 @@
-// Input of the full-dynamics kernels: some lanes whose vehicles go through the kernels together.
+// The input of the full-dynamics kernels: a group of lanes whose vehicles are computed together.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@ namespace stopline {
 struct LaneStep {
     int begin = 0;  // slots [begin, stop) hold the vehicles
     int stop = 0;
-    double next_limit_m = 0.0;  // position from which the next lane's speed limit applies
+    double next_limit_m = 0.0;  // position from which the speed limit of the next lane applies
     double limit_mps = 0.0;
     double sine = 0.0;  // sine of the slope angle
 
@@ -17,14 +17,14 @@ struct LaneStep {
 
 // The acceleration that a stop line, yielding, a gap alignment or a hidden leader demands of one vehicle.
 struct ExternalDemand {
-    int index = 0;  // of the vehicle in the group
+    int index = 0;  // index of the vehicle in the group
     double acceleration_mps2 = 0.0;
 };
 
 struct LaneGroup {
     std::vector<LaneStep> lanes;  // in the order of their slots
     std::vector<ExternalDemand> demands;
-    std::vector<int> prefetch_slots;  // one slot for each cache line of the group's vehicles
+    std::vector<int> prefetch_slots;  // one slot in each cache line that holds vehicles of the group
     int vehicles = 0;
 
     void clear() {

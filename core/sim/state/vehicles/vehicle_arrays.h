@@ -1,9 +1,10 @@
-// The state of all vehicles as structures of arrays in lane order.
+// The state of all vehicles, with one array for each quantity. The vehicles of each lane are in consecutive slots.
 //
-//     block of a lane:  | sentinel | free ... | first | ... | last | free ... |
+//     block of a lane:  | free ... | sentinel | first | ... | last | free ... |
 //
-// The leader of the vehicle in slot i is in slot i - 1. The slot before the first vehicle is the lane's sentinel: a
-// copy of the leader beyond the lane (sim/perception/look_ahead.h). Vehicles leave at the front and enter at the back.
+// The leader of the vehicle in slot i is in slot i - 1. The slot before the first vehicle of a lane is the sentinel. It
+// holds a copy of the leader downstream of the lane (sim/perception/look_ahead.h). Vehicles leave at the front of the
+// block and enter at its back.
 #pragma once
 
 #include <cstddef>
@@ -17,37 +18,39 @@
 namespace stopline {
 
 inline constexpr double kUnlimitedSpeed_mps = 1e9;
-inline constexpr float kNoLowerLimit_mps = 1e3F;  // end_speed_mps if the next lane has no lower speed limit
+inline constexpr float kNoLowerLimit_mps = 1e3F;  // value of end_speed_mps if the next lane has no lower speed limit
 
 struct VehicleArrays {
-    // Read and written in every step. One value a slot, SI units.
-    LargeArray<double> position_m;  // front, from the start of the lane
+    // Every step reads these values and changes many of them. Each array has one value for each slot, in SI units.
+    LargeArray<double> position_m;  // position of the front, from the start of the lane
     LargeArray<double> speed_mps;
-    LargeArray<float> acceleration_mps2;  // realised in the last step
+    LargeArray<float> acceleration_mps2;  // acceleration realised in the last step
     LargeArray<float> length_m;
-    LargeArray<float> end_speed_mps;      // speed limit at the end of the lane, from the next lane of the route
-    LargeArray<float> is_platoon_leader;  // 1: uses the start-up profile; 0: follower
+    LargeArray<float> end_speed_mps;      // speed limit of the next lane of the route, if it is lower
+    LargeArray<float> is_platoon_leader;  // 1: platoon leader; 0: follower
     LargeArray<int> policy;
-    LargeArray<int> id;  // mesoscale mode: -1 in a free slot
-    // Mesoscale mode only. The first two belong to the lane and are not copied when the vehicle changes its lane.
-    LargeArray<double> limit_mps;      // speed limit times the speed factor
+    LargeArray<int> id;  // vehicle id; mesoscale mode: -1 in a free slot
+    // Mesoscale mode only. These values depend on the lane. They are set again, not copied, when a vehicle goes to
+    // another lane.
+    LargeArray<double> limit_mps;      // speed limit of the lane times the speed factor
     LargeArray<double> next_limit_m;   // position from which end_speed_mps applies
-    LargeArray<double> speed_cap_mps;  // highest speed in this step, for stopping, yielding or free driving
+    LargeArray<double> speed_cap_mps;  // highest speed in this step that stop lines, yielding and free driving allow
     // Full dynamics only.
     LargeArray<float> request_mps2;  // u: acceleration requested in the last step
     LargeArray<float> torque_Nm;
     LargeArray<float> brake_N;
     LargeArray<float> gear_time_s;
-    LargeArray<float> lag_s;  // tau, sent to the follower
+    LargeArray<float> lag_s;  // tau: lag of the powertrain; the follower gets it by V2V
     LargeArray<float> gear;   // 0: first gear
-    // Delay lines, [row][slot]: radar measurements and V2V messages of past steps.
+    // Delay lines, indexed [row][slot]. They hold radar measurements and V2V messages of past steps.
     LargeArray<float> radar_gap_m;
     LargeArray<float> radar_closing_mps;
     LargeArray<float> v2v_acceleration_mps2;
     LargeArray<float> v2v_request_mps2;
-    LargeArray<float> v2v_rate_1ps;  // 1 / lag
-    // Read for the first vehicles of a lane and at events.
-    LargeArray<int> next_lane;  // on the route; -1: the vehicle leaves the network or must change lanes
+    LargeArray<float> v2v_rate_1ps;  // 1 / lag_s
+    // A step reads these values mainly at events and for the first vehicles of a lane. Full dynamics also reads the
+    // standstill gap of all vehicles, and their type if the model has several types.
+    LargeArray<int> next_lane;  // next lane of the route; -1: the vehicle leaves the network here or must change lanes
     LargeArray<VehicleRecord> record;
     LargeArray<int> stopped_since;  // tick at which the vehicle was last observed in motion
     LargeArray<float> standstill_gap_m;
@@ -57,14 +60,14 @@ struct VehicleArrays {
     int radar_rows = 0;  // 0 in the mesoscale mode
     int v2v_rows = 0;    // 0 in the mesoscale mode
 
-    // Sets the number of slots in full dynamics.
+    // Full dynamics: sets the number of slots and of rows, and resets all values.
     void resize(int slot_count, int radar_row_count, int v2v_row_count);
     // Mesoscale mode: reserves memory without adding slots.
     void reserve(int slot_count);
     // Mesoscale mode: adds free slots at the end.
     void grow(int slot_count);
     bool has_powertrain() const { return v2v_rows > 0; }
-    // Copies a vehicle to a slot of another lane, without the data that belong to the lane.
+    // Copies a vehicle to a slot of another lane, without the values that depend on the lane.
     void copy(int from, int to);
     // Moves vehicles in consecutive slots to other slots of the same lane.
     void move(int from, int count, int to);
@@ -75,11 +78,11 @@ struct VehicleArrays {
         is_platoon_leader[i] = 0.0F;
         end_speed_mps[i] = kNoLowerLimit_mps;
     }
-    // Sets the powertrain to steady driving at a speed.
+    // Sets the powertrain to the state of steady driving at a speed.
     void reset_powertrain(int slot, const PowertrainTables& vehicle, double speed);
-    // Fills the radar's delay line with one measurement.
+    // Fills all rows of the radar delay line with one measurement.
     void reset_radar(int slot, double gap_m, double closing_mps);
-    // Fills the V2V delay line with the present state of the vehicle.
+    // Fills all rows of the V2V delay line with the present state of the vehicle.
     void reset_v2v(int slot);
 
     std::size_t row(int row_index, int slot) const {

@@ -1,0 +1,149 @@
+// Checks every result of a short intersection run against an independent count from the vehicle positions.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "runs/intersection/intersection_run.h"
+#include "runs/intersection/intersection_watch.h"
+#include "scenario/build_model.h"
+#include "scenario/load_scenario.h"
+
+namespace stopline {
+namespace {
+
+using namespace testing_support;
+
+constexpr std::size_t kPopulation = 4;  // P50
+
+bool is_measured(double time_s) { return time_s >= kFrom_s && time_s < kTo_s; }
+
+class IntersectionRun : public testing::Test {
+protected:
+    static void SetUpTestSuite() {
+        const Scenario scenario =
+            load_scenario(STOPLINE_SOURCE_DIR "/scenarios/intersection.yaml",
+                          {"demand.left=20 %", "demand.right=5 %", "step=20 ms", "measure.cycles=2"});
+        result_ = std::make_unique<IntersectionResult>(run_intersection(scenario, kPopulation));
+        model_ = std::make_unique<Model>(build_model(scenario, kPopulation));
+        watch_ = std::make_unique<IntersectionWatch>(*model_);
+        Simulation simulation(*model_);
+        watch_->observe(simulation.state());
+        while (simulation.time_s() < kTo_s - 1e-9) {
+            simulation.step();
+            watch_->observe(simulation.state());
+        }
+        ASSERT_EQ(simulation.state_hash(), result_->state_hash) << "the runs differ";
+    }
+    static void TearDownTestSuite() {
+        watch_.reset();
+        model_.reset();
+        result_.reset();
+    }
+
+    static inline std::unique_ptr<IntersectionResult> result_;
+    static inline std::unique_ptr<Model> model_;
+    static inline std::unique_ptr<IntersectionWatch> watch_;
+};
+
+TEST_F(IntersectionRun, ThroughputAndTurnSharesCountExitedVehicles) {
+    std::map<int, int> turned;  // [quarter turns counter-clockwise]
+    int exited = 0;
+    for (const auto& [id, trip] : watch_->trips) {
+        if (!is_measured(trip.exit_s)) continue;
+        ++exited;
+        // Both texts list the legs counter-clockwise. The first one starts with the leg opposite to west.
+        ++turned[static_cast<int>(std::string("enws").find(trip.to) - std::string("wsen").find(trip.from) + 4) % 4];
+    }
+    ASSERT_GT(turned[1], turned[3]) << "left and right can be told apart";
+    EXPECT_DOUBLE_EQ(result_->throughput_veh_h, exited * 3600.0 / (kTo_s - kFrom_s));
+    EXPECT_DOUBLE_EQ(result_->straight_share, 1.0 * turned[0] / exited);
+    EXPECT_DOUBLE_EQ(result_->left_share, 1.0 * turned[1] / exited);
+    EXPECT_DOUBLE_EQ(result_->right_share, 1.0 * turned[3] / exited);
+}
+
+TEST_F(IntersectionRun, ZonesAverageTravelTimesAndDensities) {
+    ASSERT_EQ(result_->zones.size(), 2u);
+    for (std::size_t zone = 0; zone < 2; ++zone) {
+        double travel_s = 0.0;
+        int exited = 0;
+        for (const auto& [id, trip] : watch_->trips) {
+            if (!is_measured(trip.zone_out_s[zone])) continue;
+            travel_s += trip.zone_out_s[zone] - trip.zone_in_s[zone];
+            ++exited;
+        }
+        const double mean_s = travel_s / exited;
+        const double vehicles = watch_->zone_sum[zone] / watch_->steps;
+        const double occupied = vehicles * watch_->length_m / (8.0 * 2.0 * kZones_m[zone]);
+        EXPECT_EQ(result_->zones[zone].exited, exited);
+        EXPECT_NEAR(result_->zones[zone].travel_time_s, mean_s, 0.01);
+        EXPECT_NEAR(result_->delay_s[zone], mean_s - 2.0 * kZones_m[zone] / kLimit_mps, 0.01);
+        EXPECT_NEAR(result_->zones[zone].vehicles, vehicles, 0.002 * vehicles);
+        EXPECT_NEAR(result_->zones[zone].occupied, occupied, 0.002 * occupied);
+    }
+}
+
+TEST_F(IntersectionRun, DensityCoversTheWholeNetwork) {
+    const double present = watch_->present_sum / watch_->steps;
+    EXPECT_NEAR(result_->vehicles_present, present, 0.005 * present);  // the run samples once a second
+    const double occupied = present * watch_->length_m / kRoad_m;
+    EXPECT_NEAR(result_->occupied, occupied, 0.005 * occupied);
+    EXPECT_EQ(result_->entered, static_cast<std::int64_t>(watch_->trips.size()));
+    EXPECT_EQ(result_->entered - result_->exited, watch_->present);
+}
+
+TEST_F(IntersectionRun, QueuesAreThoseAtTheStartOfGreen) {
+    ASSERT_EQ(watch_->queues, 8 * kCycles);
+    EXPECT_DOUBLE_EQ(result_->queue_veh, 1.0 * watch_->queued / watch_->queues);
+    EXPECT_NEAR(result_->longest_queue_m, watch_->longest_m, 1e-4);
+}
+
+TEST_F(IntersectionRun, DischargeComesFromStopLinePassages) {
+    std::map<std::pair<int, int>, std::vector<double>> passages_s;  // [lane, cycle] since the start of green
+    double passed = 0.0;
+    for (const auto& [id, trip] : watch_->trips) {
+        if (!is_measured(trip.line_s)) continue;
+        ++passed;
+        const double green_s = trip.line_s - kFrom_s - (trip.from == 's' || trip.from == 'n' ? kStage_s : 0.0);
+        const double cycle = std::floor(green_s / (2.0 * kStage_s));
+        if (cycle >= 0.0) passages_s[{trip.entry, static_cast<int>(cycle)}].push_back(green_s - 2.0 * kStage_s * cycle);
+    }
+    std::vector<double> sum_s;
+    std::vector<int> samples;
+    for (auto& [green, times_s] : passages_s) {
+        std::sort(times_s.begin(), times_s.end());
+        sum_s.resize(std::max(sum_s.size(), times_s.size()));
+        samples.resize(sum_s.size());
+        for (std::size_t k = 0; k < times_s.size(); ++k) {
+            sum_s[k] += times_s[k] - (k == 0 ? 0.0 : times_s[k - 1]);
+            ++samples[k];
+        }
+    }
+    const Discharge& d = result_->discharge;
+    ASSERT_EQ(d.samples, samples);
+    double saturated_s = 0.0, start_s = 0.0, saturated = 0.0;
+    for (std::size_t k = 0; k < sum_s.size(); ++k) {
+        EXPECT_NEAR(d.headway_s[k], sum_s[k] / samples[k], 1e-3) << k;
+        (k < 4 ? start_s : saturated_s) += k < 4 ? sum_s[k] / samples[k] : sum_s[k];
+        saturated += k < 4 ? 0.0 : samples[k];
+    }
+    EXPECT_NEAR(d.saturation_headway_s, saturated_s / saturated, 1e-3);
+    EXPECT_NEAR(d.saturation_flow_veh_h, 3600.0 * saturated / saturated_s, 2.0);
+    EXPECT_NEAR(d.startup_lost_time_s, start_s - 4.0 * saturated_s / saturated, 5e-3);
+    EXPECT_DOUBLE_EQ(d.vehicles_per_green, passed / 8.0 / kCycles);
+}
+
+TEST_F(IntersectionRun, LongestTimeInJunctionRunsFromStopLineToRearOut) {
+    double longest_s = 0.0;
+    for (const auto& [id, trip] : watch_->trips) longest_s = std::max(longest_s, trip.inside_s);
+    EXPECT_GT(longest_s, 5.0);
+    EXPECT_NEAR(result_->longest_in_junction_s, longest_s, 2.0 * kStep_s);
+}
+
+}  // namespace
+}  // namespace stopline

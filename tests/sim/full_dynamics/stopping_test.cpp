@@ -1,0 +1,105 @@
+// Conformance tests of every policy with every vehicle. From every feasible state the vehicle stops before a red signal
+// and behind a stopped vehicle. From far away it stops exactly at the intended position.
+#include <gtest/gtest.h>
+
+#include "base/speed_thresholds.h"
+#include "support/track.h"
+
+namespace stopline {
+namespace {
+
+using namespace testing_support;
+
+// A state is feasible if this braking suffices after this delay, which covers the jerk limit and the lag of the brake.
+constexpr double kFeasible_mps2 = 6.0;
+constexpr double kDelay_s = 0.35;
+
+struct InitialState {
+    double speed_mps;
+    double distance_m;  // to the stop line or to the leader
+    bool is_far;
+};
+
+std::vector<InitialState> feasible_states() {
+    std::vector<InitialState> states;
+    for (const double kmh : {5.0, 12.0, 22.0, 35.0, 50.0, 60.0}) {
+        const double v = kmh / 3.6;
+        const double stopping_m = v * v / (2.0 * kFeasible_mps2) + kDelay_s * v;
+        for (const double factor : {1.001, 1.15, 1.5, 2.5}) states.push_back({v, factor * stopping_m, false});
+        states.push_back({v, 170.0, true});
+    }
+    return states;
+}
+
+TrackPlan red_road(const Pairing& pairing, std::size_t lanes) {
+    TrackPlan plan;
+    plan.policy = pairing.policy;
+    plan.vehicle = pairing.vehicle;
+    plan.lanes = static_cast<int>(lanes);
+    plan.length_m = 1000.0;
+    plan.limit_mps = 60.0 / 3.6;
+    plan.green_from_s = kForever_s;
+    return plan;
+}
+
+std::string describe(const InitialState& a) {
+    return "from " + std::to_string(3.6 * a.speed_mps) + " km/h, " + std::to_string(a.distance_m) + " m away";
+}
+
+class Stopping : public testing::TestWithParam<Pairing> {};
+INSTANTIATE_TEST_SUITE_P(SlowEveryPairing, Stopping, testing::ValuesIn(every_pairing()), as_pairing_name);
+INSTANTIATE_TEST_SUITE_P(OnePairing, Stopping, testing::Values(Pairing{"SWITCH-1", "petrol_eu4_72kw"}),
+                         as_pairing_name);
+
+TEST_P(Stopping, StopsBeforeARedSignal) {
+    const std::vector<InitialState> states = feasible_states();
+    Track track(red_road(GetParam(), states.size()));
+    for (std::size_t k = 0; k < states.size(); ++k) {
+        track.place(static_cast<int>(2 * k), 1000.0 - states[k].distance_m, states[k].speed_mps);
+    }
+    track.run(45.0);
+    EXPECT_EQ(track.state().records.passages.size(), 0u) << "vehicles passed the stop line";
+    EXPECT_EQ(track.state().records.violations.forced_red_entries, 0);
+    const double margin_m = track.model().driver.stop.margin_m;
+    for (std::size_t k = 0; k < states.size(); ++k) {
+        ASSERT_EQ(track.count(static_cast<int>(2 * k)), 1) << describe(states[k]);
+        const VehicleView car = track.vehicle(static_cast<int>(2 * k), 0);
+        EXPECT_LT(car.speed_mps, kBrakeHoldSpeed_mps) << describe(states[k]);
+        const double distance_m = 1000.0 - car.position_m;
+        EXPECT_GT(distance_m, 0.0) << describe(states[k]);
+        if (states[k].is_far) {
+            EXPECT_NEAR(distance_m, margin_m, 0.1) << describe(states[k]);
+        }
+    }
+}
+
+TEST_P(Stopping, StopsBehindAStoppedVehicle) {
+    const std::vector<InitialState> states = feasible_states();
+    Track track(red_road(GetParam(), states.size()));
+    const double margin_m = track.model().driver.stop.margin_m;
+    const double length_m = track.model().vehicles[0].length_m;
+    for (std::size_t k = 0; k < states.size(); ++k) {
+        const int lane = static_cast<int>(2 * k);
+        track.place(lane, 1000.0 - margin_m, 0.0);
+        track.place(lane, 1000.0 - margin_m - length_m - states[k].distance_m, states[k].speed_mps);
+    }
+    std::vector<double> smallest_gap_m(states.size(), 1e9);
+    for (int n = 0; n < 4500; ++n) {
+        track.step();
+        for (std::size_t k = 0; k < states.size(); ++k) {
+            smallest_gap_m[k] = std::min(smallest_gap_m[k], track.vehicle(static_cast<int>(2 * k), 1).gap_m);
+        }
+    }
+    const double standstill_gap_m = equilibrium_gap_m(track.model().policies[0].settings, 0.0);
+    for (std::size_t k = 0; k < states.size(); ++k) {
+        const VehicleView car = track.vehicle(static_cast<int>(2 * k), 1);
+        EXPECT_GT(smallest_gap_m[k], 0.0) << describe(states[k]);
+        EXPECT_LT(car.speed_mps, kBrakeHoldSpeed_mps) << describe(states[k]);
+        if (states[k].is_far) {
+            EXPECT_NEAR(car.gap_m, standstill_gap_m, 0.1) << describe(states[k]);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace stopline

@@ -1,0 +1,153 @@
+// Gap acceptance of left-turning vehicles. Vehicles with priority enter on the opposite leg one by one at chosen times.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "base/containers/index.h"
+#include "scenario/build_model.h"
+#include "scenario/load_scenario.h"
+#include "sim/step/simulation.h"
+
+namespace stopline {
+namespace {
+
+constexpr double kEnd_s = 400.0;
+// Headways between entering vehicles with priority, shorter and longer than the critical gap.
+constexpr double kHeadways_s[] = {2.5, 8.0, 3.5, 6.0, 4.5, 10.0, 4.0, 7.0, 5.5, 4.8, 9.0};
+
+struct Arrival {
+    double time_s;
+    bool awaited;  // a left-turning vehicle has waited since the previous arrival
+};
+
+struct OncomingVehicle {
+    int id;
+    double distance_m;  // from the front to the conflict area; negative beyond its start
+    double speed_mps;
+};
+
+// Legs with one lane each. Vehicles from the west turn left; vehicles from the east take the movement of the parameter.
+class GapAcceptance : public testing::TestWithParam<const char*> {
+protected:
+    GapAcceptance()
+        : model_(make_model()), left_turn_(lane("west_0_left")), priority_(lane(std::string("east_0_") + GetParam())) {}
+
+    static Model make_model() {
+        const Scenario scenario =
+            load_scenario(STOPLINE_SOURCE_DIR "/scenarios/intersection.yaml",
+                          {"network.intersection.lanes=[{movements: straight+left+right}]", "signal.green=1000 s",
+                           "demand={kind: queue, start: empty}", "step=20 ms"});
+        Model model = build_model(scenario, 0);
+        for (DemandPlan::Inlet& inlet : model.demand.inlets) inlet.vehicles = 0;
+        return model;
+    }
+
+    int lane(const std::string& name) const {
+        int k = 0;
+        while (model_.graph.lanes.at(at(k)).name != name) ++k;
+        return k;
+    }
+
+    // Returns the inlet upstream of a connection. All its vehicles will take this connection.
+    DemandPlan::Inlet& inlet_to(int connection) {
+        auto inlet = model_.demand.inlets.begin();
+        while (inlet->lane != model_.graph.lanes[at(connection)].origin) ++inlet;
+        std::erase_if(inlet->routes, [&](int route) { return model_.graph.routes[at(route)].lanes[1] != connection; });
+        inlet->shares = {1.0};
+        return *inlet;
+    }
+
+    // Returns the vehicles with priority, the foremost first.
+    std::vector<OncomingVehicle> oncoming_vehicles(const State& state, double area_m) const {
+        std::vector<OncomingVehicle> vehicles;
+        const int origin = model_.graph.lanes[at(priority_)].origin;
+        for (const int lane_index : {priority_, origin}) {
+            const double to_m = area_m + (lane_index == origin ? model_.graph.lanes[at(origin)].length_m : 0.0);
+            const VehicleArrays& v = state.vehicles;
+            for (int slot = state.blocks[at(lane_index)].first; slot < state.blocks[at(lane_index)].past_last();
+                 ++slot) {
+                vehicles.push_back({v.id[at(slot)], to_m - v.position_m[at(slot)], v.speed_mps[at(slot)]});
+            }
+        }
+        return vehicles;
+    }
+
+    // Returns true if a left-turning vehicle waits before the conflict area, on its connection or its approach lane.
+    bool has_waiting_vehicle(const State& state) const {
+        return state.junctions.yield_stops[at(left_turn_)].count > 0 ||
+               state.junctions.yield_stops[at(model_.graph.lanes[at(left_turn_)].origin)].count > 0;
+    }
+
+    Model model_;
+    int left_turn_;
+    int priority_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Oncoming, GapAcceptance, testing::Values("straight", "right"),
+                         [](const auto& movement) { return std::string(movement.param); });
+
+TEST_P(GapAcceptance, AcceptsLongGapsAndRejectsShortOnes) {
+    double area_m = 1e9;
+    for (const Conflict& c : model_.graph.conflicts_of(left_turn_)) {
+        if (c.other == priority_) area_m = c.other_from_m;
+    }
+    ASSERT_LT(area_m, 1e9) << "the connections have no conflict";
+    const double critical_s = model_.give_way.critical_gap_s;
+    inlet_to(left_turn_).vehicles = 1000;
+    std::int64_t& released = inlet_to(priority_).vehicles;
+    double next_s = 20.0;
+    bool awaited = false;
+    int last_id = -1;
+    std::vector<double> accepted_s;
+    int checked_gaps = 0;           // accepted before an undisturbed oncoming vehicle
+    std::vector<Arrival> arrivals;  // of vehicles with priority at the conflict area
+    Simulation simulation(model_);
+    const State& state = simulation.state();
+    while (simulation.time_s() < kEnd_s) {
+        if (simulation.time_s() >= next_s) next_s += kHeadways_s[at(static_cast<int>(released++)) % 11];
+        const std::size_t accepted_before = state.records.gaps_accepted.size();
+        const double time_s = simulation.time_s();
+        const std::vector<OncomingVehicle> oncoming = oncoming_vehicles(state, area_m);
+        simulation.step();
+        awaited = awaited && has_waiting_vehicle(state) && state.records.gaps_accepted.size() == accepted_before;
+        if (state.records.gaps_accepted.size() > accepted_before) {
+            accepted_s.push_back(time_s);
+            const auto next =
+                std::find_if(oncoming.begin(), oncoming.end(), [](auto& o) { return o.distance_m > 0.0; });
+            // A vehicle that has braked for the previous left turn is still accelerating, so its speed predicts no
+            // arrival.
+            if (next != oncoming.end() && next->speed_mps > 0.97 * model_.graph.lanes[at(priority_)].limit_mps) {
+                EXPECT_GE(next->distance_m / next->speed_mps, critical_s) << "at " << time_s << " s";
+                ++checked_gaps;
+            }
+        }
+        for (const OncomingVehicle& vehicle : oncoming) {  // ids rise from front to rear
+            if (vehicle.distance_m > 0.0 || vehicle.id <= last_id) continue;
+            last_id = vehicle.id;
+            arrivals.push_back({time_s, awaited});
+            awaited = true;
+        }
+    }
+    EXPECT_TRUE(state.records.violations.none());
+    EXPECT_GE(checked_gaps, 15);
+    for (const double start_s : accepted_s) {
+        const auto next = std::find_if(arrivals.begin(), arrivals.end(), [&](auto& a) { return a.time_s > start_s; });
+        EXPECT_TRUE(next == arrivals.end() || next->time_s - start_s >= critical_s) << "at " << start_s << " s";
+    }
+    // A vehicle needs one second to clear the area. A right-turning vehicle brakes and so arrives later than expected.
+    const double margin_s = GetParam() == std::string("right") ? 3.0 : 1.5;
+    int rejected = 0;
+    for (std::size_t k = 1; k < arrivals.size(); ++k) {
+        if (!arrivals[k].awaited) continue;
+        const double gap_s = arrivals[k].time_s - arrivals[k - 1].time_s;
+        rejected += gap_s < critical_s ? 1 : 0;
+        EXPECT_LT(gap_s, critical_s + margin_s)
+            << "a sufficient gap was not used, up to " << arrivals[k].time_s << " s";
+    }
+    EXPECT_GE(rejected, 10);
+}
+
+}  // namespace
+}  // namespace stopline

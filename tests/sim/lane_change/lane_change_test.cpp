@@ -1,0 +1,245 @@
+// Lane changes on parallel lanes before one signal. Lane k of the approach has index 2 k, and its exit lane has index
+// 2 k + 1. The turn of a vehicle is that of its exit lane.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "base/containers/index.h"
+#include "base/random.h"
+#include "sim/lane_change/route_choice.h"
+#include "support/track.h"
+
+namespace stopline {
+namespace {
+
+using testing_support::Track;
+using testing_support::TrackPlan;
+
+struct Case {
+    const char* fidelity;
+    const char* policy;
+};
+
+std::string case_name(const testing::TestParamInfo<Case>& info) {
+    std::string name = std::string(info.param.fidelity) + "_" + info.param.policy;
+    std::erase_if(name, [](char c) { return c == '-'; });
+    return name;
+}
+
+// Returns a road with parallel lanes. `mirrored` swaps left and right.
+Model parallel_lanes(const TrackPlan& plan, bool mirrored = false) {
+    Model model = build_model(testing_support::scenario_of(plan), 0);
+    LaneGraph& graph = model.graph;
+    Approach approach{"approach", {}, 0.0, 0.0};
+    const std::array<Turn, 3> turns{Turn::left, Turn::straight, Turn::right};
+    for (int k = 0; k < plan.lanes; ++k) {
+        const int before = k > 0 ? 2 * (k - 1) : -1;
+        const int after = k + 1 < plan.lanes ? 2 * (k + 1) : -1;
+        Lane& lane = graph.lanes[at(2 * k)];
+        lane.left = mirrored ? after : before;
+        lane.right = mirrored ? before : after;
+        lane.approach = 0;
+        graph.lanes[at(2 * k + 1)].turn = turns[at(k % 3)];
+        approach.lanes.push_back(2 * k);
+    }
+    if (mirrored) std::reverse(approach.lanes.begin(), approach.lanes.end());
+    graph.approaches = {approach};
+    model.demand.inlets.clear();
+    return model;
+}
+
+TrackPlan plan_of(const Case& c, int lanes) {
+    TrackPlan plan;
+    plan.policy = c.policy;
+    plan.lanes = lanes;
+    plan.length_m = 1000.0;
+    plan.overrides = {std::string("fidelity=") + c.fidelity};
+    if (std::string(c.fidelity) == "meso") plan.overrides.push_back("meso=fitted");
+    return plan;
+}
+
+// Places a vehicle on lane k that must leave on lane `target`. Returns its id.
+int place(Track& track, int k, double position_m, double speed_mps, int target) {
+    const int id = track.place(2 * k, position_m, speed_mps);
+    State& state = track.mutable_state();
+    const int slot = state.blocks[at(2 * k)].last();
+    state.vehicles.record[at(slot)].route = target;
+    adopt_lane_route(track.model(), state, 2 * k, slot);
+    return id;
+}
+
+// Returns a random number from [0, 1) for a vehicle and a quantity.
+double uniform(std::uint64_t seed, int vehicle, int quantity) {
+    return random_uniform(seed, static_cast<std::uint64_t>(vehicle), static_cast<std::uint64_t>(quantity),
+                          Purpose::turn);
+}
+
+// Fills each lane with vehicles from `first_front_m` upstream. The gaps are random between `min_gap_m` and twice that
+// length. Each vehicle draws its target lane.
+void fill(Track& track, std::uint64_t seed, int lanes, double min_gap_m, double speed_mps, double first_front_m) {
+    int vehicle = 0;
+    for (int k = 0; k < lanes; ++k) {
+        double front_m = first_front_m - 5.0 * uniform(seed, ++vehicle, 0);
+        while (front_m > 50.0) {
+            const int target = static_cast<int>(uniform(seed, vehicle, 1) * lanes);
+            place(track, k, front_m, speed_mps, target);
+            front_m -= track.model().vehicles[0].length_m + min_gap_m * (1.0 + uniform(seed, ++vehicle, 2));
+        }
+    }
+}
+
+class LaneChanging : public testing::TestWithParam<Case> {};
+class DenseLaneChanging : public testing::TestWithParam<Case> {};
+
+// Checks that no discretionary lane change returns to a lane that the vehicle left within the last half minute.
+void expect_no_oscillation(const std::vector<LaneChange>& changes) {
+    constexpr double kHalfMinute_s = 30.0 - 1e-6;  // with room for rounded times
+    std::map<int, LaneChange> last;
+    for (const LaneChange& change : changes) {
+        const auto before = last.find(change.vehicle);
+        if (before != last.end() && !change.for_route && change.time_s - before->second.time_s < kHalfMinute_s) {
+            EXPECT_NE(change.to_lane, before->second.from_lane)
+                << "vehicle " << change.vehicle << " at " << change.time_s;
+        }
+        last[change.vehicle] = change;
+    }
+}
+
+// Runs three lanes of vehicles with random target lanes up to a signal and checks for violations.
+void run_traffic(const Case& which, std::uint64_t seed, double gap_m) {
+    TrackPlan plan = plan_of(which, 3);
+    plan.green_from_s = 20.0;
+    plan.green_s = 15.0;
+    Model model = parallel_lanes(plan);
+    model.signals = {GroupProgramme({{to_ticks(15.0, model.step_s), Light::green},
+                                     {to_ticks(3.0, model.step_s), Light::yellow},
+                                     {to_ticks(22.0, model.step_s), Light::red}},
+                                    to_ticks(20.0, model.step_s), true)};
+    Track track(std::move(model));
+    fill(track, seed, 3, gap_m, std::min(13.0, 0.5 * gap_m), 900.0);
+    const auto entered = track.state().records.entered;
+    track.run(400.0);
+    const Violations& violations = track.state().records.violations;
+    EXPECT_TRUE(violations.none()) << violations.overlaps << " overlaps, " << violations.red_entries
+                                   << " red entries, seed " << seed << ", gap " << gap_m;
+    EXPECT_GT(track.state().records.lane_changes.size(), at(static_cast<int>(entered / 20)));
+    expect_no_oscillation(track.state().records.lane_changes);
+}
+
+// Seeds 2, 10 and 29 are regression tests: SWITCH-1 and SWITCH-2 overlapped without a gap reserve at their own speed.
+TEST_P(DenseLaneChanging, HasNoCollisionAtAnyDensity) {
+    for (const std::uint64_t seed : {2U, 7U, 10U, 29U}) {
+        for (const double gap_m : {3.2, 5.5, 8.0, 16.0, 40.0}) run_traffic(GetParam(), seed, gap_m);
+    }
+}
+
+TEST_P(LaneChanging, ReachesTargetLanesWithoutStoppingInFreeTraffic) {
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+        Track track(parallel_lanes(plan_of(GetParam(), 3)));
+        fill(track, seed, 3, 60.0, 12.0, 500.0);
+        const std::int64_t end = to_ticks(180.0, track.step_s());
+        while (track.state().tick < end) {
+            track.step();
+            const VehicleArrays& v = track.state().vehicles;
+            for (const LaneBlock& block : track.state().blocks) {
+                for (int slot = block.first; slot < block.past_last(); ++slot) {
+                    ASSERT_GT(v.speed_mps[at(slot)], 0.5)
+                        << "vehicle " << v.id[at(slot)] << " has stopped, seed " << seed;
+                }
+            }
+        }
+        EXPECT_EQ(track.state().present(), 0);
+        EXPECT_TRUE(track.state().records.violations.none());
+    }
+}
+
+TEST_P(LaneChanging, IsSymmetricInLeftAndRight) {
+    TrackPlan plan = plan_of(GetParam(), 3);
+    // Only mandatory lane changes occur. A discretionary change is not symmetric: it prefers the right of two equal
+    // lanes.
+    plan.overrides.emplace_back("driver.lane_change.strategic_distance=1000 m");
+    Track one(parallel_lanes(plan));
+    Track other(parallel_lanes(plan, true));
+    for (Track* track : {&one, &other}) {
+        place(*track, 0, 400.0, 12.0, 2);
+        place(*track, 1, 390.0, 10.0, 0);
+        place(*track, 1, 350.0, 13.0, 1);
+        place(*track, 2, 380.0, 11.0, 1);
+        place(*track, 2, 340.0, 13.0, 0);
+        track->run(60.0);
+    }
+    ASSERT_GE(one.state().records.lane_changes.size(), 5U);
+    ASSERT_EQ(one.state().records.lane_changes.size(), other.state().records.lane_changes.size());
+    EXPECT_EQ(one.simulation().state_hash(), other.simulation().state_hash());
+}
+
+TEST_P(LaneChanging, TwoVehiclesSwapTheirLanes) {
+    Track track(parallel_lanes(plan_of(GetParam(), 2)));
+    place(track, 0, 960.0, 8.0, 1);
+    place(track, 1, 960.0, 8.0, 0);
+    track.run(60.0);
+    EXPECT_EQ(track.state().present(), 0);
+    EXPECT_EQ(track.state().records.lane_changes.size(), 2U);
+}
+
+TEST_P(LaneChanging, WaitsBeforeTheStopLineWithoutAGap) {
+    Track track(parallel_lanes(plan_of(GetParam(), 2)));
+    const int waiting_vehicle = place(track, 0, 900.0, 10.0, 1);
+    // A stopped platoon without usable gaps occupies the target lane throughout the run.
+    for (int k = 0; k < 40; ++k) {
+        track.place(2, 980.0 - k * (track.model().vehicles[0].length_m + 2.0), 0.0);
+    }
+    track.mutable_state().vehicles.next_lane[track.slot(2, 0)] = -1;
+    Model& model = const_cast<Model&>(track.model());
+    model.signals = {GroupProgramme({{1, Light::red}}, 0, true)};
+    track.run(40.0);
+    const auto vehicle = track.vehicle(0, 0);
+    EXPECT_EQ(vehicle.id, waiting_vehicle);
+    EXPECT_LT(vehicle.speed_mps, 0.1);
+    EXPECT_LE(vehicle.position_m, 1000.0 - track.model().driver.stop.margin_m + 0.1);
+    EXPECT_GE(vehicle.position_m, 975.0);
+    EXPECT_TRUE(track.state().records.lane_changes.empty());
+}
+
+TEST_P(LaneChanging, OvertakesASlowerVehicleWithOneChange) {
+    Track track([&] {
+        Model model = parallel_lanes(plan_of(GetParam(), 2));
+        for (const int lane : {1, 3}) model.graph.lanes[at(lane)].turn = Turn::straight;
+        return model;
+    }());
+    track.place(0, 300.0, 6.0);
+    track.place(0, 200.0, 13.0);
+    const double slow_mps = 6.0;
+    const std::int64_t end = to_ticks(50.0, track.step_s());
+    while (track.state().tick < end) {
+        constexpr int kSlowVehicle = 0;
+        State& state = track.mutable_state();
+        for (const LaneBlock& block : state.blocks) {
+            for (int slot = block.first; slot < block.past_last(); ++slot) {
+                if (state.vehicles.id[at(slot)] == kSlowVehicle) state.vehicles.speed_mps[at(slot)] = slow_mps;
+            }
+        }
+        track.step();
+    }
+    ASSERT_EQ(track.state().records.lane_changes.size(), 1U);
+    EXPECT_EQ(track.state().records.lane_changes[0].vehicle, 1);
+    EXPECT_FALSE(track.state().records.lane_changes[0].for_route);
+}
+
+INSTANTIATE_TEST_SUITE_P(Fidelities, LaneChanging,
+                         testing::Values(Case{"full", "CDG"}, Case{"full", "CTG-Ref"}, Case{"full", "SWITCH-1"},
+                                         Case{"meso", "CDG"}, Case{"meso", "CTG-Ref"}, Case{"meso", "SWITCH-1"},
+                                         Case{"meso", "MIX"}),
+                         case_name);
+INSTANTIATE_TEST_SUITE_P(Fidelities, DenseLaneChanging,
+                         testing::Values(Case{"full", "CDG"}, Case{"full", "CTG-Ref"}, Case{"full", "SWITCH-1"},
+                                         Case{"full", "SWITCH-2"}, Case{"full", "MIX"}, Case{"meso", "CDG"},
+                                         Case{"meso", "CTG-Ref"}, Case{"meso", "SWITCH-1"}, Case{"meso", "SWITCH-2"},
+                                         Case{"meso", "MIX"}),
+                         case_name);
+
+}  // namespace
+}  // namespace stopline

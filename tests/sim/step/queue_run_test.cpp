@@ -1,0 +1,70 @@
+// Simulates the single-light scenario with every policy and vehicle: vehicles enter, queue at their standstill gaps and
+// exit. Track checks its invariants in every step.
+#include <gtest/gtest.h>
+
+#include "support/track.h"
+
+namespace stopline {
+namespace {
+
+using namespace testing_support;
+
+class QueueRun : public testing::TestWithParam<Pairing> {};
+INSTANTIATE_TEST_SUITE_P(SlowEveryPairing, QueueRun, testing::ValuesIn(every_pairing()), as_pairing_name);
+INSTANTIATE_TEST_SUITE_P(Mix, QueueRun, testing::Values(Pairing{"MIX", "petrol_eu4_72kw"}), as_pairing_name);
+
+TEST_P(QueueRun, HoldsTheInvariantsInEveryStep) {
+    Scenario scenario = single_light(GetParam().vehicle, GetParam().policy);
+    scenario.demand.vehicles = 25;
+    scenario.network.approach.length_m = 320.0;
+    scenario.network.approach.exit_length_m = 300.0;
+    scenario.signal.first_green_s = 100.0;
+    scenario.signal.green_s = 20.0;
+    Track track(build_model(scenario, 0));
+    track.run(100.0);
+    ASSERT_EQ(track.count(0), 25) << "all vehicles wait for green";
+    EXPECT_EQ(track.state().records.passages.size(), 25u) << "entries";
+    EXPECT_NEAR(track.vehicle(0, 0).position_m, 320.0 - scenario.driver.stop.margin_m, 0.1);
+    for (int k = 1; k < 25; ++k) {
+        const CompiledPolicy& policy = track.model().policies[at(track.state().vehicles.policy[track.slot(0, k)])];
+        EXPECT_NEAR(track.vehicle(0, k).gap_m, policy.settings.standstill_gap_m, 0.2) << "vehicle " << k + 1;
+        EXPECT_LT(track.vehicle(0, k).speed_mps, 0.05) << "vehicle " << k + 1;
+    }
+    track.run(80.0);
+    EXPECT_GT(track.state().records.exited, 5);
+    EXPECT_EQ(track.state().records.entered, 25);
+    EXPECT_EQ(track.state().records.exited + track.count(0), 25) << "vehicles that exited or left the approach";
+    EXPECT_EQ(track.state().records.violations.forced_red_entries, 0);
+}
+
+// Each vehicle has three passages: entry, stop line and exit, in this order.
+TEST(QueueRun, RecordsEveryPassageOnce) {
+    Scenario scenario = single_light("petrol_eu4_72kw", "CDG");
+    scenario.demand.vehicles = 10;
+    scenario.network.approach.length_m = 200.0;
+    scenario.network.approach.exit_length_m = 200.0;
+    scenario.signal.first_green_s = 50.0;
+    Track track(build_model(scenario, 0));
+    track.run(120.0);
+    std::vector<std::vector<Passage>> passages_of(10);  // [vehicle]
+    double previous_s = 0.0;
+    for (const Passage& passage : track.state().records.passages) {
+        passages_of[at(passage.vehicle)].push_back(passage);
+        EXPECT_GT(passage.time_s, previous_s - track.step_s()) << "passages are in order of time within one step";
+        previous_s = passage.time_s;
+    }
+    for (const std::vector<Passage>& passages : passages_of) {
+        ASSERT_EQ(passages.size(), 3u);
+        EXPECT_EQ(passages[0].from_lane, -1);
+        EXPECT_EQ(passages[0].to_lane, 0);
+        EXPECT_EQ(passages[1].from_lane, 0);
+        EXPECT_EQ(passages[1].to_lane, 1);
+        EXPECT_EQ(passages[2].from_lane, 1);
+        EXPECT_EQ(passages[2].to_lane, -1);
+        EXPECT_LT(passages[0].time_s, passages[1].time_s);
+        EXPECT_LT(passages[1].time_s, passages[2].time_s);
+    }
+}
+
+}  // namespace
+}  // namespace stopline

@@ -1,0 +1,76 @@
+// Vehicles are inserted between two intersections or reinserted after teleporting. They must be able to stop for the
+// traffic and the signal ahead.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "runs/network/network_run.h"
+#include "scenario/load_scenario.h"
+#include "sim/state/vehicles/full_group.h"
+
+namespace stopline {
+namespace {
+
+NetworkResult result_of(const std::string& text) { return run_network(parse_scenario(text, "test.yaml"), 0); }
+
+// A right-turning vehicle can be stopped just beyond the end of a link of 19 m. A vehicle inserted on the link must
+// stop behind it.
+TEST(InsertVehicle, KeepsAGapToAVehicleStoppedBeyondTheLink) {
+    const NetworkResult result = result_of(
+        "duration: 300 s\n"
+        "network: {kind: grid, intersection: {lanes: [{movements: straight}, {movements: right}]}, grid: {rows: 2, "
+        "row_spacing: 59.1 m}}\n"
+        "demand: {kind: saturated, approaches: [c0r0_north]}\n"
+        "driver: {base: startup_kit, stop: {decision_deceleration: 7 m/s2}}\n"
+        "populations: [CTG-Ref]\n");
+    EXPECT_GT(result.entered, 50);
+    EXPECT_EQ(result.violations.overlaps, 0);
+    EXPECT_LT(result.violations.forced_red_entries, result.entered / 20);
+}
+
+// The links are too short to stop from the speed limit.
+TEST(InsertVehicle, TeleportedVehicleCanStopAtTheNextSignal) {
+    const NetworkResult result = result_of(
+        "duration: 900 s\n"
+        "fidelity: meso\n"
+        "network: {kind: grid, intersection: {radius: 25 m, speed_limit: 120 km/h}, grid: {columns: 5, column_spacing: "
+        "141.2 m}}\n"
+        "signal: {green: 0.1 s, cross_green: 10 s}\n"
+        "rules: {teleport_cycles: 1}\n"
+        "driver: {base: startup_kit, stop: {decision_deceleration: 7 m/s2}}\n"
+        "populations: [CTG-Ref]\n");
+    EXPECT_GT(result.delays.teleported, 10);
+    EXPECT_EQ(result.violations.conflicts, 0);
+    EXPECT_EQ(result.violations.forced_red_entries, 0);
+    EXPECT_TRUE(result.violations.none());
+}
+
+// On such short links vehicles need maximum braking to stop on yellow. A vehicle that overruns the stop line
+// nevertheless is counted as a forced red entry, not as a violation.
+TEST(InsertVehicle, OverrunOnYellowIsNoViolation) {
+    const NetworkResult result = result_of(
+        "network: {kind: grid, intersection: {radius: 40 m}, grid: {rows: 2, row_spacing: 98.6 m}}\n"
+        "signal: {green: 30 s}\n"
+        "demand: {kind: saturated}\n"
+        "driver: {base: startup_kit, stop: {decision_deceleration: 7 m/s2}}\n"
+        "populations: [CTG-Ref]\n");
+    EXPECT_EQ(result.violations.red_entries, 0);
+    EXPECT_GT(result.violations.forced_red_entries, 0);
+}
+
+// Overlapping vehicles can make a lane hold more vehicles than fit. The group must have memory for them, so that the
+// overlaps can be reported.
+TEST(FullGroup, GrowsBeyondThePlannedSize) {
+    FullGroupArrays arrays;
+    arrays.resize(16);
+    arrays.reserve(200);
+    const FullGroup group = arrays.streams();
+    EXPECT_GE(group.acceleration - group.speed, 200);
+    std::fill_n(group.speed, 200, 2.0F);
+    EXPECT_EQ(group.acceleration[0], 1.0F);
+}
+
+}  // namespace
+}  // namespace stopline

@@ -1,0 +1,197 @@
+// Right of way at the reference intersection: accepted gaps, waiting, turning speed, equal legs, no conflicts.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/containers/index.h"
+#include "runs/intersection/intersection_run.h"
+#include "scenario/build_model.h"
+#include "scenario/load_scenario.h"
+
+namespace stopline {
+namespace {
+
+Scenario reference(const std::vector<std::string>& overrides = {}) {
+    return load_scenario(STOPLINE_SOURCE_DIR "/scenarios/intersection.yaml", overrides);
+}
+
+std::vector<std::string> turn_shares(int left, int right) {
+    return {"demand.left=" + std::to_string(left) + " %", "demand.right=" + std::to_string(right) + " %"};
+}
+
+// Returns a model in which only the west leg has traffic, and all of it turns left.
+Model left_turns_only() {
+    Scenario scenario = reference({"demand.left=100 %"});
+    Model model = build_model(scenario, 0);
+    std::erase_if(model.demand.inlets, [&](const DemandPlan::Inlet& inlet) {
+        return model.graph.lanes[at(inlet.lane)].name != "west_in_0";
+    });
+    return model;
+}
+
+TEST(RightOfWay, LeftTurnsDoNotWaitWithoutOncomingTraffic) {
+    const Model model = left_turns_only();
+    Simulation simulation(model);
+    double slowest_mps = 1e9;
+    while (simulation.time_s() < 150.0) {
+        simulation.step();
+        const State& state = simulation.state();
+        for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {
+            if (model.graph.lanes[at(lane)].origin < 0) continue;
+            ASSERT_EQ(state.junctions.yield_stops[at(lane)].count, 0);
+            const LaneBlock& block = state.blocks[at(lane)];
+            for (int slot = block.first; slot < block.past_last(); ++slot) {
+                slowest_mps = std::min(slowest_mps, state.vehicles.speed_mps[at(slot)]);
+            }
+        }
+    }
+    EXPECT_GT(slowest_mps, 3.0);
+    EXPECT_GT(simulation.state().records.gaps_accepted.size(), 8u);
+}
+
+// With a standstill gap of 2.45 m a vehicle stops past the stop line, behind a waiting left-turning vehicle. The
+// opposite left-turning vehicle must not wait for it once the signal is red.
+TEST(RightOfWay, SlowQueueBehindALeftTurnDoesNotHoldUpTheOppositeOne) {
+    const Scenario scenario =
+        reference({"fidelity=meso", "meso={base: fitted, constant_time: {standstill_gap: 2.45 m}}", "demand.left=15 %",
+                   "demand.right=10 %", "signal.green=25 s"});
+    const Model model = build_model(scenario, 0);
+    Simulation simulation(model);
+    while (simulation.time_s() < 400.0) simulation.step();
+    EXPECT_LT(model.time_s(simulation.state().records.longest_in_junction), 66.0);  // one cycle
+    EXPECT_GT(simulation.state().records.exited, 400);
+    EXPECT_TRUE(simulation.state().records.violations.none());
+}
+
+TEST(RightOfWay, TurnsKeepTheirSpeedLimit) {
+    const Model model = left_turns_only();
+    Simulation simulation(model);
+    double fastest_mps = 0.0;
+    while (simulation.time_s() < 150.0) {
+        simulation.step();
+        const State& state = simulation.state();
+        for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {
+            if (model.graph.lanes[at(lane)].turn != Turn::left) continue;
+            const LaneBlock& block = state.blocks[at(lane)];
+            for (int slot = block.first; slot < block.past_last(); ++slot) {
+                fastest_mps = std::max(fastest_mps, state.vehicles.speed_mps[at(slot)]);
+            }
+        }
+    }
+    EXPECT_GT(fastest_mps, 6.0);
+    EXPECT_LT(fastest_mps, 7.0 * 1.1) << "a follower may exceed the limit by 5 %";
+}
+
+// The next vehicle with priority reaches the conflict area no sooner than expected when the gap was accepted.
+TEST(RightOfWay, LeftTurnsUseGapsAboveTheCriticalGap) {
+    Scenario scenario = reference(turn_shares(15, 10));
+    scenario.measure.cycles = 8;
+    const Model model = build_model(scenario, 0);
+    Simulation simulation(model);
+    // [connection * 1000 + yielding connection] times at which fronts reach the conflict area
+    std::map<int, std::vector<double>> arrivals_s;
+    std::map<int, double> last_front_m;  // [vehicle]
+    while (simulation.time_s() < measured_window(scenario).to_s) {
+        simulation.step();
+        const State& state = simulation.state();
+        for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {
+            if (model.graph.lanes[at(lane)].turn != Turn::straight) continue;
+            const LaneBlock& block = state.blocks[at(lane)];
+            for (int slot = block.first; slot < block.past_last(); ++slot) {
+                const int id = state.vehicles.id[at(slot)];
+                const double front_m = state.vehicles.position_m[at(slot)];
+                for (const Conflict& c : model.graph.conflicts_of(lane)) {
+                    if (c.other_yields && last_front_m[id] < c.from_m && front_m >= c.from_m) {
+                        arrivals_s[lane * 1000 + c.other].push_back(simulation.time_s());
+                    }
+                }
+                last_front_m[id] = front_m;
+            }
+        }
+    }
+    const std::vector<GapAccepted>& gaps = simulation.state().records.gaps_accepted;
+    ASSERT_GT(gaps.size(), 20u);
+    int checked = 0;
+    for (const GapAccepted& gap : gaps) {
+        EXPECT_GE(gap.gap_s, gap.needed_s);
+        EXPECT_GE(gap.needed_s, model.give_way.critical_gap_s - 1e-4);
+        for (const Conflict& c : model.graph.conflicts_of(gap.lane)) {
+            if (!c.yields) continue;
+            const std::vector<double>& times = arrivals_s[c.other * 1000 + gap.lane];
+            const auto next = std::upper_bound(times.begin(), times.end(), gap.time_s);
+            if (next == times.end()) continue;
+            ++checked;
+            EXPECT_GT(*next - gap.time_s, model.give_way.critical_gap_s - 0.3) << "at " << gap.time_s << " s";
+        }
+    }
+    EXPECT_GT(checked, 30);
+}
+
+struct Setting {
+    const char* population;
+    double green_s;
+    int left;
+    int right;
+};
+
+class SlowIntersection : public testing::TestWithParam<Setting> {};
+INSTANTIATE_TEST_SUITE_P(Settings, SlowIntersection,
+                         testing::Values(Setting{"CDG", 5, 30, 30}, Setting{"CTG-Ref", 10, 30, 0},
+                                         Setting{"P50", 15, 15, 30}, Setting{"CDG", 15, 0, 0},
+                                         Setting{"P25", 20, 5, 10}, Setting{"P75", 30, 30, 30}));
+
+TEST_P(SlowIntersection, HasNoConflictsAndNoDeadlocks) {
+    Scenario scenario = reference(turn_shares(GetParam().left, GetParam().right));
+    scenario.signal.green_s = GetParam().green_s;
+    const auto named = [&](const PopulationSettings& p) { return p.name == GetParam().population; };
+    const auto population = std::find_if(scenario.populations.begin(), scenario.populations.end(), named);
+    const IntersectionResult result =
+        run_intersection(scenario, static_cast<std::size_t>(population - scenario.populations.begin()));
+    EXPECT_TRUE(result.violations.none());
+    EXPECT_EQ(result.violations.conflicts, 0);
+    EXPECT_LT(result.longest_in_junction_s, 2.0 * 2.0 * (GetParam().green_s + 8.0)) << "a deadlock";
+    // Each lane discharges at least one vehicle per green.
+    EXPECT_GE(result.discharge.vehicles_per_green, 1.0);
+    // A queue of 25 vehicles needs about 12 cycles with two vehicles per green.
+    EXPECT_LT(result.zones[0].travel_time_s, 12.0 * 2.0 * (GetParam().green_s + 8.0));
+}
+
+// Regression test: turning vehicles slow CDG platoons down, and yellow splits them. One follower closed in from a gap
+// of only 1.2 m.
+TEST(RightOfWay, PlatoonsSplitByYellowDoNotCollide) {
+    std::vector<std::string> overrides = turn_shares(10, 20);
+    for (const char* setting : {"network.intersection.lanes=[{movements: straight+left+right}]", "signal.green=22 s",
+                                "signal.all_red=2 s", "seed=2"}) {
+        overrides.emplace_back(setting);
+    }
+    const Scenario scenario = reference(overrides);
+    const Model model = build_model(scenario, scenario.populations.size() - 1);
+    Simulation simulation(model);
+    while (simulation.time_s() < 180.0) simulation.step();
+    EXPECT_TRUE(simulation.state().records.violations.none());
+    EXPECT_EQ(simulation.state().records.violations.overlaps, 0);
+}
+
+TEST(RightOfWay, EveryEntryLaneDischargesTheSameWithoutTurns) {
+    const Scenario scenario = reference();
+    const Model model = build_model(scenario, 6);
+    Simulation simulation(model);
+    // The run covers three whole cycles.
+    while (simulation.time_s() < 1.0 + 3.0 * 46.0) simulation.step();
+    std::map<int, int> passed;  // [entry lane] vehicles
+    for (const Crossing& crossing : simulation.state().records.crossings) {
+        const Detector& detector = model.detectors[at(crossing.detector)];
+        if (detector.kind == Detector::Kind::stop_line) ++passed[detector.lane];
+    }
+    ASSERT_EQ(passed.size(), 8u);
+    for (const auto& [lane, vehicles] : passed) {
+        EXPECT_EQ(vehicles, passed.begin()->second) << model.graph.lanes[at(lane)].name;
+    }
+}
+
+}  // namespace
+}  // namespace stopline
