@@ -21,7 +21,7 @@ constexpr std::array<int, 4> kGridOffsets_s{0, 5, 10, 15};
 constexpr std::array<int, 3> kArterialGreens_s{25, 30, 35};
 constexpr std::array<int, 2> kArterialOffsets_s{0, 15};
 
-// Throughput gain at the worst and the best offset, in percent.
+// Throughput gain over CTG-Ref at one green time, for the worst and for the best offset, percent.
 struct Range {
     int green_s;
     double worst;
@@ -29,14 +29,15 @@ struct Range {
 };
 
 struct Series {
-    std::string name;  // file name
+    std::string name;  // name of the data file
     std::string title;
     std::size_t style;  // index of the line style
-    bool band;          // draws the band between worst and best; false: a single line
+    bool band;          // true: draw the band between worst and best offset; false: draw a line
     std::vector<Range> values;
 };
 
-// Returns the throughput of a population at a green and an offset, s.
+// Function that returns the throughput of a population, by its name, at a green time and an offset, both in s. The unit
+// of the throughput cancels out in the gain.
 using Throughput = std::function<std::optional<double>(const std::string&, int, int)>;
 
 std::vector<Range> improvements(const std::string& population, std::span<const int> greens_s,

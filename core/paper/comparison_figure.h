@@ -1,5 +1,5 @@
-// Fig. 23 of the paper: throughput gain of CDG and MIX over CTG-Ref, over green, on grid, arterial and single
-// intersection.
+// Fig. 23 of the paper: throughput gain of CDG and MIX over CTG-Ref against the green time, on the grid, on the
+// arterial and at a single intersection.
 #pragma once
 
 #include <map>
@@ -11,7 +11,8 @@
 
 namespace stopline {
 
-// Draws the measurements of the scorecard's experiments, given by name. Returns nothing without grid and arterial.
+// Returns the figure, or an empty list if neither the grid nor the arterial was measured. `measured` maps the name of
+// each scorecard experiment to its measurements.
 std::vector<Figure> comparison_figure(const std::map<std::string, Measurements>& measured);
 
 }  // namespace stopline

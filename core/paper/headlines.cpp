@@ -14,21 +14,21 @@ namespace stopline {
 
 namespace {
 
-// A sentence with one {} for the value of each row.
+// A sentence with one placeholder {} for our value of each row.
 struct Statement {
-    std::vector<const char*> rows;
+    std::vector<const char*> rows;  // row ids
     const char* sentence;
-    const char* topic;  // named if a value is missing
+    const char* topic;  // name of the statement in the list of missing values
 };
 
-// Returns nothing if the row was not measured or its answer is not a number.
+// Returns our value of a row, or std::nullopt if the row was not measured or our answer is not a number.
 std::optional<double> value_of_row(const Scorecard& scorecard, const std::string& id) {
     const auto found = std::find_if(scorecard.rows.begin(), scorecard.rows.end(),
                                     [&](const ScoredRow& row) { return row.target.id == id; });
     return found == scorecard.rows.end() ? std::nullopt : parse_number(found->ours);
 }
 
-// Returns an empty text if a value is missing.
+// Returns the sentence with our values, or an empty text if a value is missing.
 std::string sentence_of(const Scorecard& scorecard, const Statement& statement) {
     fmt::dynamic_format_arg_store<fmt::format_context> values;
     for (const char* const id : statement.rows) {

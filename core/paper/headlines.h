@@ -1,4 +1,5 @@
-// The answer of the reproduction in five lines: the gain of CDG by network, its cost, and the number of rows met.
+// The main results of the reproduction in five lines: the gain of CDG by network, the cost of CDG, and the number of
+// scorecard rows inside their tolerance.
 #pragma once
 
 #include <string>
@@ -13,7 +14,8 @@ struct Headline {
     std::string text;
 };
 
-// Writes the lines from our values of the rows. A line says which of its values were not measured.
+// Returns the five lines, filled with our values of the scorecard rows. Each line lists its values that were not
+// measured.
 std::vector<Headline> headlines(const Scorecard& scorecard);
 
 }  // namespace stopline

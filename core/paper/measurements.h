@@ -1,5 +1,5 @@
-// Measurements of an experiment as named numbers, stored in one CSV file for each experiment. Only the same program
-// with the same scenario reuses them.
+// Measurements of an experiment as named numbers, stored in one CSV file for each experiment. A later run reuses the
+// file only if program and scenario are the same.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@ namespace stopline {
 class Measurements {
 public:
     void set(const std::string& name, double value) { values_[name] = value; }
-    // Returns nothing if the value was not measured, and NaN if it was measured without a result.
+    // Returns std::nullopt if no value has this name. NaN means that the experiment ran, but gave no number.
     std::optional<double> find(const std::string& name) const;
     const std::map<std::string, double>& values() const { return values_; }
 
@@ -22,11 +22,11 @@ private:
     std::map<std::string, double> values_;
 };
 
-// Returns all that results depend on: scenario hash, version, and a hash of the running program's bytes. Returns
-// nothing if the program file cannot be read; stored measurements are then not reused.
+// Returns a text that identifies scenario and program: the scenario hash, the version, and a hash of the program file.
+// Returns std::nullopt if the program file cannot be read. Stored measurements are then not reused.
 std::optional<std::string> results_key(const Scenario& scenario);
 
-// Returns nothing if the file is missing, damaged, or was stored with another key.
+// Loads stored measurements. Returns std::nullopt if the file is missing or damaged, or was stored with another key.
 std::optional<Measurements> load_measurements(const std::filesystem::path& file, const std::string& key);
 void store_measurements(const std::filesystem::path& file, const std::string& key, const Measurements& measurements);
 

@@ -1,8 +1,8 @@
-// Reductions of the paper's experiments for a quick run. They are a table that users can change: data/paper/quick.csv
-// with the columns applies_to,field,value. `applies_to` is sweeps/NAME or scenarios/NAME. `field` is one of:
+// Reductions make the paper's experiments shorter for a quick run. Users can edit them in data/paper/quick.csv, which
+// has the columns applies_to,field,value. `applies_to` is sweeps/NAME or scenarios/NAME. `field` is one of:
 //     repetitions   number of seeds of each combination
-//     axis NAME     values of that axis to keep, separated by ';'
-//     PATH          field of the scenario, as for --set
+//     axis NAME     values of the axis NAME to keep, separated by ';'
+//     PATH          path of a scenario field, such as duration, to which `value` is assigned (as with --set)
 #pragma once
 
 #include <filesystem>
@@ -28,8 +28,9 @@ public:
 
     const std::vector<Row>& rows() const { return rows_; }
 
-    // Returns overrides for load_scenario.
+    // Returns the overrides for load_scenario, each as "PATH=VALUE".
     std::vector<std::string> settings(const std::string& applies_to) const;
+    // Returns the reduced number of seeds, or std::nullopt if the number is not reduced.
     std::optional<int> repetitions(const std::string& applies_to) const;
     // Reduces axes and repetitions of a sweep. Throws InputError for an axis or a value that the sweep does not have.
     void apply(SweepSettings& sweep) const;

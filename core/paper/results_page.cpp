@@ -11,7 +11,7 @@ namespace stopline {
 
 namespace {
 
-// Returns the text of a table cell. The characters that Markdown would interpret in our texts are escaped.
+// Returns `text` as a Markdown table cell: special characters escaped, line breaks replaced with spaces.
 std::string cell(const std::string& text) {
     std::string escaped;
     for (const char c : text) {

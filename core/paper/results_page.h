@@ -7,8 +7,9 @@
 
 namespace stopline {
 
-// Writes the page: the answer, the rows met by section, and one table for each section. `command` makes the page.
-// `findings` is Markdown that is appended, and may be empty.
+// Returns the page: the main results, the number of rows by section and verdict, and one table for each section. The
+// page names `command` as the command that wrote it. `findings` is Markdown text for the end of the page; it may be
+// empty.
 std::string results_markdown(const Scorecard& scorecard, const std::string& command, const std::string& findings);
 
 }  // namespace stopline

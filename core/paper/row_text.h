@@ -8,19 +8,20 @@
 
 namespace stopline {
 
-// Returns the main section of a section: "IV" for "IV.C" and "IV Table 1".
+// Returns the main section that contains `section`: "IV" for "IV.C" and for "IV Table 1".
 std::string main_section(const std::string& section);
 
 // Returns the title of a main section, such as "Section IV: one intersection".
 std::string section_title(const std::string& main);
 
-// Returns the main sections of the rows in order, each once. Section I comes first.
+// Returns the main sections of the rows in the order of the rows, each once. Section I is moved to the front.
 std::vector<std::string> main_sections(const std::vector<ScoredRow>& rows);
 
 // Returns the quantity of a row in words: "improvement over CTG-Ref" for improvement_over_ctg_ref.
 std::string quantity_text(const ScoredRow& row);
 
-// Returns ours minus paper, also in percent of the paper where the unit is not percent. Empty unless both are numbers.
+// Returns our value minus the value of the paper. If the unit is not percent, the text also gives the difference in
+// percent of the value of the paper. Returns an empty text unless both values are numbers.
 std::string difference_text(const ScoredRow& row);
 
 }  // namespace stopline

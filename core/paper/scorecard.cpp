@@ -34,7 +34,7 @@ const RowJudge* judge_of(const std::string& id) {
     return found == all.end() ? nullptr : &*found;
 }
 
-// Returns all targets if `section` is empty.
+// Returns the targets of a section, or all targets if `section` is empty. Throws InputError for a section without rows.
 std::vector<Target> targets_in_section(const std::string& section) {
     std::vector<Target> targets = load_targets();
     if (section.empty()) return targets;
@@ -72,7 +72,8 @@ Measurements run_or_reuse(const Experiment& experiment, const Scenario& scenario
     return measured;
 }
 
-// Runs the experiments that the targets need. Returns their measurements by experiment name.
+// Runs the experiments that the targets need, or loads their stored measurements. Returns a map from experiment name to
+// measurements. Adds the hash of each scenario to `scenario_hashes`.
 std::map<std::string, Measurements> measure_for(const std::vector<Target>& targets, const ScorecardOptions& options,
                                                 std::map<std::string, std::uint64_t>& scenario_hashes) {
     std::set<std::string> needed;
@@ -91,7 +92,8 @@ std::map<std::string, Measurements> measure_for(const std::vector<Target>& targe
 
 }  // namespace
 
-// The next two functions join the lists of all sections. A new section adds its lists here.
+// experiments() and row_judges() concatenate the lists of all sections. For a new section, add its lists to both
+// functions.
 std::span<const Experiment> experiments() {
     static const std::vector<Experiment> kAll =
         concatenated<Experiment>({section3_experiments(), section4_experiments(), section5_experiments(),

@@ -1,8 +1,9 @@
-// The scorecard compares our numbers with those of the paper, row by row of data/paper/targets.csv. Each row has a
-// function that reads our answer from the measurements of one experiment. A row without such a function is open.
+// The scorecard compares our numbers with the numbers of the paper, one row of data/paper/targets.csv at a time. A row
+// function reads our answer to a row from the measurements of one experiment. A row without a function has the verdict
+// 'open'.
 //
 // Each section of the paper has a file sections/scorecard_section<N>.cpp with its experiments and row functions.
-// scorecard.cpp joins the lists of experiments and of rows.
+// scorecard.cpp concatenates the lists of all sections.
 #pragma once
 
 #include <filesystem>
@@ -20,81 +21,92 @@
 namespace stopline {
 
 struct ScorecardOptions {
-    std::string section;                // section whose rows are judged, with its subsections; empty: all
+    std::string section;                // section of the paper, subsections included; empty: all sections
     std::filesystem::path folder;       // folder of the stored measurements
-    std::vector<std::string> settings;  // overrides for every scenario, as for load_scenario
-    Reductions reductions;              // parts of sweeps and scenarios to leave out
+    std::vector<std::string> settings;  // overrides "PATH=VALUE" for every scenario
+    Reductions reductions;              // for a quick run; empty: full experiments
     int threads = 1;
-    std::function<bool(double)> on_progress;  // gets the share of the current experiment; false: stop
-    std::function<void(double)> on_stored;    // gets the share that a store already has; on_progress starts from it
-    std::function<void(const std::string&)> on_message;  // gets a message for each experiment run or reused
+    // Receives the finished share of the current experiment, 0..1. The experiment stops if the function returns false.
+    std::function<bool(double)> on_progress;
+    // Receives the share of the current experiment whose runs were stored before. on_progress starts from this share.
+    std::function<void(double)> on_stored;
+    // Receives a message for each experiment that is run, and for each whose stored measurements are reused.
+    std::function<void(const std::string&)> on_message;
 };
 
-// A measurement that several rows share.
+// Makes the measurements that one or more rows need, by simulation runs or from input files.
 struct Experiment {
-    const char* name;      // name of its file of measurements, without .csv
-    const char* scenario;  // file in scenarios/, without .yaml
-    bool is_stored;        // false: it reads only files, or it stores its own runs
+    const char* name;      // also the name of the CSV file with the measurements, without .csv
+    const char* scenario;  // name of the scenario file in scenarios/, without .yaml
+    bool is_stored;        // true: store the measurements; false: only read from files, or `measure` stores runs
     Measurements (*measure)(const Scenario& scenario, const ScorecardOptions& options);
 };
 
+// Row function: reads our answer to one row from the measurements of an experiment.
 struct RowJudge {
-    const char* id;          // id of the row
-    const char* experiment;  // experiment that gives the answer
-    // Returns nothing if the experiment did not measure the value. The row then stays open.
+    const char* id;          // id of the row in data/paper/targets.csv
+    const char* experiment;  // name of the experiment
+    // Returns std::nullopt if the experiment did not measure the value. The verdict of the row is then 'open'.
     std::optional<Answer> (*answer)(const Target& target, const Measurements& measurements);
 };
 
+// Return the experiments and row functions of all sections.
 std::span<const Experiment> experiments();
 std::span<const RowJudge> row_judges();
 
-// Throws std::logic_error for an unknown name.
+// Returns an experiment by name. Throws std::logic_error for an unknown name.
 const Experiment& experiment_named(const std::string& name);
 
-// Returns the scenario of an experiment. Throws InputError as load_scenario does.
+// Loads the scenario of an experiment with the reductions and overrides of the options. Throws InputError if the file
+// is invalid.
 Scenario scenario_of(const Experiment& experiment, const ScorecardOptions& options);
 
 struct ScoredRow {
     Target target;
-    std::string ours;  // empty if there is no answer
+    std::string ours;  // our value or answer as text; empty if not measured
     Verdict verdict = Verdict::open;
     std::string measured_as;  // how we measure the quantity
-    std::string explanation;  // cause of a miss; empty for other rows
+    std::string explanation;  // cause of the deviation if the verdict is 'miss'; otherwise empty
 };
 
 struct Scorecard {
     std::vector<ScoredRow> rows;
     std::map<std::string, std::uint64_t> scenario_hashes;  // by scenario name
     std::vector<Figure> figures;
-    double violations = 0.0;  // overlaps, entries on red and lost vehicles in all runs
+    // Sum over all experiments; 0 if no run has overlaps, entries on red or lost vehicles. Some experiments count
+    // single violations, others count runs with violations.
+    double violations = 0.0;
     int count(Verdict verdict) const;
 };
 
-// Runs what the rows need and judges them. Throws InputError for a section without rows, and Interrupted.
+// Runs the experiments that the rows of the section need, or loads their stored measurements, and judges the rows.
+// Throws InputError for a section without rows. Throws Interrupted if on_progress returns false.
 Scorecard make_scorecard(const ScorecardOptions& options);
 
-// Judges the rows of a section (empty: all sections) with the given measurements, by experiment name. A row is open if
-// its experiment is missing. Throws InputError for a section without rows.
+// Judges the rows of a section, or all rows if `section` is empty. `measured` maps experiment names to measurements. A
+// row whose experiment is missing has the verdict 'open'. Throws InputError for a section without rows.
 Scorecard score(const std::string& section, const std::map<std::string, Measurements>& measured);
 
-// Returns how the row is measured and, for a miss, its cause.
+// Returns a text that says how the row is measured and, if the verdict is 'miss', the cause of the deviation.
 std::string explanation_text(const ScoredRow& row);
 
-// Returns the columns id,section,paper,ours,unit,tolerance,verdict,explanation.
+// Returns the scorecard as CSV with the columns id,section,paper,ours,unit,tolerance,verdict,explanation.
 std::string scorecard_csv(const Scorecard& scorecard);
 
 // A row of data/paper/explanations.csv.
 struct Explanation {
-    std::string measured_as;
-    std::string explanation;  // cause of a miss
+    std::string measured_as;  // how we measure the quantity
+    std::string explanation;  // cause of the deviation; used if the verdict is 'miss'
 };
-// Returns the explanations by row id.
+// Loads the explanations. Returns a map from row id to explanation.
 std::map<std::string, Explanation> load_explanations(const std::filesystem::path& file);
 
-// Returns the commands that repeat the runs of the rows with tables and figures, one for each section of the paper.
+// Returns one command for each section of the paper with rows in `rows`, each command once. The commands repeat the
+// runs and write their tables and figures.
 std::vector<std::string> commands_behind(const std::vector<ScoredRow>& rows);
 
-// Adds the explanation to the row. A miss without one gets the text "Not explained yet."
+// Sets row.measured_as and, if the verdict is 'miss', row.explanation. A miss without an explanation in the file gets
+// the text "Not explained yet."
 void explain(const std::map<std::string, Explanation>& explanations, ScoredRow& row);
 
 }  // namespace stopline

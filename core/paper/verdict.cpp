@@ -12,7 +12,7 @@ namespace stopline {
 
 namespace {
 
-// Allows for rounding in unit conversions.
+// Relative margin for rounding errors of unit conversions.
 constexpr double kRounding = 1e-9;
 
 std::string short_number(double value) { return std::isnan(value) ? "none" : fmt::format("{:.4g}", value); }
@@ -21,7 +21,7 @@ std::string short_number(double value) { return std::isnan(value) ? "none" : fmt
     throw InputError(fmt::format("data/paper/targets.csv: row {}: {}", target.id, what));
 }
 
-// Returns half the width of the tolerance band around a value of the paper.
+// Returns the allowed difference from `value` of the paper, in the unit of the row.
 double band(const Target& target, double value, double tolerance) {
     if (target.tolerance_kind == "abs") return tolerance;
     if (target.tolerance_kind == "%") return 0.01 * tolerance * std::abs(value);
@@ -77,7 +77,7 @@ Verdict judge(const Target& target, const std::optional<Answer>& answer) {
         const bool below = answer->high <= paper->high + *tolerance + kRounding * (1.0 + std::abs(paper->high));
         return below ? Verdict::inside : Verdict::miss;
     }
-    // A number may lie anywhere in the range of the paper. A range must match both ends.
+    // Our number may lie in the range of the paper or near one of its ends. Our range must be near both ends.
     const bool is_number = answer->low == answer->high;
     const bool in_range = is_number && answer->low >= paper->low && answer->low <= paper->high;
     const bool low_near = near(target, answer->low, paper->low, *tolerance);

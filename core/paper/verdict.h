@@ -1,4 +1,5 @@
-// Our answer to a row of the paper, and the verdict if it lies inside the tolerance of the row.
+// Our answer to a row of data/paper/targets.csv, and the verdict on this answer: inside or outside the tolerance of the
+// row.
 #pragma once
 
 #include <optional>
@@ -9,35 +10,38 @@
 namespace stopline {
 
 enum class Verdict {
-    inside,  // within the tolerance, or a claim that holds
-    miss,    // outside the tolerance, or a claim that does not hold
-    open     // not measured, or the row states no tolerance
+    inside,  // our value is within the tolerance, or the claim holds
+    miss,    // our value is outside the tolerance, or the claim does not hold
+    open     // we have no value, or the row states no tolerance
 };
 const char* to_string(Verdict verdict);
 
-// A number has low = high. A range is judged at both ends. A claim is judged by `holds`.
+// Our answer: a number (low = high), a range from low to high, or a yes or no to a claim (`holds`).
 struct Answer {
     double low = 0.0;
     double high = 0.0;
-    std::optional<bool> holds;  // only for claims
-    std::string text;           // text for tables
+    std::optional<bool> holds;  // set only for claims: true if the claim holds in our runs
+    std::string text;           // the answer as shown in tables
 };
 Answer number_answer(double value);
 Answer range_answer(double low, double high);
 Answer claim_answer(bool holds, std::string text);
 
-// Value of the paper. low = high if the paper gives one number.
+// Value in the paper: a range from low to high. A single number has low = high.
 struct TargetRange {
     double low = 0.0;
     double high = 0.0;
 };
-std::optional<TargetRange> parse_range(const std::string& value);  // accepts "17" and "20..45"
+// Parses a number such as "17" or a range such as "20..45". Returns std::nullopt for other texts.
+std::optional<TargetRange> parse_range(const std::string& value);
 
-// Judges an answer. NaN is a miss: it was measured without a result. Throws InputError if the value of the row is not a
-// number or its kind of tolerance is unknown.
+// Compares our answer with the row. NaN gives the verdict 'miss', because the experiment ran without giving a number.
+// Throws InputError if the value, the tolerance or the kind of tolerance of the row is invalid, or if a row of kind
+// 'claim' has an answer without `holds`.
 Verdict judge(const Target& target, const std::optional<Answer>& answer);
 
-// Returns "±1", "±6 %", "exact" or "max", or an empty text if the row states no tolerance.
+// Returns the tolerance of a row as text: "±1", "±6 %", "exact" or "max". Returns an empty text if the row states no
+// tolerance.
 std::string tolerance_text(const Target& target);
 
 }  // namespace stopline

@@ -14,7 +14,7 @@
 namespace stopline {
 
 std::string ListedFigure::id() const {
-    const std::string number_text = figure.substr(0, figure.find(','));  // "Fig. 5" of "Fig. 5, speeds"
+    const std::string number_text = figure.substr(0, figure.find(','));  // "Fig. 5, speeds" gives "Fig. 5"
     std::string kind;
     std::string number;
     for (const char c : number_text) {

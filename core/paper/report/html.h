@@ -1,4 +1,4 @@
-// Builds ids and tables in HTML.
+// Functions that build HTML tables and values of id attributes.
 #pragma once
 
 #include <string>
@@ -7,15 +7,16 @@
 
 namespace stopline {
 
-// Returns a value for an id attribute. Characters other than letters, digits, '-' and '_' become '-'.
+// Returns `text` as a value for an id attribute. Characters other than letters, digits, '-' and '_' become '-'.
 std::string html_id(std::string_view text);
 
-// A table. On a narrow screen each row becomes a block, and each cell is preceded by the name of its column.
+// An HTML table. On a narrow screen, the style sheet of the page shows each row as a block, with the column name in
+// front of each cell.
 class HtmlTable {
 public:
     struct Cell {
         std::string text;      // plain text; the table escapes it
-        std::string css = {};  // class of the cell; "number" aligns the cell and the column name to the right
+        std::string css = {};  // CSS class; "number" aligns the cell and the column name to the right
     };
 
     // The caption may be empty.
@@ -26,12 +27,12 @@ public:
 private:
     std::string caption_;
     std::vector<std::string> columns_;
-    std::vector<bool> numbers_;  // [column] true if the cell of the first row is a number
+    std::vector<bool> numbers_;  // [column] true if the cell in the first row has the CSS class "number"
     std::string rows_;
 };
 
-// Returns CSV text as a table without caption. Numbers are aligned to the right. `label` names the file in error
-// messages.
+// Converts CSV text to an HTML table without caption. Numbers are aligned to the right. `label` names the CSV file in
+// error messages.
 std::string html_of_csv(const std::string& csv, const std::string& label);
 
 }  // namespace stopline

@@ -1,5 +1,6 @@
-// A job is one part of the reproduction of the paper. It makes runs, measurements, tables and figures in its own
-// folder, and a record of them. A job with a valid record is not repeated.
+// A job is one part of the reproduction of the paper. It runs simulations and writes measurements, tables and figures
+// into its own folder. It also writes a record (job.json) that lists these files. A job with a valid record is not
+// repeated.
 #pragma once
 
 #include <cstdint>
@@ -18,39 +19,41 @@
 
 namespace stopline {
 
-// Output of a job. File names are relative to its folder.
+// Output of a job. File names are relative to the folder of the job.
 struct JobOutput {
-    std::vector<std::string> figures;   // NAME of NAME.svg and NAME.png
-    std::vector<std::string> tables;    // NAME.csv
-    std::vector<std::string> measured;  // experiments of the scorecard, NAME of measured_NAME.csv
-    std::vector<std::pair<std::string, std::string>> conditions;  // name and text
-    std::vector<std::string> commands;                            // commands that repeat the runs
+    std::vector<std::string> figures;   // file names without .svg and .png
+    std::vector<std::string> tables;    // file names with .csv
+    std::vector<std::string> measured;  // names of scorecard experiments; files measured_NAME.csv
+    std::vector<std::pair<std::string, std::string>> conditions;  // conditions of the runs: name, text
+    std::vector<std::string> commands;                            // command lines that repeat the runs
     std::set<std::uint64_t> seeds;
     std::map<std::string, std::uint64_t> scenario_hashes;
-    std::int64_t violations = 0;  // runs with overlaps, entries on red or lost vehicles
+    std::int64_t violations = 0;  // 0 if no run has overlaps, entries on red or lost vehicles
 };
 
 // Input of a job.
 struct JobContext {
     std::filesystem::path folder;  // folder of this job
-    std::filesystem::path stores;  // folder of the stored runs of all jobs
-    Reductions reductions;         // empty: the full job
-    std::string key;               // identifies the program, its input files, and full or reduced jobs
+    std::filesystem::path stores;  // folder with the stored runs of all jobs
+    Reductions reductions;         // empty for a full job
+    std::string key;               // identifies the program, its input files, and the extent (full or reduced)
     int threads = 1;
-    std::function<bool(double)> on_progress;  // gets the share done; false: stop
-    std::function<void(double)> on_stored;    // gets the share that was stored before
+    // Receives the finished share of the job, 0..1. The job stops if the function returns false.
+    std::function<bool(double)> on_progress;
+    // Receives the share of the job whose runs an earlier run of the program has stored.
+    std::function<void(double)> on_stored;
 
     bool reduced() const { return !reductions.rows().empty(); }
-    // Returns the options for experiments of the scorecard.
+    // Returns the options with which the job runs experiments of the scorecard.
     ScorecardOptions scorecard() const;
 };
 
 struct Job {
-    const char* name;     // name of its folder
+    const char* name;     // also the name of the job's folder
     const char* section;  // main section of the paper, such as III
     const char* title;
-    double expected_s;        // expected duration on one thread (see WorkEstimate)
-    double quick_expected_s;  // the same for the reduced job
+    double expected_s;        // expected duration of the full job on one thread (see WorkEstimate)
+    double quick_expected_s;  // expected duration of the reduced job on one thread
     bool (*is_needed_by)(const std::string& section);
     JobOutput (*run)(const JobContext& context);
 };
@@ -60,12 +63,13 @@ const std::vector<Job>& all_jobs();
 // Returns the jobs that a section needs, or every job for "all". Returns nothing for an unknown section.
 std::vector<const Job*> jobs_of(const std::string& section);
 
-// Writes the record. It is written last, so an interrupted job has none.
+// Writes the record of a job. Call it after all files are written, so that an interrupted job has no record.
 void store_record(const std::filesystem::path& folder, const std::string& key, const JobOutput& output);
-// Reads the record. Returns nothing if there is none, its key differs, or one of its files is missing or changed.
+// Reads the record of a job. Returns std::nullopt if the record is missing, damaged or has another key, or if one of
+// the listed files is missing or has changed.
 std::optional<JobOutput> load_record(const std::filesystem::path& folder, const std::string& key);
 
-// Returns the file of the measurements of an experiment.
+// Returns the path of the file in the job's folder that holds the measurements of an experiment.
 std::filesystem::path measured_file(const std::filesystem::path& folder, const std::string& experiment);
 
 }  // namespace stopline

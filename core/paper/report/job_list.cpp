@@ -10,14 +10,14 @@ bool in_iv(const std::string& section) { return section == "IV"; }
 bool in_v(const std::string& section) { return section == "V"; }
 bool in_vi(const std::string& section) { return section == "VI"; }
 bool in_vii(const std::string& section) { return section == "VII"; }
-// Fig. 23 compares grid and arterial with the single intersection, so Section VI needs it too.
+// Fig. 23 compares grid and arterial with the single intersection, so Section VI also needs the intersection job.
 bool in_iv_or_vi(const std::string& section) { return in_iv(section) || in_vi(section); }
 
 }  // namespace
 
 const std::vector<Job>& all_jobs() {
-    // The two numbers are the expected seconds of the full and of the reduced job, on one thread of a virtual machine
-    // with two processors (AMD EPYC). A reproduction writes the measured durations to times.csv.
+    // The two numbers are the expected durations of the full job and of the reduced job, s. They were measured with one
+    // thread on a virtual machine with two processors (AMD EPYC). To update them, see times.csv of a reproduction.
     static const std::vector<Job> kJobs{
         {"startup", "III", "start of a platoon leader", 1, 1, in_iii, run_startup_job},
         {"single_light", "III", "single signal", 2, 2, in_iii, run_single_light_job},

@@ -71,7 +71,7 @@ std::optional<JobOutput> load_record(const std::filesystem::path& folder, const 
         if (!same) return std::nullopt;
         return output;
     } catch (const nlohmann::json::exception&) {
-        return std::nullopt;  // damaged: the job is repeated
+        return std::nullopt;  // damaged record: the job is repeated
     } catch (const InputError&) {
         return std::nullopt;
     }

@@ -18,12 +18,13 @@ void JobWriter::table(const std::string& name, const std::string& csv) {
 }
 
 Figure marked_as_reduced(Figure figure) {
-    // The tag keeps labels of the figure, which have the tags 1, 2, ..., from changing this one.
+    // The tag is 1000, because labels of the figure have the tags 1, 2, ... A label with the same tag replaces the
+    // mark.
     const std::string mark =
         "set label 1000 'REDUCED: quick run' at screen 0.992,0.02 left rotate by 90 noenhanced tc rgb '#b00000' font ',10' "
         "front\n";
     constexpr std::string_view kUnset =
-        "unset label\n";  // removes all labels of the previous panel, and the mark with them
+        "unset label\n";  // a figure removes its labels between panels; this also removes the mark
     for (std::size_t at = figure.body.find(kUnset); at != std::string::npos; at = figure.body.find(kUnset, at)) {
         at += kUnset.size();
         figure.body.insert(at, mark);

@@ -18,30 +18,30 @@ public:
     JobOutput output;
 
     void table(const std::string& name, const std::string& csv);
-    // Draws a figure and marks it if the job is reduced. `subfolder` separates figures of the same name. Throws
-    // InputError as draw() does, and Interrupted.
+    // Draws a figure and, if the job is reduced, adds the mark "REDUCED". Figures of the same name need different
+    // subfolders. Throws InputError if drawing fails. Throws Interrupted if on_progress returns false.
     void figure(Figure figure, const std::string& subfolder = "");
     void figures(std::vector<Figure> figures, const std::string& subfolder = "");
-    // Runs an experiment of the scorecard and stores its measurements.
+    // Runs an experiment of the scorecard and stores its measurements in the folder of the job.
     void experiment(const std::string& name);
 
     void condition(const std::string& name, const std::string& text);
     // Records scenario, fidelity, vehicle, driver, duration, populations and seed.
     void conditions_of(const Scenario& scenario);
-    // Records the same for a sweep, with its axes and seeds.
+    // Records the conditions of the first run of a sweep, and the axis values, number of runs and seeds of the sweep.
     void conditions_of(const Sweep& sweep);
-    // Records a full command that repeats the runs. A reduced job records none, because only stopline-reproduce reduces
-    // runs.
+    // Records a command line that repeats the runs. A reduced job records no command, because only stopline-reproduce
+    // can repeat reduced runs.
     void command(const std::string& text);
 
 private:
     const JobContext& context_;
 };
 
-// Adds the mark "REDUCED" along the right edge of a figure.
+// Returns the figure with the mark "REDUCED" along its right edge.
 Figure marked_as_reduced(Figure figure);
 
-// Loads a scenario of the project with the reductions of the job.
+// Loads scenarios/NAME.yaml with the overrides `settings` and the reductions of the job.
 Scenario scenario_named(const JobContext& context, const std::string& name,
                         const std::vector<std::string>& settings = {});
 

@@ -1,5 +1,6 @@
-// Jobs of Section V: comparison of the mesoscale mode with full dynamics, with our calibrated parameters and with those
-// of Table 2 of the paper (data/meso/table2.yaml). The fit itself is not repeated.
+// Jobs of Section V: comparison of the mesoscale mode with full dynamics. The mesoscale mode uses our calibrated
+// parameters and, in a second comparison, the parameters of Table 2 of the paper (data/meso/table2.yaml). The
+// parameters are not fitted again.
 #include <fmt/format.h>
 
 #include "base/io/csv.h"
@@ -17,7 +18,7 @@ namespace {
 
 std::string parameters_csv(const MesoSettings& paper, const MesoSettings& ours) {
     CsvWriter csv({"parameter", "unit", paper.name, ours.name});
-    MesoSettings paper_copy = paper;  // the fit parameters return mutable references
+    MesoSettings paper_copy = paper;  // FitParameter::value needs a mutable object
     MesoSettings our_copy = ours;
     for (const FitParameter& p : fit_parameters()) {
         csv.row({p.name, p.unit, fixed(p.value(paper_copy), 3), fixed(p.value(our_copy), 3)});
@@ -31,7 +32,7 @@ JobOutput run_calibration_times_job(const JobContext& context) {
     JobWriter writer(context);
     writer.experiment("meso_parameters");
     writer.experiment("calibration_times");
-    // The experiment has stored these runs, so none is repeated.
+    // writer.experiment() has stored the runs of this sweep, so run_sweep only loads them.
     const SweepRuns full = run_sweep(context.scorecard(), "calibration.yaml", {"fidelity=full"}, "times_full",
                                      detector_metrics, {0.9, 1.0});
     const MesoSettings paper = load_meso("table2");
@@ -54,7 +55,7 @@ JobOutput run_calibration_times_job(const JobContext& context) {
 JobOutput run_calibration_bands_job(const JobContext& context) {
     JobWriter writer(context);
     writer.experiment("calibration_bands");
-    // The experiment has stored these runs, so none is repeated.
+    // writer.experiment() has stored the runs of this sweep, so run_sweep only loads them.
     const SweepRuns full = intersection_runs(context.scorecard(), {1.0, 1.0});
     const SweepRuns meso =
         run_sweep(context.scorecard(), "intersection.yaml", {"fidelity=meso", std::string("meso=") + kCalibratedMeso},

@@ -21,12 +21,12 @@ namespace stopline {
 
 namespace {
 
-// Runs an experiment of the scorecard that is one sweep. Writes its measurements, the table of its runs, and its
+// Runs a scorecard experiment that consists of one sweep. Writes the measurements, the table of the runs, and the
 // figures.
 JobOutput sweep_job(const JobContext& context, const char* experiment, const char* sweep) {
     JobWriter writer(context);
     writer.experiment(experiment);
-    // The experiment has stored these runs, so none is repeated.
+    // writer.experiment() has stored the runs of this sweep, so run_sweep only loads them.
     const SweepRuns runs =
         run_sweep(context.scorecard(), (std::string(sweep) + ".yaml").c_str(), {}, experiment, run_metrics, {1.0, 1.0});
     const std::string csv = sweep_results(runs.store).csv;
@@ -45,7 +45,7 @@ NetworkReport network_report(const JobContext& context, const Scenario& scenario
     return run_networks(scenario, {context.threads, context.on_progress, {}});
 }
 
-// Returns the report with these populations only.
+// Returns a copy of the report with the named populations only.
 NetworkReport with_populations(const NetworkReport& report, const std::vector<std::string>& names) {
     NetworkReport chosen = report;
     std::erase_if(chosen.populations, [&](const NetworkResult& f) {
@@ -107,7 +107,7 @@ JobOutput run_berlin_sweep_job(const JobContext& context) { return sweep_job(con
 
 JobOutput run_unstable_job(const JobContext& context) {
     JobWriter writer(context);
-    // With these settings, throughput falls after some time at a steady level.
+    // With these settings, throughput is steady for some time and then falls.
     const std::vector<std::string> settings{"signal.green=20 s", "signal.offset=15 s", "demand.left=10 %",
                                             "demand.right=30 %"};
     const Scenario scenario = scenario_named(context, "grid", settings);

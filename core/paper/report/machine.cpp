@@ -13,8 +13,8 @@ namespace stopline {
 
 namespace {
 
-// Finds the first line that starts with `name` and has a separator. Returns the text after the separator, without
-// quotes, or an empty text.
+// Finds the first line of the file that starts with `name` and contains the separator. Returns the text after the
+// separator, without quotes. Returns an empty text if the file has no such line.
 std::string value_of(const char* file, const std::string& name, char separator) {
     std::ifstream in(file);
     for (std::string line; std::getline(in, line);) {

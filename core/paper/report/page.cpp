@@ -1,4 +1,4 @@
-// Writes the page of the report as HTML.
+// Builds the HTML page of the report.
 #include <algorithm>
 #include <array>
 
@@ -39,7 +39,8 @@ std::string header(const ReportContent& content) {
     return html + "</header>\n";
 }
 
-// The pictures of the answer in order of preference: job and file. The first three that exist are shown.
+// Figures that illustrate the main results, as job and file, in order of preference. The page shows the first three
+// that exist.
 constexpr std::array<std::pair<const char*, const char*>, 9> kAnswerPictures{{{"single_light", "counters"},
                                                                               {"comparison", "comparison"},
                                                                               {"grid_stability", "stability_1"},

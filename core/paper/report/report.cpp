@@ -24,10 +24,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The page embeds larger drawings as PNG.
+// The page embeds a drawing as SVG up to this size, and a larger drawing as PNG.
 constexpr std::size_t kMaxSvg_bytes = 500'000;
 
-// The files of the report. finish() removes files that only an earlier report had.
+// Writes the files of the report. finish() removes the files of an earlier report that were not written again.
 class ReportFiles {
 public:
     explicit ReportFiles(fs::path folder) : folder_(std::move(folder)) {
@@ -40,7 +40,8 @@ public:
         write_file(folder_ / name, content);
         names_.insert(name);
     }
-    // `list` is the file that lists the names for the next report.
+    // `list` is a file with the names of the report's files. finish() reads the names that the earlier report stored,
+    // and then stores the names of this report.
     void finish(const fs::path& list) {
         if (fs::exists(list)) {
             std::istringstream earlier(read_file(list));
@@ -73,7 +74,8 @@ std::string picture_of(const std::string& svg, const std::string& png) {
     return "data:image/png;base64," + encode_base64(png);
 }
 
-// Draws Fig. 23 from the measurements of all jobs.
+// Draws Fig. 23, which the scorecard contains. Returns it like the result of a job, with the conditions and seeds of
+// the jobs whose measurements it shows.
 JobResult comparison_job(const ReproduceOptions& options, const std::vector<JobResult>& jobs,
                          const Scorecard& scorecard) {
     JobContext context;
@@ -95,7 +97,7 @@ JobResult comparison_job(const ReproduceOptions& options, const std::vector<JobR
     return {nullptr, context.folder, writer.output, "", {}};
 }
 
-// Fills in picture or table, conditions and commands of a figure from the job that made it.
+// Fills in the drawing or table, the conditions, the seeds and the commands of a figure from the result of its job.
 void fill_figure(ShownFigure& shown, const JobResult& end, ReportFiles& files) {
     if (!end.problem.empty()) {
         shown.problem = "the runs failed: " + end.problem;

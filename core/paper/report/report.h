@@ -1,4 +1,5 @@
-// Report of a reproduction: index.html, which needs no other file, figures/ (SVG and PNG) and tables/ (CSV).
+// Report of a reproduction. index.html contains all figures, so it can be read alone. The folders figures/ (SVG and
+// PNG) and tables/ (CSV) hold the figures and tables as files.
 #pragma once
 
 #include <filesystem>
@@ -11,19 +12,19 @@
 
 namespace stopline {
 
-// A figure of the paper with our result.
+// A figure or table of the paper with our counterpart.
 struct ShownFigure {
     ListedFigure listed;
-    std::string picture;  // "data:" URI; empty for a table
-    std::string table;    // HTML; empty for a picture
-    std::string problem;  // reason why both are missing
+    std::string picture;  // drawing as "data:" URI; empty for a table
+    std::string table;    // table as HTML; empty for a drawing
+    std::string problem;  // reason why drawing and table are missing; otherwise empty
     std::vector<std::pair<std::string, std::string>> conditions;
     std::string seeds;
     std::vector<std::string> commands;
 };
 
 struct ReportContent {
-    std::string section;  // requested section
+    std::string section;  // section that the user requested, or "all"
     std::string command;  // command that makes the report
     std::string version;
     std::string program;  // identity of the program file
@@ -38,11 +39,11 @@ struct ReportContent {
     bool reduced() const { return !reductions.rows().empty(); }
 };
 
-// Returns the page. The same content gives the same bytes.
+// Returns the HTML page. The same content gives the same bytes.
 std::string report_page(const ReportContent& content);
 
-// Writes the report into options.folder and removes the files of an earlier report that this one does not have.
-// `command` is shown as the command of the report. Throws InputError if a file cannot be written.
+// Writes the report into options.folder. Removes figures and tables of an earlier report that the new report does not
+// contain. The page shows `command` as the command that made the report. Throws InputError if a file cannot be written.
 ReportContent write_report(const ReproduceOptions& options, const std::vector<JobResult>& jobs,
                            const std::string& command);
 

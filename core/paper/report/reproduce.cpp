@@ -28,16 +28,17 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
-// Returns the processor time of all threads of this program, without gnuplot.
+// Returns the processor time of all threads of this program, s. Processes that it starts, such as gnuplot, do not
+// count.
 double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-// Returns true for files that only the report reads. Jobs do not depend on them.
+// Returns true for a data file that no job reads. A change of such a file does not make finished jobs invalid.
 bool is_report_input(const fs::path& file) {
     return file.filename() == "explanations.csv" || file.filename() == "figures.csv" || file.extension() == ".png" ||
            file.extension() == ".md";
 }
 
-// Hashes the names and contents of all scenarios and data files.
+// Returns a hash of the names and contents of all scenario and data files that jobs may read.
 std::uint64_t hash_of_inputs() {
     std::vector<fs::path> files;
     for (const fs::path& folder : {data_directory(), data_directory().parent_path() / "scenarios"}) {
@@ -59,7 +60,7 @@ std::string key_of(const Reductions& reductions) {
                        reductions.rows().empty() ? "whole" : "reduced");
 }
 
-// Runs the jobs of one session and reports their common progress.
+// Runs the jobs of one call of run_jobs, and reports the progress of all these jobs together.
 class Session {
 public:
     Session(const ReproduceOptions& options, std::vector<const Job*> jobs)
@@ -110,7 +111,7 @@ private:
             fmt::format("{:2}/{}  {:<4} {:<36} {}", k + 1, jobs_.size(), jobs_[k]->section, jobs_[k]->title, outcome));
     }
 
-    // Returns false if the user wants to stop.
+    // Reports the progress while job `k` runs. Returns false if the user wants to stop.
     bool show_progress(std::size_t k) const {
         if (!options_.on_progress) return true;
         return options_.on_progress({estimate_.share(), estimate_.remaining_s(seconds_since(begin_)),
@@ -138,7 +139,7 @@ private:
         } catch (const Interrupted&) {
             throw;
         } catch (const std::exception& error) {
-            if (!show_progress(k)) throw Interrupted();  // Ctrl-C also ends the programs that the job started
+            if (!show_progress(k)) throw Interrupted();  // Ctrl-C also ends gnuplot, and then the job fails
             end.output = {};
             end.problem = error.what();
             send_message(k, fmt::format("FAILED: {}", error.what()));
@@ -157,11 +158,11 @@ private:
         const fs::path file = folder_ / "times.csv";
         CsvWriter csv({"job", "threads", "wall_s", "processor_s"});
         if (fs::exists(file)) {
-            try {  // keeps the times of other jobs
+            try {  // copies the rows of other jobs
                 for (const std::vector<std::string>& row : parse_csv(read_file(file), file.string()).rows) {
                     if (row.size() == 4 && row[0] != job.name) csv.row(row);
                 }
-            } catch (const InputError&) {  // a damaged file is replaced
+            } catch (const InputError&) {  // a damaged times.csv is replaced
             }
         }
         csv.row({job.name, fmt::format("{}", options_.threads), fixed(wall_s, 1), fixed(processor_s, 1)});

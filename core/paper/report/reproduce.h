@@ -1,4 +1,5 @@
-// Runs the jobs one after another. Finished jobs are not repeated. A failed job does not stop the others.
+// Runs the jobs of the reproduction one after another. Finished jobs are not repeated. After a failed job, the next job
+// runs.
 #pragma once
 
 #include <filesystem>
@@ -12,38 +13,39 @@
 namespace stopline {
 
 struct ReproduceProgress {
-    double share;        // share of the work of this session that is done, 0..1
-    double remaining_s;  // estimated time until the last job is done
+    double share;        // finished share of the work, without jobs and runs stored earlier, 0..1
+    double remaining_s;  // estimated time until the end of the last job, s
     std::string job;     // section and title of the current job
 };
 
 struct ReproduceOptions {
-    std::string section = "all";   // III to VII, or all
-    Reductions reductions;         // empty: the full reproduction
-    std::filesystem::path folder;  // folder of the report; it contains the folder of the jobs
+    std::string section = "all";   // section of the paper, III to VII, or "all"
+    Reductions reductions;         // empty for a full reproduction
+    std::filesystem::path folder;  // folder of the report; contains the folder of the jobs
     int threads = 1;
-    std::function<bool(const ReproduceProgress&)> on_progress;  // false: stop
-    std::function<void(const std::string&)> on_message;         // gets a line for each job that has ended
+    std::function<bool(const ReproduceProgress&)> on_progress;  // returns false to stop the reproduction
+    std::function<void(const std::string&)> on_message;         // receives a line for each job that has ended
 };
 
 // Result of one job.
 struct JobResult {
     const Job* job;
-    std::filesystem::path folder;  // folder of its files
+    std::filesystem::path folder;  // folder of the job's files
     JobOutput output;
-    std::string problem;  // error message; empty: the job is done
-    std::map<std::string, Measurements> measured;
+    std::string problem;                           // error message of a failed job; empty for a finished job
+    std::map<std::string, Measurements> measured;  // by name of the scorecard experiment
 };
 
-// Returns the sections that have jobs, and "all" as the last.
+// Returns the sections that have jobs, followed by "all".
 std::vector<std::string> known_sections();
 
-// Runs the missing jobs of a section. An exception in a job becomes its problem. The duration of each job is stored in
-// times.csv in the folder of the jobs. Throws InputError for an unknown section, without gnuplot, or if the folder
-// cannot be written or the program file cannot be read. Throws Interrupted.
+// Runs the unfinished jobs of a section. Returns the results of all its jobs, finished ones included. If a job throws
+// an exception, the job has failed and the message is stored in JobResult::problem. The durations of the jobs are
+// stored in times.csv in the folder of the jobs. Throws InputError if the section is unknown, gnuplot is not installed,
+// the folder cannot be written or the program file cannot be read. Throws Interrupted if on_progress returns false.
 std::vector<JobResult> run_jobs(const ReproduceOptions& options);
 
-// Returns the folder of the jobs.
+// Returns the folder that contains one folder for each job. Full and reduced reproductions use different folders.
 std::filesystem::path jobs_folder(const ReproduceOptions& options);
 
 }  // namespace stopline

@@ -6,7 +6,7 @@ namespace stopline {
 
 namespace {
 
-// Work after which observation and expectation have equal weight.
+// After this much work, in expected seconds, the observed pace has the same weight as the expected pace.
 constexpr double kPriorWeight_s = 10.0;
 
 }  // namespace

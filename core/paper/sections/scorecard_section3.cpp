@@ -1,9 +1,9 @@
 // Section III of the paper: inputs (P01..P06) and the single traffic light (L01..L15).
 //
-// A count is the number of vehicle fronts past the stop line since the start of green. An improvement at one green time
-// is the ratio of two whole counts. For 'green >= T' (the saturation of Fig. 6) it is the mean of our curve in Fig. 6
-// over all green times from T on. The mean ends when one of the queues of 60 is empty or the signal turns. Single
-// vehicles then have little influence.
+// A count is the number of vehicles whose front has passed the stop line since the start of green. The improvement at
+// one green time compares two whole counts. In rows with the condition 'green >= T' (the saturation in Fig. 6), the
+// improvement is the mean of our curve in Fig. 6 from green time T on, so single vehicles have little influence. The
+// mean ends when one of the two queues of 60 vehicles has passed, or at the end of green.
 #include <array>
 #include <cmath>
 #include <string>
@@ -73,7 +73,8 @@ std::optional<Answer> number_named(const Measurements& measured, const std::stri
     return number_answer(*value);
 }
 
-// Returns the value farthest from the paper among all names with this prefix. NaN counts as farthest.
+// Returns the measured value that is farthest from the value of the paper, among all measurements whose name starts
+// with `prefix`. NaN counts as farthest. The measurement named `excluded` is ignored.
 std::optional<Answer> farthest(const Target& target, const Measurements& measured, const std::string& prefix,
                                const std::string& excluded = "") {
     const double paper = parse_number(target.value).value_or(0.0);
@@ -91,7 +92,7 @@ std::optional<Answer> time_gap(const Target& target, const Measurements& inputs)
     return number_named(inputs, "time_gap " + target.condition);
 }
 
-// Leaves out CDG-6m, which has a larger gap on purpose.
+// Ignores CDG-6m, because this policy has a larger standstill gap on purpose.
 std::optional<Answer> standstill_gap(const Target& target, const Measurements& inputs) {
     return farthest(target, inputs, "standstill_gap ", "standstill_gap CDG-6m");
 }
@@ -127,8 +128,8 @@ std::optional<Answer> gap_at_limit(const Target& target, const Measurements& mea
     return number_named(measured, "steady_gap " + target.condition);
 }
 
-// Checks an order such as "A > B = C". A > B holds if A has the higher count or, with equal counts, its next vehicle is
-// nearer to the line. B = C holds if the counts differ by at most one vehicle, the resolution of the experiment.
+// Checks an order of populations such as "A > B = C". 'A > B' compares the counts interpolated between two vehicles.
+// 'B = C' holds if the whole counts differ by at most one vehicle, the resolution of the experiment.
 std::optional<Answer> order_of_throughput(const Target& target, const Measurements& measured) {
     const std::optional<double> green_s =
         parse_number(target.condition.starts_with("green=") ? target.condition.substr(6) : "");

@@ -1,7 +1,8 @@
 // Section IV of the paper: the reference intersection (I01..I13) and its Table 1 (T01..T48).
 //
-// Every number is the mean of six seeds. An improvement is the ratio of two means. MIX is the population with 50 % CDG.
-// Density is the share of the lane length of the whole network that vehicles occupy.
+// Every number is the mean over six seeds. An improvement compares two such means. The population MIX of the paper,
+// half of the vehicles with CDG, is called P50 here. Density is the share of the total lane length that vehicles
+// occupy, percent.
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -23,22 +24,23 @@ namespace stopline {
 namespace {
 
 constexpr const char* kRuns = "intersection";
-constexpr int kSeeds = 6;  // for each point, unless reduced
+constexpr int kSeeds = 6;  // seeds of each combination in a full (not reduced) experiment
 constexpr std::array kGreens_s{5, 10, 15, 20, 25, 30};
 constexpr std::array<const char*, 3> kPopulations{"CTG-Ref", "P50", "CDG"};
 
+// A combination of population, green time and turn shares.
 struct Point {
     std::string population;
     int green_s = 0;
-    int left = 0;
-    int right = 0;
+    int left = 0;   // share of left turns, percent
+    int right = 0;  // share of right turns, percent
 
     std::string named(const char* quantity) const {
         return fmt::format("{} {} green={} left={} right={}", quantity, population, green_s, left, right);
     }
 };
 
-// Returns the points that Table 1 and the rows of Fig. 9 need.
+// Returns the combinations that the rows of Table 1 and of Fig. 9 need.
 std::vector<Point> points() {
     std::vector<Point> all;
     for (const char* population : kPopulations) {
@@ -73,7 +75,8 @@ IntersectionResult run_point(const Scenario& scenario, const Point& point, int r
     return run_intersection(own, index_of(scenario, point.population), on_step);
 }
 
-// Runs all points with all seeds. The results of one point are adjacent. Throws Interrupted.
+// Runs each combination with each seed. The results of one combination are adjacent. Throws Interrupted if
+// options.on_progress returns false.
 std::vector<IntersectionResult> run_points(const Scenario& scenario, const std::vector<Point>& all, int seeds,
                                            const ScorecardOptions& options) {
     constexpr std::int64_t kAskInterval_ticks = 1000;
@@ -159,7 +162,7 @@ std::optional<Answer> travel_time(const Target& target, const Measurements& meas
     return value_at_point("travel_time", target, measured);
 }
 
-// Returns the change against CTG-Ref under the same conditions, in percent.
+// Returns the change of a quantity relative to CTG-Ref at the same green time and turn shares, percent.
 std::optional<double> change(const char* quantity, const Target& target, const Measurements& measured) {
     std::optional<Point> point = point_of(target.condition);
     if (!point) return std::nullopt;

@@ -1,5 +1,5 @@
 // Section V of the paper: the parameters of the mesoscale mode compared with Table 2 (C01..C10), and the two criteria
-// of the calibration (C11, C12). stopline-calibrate shows the same in full.
+// of the calibration (C11, C12). The program stopline-calibrate shows the details.
 #include <array>
 #include <optional>
 #include <string>
@@ -87,7 +87,8 @@ std::optional<Answer> largest_difference(const Target& /*target*/, const Measure
     return answer;
 }
 
-// The claim holds with 95 % of the permutations; the paper asks for all.
+// Accepts the claim if throughput, density and travel time are inside their confidence bands in at least 95 % of the
+// permutations. The paper requires this of all permutations.
 std::optional<Answer> inside_bands(const Target& /*target*/, const Measurements& measured) {
     const std::optional<double> paper = measured.find("all_paper_percent");
     if (!paper) return std::nullopt;

@@ -1,5 +1,6 @@
-// Section VI of the paper: arterial (A01..A17), grid (G01..G12) and stability (S01..S04). Three sweeps in the mesoscale
-// mode with the calibrated parameters give the values, with some runs of the arterial without any turns.
+// Section VI of the paper: arterial (A01..A17), grid (G01..G12) and stability (S01..S04). Most values come from three
+// sweeps in the mesoscale mode with the calibrated parameters. The others come from separate runs, most of them of the
+// arterial without turns (measure_platoons).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -75,8 +76,8 @@ Measurements measure_stability(const Scenario& /*scenario*/, const ScorecardOpti
     return measured_sweep(options, "stability.yaml", kStability, true);
 }
 
-// Measures the mean time from the first to the last stop line of the street, divided by the number of blocks, in both
-// directions.
+// Measures the mean travel time per block on the street, from the first to the last stop line, s. Stores one value for
+// each direction: "NAME east" and "NAME west".
 void measure_block_times(const Scenario& scenario, std::size_t population, const std::string& name,
                          Measurements& measured) {
     constexpr double kUntil_s = 1800.0;
@@ -114,7 +115,8 @@ std::size_t index_of(const Scenario& scenario, const std::string& population) {
     throw InputError(fmt::format("the scenario has no population '{}'", population));
 }
 
-// Runs situations 1 and 2 of Fig. 16 and the arterial without any turns.
+// Runs the arterial without turns: situations 1 and 2 of Fig. 16, and the rows on throughput without turns. Also runs a
+// single intersection, which gives the number of vehicles in a platoon.
 Measurements measure_platoons(const Scenario& scenario, const ScorecardOptions& options) {
     Measurements measured;
     Scenario street = scenario;

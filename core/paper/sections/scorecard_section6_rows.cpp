@@ -1,4 +1,4 @@
-// Row functions of Section VI. They read the measurements of scorecard_section6.cpp.
+// Row functions of Section VI. They read the measurements that the experiments in scorecard_section6.cpp make.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,7 +23,7 @@ constexpr std::array<int, 2> kArterialOffsets_s{0, 15};
 constexpr std::array<int, 4> kGridGreens_s{5, 10, 15, 20};
 constexpr std::array<int, 4> kGridOffsets_s{0, 5, 10, 15};
 
-// Reads the measurements of a sweep.
+// Reads the measurements of a sweep. Returns NaN for a value that was not measured.
 struct Reader {
     const Measurements& measured;
 
@@ -32,11 +32,13 @@ struct Reader {
         return measured.find(std::string(quantity) + " " + point_name(traffic, green_s, offset_s, population))
             .value_or(std::numeric_limits<double>::quiet_NaN());
     }
+    // Returns the throughput gain over CTG-Ref, percent.
     double gain(const std::string& traffic, int green_s, int offset_s, const char* population) const {
         return 100.0 * (value("throughput", traffic, green_s, offset_s, population) /
                             value("throughput", traffic, green_s, offset_s, "CTG-Ref") -
                         1.0);
     }
+    // Returns the reduction of the travel time relative to CTG-Ref, percent.
     double saved(const std::string& traffic, int green_s, int offset_s, const char* population) const {
         return 100.0 * (1.0 - value("time", traffic, green_s, offset_s, population) /
                                   value("time", traffic, green_s, offset_s, "CTG-Ref"));
@@ -63,7 +65,8 @@ MaybeAnswer from(const Measurements& measured, const std::string& name, double f
     return value ? MaybeAnswer(number_answer(factor * *value + offset)) : std::nullopt;
 }
 
-// Returns the length of n vehicles of 5.15 m with n - 1 gaps of 2.95 m, where n vehicles pass a stop line in a green.
+// Returns the length of a platoon of all n vehicles that pass the stop line in one green, m. Each vehicle is 5.15 m
+// long, and the n - 1 gaps are 2.95 m long.
 MaybeAnswer platoon_length(const Target&, const Measurements& m) { return from(m, "platoon_veh", 5.15 + 2.95, -2.95); }
 MaybeAnswer synchronous(const Target&, const Measurements& m) { return from(m, "interspace 0 east"); }
 MaybeAnswer with_wave(const Target&, const Measurements& m) { return from(m, "interspace 15 east"); }
@@ -78,7 +81,7 @@ MaybeAnswer no_turns(const Measurements& m, int green_s) {
 MaybeAnswer no_turns_25(const Target&, const Measurements& m) { return no_turns(m, 25); }
 MaybeAnswer no_turns_35(const Target&, const Measurements& m) { return no_turns(m, 35); }
 
-// Rows from the sweep of the arterial.
+// Row functions that read the sweep of the arterial.
 double arterial_gain(const Reader& r, const char* population) {
     return mean_over(kMajorGreens_s, kArterialOffsets_s,
                      [&](int g, int o) { return r.gain("free", g, o, population); });
@@ -149,7 +152,7 @@ MaybeAnswer cdg_keeps_rising(const Target&, const Measurements& m) {
                     mean(30, "CDG"), mean(35, "CDG"), mean(25, "CTG-Ref"), mean(30, "CTG-Ref"), mean(35, "CTG-Ref")));
 }
 
-// The claim says "about half". Between 40 and 60 % is accepted.
+// The paper claims that turns reduce the density to "about half". We accept 40 to 60 %.
 MaybeAnswer density_halves(const Target&, const Measurements& m) {
     const Reader r{m};
     bool all = true;
@@ -181,7 +184,7 @@ MaybeAnswer slowest_at_25_0(const Target&, const Measurements& m) {
     return claim_answer(where == "25/0 s", fmt::format("{:.0f} s at {}", highest, where));
 }
 
-// Rows from the sweep of the grid.
+// Row functions that read the sweep of the grid.
 double grid_gain(const Reader& r, const char* traffic, int green_s, const char* population) {
     return mean_over(std::array{green_s}, kGridOffsets_s,
                      [&](int g, int o) { return r.gain(traffic, g, o, population); });
@@ -227,14 +230,16 @@ MaybeAnswer mix_beats_cdg(const Target&, const Measurements& m) {
     const double cdg = r.value("throughput", "turns", 20, 0, "CDG");
     return claim_answer(mix > cdg, fmt::format("MIX {:.0f}, CDG {:.0f} veh/h", mix, cdg));
 }
-// A dent means that the value at 15 s is below the straight line from 10 to 20 s.
+// The paper claims a dent in throughput at 15 s of green. We accept a value below the straight line between the values
+// at 10 s and 20 s.
 MaybeAnswer dent(const Target&, const Measurements& m) {
     const Reader r{m};
     const auto at = [&](int g) { return grid_mean(r, "throughput", "free", g, "CDG"); };
     return claim_answer(at(15) < 0.5 * (at(10) + at(20)),
                         fmt::format("{:.0f}, {:.0f}, {:.0f} veh/h at 10, 15, 20 s", at(10), at(15), at(20)));
 }
-// The claim says "no notable influence". At most 5 % between the highest and the lowest value of a green is accepted.
+// The paper claims that the offset has "no notable influence" on throughput. We accept a difference of up to 5 %
+// between the lowest and the highest throughput over all offsets, at the same population and green time.
 MaybeAnswer offset_no_influence(const Target&, const Measurements& m) {
     constexpr double kNotable = 0.05;
     const Reader r{m};
@@ -269,7 +274,7 @@ MaybeAnswer time_rises(const Target&, const Measurements& m) {
     return claim_answer(holds, text);
 }
 
-// Rows about stability.
+// Row functions that read the stability sweep.
 std::string stability_name(const Reader& r, const std::string& traffic, int green_s, int offset_s,
                            const char* population) {
     const double value = r.value("stability", traffic, green_s, offset_s, population);
@@ -299,7 +304,8 @@ MaybeAnswer ctg_unstable_too(const Target&, const Measurements& m) {
     }
     return claim_answer(holds, text);
 }
-// Compares the sums over greens and offsets of 0 (stable), 1 (semi-stable) and 2 (unstable).
+// Rates each combination of green and offset: 0 (stable), 1 (semi-stable) or 2 (unstable). The claim holds if the
+// ratings of CDG have the smaller sum.
 MaybeAnswer cdg_more_stable(const Target&, const Measurements& m) {
     const Reader r{m};
     const auto sum = [&](const char* population) {

@@ -1,5 +1,5 @@
-// Section VII of the paper: Berlin (B01..B09). One sweep with six seeds gives the values for three lanes per direction
-// on the major road.
+// Section VII of the paper: Berlin (B01..B09). The values come from one sweep with six seeds. Only its runs with
+// three lanes per direction on the major road are used.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,7 +25,7 @@ namespace {
 constexpr const char* kBerlin = "berlin";
 constexpr double kMinute_s = 60.0;
 
-// Result columns that the rows need.
+// Columns of the sweep results that the row functions read.
 constexpr std::array<const char*, 15> kColumns{"throughput_early_veh_h",
                                                "throughput_late_veh_h",
                                                "travel_time_early_s",
@@ -41,7 +41,7 @@ constexpr std::array<const char*, 15> kColumns{"throughput_early_veh_h",
                                                "congested_from_witzlebenplatz_west_s",
                                                "congested_from_sophie_charlotte_str_west_s",
                                                "congested_from_koenigin_elisabeth_str_west_s"};
-// Columns of successive approaches, from the possible start of a backlog upstream to the inlet.
+// Columns of successive approaches, each list from the place where a backlog may start, upstream to the inlet.
 using Columns = std::span<const char* const>;
 constexpr Columns kFromSuarezEast{kColumns.data() + 4, 7};
 constexpr Columns kFromKrummeEast{kColumns.data() + 7, 4};
@@ -69,7 +69,7 @@ Measurements measure_berlin(const Scenario& /*scenario*/, const ScorecardOptions
     return measured;
 }
 
-// Returns the values of all seeds.
+// Returns the values of a result column for one population, one value for each seed.
 std::vector<double> values(const Measurements& m, const char* column, const char* population) {
     std::vector<double> all;
     for (std::size_t run = 0;; ++run) {
@@ -84,7 +84,8 @@ double mean(const Measurements& m, const char* column, const char* population) {
     return all.empty() ? std::numeric_limits<double>::quiet_NaN() : mean_of(all);
 }
 
-// Returns the mean over both intervals, weighted with their lengths of 45 and 55 minutes, veh/min.
+// Returns the mean throughput over minutes 15 to 60 and 65 to 120, veh/min. The two periods are weighted with their
+// lengths of 45 and 55 minutes.
 double flow(const Measurements& m, const char* population) {
     return (0.45 * mean(m, "throughput_early_veh_h", population) +
             0.55 * mean(m, "throughput_late_veh_h", population)) /
@@ -108,7 +109,8 @@ MaybeAnswer mix_gain(const Target&, const Measurements& m) {
     return number_answer(100.0 * (flow(m, "MIX") / flow(m, "CTG-Ref") - 1.0));
 }
 
-// Describes over the seeds when an approach was filled: "minute 12 (3 to 20) in 5 of 6 runs".
+// Returns a text with the median, the first and the last time at which a queue filled the approaches, over all seeds:
+// "minute 12 (3 to 20) in 5 of 6 runs".
 std::string filled_text(const std::vector<double>& filled_s) {
     std::vector<double> minutes;
     for (const double s : filled_s) {
@@ -120,8 +122,8 @@ std::string filled_text(const std::vector<double>& filled_s) {
                        minutes.front(), minutes.back(), minutes.size(), filled_s.size());
 }
 
-// Returns for each seed the time from which all of these approaches are filled, or NaN if this never happens. The last
-// approach alone does not show a backlog, because each inlet has a queue at its own signal.
+// Returns for each seed the time from which queues fill all approaches in `columns`, s, or NaN if this never happens.
+// The approach at the inlet alone does not prove a backlog, because its own signal causes a queue there.
 std::vector<double> connected_s(const Measurements& m, Columns columns, const char* population) {
     std::vector<double> since_s = values(m, columns.front(), population);
     for (const char* const column : columns) {
@@ -138,7 +140,8 @@ bool never(const std::vector<double>& filled_s) {
     return std::all_of(filled_s.begin(), filled_s.end(), [](double s) { return std::isnan(s); });
 }
 
-// Compares the runs by seed, both intervals together.
+// Compares the throughput of SWITCH-1 and CDG for each seed, over the early and the late period together. The claim
+// holds if the 95 % confidence interval of the difference contains 0 and SWITCH-1 never has a backlog at Suarezstr.
 MaybeAnswer switch_equals_cdg(const Target&, const Measurements& m) {
     std::vector<double> differences;
     const auto add_differences = [&](const char* column, double weight) {

@@ -1,4 +1,4 @@
-// Experiments and row functions of each section of the paper; see scorecard.h.
+// Experiments and row functions of each section of the paper. scorecard.h explains both terms.
 #pragma once
 
 #include <span>

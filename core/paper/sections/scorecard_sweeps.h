@@ -1,4 +1,5 @@
-// Sweeps that the scorecard needs. Their runs are stored in the scorecard's folder, so an interrupted sweep continues.
+// Runs the sweeps that the scorecard needs. Finished runs are stored in the scorecard's folder, so a restarted program
+// continues an interrupted sweep.
 #pragma once
 
 #include <string>
@@ -12,7 +13,7 @@
 
 namespace stopline {
 
-// Part of an experiment's progress that one sweep covers, as shares of the experiment.
+// Part of an experiment that one sweep makes, for progress reports. The whole experiment is the range 0 to 1.
 struct ProgressRange {
     double from;
     double to;
@@ -24,8 +25,9 @@ struct SweepRuns {
     SweepTotals totals;
 };
 
-// Runs the missing points of a sweep. `file` is in scenarios/sweeps, `name` is the name of the store. Throws
-// Interrupted; the finished runs stay stored.
+// Runs those runs of a sweep that are not stored yet, and returns the complete sweep. `file` is the name of the sweep
+// file in scenarios/sweeps. `name` is the name of the store file, without .sqlite. Throws InputError if a run fails.
+// Throws Interrupted if on_progress returns false; finished runs remain stored.
 SweepRuns run_sweep(const ScorecardOptions& options, const char* file, const std::vector<std::string>& overrides,
                     const char* name, RunFunction function, ProgressRange range);
 
