@@ -9,7 +9,7 @@
 
 #include "common/program.h"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): the library's name
 class App;
 class Option;
 }  // namespace CLI
@@ -45,7 +45,9 @@ public:
     Options(const std::string& description, const std::string& program);
     ~Options();
     Options(const Options&) = delete;
+    Options(Options&&) = delete;
     Options& operator=(const Options&) = delete;
+    Options& operator=(Options&&) = delete;
 
     // Adds an option or a positional argument. `names` follows CLI11: "--output", "FILE", "-n,--name".
     Option add(const std::string& names, std::string& value, const std::string& help);

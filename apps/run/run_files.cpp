@@ -111,7 +111,7 @@ void add_run_files_options(Options& app, RunFilesOptions& options) {
 
 RunFiles::RunFiles(const RunFilesOptions& options, const Scenario& scenario, const std::string& command)
     : scenario_(scenario), window_(window_of(options, scenario)), open_files_(scenario.populations.size()) {
-    const auto add = [&](const std::string& file, auto make_writer) {
+    const auto add = [&](const std::string& file, const auto& make_writer) {
         if (!file.empty()) kinds_.push_back({file, make_writer});
     };
     if (!options.record.empty()) add_recording(options, scenario, command);

@@ -112,23 +112,19 @@ STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTablesOf<Numb
     next.lag_s = select(request_brake_N > 0.0, splat<R>(t.brake_lag_s), drive_lag_s);
 
     // Force balance. Brakes and resistances stop a vehicle but never push it back, so a speed below 0 becomes 0. Torque
-    // and brake force are means over the step. The result therefore does not depend on the length of the step, to first
-    // order.
+    // and brake force are means over the step, so that to first order the length of the step has no effect.
     const R transmitted_Nm = connected * (0.5 * (s.torque_Nm + next.torque_Nm));
     const auto drive_N =
         transmitted_Nm * gain * select(transmitted_Nm > 0.0, splat<R>(t.efficiency), splat<R>(per_efficiency));
     const auto force_N = drive_N - 0.5 * (s.brake_N + next.brake_N) - resistance_N;
-    // When the clutch opens, the brake force set for the closed clutch could lock the wheels, so friction limits the
-    // deceleration.
+    // Friction limits the deceleration: the brake force set for the closed clutch could lock the wheels when it opens.
     const R moving_mps2 = max_of<R>(flush_tiny<R>(force_N / inertia_kg), lowest_mps2);
     const R stops_in_step = STOPLINE_FLAG(R, speed + moving_mps2 * dt <= 0.0);
     next.speed_mps = choose(stops_in_step, splat<R>(0.0), speed + moving_mps2 * dt);
     next.acceleration_mps2 = choose(stops_in_step, (0.0 - speed) * (1.0 / dt), moving_mps2);
 
     // Gear changes. The engine speed of the upshift rises with the load. The car kicks down if it needs more than 1.5
-    // times the full-load torque; for less, the lower gear would not make up for the torque interruption. Two things
-    // prevent frequent gear changes: the distance between upshift and downshift speeds, and the minimum time in a gear.
-    // At standstill the gear is the first one.
+    // times the full-load torque; for less, the torque interruption would cost more than the lower gear gains.
     const auto load = clamped(2.5 * share - 1.25, 0.0, 1.0);
     const auto up_rpm = t.shift_up_part_rpm + load * (t.shift_up_full_rpm - t.shift_up_part_rpm);
     const R gear_time_over = STOPLINE_FLAG(R, s.gear_time_s + 0.5 * dt >= t.minimum_gear_time_s);

@@ -51,12 +51,18 @@ def key(entry, tool):
     return digest.hexdigest()
 
 
+def without_precompiled_header(entry):
+    """Returns the entry without gcc's precompiled header. Each file must name the headers that it needs."""
+    command = re.sub(r"-Winvalid-pch ", "", entry["command"])
+    return {**entry, "command": re.sub(r"-include \S*cmake_pch\.hxx ", "", command)}
+
+
 def lint(entry, build):
     command = [
         CLANG_TIDY,
         "--quiet",
         f"--config-file={PROJECT / '.clang-tidy'}",
-        f"-p={build}",
+        f"-p={build / 'lint'}",
         f"--header-filter=^{re.escape(str(PROJECT))}/({'|'.join(FOLDERS)})/",
         "--extra-arg=-Wno-unknown-warning-option",  # the compile commands are for gcc
         f"--extra-arg=-idirafter{GCC_HEADERS}",  # for omp.h
@@ -74,7 +80,8 @@ def main():
     database = build / "compile_commands.json"
     if not database.is_file():
         sys.exit(f"lint: {database} is missing; configure the build first")
-    entries = {Path(entry["file"]).resolve(): entry for entry in json.loads(database.read_text())}
+    all_entries = [without_precompiled_header(entry) for entry in json.loads(database.read_text())]
+    entries = {Path(entry["file"]).resolve(): entry for entry in all_entries}
 
     sources = sorted(path for folder in FOLDERS for path in (PROJECT / folder).rglob("*.cpp"))
     if len(sys.argv) > 2:
@@ -87,6 +94,7 @@ def main():
     tool = version + (PROJECT / ".clang-tidy").read_bytes() + Path(__file__).read_bytes()
     cache = build / "lint"
     cache.mkdir(exist_ok=True)
+    (cache / "compile_commands.json").write_text(json.dumps(all_entries))
     keys = {path: key(entries[path], tool) for path in sources if path in entries}
     to_do = [path for path in keys if not (cache / keys[path]).exists()]
 

@@ -109,7 +109,7 @@ std::string turns_csv(const NetworkReport& report) {
     return csv.text();
 }
 
-std::vector<RunMetric> street_metrics(const Scenario& scenario, const NetworkResult& f) {
+std::vector<RunMetric> street_metrics(const Scenario& scenario, const NetworkResult& result) {
     struct Period {
         const char* name;
         double from_s;
@@ -117,7 +117,7 @@ std::vector<RunMetric> street_metrics(const Scenario& scenario, const NetworkRes
     };
     std::vector<RunMetric> metrics;
     for (const Period& period : {Period{"early", 900.0, 3600.0}, Period{"late", 3900.0, 7200.0}}) {
-        const PeriodMeans means = means_of(f, scenario.measure.interval_s, period.from_s, period.to_s);
+        const PeriodMeans means = means_of(result, scenario.measure.interval_s, period.from_s, period.to_s);
         const auto add = [&](const std::string& name, const char* unit, double value) {
             metrics.push_back(number_metric(name + "_" + period.name, unit, value, 6));
         };
@@ -129,12 +129,12 @@ std::vector<RunMetric> street_metrics(const Scenario& scenario, const NetworkRes
         add("inflow_minor", "veh_h",
             means.inflow_veh_h[index_of(Side::south)] + means.inflow_veh_h[index_of(Side::north)]);
     }
-    for (std::size_t k = 0; k < f.congestion.approaches.size(); ++k) {
-        metrics.push_back(number_metric("congested_from_" + f.congestion.approaches[k].name, "s",
-                                        f.congestion.congested_from_s(k).value_or(kNone), 0));
+    for (std::size_t k = 0; k < result.congestion.approaches.size(); ++k) {
+        metrics.push_back(number_metric("congested_from_" + result.congestion.approaches[k].name, "s",
+                                        result.congestion.congested_from_s(k).value_or(kNone), 0));
     }
-    metrics.push_back(count_metric("mandatory_lane_changes", "", f.mandatory_lane_changes));
-    metrics.push_back(count_metric("discretionary_lane_changes", "", f.discretionary_lane_changes));
+    metrics.push_back(count_metric("mandatory_lane_changes", "", result.mandatory_lane_changes));
+    metrics.push_back(count_metric("discretionary_lane_changes", "", result.discretionary_lane_changes));
     return metrics;
 }
 

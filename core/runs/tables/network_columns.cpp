@@ -1,4 +1,6 @@
 // Descriptions of the columns in the tables of grids, streets and imported networks.
+#include <utility>
+
 #include "runs/tables/column_docs.h"
 
 namespace stopline {
@@ -103,9 +105,7 @@ std::vector<ColumnDoc> series_columns(const std::vector<ColumnDoc>& summary) {
     return columns;
 }
 
-}  // namespace
-
-std::vector<TableDoc> network_table_docs() {
+std::vector<TableDoc> result_tables() {
     const std::vector<ColumnDoc> summary = summary_columns();
     return {
         {"network/summary.csv",
@@ -149,6 +149,11 @@ std::vector<TableDoc> network_table_docs() {
           {"to_s", "s", "run", "last observation"},
           {"vehicle", "", "", "vehicle at the last observation"},
           {"lane", "", "", "its lane"}}},
+    };
+}
+
+std::vector<TableDoc> rule_and_vehicle_tables() {
+    return {
         {"network/rules.csv",
          "One row for each use of a traffic rule (`rules`), in the order of time. A teleport has two rows.",
          {kPopulation,
@@ -214,6 +219,14 @@ std::vector<TableDoc> network_table_docs() {
           {"speed_mps", "m/s", "", "speed"},
           {"acceleration_mps2", "m/s2", "", "acceleration"}}},
     };
+}
+
+}  // namespace
+
+std::vector<TableDoc> network_table_docs() {
+    std::vector<TableDoc> tables = result_tables();
+    for (TableDoc& table : rule_and_vehicle_tables()) tables.push_back(std::move(table));
+    return tables;
 }
 
 }  // namespace stopline

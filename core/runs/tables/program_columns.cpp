@@ -2,9 +2,13 @@
 // stopline-scorecard.
 #include "runs/tables/column_docs.h"
 
+#include <utility>
+
 namespace stopline {
 
-std::vector<TableDoc> program_table_docs() {
+namespace {
+
+std::vector<TableDoc> calibration_tables() {
     const ColumnDoc permutation{"permutation", "", "", "axis values of the sweep, as text"};
     const ColumnDoc held_out{"held_out", "", "", "1 if the permutation is held out of the fit, else 0"};
     const ColumnDoc detector{"detector", "", "", "lane and kind of the detector"};
@@ -64,6 +68,11 @@ std::vector<TableDoc> program_table_docs() {
           {"student_high", "of the metric", "seeds", "upper bound of this interval"},
           {"inside_paper", "", "seeds", "1 if `meso_mean` is between `paper_low` and `paper_high`, else 0"},
           {"inside_student", "", "seeds", "1 if `meso_mean` is between `student_low` and `student_high`, else 0"}}},
+    };
+}
+
+std::vector<TableDoc> other_program_tables() {
+    return {
         {"startup/startup.csv",
          "One row for each time of the measured starts.",
          {{"time_s", "s", "", "time since the vehicle moves"},
@@ -104,6 +113,14 @@ std::vector<TableDoc> program_table_docs() {
           {"verdict", "", "", "`inside` the tolerance, `miss`, or `open`: no result or no tolerance"},
           {"explanation", "", "", "how the value is measured, and why it misses the paper's value"}}},
     };
+}
+
+}  // namespace
+
+std::vector<TableDoc> program_table_docs() {
+    std::vector<TableDoc> tables = calibration_tables();
+    for (TableDoc& table : other_program_tables()) tables.push_back(std::move(table));
+    return tables;
 }
 
 }  // namespace stopline

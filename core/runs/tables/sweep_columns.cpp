@@ -31,30 +31,14 @@ std::vector<ColumnDoc> run_columns() {
     add({{"throughput_SIDE_SIDE_veh_h", "veh/h", "window",
           "grids and streets: throughput straight through the network, from the first side to the second"},
          {"travel_time_SIDE_SIDE_s", "s", "window", "mean travel time of these vehicles"}});
+    copy(network, kNetwork, {"vehicles_in_area", "vehicles_present", "max_present", "window_from_s", "window_to_s"});
+    copy(network, kNetwork, {"warm_up_s", "stability", "unstable_by", "collapse_s", "gridlocks"});
     copy(network, kNetwork,
-         {"vehicles_in_area",
-          "vehicles_present",
-          "max_present",
-          "window_from_s",
-          "window_to_s",
-          "warm_up_s",
-          "stability",
-          "unstable_by",
-          "collapse_s",
-          "gridlocks",
-          "first_gridlock_s",
-          "teleported",
-          "passed_blockers",
-          "delay_signal_h",
-          "delay_yielding_h",
-          "delay_junction_blocking_h",
-          "delay_turn_blocking_h",
-          "delay_spillback_h",
-          "delay_gridlock_h",
-          "delay_wrong_lane_h",
-          "delay_queue_discharge_h",
-          "delay_upstream_h",
-          "backlog"});
+         {"first_gridlock_s", "teleported", "passed_blockers", "delay_signal_h", "delay_yielding_h"});
+    copy(network, kNetwork,
+         {"delay_junction_blocking_h", "delay_turn_blocking_h", "delay_spillback_h", "delay_gridlock_h",
+          "delay_wrong_lane_h"});
+    copy(network, kNetwork, {"delay_queue_discharge_h", "delay_upstream_h", "backlog"});
     // Columns of streets.
     add({{"throughput_STRETCH_veh_h", "veh/h", "stretch, area",
           "streets: vehicles that leave the area in minutes 15 to 60 (`early`) and 65 to 120 (`late`); empty if the "
