@@ -62,7 +62,7 @@ std::string table_text(const Scorecard& scorecard) {
     return table.text("");
 }
 
-// Returns the claims of the paper with our findings, and the reason why a row misses its tolerance.
+// Returns the claims of the paper with our findings. For each result outside its tolerance, also gives the reason.
 std::string remarks_text(const Scorecard& scorecard) {
     constexpr std::size_t kWidth = 110;
     std::string text;

@@ -249,8 +249,8 @@ ColumnNames column_names(const SweepCliOptions& options) {
     return ColumnNames::old;
 }
 
-// Writes the means over seeds, the figures, and Table 1 of the paper. Leaves out those for which the sweep lacks the
-// axes.
+// Writes the means over seeds, the figures, and Table 1 of the paper. Leaves out each of these outputs for which the
+// sweep lacks an axis.
 void draw_results(const Sweep& sweep, const std::string& csv, const std::filesystem::path& file, ColumnNames names) {
     const CsvTable results = parse_csv(csv, file.string());
     if (has_seeds(results)) {

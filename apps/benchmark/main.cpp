@@ -57,8 +57,8 @@ private:
     std::map<std::string, double> min_ns_;
 };
 
-// Returns a text on what limits the speed of full dynamics: arithmetic, memory, or work per step and lane. Returns an
-// empty text if one of the benchmarks did not run.
+// Returns a text that explains what limits the speed of full dynamics: arithmetic, memory, or work per step and lane.
+// Returns an empty text if one of the benchmarks did not run.
 std::string limits_text(const TableReporter& table) {
     const std::optional<double> small = table.min_ns(kBatch, 16);
     const std::optional<double> batch = table.min_ns(kBatch, 160);

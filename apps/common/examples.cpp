@@ -25,7 +25,8 @@ bool is_program(const std::string& word) {
 
 bool is_shipped_scenario(const std::string& word) { return word.starts_with("scenarios/") && word.ends_with(".yaml"); }
 
-// Returns the word if this file exists below the current folder, else the absolute path of the shipped scenario.
+// Returns the absolute path of the shipped scenario `word`, quoted for a shell. If `word` is a file below the current
+// folder, or if there is no such shipped scenario, returns `word` unchanged.
 std::string scenario_path(const std::string& word) {
     std::error_code ignored;
     if (std::filesystem::exists(word, ignored)) return word;

@@ -26,7 +26,7 @@ std::string intersection_text(const IntersectionReport& report) {
         std::vector<std::string> row{f.population, fmt::format("{:.0f}", f.throughput_veh_h),
                                      gain == gain ? fmt::format("{:.0f}", gain) : "-"};
         for (const ZoneResult& zone : f.zones) row.push_back(fmt::format("{:.1f}", zone.travel_time_s));
-        // A saturation flow needs greens with more than four vehicles.
+        // The saturation flow is known only if more than four vehicles pass in some greens.
         const bool has_saturation = !std::isnan(f.discharge.startup_lost_time_s);
         for (const std::string& cell :
              {fmt::format("{:.1f}", 100.0 * f.occupied), fmt::format("{:.0f}", f.vehicles_present),

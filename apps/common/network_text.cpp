@@ -116,7 +116,8 @@ std::string traffic_text(const NetworkReport& report) {
     return table.text();
 }
 
-// Returns the table of delay causes, gridlocks, teleported vehicles and passed blockers.
+// Returns the table of delay causes, gridlocks, teleported vehicles, and blocking vehicles that another vehicle was
+// allowed to pass.
 std::string congestion_text(const NetworkReport& report) {
     TextTable table;
     table.add_row({"", "junction", "turn", "", "", "wrong", "|", "", "", "passed"});

@@ -21,7 +21,8 @@ std::string signed_number(double value, int decimals) {
     return std::isnan(value) ? "-" : fmt::format("{:+.{}f}", value, decimals);
 }
 
-// Returns true if the queue empties before the green time ends. The queue then limits the count of vehicles.
+// Returns true if the queue empties before the green time ends. A longer queue would then give a larger number of
+// passed vehicles.
 bool queue_empties_within(const PopulationSummary& summary, double green_s) { return summary.emptied_s < green_s; }
 
 void append_improvements(const SingleLightReport& result, const PopulationSummary& summary,
@@ -69,7 +70,7 @@ std::string counts_text(const SingleLightReport& result) {
 }
 
 std::string ideal_text(const SingleLightReport& result) {
-    constexpr double kSaturated_s = 20.0;  // green time from which on the curves of Fig. 6 are level (Section III.E)
+    constexpr double kSaturated_s = 20.0;  // for longer green times, the curves of Fig. 6 are level (Section III.E)
     const std::vector<double>& green_s = result.scenario.measure.green_s;
     if (green_s.empty()) return "";
     const bool compares = result.baseline && kSaturated_s < result.scenario.signal.green_s;
@@ -125,7 +126,7 @@ std::string headways_text(const SingleLightReport& result) {
 }
 
 std::string queue_text(const SingleLightReport& result) {
-    constexpr double kTolerance_m = 1.0;  // if the net gaps differ by more, the queue has not closed up
+    constexpr double kTolerance_m = 1.0;  // if net gaps in a queue differ by more, it has not closed up
     std::string names;
     for (const PopulationSummary& summary : result.populations) {
         if (!(summary.queue.largest_m > summary.queue.smallest_m + kTolerance_m)) continue;

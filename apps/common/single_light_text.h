@@ -7,11 +7,11 @@
 
 namespace stopline {
 
-// Returns the vehicles past the stop line and the improvement over the baseline, for each green time.
+// Returns a table of the vehicles that pass the stop line and the improvement over the baseline, for each green time.
 std::string counts_text(const SingleLightReport& result);
-// Returns the vehicle counts of ideal platoons for each green time, and mean improvements.
+// Returns a table of the vehicles that pass in ideal platoons for each green time, and of the mean improvements.
 std::string ideal_text(const SingleLightReport& result);
-// Returns gaps and headways in steady state, and headways and speeds at the stop line.
+// Returns a table of gaps and headways in steady state, and of headways and speeds at the stop line.
 std::string headways_text(const SingleLightReport& result);
 // Returns a list of populations whose queue has not closed up at the start of green; empty if there are none.
 std::string queue_text(const SingleLightReport& result);

@@ -25,7 +25,7 @@ double parse_time_s(const char* option, const std::string& text) {
 }
 
 // Parses an interval, which must be a whole number of simulation steps. If no file uses the interval (`is_used` is
-// false), this is not checked, because the default interval is not a multiple of every step length.
+// false), it may be any time, because the default interval is not a multiple of every step length.
 double parse_interval_s(const char* option, const std::string& text, const Scenario& scenario, bool is_used) {
     const double time_s = parse_time_s(option, text);
     if (!is_used) return time_s;

@@ -148,8 +148,8 @@ private:
         stopping_ = stopping_ || error_ || recorder_.stopped();
     }
 
-    // Sends points or the stop message to the workers. A worker without a point is kept waiting while others are busy,
-    // because a busy worker may die and its point must then be assigned again.
+    // Sends points or the stop message to the workers. A worker without a point is kept waiting while other workers are
+    // busy, because a busy worker may die and its point must then be assigned again.
     void assign_points() {
         const bool finished = !points_left() && count(State::busy) == 0;
         for (std::size_t rank = 1; rank < workers_.size(); ++rank) {

@@ -7,7 +7,7 @@ namespace stopline {
 namespace {
 
 constexpr std::size_t kMaxShownCharacters = 60;
-constexpr std::size_t kMaxComparedCharacters = 100;  // a longer text is not compared: it is no misspelt name
+constexpr std::size_t kMaxComparedCharacters = 100;  // a longer text is no misspelt name, so it is not compared
 
 char lower(char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); }
 
@@ -75,7 +75,7 @@ std::string shortened(std::string_view text) {
         shown += byte < 0x20 || byte == 0x7F ? ' ' : c;
     }
     if (text.size() <= kMaxShownCharacters) return shown;
-    // Remove the rest of a UTF-8 character that the limit has cut in two.
+    // If the cut is inside a UTF-8 character, remove the first part of this character, too.
     while (!shown.empty() && (static_cast<unsigned char>(text[shown.size()]) & 0xC0u) == 0x80u) shown.pop_back();
     return shown + "...";
 }

@@ -35,13 +35,13 @@ constexpr double random_uniform(std::uint64_t seed, std::uint64_t vehicle, std::
     return static_cast<double>(random_bits(seed, vehicle, tick, purpose) >> 11) * 0x1.0p-53;
 }
 
-// The next functions make the random numbers for dawdling in Krauss's model. dawdle_key() computes the part of the key
-// that all vehicles share. The numbers have 52 random bits, because every instruction set can vectorise the conversion
-// of 52 bits to a double.
+// The next functions make the random numbers for Krauss's model, in which drivers dawdle (brake at random).
+// dawdle_key() computes the part of the key that all vehicles share. The numbers have 52 random bits, because every
+// instruction set can vectorise the conversion of 52 bits to a double.
 constexpr std::uint64_t dawdle_key(std::uint64_t seed) {
     return mix64(seed ^ (static_cast<std::uint64_t>(Purpose::dawdle) << 56));
 }
-// Returns the bit pattern of a uniform number in [1, 2), a double.
+// Returns the bits of a double that is uniformly distributed in [1, 2).
 template <class Words>
 [[gnu::always_inline]] constexpr Words dawdle_bits(std::uint64_t key, Words vehicle, std::uint64_t tick) {
     return std::uint64_t{0x3ff0000000000000} | (mix_bits(mix_bits(key ^ vehicle) ^ tick) >> 12);

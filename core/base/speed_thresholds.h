@@ -1,9 +1,10 @@
-// Speed thresholds, m/s. A vehicle that is slower than the threshold counts as stopped. Each purpose has its own value.
+// Speed thresholds, m/s. Each purpose has its own threshold, below which a vehicle is treated as stopped or queued.
 #pragma once
 
 namespace stopline {
 
-// Statistics and delay causes: a slower vehicle counts as stopped. SUMO uses the same threshold for waiting vehicles.
+// Statistics and causes of delay: a slower vehicle counts as stopped. SUMO counts a vehicle as waiting below this
+// speed.
 inline constexpr double kStoppedSpeed_mps = 0.1;
 
 // Length of a queue at a stop line: a vehicle slower than 5 km/h (walking speed) counts as queued, as in the Highway
@@ -13,7 +14,7 @@ inline constexpr double kQueuedSpeed_mps = 5.0 / 3.6;
 // Right of way and keep-clear rule: drivers treat a slower vehicle as part of a standing queue.
 inline constexpr double kCrawlingSpeed_mps = 1.0;
 
-// Full dynamics: the brake holds a slower vehicle in place until it starts, like a hill holder.
+// Full dynamics: the brake holds a slower vehicle in place until the driver accelerates, like a hill-start assistant.
 inline constexpr double kBrakeHoldSpeed_mps = 1e-3;
 
 // Full dynamics: the speed of a slower vehicle is set to 0, because so low a speed is only a rounding error.

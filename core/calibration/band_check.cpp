@@ -30,8 +30,8 @@ const Interval& interval_of(const BandPoint& point, Band band) {
     return band == Band::paper ? point.paper : point.student;
 }
 
-// Returns true if the mean of the mesoscale mode lies in the band. If all runs of full dynamics agree, the band has no
-// width, so a tolerance allows for rounding.
+// Returns true if the mean of the mesoscale mode lies in the band. If all runs of full dynamics give the same value,
+// the band has no width, so a tolerance allows for rounding.
 bool inside(const BandPoint& point, Band band) {
     const double rounding = 1e-9 * std::max(1.0, std::abs(point.full_mean));
     const Interval& interval = interval_of(point, band);

@@ -1,6 +1,6 @@
-// Step II of the calibration (Section V.B). It checks for each permutation (combination of axis values) if the mean of
-// the mesoscale mode lies in the confidence band of full dynamics. Both fidelities run the same sweep with the same
-// seeds.
+// Step II of the calibration (Section V.B). For each permutation (combination of axis values), it checks whether the
+// mean of the mesoscale mode lies in the confidence band of full dynamics. Both fidelities run the same sweep with the
+// same seeds.
 #pragma once
 
 #include <string>
@@ -27,8 +27,8 @@ struct MetricBands {
 
     double share_inside(Band band) const;
     double mean_relative_difference() const;  // mean of |meso / full - 1|
-    double mean_relative_bias() const;        // mean of meso / full - 1, signed
-    // Median of the half width of the paper's band over the mean of full dynamics.
+    double mean_relative_bias() const;        // mean of (meso / full - 1), with its sign
+    // Median over all points of the half width of the paper's band, divided by the mean of full dynamics.
     double median_relative_half_width() const;
 };
 
@@ -40,8 +40,9 @@ struct BandCheck {
     double share_inside(Band band) const;
 };
 
-// Returns the result columns to check: those in `named`, or by default throughput, density and travel time of the first
-// zone. Throws InputError if a named column does not exist, or if none is named and the runs have no such results.
+// Returns the result columns to check: those in `named`. If `named` is empty, returns throughput, density and travel
+// time of the first zone. Throws InputError if a named column does not exist, or if none is named and the runs have no
+// such results.
 std::vector<std::string> band_metrics(const RunStore& full, const std::vector<std::string>& named);
 
 // Compares two stores that hold all runs of `sweep`. Throws InputError for fewer than three repetitions.

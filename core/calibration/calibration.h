@@ -2,8 +2,8 @@
 // for every permutation of a sweep and any set of mesoscale parameters. The k-th passages of a detector in both
 // fidelities form a pair.
 //
-// The criterion is that the passages of no pair differ by more than one second. A user can mark a reviewed difference
-// as accepted (load_accepted.h); it then counts as valid. Every third permutation is held out of the fit.
+// The criterion is that the two times of each pair differ by at most one second. A user can mark a larger difference as
+// accepted (load_accepted.h) after a review; the pair is then valid. Every third permutation is held out of the fit.
 #pragma once
 
 #include <functional>
@@ -31,7 +31,7 @@ struct CalibrationCase {
 // dynamics. `settings` are the mesoscale parameters of every case.
 std::vector<CalibrationCase> calibration_cases(const Sweep& sweep, const RunStore& full, const MesoSettings& settings);
 
-// Results of one set of parameters on all permutations.
+// Results of one set of parameters in all permutations.
 struct TimingResult {
     std::string name;
     MesoSettings settings;
@@ -47,23 +47,25 @@ TimingResult evaluate_timing(const std::string& name, const std::vector<Calibrat
 enum class CaseSubset { fitted, held_out, all };
 Agreement timing_agreement(const TimingResult& result, const std::vector<CalibrationCase>& cases, CaseSubset subset);
 
-// A detector in one permutation at which passages differ by more than the limit or lack a counterpart in the other
-// fidelity.
+// One detector in one permutation. At least one pair of its passages differs by more than the limit, or at least one
+// passage lacks a counterpart in the other fidelity.
 struct TimingMiss {
     std::size_t permutation;  // index of the case
     int detector;
     int pairs_beyond_limit;
     int pairs_compared;
     int unpaired;          // number of passages without counterpart
-    double largest_s;      // difference with the largest amount, signed
-    int first_passage;     // number of the first passage beyond the limit, from 1
+    double largest_s;      // largest difference; positive if the mesoscale vehicle is later
+    int first_passage;     // number (from 1) of the first passage beyond the limit
     std::string cause;     // cause of the difference, as text
     std::string accepted;  // reason why the user accepts the difference; empty: not accepted
 };
 std::vector<TimingMiss> timing_misses(const TimingResult& result, const std::vector<CalibrationCase>& cases,
                                       const AcceptedFile& accepted);
 
-// Returns the share of pairs and unpaired passages that are within the limit or accepted.
+// Returns the share of valid passages. Each pair and each unpaired passage counts as one. A pair is valid if its times
+// differ by at most the limit. Other pairs and unpaired passages are valid if the user accepted the differences at the
+// detector in this permutation.
 double valid_share(const TimingResult& result, const std::vector<CalibrationCase>& cases,
                    const std::vector<TimingMiss>& misses, CaseSubset subset);
 

@@ -16,21 +16,23 @@ namespace stopline {
 
 using DetectorTimes = std::vector<std::vector<double>>;  // [detector][passage], s
 
-// Returns the lane and the kind of the detector, such as "c1r1_south_in_0 stop_line". A loop has its own name.
+// Returns the lane and the kind of the detector, such as "c1r1_south_in_0 stop_line". An induction loop has the name
+// that the user gave it.
 std::string detector_name(const Model& model, std::size_t detector);
 
 struct DetectorRun {
     DetectorTimes times;
     Violations violations;
     std::int64_t updates = 0;  // number of vehicle updates (one vehicle in one step)
-    bool complete = false;     // false: stopped by keep_going
+    bool complete = false;     // false: keep_going stopped the run
 };
 
 // Runs the model until all vehicles have exited or the scenario ends. Stops early if `keep_going` returns false.
 DetectorRun run_detectors(const Scenario& scenario, const Model& model, const std::function<bool()>& keep_going = {});
 
-// Runs the scenario and returns one result for each detector, which a sweep stores: its passage times, separated by
-// spaces. Returns an empty list if `keep_going` stopped the run.
+// Runs the scenario and returns the results that a sweep stores. The result of a detector is the text of its passage
+// times, separated by spaces. Then follow the numbers of violations and of vehicle updates. Returns an empty list if
+// `keep_going` stopped the run.
 std::vector<RunMetric> detector_metrics(const Scenario& scenario, std::size_t population,
                                         const std::function<bool()>& keep_going);
 // Reads the passage times from a stored result of detector_metrics().
@@ -47,7 +49,7 @@ struct PassagePair {
 
 struct PairedTimes {
     std::vector<PassagePair> pairs;
-    std::map<int, int> unpaired;  // by detector: number of passages that only one run has; absent if there are none
+    std::map<int, int> unpaired;  // [detector] number of passages that only one of the runs has; no entry for 0
     int unpaired_count() const;   // sum over all detectors
 };
 PairedTimes pair_up(const DetectorTimes& reference, const DetectorTimes& other);
@@ -56,11 +58,11 @@ PairedTimes pair_up(const DetectorTimes& reference, const DetectorTimes& other);
 struct Agreement {
     std::size_t pairs = 0;
     std::size_t unpaired = 0;
-    double within_share = 0.0;    // number of pairs within the limit, over the number of pairs and unpaired passages
+    double within_share = 0.0;    // pairs within the limit, as a share of all pairs and unpaired passages
     double median_s = 0.0;        // median of the absolute differences
     double p95_s = 0.0;           // 95th percentile of the absolute differences
     double largest_s = 0.0;       // largest absolute difference
-    std::size_t other_green = 0;  // pairs that differ by at least half a cycle, so the vehicles used different greens
+    std::size_t other_green = 0;  // pairs that differ by half a cycle or more: their vehicles used different greens
 };
 // The pairs of passages in one permutation, and its cycle time.
 struct PermutationPairs {

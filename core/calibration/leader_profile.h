@@ -1,5 +1,6 @@
 // Acceleration of platoon leaders over speed, measured in full dynamics for the mesoscale mode. A single vehicle starts
-// at a signal. Each bin of speed gets the mean acceleration from its lower to its upper end, gear changes included.
+// at a signal. The speeds are divided into bins. The acceleration of a bin is the mean while the speed of the vehicle
+// grows from the lower to the upper end of the bin, including gear changes.
 #pragma once
 
 #include "scenario/scenario.h"

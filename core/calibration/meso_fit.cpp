@@ -34,7 +34,7 @@ bool is_in(const FitCase& c, LawSubset subset) {
 struct Search {
     std::vector<const FitCase*> cases;
     std::vector<std::size_t> free;  // indices of the fitted parameters in fit_parameters()
-    std::vector<double> values;     // values of all parameters; the fitted ones have the values of the last evaluation
+    std::vector<double> values;     // values of all parameters, fitted parameters as in the last evaluation
     std::string stage;
     const FitOptions& options;
     MesoSettings settings;
@@ -130,8 +130,8 @@ void improve(Search& search, double first_step, int evaluations) {
     }
 }
 
-// Returns the parameter values at which search number `start` begins. Search 0 begins with the given values, the others
-// with random values within the bounds.
+// Returns the parameter values at which search number `start` begins. Search 0 begins with the given values. All other
+// searches begin with random values within the bounds.
 std::vector<double> start_values(std::vector<double> values, const std::vector<std::size_t>& free, int start) {
     if (start == 0) return values;
     for (const std::size_t k : free) {
@@ -144,7 +144,7 @@ std::vector<double> start_values(std::vector<double> values, const std::vector<s
 
 }  // namespace
 
-// The bounds have these reasons:
+// Reasons for the bounds:
 // - Deceleration: at most 7 m/s2, the limit on a dry road. The constant-distance model, whose reaction time is almost
 //   0, gets at most 5 m/s2, so that its vehicles still stop at the line.
 // - Anticipation: at most one step of 100 ms. With more, policies whose gap grows with speed oscillate.

@@ -2,9 +2,10 @@
 // passages of a detector in both fidelities form a pair. The loss is a robust least-squares sum over all pairs: a
 // difference far beyond one second hardly influences the search.
 //
-// First, each model of the Krauss family is fitted alone, from several starts, to the permutations that have only its
-// vehicles. Then all parameters are fitted together to all permutations. The search depends on nothing but its inputs.
-// An interrupted search therefore continues on the same path if it gets the losses of its finished evaluations back.
+// First, each of the two models of the Krauss family is fitted alone to the permutations in which all vehicles use this
+// model. Each of these searches is repeated from several starting points. Then all parameters are fitted together to
+// all permutations. The search is deterministic. An interrupted search can therefore be repeated: with the stored
+// losses of its finished evaluations, it continues where it was interrupted.
 #pragma once
 
 #include <functional>
@@ -48,7 +49,7 @@ DetectorRun run_case(const FitCase& fit_case, const MesoSettings& settings);
 double fit_loss(const PairedTimes& pairs, double limit_s);
 
 struct FitEvaluation {
-    std::string stage;           // name of the search: "constant_time 2" (its second start), or "all"
+    std::string stage;           // name of the search: "constant_time 2" (second starting point), or "all"
     std::vector<double> values;  // values of all parameters, in the order of fit_parameters()
     double loss = 0.0;
 };
@@ -56,13 +57,14 @@ struct FitEvaluation {
 struct FitOptions {
     int threads = 1;
     int starts = 3;
-    int evaluations_per_start = 250;  // highest number of evaluations from one start, for one model alone
+    int evaluations_per_start = 250;  // highest number of evaluations from one starting point, one model alone
     int joint_evaluations = 800;      // highest number of evaluations for all parameters together
     double limit_s = 1.0;
-    // Returns the stored loss of evaluation `index` from an earlier session if it had the same parameter values.
+    // Returns the loss of evaluation `index` that an earlier session stored, if that evaluation had the same parameter
+    // values.
     std::function<std::optional<double>(std::size_t index, const std::vector<double>& values)> stored_loss;
     std::function<void(std::size_t index, const FitEvaluation&)> on_evaluation;
-    std::function<bool(double)> on_progress;  // gets the share done; false: fit_meso throws Interrupted
+    std::function<bool(double)> on_progress;  // gets the finished share; false: fit_meso throws Interrupted
 };
 
 struct MesoFit {

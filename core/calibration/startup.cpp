@@ -53,9 +53,9 @@ std::vector<double> knots_mps() {
     return knots;
 }
 
-// Returns the parameters at which the search starts: the accelerations at the knots, then the gain toward the desired
-// speed. The accelerations are the slope of the measured mean times `factor`, so the result of the fit does not depend
-// on the given driver.
+// Returns the parameters at which the search starts: the accelerations at the knots (speeds of the profile), then the
+// gain toward the desired speed. The accelerations are the slope of the measured mean speed times `factor`, so the
+// result of the fit does not depend on the given driver.
 std::vector<double> initial_parameters(const StartupCurve& curve, const std::vector<double>& knots, double factor,
                                        double gain_1ps) {
     SampledCurve slope;  // m/s2 over m/s
@@ -163,8 +163,8 @@ StartupFit fit_startup(const Scenario& scenario, const StartupCurve& curve,
     fit.rms_before_mps = rms_deviation_mps(curve, simulate_start(scenario, curve.time_s));
     free.speed_mps = knots;
 
-    // The deviation has several minima, because gear changes move with the profile. The search therefore starts at
-    // several points, and the best result is kept.
+    // The deviation has several minima, because the times of gear changes depend on the profile. The search therefore
+    // starts at several points, and the best result is kept.
     std::vector<double> best_parameters;
     double best = 1e9;
     for (const double factor : {0.95, 1.0, 1.05, 1.1, 1.15, 1.2}) {

@@ -27,15 +27,15 @@ struct StartupCurve {
 // file and line.
 StartupCurve load_startup_curve(const std::filesystem::path& file);
 
-// Speed from which the car counts as moving. The measured curves use the same speed. The cars reported whole km/h
-// (OBD), so the time of this speed is interpolated.
+// Speed from which the car counts as moving. The measured curves use the same threshold. The measured cars reported
+// their speed (OBD) in whole km/h, so the time at which they reach the threshold is interpolated.
 inline constexpr double kMoving_mps = kStoppedSpeed_mps;
 
 // A simulated start of one vehicle at a signal, sampled at given times after it begins to move.
 struct StartupRun {
     std::vector<double> time_s;
     std::vector<double> speed_mps;
-    std::vector<double> distance_m;  // from standstill
+    std::vector<double> distance_m;  // distance driven since standstill
     std::vector<int> gear;           // from 1
 };
 StartupRun simulate_start(const Scenario& scenario, const std::vector<double>& times_s);
@@ -54,7 +54,7 @@ StartupFit fit_startup(const Scenario& scenario, const StartupCurve& curve,
 // A time interval in which a start is above or below a band. Between measured points the band is interpolated.
 struct BandExit {
     double from_s, to_s;
-    double largest_deviation_mps;  // deviation from the mean with the largest amount, signed
+    double largest_deviation_mps;  // largest deviation from the mean; negative below it
 };
 // Returns the exits from the confidence band of the mean (`of_mean` true) or from the band of single starts (false).
 // Returns nothing if the curve does not have that band.

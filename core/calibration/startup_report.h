@@ -10,7 +10,7 @@ namespace stopline {
 struct StartupReport {
     StartupCurve curve;
     StartupRun run;   // sampled at the times of the curve
-    StartupRun fine;  // the same start every 0.05 s, for the figure and the exits from the bands
+    StartupRun fine;  // the same start, sampled every 0.05 s for the figure and the exits from the bands
     std::string vehicle;
     std::string driver;
 };
@@ -22,10 +22,12 @@ StartupReport report_startup(const Scenario& scenario, const StartupCurve& curve
 // curve lacks are empty.
 std::string startup_csv(const StartupReport& report);
 
-// Returns a table of speeds, and the times at which the start leaves the bands, as text.
+// Returns the results as text: a table of simulated and measured speeds, and the time intervals in which the simulated
+// speed is outside a measured band.
 std::string startup_text(const StartupReport& report);
 
-// Returns the number of measured starts as text, such as "20 to 22 starts"; empty if the curve lacks it.
+// Returns the number of measured starts as text, such as "20 to 22 starts"; empty if the curve does not contain these
+// numbers.
 std::string starts_text(const StartupCurve& curve);
 
 }  // namespace stopline

@@ -12,8 +12,8 @@ namespace stopline {
 
 namespace {
 
-// The functions below draw a component, which is a spacing policy or a route, according to the shares of all
-// components.
+// A component is one of the spacing policies or one of the routes from which a vehicle gets its own. The functions
+// below draw a component according to the shares of all components.
 
 // Returns the index of the component that `number`, in [0, 1), selects. The shares sum to 1.
 std::size_t pick(std::span<const double> shares, double number) {
@@ -23,9 +23,9 @@ std::size_t pick(std::span<const double> shares, double number) {
     return k;
 }
 
-// Returns the component whose number of draws is furthest below its share after n vehicles. Adds the new draw to
-// `drawn`. So the shares hold in every part of the sequence. Equal shares alternate, beginning with the first
-// component.
+// `drawn` holds the number of draws of each component, n in total. Returns the component whose number of draws is
+// furthest below the number that its share demands, and adds the new draw to `drawn`. So the shares hold in every part
+// of the sequence. Components with equal shares alternate, beginning with the first component.
 std::size_t draw_most_behind(std::span<const double> shares, std::int64_t n, std::vector<double>& drawn) {
     std::size_t chosen = 0;
     for (std::size_t c = 1; c < shares.size(); ++c) {

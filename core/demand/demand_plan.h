@@ -1,6 +1,6 @@
-// The plan of the traffic: the vehicles that enter on each lane, with their spacing policies and routes. The random
-// numbers for a vehicle depend only on the seed, the inlet and the number of the vehicle at the inlet. So runs with
-// different spacing policies have the same sequence of routes.
+// The plan of the traffic: the vehicles that enter on each lane, with their spacing policies and routes. At each inlet,
+// vehicles are numbered in the order of entry. The random numbers for a vehicle depend only on the seed, the inlet and
+// this number. So runs with different spacing policies have the same sequence of routes.
 #pragma once
 
 #include <cstdint>
@@ -14,18 +14,19 @@
 
 namespace stopline {
 
-// The trip of a vehicle through an imported network, with its own departure time and path. Departure lane, speed and
-// position have the meanings of SUMO's attributes departLane, departSpeed and departPos.
+// The trip of one vehicle through an imported network, with its departure time and its path. The departure lane, speed
+// and position correspond to SUMO's attributes departLane, departSpeed and departPos.
 struct Trip {
     double depart_s = 0.0;
     int approach = -1;   // the vehicle enters on a lane of this approach
-    int first_turn = 0;  // index of its first turn in DemandPlan::trip_turns
+    int first_turn = 0;  // index in DemandPlan::trip_turns of the first turn
     int turn_count = 0;  // number of turns: one at the end of each edge except the last edge
     float length_m = 0.0F;
     enum class DepartLane : std::uint8_t { given, rightmost, free, random, best };
-    enum class DepartSpeed : std::uint8_t { given, limit, last, random };  // last: speed of the vehicle ahead
-    // base: the rear of the vehicle is at the start of the lane. last: as close behind the last vehicle on the lane as
-    // the desired gap allows. random: a position is drawn once. free: positions are drawn until there is room.
+    enum class DepartSpeed : std::uint8_t { given, limit, last, random };  // last: as the vehicle ahead
+    // base: the rear of the vehicle is at the start of the lane. last: the vehicle is as close behind the last vehicle
+    // on the lane as its desired gap allows. random: one position is drawn at random. free: a new position is drawn in
+    // each step until there is room.
     enum class DepartPosition : std::uint8_t { base, given, last, random, free };
     DepartLane depart_lane = DepartLane::rightmost;
     DepartSpeed depart_speed = DepartSpeed::given;
@@ -40,23 +41,24 @@ struct DemandPlan {
     // link lane, vehicles get the route through the next intersection.
     struct Inlet {
         int lane = 0;
-        std::int64_t vehicles = 0;   // number of vehicles that enter the network on this lane; usually 0 on links
+        std::int64_t vehicles = 0;   // number of vehicles that enter the network here; usually 0 on link lanes
         std::vector<int> routes;     // routes from which the route of a vehicle is drawn
         std::vector<double> shares;  // [index in `routes`] share of the route; the shares sum to 1
-        // Shares of the routes for a vehicle that chose this lane because of its turn. With these shares all lanes of
-        // the approach carry equal traffic. Empty: `shares` apply.
+        // [index in `routes`] share of the route for a vehicle that chose this lane because of its turn. These shares
+        // spread the traffic equally over the lanes of the approach. Empty: `shares` apply.
         std::vector<double> lane_shares = {};
-        // Shares of the routes on all lanes of the approach together. balancing_route() corrects the draws so that
-        // these shares hold even if some lanes discharge more vehicles than others. Empty: no correction.
+        // [index in `routes`] share of the turn of the route on all lanes of the approach together. balancing_route()
+        // corrects the draws so that these shares hold even if some lanes discharge more vehicles than other lanes.
+        // Empty: no correction.
         std::vector<double> approach_shares = {};
-        double headway_s = 0.0;  // > 0: vehicles arrive at this constant headway, even if `saturated` is set
+        double headway_s = 0.0;  // > 0: vehicles arrive with this constant headway, even if `saturated` is set
     };
     std::vector<Inlet> inlets;  // entry lanes, then link lanes
     double entry_speed_mps = 0.0;
-    double entry_headway_s = 2.0;  // minimum headway at an entry; with evenly_spaced: headway of the arrivals
-    bool evenly_spaced = false;    // vehicles arrive at a constant headway and form a backlog if there is no room
-    // The backlog of every inlet is endless. Each vehicle enters behind the vehicle ahead with the desired gap of its
-    // policy and with the same speed, as part of an endless platoon.
+    double entry_headway_s = 2.0;  // minimum headway of entering vehicles; if evenly_spaced: headway of arrivals
+    bool evenly_spaced = false;    // vehicles arrive with a constant headway; without room they form a backlog
+    // The backlog of every inlet is endless, and vehicles enter as an endless platoon: each has the speed of the
+    // vehicle ahead and the desired gap of its own policy.
     bool saturated = false;
     bool is_saturated(int inlet) const { return saturated && inlets[static_cast<std::size_t>(inlet)].headway_s == 0.0; }
     bool is_evenly_spaced(int inlet) const {
@@ -68,10 +70,10 @@ struct DemandPlan {
     }
     bool starts_queued = false;  // the run begins with a queue from every stop line back to the entry
 
-    // The order in which policies or routes are assigned to successive vehicles. balanced: random, but the shares hold
-    // in each block of 20 vehicles of an inlet.
+    // The order in which policies or routes are assigned to successive vehicles. balanced: the order is random, but the
+    // shares hold in each block of 20 successive vehicles of an inlet.
     enum class Pattern { alternating, random, balanced };
-    Pattern pattern = Pattern::alternating;  // for spacing policies
+    Pattern pattern = Pattern::alternating;  // order of the spacing policies
     std::vector<int> policies;               // [component of the population] index of its spacing policy
     std::vector<double> policy_shares;       // [component of the population] share; the shares sum to 1
     Pattern route_pattern = Pattern::random;
@@ -97,10 +99,10 @@ struct DemandPlan {
     int route_of(int inlet, std::int64_t k) const;
     // Returns the route of the k-th vehicle of an inlet, drawn from `lane_shares`.
     int route_for_chosen_lane(int inlet, std::int64_t k) const;
-    // Draws the route of the k-th vehicle of an inlet so that the approach_shares hold. The inlet must have such
-    // shares. The weights of the routes are lane_shares if the vehicle chose its lane because of its turn, else
-    // `shares`. If a turn was drawn d times too rarely on the whole approach, the weight of its route is multiplied by
-    // 1 + d / kBalanceVehicles. If the turn was drawn d times too often, the weight is divided by this factor.
+    // Draws the route of the k-th vehicle of an inlet so that Inlet::approach_shares hold. They must not be empty. The
+    // weights of the routes are lane_shares if the vehicle chose its lane because of its turn, else `shares`. If a turn
+    // was drawn d times too rarely on the whole approach, the weight of its route is multiplied by 1 + d /
+    // kBalanceVehicles. If the turn was drawn d times too often, the weight is divided by this factor.
     // `drawn_per_route` counts the earlier draws of each route's turn on all lanes of the approach. `total_drawn` is
     // the number of earlier draws of all turns.
     static constexpr double kBalanceVehicles = 4.0;
@@ -111,9 +113,9 @@ struct DemandPlan {
 // Returns the inlets of streets: all entry lanes, then all link lanes. The inlets have routes and shares, but no
 // vehicles yet.
 //
-// On an entry lane, turns_by_lane() computes the shares; the movements of a pocket count for the nearest entry lane. On
-// a link lane, the shares are the turn shares of the approach. The route for a turn begins on the lane of the inlet if
-// this lane allows the turn, else on the nearest lane of the approach that allows it.
+// On an entry lane, turns_by_lane() computes the shares. A turn that only a pocket allows is assigned to the nearest
+// entry lane. On a link lane, the shares are the turn shares of the approach. The route for a turn begins on the lane
+// of the inlet if this lane allows the turn, else on the nearest lane of the approach that allows it.
 std::vector<DemandPlan::Inlet> street_inlets(const LaneGraph& graph);
 
 }  // namespace stopline

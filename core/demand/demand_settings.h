@@ -17,14 +17,14 @@ struct DemandSettings {
     std::string kind = "queue";
     int vehicles = 60;
     double inflow_1ps = 600.0 / 3600.0;
-    // Only for saturated demand: inflow of the legs in the south and north. 0: these legs are saturated, too.
+    // Only for saturated demand: inflow of each leg in the south and north. 0: these legs are saturated, too.
     double cross_inflow_1ps = 0.0;
     std::vector<std::string> approaches = {};  // prefixes of lane names where vehicles enter; empty: all entries
     double entry_speed_mps = 50.0 / 3.6;
-    // Turn shares, 0 .. 1, of the vehicles on each lane that allows this turn and another movement.
+    // Shares of right and left turns, 0 .. 1. A share applies on each lane that allows the turn and another movement.
     double right_share = 0.0;
     double left_share = 0.0;
-    // Turn shares of the legs in the south and north. They apply if cross_turns is `separate`.
+    // If cross_turns is `separate`, the legs in the south and north have the turn shares below, else the shares above.
     std::string cross_turns = "same";  // same | separate
     double cross_right_share = 0.0;
     double cross_left_share = 0.0;

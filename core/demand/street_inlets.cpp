@@ -66,8 +66,8 @@ DemandPlan::Inlet inlet_of(const Routes& routes, int lane, const TurnShares& sha
 }
 
 // Returns the turn shares for the inlet lanes of an approach, from the left. `inlet_lanes` lists the inlet lanes of the
-// network. Inlet lanes of one approach are adjacent. Other lanes, such as pockets, lie beside them, and their movements
-// count for the nearest inlet lane.
+// network. Inlet lanes of one approach are adjacent. Other lanes, such as pockets, lie beside the inlet lanes. A turn
+// from such a lane is assigned to the nearest inlet lane.
 std::vector<TurnShares> lane_shares(const std::vector<int>& inlet_lanes, const Routes& routes,
                                     const Approach& approach) {
     const auto is_inlet = [&](int lane) {

@@ -1,13 +1,13 @@
 // The laws of the longitudinal controller in full dynamics. Each law (driving freely, following, stopping, emergency
-// braking, keeping room to brake) returns a desired acceleration, and the smallest one applies. The laws are pure
-// functions without branches per vehicle, over double or Batch (base/simd/simd.h). The loops over vehicles are in
-// sim/full_dynamics/full_kernels.inl.
+// braking, keeping room to brake) returns a desired acceleration, and the smallest one applies. Each law is a pure
+// function without branches per vehicle. It computes one vehicle (double) or several at a time (Batch,
+// base/simd/simd.h). The loops over vehicles are in sim/full_dynamics/full_kernels.inl.
 //
-// Following is the cascade of Fig. 3: PD feedback on the gap measured by radar, and feedforward of the leader's state
-// from V2V. Symbols: e = gap - d(v) is the error of the gap against the desired gap d, h is the time gap (slope of d),
-// u the requested and a the realised acceleration, tau the lag of the powertrain. Values of the leader have the suffix
-// _p. The spacing policy is H = 1 + h s, with s the variable of the Laplace transform. In the time domain the request
-// follows
+// The law for following is the cascade of Fig. 3: PD feedback on the gap measured by radar, and feedforward of the
+// leader's state from V2V. Symbols: e = gap - d(v) is the error of the gap against the desired gap d, h is the time gap
+// (slope of d), u is the requested acceleration, a is the realised acceleration, and tau is the lag of the powertrain.
+// Values of the leader have the suffix _p. The spacing policy is H = 1 + h s, with s the variable of the Laplace
+// transform. In the time domain, the request u is given by
 //     CTG  (h > 0):  h du/dt = -u + kp e + kd de/dt + a_p + (tau / tau_p) (u_p - a_p)
 //     CDG  (h = 0):        u =      kp e + kd de/dt + predictive_feedforward(...)
 // (Ploeg et al. 2011, reference [31] of the paper.) The factor tau / tau_p inverts the lag of the vehicle and applies
@@ -51,7 +51,8 @@ struct LeaderView {
     R rate_1ps;           // 1 / tau_p (inverse lag of the leader), from V2V, delayed
 };
 
-// Returns the acceleration of a vehicle without leader: the calibrated start-up profile, up to the desired speed.
+// Returns the acceleration of a vehicle without leader. It follows the calibrated start-up profile, and falls to 0
+// towards the desired speed.
 template <class R, class Number>
 STOPLINE_INLINE R free_acceleration(const DriverTablesOf<Number>& d, const R& speed_mps,
                                     const std::type_identity_t<R>& desired_mps) {
@@ -82,12 +83,13 @@ inline constexpr double kLandingTime_s = 0.5;  // tau of stop_acceleration()
 
 // Returns the acceleration for a stop after `distance_m`. The vehicle follows the speed curve
 //     v_s = -b tau + sqrt((b tau)^2 + 2 b distance).
-// From v_s, braking with b after the time tau ends at that distance. This is the safe speed of Krauss 1998 for a
-// stopped obstacle, and the stop has no overshoot. Along the curve, the deceleration is b v / (v_s + b tau).
+// A vehicle that keeps the speed v_s for the time tau and then brakes with b stops exactly at that distance, without
+// overshoot. v_s is the safe speed of Krauss 1998 behind a stopped obstacle. On the curve, the vehicle decelerates with
+// b v / (v_s + b tau).
 //
 // Our choices: tau covers the lag of the brake (0.2 s) and the time that the request needs to change. The gain returns
-// the vehicle to the curve within 1 / gain = 0.7 s. This is slower than the response of the brake, so the speed does
-// not oscillate.
+// the vehicle to the curve with the time constant 1 / gain = 0.7 s. The brake responds faster than this, so the speed
+// does not oscillate.
 template <class R, class Number>
 STOPLINE_INLINE R stop_acceleration(const DriverTablesOf<Number>& d, const R& speed_mps, const R& distance_m) {
     constexpr double kSpeedGain_1ps = 1.5;
@@ -117,7 +119,7 @@ inline constexpr double kStoppingLeaderBraking_mps2 = 0.2;
 
 // Returns the acceleration for a stop behind a leader that is about to stop, or kUnconstrained_mps2 for any other
 // leader. A leader is about to stop if it is slower than kStoppingLeader_mps and requests a deceleration of at least
-// kStoppingLeaderBraking_mps2. A stopped leader counts as well until it requests to start.
+// kStoppingLeaderBraking_mps2. A stopped leader is treated as about to stop until it requests a positive acceleration.
 template <class R, class Number>
 STOPLINE_INLINE R stop_behind_acceleration(const DriverTablesOf<Number>& d, const R& speed_mps,
                                            const R& standstill_gap_m, const LeaderView<R>& p) {
@@ -133,10 +135,11 @@ STOPLINE_INLINE R stop_behind_acceleration(const DriverTablesOf<Number>& d, cons
 }
 
 // Returns the predictive feedforward of Fig. 4: the constant request u that brings the own acceleration to that of the
-// leader. It minimises the squared differences at three times in the prediction horizon, and is limited to the allowed
-// range. With first-order lags, the accelerations at the time th from now are
+// leader. It minimises the sum of the squared differences between both accelerations at three times in the prediction
+// horizon, and is limited to the allowed range. With first-order lags and the V2V delay, the accelerations at the time
+// th from now are
 //     a_p(t + th) = u_p + (a_p - u_p) exp(-(th + delay) / tau_p),   a(t + th) = u + (a - u) exp(-th / tau),
-// Each time thus gives one equation w u = a_p(t + th) - (1 - w) a with w = 1 - exp(-th / tau).
+// Each of the three times thus gives one equation for u: w u = a_p(t + th) - (1 - w) a with w = 1 - exp(-th / tau).
 template <class R, class Number>
 STOPLINE_INLINE R predictive_feedforward(const CaccSettingsOf<Number>& c, const R& acceleration_mps2, const R& rate_1ps,
                                          const LeaderView<R>& p) {
@@ -166,10 +169,11 @@ inline constexpr double kHardBraking_mps2 = 2.0;
 // Returns the acceleration of the spacing controller. `desired_gap_m` and `slope_s` come from the spacing law at the
 // current speed. `request_mps2` is the request of the last step, which is the state of the filter 1 / H.
 //
-// The filter delays braking. A time gap normally leaves room for this delay: `gap_growth_m` (the desired gap minus the
-// standstill gap), less any gap that is missing. If this room is shorter than kMinFilterRoom_s at the own speed and the
-// leader requests a deceleration above kHardBraking_mps2, the vehicle brakes at least as hard as with a constant
-// distance. Both thresholds are our choice. Only a stop makes a leader brake that hard.
+// The filter delays braking. With a time gap, the vehicle normally has room for this delay. The room is `gap_growth_m`
+// (the desired gap minus the standstill gap). If the gap is shorter than desired, the missing part is subtracted. If
+// the vehicle covers this room in less than kMinFilterRoom_s and the leader requests a deceleration above
+// kHardBraking_mps2, the vehicle brakes at least as hard as with a constant distance gap. Both thresholds are our
+// choice. Only a stop makes a leader brake that hard.
 template <class R, class Number>
 STOPLINE_INLINE R follow_acceleration(const CaccSettingsOf<Number>& c, const R& speed_mps, const R& acceleration_mps2,
                                       const R& lag_s, const R& rate_1ps, const R& request_mps2, const R& desired_gap_m,
@@ -199,8 +203,8 @@ inline constexpr double kEmergencyMargin = 1.15;
 // settings. The needed deceleration is the smallest constant one that avoids a collision if the leader brakes
 // constantly with b_p.
 //
-// Here `room` is the net gap less the gap that must remain, and `closing` the closing speed. If the vehicle reaches the
-// speed of the leader before the leader stops (if 2 room / closing < v_p / b_p), the needed deceleration is b_p +
+// Here `room` is the net gap minus the gap that must remain, and `closing` is the closing speed. If the vehicle reaches
+// the speed of the leader before the leader stops (if 2 room / closing < v_p / b_p), the needed deceleration is b_p +
 // closing^2 / (2 room). Otherwise it is v^2 / (2 (room + v_p^2 / (2 b_p))), which stops the vehicle behind the stopped
 // leader.
 //
@@ -224,24 +228,28 @@ STOPLINE_INLINE R emergency_acceleration(const CaccSettingsOf<Number>& c, const 
     return choose(urgent, 0.0 - braking, unconstrained);
 }
 
-// Reserves of keep_room_acceleration(), which explains them. All three values are our choice. With a growth share of 1,
-// vehicles with SWITCH-2 would brake in every start. A larger minimum would slow down the starts of Section III.
+// Reserves of keep_room_acceleration(), which explains them. All three values are our choice. If kReservedGrowthShare
+// were 1, vehicles with SWITCH-2 would brake during every start. A larger kMinReserve_s would slow down the starts of
+// Section III.
 inline constexpr double kBrakeReserve_s = 0.3;  // lag of the brake (0.2 s), and 0.1 s for the request to change
 inline constexpr double kReservedGrowthShare = 0.5;
 inline constexpr double kMinReserve_s = 0.15;
 
-// Returns the braking that keeps room for the case that the leader brakes with the maximum deceleration b at once.
-// Returns kUnconstrained_mps2 up to the safe speed, from which braking with b as well just avoids a collision:
+// Returns the braking that keeps room for the case that the leader brakes with the maximum deceleration b at once. Up
+// to the safe speed v_safe, the law returns kUnconstrained_mps2. A vehicle at v_safe just avoids a collision if it also
+// brakes with b:
 //     v_safe^2 = v_p^2 + 2 b room
-// This is the safe speed of Gipps 1981 for two vehicles that begin to brake at the same time. A faster vehicle follows
-// the change of v_safe, d v_safe / dt = (v_p a_p - b closing) / v_safe, and brakes in addition to return to v_safe.
+// This is the safe speed of Gipps 1981 for two vehicles that begin to brake at the same time. A vehicle faster than
+// v_safe decelerates at the rate at which v_safe falls, d v_safe / dt = (v_p a_p - b closing) / v_safe. It brakes a
+// little harder than this to return to v_safe.
 //
-// Two reserves reduce the room. The first reserve, kBrakeReserve_s at the closing speed, covers the delay of the own
-// brake. The second reserve is for policies with a time gap: their filter (H = 1 + h s) also delays braking, so a
-// vehicle with a short gap would use up its room. The second reserve is kBrakeReserve_s at the own speed, but at most
-// kReservedGrowthShare of `gap_growth_m`, the desired gap minus the standstill gap. Just above a switch speed
-// gap_growth_m is almost 0, so this reserve is at least kMinReserve_s at the own speed. With a constant distance
-// gap_growth_m is 0 and there is no second reserve, because the feedforward reports the leader's braking in time.
+// Two reserves reduce the room. The first reserve covers the delays of radar and brake. It is the closing speed times
+// the sum of the radar delay and kBrakeReserve_s. The second reserve is for policies with a time gap. Their filter (H =
+// 1 + h s) also delays braking, so a vehicle with a short gap would use up its room. The second reserve is the own
+// speed times kBrakeReserve_s, but at most kReservedGrowthShare of `gap_growth_m`, the desired gap minus the standstill
+// gap. Just above a switch speed gap_growth_m is almost 0, so this reserve is at least the own speed times
+// kMinReserve_s. With a constant distance gap_growth_m is 0 and there is no second reserve, because the feedforward
+// reports the leader's braking in time.
 template <class R, class Number>
 STOPLINE_INLINE R keep_room_acceleration(const CaccSettingsOf<Number>& c, const R& speed_mps, const R& gap_growth_m,
                                          const LeaderView<R>& p) {
@@ -262,9 +270,10 @@ STOPLINE_INLINE R keep_room_acceleration(const CaccSettingsOf<Number>& c, const 
     return choose(is_faster, result, unconstrained);
 }
 
-// Returns the braking for a hidden leader: the next vehicle on the own route while a diverging vehicle drives in
-// between. The vehicle must not hit the hidden leader after the diverging vehicle has left. Returns kUnconstrained_mps2
-// or more if no braking is needed. `gap_growth_m` is the desired gap minus the standstill gap.
+// Returns the braking for a hidden leader. A vehicle that will leave the own route drives in between, and hides the
+// next vehicle on the own route. The own vehicle must not hit this hidden leader after the vehicle in between has left.
+// Returns kUnconstrained_mps2 or more if no braking is needed. `gap_growth_m` is the desired gap minus the standstill
+// gap.
 inline double hidden_leader_acceleration(const DriverTables& d, double speed_mps, double standstill_gap_m,
                                          double gap_growth_m, const LeaderView<double>& p) {
     const double collision_free_mps2 = min_of(emergency_acceleration(d.cacc, speed_mps, p),

@@ -9,8 +9,8 @@ namespace stopline {
 
 // Settings that kernels read are templates over the number type, so that kernels can use float (base/simd/narrowed.h).
 
-// Cooperative adaptive cruise control (CACC): gains of feedback and feedforward (Fig. 3 and Fig. 4), delays of the
-// sensors, and limits of the acceleration.
+// Cooperative adaptive cruise control (CACC, Fig. 3 and Fig. 4): gains of the gap feedback, prediction horizon of the
+// feedforward, delays of radar and V2V messages, limits of acceleration and jerk, and emergency braking.
 template <class Number>
 struct CaccSettingsOf {
     Number feedback_kp_1ps2 = 0.2;  // gain on the gap error (Ploeg et al. 2011, reference [31] of the paper)
@@ -25,16 +25,16 @@ struct CaccSettingsOf {
     Number deceleration_emergency_mps2 = 7.0;  // maximum braking
     Number emergency_threshold_mps2 = 3.0;     // emergency braking begins when this deceleration is needed
     Number emergency_gap_m = 0.5;              // remaining gap after emergency braking
-    Number jerk_up_mps3 = 6.0;                 // limits of the jerk of the requested acceleration
-    Number jerk_down_mps3 = 25.0;
-    Number catch_up_factor = 1.05;  // a follower may exceed the speed limit by this factor to close its gap
+    Number jerk_up_mps3 = 6.0;                 // limit of the increase of the requested acceleration
+    Number jerk_down_mps3 = 25.0;              // limit of the decrease of the requested acceleration
+    Number catch_up_factor = 1.05;             // a follower may exceed the speed limit by this factor to close its gap
 };
 using CaccSettings = CaccSettingsOf<double>;
 
 // Driving without a leader: the acceleration as a function of speed (the calibrated start-up of Section III.B).
 struct FreeDriveSettings {
     std::vector<double> speed_mps;          // nodes of the profile, rising from 0
-    std::vector<double> acceleration_mps2;  // at these speeds; constant beyond the last one
+    std::vector<double> acceleration_mps2;  // acceleration at each speed; constant beyond the last
     double speed_gain_1ps = 0.35;           // limit of the acceleration: gain x (desired speed - speed)
     double deceleration_mps2 = 1.5;         // deceleration before a lower speed limit, such as in a turn
     double hesitation_s = 0.0;              // reaction time of the first vehicle at the stop line
@@ -44,7 +44,7 @@ struct FreeDriveSettings {
 template <class Number>
 struct StopSettingsOf {
     Number deceleration_mps2 = 2.5;           // braking begins when this deceleration is needed
-    Number decision_deceleration_mps2 = 3.5;  // on yellow: stop if this deceleration suffices, else go on
+    Number decision_deceleration_mps2 = 3.5;  // a vehicle stops at yellow if this deceleration suffices
     Number margin_m = 1.0;                    // distance from the front of the stopped vehicle to the stop line
 };
 using StopSettings = StopSettingsOf<double>;
@@ -52,15 +52,16 @@ using StopSettings = StopSettingsOf<double>;
 // Yielding inside intersections.
 struct GiveWaySettings {
     double critical_gap_s = 5.0;  // shortest accepted time to the next vehicle with priority
-    double margin_m = 0.5;        // distance from the front to the conflict area while waiting
+    double margin_m = 0.5;        // distance from a waiting vehicle's front to the conflict area
     // Acceleration that a yielding driver assumes of approaching vehicles with priority, up to the speed limit.
     double approach_acceleration_mps2 = 2.0;
 };
 
 // Lane changes (sim/lane_change/lane_change.cpp).
 struct LaneChangeSettings {
-    // Mandatory changes. A vehicle looks for a gap from strategic_m before the stop line on, or earlier if it needs
-    // several changes: strategic_m for each of them. From urgent_m on it adapts its speed to gaps in the target lane.
+    // Mandatory changes. A vehicle begins to look for a gap when the distance to the stop line is strategic_m times the
+    // number of changes that it needs. At urgent_m times this number it begins to adapt its speed to gaps in the target
+    // lane.
     double strategic_m = 300.0;
     double urgent_m = 200.0;
     // Smallest accepted lead gap and lag gap, as a share of the gap of the spacing policy. The share falls linearly
@@ -70,16 +71,16 @@ struct LaneChangeSettings {
     // Koutsopoulos, Ben-Akiva 2003, "Modeling integrated lane-changing behavior", Transportation Research Record 1857).
     // This is 0.3 of a time gap of 0.87 s at 50 km/h.
     double urgent_gap_share = 0.3;
-    std::string look_ahead = "on";  // off | on: choose a lane also for the turn at the intersection after the next one
+    std::string look_ahead = "on";    // off | on: vehicles choose lanes also for the turn at the second intersection
     std::string gap_opening = "off";  // off | on: followers on the target lane open a gap for mandatory changes
-    // Discretionary changes: MOBIL (Kesting, Treiber, Helbing 2007). It rates a change by the accelerations of the
-    // intelligent driver model (IDM) with the gap of the policy.
+    // Discretionary changes: MOBIL (Kesting, Treiber, Helbing 2007). MOBIL rates a change by the accelerations that
+    // result from the intelligent driver model (IDM) with the desired gap of the spacing policy.
     double threshold_mps2 = 0.1;     // smallest gain in acceleration that justifies a change
     double politeness = 0.0;         // weight of the gains and losses of other vehicles
     double keep_right_mps2 = 0.0;    // bonus of a change to the right
     double acceleration_mps2 = 1.5;  // maximum acceleration of the IDM
     double deceleration_mps2 = 2.0;  // comfortable deceleration of the IDM
-    double pause_s = 5.0;            // shortest time from any change to a discretionary change
+    double pause_s = 5.0;            // no discretionary change within this time after any change
 };
 
 struct DriverSettings {
@@ -112,15 +113,19 @@ struct MesoSettings {
     double step_s = 0.1;
     double leader_speed_share = 0.95;  // speed of a vehicle without leader, as a share of the limit (Section V.A)
     double speed_factor = 1.0;         // factor on every speed limit
-    double speed_gain_1ps = 1000;      // acceleration per m/s below the speed limit
-    double turn_gain_1ps = 1000;       // acceleration per m/s below the safe speed before a turn
-    // Acceleration of platoon leaders. leader_mps2 applies up to the constant-power speed. If it is 0, the model of the
-    // policy decides. A profile (speeds, and the accelerations at these speeds) replaces both values.
+    double speed_gain_1ps = 1000;      // largest acceleration: gain x (leader_speed_share x limit - speed)
+    // The acceleration before a turn is this gain times (safe speed - own speed), minus the braking for the turn. The
+    // safe speed is the highest speed that still allows braking in time. 1000: the vehicle takes that speed at once.
+    double turn_gain_1ps = 1000;
+    // Acceleration of platoon leaders. leader_mps2 applies up to the constant-power speed. If leader_mps2 is 0, platoon
+    // leaders accelerate as in the car-following model of their policy. A profile (speeds, and the accelerations at
+    // these speeds) replaces leader_mps2 and leader_constant_power_speed_mps.
     double leader_mps2 = 0.0;
     double leader_constant_power_speed_mps = 500.0 / 3.6;
     std::vector<double> leader_profile_mps;
     std::vector<double> leader_profile_mps2;
-    // Queue discharge: number of stopped vehicles that a start message reaches in one step.
+    // When a queue starts, number of additional stopped vehicles that a V2V start message reaches in one step. Only
+    // vehicles with the constant-distance model receive it.
     int start_relay_vehicles = 0;
     double start_delay_s = 0.0;  // start-up delay of the first vehicle at a stop line, due to its powertrain
     KraussSettings constant_time;
@@ -144,7 +149,7 @@ struct GapPolicySettings {
     double reference_gap_m = 0.0;
 };
 
-// A mix of vehicles by spacing policy. The shares of the components sum to 1.
+// A population: a mix of vehicles with one or several spacing policies. The shares of the components sum to 1.
 struct PopulationSettings {
     enum class Pattern { alternating, random, balanced };
     struct Component {

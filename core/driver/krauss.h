@@ -5,8 +5,8 @@
 //
 //   v_safe = -b tau + sqrt(b^2 tau^2 + v_l^2 + 2 b (s - s_0))
 //
-// All other policies use equation (1) of the paper. As printed, it jumps at s_0; here its missing plus sign is
-// restored:
+// All other policies use equation (1) of the paper. As printed, v_safe jumps at s_0, because a plus sign is missing.
+// Here the plus sign is restored:
 //
 //   s > s_0               v_safe as above, with s_0 + s_t in place of s_0
 //   s_0 - s_t < s <= s_0  v_safe = v_l
@@ -72,7 +72,7 @@ struct KraussPerVehicle {
 // KraussPerVehicle.
 
 // Returns the highest speed from which a vehicle can stop behind its leader. The leader brakes with b [m/s2] at once,
-// the vehicle brakes with b after the time tau [s]. `gap_m` is the part of the net gap that may be used up.
+// the vehicle brakes with b after the time tau [s]. `gap_m` is the part of the net gap that the vehicle may use up.
 template <class R, class Parameter>
 STOPLINE_INLINE R braking_speed_mps(const Parameter& b, const Parameter& tau, const R& gap_m,
                                     const R& leader_speed_mps) {
@@ -128,7 +128,7 @@ STOPLINE_INLINE R anticipated_safe_speed_mps(const Model& k, const KraussInputOf
     return safe_speed_mps(k, in.gap_m, R(in.leader_speed_mps + k.anticipation_s * in.leader_acceleration_mps2),
                           extra_gap_m);
 }
-// Returns the same with the transient gap added to the extra gap.
+// Returns v_safe for the anticipated speed of the leader, with the transient gap added to the extra gap.
 template <class R, class Model>
 STOPLINE_INLINE R anticipated_safe_speed_mps(const Model& k, const KraussInputOf<R>& in) {
     return anticipated_safe_speed_mps(k, in, R(in.extra_gap_m + k.transient_gap_s2 * in.leader_acceleration_mps2));
@@ -146,7 +146,7 @@ STOPLINE_INLINE R speed_after_mps(const Model& k, const KraussInputOf<R>& in, co
     R acceleration = k.acceleration_mps2;
     if constexpr (power_limit)
         acceleration = acceleration * min_of(R(1.0), R(k.constant_power_speed_mps / max_of(in.speed_mps, R(1e-3))));
-    constexpr double kCatchUp_m = 2.0;  // catch_up_factor applies if the gap exceeds the equilibrium gap by less
+    constexpr double kCatchUp_m = 2.0;  // catch_up_factor applies up to this excess over the equilibrium gap
     const R equilibrium_m = k.standstill_gap_m + k.band_m + k.reaction_s * in.speed_mps;
     const R factor = select(in.gap_m - in.extra_gap_m < equilibrium_m + kCatchUp_m, R(k.catch_up_factor), R(1.0));
     const R accelerated = in.speed_mps + acceleration * factor * dt;
@@ -165,8 +165,8 @@ struct LeaderProfile {
     double bins_per_mps = 0.0;  // 0: no profile
     std::array<double, kBins> acceleration_mps2{};
 };
-// Returns the profile of platoon leaders in the settings. Each bin gets the acceleration at the listed speed that is
-// nearest to the middle of the bin.
+// Converts leader_profile_mps and leader_profile_mps2 of the settings into bins. Each bin gets the acceleration of the
+// listed speed that is nearest to the middle of the bin. If the settings list no speeds, bins_per_mps is 0.
 LeaderProfile leader_profile(const MesoSettings& settings);
 
 // Returns the next speed of one vehicle.

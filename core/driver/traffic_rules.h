@@ -20,8 +20,9 @@ struct TrafficRules {
     // If the first vehicle of a lane has been stopped for this many signal cycles, it is teleported past the
     // intersection as soon as there is room (SUMO: teleport). 0: never.
     double teleport_cycles = 0.0;
-    // If a vehicle has been stopped inside an intersection for the duration of this many greens, it no longer blocks
-    // crossing vehicles (SUMO: ignore-junction-blocker). If the green times differ, the longest counts. 0: never.
+    // If a vehicle has been stopped inside an intersection for the duration of this many green times, it no longer
+    // blocks crossing vehicles (SUMO: ignore-junction-blocker). If the green times of the signal groups differ, the
+    // longest one is used. 0: never.
     double pass_blocker_greens = 0.0;
 };
 

@@ -14,15 +14,16 @@ struct Figure {
     int width_px = 900;
     int height_px = 560;
     std::vector<std::pair<std::string, std::string>> data;  // names and contents of the files that the script reads
-    // gnuplot commands that draw the figure once. The script sets before: terminal, output, font, axes without a box, a
-    // light grid, and the line types 1 to 8 of line_style(). A command must not have a line break inside quotes.
+    // gnuplot commands that draw the figure once. Before these commands, the script sets terminal, output, font, axes
+    // without a box, a light grid, and the line types 1 to 8 of line_style(). A command must not have a line break
+    // inside quotes.
     std::string body;
     std::string nothing;  // reason why there is nothing to draw; empty for a complete figure
 };
 
 // Colour, dash and point of a line. The eight colours are those of Okabe and Ito (2008), which colour-blind readers can
-// distinguish. Grey replaces their yellow, which is too light on white. Beyond eight lines, the colours repeat with
-// other dashes.
+// distinguish. Grey replaces the yellow of this set, which is too light on white. Beyond eight lines, the colours
+// repeat with other dashes.
 struct LineStyle {
     std::string colour;    // #rrggbb
     int dash = 1;          // gnuplot dash type

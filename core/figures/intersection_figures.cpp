@@ -45,7 +45,7 @@ std::string vehicles_data(const std::vector<DrawnVehicle>& vehicles, int policy)
     return found ? text : text + "NaN NaN NaN NaN\n";
 }
 
-// Colours by Light: red, green, yellow.
+// Colours of the lights in the order of the enum Light: red, green, yellow.
 constexpr std::array<const char*, 3> kLightColours{"#d55e00", "#009e73", "#e69f00"};
 
 }  // namespace
@@ -100,7 +100,7 @@ namespace {
 
 // Returns the mean headways by queue position, or nothing if no position has enough samples.
 std::optional<Figure> headway_figure(const IntersectionReport& report) {
-    constexpr int kMinSamples = 8;  // fewest headways behind a point of the figure
+    constexpr int kMinSamples = 8;  // fewest headways from which a point of the figure is computed
     Figure figure;
     figure.name = "headways";
     std::string plots;

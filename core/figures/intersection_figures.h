@@ -12,8 +12,8 @@ namespace stopline {
 // Draws the network to scale with the vehicles of one population at `picture_s`, coloured by policy.
 Figure intersection_picture(const IntersectionReport& report, std::size_t population);
 
-// Returns the picture of the most evenly mixed population, and the headways by queue position if there are enough
-// samples.
+// Returns the picture of the population with the most even mix of policies, and the headways by queue position if there
+// are enough samples.
 std::vector<Figure> intersection_figures(const IntersectionReport& report);
 
 }  // namespace stopline

@@ -20,7 +20,7 @@ constexpr std::array<const char*, 4> kPanels{"throughput [veh/h]", "travel time 
 // One point of the curves of a population.
 struct SeriesPoint {
     double hours = 0.0;
-    std::array<double, kPanels.size()> values{};  // [panel] NaN if no vehicle left the area
+    std::array<double, kPanels.size()> values{};  // [panel] the travel time is NaN if no vehicle left the area
 };
 
 std::vector<SeriesPoint> points_of(const std::vector<NetworkInterval>& series) {
@@ -150,7 +150,7 @@ Figure delay_causes_figure(const NetworkReport& report) {
     Figure figure;
     figure.name = "delay_causes";
     std::string text = "# population, share of each cause in the stopped time, percent\n";
-    std::array<bool, kDelayCauseNames.size()> any{};  // [cause] true if it delays a vehicle
+    std::array<bool, kDelayCauseNames.size()> any{};  // [cause] true if this cause stops a vehicle
     for (const NetworkResult& f : report.populations) {
         double all_s = 0.0;
         for (std::size_t cause = 1; cause < kDelayCauseNames.size(); ++cause) {

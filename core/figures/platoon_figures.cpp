@@ -29,7 +29,8 @@ double last_shown_s(const SingleLightReport& result) {
     return std::min({kShown_s, run_s, result.scenario.signal.green_s + kTrajectoryAfter_s});
 }
 
-// Returns the trajectory points on the first lane that the figure shows, by vehicle from the front of the queue.
+// Returns the trajectory points that the figure shows, by vehicle. They lie on the first approach lane or on its exit
+// lane. The vehicles are ordered from the front of the queue.
 std::vector<std::pair<int, std::vector<TrajectoryPoint>>> by_vehicle(const SingleLightReport& result,
                                                                      std::size_t population, double interval_s) {
     const RunResult& run = result.runs[population];
@@ -48,8 +49,8 @@ std::vector<std::pair<int, std::vector<TrajectoryPoint>>> by_vehicle(const Singl
     return ordered;
 }
 
-// Returns the commands that draw the light on the stop line for one interval. Dashes and words distinguish the lights
-// even without colours.
+// Returns the commands that draw the light along the stop line from `from_s` to `to_s`. Dashes and words distinguish
+// the lights even without colours.
 std::string light_line(const std::string& light, double from_s, double to_s) {
     const bool green = light == "green";
     const std::string colour = green ? "#009E73" : light == "red" ? "#D55E00" : "#F0C000";

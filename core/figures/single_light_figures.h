@@ -10,18 +10,19 @@
 
 namespace stopline {
 
-// Returns all figures that the results allow. The figures show those numbers of the paper in `targets` that belong to
-// this scenario.
+// Returns all figures that the results allow. They also show numbers of the paper: the entries of `targets` that belong
+// to this scenario.
 std::vector<Figure> single_light_figures(const SingleLightReport& result, const std::vector<Target>& targets);
 
 Figure counters_figure(const SingleLightReport& result, const std::vector<Target>& targets);
 Figure improvement_figure(const SingleLightReport& result, const std::vector<Target>& targets);
-// The next two figures show the baseline and the first other population, or the first two populations without baseline.
+// The next two figures show the baseline and the first other population. If the scenario has no baseline, they show the
+// first two populations.
 Figure time_space_figure(const SingleLightReport& result);
 Figure platoon_figure(const SingleLightReport& result);
 
-// Returns the index of the line style of a population. The baseline is black, the others have the remaining styles in
-// order.
+// Returns the index of the line style of a population. The baseline is black, and all other populations have the
+// remaining styles in order.
 std::size_t style_index(const SingleLightReport& result, std::size_t population);
 
 }  // namespace stopline

@@ -16,8 +16,8 @@ namespace stopline {
 
 namespace {
 
-constexpr double kRow_m = 560.0;    // longest part of the corridor in one row
-constexpr double kRow_px = 1520.0;  // width of one row
+constexpr double kRow_m = 560.0;    // longest part of the corridor in one row of the figure
+constexpr double kRow_px = 1520.0;  // width of one row of the figure
 // Drawn length of a leg to the border of the network, from the centre of its intersection: major and minor street.
 constexpr double kMajorLeg_m = 130.0;
 constexpr double kMinorLeg_m = 55.0;
@@ -69,7 +69,8 @@ Polyline shown_part(const LaneGraph& graph, int number, double radius_m) {
     return {pose_at(lane.shape, exit ? 0.0 : cut_m).point, pose_at(lane.shape, exit ? whole_m - cut_m : whole_m).point};
 }
 
-// Returns the radius of the intersection at the start of an exit lane, which is the nearest intersection.
+// Returns the radius of the intersection from which an exit lane starts. This is the intersection nearest to the start
+// of the lane.
 double radius_behind_m(const StreetSettings& streets, const Lane& exit) {
     const auto apart_m = [&](const StreetIntersection& node) {
         return std::hypot(node.x_m - exit.shape.front().x_m, node.y_m - exit.shape.front().y_m);
@@ -103,7 +104,7 @@ void add_arrow(const LaneGraph& graph, const Lane& lane, MapData& drawn) {
                                     beside(lane, -11.0, -1.2)});
             continue;
         }
-        // A lane with one movement only gets a wider arrow.
+        // The arrow of a lane with a single movement is wider.
         const double stem_m = lane.next.size() == 1 ? -0.9 * side : 0.0;
         const double neck_m = lane.next.size() == 1 ? -0.2 * side : 0.3 * side;
         drawn.stems += line_of(
@@ -114,7 +115,7 @@ void add_arrow(const LaneGraph& graph, const Lane& lane, MapData& drawn) {
 }
 
 MapData draw_lanes(const StreetSettings& streets, const NetworkSettings& network, const LaneGraph& graph) {
-    // Half width of a drawn lane over the lane width; the rest shows as a line between lanes.
+    // Half width of a drawn lane as a share of the lane width. The space between two drawn lanes looks like a line.
     constexpr double kHalfWidth = 0.46;
     const double half_m = kHalfWidth * streets.lane_width_m;
     MapData drawn;
@@ -136,13 +137,14 @@ MapData draw_lanes(const StreetSettings& streets, const NetworkSettings& network
     return drawn;
 }
 
-// Rectangles that show the signals over a cycle, by light. Each signal group has one bar.
+// Bars that show the signals over a cycle, one bar for each signal group. A bar consists of rectangles in the colours
+// of the lights.
 struct Bars {
     std::array<std::string, 3> by_light{"# x_m y_m, red\n", "# x_m y_m, green\n", "# x_m y_m, yellow\n"};
 };
 
-// Returns for each signal group of an intersection if it controls a lane. The groups are the major street, its left
-// turns, and the minor street.
+// Returns for each signal group of an intersection whether it controls a lane. The groups are the major street, its
+// left turns, and the minor street.
 std::array<bool, 3> used_groups(const LaneGraph& graph, std::size_t node) {
     std::array<bool, 3> used{};
     for (const Lane& lane : graph.lanes) {

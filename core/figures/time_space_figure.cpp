@@ -12,8 +12,8 @@ namespace stopline {
 
 namespace {
 
-// Returns the data of one curve for each vehicle with this policy. A curve is interrupted while its vehicle is not on
-// the street.
+// Returns the curves of all vehicles with this policy, as data for gnuplot. A curve is interrupted while its vehicle is
+// not on the street.
 std::string lines_of(const StreetTrace& trace, int policy) {
     std::map<int, std::vector<const StreetPoint*>> by_vehicle;
     for (const StreetPoint& point : trace.points) {

@@ -40,7 +40,7 @@ struct OriginDestinationResult {
     double travel_time_s = 0.0;  // mean of these vehicles; NaN if there are none
 };
 
-// In the functions below, crossings must be in order of time. Only detectors of the kind `zone` count.
+// In the functions below, crossings must be in order of time. Detectors of any kind but `zone` are ignored.
 
 // Measures consecutive windows of `interval_s` from 0 to `end_s`. An incomplete last window is omitted. `lane_m` is the
 // length of all lanes in the area.

@@ -1,6 +1,6 @@
 // Queue discharge at stop lines: headways by position in the queue, saturation flow and start-up lost time. By the
 // Highway Capacity Manual (6th edition, chapter 31) the saturation headway is the mean from the fifth vehicle on. The
-// start-up lost time is the sum by which the headways of the first four vehicles exceed the saturation headway.
+// start-up lost time is the sum over the first four vehicles of the headway minus the saturation headway.
 #pragma once
 
 #include <functional>
@@ -26,7 +26,7 @@ struct Discharge {
 using LatestGreenStart = std::function<double(int signal_group, double time_s)>;
 
 // Measures all stop lines together. A vehicle belongs to the latest green that began before it passed its stop line.
-// Headways of a green that began before the window do not count. Crossings must be in order of time.
+// Headways of a green that began before the window are left out. Crossings must be in order of time.
 Discharge discharge(const LaneGraph& graph, std::span<const Detector> detectors, std::span<const Crossing> crossings,
                     const TimeWindow& window, const LatestGreenStart& latest_green_start_s, double cycle_s);
 

@@ -18,7 +18,7 @@ std::size_t warm_up(std::span<const double> values);
 // Returns the index of the first value that is at least 90 % of the highest value, which ends the initial rise.
 std::size_t rise_end(std::span<const double> values);
 
-// A permanent drop of the level of a series.
+// A lasting drop of the level of a series.
 struct Collapse {
     std::size_t index = 0;  // first value of the lower level
     double before = 0.0;    // mean before the drop

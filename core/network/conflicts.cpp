@@ -18,9 +18,9 @@ struct Stretch {
     double to_m;
 };
 
-// Returns the stretch of `a` from the first to the last sample that is closer to `b` than the clearance. After a step
-// along `a`, the distance to `b` has changed by at most the length of the step. So the search can skip the samples next
-// to a sample that is far from `b`.
+// Samples points along `a`. Returns the stretch of `a` from the first to the last sample that is closer to `b` than the
+// clearance. A step along `a` changes the distance to `b` by at most the length of the step. So the search can skip the
+// samples next to a sample that is far from `b`.
 std::optional<Stretch> near_part(const Polyline& a, const Polyline& b, double clearance_m) {
     const double end_m = length_m(a);
     const int samples = static_cast<int>(std::ceil(end_m / kSample_m));
@@ -55,7 +55,7 @@ Box box_of(const Polyline& line) {
     return box;
 }
 
-// Returns true if the distance of the boxes in x or in y exceeds the clearance.
+// Returns true if the gap between the boxes, in x or in y, exceeds the clearance.
 bool apart(const Box& a, const Box& b, double clearance_m) {
     const auto beyond = [&](const Box& one, const Box& other) {
         return one.low.x_m > other.high.x_m + clearance_m || one.low.y_m > other.high.y_m + clearance_m;
@@ -76,7 +76,7 @@ std::optional<Conflict> areas_of(const Lane& one, const Lane& two, double cleara
                     position_m(two, on_two->to_m)};
 }
 
-// Returns the rank of a movement in right of way. Movements of a higher rank yield to movements of a lower rank.
+// Returns the rank of a movement for right of way. Movements of a higher rank yield to movements of a lower rank.
 int rank(Turn turn) { return turn == Turn::left ? 2 : turn == Turn::right ? 1 : 0; }
 
 }  // namespace

@@ -12,14 +12,14 @@ namespace stopline {
 double shared_stretch_m(const Polyline& a, const Polyline& b, double clearance_m);
 
 // Returns the conflict area of two connections, seen from `one`, or nothing if vehicles on them cannot touch. The
-// caller sets `other`, `yields` and `other_yields`.
+// caller sets the members `other`, `yields` and `other_yields` of the result.
 std::optional<Conflict> conflict_of(const Lane& one, const Lane& two, double clearance_m);
 
-// Finds the conflicts between the connections with the lane indices first .. stop - 1, and adds them to
-// graph.conflicts. graph.conflicts must have one entry per lane. Two connections conflict if their centre lines come
-// closer than `clearance_m`. Connections of the same approach lane do not conflict, because their vehicles follow each
-// other. If both movements have green in the same stage, a left turn yields to right turns and to straight traffic, and
-// a right turn yields to straight traffic.
+// Finds the conflicts between the connections with the lane indices first .. stop - 1, and adds these conflicts to
+// graph.conflicts, which must have one list per lane. Two connections conflict if their centre lines come closer than
+// `clearance_m`. Connections of the same approach lane do not conflict, because their vehicles follow each other. If
+// both movements have green in the same stage, a left turn yields to right turns and to straight traffic, and a right
+// turn yields to straight traffic.
 void find_conflicts(LaneGraph& graph, double clearance_m, int first, int stop);
 
 }  // namespace stopline

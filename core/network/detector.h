@@ -8,12 +8,12 @@ namespace stopline {
 struct Detector {
     enum class Kind : std::uint8_t {
         stop_line,
-        zone,    // on the border of a zone in which traffic is measured
-        exit,    // at the start of an exit lane, behind an intersection
+        zone,    // on the border of a zone, a part of the network in which traffic is measured
+        exit,    // at the start of an exit lane, just after an intersection
         middle,  // in the middle of a lane between two intersections
         loop     // induction loop of an imported network; it has a name
     };
-    int lane = -1;  // -1: no position; the detector counts the starts or ends of trips
+    int lane = -1;  // -1: the detector has no position; it counts the starts or ends of trips
     double position_m = 0.0;
     Kind kind = Kind::stop_line;
     int zone = -1;             // index of the zone; -1: the detector belongs to no zone

@@ -14,7 +14,7 @@ using Polyline = std::vector<Point>;
 
 double length_m(const Polyline& line);
 
-// A point and a direction, given by the cosine and sine of its angle from the x axis.
+// A point and a direction. The direction is given by the cosine and sine of its angle from the x axis.
 struct Pose {
     Point point;
     double cosine = 1.0;

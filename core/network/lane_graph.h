@@ -1,10 +1,10 @@
 // The network for the simulation: lanes, their successors, routes and conflict areas. A generator or the SUMO import
-// builds the lane graph, which is constant afterwards.
+// builds the lane graph. The graph does not change during a run.
 //
-// There are three kinds of lanes. An approach lane leads to a stop line. It ends where its movements diverge, which may
-// be beyond the stop line. A connection leads through an intersection, from one approach lane to one exit lane. An exit
-// lane leads away from an intersection. A link lane leads from one intersection to the next, so it is an exit lane and
-// an approach lane.
+// There are three kinds of lanes. An approach lane leads to a stop line. It ends where its movements diverge; this
+// point can lie beyond the stop line. A connection leads through an intersection, from one approach lane to one exit
+// lane. An exit lane leads away from an intersection. A link lane leads from one intersection to the next, so it is
+// both an exit lane and an approach lane.
 #pragma once
 
 #include <cstdint>
@@ -19,13 +19,13 @@ namespace stopline {
 // The movement of a connection. An approach of an imported network can have more than three movements. The additional
 // movements have the values left + 1 .. kMaxTurns - 1.
 enum class Turn : std::uint8_t { none, straight, right, left };
-inline constexpr int kMaxTurns = 12;  // number of values, including `none`
+inline constexpr int kMaxTurns = 12;  // number of values of Turn, including `none`
 
 struct Lane {
     std::string name = {};
     double length_m = 0.0;
     double limit_mps = 0.0;
-    double gradient = 0.0;       // rise over run, positive uphill in driving direction
+    double gradient = 0.0;       // slope as height over distance; positive: uphill in driving direction
     int signal_group = -1;       // signal group of the stop line; -1: no stop line
     std::vector<int> next = {};  // successor lanes; empty: vehicles leave the network at the end
     Polyline shape = {};         // centre line; it begins shape_start_m before the start of the lane
@@ -36,29 +36,30 @@ struct Lane {
     double diverge_end_m = 0.0;
     Turn turn = Turn::none;          // connection: its movement; else none
     int origin = -1;                 // connection: the approach lane that leads to it
-    int left = -1;                   // adjacent lane to the left, for lane changes before the stop line; -1: none
-    int right = -1;                  // adjacent lane to the right; -1: none
-    double start_offset_m = 0.0;     // distance of its start from the start of the approach; > 0 for a turn pocket
+    int left = -1;                   // adjacent lane on the left to which vehicles may change; -1: none
+    int right = -1;                  // adjacent lane on the right to which vehicles may change; -1: none
+    double start_offset_m = 0.0;     // distance of the lane's start from the approach's start; > 0: turn pocket
     int approach = -1;               // index in LaneGraph::approaches; -1: none
-    int movement_signal_group = -1;  // connection: signal group of its movement; -1: the group of the stop line applies
+    int movement_signal_group = -1;  // connection: signal group of its movement; -1: group of the stop line
     bool waits_inside = true;  // connection: yielding vehicles wait before the conflict area; false: at the stop line
     bool keep_clear = true;    // connection: the keep-clear rule (TrafficRules) applies
 };
 
-// A conflict area: the part of two connections where vehicles can touch. The bounds are positions on the centre lines.
-// A vehicle occupies the area while its front is beyond `from_m` and its rear is not beyond `to_m`.
+// A conflict area: the parts of two connections where vehicles on one can touch vehicles on the other. The bounds are
+// positions on the centre lines. A vehicle occupies the area while its front is beyond `from_m` and its rear is not
+// beyond `to_m`.
 struct Conflict {
-    int other = -1;       // lane index of the other connection
-    double from_m = 0.0;  // start of the area on this connection; below 0: on the approach lane, beyond its stop line
-    double to_m = 0.0;    // end of the area on this connection
+    int other = -1;             // lane index of the other connection
+    double from_m = 0.0;        // start of the area on this connection; < 0: on the approach lane, beyond its stop line
+    double to_m = 0.0;          // end of the area on this connection
     double other_from_m = 0.0;  // start of the area on the other connection
     double other_to_m = 0.0;    // end of the area on the other connection
     bool yields = false;        // this connection gives way to the other
     bool other_yields = false;  // the other connection gives way to this one
 };
 
-// A sequence of lanes. It begins on an entry lane or a link lane, and ends at the end of the network or on the next
-// link lane, where the vehicle gets its next route.
+// A sequence of lanes that a vehicle follows. A route begins on an entry lane or a link lane. It ends at the border of
+// the network, or on the next link lane, where the vehicle gets its next route.
 struct Route {
     std::string name;
     std::vector<int> lanes;
@@ -80,7 +81,8 @@ struct LaneGraph {
     std::vector<int> entries;          // lanes where vehicles enter the network
     std::vector<int> links;            // lanes from one intersection to the next; routes begin on entries and links
     int signal_groups = 0;
-    // [signal group] number of its stage. Groups of the same stage have green together. Empty: each group is a stage.
+    // [signal group] number of its stage. Groups of the same stage have green together. Empty: every group has a stage
+    // of its own.
     std::vector<int> stage_of;
     std::vector<std::vector<Conflict>> conflicts;  // [lane] conflicts sorted by from_m; empty if no lane has conflicts
 
@@ -104,7 +106,7 @@ LaneGraph make_intersection(const IntersectionSettings& settings);
 
 // Builds a grid of equal intersections, as make_intersection() builds a single one. Intersections are numbered row by
 // row from the south-west. Intersection n has the signal groups 2 n and 2 n + 1. Names of lanes begin with column and
-// row, such as c1r0_south_in_0, except in a grid of one intersection.
+// row of the intersection, such as c1r0_south_in_0. In a grid of one intersection, the names omit this prefix.
 LaneGraph make_grid(const GridSettings& grid, const IntersectionSettings& settings);
 
 // The position of an intersection in the grid. Column 0 is in the west and row 0 in the south.
@@ -116,8 +118,8 @@ struct GridPosition {
 std::vector<GridPosition> grid_positions(const GridSettings& grid);
 
 // Builds the streets that the user describes. Intersection n has three signal groups: 3 n for the major street, 3 n + 1
-// for the left-turn lanes of the major street that have a protected green, and 3 n + 2 for the minor street. The groups
-// 3 n and 3 n + 1 form one stage.
+// for those left-turn lanes of the major street that have a protected green, and 3 n + 2 for the minor street. The
+// groups 3 n and 3 n + 1 form one stage.
 //
 // A lane name begins with the name of its intersection, such as suarezstr_west_in_0 or suarezstr_east_out_0. Lanes are
 // counted from the left, turn pockets included. An exit lane that leads to another intersection is named as an approach

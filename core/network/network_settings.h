@@ -16,7 +16,7 @@ struct ApproachSettings {
     double length_m = 700.0;       // from the entry to the stop line
     double exit_length_m = 700.0;  // from the stop line to the end of the network
     double speed_limit_mps = 50.0 / 3.6;
-    double gradient = 0.0;  // rise over run, positive uphill in driving direction
+    double gradient = 0.0;  // slope as height over distance; positive: uphill in driving direction
 };
 
 // An intersection of four equal legs at right angles.
@@ -26,13 +26,13 @@ struct IntersectionSettings {
 
         bool allows(std::string_view movement) const { return movements.find(movement) != std::string::npos; }
     };
-    std::vector<LaneMovements> lanes = {};  // approach lanes of each leg, from the left
+    std::vector<LaneMovements> lanes = {};  // the approach lanes, equal on all legs, from the left
     double radius_m = 20.0;                 // from the centre to the stop line
     double approach_length_m = 200.0;       // from the entry of the network to the stop line
     double exit_length_m = 100.0;           // from the intersection to the end of the network
     double lane_width_m = 3.5;
     double speed_limit_mps = 50.0 / 3.6;
-    double turn_speed_mps = 7.0;  // lateral acceleration of 2.5 m/s2 on a radius of 20 m (the paper, Section IV.A)
+    double turn_speed_mps = 7.0;  // gives 2.5 m/s2 lateral acceleration at a radius of 20 m (the paper, Section IV.A)
     // Vehicles can touch where the centre lines of their lanes are closer than this. The default is slightly more than
     // the width of a car.
     double clearance_m = 2.0;

@@ -10,7 +10,7 @@ namespace stopline {
 
 struct StreetLane {
     std::string movements;  // one or more of left, straight and right, joined by '+'
-    double pocket_m = 0.0;  // length of a turn pocket, to the stop line; 0: the lane is as long as the approach
+    double pocket_m = 0.0;  // turn pocket: its length up to the stop line; 0: the lane is as long as the approach
 };
 
 // One side of an intersection with its approach lanes and exit lanes.
@@ -58,8 +58,8 @@ struct StreetIntersection {
     double offset_s = 0.0;  // start of the major street's green within each cycle
 };
 
-// If two legs of neighbouring intersections face each other on one line, a road joins them. The exit lanes of each
-// intersection are then approach lanes of the other.
+// If two legs of neighbouring intersections face each other on one line, a road joins the intersections. The exit lanes
+// of one intersection on this road are the approach lanes of the other.
 struct StreetSettings {
     std::string name;
     double median_m = 0.0;        // width of the median in streets from west to east

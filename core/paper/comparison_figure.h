@@ -1,5 +1,5 @@
-// Fig. 23 of the paper: throughput gain of CDG and MIX over CTG-Ref against the green time, on the grid, on the
-// arterial and at a single intersection.
+// Fig. 23 of the paper. The figure plots the throughput gain of the populations CDG and MIX over CTG-Ref against the
+// green time, on the grid, on the arterial and at a single intersection.
 #pragma once
 
 #include <map>

@@ -18,7 +18,7 @@ namespace {
 struct Statement {
     std::vector<const char*> rows;  // row ids
     const char* sentence;
-    const char* topic;  // name of the statement in the list of missing values
+    const char* topic;  // name of the statement if its values are missing
 };
 
 // Returns our value of a row, or std::nullopt if the row was not measured or our answer is not a number.

@@ -14,8 +14,8 @@ struct Headline {
     std::string text;
 };
 
-// Returns the five lines, filled with our values of the scorecard rows. Each line lists its values that were not
-// measured.
+// Returns the five lines with our values from the scorecard. If values of a line were not measured, the line says
+// which.
 std::vector<Headline> headlines(const Scorecard& scorecard);
 
 }  // namespace stopline

@@ -23,10 +23,11 @@ private:
 };
 
 // Returns a text that identifies scenario and program: the scenario hash, the version, and a hash of the program file.
-// Returns std::nullopt if the program file cannot be read. Stored measurements are then not reused.
+// Returns std::nullopt if the program file cannot be read. In this case, do not reuse stored measurements.
 std::optional<std::string> results_key(const Scenario& scenario);
 
-// Loads stored measurements. Returns std::nullopt if the file is missing or damaged, or was stored with another key.
+// Loads stored measurements. Returns std::nullopt if the file is missing or damaged, or was stored with a key other
+// than `key`.
 std::optional<Measurements> load_measurements(const std::filesystem::path& file, const std::string& key);
 void store_measurements(const std::filesystem::path& file, const std::string& key, const Measurements& measurements);
 

@@ -1,7 +1,7 @@
 // Reductions make the paper's experiments shorter for a quick run. Users can edit them in data/paper/quick.csv, which
 // has the columns applies_to,field,value. `applies_to` is sweeps/NAME or scenarios/NAME. `field` is one of:
 //     repetitions   number of seeds of each combination
-//     axis NAME     values of the axis NAME to keep, separated by ';'
+//     axis NAME     the values of the sweep axis NAME that remain, separated by ';'
 //     PATH          path of a scenario field, such as duration, to which `value` is assigned (as with --set)
 #pragma once
 
@@ -28,7 +28,7 @@ public:
 
     const std::vector<Row>& rows() const { return rows_; }
 
-    // Returns the overrides for load_scenario, each as "PATH=VALUE".
+    // Returns the scenario fields that the reductions change, each as "PATH=VALUE", for load_scenario().
     std::vector<std::string> settings(const std::string& applies_to) const;
     // Returns the reduced number of seeds, or std::nullopt if the number is not reduced.
     std::optional<int> repetitions(const std::string& applies_to) const;

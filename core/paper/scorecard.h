@@ -28,9 +28,11 @@ struct ScorecardOptions {
     int threads = 1;
     // Receives the finished share of the current experiment, 0..1. The experiment stops if the function returns false.
     std::function<bool(double)> on_progress;
-    // Receives the share of the current experiment whose runs were stored before. on_progress starts from this share.
+    // Receives the share of the current experiment that need not be run, because its runs were stored before.
+    // on_progress starts from this share.
     std::function<void(double)> on_stored;
-    // Receives a message for each experiment that is run, and for each whose stored measurements are reused.
+    // Receives a message for each experiment. The message says whether the experiment is run, or its stored
+    // measurements are reused.
     std::function<void(const std::string&)> on_message;
 };
 
@@ -38,7 +40,7 @@ struct ScorecardOptions {
 struct Experiment {
     const char* name;      // also the name of the CSV file with the measurements, without .csv
     const char* scenario;  // name of the scenario file in scenarios/, without .yaml
-    bool is_stored;        // true: store the measurements; false: only read from files, or `measure` stores runs
+    bool is_stored;        // true: store the measurements; false: `measure` only reads files, or stores its runs itself
     Measurements (*measure)(const Scenario& scenario, const ScorecardOptions& options);
 };
 
@@ -66,15 +68,15 @@ struct ScoredRow {
     std::string ours;  // our value or answer as text; empty if not measured
     Verdict verdict = Verdict::open;
     std::string measured_as;  // how we measure the quantity
-    std::string explanation;  // cause of the deviation if the verdict is 'miss'; otherwise empty
+    std::string explanation;  // if the verdict is 'miss': why our value deviates; otherwise empty
 };
 
 struct Scorecard {
     std::vector<ScoredRow> rows;
     std::map<std::string, std::uint64_t> scenario_hashes;  // by scenario name
     std::vector<Figure> figures;
-    // Sum over all experiments; 0 if no run has overlaps, entries on red or lost vehicles. Some experiments count
-    // single violations, others count runs with violations.
+    // Number of violations, summed over all experiments: overlaps of vehicles, entries on red, and lost vehicles. Some
+    // experiments count every violation. Other experiments count the runs that have violations.
     double violations = 0.0;
     int count(Verdict verdict) const;
 };
@@ -87,7 +89,7 @@ Scorecard make_scorecard(const ScorecardOptions& options);
 // row whose experiment is missing has the verdict 'open'. Throws InputError for a section without rows.
 Scorecard score(const std::string& section, const std::map<std::string, Measurements>& measured);
 
-// Returns a text that says how the row is measured and, if the verdict is 'miss', the cause of the deviation.
+// Returns a text that says how the row is measured and, if the verdict is 'miss', why our value deviates.
 std::string explanation_text(const ScoredRow& row);
 
 // Returns the scorecard as CSV with the columns id,section,paper,ours,unit,tolerance,verdict,explanation.
@@ -96,13 +98,13 @@ std::string scorecard_csv(const Scorecard& scorecard);
 // A row of data/paper/explanations.csv.
 struct Explanation {
     std::string measured_as;  // how we measure the quantity
-    std::string explanation;  // cause of the deviation; used if the verdict is 'miss'
+    std::string explanation;  // why our value deviates; used if the verdict is 'miss'
 };
 // Loads the explanations. Returns a map from row id to explanation.
 std::map<std::string, Explanation> load_explanations(const std::filesystem::path& file);
 
-// Returns one command for each section of the paper with rows in `rows`, each command once. The commands repeat the
-// runs and write their tables and figures.
+// Returns the commands that repeat the runs behind `rows` and write their tables and figures. There is one command for
+// each section of the paper, and for each part of Section VI. If sections share a command, it is listed once.
 std::vector<std::string> commands_behind(const std::vector<ScoredRow>& rows);
 
 // Sets row.measured_as and, if the verdict is 'miss', row.explanation. A miss without an explanation in the file gets

@@ -77,7 +77,8 @@ Verdict judge(const Target& target, const std::optional<Answer>& answer) {
         const bool below = answer->high <= paper->high + *tolerance + kRounding * (1.0 + std::abs(paper->high));
         return below ? Verdict::inside : Verdict::miss;
     }
-    // Our number may lie in the range of the paper or near one of its ends. Our range must be near both ends.
+    // A number must lie in the range of the paper or near an end of it. The ends of a range must be near the paper's
+    // ends.
     const bool is_number = answer->low == answer->high;
     const bool in_range = is_number && answer->low >= paper->low && answer->low <= paper->high;
     const bool low_near = near(target, answer->low, paper->low, *tolerance);

@@ -35,9 +35,9 @@ struct TargetRange {
 // Parses a number such as "17" or a range such as "20..45". Returns std::nullopt for other texts.
 std::optional<TargetRange> parse_range(const std::string& value);
 
-// Compares our answer with the row. NaN gives the verdict 'miss', because the experiment ran without giving a number.
-// Throws InputError if the value, the tolerance or the kind of tolerance of the row is invalid, or if a row of kind
-// 'claim' has an answer without `holds`.
+// Compares our answer with the row. The number NaN gives the verdict 'miss', because it means that the experiment ran
+// but gave no number. Throws InputError if the value, the tolerance or the kind of tolerance of the row is invalid, or
+// if a row of kind 'claim' has an answer without `holds`.
 Verdict judge(const Target& target, const std::optional<Answer>& answer);
 
 // Returns the tolerance of a row as text: "±1", "±6 %", "exact" or "max". Returns an empty text if the row states no

@@ -65,7 +65,7 @@ private:
 
     std::string name_of_loop(const Detector& detector) const {
         if (detector.loop >= 0) return model_.loop_names[static_cast<std::size_t>(detector.loop)];
-        if (detector.lane < 0) return {};  // this detector counts the starts or ends of trips and has no position
+        if (detector.lane < 0) return {};  // a detector without a position, which counts the starts or ends of trips
         const std::string zone = detector.zone >= 0 ? std::to_string(detector.zone) : "";
         return fmt::format("{}_{}{}", model_.graph.lanes[static_cast<std::size_t>(detector.lane)].name,
                            name_of(detector.kind), zone);

@@ -11,18 +11,18 @@
 
 namespace stopline {
 
-// Returns a writer for floating car data. Each frame of the window lists every vehicle in the network. The attributes
-// x, y and pos refer to the front of the vehicle. Angles are clockwise from north, in degrees.
+// Returns a writer for floating car data. Each frame lists every vehicle in the network. The attributes x, y and pos
+// refer to the front of the vehicle. Angles are clockwise from north, in degrees.
 std::unique_ptr<RunWriter> make_fcd_writer(const std::filesystem::path& file, const RecordingWindow& window,
                                            const Model& model);
 
-// Returns a writer for completed trips, with one row for each vehicle that left the network. A teleported vehicle
-// continues its trip. The departure delay of a vehicle without a planned departure is 0.
+// Returns a writer for completed trips, with one element for each vehicle that left the network. A teleport does not
+// end a trip. The attribute departDelay is 0 for a vehicle without a planned departure.
 std::unique_ptr<RunWriter> make_tripinfo_writer(const std::filesystem::path& file, const Model& model);
 
-// Returns a writer for the counts of all detectors, in the format of SUMO's induction loops. A row holds, for one
-// detector and one interval, the number of passing vehicles, their mean speed, and the occupancy. The occupancy is the
-// share of steps in which a vehicle covers the detector. Model::records_detectors must be set.
+// Returns a writer for the data of all detectors, in the format of SUMO's induction loops. An element holds, for one
+// detector and one time interval, the number of passing vehicles, their mean speed, and the occupancy. The occupancy is
+// the share of steps in which a vehicle covers the detector. Model::records_detectors must be set.
 std::unique_ptr<RunWriter> make_loop_writer(const std::filesystem::path& file, double interval_s, const Model& model);
 
 }  // namespace stopline

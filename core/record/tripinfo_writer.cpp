@@ -81,8 +81,8 @@ private:
         trip.last_tick = state.tick;
     }
 
-    // Writes all trips that have ended and removes them from the map. The rows are sorted by vehicle, so the file does
-    // not depend on the order of the hash map.
+    // Writes all trips that have ended and removes them from the map. The rows are sorted by vehicle, so the order in
+    // the file does not depend on the hash map.
     void write_ended_trips(std::int64_t tick) {
         std::vector<int> exited;
         for (const auto& [vehicle, trip] : trips_) {

@@ -1,4 +1,4 @@
-// Writer for XML files in SUMO's formats. It writes the file in blocks, so its memory does not grow with the file.
+// Writer for XML files in SUMO's formats. It writes the file in blocks, so a large file does not need much memory.
 #pragma once
 
 #include <filesystem>

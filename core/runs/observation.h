@@ -14,7 +14,8 @@ struct Observation {
     std::function<void(std::size_t population, const Simulation& simulation)> look;
     bool all_detectors = false;  // true: the run records the crossings of all detectors
 
-    // Makes the model record the data that the observer needs. This does not change the movement of vehicles.
+    // Makes the model record the data that an observer (the function `look`) needs. This does not change the movement
+    // of vehicles.
     void prepare(Model& model) const;
     // Calls `look` if there is one.
     void call(std::size_t population, const Simulation& simulation) const {

@@ -22,8 +22,8 @@ double lane_start_m(const Model& model, int route, int route_index) {
     return distance_m;
 }
 
-// Returns the net gap to the leader, m; NaN without a leader. The leader of the first vehicle on a lane is on another
-// lane. It is searched within the range of the radar.
+// Returns the net gap to the leader, m; NaN without a leader. The first vehicle on a lane has its leader on another
+// lane. This leader is searched within the range of the radar.
 double net_gap_m(const Model& model, const State& state, int lane, int slot) {
     const VehicleArrays& v = state.vehicles;
     const bool first = slot == state.blocks[at(lane)].first;

@@ -24,7 +24,7 @@ struct TrajectoryPoint {
     double position_m;  // position of the front, from the start of the lane
     double speed_mps;
     double acceleration_mps2;
-    double request_mps2;  // acceleration that the controller requests; mesoscale mode: acceleration_mps2
+    double request_mps2;  // acceleration that the controller requests; mesoscale mode: same as acceleration_mps2
     double net_gap_m;     // net gap to the leader; NaN without a leader
     int gear;             // engaged gear, from 1; 0 in the mesoscale mode
 };

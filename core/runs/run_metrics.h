@@ -11,11 +11,11 @@
 
 namespace stopline {
 
-// One named value. The value is stored as text, so that counts, hashes and rounded numbers reach the result table
-// unchanged.
+// One named value. The value is stored as text, so that whole numbers, hashes and rounded numbers reach the result
+// table unchanged.
 struct RunMetric {
     std::string name;
-    std::string unit;   // suffix of the column name: "s", "m", "veh_h", "percent"; empty for counts and texts
+    std::string unit;   // suffix of the column name: "s", "m", "veh_h", "percent"; empty: number without unit, or text
     std::string value;  // empty: the run has no such value
 
     // Returns the name of the column in the result table.

@@ -39,8 +39,8 @@ void add_policies(const Scenario& scenario, const PopulationSettings& population
 // signal group of their intersection.
 bool from_south_or_north(const LaneGraph& graph, int lane) { return graph.lanes[at(lane)].signal_group % 2 == 1; }
 
-// Returns the share of the vehicles on the first lane of a route that take this route, 0 .. 1. It follows from the turn
-// shares of the demand.
+// Returns the share of a route among the vehicles on its first lane, 0 .. 1. This share follows from the turn shares of
+// the demand.
 double share_of(const Scenario& scenario, const Model& model, const Route& route) {
     const LaneGraph& graph = model.graph;
     const std::vector<int>& connections = graph.lanes[at(route.lanes[0])].next;
@@ -56,7 +56,7 @@ double share_of(const Scenario& scenario, const Model& model, const Route& route
     const double left = !allows(Turn::left) ? 0.0
                         : uses_cross_turns  ? scenario.demand.cross_left_share
                                             : scenario.demand.left_share;
-    // Without a straight connection all vehicles turn, and only the ratio of the shares counts.
+    // Without a straight connection all vehicles turn, and only the ratio of left to right turns matters.
     const double sum = allows(Turn::straight) ? 1.0 : left + right;
     if (turn_of_route == Turn::left) return left / sum;
     if (turn_of_route == Turn::right) return right / sum;
@@ -236,8 +236,8 @@ Model build_model(const Scenario& scenario, std::size_t population) {
     model.vehicles.push_back(compile_powertrain(scenario.vehicle));
     model.driver = compile_driver(scenario.driver);
     model.hesitation_ticks = to_ticks(scenario.driver.free_drive.hesitation_s, scenario.tick_s());
-    // The command of a step takes effect at the end of the step. This delay is a part of radar_delay_s, so it is
-    // subtracted.
+    // A command of the controller takes effect at the end of its step. This delay of one step is a part of
+    // radar_delay_s, so it is subtracted.
     model.radar = make_delay(std::max(scenario.driver.cacc.radar_delay_s - scenario.tick_s(), 0.0), scenario.tick_s());
     model.v2v = make_delay(scenario.driver.cacc.v2v_delay_s, scenario.tick_s());
     if (scenario.is_meso()) {  // mesoscale car following has no radar delay

@@ -103,8 +103,8 @@ void merge_library_list(const Field& field, const std::string& library, SourceNo
         return;
     }
     replace_old_names(field, *known, field.name, report);
-    // Marks the entries that come from the scenario. They are not replaced, so that a name that the scenario gives
-    // twice is reported later.
+    // Marks the entries that come from the scenario. Such an entry is never replaced. A name that the scenario gives
+    // twice thus stays in the list twice, and a later check reports it.
     std::vector<bool> own_entry(known->items.size(), false);
     for (SourceNode& own : list.items) {
         const SourceNode* const name = name_of(own);
@@ -144,8 +144,8 @@ void complete_field(const Field& field, SourceNode& map, const std::string& path
     }
 }
 
-// Returns the value of the choice at `path`, which is field names joined by dots: the value in `map`, or else the
-// default.
+// Returns the value of the choice field at `path`, which is field names joined by dots. If `map` has no value for it,
+// returns its default.
 std::string choice_at(const Table& table, const SourceNode* map, const std::string& path) {
     const auto dot = path.find('.');
     const std::string name = path.substr(0, dot);

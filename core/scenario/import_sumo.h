@@ -24,7 +24,8 @@ std::vector<FieldProblem> sumo_file_problems(const Scenario& scenario, const std
 // `sumo`. Throws InputError with file and line.
 void import_sumo(Scenario& scenario, const std::filesystem::path& directory);
 
-// Adds the imported trips to the demand plan. Draws the spacing policy of each trip by the policy shares in the plan.
+// Adds the imported trips to the demand plan. Draws the spacing policy of each trip at random, with the policy shares
+// in the plan as probabilities.
 void add_sumo_trips(const Scenario& scenario, DemandPlan& plan);
 
 // An imported induction loop.
@@ -41,7 +42,7 @@ std::vector<std::string> sumo_warnings(const Scenario& scenario);
 
 // Returns an error if the SUMO files have no vehicle, trip or flow.
 std::vector<FieldProblem> sumo_demand_problems(const Scenario& scenario);
-// Returns the reason why no vehicle departs within the run, or "" if one departs.
+// Returns the reason why no vehicle departs within the run, or "" if a vehicle departs.
 std::string sumo_demand_warning(const Scenario& scenario);
 
 // Returns a hash of the contents of all SUMO files; 0 if network.kind is not `sumo`.

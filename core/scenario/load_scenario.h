@@ -43,7 +43,7 @@ MesoSettings load_meso(const std::string& name_or_path, const std::filesystem::p
                        std::vector<std::string>* warnings = nullptr);
 
 // Returns the folder of the shipped data: the environment variable STOPLINE_DATA if it is set, else the data folder of
-// the installation, else that of the source tree.
+// the installation, else the data folder of the source tree.
 std::filesystem::path data_directory();
 
 // Returns the sorted names of the files in a folder of the data directory, such as "vehicles", without extension.

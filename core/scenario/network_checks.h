@@ -9,9 +9,10 @@ namespace stopline {
 
 // Checks that the queue of a single light (demand.vehicles in each lane) fits between the entry and the stop line.
 void check_queue(const Scenario& scenario, Checker& check);
-// Checks that the road between two intersections of a grid holds a vehicle and is long enough to stop on.
+// Checks that the road between two intersections of a grid has room for a vehicle and is long enough for a vehicle to
+// stop.
 void check_grid_links(const Scenario& scenario, Checker& check);
-// Checks that each turning pocket holds a vehicle.
+// Checks that each turning pocket has room for a vehicle.
 void check_pockets(const Scenario& scenario, Checker& check);
 // Checks that a vehicle that enters the network can stop before the stop line of its entry lane.
 void check_entries(const Scenario& scenario, Checker& check);

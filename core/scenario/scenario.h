@@ -15,7 +15,7 @@
 namespace stopline {
 
 struct MeasureSettings {
-    std::vector<double> green_s;  // single light: times after the start of green at which passed vehicles are counted
+    std::vector<double> green_s;  // single light: green times for which the passed vehicles are counted
     std::string baseline;         // name of the reference population for improvements; empty: none
     // For single intersections only:
     int warmup_cycles = 1;                   // signal cycles before the measurement

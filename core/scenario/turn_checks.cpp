@@ -46,7 +46,7 @@ void check_lane(const Lane& lane, const Shares& shares, Checker& check) {
 }
 
 // Reports an error for each turn share that the demand sets. It is called for networks in which these shares have no
-// effect; `network` says why.
+// effect. `network` describes the network in the message.
 void refuse_all(const DemandSettings& demand, const std::string& network, Checker& check) {
     const auto refuse = [&](const std::string& field, bool used) {
         if (used) check.error("demand." + field, "has no effect on " + network);

@@ -1,5 +1,5 @@
-// Fixed-time signal programmes. Each signal group runs through stages of green, yellow and red, either once or in every
-// cycle. Times and durations are in ticks, which are simulation steps. Tick 0 is the beginning of the run.
+// Fixed-time signal programmes. Each signal group runs through stages of green, yellow and red, either once or again in
+// each cycle. Times and durations are in ticks, which are simulation steps. Tick 0 is the beginning of the run.
 #pragma once
 
 #include <array>
@@ -18,18 +18,18 @@ struct Stage {
     Light light = Light::red;
 };
 
-// The light of one signal group over time. Before the offset the light is red. Then the stages follow. After the last
-// stage the programme starts again, or the light stays red if the programme does not repeat.
+// The light of one signal group over time. Before the tick `offset_ticks` the light is red. Then the stages follow.
+// After the last stage the programme starts again. If the programme does not repeat, the light stays red instead.
 class GroupProgramme {
 public:
     // Throws InputError if there is no stage or if a stage lasts less than one tick.
     GroupProgramme(std::vector<Stage> stages, std::int64_t offset_ticks, bool repeats);
 
     Light light(std::int64_t tick) const;
-    // Returns the tick at which the light that is on at `tick` began. The result can be negative. For the red before
-    // the offset it is 0.
+    // Returns the tick at which the light shown at `tick` began. The result can be negative, because the offset can be
+    // negative. For the red before the offset the result is 0.
     std::int64_t light_start_tick(std::int64_t tick) const;
-    // Returns the tick at which the latest green up to `tick` began, or -1 if there was no green.
+    // Returns the start of the latest green that began at or before `tick`, or -1 if there was no such green.
     std::int64_t last_green_start_tick(std::int64_t tick) const;
     std::int64_t cycle_ticks() const { return cycle_; }
 
@@ -48,12 +48,12 @@ private:
     bool repeats_;
 };
 
-// Makes a programme of green, yellow, and red for the rest of the cycle. If `cycle_s` is 0, the programme does not
-// repeat. Throws InputError if green, yellow and all red together are longer than the cycle.
+// Makes a programme of green, yellow, and red for the rest of the cycle. If `settings.cycle_s` is 0, the programme does
+// not repeat. Throws InputError if green, yellow and all-red times together are longer than the cycle.
 GroupProgramme make_single_light(const SignalSettings& settings, double step_s);
 
 // Makes the programmes of `groups` signal groups that have green one after the other. The cycle is the sum of the
-// green, yellow and all-red times of all groups. The setting `cycle_s` is ignored.
+// green, yellow and all-red times of all groups. `settings.cycle_s` is ignored.
 std::vector<GroupProgramme> make_stage_programmes(const SignalSettings& settings, int groups, double step_s);
 
 // Makes the seven-step programme of an intersection (Table 3 of the paper). The three signal groups are those of

@@ -30,8 +30,8 @@ GroupProgramme programme_of(const std::array<std::int64_t, kSteps>& ticks, const
         }
     }
     if (cycle <= 0) throw InputError("signal programme: the seven steps must sum to more than 0 s");
-    // If the first and the last stage have the same light, the first stage becomes part of the last stage, and the
-    // programme begins with the second stage.
+    // If the first and the last stage have the same light, the first stage is merged into the last stage. The programme
+    // then begins with the second stage.
     if (stages.size() > 1 && stages.front().light == stages.back().light) {
         offset += stages.front().ticks;
         stages.back().ticks += stages.front().ticks;

@@ -4,13 +4,13 @@
 namespace stopline {
 
 struct SignalSettings {
-    double first_green_s = 120.0;  // start of the first green; before it the signal is red and a queue forms
+    double first_green_s = 120.0;  // start of the first green; until then the signal is red and a queue forms
     double green_s = 60.0;
     double yellow_s = 3.0;
     double all_red_s = 5.0;
     double cross_green_s = 0.0;  // green of the streets from south to north; 0: the same as green_s
-    double offset_s = 0.0;       // grid: delay of the green per column to the east and per row to the north
-    double cycle_s = 0.0;        // network kind `approach`: the cycle; 0: one green, then red for the rest of the run
+    double offset_s = 0.0;       // grid: how much later green starts, per column to the east or row to the north
+    double cycle_s = 0.0;        // only for the network kind `approach`; 0: one green, then red until the end
 
     // The next functions are for intersections and grids. Even signal groups serve the streets from west to east, and
     // odd signal groups serve the streets from south to north.

@@ -3,8 +3,8 @@
 // positive, and with a constant distance where it is 0.
 //
 // To add a law, write a file spacing_laws/<name>.cpp that defines a GapLaw, and register the law in gap_policy.cpp. The
-// conformance tests and the error message for an unknown name then include it. A spacing policy is a law with values
-// for its parameters; to add one, write YAML (data/policies).
+// conformance tests and the error message for an unknown name then include the new law. A spacing policy is a law with
+// values for its parameters; to add one, write YAML (data/policies).
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
-// SWITCH-1: the standstill gap up to the switch speed. Above it the gap grows by the time gap times the excess speed
-// (Section III.C.3 of the paper).
+// SWITCH-1: up to the switch speed, the desired gap is the standstill gap. Above this speed, the gap grows by the time
+// gap times the excess speed (Section III.C.3 of the paper).
 #include "spacing_laws/gap_policy.h"
 
 namespace stopline {

@@ -1,5 +1,5 @@
-// Runs SUMO and the mesoscale mode of Stopline on the same network, signals and vehicles, and compares the results for
-// each seed. `ours` and 'our run' mean the run of Stopline.
+// Runs SUMO and the mesoscale mode of Stopline with the same network, signals and vehicles, and compares the results
+// for each seed. The words 'ours' and 'our run' refer to the run of Stopline.
 #pragma once
 
 #include <array>
@@ -31,10 +31,10 @@ struct ComparedMetric {
     std::vector<double> sumo;  // [run] value of the metric in SUMO's run
     bool sumo_only = false;    // only SUMO's runs have this metric, so there is nothing to compare
 
-    // Returns by how many percent our mean exceeds SUMO's mean. Returns NaN if the metric cannot be compared or SUMO's
-    // mean is 0.
+    // Returns by how many percent our mean exceeds SUMO's mean. Returns NaN if `sumo_only` is set or SUMO's mean is 0.
     double difference_percent() const;
-    // Returns the confidence band of SUMO's mean. Band::paper needs at least three runs, and Band::student two.
+    // Returns the confidence band of SUMO's mean. Band::paper needs at least three runs, and Band::student at least
+    // two.
     Interval band(Band kind) const;
 };
 
@@ -52,8 +52,8 @@ struct Comparison {
 
 struct CompareOptions {
     int repetitions = 3;   // number of runs; run k, counted from 0, has the scenario's seed + k
-    double from_s = -1.0;  // start of the compared period; below 0: start of the period that the scenario measures
-    std::function<bool(double)> on_progress;  // gets the share of the work done, 0 .. 1; returns false to stop
+    double from_s = -1.0;  // start of the compared period; < 0: start of the scenario's measured period
+    std::function<bool(double)> on_progress;  // gets the finished share of the work, 0 .. 1; returns false to stop
 };
 
 // Runs both programs. On an imported network, SUMO runs the network file of the scenario with the planned vehicles

@@ -24,7 +24,7 @@ double passages(const RunFacts& facts, const std::string& lane, double from_s, d
 // A function that returns a quantity of a run at every full second from 0 to `seconds`.
 using TimeSeries = std::vector<double> (*)(const RunFacts& facts, std::size_t seconds);
 
-// Returns, for every full second from 0 to `seconds`, how many of the times are not later.
+// Returns, for every full second from 0 to `seconds`, how many of the given times are at or before this second.
 std::vector<double> cumulative(std::vector<double> times_s, std::size_t seconds) {
     std::sort(times_s.begin(), times_s.end());
     std::vector<double> counts;
@@ -64,7 +64,7 @@ std::vector<double> stopped_of(const RunFacts& facts, std::size_t seconds) {
 struct Curves {
     std::string rows;       // the curves as CSV
     double max_mean = 0.0;  // maximum of the two mean curves
-    double max_band = 0.0;  // maximum of the upper bound of the confidence band
+    double max_band = 0.0;  // highest value of the confidence band
 };
 
 // Returns, at every full second, the means of our runs and of SUMO's runs, and the confidence band of SUMO's mean.
@@ -106,8 +106,8 @@ Figure time_series_figure(const Comparison& comparison, const std::string& title
     const std::string seeds_text =
         seeds == 1 ? fmt::format("seed {}", comparison.runs[0].seed) : fmt::format("mean of {} seeds", seeds);
     const std::string file = name + ".csv";
-    // With few seeds the confidence band can be so wide that the mean curves would look flat. So the plot cuts off a
-    // band that exceeds the largest mean by this factor.
+    // With few seeds the confidence band can be so wide that the mean curves would look flat. So the plot shows the
+    // band only up to the largest mean times this factor.
     constexpr double kMaxBandToMean = 1.6;
     const double top =
         std::max(1.0, 1.05 * std::max(curves.max_mean, std::min(curves.max_band, kMaxBandToMean * curves.max_mean)));

@@ -17,7 +17,7 @@ namespace {
 // Returns the name of the edge to which a lane belongs, such as c1r0_south_in for the lane c1r0_south_in_0.
 std::string edge_name(const Lane& lane) { return lane.name.substr(0, lane.name.rfind('_')); }
 
-// Returns how far the start of a lane lies to the right of a reference lane, in metres, seen in driving direction.
+// Returns how far the start of a lane lies to the right of a reference lane, seen in driving direction.
 double offset_to_the_right_m(const Lane& lane, const Lane& reference) {
     const Point& from = reference.shape.front();
     const Point& to = reference.shape.back();
@@ -86,7 +86,8 @@ private:
         }
     }
 
-    // Makes the nodes. If a connection joins two edge ends, they belong to the same node (union-find).
+    // Makes the nodes. If a connection leads from one edge to another, the end of the first edge and the start of the
+    // second edge belong to the same node (union-find).
     void make_nodes() {
         const int edges = static_cast<int>(network_.edges.size());
         parent_.resize(at(2 * edges));  // element 2 k is the start of edge k, and element 2 k + 1 is its end
@@ -109,7 +110,7 @@ private:
     // Returns the index in parent_ of the end of the lane's edge.
     int end_of(int lane) const { return 2 * network_.position_of[at(lane)].edge + 1; }
 
-    // Returns the edge end that represents the node to which the edge end `end` belongs.
+    // Returns the root of the tree of the edge end `end`. All edge ends of a node have the same root.
     int root(int end) {
         while (parent_[at(end)] != end) end = parent_[at(end)] = parent_[at(parent_[at(end)])];
         return end;

@@ -1,8 +1,8 @@
 // Converts a LaneGraph into the nodes, edges and connections of SUMO's plain XML files.
 //
-// An approach lane or exit lane becomes a lane of an edge. Lanes of an edge end at the stop line. If a lane of the
-// graph continues beyond its stop line, this stretch becomes part of each connection that begins on the lane. So every
-// path from a stop line to an exit lane keeps its length.
+// Each approach lane or exit lane becomes a lane of a SUMO edge. A lane with a stop line ends there in SUMO. If the
+// lane continues beyond its stop line in the graph, the stretch beyond the line becomes part of each connection that
+// begins on the lane. So every path from a stop line to an exit lane keeps its length.
 #pragma once
 
 #include <string>
@@ -32,7 +32,7 @@ struct PlainConnection {
     int connection_lane = -1;  // lane of the graph between `from` and `to`; -1: `from` leads directly to `to`
     double length_m = 0.0;
     int node = -1;  // index of the node that the connection crosses
-    int link = -1;  // index among those connections of the node that have a signal; -1: no signal
+    int link = -1;  // number of the connection among the node's connections with a signal; -1: no signal
 };
 
 struct PlainNetwork {

@@ -17,8 +17,8 @@ namespace stopline {
 double run_end_s(const Scenario& scenario);
 
 // Runs the simulation until `end_s` and calls all writers before each step and after the last step. Returns the summary
-// text of each writer. `on_progress` gets the share of the run that is done, 0 .. 1. If it returns false, the function
-// throws Interrupted.
+// text of each writer. `on_progress` gets the finished share of the run, 0 .. 1. If it returns false,
+// run_with_writers() throws Interrupted.
 std::vector<std::string> run_with_writers(Simulation& simulation, double end_s,
                                           const std::vector<std::unique_ptr<RunWriter>>& writers,
                                           const std::function<bool(double)>& on_progress);
@@ -29,8 +29,8 @@ void check_exportable(const Scenario& scenario);
 // Returns a sentence about features of the model that SUMO lacks, or "" if there are none.
 std::string sumo_limits_note(const Model& model);
 
-// Writes all files that inputs.h describes. If has_sumo(), netconvert also builds the network file. The scenario must
-// have `fidelity: meso`. Returns a text for the user with the number of vehicles and sumo_limits_note(). If the
+// Writes all files that inputs.h describes. If SUMO is installed, netconvert also builds the network file. The scenario
+// must have `fidelity: meso`. Returns a text for the user with the number of vehicles and sumo_limits_note(). If the
 // function throws, it leaves no files.
 std::string export_to_sumo(const Scenario& scenario, std::size_t population, const std::filesystem::path& folder,
                            const std::function<bool(double)>& on_progress);

@@ -31,7 +31,7 @@ public:
     std::string finish() override { return ""; }
 
 private:
-    // Records entries and completed trips, then passages of stop lines. Lane -1 of a Passage is outside the network.
+    // Records entries, completed trips and passages of stop lines. In a Passage, lane -1 means outside the network.
     void add_passages(const State& state) {
         for (; next_passage_ < state.records.passages.size(); ++next_passage_) {
             const Passage& passage = state.records.passages[next_passage_];
@@ -83,7 +83,7 @@ private:
     }
 
     const Model& model_;
-    std::vector<std::string> stop_lines_;  // [lane] name of its stop line; "": passages are not counted
+    std::vector<std::string> stop_lines_;  // [lane] name of its stop line; "": its passages are not counted
     RunFacts& facts_;
     std::int64_t ticks_per_second_;
     std::size_t next_passage_ = 0;

@@ -31,7 +31,7 @@ struct RunFacts {
     std::vector<Trip> trips;                              // completed trips
     std::map<std::string, std::vector<double>> passed_s;  // [stop line] times at which a front passed
     std::vector<Instant> instants;
-    std::int64_t teleported = 0;  // number of teleports; in our runs also those after a missed turn
+    std::int64_t teleported = 0;  // number of teleports; in our runs including teleports after missed turns
 };
 
 // Totals and means over a period of the run.
@@ -40,15 +40,15 @@ struct RunSummary {
     double travel_time_s = 0.0;      // mean time in the network over the completed trips
     double departure_delay_s = 0.0;  // mean departure delay over the completed trips
     double passages_veh_h = 0.0;     // passages per hour, summed over all stop lines
-    double speed_mps = 0.0;          // mean over time of Instant::mean_speed_mps, without instants of an empty network
+    double speed_mps = 0.0;          // mean over time of Instant::mean_speed_mps, if vehicles are present
     double stopped = 0.0;            // mean over time of the number of stopped vehicles
     double backlog = 0.0;            // vehicles that wait for insertion at the end of the period
 };
 // Returns the summary of the period after `from_s` and up to `to_s`. Means without data are NaN.
 RunSummary summary_of(const RunFacts& facts, double from_s, double to_s);
 
-// Returns a writer that collects `facts` from a run of Stopline. `stop_lines` holds, for each lane, the name under
-// which passages of its stop line are counted. If the name is "", these passages are not counted. The writer keeps
+// Returns a writer that collects `facts` from a run of Stopline. `stop_lines` holds a name for each lane. Passages of
+// the stop line of the lane are counted under this name. If the name is "", they are not counted. The writer keeps
 // references to `model` and `facts`.
 std::unique_ptr<RunWriter> make_facts_writer(const Model& model, std::vector<std::string> stop_lines, RunFacts& facts);
 

@@ -74,7 +74,8 @@ private:
         add_edge_of(lane, trip.edges);
     }
 
-    // Adds the edge of a lane to the route. Does nothing if the lane is a connection or the route ends on this edge.
+    // Adds the edge of a lane to the route. Does nothing if the lane is a connection, or if the route already ends on
+    // this edge.
     void add_edge_of(int lane, std::vector<int>& edges) const {
         if (model_.graph.lanes[at(lane)].origin >= 0) return;
         const int edge = network_.position_of[at(lane)].edge;

@@ -12,7 +12,7 @@ namespace stopline {
 struct VehicleTypeText {
     std::string id;  // escaped for XML
     double length_m = 0.0;
-    bool changes_lanes = true;  // false: SUMO's lane changes for speed, keeping right and cooperation are switched off
+    bool changes_lanes = true;  // false: vehicles in SUMO change lanes only if their route requires it
 };
 
 // Writes a vType element with the parameters of the car-following model that the mesoscale mode uses for the policy.

@@ -98,8 +98,8 @@ private:
         }
     }
 
-    // Sets shape, speed limit, junction and link of a connection from its chain of internal lanes. Attribute `via` of
-    // the connection names the first internal lane, and each internal lane leads to the next.
+    // Sets shape, speed limit, junction and link of a connection from its internal lanes, which form a chain: the
+    // attribute `via` of the connection names the first internal lane, and each internal lane leads to the next.
     void trace_chain(BuiltConnection& connection) const {
         constexpr int kMaxLanes = 16;
         const SumoConnection& c = *connection.source;
@@ -181,9 +181,9 @@ private:
         lanes().push_back(std::move(lane));
     }
 
-    // Moves the stretch that the connections of a lane share from the connections to the lane. Beyond this stretch,
-    // vehicles on different connections are clear of each other. If a connection is shorter than the stretch, only a
-    // part is moved, and diverge_end_m is the end of the remaining part.
+    // Connections that begin on the same lane share a first stretch. Beyond it, vehicles on different connections are
+    // clear of each other. This function moves the stretch from the connections to the lane. If a connection is too
+    // short, only a part of the stretch is moved, and diverge_end_m is the end of the part that remains.
     void assign_shared_stretches() {
         for (int index = 0; index < first_connection_; ++index) {
             const std::vector<int> next = lanes()[at(index)].next;
@@ -202,7 +202,7 @@ private:
         }
     }
 
-    // Returns the distance from the start of the connections at which all selected connections have diverged.
+    // Returns the distance, from the start of the connections in `next`, at which the selected ones have diverged.
     template <class IsSelected>
     double last_diverge_m(const std::vector<int>& next, const IsSelected& is_selected) {
         double last_m = 0.0;
@@ -246,7 +246,8 @@ private:
         return from.cosine * to.cosine + from.sine * to.sine < -0.9;
     }
 
-    // Adds a route that consists of this lane only. Adds a stop line if any lane of the approach leads to a connection.
+    // Adds a route that consists of this lane only. Gives the lane a stop line if any lane of its approach leads to a
+    // connection.
     void finish_lane(int lane) {
         network_.graph.routes.push_back({lanes()[at(lane)].name, {lane}});
         network_.graph.links.push_back(lane);
@@ -285,8 +286,9 @@ private:
         }
     }
 
-    // Lowers the speed limits of connections to lanes on which a vehicle could not brake to a stop. The safe speed at
-    // the start of a lane follows from the safe speed at its end, so a chain of short lanes needs several rounds.
+    // Lowers the speed limits of connections to lanes that are too short for a vehicle to brake to a stop. The safe
+    // speed at the start of a lane depends on the safe speed at its end. So for successive short lanes the computation
+    // needs several rounds.
     void limit_entry_speeds() {
         constexpr double kBraking_mps2 = 3.0;
         constexpr double kMargin_m = 2.0;
@@ -331,7 +333,7 @@ bool sumo_is_green(char letter) {
 
 namespace {
 
-// Returns the longest green time of any link of the signal, s. Links with permanent green do not count. A green can
+// Returns the longest green time of any link of the signal, s. Links that are always green are ignored. A green can
 // span several phases and continue beyond the end of the cycle.
 double longest_green_of(const SumoSignal& signal) {
     double longest_s = 0.0;

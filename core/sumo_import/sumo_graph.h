@@ -3,17 +3,19 @@
 // - Every lane open to cars becomes a lane with SUMO's name and length. The lanes of an edge form an approach.
 // - Every connection becomes one lane inside an intersection. If SUMO splits the connection into several internal
 //   lanes, the import joins them.
-// - The stretch that the connections of a lane share becomes part of the lane, as in generated networks.
+// - Connections that begin on the same lane share a first stretch. It becomes part of the lane, as in generated
+//   networks.
 // - U-turns are extended into the junction until the other movements have diverged. netconvert draws a U-turn directly
 //   at the end of its lane.
-// - Conflict areas follow from the shapes. They exist between links that are foes in SUMO's matrix, between links to
-//   the same lane, and between a U-turn and any other link.
-// - Right of way follows SUMO's matrix `response`. Two links of one signal yield only if they are green together. Then
-//   a link with the letter 'g' also yields to a link with 'G'.
-// - Every lane of an approach with connections has a stop line. Signal group 0, which is always green, serves the stop
-//   lines without a signal.
-// - Connections to a lane on which a vehicle could not brake to a stop get a lower speed limit v. It follows from the
-//   deceleration b: v^2 = 2 b (length - margin).
+// - SUMO calls a connection through a junction a link. Conflict areas are computed from the shapes of links. They can
+//   exist between links that are foes in SUMO's matrix, between links to the same lane, and between a U-turn and any
+//   other link.
+// - Right of way follows SUMO's matrix `response`. A link yields to another link of the same signal only if both are
+//   green together. In this case a link with the letter 'g' also yields to a link with the letter 'G'.
+// - If an approach has connections, each of its lanes has a stop line. Stop lines without a signal belong to signal
+//   group 0, which is always green.
+// - If a lane is too short for a vehicle to brake to a stop, the connections to this lane get a lower speed limit v. A
+//   vehicle that enters with v and brakes with the deceleration b can stop in time: v^2 = 2 b (length - margin).
 #pragma once
 
 #include <cstdint>
@@ -41,7 +43,7 @@ struct SumoNetwork {
 
     // Returns the longest signal cycle, or 90 s if there are no signals.
     double longest_cycle_s() const;
-    // Returns the longest green time that ends, or 40 s if there is none.
+    // Returns the longest green time. Links that are always green are ignored. Returns 40 s if there is no green time.
     double longest_green_s() const;
 };
 

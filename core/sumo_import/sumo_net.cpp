@@ -19,7 +19,7 @@ namespace stopline {
 
 namespace {
 
-// Returns the bits of a row of a right-of-way matrix, indexed by link. SUMO writes the bit of link 0 last.
+// Converts a row of a right-of-way matrix to bits, indexed by link. In SUMO's text the bit of link 0 is the last one.
 std::vector<bool> bits_of(std::string_view text) {
     std::vector<bool> bits;
     std::transform(text.rbegin(), text.rend(), std::back_inserter(bits), [](char letter) { return letter == '1'; });
@@ -245,7 +245,7 @@ private:
         c.from_lane = known_lane(node, "fromLane", c.from);
         c.to_lane = known_lane(node, "toLane", c.to);
         c.where = xml_.where(node);
-        // Register the signal also for a connection closed to cars, because an additional file may have its programme.
+        // Register the signal even if the connection is closed to cars, because an additional file may refer to it.
         if (const std::string tl = node.attribute("tl").value(); !tl.empty()) net_.signal(tl);
         if (!lane(c.from, c.from_lane).allows_cars || !lane(c.to, c.to_lane).allows_cars) return;
         if (!sumo_allows_cars(node.attribute("allow").value(), node.attribute("disallow").value())) return;

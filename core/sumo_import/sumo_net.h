@@ -22,8 +22,8 @@ class SumoWarnings {
 public:
     // Adds a warning. `where` names file and line.
     void note(const std::string& where, const std::string& message);
-    // Returns all warnings as lines of text. A message that concerns many places is listed for the first few of them,
-    // and the other places are counted.
+    // Returns all warnings as lines of text. If many places cause the same message, the text lists the first few places
+    // and the number of further places.
     std::vector<std::string> lines() const;
 
 private:
@@ -40,8 +40,8 @@ struct SumoLane {
     double speed_mps = 0.0;   // speed limit
     bool allows_cars = true;  // passenger cars may use the lane
     Polyline shape = {};
-    // If short edges were merged into the edge of this lane: ids of the SUMO lanes at whose ends this lane now ends.
-    // Empty if no edge was merged.
+    // If short edges were merged into the edge of this lane, the lane ends where one or more lanes of the short edges
+    // ended. This list holds the ids of those lanes. Otherwise the list is empty.
     std::vector<std::string> end_lanes = {};
 };
 
@@ -50,7 +50,7 @@ struct SumoEdge {
     bool internal = false;             // inside a junction
     std::vector<SumoLane> lanes = {};  // [index], from the right
     std::string where;                 // file:line
-    int merged_into = -1;              // edge into which this short edge was merged (sumo_short_edges.h); -1: none
+    int merged_into = -1;              // edge into which this edge was merged (sumo_short_edges.h); -1: not merged
 };
 
 // A connection from one lane to another. The members are named like the attributes in SUMO's file.
@@ -93,7 +93,7 @@ struct SumoSignal {
     double offset_s = 0.0;
     std::vector<SumoPhase> phases = {};  // empty until a programme is read
     std::string where;                   // file:line
-    bool defined_in_net = false;         // the network file contains a programme
+    bool defined_in_net = false;         // the network file contains a programme for this signal
 
     double cycle_s() const;
 };
@@ -122,7 +122,7 @@ struct SumoNet {
 
     // Returns edge and lane index for the id of a lane, or nothing if there is no such lane.
     std::optional<std::pair<int, int>> lane(std::string_view id) const;
-    // Returns the index of the signal with this id. Adds a signal without a programme if there is no such signal.
+    // Returns the index of the signal with this id. If there is no such signal, adds one without a programme.
     int signal(const std::string& id);
     // Throws InputError if the signal of a connection has no programme, or if its phases have no letter for the
     // connection. Call this function after all files are read.
@@ -135,7 +135,7 @@ SumoNet read_sumo_net(const std::filesystem::path& file);
 // and line if the file is invalid.
 void read_sumo_additional(const std::filesystem::path& file, SumoNet& net);
 
-// Returns true if SUMO's attributes `allow` and `disallow` of a lane or connection admit passenger cars.
+// Returns true if a lane or connection with these values of `allow` and `disallow` is open to passenger cars.
 bool sumo_allows_cars(std::string_view allow, std::string_view disallow);
 // Appends the points to the line. Skips each point that coincides with the point before it.
 void sumo_append(Polyline& line, const Polyline& points);

@@ -98,7 +98,8 @@ private:
             {first.lane, c->other_from_m, c->other_to_m, c->from_m, c->to_m, second_yields, first_yields});
     }
 
-    // Warns if a junction without `request` elements has connections that cross. Vehicles obey only signals there.
+    // Warns if a junction without `request` elements has connections that cross. At such a junction, vehicles obey only
+    // signals.
     void warn_of_missing_requests(const SumoJunction& junction, const std::vector<int>& connections) {
         for (const int first : connections) {
             for (const int second : connections) {
@@ -119,15 +120,15 @@ private:
 
     static bool is_u_turn(const BuiltConnection& connection) { return connection.source->dir == 't'; }
 
-    // Returns true if `connection` yields to `to`. This function is for connections with different exit lanes that are
-    // no foes in the matrix. Such connections conflict only because the import extends U-turns (sumo_graph.cpp). A
-    // U-turn yields to every other movement. Of two U-turns, the U-turn with the higher link number yields.
+    // Returns true if `connection` yields to `to`. Call this function only for two connections that have different exit
+    // lanes and are no foes in the matrix. They conflict only because the import extends U-turns (sumo_graph.cpp). A
+    // U-turn yields to every other movement. Of two U-turns, the one with the higher link number yields.
     static bool yields_at_u_turn(const BuiltConnection& connection, const BuiltConnection& to) {
         return is_u_turn(connection) && (!is_u_turn(to) || connection.link > to.link);
     }
 
-    // Returns true if `connection` yields to `to`. If both links belong to one signal, they yield only if they are
-    // green together in some phase.
+    // Returns true if `connection` yields to `to`. Links of the same signal yield to each other only if they are green
+    // together in some phase.
     bool yields(const SumoJunction& junction, const BuiltConnection& connection, const BuiltConnection& to) const {
         if (connection.source->pass) return false;
         const bool must_yield = bit(junction.response, connection.link, to.link);
@@ -154,8 +155,9 @@ private:
         return together && (minor || must_yield || later || is_left_of(connection, to));
     }
 
-    // Returns true if both are copies of one connection of a merged short edge (sumo_short_edges.h), and `connection`
-    // begins on a lane further left than `other`. Of two such copies, the left copy yields.
+    // When a short edge is merged (sumo_short_edges.h), its connection can be copied to several lanes. Returns true if
+    // `connection` and `other` are such copies of one connection, and `connection` begins on a lane further left. Of
+    // two copies, the left copy yields.
     static bool is_left_of(const BuiltConnection& connection, const BuiltConnection& other) {
         const SumoConnection& own = *connection.source;
         const SumoConnection& others = *other.source;

@@ -16,8 +16,8 @@ public:
     // Returns the turn from one edge to another, or Turn::none if no connection joins the edges.
     Turn turn(int from, int to) const;
     // Returns the edges of the route with the least free-flow travel time, including `from` and `to`. Returns nothing
-    // if there is no route. Dijkstra's algorithm (1959) searches backwards from `to`. Calls with the same `to` in
-    // succession are fast, because they share the shortest-path tree.
+    // if there is no route. Dijkstra's algorithm (1959) searches backwards from `to`. Successive calls with the same
+    // `to` are fast, because they share the shortest-path tree.
     std::optional<std::vector<int>> fastest_route(int from, int to);
     // Returns true if the edge is open to passenger cars.
     bool allows_cars(int edge) const { return network_.approach_of[static_cast<std::size_t>(edge)] >= 0; }

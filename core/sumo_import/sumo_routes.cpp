@@ -25,7 +25,7 @@ namespace {
 
 constexpr const char* kStopIgnored = "'stop' is ignored: vehicles make no stops";
 constexpr std::size_t kMaxTrips = 20'000'000;
-constexpr double kRoundingTolerance_m = 0.1;  // for departure positions, which are rounded in the file
+constexpr double kRoundingTolerance_m = 0.1;  // tolerance for departure positions, which files contain rounded
 
 // The route of one or more trips.
 struct TripRoute {
@@ -131,7 +131,7 @@ private:
         return routes_.size() - 1;
     }
 
-    // Routes and their probabilities. An element holds the index in routes_ and the share.
+    // Routes and their probabilities. Each element holds the index of a route in routes_, and its probability.
     using Shares = std::vector<std::pair<std::size_t, double>>;
 
     void add_named_route(pugi::xml_node node, Shares shares) {
@@ -172,7 +172,8 @@ private:
         add_named_route(node, std::move(shares));
     }
 
-    // Returns the index of the single route with this id. Throws InputError if the id is unknown or a distribution's.
+    // Returns the index of the route with this id. Throws InputError if the id is unknown or names a distribution of
+    // routes.
     std::size_t known_route(pugi::xml_node node, const std::string& id) const {
         const auto found = named_routes_.find(id);
         if (found == named_routes_.end())
@@ -280,8 +281,8 @@ private:
         return random_uniform(seed_, traffic_.trips.size(), key, Purpose::vehicle_type);
     }
 
-    // Adds the trip of one vehicle. Adds nothing if the vehicle departs after the end of the run, its class does not
-    // use car lanes, or its route has edges closed to cars.
+    // Adds the trip of one vehicle. Adds nothing if the vehicle departs after the end of the run, if its vehicle class
+    // may not use car lanes, or if its route has edges closed to cars.
     void add(pugi::xml_node node, const VehicleTemplate& vehicle, const std::string& id, double depart_s) {
         if (depart_s >= until_s_) return note_late_departure(depart_s);
         if (traffic_.trips.size() >= kMaxTrips)
@@ -318,7 +319,7 @@ private:
     }
 
     // Checks a numeric departPos and converts it to a distance from the start of the lane. A negative departPos counts
-    // from the end of the lane. If the position cannot be converted because of merged edges, 'base' is used.
+    // from the end of the lane. If merged edges make the conversion impossible, the trip departs at 'base'.
     void check_depart_position(pugi::xml_node node, const TripRoute& route, Trip& trip) {
         const SumoEdge& edge = network_.net.edges[at(route.edges[0])];
         const double length_m = edge.lanes[0].length_m;
@@ -370,14 +371,15 @@ private:
         }
     }
 
-    // Completes partial routes and lists the turns of all routes. Pieces that end on the same edge are searched one
-    // after the other, because they share the search tree of the router.
+    // Completes partial routes and lists the turns of all routes. A piece is the gap between two given edges. Pieces
+    // that end on the same edge are searched one after the other, because they share the shortest-path tree of the
+    // router.
     void complete_routes_and_turns() {
         struct Piece {
             int to;
             int from;
             std::size_t route;
-            std::size_t position;  // index of `to` among the edges of the route
+            std::size_t position;  // index of `to` in the edges of the incomplete route
         };
         std::vector<Piece> pieces;
         for (std::size_t k = 0; k < routes_.size(); ++k) {

@@ -22,14 +22,14 @@ struct SumoTraffic {
     SumoWarnings warnings;
     std::uint64_t hash = 0;                             // hash of the text of all files
     std::int64_t elements = 0;                          // number of vehicle, trip and flow elements in the files
-    std::optional<double> first_late_departure_s = {};  // earliest of the departures at or after the end of the run
+    std::optional<double> first_late_departure_s = {};  // earliest departure that is not before the end of the run
 
     // Returns the length of the shortest vehicle.
     double shortest_vehicle_m() const;
 };
 
 struct SumoRouteFiles {
-    std::vector<std::filesystem::path> additional;  // read first; only elements that define traffic are used
+    std::vector<std::filesystem::path> additional;  // read before the route files; only traffic is read from them
     std::vector<std::filesystem::path> routes;
 };
 

@@ -104,8 +104,8 @@ private:
         replace_connections(before, edge, std::move(new_connections));
     }
 
-    // Records that a lane now ends where a lane of the merged edge ends. If `replace` is set, the ends that were
-    // recorded before are removed.
+    // Records that `lane` now ends where the lane `index` of the merged edge ends. If `replace` is set, removes the
+    // ends that were recorded before.
     static void add_end_lane(SumoLane& lane, const SumoEdge& merged, int index, bool replace) {
         if (replace) lane.end_lanes.clear();
         const SumoLane& last = merged.lanes[at(index)];
@@ -114,7 +114,7 @@ private:
         lane.end_lanes.insert(lane.end_lanes.end(), ends.begin(), ends.end());
     }
 
-    // Assigns the detectors of a merged edge to the edge before. Their places on the road stay the same.
+    // Moves the detectors of the merged edge `edge` to the edge `before`. Their places on the road stay the same.
     void move_loops(int before, int edge) {
         for (SumoLoop& loop : net_.loops) {
             if (loop.edge != edge) continue;

@@ -8,9 +8,9 @@ namespace stopline {
 
 // Merges edges shorter than kShortEdge_m into the edge before them. A short edge is merged only if it has a single
 // predecessor, this predecessor has no other successor, and there is no signal between the two edges. Every connection
-// that leaves the short edge must have an internal lane (`via`). The predecessor grows by the internal lanes to the
-// short edge and by the short edge itself, and takes over the connections and detectors of the short edge. Then
-// SumoEdge::merged_into of the short edge is the index of the predecessor.
+// that leaves the short edge must have an internal lane (`via`). The internal lanes to the short edge and the short
+// edge itself become the last part of the predecessor. The predecessor also takes over the connections and detectors of
+// the short edge. SumoEdge::merged_into of the short edge is set to the index of the predecessor.
 void merge_short_edges(SumoNet& net);
 
 inline constexpr double kShortEdge_m = 15.0;

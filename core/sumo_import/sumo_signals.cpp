@@ -33,8 +33,8 @@ GroupProgramme programme_of(const SumoSignal& signal, int link, double step_s) {
         begin = end;
     }
     std::int64_t offset = to_ticks(std::fmod(signal.offset_s, end_s), step_s);
-    // If the first and the last stage have the same light, the first stage becomes part of the last stage, and the
-    // programme begins with the second stage.
+    // If the first and the last stage have the same light, the first stage is merged into the last stage. The programme
+    // then begins with the second stage.
     if (stages.size() > 1 && stages.front().light == stages.back().light) {
         offset += stages.front().ticks;
         stages.back().ticks += stages.front().ticks;

@@ -26,9 +26,9 @@ constexpr std::array<VehicleClass, 25> kClasses{{
     {"ship", 17.0, false},
 }};
 
-// Attributes that need no warning: the import reads them, or they change only how SUMO draws a vehicle.
+// Attributes without a warning: the import reads them, or they only change how SUMO draws a vehicle.
 constexpr std::string_view kWithoutWarning = " id length vClass probability color guiShape imgFile osgFile ";
-// Attributes that the import ignores, but whose value must be a number or a distribution such as normc(...).
+// Attributes that the import ignores. Their values must still be numbers or distributions such as normc(...).
 constexpr std::string_view kIgnoredNumbers =
     " speedDev sigma tau accel decel emergencyDecel minGap maxSpeed speedFactor lcStrategic ";
 

@@ -23,7 +23,7 @@ public:
     // Reads a vType or vTypeDistribution element. Throws InputError with file and line if the element is invalid.
     void read(const SumoXml& xml, pugi::xml_node node, SumoWarnings& warnings);
     // Returns the type with this name. If the name belongs to a distribution, `random_number` in [0, 1) selects one of
-    // its types. Throws InputError if there is neither.
+    // its types. Throws InputError if neither a type nor a distribution has this name.
     const SumoType& pick(const SumoXml& xml, pugi::xml_node node, const std::string& name, double random_number) const;
 
 private:

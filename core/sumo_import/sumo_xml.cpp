@@ -27,7 +27,7 @@ constexpr std::size_t kMaxBytes = std::size_t{1} << 31;
                                  std::count(unpacked.begin(), unpacked.end(), '\n') + 1));
 }
 
-// Returns the unpacked text of a gzipped file, or the text of a plain file: zlib passes plain files through.
+// Returns the text of a gzipped file, unpacked, or of a plain file. zlib reads plain files unchanged.
 std::string read_text(const std::filesystem::path& file, const std::string& name) {
     if (const std::string problem = sumo_file_problem(file); !problem.empty()) throw InputError(name + ": " + problem);
     struct Close {

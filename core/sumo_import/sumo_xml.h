@@ -2,8 +2,7 @@
 // with file and line.
 //
 // The reader rejects document type declarations, files above 2 GiB when unpacked, XML that is not well-formed, and
-// numbers that are not finite. pugixml accepts duplicate attributes and unknown entities, so this reader checks for
-// both.
+// numbers that are not finite. It also rejects duplicate attributes and unknown entities, which pugixml accepts.
 #pragma once
 
 #include <cstddef>

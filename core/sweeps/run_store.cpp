@@ -67,8 +67,8 @@ std::string reason(int code, sqlite3* database) {
     return fmt::format("the store cannot be used: {} ({})", message, code);
 }
 
-// Returns a text about the first difference between two identities; "" if they are equal. The provenance does not
-// count.
+// Returns a text about the first difference between two identities; "" if they are equal. Their provenance is not
+// compared.
 std::string difference_of(const StoreIdentity& has, const StoreIdentity& wanted) {
     if (has.name != wanted.name) return fmt::format("it holds runs of the sweep '{}'", has.name);
     if (has.sweep != wanted.sweep || has.points != wanted.points) {
@@ -150,8 +150,8 @@ void RunStore::make_tables(const StoreIdentity& identity) {
                                                   {"points", fmt::format("{}", identity.points)},
                                                   {"shard", identity.shard},
                                                   {"provenance", identity.provenance}};
-    // One transaction for both tables. If the program is killed, the store has either both tables or none. In the
-    // second case the next program makes them.
+    // One transaction for both tables. If the program is killed, the store has either both tables or none. If it has
+    // none, the next program that opens the store creates them.
     execute("BEGIN");
     execute("CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID");
     execute("CREATE TABLE runs(point INTEGER PRIMARY KEY, result TEXT NOT NULL)");

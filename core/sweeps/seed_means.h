@@ -1,5 +1,5 @@
-// Computes means over the seeds of a sweep with 95 % confidence intervals. Also computes the difference of each
-// population from the first population, between runs with the same seed.
+// Computes means over the seeds of a sweep with 95 % confidence intervals. For each population it also computes the
+// mean difference from the first population. The difference is taken between runs with the same seed.
 #pragma once
 
 #include <string>

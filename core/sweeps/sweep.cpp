@@ -48,7 +48,7 @@ bool overlap(const std::string& a, const std::string& b) {
     return contains(a, b) || contains(b, a);
 }
 
-// Throws InputError if two axes change the same field. One of them would overwrite the values of the other.
+// Throws InputError if two axes change the same field. One axis would overwrite the values of the other.
 void check_axes_are_independent(const SweepSettings& settings) {
     std::vector<std::pair<std::string, std::string>> earlier;  // path and name of its axis
     for (const SweepAxis& axis : settings.axes) {
@@ -65,7 +65,8 @@ void check_axes_are_independent(const SweepSettings& settings) {
     }
 }
 
-// Throws InputError if an override from --set changes a field of an axis. The axis would overwrite this value.
+// Throws InputError if an override from --set changes a field that an axis also changes. The axis would overwrite the
+// value from --set.
 void check_overrides(const SweepSettings& settings, const std::vector<std::string>& overrides) {
     for (const std::string& text : overrides) {
         const std::string path = current_path(scenario_table(), text.substr(0, text.find('=')));
@@ -79,7 +80,7 @@ void check_overrides(const SweepSettings& settings, const std::vector<std::strin
     }
 }
 
-// Returns a * b, or the largest number if the product overflows.
+// Returns a * b, or the largest std::size_t if the product overflows.
 std::size_t product(std::size_t a, std::size_t b) {
     std::size_t result = 0;
     return __builtin_mul_overflow(a, b, &result) ? std::numeric_limits<std::size_t>::max() : result;

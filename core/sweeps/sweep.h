@@ -40,7 +40,7 @@ public:
     // Returns the warnings from loading the sweep file and all combinations, one line each, without repetitions.
     const std::vector<std::string>& warnings() const { return warnings_; }
     std::size_t points() const;                                  // number of runs
-    std::size_t combinations() const { return hashes_.size(); }  // populations and seeds do not count
+    std::size_t combinations() const { return hashes_.size(); }  // without populations and seeds
 
     // Returns the names of the columns with axis values. A name ends with the unit of the values, such as "green_s".
     std::vector<std::string> columns() const;
@@ -93,7 +93,7 @@ private:
 
 // One of `count` parts of a sweep; `index` counts from 1. Each group of `count` successive points gives one point to
 // each shard, in an order that shifts from group to group. In a fixed order, a shard could get the same axis value
-// every time, and thus more work than others.
+// every time, and thus more work than the other shards.
 struct Shard {
     std::size_t index = 1;
     std::size_t count = 1;

@@ -1,4 +1,4 @@
-// Runs points of a sweep (see sweep.h) and stores each run as soon as it is finished. If a run fails, the others
+// Runs points of a sweep (see sweep.h) and stores each run as soon as it is finished. If a run fails, the other runs
 // continue.
 #pragma once
 
@@ -21,7 +21,7 @@ using RunFunction = std::vector<RunMetric> (*)(const Scenario&, std::size_t popu
 struct PointResult {
     enum class State { done, failed, interrupted };
     State state = State::done;
-    std::string text;  // done: result_text(); failed: the error message
+    std::string text;  // state `done`: result_text(); state `failed`: error message
 };
 
 // Runs points one after another in one thread. Keeps the loaded scenario, because successive points mostly have the
@@ -49,7 +49,7 @@ struct SweepFailure {
 // The runs that one call of the program has finished.
 struct SweepSession {
     std::size_t runs = 0;                // number of runs added to the store
-    std::int64_t updates = 0;            // number of vehicles, summed over all steps of these runs
+    std::int64_t updates = 0;            // number of vehicles in the network, summed over all steps of these runs
     double wall_s = 0.0;                 // wall-clock time
     std::vector<SweepFailure> failures;  // in the order of the points
 };
@@ -57,8 +57,8 @@ struct SweepSession {
 // Stores the results of runs, counts them and reports the progress. Only one thread at a time may use it.
 class SweepRecorder {
 public:
-    // `todo` is the number of runs to do. `on_progress` gets the completed share of them, 0 .. 1, and returns false to
-    // stop.
+    // `todo` is the number of runs to do. `on_progress` gets the completed share of these runs, 0 .. 1, and returns
+    // false to stop.
     SweepRecorder(RunStore& store, std::size_t todo, std::function<bool(double)> on_progress)
         : store_(store), todo_(todo), on_progress_(std::move(on_progress)), begin_(std::chrono::steady_clock::now()) {}
 

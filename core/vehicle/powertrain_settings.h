@@ -7,7 +7,7 @@
 
 namespace stopline {
 
-// Samples of y over x. x must rise strictly, and both must have the same length.
+// Samples of y over x. The values of x must rise strictly, and x and y must have the same length.
 struct SampledCurve {
     std::vector<double> x;
     std::vector<double> y;
@@ -28,7 +28,8 @@ struct PowertrainSettings {
 
     // Engine or motor
     SampledCurve full_load;  // maximum torque [N m] over engine speed [rpm]
-    // Torque of an engine without fuel, or limit of recuperation of a motor: [N m], <= 0, over engine speed [rpm]
+    // Lowest torque [N m], <= 0, over engine speed [rpm]: that of an engine without fuel supply, or of an electric
+    // motor at the limit of its recuperation.
     SampledCurve drag_torque;
     double idle_rpm = 798.0;  // 0 for an electric motor
     double limiter_rpm = 6500.0;
@@ -49,7 +50,7 @@ struct PowertrainSettings {
     // torque, times a factor per gear
     std::vector<double> lag_rpm;           // grid of engine speeds, rising
     std::vector<double> lag_torque_share;  // grid of requested torque over full-load torque, 0 .. 1, rising
-    std::vector<double> lag_drive_s;       // [rpm][share], row-major
+    std::vector<double> lag_drive_s;       // [rpm][share] time constant; one row per engine speed
     std::vector<double> lag_gear_factor;   // [gear]
     double brake_lag_s = 0.2;
     double brake_friction = 0.8;  // tyre-road friction coefficient that limits braking (and traction), -

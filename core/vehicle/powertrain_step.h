@@ -1,7 +1,7 @@
 // One time step of a vehicle in full dynamics: low-level controller, gearbox, lags of torque and brake, force balance.
-// The low-level controller is inverse dynamics: it turns the desired acceleration into engine torque and brake force.
-// The step is a pure function without branches, over double or Batch (base/simd/simd.h). The loop over vehicles is in
-// sim/full_dynamics/full_kernels.inl.
+// The low-level controller uses inverse dynamics: it converts the desired acceleration into engine torque and brake
+// force. The step is a pure function without branches. It computes one vehicle (double) or several at a time (Batch,
+// base/simd/simd.h). The loop over vehicles is in sim/full_dynamics/full_kernels.inl.
 //
 //   m lambda(gear) dv/dt = F_drive - F_brake - F_air(v) - F_roll(v) - F_grade      (force balance)
 //
@@ -27,7 +27,7 @@ struct PowertrainState {
     R torque_Nm;          // torque at the crankshaft, after the lag
     R brake_N;            // brake force >= 0, after the lag
     R gear_time_s;        // time since the last gear change
-    R lag_s;              // while driving the time constant of the torque, while braking that of the brake
+    R lag_s;              // time constant of the brake if a brake force is requested, otherwise of the torque
     R gear;               // 0: first gear
 };
 
@@ -47,8 +47,8 @@ STOPLINE_INLINE R torque_lag_s(const PowertrainTablesOf<Number>& t, const R& gea
     return (unloaded + share * (loaded - unloaded)) * of_gear(t.lag_factor, gear);
 }
 
-// Returns 1 if the next gear can provide the requested acceleration, else 0. Without this check a car would kick down
-// right after the upshift, again and again.
+// Returns 1 if the next gear can provide the requested acceleration, else 0. Without this check, a car would shift down
+// right after each upshift.
 template <class R, class Number>
 STOPLINE_INLINE R next_gear_suffices(const PowertrainTablesOf<Number>& t, const R& gear, const R& speed_mps,
                                      const R& request_mps2, const R& resistance_N) {
@@ -71,20 +71,22 @@ STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTablesOf<Numb
     const R locked_rpm = s.speed_mps * rpm_per_mps;
     const auto floor_rpm = select(s.gear < 0.5, splat<R>(t.launch_rpm), splat<R>(t.idle_rpm));
     const auto rpm = clamped(locked_rpm, floor_rpm, t.limiter_rpm);
-    // Share of the step after the end of the torque interruption by a gear change.
+    // Share of the step that lies after the torque interruption of a gear change. Only then engine and wheels are
+    // connected.
     const R connected = clamped((s.gear_time_s + (dt - t.torque_interruption_s)) * (1.0 / dt), 0.0, 1.0);
 
-    // The rotating mass of the engine counts in proportion to how far the clutch is closed.
+    // The rotating mass of the engine is included in proportion to the degree of closing of the clutch.
     const auto closing_1prpm = select(s.gear < 0.5, splat<R>(t.closing_launch_1prpm), splat<R>(t.closing_idle_1prpm));
     const R closed = clamped(locked_rpm * closing_1prpm - t.closing_offset, 0.0, 1.0);
     const R coupling = connected * closed;
     const auto rotating = t.rotating_mass_open + coupling * (of_gear(t.rotating_mass, s.gear) - t.rotating_mass_open);
     const auto inertia_kg = t.mass_kg * rotating;
 
-    // Inverse dynamics: the force that gives the requested acceleration, as torque and brake force.
+    // Inverse dynamics: compute the force for the requested acceleration, and divide it into engine torque and brake
+    // force.
     const auto speed = s.speed_mps;
     const auto resistance_N = t.drag_Ns2pm2 * speed * speed + t.rolling_N + t.rolling_Nspm * speed + grade_N;
-    // Friction limits the tyre force and so m a + resistance. `wanted_N` also contains the force for the rotating
+    // Friction limits the tyre force, which is m a + resistance. `wanted_N` also contains the force for the rotating
     // masses, which the tyres do not transmit.
     const auto resistance_mps2 = resistance_N * t.inverse_mass_1pkg;
     const R lowest_mps2 = -t.friction_mps2 - resistance_mps2;
@@ -111,20 +113,23 @@ STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTablesOf<Numb
     next.brake_N = flush_tiny(s.brake_N + (request_brake_N - s.brake_N) * lag_share<double>(dt, t.brake_lag_s));
     next.lag_s = select(request_brake_N > 0.0, splat<R>(t.brake_lag_s), drive_lag_s);
 
-    // Force balance. Brakes and resistances stop a vehicle but never push it back, so a speed below 0 becomes 0. Torque
-    // and brake force are means over the step, so that to first order the length of the step has no effect.
+    // Force balance. Brakes and resistances stop a vehicle but never push it back, so a speed below 0 becomes 0. The
+    // balance uses the means of torque and brake force over the step, so that the length of the step has no first-order
+    // effect.
     const R transmitted_Nm = connected * (0.5 * (s.torque_Nm + next.torque_Nm));
     const auto drive_N =
         transmitted_Nm * gain * select(transmitted_Nm > 0.0, splat<R>(t.efficiency), splat<R>(per_efficiency));
     const auto force_N = drive_N - 0.5 * (s.brake_N + next.brake_N) - resistance_N;
-    // Friction limits the deceleration: the brake force set for the closed clutch could lock the wheels when it opens.
+    // Friction limits the deceleration here too. When the clutch opens, a brake force computed for the closed clutch
+    // could lock the wheels.
     const R moving_mps2 = max_of<R>(flush_tiny<R>(force_N / inertia_kg), lowest_mps2);
     const R stops_in_step = STOPLINE_FLAG(R, speed + moving_mps2 * dt <= 0.0);
     next.speed_mps = choose(stops_in_step, splat<R>(0.0), speed + moving_mps2 * dt);
     next.acceleration_mps2 = choose(stops_in_step, (0.0 - speed) * (1.0 / dt), moving_mps2);
 
-    // Gear changes. The engine speed of the upshift rises with the load. The car kicks down if it needs more than 1.5
-    // times the full-load torque; for less, the torque interruption would cost more than the lower gear gains.
+    // Gear changes. The engine speed of the upshift rises with the load. A car shifts down to accelerate (kick-down) if
+    // it needs more than 1.5 times the full-load torque. With a smaller need, the torque interruption would cost more
+    // than the lower gear gains.
     const auto load = clamped(2.5 * share - 1.25, 0.0, 1.0);
     const auto up_rpm = t.shift_up_part_rpm + load * (t.shift_up_full_rpm - t.shift_up_part_rpm);
     const R gear_time_over = STOPLINE_FLAG(R, s.gear_time_s + 0.5 * dt >= t.minimum_gear_time_s);
@@ -141,7 +146,7 @@ STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTablesOf<Numb
     const R down = max_of(kick_down, too_slow) * STOPLINE_FLAG(R, s.gear > 0.5) * (1.0 - up);
     const R moving = STOPLINE_FLAG(R, next.speed_mps > 0.0);
     next.gear = moving * (s.gear + up - down);
-    // A gear change while braking interrupts no drive torque, so gear_time_s goes on.
+    // A gear change while braking interrupts no drive torque, so gear_time_s is not reset.
     const R keeps_time = 1.0 - (up + down) * driving * moving;
     next.gear_time_s = keeps_time * min_of(s.gear_time_s + dt, 1000.0);
     return next;

@@ -19,7 +19,7 @@ struct PowertrainTablesOf {
 
     Number length_m = 0.0;
     Number mass_kg = 0.0;       // kerb mass and load
-    Number drag_Ns2pm2 = 0.0;   // 0.5 rho c_d A: air resistance over the square of the speed
+    Number drag_Ns2pm2 = 0.0;   // 0.5 rho c_d A: air resistance divided by the square of the speed
     Number rolling_N = 0.0;     // m g r0
     Number rolling_Nspm = 0.0;  // m g r1
     Number inverse_mass_1pkg = 0.0;
@@ -37,8 +37,8 @@ struct PowertrainTablesOf {
     Number efficiency = 1.0;
     Number gears = 1;
     // The clutch is open below 3/4 of a reference engine speed and closed from the reference speed on. The reference is
-    // the launch speed in first gear and the idle speed in other gears. The degree of closing is factor x rpm - offset,
-    // limited to 0 .. 1. Without a clutch the factor is 0 and the offset is -1.
+    // launch_rpm in first gear and idle_rpm in other gears. The degree of closing is factor x rpm - offset, limited to
+    // 0 .. 1. Without a clutch the factor is 0 and the offset is -1.
     Number closing_launch_1prpm = 0.0;
     Number closing_idle_1prpm = 0.0;
     Number closing_offset = -1.0;
@@ -60,8 +60,8 @@ using PowertrainTables = PowertrainTablesOf<double>;
 // Compiles the settings. Throws InputError if they are unusable, such as without gears or without full-load curve.
 PowertrainTables compile_powertrain(const PowertrainSettings& settings);
 
-// Returns the gear of a vehicle that cruises at this speed: the highest gear that keeps the engine safely above the
-// downshift speed. 0 is the first gear.
+// Returns the gear of a vehicle that cruises at this speed: the highest gear in which the engine speed is at least 10 %
+// above the downshift speed. 0 is the first gear.
 int cruising_gear(const PowertrainTables& tables, double speed_mps);
 
 // Returns the linear interpolation of a sampled curve, constant beyond its ends.

@@ -77,7 +77,8 @@ TEST(Streets, ConnectionsBeginWhereTheMovementsDiverge) {
     }
 }
 
-// Turns are quarter circles or ellipses. Their ends follow from half the median and the lanes in between.
+// Turns are quarters of circles or ellipses. Each end lies on the centre line of a lane. Its distance from the axis of
+// the street is half the width of the median, the widths of the lanes in between, and half a lane width.
 TEST(Streets, TurnsLeadToTheNearestExitLane) {
     const LaneGraph graph = make_streets(two_streets());
     const Lane& left = lane(graph, "first_west_0_left");

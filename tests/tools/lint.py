@@ -3,6 +3,9 @@
 
     lint.py BUILD [FILE...]
 
+Most of the time goes into the headers of libraries. Up to BATCH files with equal compile commands are therefore checked as
+one file that includes them. If such a batch has findings, its files are checked one by one.
+
 BUILD is a configured build directory with compile_commands.json. With FILEs, only these are checked. A clean file is
 checked again only after a change of its text, of a project header that it includes, of its compile command, of
 .clang-tidy or of clang-tidy.
@@ -25,6 +28,11 @@ CLANG_TIDY = str(OWN_CLANG_TIDY) if OWN_CLANG_TIDY.is_file() else "clang-tidy-14
 GCC_HEADERS = Path(subprocess.run(["g++", "-print-file-name=include/omp.h"], capture_output=True, text=True, check=True).stdout).parent
 FOLDERS = ["core", "apps"]
 INCLUDE_ROOTS = [PROJECT / "core", PROJECT / "apps"]
+BATCH = 8
+# Names at the start of a line: functions, types and constants that must not occur twice in a batch.
+LOCAL_NAME = re.compile(
+    r"^(?:(?:struct|class|enum(?: class)?|using)\s+(\w+)"
+    r"|(?:[A-Za-z_][\w:<>,&*\s]*?[\s&*])(\w+)\s*[({=\[;])", re.MULTILINE)
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
 
 
@@ -57,6 +65,38 @@ def without_precompiled_header(entry):
     return {**entry, "command": re.sub(r"-include \S*cmake_pch\.hxx ", "", command)}
 
 
+def flags_of(entry):
+    """Returns the compile command of an entry without the names of its files."""
+    return re.sub(r" -o \S+ -c \S+$", "", entry["command"])
+
+
+def batches(paths, entries):
+    """Returns lists of files that can be compiled as one: equal flags and no common local names."""
+    lists = []
+    open_lists = {}  # by flags: pairs of a list and the names in its files
+    for path in paths:
+        text = path.read_text(encoding="utf-8")
+        names = {name for match in LOCAL_NAME.findall(text) for name in match if name not in ("", "stopline")}
+        candidates = open_lists.setdefault(flags_of(entries[path]), [])
+        for files, used in candidates:
+            if len(files) < BATCH and not names & used:
+                files.append(path)
+                used |= names
+                break
+        else:
+            candidates.append(([path], names))
+            lists.append(candidates[-1][0])
+    return lists
+
+
+def batch_entry(number, files, entries, cache):
+    """Writes a source file that includes the given ones, and returns its entry for compile_commands.json."""
+    source = cache / f"batch_{number}.cpp"
+    source.write_text("".join(f'#include "{path}"\n' for path in files))
+    command = f"{flags_of(entries[files[0]])} -o {source}.o -c {source}"
+    return {"directory": entries[files[0]]["directory"], "command": command, "file": str(source)}
+
+
 def lint(entry, build):
     command = [
         CLANG_TIDY,
@@ -67,6 +107,7 @@ def lint(entry, build):
         "--extra-arg=-Wno-unknown-warning-option",  # the compile commands are for gcc
         f"--extra-arg=-idirafter{GCC_HEADERS}",  # for omp.h
         "--extra-arg=-Wno-deprecated-declarations",  # for code of the standard library; gcc gives these warnings for our code
+        "--checks=-bugprone-suspicious-include",  # a batch includes source files on purpose
         entry["file"],
     ]
     result = subprocess.run(command, capture_output=True, text=True, check=False)
@@ -94,19 +135,30 @@ def main():
     tool = version + (PROJECT / ".clang-tidy").read_bytes() + Path(__file__).read_bytes()
     cache = build / "lint"
     cache.mkdir(exist_ok=True)
-    (cache / "compile_commands.json").write_text(json.dumps(all_entries))
     keys = {path: key(entries[path], tool) for path in sources if path in entries}
     to_do = [path for path in keys if not (cache / keys[path]).exists()]
+    lists = batches(to_do, entries)
+    joined = {
+        number: batch_entry(number, files, entries, cache)
+        for number, files in enumerate(lists) if len(files) > 1
+    }
+    (cache / "compile_commands.json").write_text(json.dumps([*all_entries, *joined.values()]))
+
+    def check(number):
+        """Returns the files of a batch that have findings, with the output of clang-tidy."""
+        if number in joined and lint(joined[number], build)[0]:
+            return {}
+        results = {path: lint(entries[path], build) for path in lists[number]}
+        return {path: output for path, (clean, output) in results.items() if not clean}
 
     failed = 0
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        runs = {pool.submit(lint, entries[path], build): path for path in to_do}
-        for run in concurrent.futures.as_completed(runs):
-            clean, output = run.result()
-            if clean:
-                (cache / keys[runs[run]]).touch()
-            else:
-                failed += 1
+        for files, findings in zip(lists, pool.map(check, range(len(lists)))):
+            failed += len(findings)
+            for path in files:
+                if path not in findings:
+                    (cache / keys[path]).touch()
+            for output in findings.values():
                 print(output.strip(), flush=True)
     print(f"{len(sources)} files, {len(sources) - len(to_do) - len(missing)} clean from earlier runs, {failed} with findings")
     return 1 if failed or missing else 0

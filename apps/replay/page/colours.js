@@ -18,8 +18,8 @@ const CAUSES = {
     wrong_lane: ['#009e73', 'wrong lane (waits for a gap)'],
 };
 
-// Returns the ways to colour vehicles, by name. Each has colours, their labels, and a function `of` that returns the
-// index of the colour of vehicle k in a frame.
+// Returns the ways to colour vehicles, by name. Each way has colours, their labels, and a function `of` that returns
+// the index of the colour of vehicle k in a frame.
 function colourModes(head) {
     const classes = SPEED_COLOURS.length;
     return {

@@ -25,8 +25,8 @@ class Bytes {
 
 const unzigzag = (difference) => (difference >>> 1) ^ -(difference & 1);
 
-// The vehicle in a seat. A seat is a number that a vehicle has while it is in the network. `position` and `speed` are
-// whole multiples of the units in the header of the recording.
+// A vehicle in the network. The recording gives it a seat, a number that it keeps while it is in the network.
+// `position` and `speed` are whole multiples of the units in the header of the recording.
 class Vehicle {
     constructor(number, policy, length_m, lane, next) {
         Object.assign(this, {number, policy, length_m, lane, next, previous: -1, cause: 0, waitedFor: -1});
@@ -140,7 +140,7 @@ class SectionDecoder {
         }
     }
 
-    // Returns the current state as a Frame. Only stopped vehicles have a delay cause there.
+    // Returns the current state as a Frame. In a Frame, only stopped vehicles have a delay cause.
     drawableFrame() {
         const present = this.seats.filter((vehicle) => vehicle);
         const frame = new Frame(present.length);

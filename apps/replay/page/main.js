@@ -1,7 +1,7 @@
 // Connects the recording, the map, the time-space diagram and the controls of the page. Tests use the global `replay`.
 'use strict';
 
-const FLOW_S = 300;  // averaging time of the flows among the counters
+const FLOW_S = 300;  // averaging time of the flows that the page shows
 const byId = (id) => document.getElementById(id);
 
 class Replay {
@@ -122,7 +122,8 @@ class Replay {
         if (this.playing) {
             const elapsed_s = this.lastTick_ms === undefined ? 0 : (now_ms - this.lastTick_ms) / 1000;
             this.lastTick_ms = now_ms;
-            // Longest elapsed time per drawing, which limits the jump after the browser was inactive.
+            // Longest real time by which one drawing advances the replay. It prevents a jump after the browser was
+            // inactive.
             const MAX_STEP_S = 0.25;
             if (this.hasFrame) this.time_s += Math.min(elapsed_s, MAX_STEP_S) * this.rate;
             if (this.time_s >= this.last_s) {

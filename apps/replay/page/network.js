@@ -6,7 +6,7 @@ const VEHICLE_WIDTH_M = 1.8;
 
 // The centre line of a lane.
 class Shape {
-    // `scale` is the length of the shape over the length of the lane. All distances are in metres along the lane.
+    // `scale` is the length of the shape divided by the length of the lane. All distances are in metres along the lane.
     constructor(numbers, scale) {
         this.numbers = numbers;
         this.along_m = [0];  // distance of each point from the start of the lane
@@ -43,7 +43,7 @@ class Network {
     }
 
     // Returns the lanes outside intersections that have no predecessor, or all lanes outside intersections if each has
-    // one. Imported networks need this, because they list no entries.
+    // a predecessor. Imported networks need this function, because they list no entries.
     firstLanes() {
         const successors = new Set(this.lanes.flatMap((lane) => lane.next));
         const roadLanes = this.lanes.filter((lane) => lane.origin === undefined);
@@ -98,8 +98,8 @@ class Network {
         }
     }
 
-    // Returns the distance along the lanes from placement k of one frame to placement j of a later frame. Returns -1
-    // unless the vehicle stays on its lane or moves to the next one.
+    // Returns the distance that a vehicle drives along the lanes from placement k in `a` to placement j in `b`, which
+    // belong to two successive frames. Returns -1 unless the vehicle stays on its lane or moves to the next one.
     distance_m(a, k, b, j) {
         if (a.lane[k] === b.lane[j]) return b.front_m[j] - a.front_m[k];
         const lane = this.lanes[a.lane[k]];

@@ -1,5 +1,5 @@
-// A list of indices that every simulation step empties and fills again. reset() reserves enough memory, so the
-// functions that append an index need no check of the capacity.
+// A list of indices that every simulation step empties and fills again. reset() reserves enough memory, so functions
+// that append indices need not check the capacity.
 #pragma once
 
 #include <cstddef>

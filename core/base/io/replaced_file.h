@@ -32,7 +32,7 @@ private:
 
     std::filesystem::path shown_;      // path as the user wrote it, for error messages
     std::filesystem::path target_;     // path of the file to replace, with symbolic links resolved
-    std::filesystem::path temporary_;  // path of the temporary file; empty: the target is written directly
+    std::filesystem::path temporary_;  // path of the temporary file; empty if the target is written directly
     std::size_t size_ = 0;
     int descriptor_ = -1;
 };

@@ -40,9 +40,9 @@ STOPLINE_INLINE R flush_tiny(const R& value) {
 
 // Returns exp(-x) for x >= 0. The absolute error is below 3e-7; the relative error is below 1e-7 up to x = 2.
 //
-// The method is a Taylor polynomial of degree 5 for exp(-x / 16), raised to the 16th power. A larger x counts as 32,
-// where exp(-x) is about 1e-14, because the polynomial changes its sign near x = 35. The C library has no correctly
-// rounded exp for vectors.
+// The method is a Taylor polynomial of degree 5 for exp(-x / 16), raised to the 16th power. For x > 32 it returns the
+// value at 32, about 1e-14, because the polynomial changes its sign near x = 35. The C library has no correctly rounded
+// exp for vectors.
 template <class R>
 STOPLINE_INLINE R exp_negative(const R& x) {
     const R y = min_of(x, 32.0) * (-1.0 / 16.0);
@@ -51,8 +51,8 @@ STOPLINE_INLINE R exp_negative(const R& x) {
     return square(square(p));
 }
 
-// Returns the share of the distance to its target that a first-order lag with the time constant `tau` covers within
-// `dt`. The result approximates 1 - exp(-dt / tau) with an error of about (dt / tau)^3 / 12.
+// A quantity with first-order lag approaches its target with the time constant `tau`. Returns the part of the remaining
+// difference that disappears within `dt`: 1 - exp(-dt / tau), with an error of about (dt / tau)^3 / 12.
 template <class R>
 STOPLINE_INLINE R lag_share(double dt, const R& tau) {
     return dt / (tau + 0.5 * dt);

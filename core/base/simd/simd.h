@@ -1,7 +1,7 @@
 // Vectorisation of kernels, the functions that compute the motion of many vehicles. The equations of a model are
 // written once, as function templates over a number type R:
 //
-//     double       one vehicle in double precision: for closed-form results, and to measure the error of Single
+//     double       one vehicle in double precision: for exact results, and to measure the error of Single
 //     Single       one vehicle in single precision: the reference for Batch
 //     Batch        as many vehicles in single precision as a vector register holds
 //
@@ -12,9 +12,9 @@
 // Positions and speeds are stored in double precision, because they accumulate small increments.
 //
 // Each kernel file is compiled once for each instruction set (see sim/CMakeLists.txt), with a batch as wide as a
-// register. sim/full_dynamics/full_kernels.cpp selects one of the copies at run time. A target attribute on the kernel
-// functions would not work: g++ splits vector operations for the instruction set of the file before it reads the
-// attribute.
+// register. sim/full_dynamics/full_kernels.cpp selects one of these compiled files at run time. A target attribute on
+// the kernel functions would not work: g++ splits vector operations for the instruction set of the file before it reads
+// the attribute.
 #pragma once
 
 #include <array>

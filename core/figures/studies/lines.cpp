@@ -87,7 +87,8 @@ struct KeyEntry {
     std::string title;
 };
 
-// Returns the legend. It names each line. With more than kMaxNamedLines lines, colours and dashes get separate entries.
+// Returns the legend. It has one entry for each line. With more than kMaxNamedLines lines, it has one entry for each
+// colour (population) and one for each dash (value of the line axis) instead.
 std::vector<KeyEntry> key_of(const SweepPlanes& all) {
     constexpr const char* kGrey = "#404040";
     const std::size_t populations = all.populations.size();

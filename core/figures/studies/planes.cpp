@@ -33,8 +33,8 @@ bool has_column(const CsvTable& table, const std::string& name) {
     return index_of(table.columns, name) < table.columns.size();
 }
 
-// Splits the name of a column into name and unit: "green_s" is green in s. This is for a table that is read without its
-// sweep.
+// Splits the name of a column into name and unit: "green_s" is green in s. This function is used for a table of results
+// that is read without the settings of its sweep.
 std::pair<std::string, std::string> name_and_unit(const std::string& column) {
     const std::size_t cut = column.rfind('_');
     if (cut == std::string::npos) return {column, ""};
@@ -79,8 +79,8 @@ std::optional<PlotAxis> numeric_axis(const CsvTable& results, const std::string&
     return axis;
 }
 
-// Returns the x axis and the line axis of the figures, in this order. Returns the x axis alone if a single axis varies,
-// and nothing if no numeric axis varies. If green and offset both have a single value, green is the x axis.
+// Returns the x axis and the line axis of the figures, in this order. Returns the x axis alone if a single axis varies.
+// If no numeric axis varies, returns green if the table has the axes green and offset, and nothing otherwise.
 std::vector<PlotAxis> drawn_axes(const CsvTable& results, const CellTitles& titles,
                                  const std::string& population_column) {
     std::vector<PlotAxis> all;

@@ -1,6 +1,6 @@
-// The results of a sweep over several intersections, arranged for its figures. Each figure has an x axis and, if two
-// axes vary, a line axis. All other axes are constant in a figure, so each combination of their values gets figures of
-// its own. The results for one combination are called a plane.
+// The results of a sweep over several intersections, arranged for its figures. Each figure has an x axis. If two axes
+// vary, it also has a line axis, with one line for each value. All other axes are constant in a figure, so each
+// combination of their values gets figures of its own. The results for one combination are called a plane.
 //
 // As in the paper, the x axis is green and the line axis is offset, provided that both are axes of the sweep and at
 // least one of them varies. Otherwise the first one or two numeric axes that vary are used. An axis with a single value
@@ -28,9 +28,10 @@ struct SweepMetric {
     const char* column;
     const char* name;
     const char* unit;
-    const char* change;  // axis label of the change; {} is replaced by the reference population
-    double sign;         // -1: the label counts a decrease as positive
-    bool improves;       // a positive change is an improvement; false for density, which falls with less traffic
+    const char* change;  // axis label of the change; {} is replaced by the name of the first population
+    double sign;         // 1: the change is positive if the metric rises; -1: it is positive if the metric falls
+    // True if a positive change is an improvement. False for density, because it also falls if there is less traffic.
+    bool improves;
 
     std::string label() const { return std::string(name) + " [" + unit + "]"; }
 };
@@ -43,7 +44,7 @@ inline constexpr std::array<SweepMetric, 3> kSweepMetrics{
 struct PlotAxis {
     std::string column;                     // name of the results column; empty if there is no such axis
     std::string name;                       // such as "green"
-    std::string unit;                       // such as "s"; empty: plain numbers
+    std::string unit;                       // such as "s"; empty: the values have no unit
     std::vector<double> values = {0.0};     // ascending; a single 0 if there is no such axis
     std::vector<std::string> value_titles;  // [value] text such as "green 15 s"; empty if there is no such axis
 
@@ -114,7 +115,8 @@ std::vector<std::string> axis_columns(const CsvTable& results, const std::string
 // only if its x axis is green and its line axis is offset.
 inline constexpr std::size_t kMaxPlanes = 24;
 
-// Arranges the results in planes. Returns nothing if no numeric axis varies or if there are too many planes.
+// Arranges the results in planes. Returns nothing if the figures have no x axis, because no numeric axis varies, or if
+// there are too many planes.
 std::optional<SweepPlanes> sweep_planes(const CsvTable& results, const CellTitles& titles,
                                         const std::string& population_column);
 

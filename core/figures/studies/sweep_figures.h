@@ -1,6 +1,6 @@
 // Figures of a sweep over the green times and offsets of several intersections: throughput, travel time and density,
-// their change against the first population (Fig. 17 to 20 of the paper), and stability (Fig. 21). The results table
-// contains all that they need.
+// their change against the first population (Fig. 17 to 20 of the paper), and stability (Fig. 21). The figures need
+// only the results table.
 #pragma once
 
 #include <string>

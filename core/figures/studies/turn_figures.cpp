@@ -38,7 +38,7 @@ struct Turns {
     auto operator<=>(const Turns&) const = default;
 };
 
-// Means over the rows that differ only in their seed.
+// Means over the runs (rows of the results table) that differ only in their seed.
 class Means {
 public:
     explicit Means(const CsvTable& results) {

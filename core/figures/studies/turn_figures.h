@@ -1,6 +1,6 @@
 // Results of a sweep over the green time and the turn ratios of an intersection: throughput, travel time and density
-// over the turn ratios (Fig. 9 of the paper, for every green), and the improvement compared with Table 1. The results
-// table contains all that they need.
+// over the turn ratios (Fig. 9 of the paper, for every green time), and the improvement compared with Table 1. The
+// figures need only the results table.
 #pragma once
 
 #include <string>

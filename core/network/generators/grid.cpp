@@ -14,7 +14,8 @@ namespace stopline {
 
 namespace {
 
-// Directions are numbered 0 east, 1 north, 2 west, 3 south. Leg k is the leg whose approach lanes have direction k.
+// Driving directions are numbered 0 east, 1 north, 2 west, 3 south. On the approach lanes of leg k, vehicles drive in
+// direction k.
 constexpr std::array<const char*, 4> kFrom{"west", "south", "east", "north"};  // [leg] side of the intersection
 constexpr std::array<const char*, 4> kTo{"east", "north", "west", "south"};    // [direction] name
 
@@ -35,7 +36,7 @@ struct Builder {
     std::vector<int> in = {};         // [index(intersection, leg, lane)] approach lane
     std::vector<int> out = {};        // [index(intersection, direction, lane)] exit lane
     std::vector<int> node_at = {};    // [row * columns + column] intersection; -1: none
-    std::vector<double> shared = {};  // [lane of a leg] result of shared_stretch(), m
+    std::vector<double> shared = {};  // [approach lane of a leg] result of shared_stretch(), m
     int first_connection = 0;         // index of the first connection in graph.lanes
 
     int lanes() const { return static_cast<int>(s.lanes.size()); }
@@ -62,10 +63,10 @@ struct Builder {
     }
 
     // Returns the index of the exit lane to which an approach lane leads. The leftmost lane with a left turn leads to
-    // the leftmost exit lane, the second to the second, and so on. Right turns are assigned in the same way from the
-    // right.
+    // the leftmost exit lane, the second such lane to the second exit lane, and so on. Right turns are assigned in the
+    // same way, counted from the right. A lane straight on leads to the exit lane with the same index.
     int exit_lane(Turn turn, int lane) const {
-        int rank = 0;  // number of lanes further left with a left turn, or further right with a right turn
+        int rank = 0;  // number of lanes with the same turn further left (left turn) or right (right turn)
         if (turn == Turn::straight) return lane;
         if (turn == Turn::left) {
             for (int k = 0; k < lane; ++k) rank += allows(s.lanes[at(k)], turn) ? 1 : 0;

@@ -1,4 +1,5 @@
-// The legs that lead to the border of a network: their lengths, and the scenario fields of these lengths for messages.
+// The legs that lead to the border of a network: their lengths, and the scenario fields that set these lengths. Error
+// messages name the fields.
 #pragma once
 
 #include <string>
@@ -9,8 +10,8 @@
 namespace stopline {
 
 struct OuterLeg {
-    std::string length_field;       // path of the scenario field of length_m
-    std::string exit_length_field;  // path of the scenario field of exit_length_m
+    std::string length_field;       // path of the scenario field that sets length_m
+    std::string exit_length_field;  // path of the scenario field that sets exit_length_m
     double limit_mps = 0.0;         // speed limit
     double length_m = 0.0;          // from the border to the stop line; 0: no approach lane
     double exit_length_m = 0.0;     // from the intersection to the border; 0: no exit lane

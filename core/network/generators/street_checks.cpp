@@ -120,8 +120,8 @@ private:
         }
     }
 
-    // Checks that the lanes, from the left, serve left turns, then straight traffic, then right turns. Otherwise
-    // connections of the same approach would cross.
+    // Checks that the lanes serve, from left to right, first left turns, then straight traffic, then right turns. In
+    // another order, connections of the same approach would cross.
     void check_lane_order(const Leg& leg) {
         const auto& lanes = leg.settings.lanes;
         for (std::size_t k = 1; k < lanes.size(); ++k) {

@@ -11,7 +11,7 @@ namespace stopline {
 
 namespace {
 
-constexpr double kSameLine_m = 1.0;  // two intersections lie on one road if their sideways offset is at most this
+constexpr double kSameLine_m = 1.0;  // intersections with at most this sideways offset lie on one straight road
 
 }  // namespace
 

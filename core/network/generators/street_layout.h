@@ -23,7 +23,8 @@ bool allows(const StreetLane& lane, Turn turn);
 // Returns the side where a vehicle from `side` leaves the intersection after the turn.
 int exit_side(int side, Turn turn);
 inline int opposite(int side) { return (side + 2) % 4; }
-// Returns the lanes of the leg that allow the turn, from the right for right turns, else from the left.
+// Returns the lanes of the leg that allow the turn. For right turns the rightmost lane comes first, for other turns the
+// leftmost lane.
 std::vector<int> lanes_with(const StreetLeg& leg, Turn turn);
 
 class StreetLayout {
@@ -34,10 +35,10 @@ public:
     const StreetIntersection& node(int node) const { return streets_->intersections[static_cast<std::size_t>(node)]; }
     // Returns null if the intersection has no leg on that side.
     const StreetLeg* leg(int node, int side) const;
-    // Returns the nearest intersection that lies straight toward `side`, or -1 if there is none.
+    // Returns the nearest intersection on the straight line from `node` toward `side`, or -1 if there is none.
     int nearest(int node, int side) const;
-    // Returns the intersection at the other end of the road on `side`, or -1. The result is nearest(node, side) if both
-    // intersections have a leg on this road.
+    // Returns the intersection at the other end of the road on `side`, or -1 if there is none. Two neighbouring
+    // intersections are joined by a road if each has a leg toward the other.
     int neighbour(int node, int side) const;
 
     // The next two functions return how far the centre line of a lane lies to the right of the middle of the road,
@@ -52,10 +53,10 @@ public:
     // Returns the length of the through lanes of a leg, up to the stop line.
     double length_m(int node, int side) const;
 
-    // Returns the index of the exit lane to which an approach lane leads. The leftmost lane with a left turn leads to
-    // the leftmost exit lane, the second to the second, and so on. Right turns are assigned in the same way from the
-    // right. Lanes that go straight on keep their order and lead to the exit lanes for which the sum of sideways shifts
-    // is least.
+    // Returns the index of the exit lane to which an approach lane leads. Left turns: the leftmost lane with a left
+    // turn leads to the leftmost exit lane, the second such lane to the second exit lane, and so on. Right turns: the
+    // same, counted from the right. Straight on: the lanes keep their order and lead to adjacent exit lanes. These exit
+    // lanes are chosen so that the vehicles shift sideways as little as possible.
     int exit_lane(int node, int side, int lane, Turn turn) const;
 
     // Returns the path from the stop line to the exit lane.

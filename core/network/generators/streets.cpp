@@ -72,7 +72,7 @@ struct Builder {
         const StreetLeg& leg = *layout.leg(node, side);
         const int from = layout.neighbour(node, side);
         const int first = StreetLayout::left_pockets(leg);
-        // Number of lanes that vehicles enter from the border or from another intersection.
+        // Number of lanes on which vehicles arrive, from the border or from another intersection.
         const int fed_lanes = from >= 0 ? layout.leg(from, opposite(side))->exits : StreetLayout::through_lanes(leg);
         Approach approach{
             fmt::format("{}_{}", layout.node(node).name, kSides[at(side)]), {}, leg.right_share, leg.left_share};
@@ -102,7 +102,7 @@ struct Builder {
         }
     }
 
-    // Records the approach lanes of the next intersection as exit lanes of this one.
+    // Records the approach lanes of the next intersection as exit lanes of this intersection.
     void connect_exits(int node, int side) {
         const int to = layout.neighbour(node, side);
         if (to < 0) return;
@@ -161,7 +161,7 @@ struct Builder {
             add_exits(node, side);
         });
         for_each_leg([&](int node, int side) { connect_exits(node, side); });
-        std::vector<int> first_connection;  // [intersection] its first connection; last element: number of lanes
+        std::vector<int> first_connection;  // [intersection] index of its first connection; last element: lane count
         for_each_leg([&](int node, int side) {
             if (static_cast<int>(first_connection.size()) == node) {
                 first_connection.push_back(static_cast<int>(graph.lanes.size()));

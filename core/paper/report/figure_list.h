@@ -11,7 +11,7 @@ namespace stopline {
 struct ListedFigure {
     std::string figure;   // number in the paper, such as "Fig. 5" or "Table 1"
     std::string section;  // section of the paper, such as III.E
-    std::string job;      // job that makes the figure; empty: not drawn, and the caption says why
+    std::string job;      // job that makes the figure; empty: no figure is made, and the caption says why
     std::string file;     // in the job's folder: NAME for a figure (NAME.svg, NAME.png), NAME.csv for a table
     std::string title;
     std::string caption;
@@ -26,7 +26,8 @@ struct ListedFigure {
 // Loads the list. Throws InputError if the file cannot be read or a row names an unknown job.
 std::vector<ListedFigure> load_figure_list(const std::filesystem::path& file);
 
-// Job name for Fig. 23. No job makes this figure; the report draws it from the measurements of several jobs.
+// The name that stands in the column `job` for Fig. 23. No job makes this figure: the report draws it from the
+// measurements of several jobs.
 inline constexpr const char* kComparisonJob = "comparison";
 
 }  // namespace stopline

@@ -27,7 +27,7 @@ public:
 private:
     std::string caption_;
     std::vector<std::string> columns_;
-    std::vector<bool> numbers_;  // [column] true if the cell in the first row has the CSS class "number"
+    std::vector<bool> numbers_;  // [column] true: the cell in the first row has the CSS class "number"
     std::string rows_;
 };
 

@@ -23,8 +23,8 @@ namespace stopline {
 struct JobOutput {
     std::vector<std::string> figures;   // file names without .svg and .png
     std::vector<std::string> tables;    // file names with .csv
-    std::vector<std::string> measured;  // names of scorecard experiments; files measured_NAME.csv
-    std::vector<std::pair<std::string, std::string>> conditions;  // conditions of the runs: name, text
+    std::vector<std::string> measured;  // names of scorecard experiments; each has a file measured_NAME.csv
+    std::vector<std::pair<std::string, std::string>> conditions;  // conditions of the runs, as name and text
     std::vector<std::string> commands;                            // command lines that repeat the runs
     std::set<std::uint64_t> seeds;
     std::map<std::string, std::uint64_t> scenario_hashes;
@@ -34,13 +34,13 @@ struct JobOutput {
 // Input of a job.
 struct JobContext {
     std::filesystem::path folder;  // folder of this job
-    std::filesystem::path stores;  // folder with the stored runs of all jobs
+    std::filesystem::path stores;  // folder of the files that store finished runs, shared by all jobs
     Reductions reductions;         // empty for a full job
-    std::string key;               // identifies the program, its input files, and the extent (full or reduced)
+    std::string key;               // identifies the program, its input files, and whether the job is reduced
     int threads = 1;
     // Receives the finished share of the job, 0..1. The job stops if the function returns false.
     std::function<bool(double)> on_progress;
-    // Receives the share of the job whose runs an earlier run of the program has stored.
+    // Receives the share of the job that need not be run, because an earlier start of the program has stored the runs.
     std::function<void(double)> on_stored;
 
     bool reduced() const { return !reductions.rows().empty(); }
@@ -65,8 +65,8 @@ std::vector<const Job*> jobs_of(const std::string& section);
 
 // Writes the record of a job. Call it after all files are written, so that an interrupted job has no record.
 void store_record(const std::filesystem::path& folder, const std::string& key, const JobOutput& output);
-// Reads the record of a job. Returns std::nullopt if the record is missing, damaged or has another key, or if one of
-// the listed files is missing or has changed.
+// Reads the record of a job. Returns std::nullopt if the record is missing, is damaged or has a key other than `key`,
+// or if one of the listed files is missing or has changed.
 std::optional<JobOutput> load_record(const std::filesystem::path& folder, const std::string& key);
 
 // Returns the path of the file in the job's folder that holds the measurements of an experiment.

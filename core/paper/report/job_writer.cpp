@@ -23,8 +23,7 @@ Figure marked_as_reduced(Figure figure) {
     const std::string mark =
         "set label 1000 'REDUCED: quick run' at screen 0.992,0.02 left rotate by 90 noenhanced tc rgb '#b00000' font ',10' "
         "front\n";
-    constexpr std::string_view kUnset =
-        "unset label\n";  // a figure removes its labels between panels; this also removes the mark
+    constexpr std::string_view kUnset = "unset label\n";  // between panels, figures remove all labels, also the mark
     for (std::size_t at = figure.body.find(kUnset); at != std::string::npos; at = figure.body.find(kUnset, at)) {
         at += kUnset.size();
         figure.body.insert(at, mark);

@@ -28,7 +28,8 @@ public:
     void condition(const std::string& name, const std::string& text);
     // Records scenario, fidelity, vehicle, driver, duration, populations and seed.
     void conditions_of(const Scenario& scenario);
-    // Records the conditions of the first run of a sweep, and the axis values, number of runs and seeds of the sweep.
+    // Records the conditions of the first run of a sweep. Also records the axis values, the number of runs and the
+    // seeds.
     void conditions_of(const Sweep& sweep);
     // Records a command line that repeats the runs. A reduced job records no command, because only stopline-reproduce
     // can repeat reduced runs.

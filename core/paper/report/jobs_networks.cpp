@@ -107,7 +107,7 @@ JobOutput run_berlin_sweep_job(const JobContext& context) { return sweep_job(con
 
 JobOutput run_unstable_job(const JobContext& context) {
     JobWriter writer(context);
-    // With these settings, throughput is steady for some time and then falls.
+    // With these settings, the throughput of the grid is steady for some time and then falls.
     const std::vector<std::string> settings{"signal.green=20 s", "signal.offset=15 s", "demand.left=10 %",
                                             "demand.right=30 %"};
     const Scenario scenario = scenario_named(context, "grid", settings);

@@ -39,8 +39,8 @@ std::string header(const ReportContent& content) {
     return html + "</header>\n";
 }
 
-// Figures that illustrate the main results, as job and file, in order of preference. The page shows the first three
-// that exist.
+// Figures that illustrate the main results, each given as job and file, in order of preference. The page shows the
+// first three of these figures that exist.
 constexpr std::array<std::pair<const char*, const char*>, 9> kAnswerPictures{{{"single_light", "counters"},
                                                                               {"comparison", "comparison"},
                                                                               {"grid_stability", "stability_1"},

@@ -28,8 +28,8 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
-// Returns the processor time of all threads of this program, s. Processes that it starts, such as gnuplot, do not
-// count.
+// Returns the processor time of all threads of this program, s. Processes that the program starts, such as gnuplot, are
+// not included.
 double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 // Returns true for a data file that no job reads. A change of such a file does not make finished jobs invalid.
@@ -139,7 +139,7 @@ private:
         } catch (const Interrupted&) {
             throw;
         } catch (const std::exception& error) {
-            if (!show_progress(k)) throw Interrupted();  // Ctrl-C also ends gnuplot, and then the job fails
+            if (!show_progress(k)) throw Interrupted();  // Ctrl-C also ends gnuplot, so the job fails
             end.output = {};
             end.problem = error.what();
             send_message(k, fmt::format("FAILED: {}", error.what()));

@@ -6,7 +6,8 @@ namespace stopline {
 
 namespace {
 
-// After this much work, in expected seconds, the observed pace has the same weight as the expected pace.
+// The pace is the observed time divided by the expected time. After this much work, in expected seconds, the observed
+// pace has the same weight as the expected pace.
 constexpr double kPriorWeight_s = 10.0;
 
 }  // namespace

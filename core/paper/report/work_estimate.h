@@ -1,6 +1,6 @@
 // Estimates the finished share of a list of jobs, and the time that the unfinished work will take. The estimate starts
-// from the duration of each job on a reference machine. The observed progress corrects it, most strongly for the
-// current job. A session is one run of the program.
+// from the duration of each job on a reference machine. The observed progress corrects the estimate, most strongly for
+// the current job. A session is the time from one start of the program to its end.
 #pragma once
 
 #include <cstddef>
@@ -35,8 +35,8 @@ private:
     std::size_t current_ = 0;
     bool running_ = false;
     double begin_s_ = 0.0;         // start of the current job
-    double current_done_s_ = 0.0;  // work finished in this session on the current job, expected seconds
-    double done_s_ = 0.0;          // work finished in this session on ended jobs, expected seconds
+    double current_done_s_ = 0.0;  // work on the current job that this session finished, in expected seconds
+    double done_s_ = 0.0;          // work on ended jobs that this session finished, in expected seconds
     double spent_s_ = 0.0;         // wall time that the ended jobs took
 };
 

@@ -1,9 +1,10 @@
 // Section III of the paper: inputs (P01..P06) and the single traffic light (L01..L15).
 //
 // A count is the number of vehicles whose front has passed the stop line since the start of green. The improvement at
-// one green time compares two whole counts. In rows with the condition 'green >= T' (the saturation in Fig. 6), the
-// improvement is the mean of our curve in Fig. 6 from green time T on, so single vehicles have little influence. The
-// mean ends when one of the two queues of 60 vehicles has passed, or at the end of green.
+// one green time compares the counts of two populations, which are whole numbers. In rows with the condition 'green >=
+// T' (the saturation in Fig. 6), the improvement is the mean of our curve in Fig. 6 from green time T on, so single
+// vehicles have little influence. The mean ends at the end of green, or earlier when all 60 vehicles of one of the two
+// queues have passed.
 #include <array>
 #include <cmath>
 #include <string>

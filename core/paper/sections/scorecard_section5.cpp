@@ -87,8 +87,8 @@ std::optional<Answer> largest_difference(const Target& /*target*/, const Measure
     return answer;
 }
 
-// Accepts the claim if throughput, density and travel time are inside their confidence bands in at least 95 % of the
-// permutations. The paper requires this of all permutations.
+// The claim holds if throughput, density and travel time are inside their confidence bands in at least 95 % of the
+// permutations, which are combinations of settings. The paper requires all permutations to be inside.
 std::optional<Answer> inside_bands(const Target& /*target*/, const Measurements& measured) {
     const std::optional<double> paper = measured.find("all_paper_percent");
     if (!paper) return std::nullopt;

@@ -1,5 +1,5 @@
 // Section VI of the paper: arterial (A01..A17), grid (G01..G12) and stability (S01..S04). Most values come from three
-// sweeps in the mesoscale mode with the calibrated parameters. The others come from separate runs, most of them of the
+// sweeps in the mesoscale mode with the calibrated parameters. The other values come from separate runs, mostly of the
 // arterial without turns (measure_platoons).
 #include <algorithm>
 #include <array>
@@ -115,8 +115,8 @@ std::size_t index_of(const Scenario& scenario, const std::string& population) {
     throw InputError(fmt::format("the scenario has no population '{}'", population));
 }
 
-// Runs the arterial without turns: situations 1 and 2 of Fig. 16, and the rows on throughput without turns. Also runs a
-// single intersection, which gives the number of vehicles in a platoon.
+// Runs the arterial without turns, for situations 1 and 2 of Fig. 16 and for the rows about throughput without turns.
+// Also runs a single intersection to measure the number of vehicles in a platoon.
 Measurements measure_platoons(const Scenario& scenario, const ScorecardOptions& options) {
     Measurements measured;
     Scenario street = scenario;

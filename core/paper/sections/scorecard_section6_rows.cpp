@@ -304,8 +304,8 @@ MaybeAnswer ctg_unstable_too(const Target&, const Measurements& m) {
     }
     return claim_answer(holds, text);
 }
-// Rates each combination of green and offset: 0 (stable), 1 (semi-stable) or 2 (unstable). The claim holds if the
-// ratings of CDG have the smaller sum.
+// Rates each combination of green time and offset: 0 (stable), 1 (semi-stable) or 2 (unstable). The claim holds if the
+// sum of the ratings is smaller for CDG than for CTG-Ref.
 MaybeAnswer cdg_more_stable(const Target&, const Measurements& m) {
     const Reader r{m};
     const auto sum = [&](const char* population) {

@@ -1,5 +1,5 @@
-// Section VII of the paper: Berlin (B01..B09). The values come from one sweep with six seeds. Only its runs with
-// three lanes per direction on the major road are used.
+// Section VII of the paper: Berlin (B01..B09). The values come from one sweep with six seeds. Only those runs of the
+// sweep are used in which the major road has three lanes per direction.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -41,7 +41,8 @@ constexpr std::array<const char*, 15> kColumns{"throughput_early_veh_h",
                                                "congested_from_witzlebenplatz_west_s",
                                                "congested_from_sophie_charlotte_str_west_s",
                                                "congested_from_koenigin_elisabeth_str_west_s"};
-// Columns of successive approaches, each list from the place where a backlog may start, upstream to the inlet.
+// Columns of successive approaches. Each list leads from the place where a backlog may start, upstream to the place
+// where vehicles enter the network.
 using Columns = std::span<const char* const>;
 constexpr Columns kFromSuarezEast{kColumns.data() + 4, 7};
 constexpr Columns kFromKrummeEast{kColumns.data() + 7, 4};
@@ -109,8 +110,8 @@ MaybeAnswer mix_gain(const Target&, const Measurements& m) {
     return number_answer(100.0 * (flow(m, "MIX") / flow(m, "CTG-Ref") - 1.0));
 }
 
-// Returns a text with the median, the first and the last time at which a queue filled the approaches, over all seeds:
-// "minute 12 (3 to 20) in 5 of 6 runs".
+// `filled_s` holds, for each seed, the time at which queues filled the approaches, or NaN for never. Returns a text
+// with the median, the earliest and the latest of these times: "minute 12 (3 to 20) in 5 of 6 runs".
 std::string filled_text(const std::vector<double>& filled_s) {
     std::vector<double> minutes;
     for (const double s : filled_s) {
@@ -122,8 +123,9 @@ std::string filled_text(const std::vector<double>& filled_s) {
                        minutes.front(), minutes.back(), minutes.size(), filled_s.size());
 }
 
-// Returns for each seed the time from which queues fill all approaches in `columns`, s, or NaN if this never happens.
-// The approach at the inlet alone does not prove a backlog, because its own signal causes a queue there.
+// Returns for each seed the time from which queues fill all approaches in `columns`, s, or NaN if this never happens. A
+// queue on the approach where vehicles enter the network does not prove a backlog, because the signal of this approach
+// causes a queue, too.
 std::vector<double> connected_s(const Measurements& m, Columns columns, const char* population) {
     std::vector<double> since_s = values(m, columns.front(), population);
     for (const char* const column : columns) {
@@ -140,7 +142,7 @@ bool never(const std::vector<double>& filled_s) {
     return std::all_of(filled_s.begin(), filled_s.end(), [](double s) { return std::isnan(s); });
 }
 
-// Compares the throughput of SWITCH-1 and CDG for each seed, over the early and the late period together. The claim
+// Compares the throughput of the populations SWITCH-1 and CDG for each seed, over both periods together. The claim
 // holds if the 95 % confidence interval of the difference contains 0 and SWITCH-1 never has a backlog at Suarezstr.
 MaybeAnswer switch_equals_cdg(const Target&, const Measurements& m) {
     std::vector<double> differences;

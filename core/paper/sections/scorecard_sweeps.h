@@ -13,7 +13,7 @@
 
 namespace stopline {
 
-// Part of an experiment that one sweep makes, for progress reports. The whole experiment is the range 0 to 1.
+// The part of an experiment's work that one sweep does, for progress reports. The whole experiment is the range 0 to 1.
 struct ProgressRange {
     double from;
     double to;
@@ -25,9 +25,9 @@ struct SweepRuns {
     SweepTotals totals;
 };
 
-// Runs those runs of a sweep that are not stored yet, and returns the complete sweep. `file` is the name of the sweep
-// file in scenarios/sweeps. `name` is the name of the store file, without .sqlite. Throws InputError if a run fails.
-// Throws Interrupted if on_progress returns false; finished runs remain stored.
+// Simulates those runs of a sweep that are not stored yet, and returns the complete sweep. `file` is the name of the
+// sweep file in scenarios/sweeps. `name` is the name of the store file, without .sqlite. Throws InputError if a run
+// fails. Throws Interrupted if on_progress returns false; finished runs remain stored.
 SweepRuns run_sweep(const ScorecardOptions& options, const char* file, const std::vector<std::string>& overrides,
                     const char* name, RunFunction function, ProgressRange range);
 

@@ -16,8 +16,8 @@ void put_number(std::string& bytes, Number number) {
     for (std::size_t k = 0; k < sizeof(Number); ++k) bytes += static_cast<char>((number >> (8 * k)) & 0xFFU);
 }
 
-// Appends a number with 7 bits per byte, the lowest bits first. If another byte of the number follows, the highest bit
-// of the byte is set.
+// Appends a number with 7 bits per byte, the lowest bits first. The highest bit of a byte is set if another byte of the
+// same number follows.
 inline void put_varint(std::string& bytes, std::uint64_t number) {
     for (; number >= 0x80U; number >>= 7U) bytes += static_cast<char>((number & 0x7FU) | 0x80U);
     bytes += static_cast<char>(number);

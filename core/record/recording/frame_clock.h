@@ -17,7 +17,7 @@ struct RecordingWindow {
     double until_s = std::numeric_limits<double>::infinity();
 };
 
-// Tells at which ticks a frame is due. Frames lie at multiples of the interval, within the window.
+// Tells at which ticks a frame is due: at all multiples of the interval, from `from_s` to `until_s`.
 class FrameClock {
 public:
     FrameClock(const RecordingWindow& window, double step_s)

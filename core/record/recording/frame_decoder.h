@@ -17,15 +17,15 @@ struct RecordedVehicle {
     double length_m = 0.0;
     int lane = 0;
     int next = -1;               // next lane; -1: the vehicle leaves the network
-    int cause = 0;               // index in RecordedRun::causes
+    int cause = 0;               // delay cause: index in RecordedRun::causes
     int waited_for = -1;         // vehicle for which this vehicle waits; -1: none
-    std::uint16_t position = 0;  // distance of the front from the start of the lane, in FrameGrid::position_unit_m
+    std::uint16_t position = 0;  // of the front, from the start of the lane, in FrameGrid::position_unit_m
     std::uint16_t speed = 0;     // in kSpeedUnit_mps
 };
 
 class FrameDecoder {
 public:
-    // Keeps references to both arguments.
+    // The decoder reads both arguments later, so they must outlive the decoder.
     FrameDecoder(const RecordedRun& run, std::string_view section);
 
     // Decodes the next frame. Throws InputError if it is invalid.

@@ -92,8 +92,8 @@ void FrameEncoder::encode_lights(std::int64_t tick) {
     }
 }
 
-// Updates the slots of all lanes. Slots that a lane no longer uses become empty here, before vehicles of other lanes
-// are placed in them.
+// Updates the slots of all lanes. Empties the slots that a lane no longer uses. This must happen before vehicles of
+// other lanes are placed in these slots.
 void FrameEncoder::vacate_slots(const Snapshot& snapshot) {
     for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
         const Snapshot::Slots now = snapshot.lanes[lane];
@@ -135,8 +135,8 @@ void FrameEncoder::encode_next_lane(const Snapshot::BeyondStopLine& vehicle) {
     last_motion_[at(vehicle.slot)] = kUnknownMotion;
 }
 
-// Marks the seats whose position and speed must be written. Nothing is written for a vehicle that stays at rest, and
-// many vehicles do.
+// Marks the seats whose position and speed must be written. For a vehicle that stays at rest, nothing is written. This
+// saves much space, because many vehicles are at rest.
 void FrameEncoder::compare_motion(const Snapshot& snapshot) {
     const std::uint32_t* motion = snapshot.motion.data();
     for (const Snapshot::Slots& slots : lanes_) {

@@ -1,6 +1,6 @@
 // Encodes snapshots of a run as frames of a recording (recording_format.h). The encoder tracks vehicles by slot, which
-// is the index of a vehicle in the arrays of the simulation. A snapshot has a Placement for each vehicle that is new in
-// its slot, and only position and speed for all other vehicles.
+// is the index of a vehicle in the arrays of the simulation. A snapshot contains position and speed of every vehicle.
+// For each vehicle that was not in the same slot before, it also contains a Placement.
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ public:
     std::int64_t vehicle_states() const { return vehicle_states_; }
 
 private:
-    // The vehicle in a seat of the recording. `lane` and `next` (its next lane) have the values that were written last.
+    // The vehicle in a seat of the recording. `lane` and `next` (the next lane) are the values that were written last.
     struct Seat {
         int vehicle = -1;
         int slot = -1;
@@ -42,8 +42,8 @@ private:
     };
     // The delay cause of the vehicle in a seat. The simulation updates the delay causes at regular intervals.
     struct Wait {
-        Reason reason = {};       // reason of the stop, from the latest update that found the vehicle stopped
-        Reason written = {};      // reason that was written last
+        Reason reason = {};       // why the vehicle stopped, from the latest update that found it stopped
+        Reason written = {};      // reason that was last written to the recording
         bool is_current = false;  // the latest update found the vehicle stopped
         bool is_listed = false;   // the seat is in waiting_seats_
     };
@@ -95,8 +95,8 @@ private:
     std::vector<int> vacated_;                 // seats of vehicles that moved to another slot or left the network
     std::vector<Wait> waits_;                  // [seat]
     std::vector<int> waiting_seats_;           // seats whose vehicle has a delay cause
-    std::vector<Motion> reader_motion_;        // [seat] motion that a reader of the recording knows so far
-    std::vector<std::uint64_t> changed_bits_;  // one bit per seat; set: the motion of the seat is written in this frame
+    std::vector<Motion> reader_motion_;        // [seat] motion that a reader knows from earlier frames
+    std::vector<std::uint64_t> changed_bits_;  // one bit per seat; set: this frame contains the motion of the seat
     std::string speeds_, positions_, wide_speeds_, wide_positions_;
     std::vector<Motion> motion_;  // [seat] motion in this frame
     std::vector<Light> lights_;   // [signal group] light that was written last

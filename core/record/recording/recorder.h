@@ -1,5 +1,5 @@
 // Writes the recording of a run (recording_format.h) while the run continues. The thread of the simulation only copies
-// the state. A second thread encodes and compresses the copies and writes the file, which appears after finish().
+// the state. A second thread encodes and compresses the copies and writes the file. The file appears after finish().
 #pragma once
 
 #include <cstdint>
@@ -27,8 +27,8 @@ struct RecordingSize {
 
 class Recorder {
 public:
-    // Keeps no reference to the model. All functions throw InputError if the file cannot be written. observe() can
-    // throw some frames after the failed write.
+    // The recorder keeps no reference to the model. All functions throw InputError if the file cannot be written.
+    // Because the second thread writes, observe() can throw some frames after the failed write.
     Recorder(const std::filesystem::path& file, const RecordingWindow& window, const RunOrigin& origin,
              const Model& model);
 
@@ -51,7 +51,7 @@ private:
     SnapshotTaker taker_;
     int snapshots_in_section_ = 0;
     std::int64_t cause_tick_ = -1;  // tick of the latest update of the delay causes that was copied
-    // Until finish() has stopped the second thread, only this thread uses the next six members.
+    // Only the second thread uses the next six members until finish() has stopped it.
     ReplacedFile file_;
     Compressor compressor_;
     FrameEncoder encoder_;

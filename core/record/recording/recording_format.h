@@ -9,8 +9,8 @@
 //     ENDS      = number of frames (u64), number of vehicle states (u64); a file without this section is incomplete
 //
 // All numbers are little-endian. A varint has 7 bits per byte, the lowest bits first; the highest bit is set in all
-// bytes but the last. A seat is a number that a vehicle gets when it enters and keeps until it exits the network.
-// Events name vehicles by seat. Positions and speeds are columns with one element per seat.
+// bytes but the last. A seat is a number that a vehicle gets when it enters and keeps until it exits the network. The
+// lists of changes in a frame name vehicles by seat. Positions and speeds are columns with one element per seat.
 //
 //     frame     = changed lights: n, then n times group, light (0 red, 1 green, 2 yellow)
 //                 exited vehicles: n, then n times seat; the seat is free from the next frame on
@@ -26,10 +26,10 @@
 //
 // Speeds and positions are 16-bit multiples of the units in the header. The columns contain differences from predicted
 // values. The predicted speed is the speed in the previous frame. The predicted position is the position in the
-// previous frame plus the advance at the mean of the old and the new speed. Differences 0, -1, 1, -2 ... are written as
-// 0, 1, 2, 3 ... modulo 2^16. For a vehicle that entered or changed lanes, the prediction starts at position 0. Seats
-// without a vehicle have position and speed 0. At the start of a FRMS section all seats are empty and all lights are
-// red.
+// previous frame plus the distance driven at the mean of the previous and the new speed. Differences 0, -1, 1, -2 ...
+// are written as 0, 1, 2, 3 ... modulo 2^16. For a vehicle that entered or changed lanes, the prediction starts at
+// position 0. Seats without a vehicle have position and speed 0. At the start of a FRMS section all seats are empty and
+// all lights are red.
 //
 // Why not another format? Floating-point columns would be larger. One row per vehicle would compress less well. Columns
 // with an element for every seat would take longer to write, because many vehicles are stopped.
@@ -41,7 +41,7 @@
 
 namespace stopline {
 
-// As in PNG files, a transfer in text mode changes these bytes, so that a reader notices the damage.
+// The first bytes of the file. A transfer in text mode changes them, so a reader notices the damage (as in PNG files).
 inline constexpr std::string_view kRecordingMagic{"\x89SLR\r\n\x1a\n", 8};
 inline constexpr std::uint16_t kRecordingVersion = 1;
 inline constexpr std::uint16_t kByteOrderMark = 0x0102;
@@ -55,7 +55,7 @@ inline constexpr std::uint16_t kWideCode = 255;  // byte that marks a difference
 inline constexpr double kSpeedUnit_mps = 0.01;
 inline constexpr double kFinestPosition_m = 0.01;
 
-// Maximum of advance_q12. It keeps the product in expected_advance() below 2^32.
+// Maximum of `advance_q12`. With this limit, the product in expected_advance() stays below 2^32.
 inline constexpr std::uint32_t kMaxAdvance = 0x7FFF;
 
 // Returns the predicted advance from one frame to the next, in position units. `speed_sum` is the sum of the speeds in

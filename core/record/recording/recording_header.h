@@ -6,8 +6,8 @@
 //     lanes: [{name, length_m, limit_mps, next: [lane], shape: [x, y, ...], shape_start_m, shape_scale unless it is 1,
 //              stop_line_m and signal_group if the lane has them, turn and origin if the lane is a connection}]
 //     entries: [lane where vehicles enter the network]
-// Lanes, signal groups, policies and causes are numbered in the order of these lists, from 0. network/lane_graph.h
-// explains shape_start_m and shape_scale.
+// Lanes, policies and delay causes are numbered from 0 in the order of these lists, and signal groups from 0, too.
+// network/lane_graph.h explains shape_start_m and shape_scale.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Reads a recording section by section. All functions throw InputError, which names the file, if the recording is
-// damaged or incomplete.
+// Reads a recording section by section. If the recording is damaged or incomplete, all functions throw an InputError
+// that names the file.
 #pragma once
 
 #include <cstdint>

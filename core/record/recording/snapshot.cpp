@@ -12,8 +12,8 @@ namespace {
 constexpr double kSpeedUnitsPer_mps = 1.0 / kSpeedUnit_mps;
 constexpr double kMaxCode = 65535.0;
 
-// Returns the value in units, rounded and limited to 16 bits. The comparisons are written so that they compile to one
-// maximum and one minimum instruction.
+// Converts the value to units, rounds it, and limits it to 16 bits. The comparisons are written so that they compile to
+// one maximum and one minimum instruction.
 std::uint32_t code_of(double value, double units_per_value) {
     const double code = value * units_per_value + 0.5;
     const double clipped = code > 0.0 ? code : 0.0;
@@ -27,7 +27,7 @@ void encode_motion(const double* position_m, const double* speed_mps, int count,
     }
 }
 
-// Returns true if the arrays differ. The loop has no early exit, so that the compiler vectorises it.
+// Returns true if the arrays differ. The loop has no early exit, because the compiler could not vectorise it then.
 bool differ(const int* a, const int* b, int count) {
     int bits = 0;
     for (int k = 0; k < count; ++k) bits |= a[k] ^ b[k];
@@ -79,8 +79,8 @@ void SnapshotTaker::take(const State& state, bool with_stopped, Snapshot& snapsh
     if (with_stopped) copy_stopped(state.congestion.watch, snapshot.stopped);
 }
 
-// Copies the slots of all lanes and returns the number of vehicles. Slots that a lane no longer uses become empty here,
-// before vehicles of other lanes are placed in them.
+// Copies the slots of all lanes and returns the number of vehicles. Empties the slots that a lane no longer uses. This
+// must happen before vehicles of other lanes are placed in these slots.
 std::size_t SnapshotTaker::update_lanes(const State& state, Snapshot& snapshot) {
     std::size_t vehicles = 0;
     for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {

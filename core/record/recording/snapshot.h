@@ -65,8 +65,8 @@ public:
 
     // Makes the next snapshot list the placement of every vehicle.
     void start_section();
-    // Copies the state into `snapshot`. The list of stopped vehicles is copied only if `with_stopped` is set, because
-    // it changes only when the delay causes are updated.
+    // Copies the state into `snapshot`. The list of stopped vehicles is copied only if `with_stopped` is set. The list
+    // changes only when the simulation updates the delay causes.
     void take(const State& state, bool with_stopped, Snapshot& snapshot);
 
 private:
@@ -76,9 +76,9 @@ private:
                               Snapshot& snapshot) const;
 
     double positions_per_m_;
-    std::vector<std::uint32_t> stop_line_;  // [lane] stop line, or end of a lane without one, in position units
+    std::vector<std::uint32_t> stop_line_;  // [lane] stop line, or lane end if there is no stop line; position units
     std::vector<Snapshot::Slots> lanes_;    // [lane] slots in the previous snapshot
-    std::vector<int> vehicle_in_slot_;      // [slot] vehicle in the previous snapshot; -1: none
+    std::vector<int> vehicle_in_slot_;      // [slot] vehicle in the slot in the previous snapshot; -1: none
 };
 
 // Returns the tick of the latest update of the delay causes before `tick`, or -1 if there was no update. The simulation

@@ -40,14 +40,16 @@ private:
     void stop();
     void rethrow();
 
-    // Number of snapshots in memory. The run waits only if all are in use, such as during a slow compression.
+    // Number of snapshots in memory. The run waits only while all of them are in use, for example if compression is
+    // slow.
     static constexpr std::size_t kSnapshots = 24;
     // The worker thread polls the queue every kPollInterval. Waking the thread would cost the run more time than
-    // copying a snapshot. So submit() wakes it only when the queue has grown to kWakeSize snapshots.
+    // copying a snapshot. So submit() wakes the thread only when the queue has grown to kWakeSize snapshots.
     static constexpr std::chrono::milliseconds kPollInterval{2};
     static constexpr std::size_t kWakeSize = kSnapshots / 2;
     std::array<Snapshot, kSnapshots> snapshots_;
-    // Snapshots that are not in use. The one processed last is reused first, because its memory is still in the cache.
+    // Snapshots that are not in use. The snapshot that was processed last is reused first, because its memory is still
+    // in the processor's cache.
     std::vector<Snapshot*> free_;
     Snapshot* acquired_ = nullptr;
     std::deque<Snapshot*> queue_;

@@ -13,9 +13,9 @@ namespace stopline {
 struct IntersectionReport {
     Scenario scenario;
     std::vector<IntersectionResult> populations;             // in the order of scenario.populations
-    std::vector<std::vector<TrajectoryPoint>> trajectories;  // [population] in the first measured cycle; empty: none
+    std::vector<std::vector<TrajectoryPoint>> trajectories;  // [population] first measured cycle; empty: not sampled
 
-    // Returns the gain in throughput over the population measure.baseline, %; NaN without a baseline.
+    // Returns the gain in throughput over the population that measure.baseline names, %; NaN without a baseline.
     double improvement_percent(const IntersectionResult& result) const;
     bool no_violations() const;
 };

@@ -12,8 +12,8 @@ namespace stopline {
 
 namespace {
 
-// Samples values that the events of a run do not contain: the number of vehicles in the network, and the queues at the
-// start of green.
+// Samples values that cannot be computed from the recorded events of a run: the number of vehicles in the network, and
+// the queues at the start of green.
 class QueueSampler {
 public:
     explicit QueueSampler(const Model& model, const TimeWindow& window)
@@ -128,8 +128,8 @@ void measure_zones(const Scenario& scenario, const Model& model, const State& st
     }
 }
 
-// Returns the length of all lanes, m. Each entry lane counts with its straight way through the intersection and with
-// one exit lane.
+// Returns the length of all lanes, m. For each entry lane, this adds the straight way through the intersection and one
+// exit lane.
 double road_m(const Scenario& scenario, const Model& model) {
     const IntersectionSettings& layout = scenario.network.intersection;
     const double lane_m = layout.approach_length_m + 2.0 * layout.radius_m + layout.exit_length_m;
@@ -138,8 +138,9 @@ double road_m(const Scenario& scenario, const Model& model) {
 
 double cycle_of(const Scenario& scenario) { return scenario.signal.intersection_cycle_s(); }
 
-// Returns the longest time that an unobstructed vehicle needs to cross the intersection, s. The crossing begins with
-// the front at the stop line and ends with the rear on the exit lane. The speed is the speed limit of the connection.
+// Returns the time that an unobstructed vehicle needs to cross the intersection on the slowest connection, s. The time
+// begins with the front at the stop line and ends with the rear on the exit lane. The vehicle drives at the speed limit
+// of the connection.
 double slowest_crossing_s(const Model& model) {
     double slowest_s = 0.0;
     for (const Lane& connection : model.graph.lanes) {
@@ -205,7 +206,8 @@ IntersectionResult run_intersection(const Scenario& scenario, std::size_t popula
     result.gaps_accepted = static_cast<std::int64_t>(state.records.gaps_accepted.size());
     result.longest_in_junction_s = model.time_s(state.records.longest_in_junction);
     result.violations = state.records.violations;
-    // A deadlock is a stay in the intersection that exceeds the slowest unobstructed crossing by two cycles or more.
+    // A run has a deadlock if a vehicle stays in the intersection for slowest_crossing_s() plus two signal cycles or
+    // longer.
     const double deadlock_s = 2.0 * cycle_of(scenario) + slowest_crossing_s(model);
     result.violations.deadlocks = result.longest_in_junction_s >= deadlock_s ? 1 : 0;
     result.entered = state.records.entered;

@@ -35,8 +35,8 @@ struct IntersectionResult {
     // Shares of the three movements among the vehicles that leave the intersection within the window, 0 .. 1.
     double straight_share = 0.0, right_share = 0.0, left_share = 0.0;
     std::int64_t gaps_accepted = 0;
-    double longest_in_junction_s = 0.0;  // longest time from a front at the stop line to the rear on the exit lane
-    double snapshot_s = 0.0;             // time of the snapshot: middle of the second stage's first measured green
+    double longest_in_junction_s = 0.0;  // longest time of a vehicle from the stop line (front) to the exit lane (rear)
+    double snapshot_s = 0.0;             // time of the snapshot: middle of the first measured green of the second stage
     std::vector<DrawnVehicle> snapshot;
     std::vector<Light> snapshot_lights;  // [signal group] at the time of the snapshot
     Violations violations;
@@ -47,8 +47,8 @@ struct IntersectionResult {
     bool complete = false;  // false: the run was stopped early
 };
 
-// Returns the measured window. It begins after the warm-up cycles. It ends after measure.cycles cycles or, if
-// duration_s is not 0, at the end of the run.
+// Returns the measured window. It begins after the warm-up cycles. If Scenario::duration_s is 0, the window is
+// measure.cycles signal cycles long. Otherwise it ends at the end of the run.
 TimeWindow measured_window(const Scenario& scenario);
 // Returns the first cycle of the measured window.
 TimeWindow first_cycle(const Scenario& scenario);

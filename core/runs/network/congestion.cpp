@@ -55,7 +55,7 @@ CongestionSampler::CongestionSampler(const Model& model, double interval_s)
 }
 
 void CongestionSampler::sample_lane(const State& state, int lane) {
-    constexpr double kMinCosine = 0.9;  // vehicles that head neither east nor west are left out of the map
+    constexpr double kMinCosine = 0.9;  // the map omits vehicles with a smaller |cosine| of the angle to the x axis
     const VehicleArrays& v = state.vehicles;
     const Lane& road = model_.graph.lanes[at(lane)];
     const double from_m = road.start_offset_m;

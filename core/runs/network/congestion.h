@@ -35,7 +35,7 @@ struct Congestion {
     std::vector<ApproachSeries> approaches;
     SpeedMap map;
 
-    // Returns the time from which an approach is congested, s; std::nullopt if it is never congested. An approach is
+    // Returns the time at which an approach becomes congested, s; std::nullopt if it is never congested. An approach is
     // congested if the mean speed in its upstream third is below 12 km/h for five successive intervals. Without a
     // queue, this mean speed is more than twice as high.
     std::optional<double> congested_from_s(std::size_t approach) const;

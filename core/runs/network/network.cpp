@@ -27,7 +27,7 @@ const std::string& lane_name(const NetworkReport& report, int lane) {
     return lane < 0 ? kNone : report.lanes.at(static_cast<std::size_t>(lane));
 }
 
-// Returns a limit of the measured window as a table cell; an empty cell if the window is empty.
+// Returns `time_s`, the start or the end of the measured window, as a table cell; an empty cell if the window is empty.
 std::string window_time(const NetworkResult& result, double time_s) {
     return result.measured.window.length_s() > 0.0 ? fixed(time_s, 0) : "";
 }
@@ -67,8 +67,8 @@ NetworkReport run_networks(const Scenario& scenario, const NetworkOptions& optio
     for (const Lane& lane : make_network(scenario.network).lanes) {
         report.lanes.push_back(lane.name);
     }
-    // A single run is shared by all threads. Of several runs, each run gets one thread, because OpenMP would create
-    // nested teams of threads anew in every step.
+    // If there is only one run, all threads share it. If there are several runs, each run gets one thread, because
+    // OpenMP would otherwise create nested teams of threads in every step.
     const int threads_per_run = report.populations.size() == 1 ? options.threads : 1;
     run_side_by_side(report.populations.size(), options.threads, options.on_progress,
                      [&](std::size_t k, const std::function<bool(double)>& report_progress) {

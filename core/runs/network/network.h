@@ -14,7 +14,7 @@ struct NetworkReport {
     std::vector<NetworkResult> populations;  // in the order of scenario.populations
     std::vector<std::string> lanes;          // [lane] name of the lane
 
-    // Returns the gain in throughput over the population measure.baseline, %; NaN without a baseline.
+    // Returns the gain in throughput over the population that measure.baseline names, %; NaN without a baseline.
     double improvement_percent(const NetworkResult& result) const;
     // Returns the reduction of travel time against the baseline, %. Returns NaN without a baseline. Also returns NaN if
     // is_travel_time_biased() is true for the result or for the baseline.
@@ -37,8 +37,8 @@ struct NetworkOptions {
 // Throws Interrupted if on_progress returns false.
 NetworkReport run_networks(const Scenario& scenario, const NetworkOptions& options);
 
-// Returns a text for the user with the start and the end of the measured window. If the window is not the last
-// measure.window of the run, the text gives the reason.
+// Returns a text for the user with the start and the end of the measured window. The window should be the last part of
+// the run and have the length measure.window. If it does not, the text gives the reason.
 std::string window_text(const NetworkReport& report);
 
 // These functions return the result tables as CSV text. scenarios/COLUMNS.md explains the columns.

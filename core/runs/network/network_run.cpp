@@ -24,8 +24,8 @@ bool is_fed_from_outside(const LaneGraph& graph, int lane) {
     });
 }
 
-// Adds one detector for the start and one for the end of each trip. In an imported network, the measured area is the
-// whole network.
+// Adds two detectors. One records the starts of all trips, the other one their ends. In an imported network, the
+// measured area is the whole network.
 void add_trip_detectors(Model& model) {
     model.trips_begin = static_cast<int>(model.detectors.size());
     model.detectors.push_back({-1, 0.0, Detector::Kind::zone, 0, false});
@@ -33,8 +33,8 @@ void add_trip_detectors(Model& model) {
     model.detectors.push_back({-1, 0.0, Detector::Kind::zone, 0, true});
 }
 
-// Adds a detector at the start of each lane inside the measured area on which vehicles enter the network. Vehicles that
-// reach such a lane from upstream are in the area already.
+// Vehicles can also enter the network on lanes inside the measured area. Adds a detector at the start of each such
+// lane. Vehicles that reach this lane from upstream are in the area already.
 void add_inner_inlet_detectors(Model& model) {
     for (const DemandPlan::Inlet& inlet : model.demand.inlets) {
         if (inlet.vehicles == 0 || is_fed_from_outside(model.graph, inlet.lane)) continue;
@@ -84,8 +84,8 @@ double area_lane_m(const Scenario& scenario, const Model& model) {
     return sum_m;
 }
 
-// Samples values that the events of a run do not contain: delay and number of teleported vehicles in each interval, and
-// number of vehicles in the network in each second.
+// Samples values that cannot be computed from the recorded events of a run: delay and number of teleported vehicles in
+// each interval, and number of vehicles in the network in each second.
 class IntervalSampler {
 public:
     IntervalSampler(const Scenario& scenario, const Model& model)
@@ -122,14 +122,14 @@ public:
 private:
     std::int64_t interval_ticks_;
     std::int64_t second_ticks_;
-    std::array<double, kDelayCauseNames.size()> last_delay_s_{};  // [cause] sum up to the end of the previous interval
+    std::array<double, kDelayCauseNames.size()> last_delay_s_{};  // [cause] total at the end of the previous interval
     std::int64_t last_teleported_ = 0;
     std::vector<NetworkInterval> series_;
     std::vector<int> present_;  // [second] number of vehicles in the network
 };
 
-// Returns the result over all intervals that begin at `from_s` or later. The exits are a sum, the other values are
-// means. Values without data are NaN.
+// Returns the result over all intervals that begin at `from_s` or later. The number of exits is a sum, all other values
+// are means. Values without data are NaN.
 AreaResult mean_from(const std::vector<NetworkInterval>& series, double from_s) {
     AreaResult mean;
     double travel_s = 0.0;
@@ -154,7 +154,7 @@ AreaResult mean_from(const std::vector<NetworkInterval>& series, double from_s) 
 
 // Returns true if the gridlock still exists at the end of the run and has lasted for six signal cycles or more.
 bool is_permanent(const Gridlock& gridlock, double end_s, double cycle_s) {
-    constexpr double kLasting_cycles = 6.0;  // twice the value 3 of rules.teleport_cycles in the shipped scenarios
+    constexpr double kLasting_cycles = 6.0;  // twice rules.teleport_cycles, which is 3 in the shipped scenarios
     return end_s - gridlock.to_s <= cycle_s && gridlock.to_s - gridlock.from_s >= kLasting_cycles * cycle_s;
 }
 
@@ -191,7 +191,7 @@ private:
         result_.collapse_s = since_s;
     }
 
-    // Returns the index of the first cycle after the network has filled: the end of the initial rise of throughput. It
+    // Returns the index of the first cycle after the network has filled. Throughput no longer rises then. The function
     // uses means over five cycles, because the throughput of single cycles scatters.
     std::size_t first_full_cycle() const {
         constexpr std::size_t kCycles = 5;
@@ -213,7 +213,8 @@ private:
         return cycles_[first_full_ + collapse->index].window.from_s;
     }
 
-    // Returns the end of the last cycle up to which the share of teleported vehicles was below kSemiStableShare, s.
+    // Returns the end of the last cycle at which teleported vehicles were less than kSemiStableShare of the vehicles
+    // that had left the area, s. Both numbers count from the start of the run.
     double teleport_limit_s() const {
         double since_s = 0.0;
         double exited = 0.0;
@@ -248,7 +249,8 @@ void measure(const Scenario& scenario, const Model& model, const State& state, c
         vehicles.push_back(areas[k].vehicles);
     }
     result.warm_up_s = static_cast<double>(warm_up(vehicles)) * scenario.measure.interval_s;
-    // If the run is not longer than measure.window, the measurement begins at the end of the warm-up.
+    // The measured window is the last part of the run, with the length measure.window. If the run is not longer than
+    // measure.window, the window begins at the end of the warm-up.
     const double window_from_s = end_s - scenario.measure.window_s;
     result.measured = mean_from(result.series, window_from_s > 0.0 ? window_from_s : result.warm_up_s);
     if (model.trips_begin < 0) {

@@ -48,8 +48,8 @@ struct NetworkResult {
     std::vector<NetworkInterval> series;
     Stability stability = Stability::stable;
     InstabilityCause unstable_by = InstabilityCause::none;
-    std::optional<double> collapse_s;  // time from which the run is unstable; empty: not unstable
-    int full_cycles = 0;               // number of signal cycles from the time when the network had filled to the end
+    std::optional<double> collapse_s;  // time at which the run becomes unstable; empty: not unstable
+    int full_cycles = 0;               // number of signal cycles after the network has filled
     DelayLog delays;
     Violations violations;
     double longest_in_junction_s = 0.0;

@@ -26,7 +26,7 @@ double share_percent(const std::array<std::int64_t, kMaxTurns>& turned, Turn tur
     return all == 0 ? kNone : 100.0 * static_cast<double>(turned[index_of(turn)]) / static_cast<double>(all);
 }
 
-// Means over a period of the run. They are NaN if the run ends before the period.
+// Means over a period of the run. They are NaN if the run ends before the period ends.
 struct PeriodMeans {
     double throughput_veh_h = kNone;
     double travel_time_s = kNone;

@@ -47,8 +47,8 @@ std::string grid_inlet_prefix(const GridSettings& grid, const std::string& from)
     return single ? from + "_in_" : fmt::format("c{}r{}_{}_in_", column, row, from);
 }
 
-// Returns the name prefix of the entry lanes that begin furthest out on `side`. Entry lanes without a straight
-// connection do not count. Returns "" if there is no such lane.
+// Returns the name prefix of the entry lanes that begin furthest from the origin in the direction `side`. Entry lanes
+// without a straight connection do not count. Returns "" if there is no such lane.
 std::string street_inlet_prefix(const LaneGraph& graph, Side side) {
     const Lane* furthest = nullptr;
     for (const int entry : graph.entries) {
@@ -79,8 +79,8 @@ StraightPath straight_path_from(const LaneGraph& graph, int first) {
 }
 
 // Returns the longest straight path from the side measure.time_space_side; an empty path if no street begins there. A
-// path to an exit counts as longer than any other path. Of equal paths, the path on the rightmost lane is taken,
-// because lanes are numbered from the left.
+// path to an exit counts as longer than any other path. Of equally long paths, the last path is taken. It is on the
+// rightmost lane, because lanes are numbered from the left.
 StraightPath find_path(const Scenario& scenario, const LaneGraph& graph) {
     const std::string& from = scenario.measure.time_space_side;
     const bool streets = scenario.network.is_streets();

@@ -36,13 +36,13 @@ struct StreetTrace {
     std::string first_lane;
     double from_s = 0.0;
     double to_s = 0.0;
-    double length_m = 0.0;     // length of the traced lanes; 0: there is no such street
-    bool reaches_exit = true;  // false: no path leads straight to an exit, and the longest path is traced
+    double length_m = 0.0;     // length of the sampled lanes; 0: there is no street to sample
+    bool reaches_exit = true;  // false: no straight path reaches an exit, so the longest path is sampled
 };
 
-// Samples one street in the last part of a run, which is measure.time_space long. The street begins on the side
-// measure.time_space_side; in a grid it is the middle row or column. The tracer follows the rightmost lane of the
-// street that leads straight through the network.
+// Samples one street during the last part of a run. This part has the length measure.time_space. The street begins on
+// the side measure.time_space_side; in a grid this street is the middle row or column. Of the lanes that lead straight
+// through the network, the tracer samples the rightmost lane.
 class StreetTracer {
 public:
     StreetTracer(const Scenario& scenario, const Model& model);

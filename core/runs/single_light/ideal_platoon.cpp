@@ -20,8 +20,8 @@ double speed_at(std::span<const SpeedSample> samples, double time_s) {
     return before->speed_mps + share * (after->speed_mps - before->speed_mps);
 }
 
-// Returns the speed v >= 0 with v dt + gap(v) = available_m, m/s. Uses Newton steps from `guess_mps`. A Newton step is
-// exact where the gap law is linear.
+// Returns the speed v >= 0 with v dt + gap(v) = available_m, m/s (see ideal_platoon.h). Uses Newton steps from
+// `guess_mps`. A Newton step is exact where the gap law is linear.
 double gap_keeping_speed_mps(const GapPolicySettings& policy, const GapLaw& law, double available_m, double guess_mps) {
     double speed_mps = guess_mps;
     constexpr int kSteps = 20;

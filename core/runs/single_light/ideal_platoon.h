@@ -1,6 +1,6 @@
 // An ideal platoon: each follower keeps the gap of its policy at all times, without a controller, delay or acceleration
 // limit. The speed of the leader over time is given. The result is the best discharge that a spacing policy allows
-// behind this leader. A simulated platoon differs from it because of controller and powertrain.
+// behind this leader. A simulated platoon discharges differently because of its controllers and powertrains.
 //
 //     front_{i-1}(t) - length - front_i(t) = gap_i(v_i(t)),   dfront_i / dt = v_i >= 0
 //

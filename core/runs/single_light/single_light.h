@@ -15,13 +15,13 @@
 namespace stopline {
 
 // Mean gaps and headways in steady state at the speed limit, downstream of the stop line. In a mixed population the
-// mean of each policy is weighted with the share of the policy, so it does not matter which vehicles reach steady
-// state.
+// mean of each policy is weighted with the share of the policy, so the mean does not depend on which vehicles reach
+// steady state.
 struct SteadyFlow {
     int vehicles = 0;                // number of vehicles that reach steady state (platoon.h)
     double net_gap_m = 0.0;          // simulated net gap; NaN if a policy has no vehicle in steady state
-    double headway_s = 0.0;          // simulated headway; NaN in the same case
-    double policy_gap_m = 0.0;       // net gap of the policy at the speed limit
+    double headway_s = 0.0;          // simulated headway; NaN if net_gap_m is NaN
+    double policy_gap_m = 0.0;       // net gap that the policy prescribes at the speed limit
     double policy_headway_s = 0.0;   // headway of the policy at the limit: (length + net gap) / speed
     double deviation_percent = 0.0;  // deviation of headway_s from policy_headway_s
 };
@@ -38,12 +38,12 @@ struct PopulationSummary {
     std::vector<int> passed;                      // [green] vehicles that pass within this green time (measure.green)
     std::vector<double> improvement_percent;      // [green] improvement over the baseline; NaN without a baseline
     double asymptotic_improvement_percent = 0.0;  // improvement for very long queues, from the steady-state headways
-    double emptied_s = 0.0;                       // time of the last queued vehicle's passage; NaN: after the green
+    double emptied_s = 0.0;                       // when the last queued vehicle passes; NaN: not within the green
     Counter ideal{{}};                            // like `counter`, for ideal platoons (ideal_platoon.h)
     std::vector<LinePassage> line;                // passages of the stop line within the green
     LastPositionsFlow last_positions;             // flow over the last kLastPositions queue positions of each lane
     SteadyFlow steady;
-    LeaderStart leader;  // start of the first lane's leader, times from the start of green
+    LeaderStart leader;  // start of the leader on the first lane; times count from the start of green
     QueueGaps queue;     // net gaps in the queue at the start of green
 };
 
@@ -57,7 +57,7 @@ struct SingleLightReport {
     // Returns the summary of the population with this name; null if there is none.
     const PopulationSummary* find(const std::string& population) const;
     // Returns the mean improvement of a population over the baseline, %; NaN without a baseline. The mean covers the
-    // time from `from_s` until the first of the two queues has passed, at most until the end of green.
+    // time from `from_s` until one of the two queues has passed the stop line, at most until the end of green.
     double mean_improvement_percent(const PopulationSummary& population, double from_s) const;
     // Returns the mean improvement like mean_improvement_percent(), but for ideal platoons.
     double ideal_improvement_percent(const PopulationSummary& population, double from_s) const;
@@ -78,8 +78,8 @@ inline constexpr double kSampleInterval_s = 0.1;
 inline constexpr double kTrajectoryBefore_s = 5.0;
 inline constexpr double kTrajectoryAfter_s = 25.0;
 
-// Returns the points whose time is a multiple of `interval_s`. The interval is rounded to a whole number of steps, at
-// least one.
+// Returns the points whose time is a multiple of `interval_s`. This interval is first rounded to a whole number of
+// steps, at least one.
 std::vector<TrajectoryPoint> thin_out(const std::vector<TrajectoryPoint>& points, double interval_s, double step_s);
 
 // Returns the summary of the run of scenario.populations[index]. `points` are the trajectories around the green,

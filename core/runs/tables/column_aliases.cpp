@@ -13,7 +13,7 @@ namespace stopline {
 namespace {
 
 // The old and the current name of a column. A '*' in `table` stands for any text. A '*' in `old_name` stands for any
-// text, and the '*' in `name` for the same text. If several rows match, the first row applies.
+// text, and the '*' in `name` for the same text. If several entries match a column name, the first entry applies.
 struct ColumnAlias {
     std::string_view table;
     std::string_view old_name;

@@ -31,7 +31,7 @@ const std::vector<TableDoc>& table_docs();
 // Returns the group of the tables that stopline-run writes for a network, such as "intersection".
 std::string table_group(const NetworkSettings& network);
 
-// Each of these functions returns the tables of one group or of some programs.
+// Each of these functions returns the descriptions of some tables, for instance of one group.
 std::vector<TableDoc> network_table_docs();
 std::vector<TableDoc> intersection_table_docs();
 std::vector<TableDoc> single_light_table_docs();

@@ -81,7 +81,7 @@ std::vector<TableBlock> sweep_blocks() {
 
 // --- Text for a terminal ---
 
-constexpr std::size_t kColumnWidthMax = 20;  // longer defaults are listed below the tables
+constexpr std::size_t kColumnWidthMax = 20;  // default values with more characters are listed below the tables
 
 std::string short_default(const FieldLine& line) {
     return line.default_value.size() <= kColumnWidthMax ? line.default_value : "see below";

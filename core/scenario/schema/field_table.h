@@ -127,7 +127,8 @@ struct Field {
     bool required = false;
     std::string fallback = {};  // default as YAML text; empty: the initialiser of the struct member
     // The field exists only if the choice `condition_field` has one of `condition_values`. The choice is a field of the
-    // same table, or of a section before this field, such as network.kind. If empty, the field always exists.
+    // same table, or of a section before this field, such as network.kind. If `condition_field` is empty, the field
+    // always exists.
     std::string condition_field = {};
     std::vector<std::string> condition_values = {};
     // True for a parameter of a traffic rule that `condition_field` switches on and off. While the rule is off, a file
@@ -143,7 +144,7 @@ struct Table {
     std::vector<Field> fields;
     std::shared_ptr<void> (*make_default)() = nullptr;
     std::function<void(const void* settings, Checker&)> check;  // checks that compare several fields; may be empty
-    SourceNode (*expand)(const SourceNode& scalar) = nullptr;   // makes a map from an entry that is a single word
+    SourceNode (*expand)(const SourceNode& scalar) = nullptr;   // makes a map from a list entry that is a single word
 
     // Return the field with this current name or this old name; null if there is no such field.
     const Field* find(std::string_view name) const;

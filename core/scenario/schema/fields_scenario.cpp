@@ -27,8 +27,8 @@ void check_street_steps(const Scenario& scenario, const StepCheck& require_whole
 
 bool is_whole(double number) { return std::abs(number - std::round(number)) <= 1e-6; }
 
-// Checks that a second is a whole number of steps. Vehicles in networks of several intersections are counted once per
-// second.
+// Checks that a second is a whole number of steps, because vehicles in networks of several intersections are counted
+// once per second.
 void check_seconds(const Scenario& scenario, Checker& check) {
     if (!is_whole(1.0 / scenario.tick_s())) {
         check.error(scenario.is_meso() ? "meso.step" : "step",
@@ -41,7 +41,7 @@ void check_seconds(const Scenario& scenario, Checker& check) {
     }
 }
 
-// Checks that all times are whole numbers of steps. A signal can change only between two steps.
+// Checks that all times are whole numbers of steps. Signals, for instance, can change only between two steps.
 void check_steps(const Scenario& scenario, Checker& check) {
     const auto require_whole_steps = [&](const std::string& field, double time_s) {
         if (is_whole(time_s / scenario.tick_s())) return;

@@ -27,7 +27,7 @@ void set_size(Json& schema, const Count& size, const char* minimum, const char* 
     if (size.max != std::numeric_limits<std::uint64_t>::max()) schema[maximum] = size.max;
 }
 
-// A YAML editor reads an unquoted name of digits as a number, so the schema allows numbers as names.
+// A YAML editor takes an unquoted name that consists of digits for a number, so the schema allows numbers as names.
 Json text_schema(TextField::Rule rule) {
     if (rule == TextField::Rule::title) return Json{{"type", "string"}, {"maxLength", 200}};
     return Json{{"type", {"string", "number"}}, {"pattern", "^[-A-Za-z0-9_.+]{1,64}$"}};
@@ -111,8 +111,8 @@ Json table_schema(const Table& table, const void* settings) {
             properties[old_name]["deprecated"] = true;
         }
         properties[field.name] = std::move(schema);
-        // The schema does not require a field with a condition, because it may be absent. It does not require a field
-        // with an old name either, because the file may use the old name.
+        // The schema does not require a field with a condition, because the field does not exist if the condition is
+        // false. It does not require a field with an old name either, because the file may use the old name.
         const bool always = field.condition_field.empty() && field.old_names.empty();
         if (field.required && always) required.push_back(field.name);
     }

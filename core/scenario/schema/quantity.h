@@ -30,8 +30,8 @@ enum class Dimension {
 struct Unit {
     std::string_view text;
     Dimension dimension;
-    // SI value = value * multiply / divide. Two factors are used, because 1 / 3.6 would be rounded: 50 km/h is
-    // 50 / 3.6 m/s.
+    // SI value = value * multiply / divide. There are two numbers, because a single factor such as 1 / 3.6 for km/h
+    // would be rounded.
     double multiply = 1.0;
     double divide = 1.0;
 };
@@ -46,8 +46,8 @@ std::string_view name_of(Dimension dimension);  // "time", "length", ...
 double to_si(double value, const Unit& in);
 double from_si(double si, const Unit& in);
 
-// The result of parse_quantity(). `problem` is empty for a finite quantity of the expected dimension. Otherwise it
-// completes the sentence "value '...' ...", such as "has no unit".
+// The result of parse_quantity(). `problem` is empty for a finite quantity of the expected dimension. Otherwise
+// `problem` completes the sentence "value '...' ...", such as "has no unit".
 struct ParsedQuantity {
     double si = 0.0;
     std::string problem;

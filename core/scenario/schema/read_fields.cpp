@@ -239,7 +239,7 @@ void read_fields(const Table& table, const SourceNode& node, const std::string& 
     }
     const std::size_t errors_before_map = report.error_count();
     report_unknown_keys(table, node, path, report);
-    std::set<std::string> unreadable_choices;  // choices with errors; fields with a condition on them are skipped
+    std::set<std::string> unreadable_choices;  // choices with errors; fields that depend on such a choice are skipped
     for (const Field& field : table.fields) {
         if (unreadable_choices.contains(field.condition_field)) continue;
         const std::string field_path = join_path(path, field.name);

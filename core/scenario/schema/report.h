@@ -44,8 +44,8 @@ private:
     std::map<std::string, Place> places_;
 };
 
-// Takes the errors from a check that compares several fields (Table::check). Paths are relative to the checked struct;
-// "" is the struct itself.
+// Collects the errors from a check that compares several fields (Table::check). Paths are relative to the checked
+// struct; "" is the struct itself.
 class Checker {
 public:
     Checker(Report& report, std::string path) : report_(report), path_(std::move(path)) {}

@@ -12,7 +12,7 @@ std::string quoted(const std::string& text) {
     return result + "\"";
 }
 
-// Returns the YAML text of a value, as it follows "name:". It begins with a space or a line break.
+// Returns the YAML text of a value, to be appended to "name:". The text begins with a space or a line break.
 struct ValueWriter {
     const void* settings;
     int indent;  // number of spaces before the further lines of the value

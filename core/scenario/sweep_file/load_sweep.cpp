@@ -119,8 +119,8 @@ void check_values_differ(const SweepSettings& sweep, Report& report) {
     }
 }
 
-// Checks that the scenario file exists. The message for a missing file names a line of the sweep file, but messages for
-// errors inside the scenario file name lines of the scenario file.
+// Checks that the scenario file exists. This check is separate from loading the scenario, because its message must name
+// a line of the sweep file.
 void check_scenario_file(const SweepSettings& sweep, const std::filesystem::path& file, Report& report) {
     std::error_code error;
     const std::filesystem::file_type type = std::filesystem::status(file, error).type();

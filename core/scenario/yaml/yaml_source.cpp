@@ -125,7 +125,7 @@ private:
         put(std::move(closed.node), 0);
     }
 
-    // Records that the innermost open container holds a node with `levels` nesting levels.
+    // Records that the innermost open container holds a node that has `levels` nesting levels itself.
     void deepen(std::size_t levels) {
         if (!open_.empty()) open_.back().depth = std::max(open_.back().depth, levels + 1);
     }

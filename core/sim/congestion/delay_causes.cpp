@@ -51,8 +51,8 @@ private:
         return model_.rules.long_wait_ticks > 0 && now_ - v_.stopped_since[at(slot)] >= model_.rules.long_wait_ticks;
     }
 
-    // Follows each chain of waiting vehicles from blocker to blocker. Then sets the causes, starting with the last
-    // vehicle found.
+    // Follows each chain of waiting vehicles from blocker to blocker. Then sets the causes of its vehicles, the last
+    // vehicle of the chain first, because the cause of a vehicle can depend on its blocker.
     void find_causes() {
         int traversal = 0;
         for (const int start : w_.stopped_slots) {
@@ -134,8 +134,8 @@ private:
         return -1;
     }
 
-    // Adds the delay since the last observation to the totals, and to the episode of the queue in which the vehicle
-    // stands.
+    // Adds the delay of each stopped vehicle since the last observation to the totals, and to the episode of the queue
+    // in which the vehicle stands.
     void add_delays() {
         const double interval_s = model_.time_s(model_.rules.watch_ticks);
         std::array<int, kDelayCauses> vehicles{};
@@ -189,7 +189,7 @@ private:
         });
     }
 
-    // Closes the gridlocks that were not observed for one signal cycle.
+    // Closes the gridlocks that have not been observed for one signal cycle.
     void close_gridlocks() {
         const double latest_s = now_s_ - model_.time_s(model_.rules.gridlock_ticks);
         std::erase_if(w_.open_gridlocks, [&](int index) { return log_.gridlocks[at(index)].to_s < latest_s; });

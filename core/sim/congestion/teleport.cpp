@@ -60,8 +60,8 @@ bool trip_ends_on_next_edge(const State& state, const VehicleRecord& record) {
     return record.trip >= 0 && state.plan.turn_of_trip(record.trip, record.trip_edge + 1) == Turn::none;
 }
 
-// Returns true if a vehicle on a trip, reinserted on an empty lane, has its standstill gap to the leader downstream of
-// the lane.
+// Returns true if a vehicle on a trip can be reinserted on an empty lane: its net gap to the leader downstream of the
+// lane is then at least its standstill gap.
 bool has_room_beyond_lane(const Model& model, const State& state, int lane, int slot, double front_m) {
     const VehicleArrays& v = state.vehicles;
     const VehicleRecord& record = v.record[at(slot)];
@@ -125,8 +125,8 @@ bool reinsert_teleported(const Model& model, State& state, int k) {
     return true;
 }
 
-// Moves the target of a vehicle that waits for reinsertion to the exit lane of the next intersection. Does so when the
-// waiting time exceeds the travel time along the present target lane.
+// Changes the target lane of a vehicle that waits for reinsertion to the exit lane of the next intersection, if the
+// vehicle has waited for longer than the travel time along the present target lane.
 void advance_target(const Model& model, State& state, int waiting, TeleportTarget& target) {
     const Lane& lane = model.graph.lanes[at(target.lane)];
     const double waiting_s = model.time_s(state.tick - target.waiting_since);

@@ -27,8 +27,8 @@ public:
         LastBlocker& last = w_.last_blockers[at(lane)];
         int& waits_for = w_.waits_for[at(slot)];
         if (w_.direct_cause[at(slot)] == DelayCause::signal) {
-            // A vehicle at a red signal can have a blocker as well: a leader stopped past the stop line, or its last
-            // blocker. wait_for_leader() changes the direct cause, so the signal is set again.
+            // A vehicle at a red signal can have a blocker as well: a leader stopped past the stop line, or the blocker
+            // of the last green. wait_for_leader() changes the direct cause, so it is set to `signal` again.
             wait_for_leader(slot, lane);
             w_.direct_cause[at(slot)] = DelayCause::signal;
             if (waits_for < 0) waits_for = find_unmoved_blocker(last, v_.id[at(slot)]);

@@ -18,8 +18,8 @@ struct FullTables {
 FullTables full_tables(const Model& model);
 
 // Moves the vehicles of a lane group by one step. The lanes may be in any order. `part.full_group` must have room for
-// all vehicles of the group. `next`: LaneGroup::prefetch_slots of the next group, whose data are prefetched during the
-// step; empty: no prefetch.
+// all vehicles of the group. `next`: LaneGroup::prefetch_slots of the next group. The data in these slots are
+// prefetched during the step; empty: no prefetch.
 void step_full(const Model& model, const FullTables& tables, const LaneGroup& lanes, std::span<const int> next,
                State& state, Partition& part);
 

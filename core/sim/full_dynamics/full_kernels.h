@@ -1,5 +1,5 @@
-// Inner loops (kernels) of full dynamics over plain arrays. There is one build for each instruction set, and
-// full_kernels() selects one of them.
+// Inner loops (kernels) of full dynamics over plain arrays. The kernels are compiled once for each instruction set, and
+// full_kernels() selects one version.
 #pragma once
 
 #include <span>
@@ -17,8 +17,9 @@ struct FullStreams {
     const float *length, *standstill_gap, *end_speed;
     const int *policy, *type;  // policy: null if the model has a single policy; type: null if it has a single type
     float *acceleration, *lag, *request, *is_platoon_leader, *torque, *brake, *gear_time, *gear;
-    // Rows of the radar and V2V delay lines in this step (DelayRows). The kernels write the rows `now` and `sent`, and
-    // read the others.
+    // Rows that store the radar and V2V samples of the last steps (DelayRows). The kernels write the samples of this
+    // step into the rows `..._now` and `sent_...`. They read delayed samples from `..._delayed`, `..._older` and
+    // `heard_...`.
     float *gap_now, *closing_now, *sent_acceleration, *sent_request, *sent_rate;
     const float *gap_delayed, *gap_older, *closing_delayed, *closing_older;
     const float *heard_acceleration, *heard_request, *heard_rate;
@@ -40,7 +41,7 @@ struct FullKernels {
     void (*plan)(const DriverTablesOf<float>&, const FullGroup&, int vehicles, double dt, const FullStreams&,
                  NextSlots next);
     // Vehicle: computes the response of the powertrain to the requests. `only`: index of the vehicle type to which the
-    // tables belong. Vehicles of other types stay unchanged. Below 0: all vehicles have the type of the tables.
+    // tables belong. Vehicles of other types stay unchanged. If `only` is below 0, the tables apply to all vehicles.
     void (*drive)(const PowertrainTablesOf<float>&, const FullGroup&, int vehicles, double dt, int only,
                   const FullStreams&, NextSlots next);
     // Writes the results back to the arrays of all vehicles, and moves the vehicles.
@@ -48,7 +49,7 @@ struct FullKernels {
 };
 
 // Returns the kernels with the widest vectors that this machine supports. `scalar`: returns the kernels that compute
-// one vehicle at a time, the reference for all other builds.
+// one vehicle at a time, the reference for all other versions.
 const FullKernels& full_kernels(bool scalar);
 
 }  // namespace stopline

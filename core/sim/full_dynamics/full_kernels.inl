@@ -1,5 +1,5 @@
-// Source of the full-dynamics kernels. One file for each instruction set includes it. The kernels have internal
-// linkage, so that the linker does not mix the builds.
+// Source of the full-dynamics kernels. One .cpp file for each instruction set includes it. The kernels have internal
+// linkage, so that the linker keeps the versions apart.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -17,24 +17,25 @@ namespace stopline {
 
 namespace {
 
-// The brake holds a vehicle slower than kBrakeHoldSpeed_mps with kHold_mps2 until its request exceeds kStart_mps2.
+// The brake holds a vehicle that is not faster than kBrakeHoldSpeed_mps with the acceleration kHold_mps2. It releases
+// the vehicle when the driver requests more than kStart_mps2.
 constexpr double kStart_mps2 = 0.01;
 constexpr double kHold_mps2 = -0.3;
 
-// Reads a sample of a delay line. Interpolates between two rows if the delay is not a multiple of the step.
+// Returns a delayed radar or V2V sample. Interpolates between two rows if the delay is not a multiple of the step.
 template <class R>
 STOPLINE_INLINE R delayed(const DelayRows& rows, const float* delayed_row, const float* older_row, int i) {
     const R sample = load<R>(delayed_row + i);
     return rows.older_share == 0.0 ? sample : rows.delayed_share * sample + rows.older_share * load<R>(older_row + i);
 }
 
-// Copies the vehicle in slot i of a lane to place k of the group. With R = Batch it copies a batch of vehicles that
-// begins there.
+// Copies the vehicle in slot i of a lane to place k of the group. If R has several numbers, copies a batch of
+// successive vehicles that begins with this vehicle.
 template <class R>
 STOPLINE_INLINE void gather_at(const FullStreams& s, const DelayRows& radar, const DelayRows& v2v, const LaneStep& lane,
                                int i, int k, double dt, const FullGroup& g) {
     const R speed = load<R>(s.speed + i);
-    // Radar measurement of this step. Without a radar delay, delayed() reads it just below.
+    // Radar measurement of this step. If the radar has no delay, the calls of delayed() below read this measurement.
     store(s.gap_now + i, load_difference<R>(s.position + i - 1, s.position + i) - load<R>(s.length + i - 1));
     store(s.closing_now + i, speed - load<R>(s.speed + i - 1));
     // Delayed data about the leader.
@@ -63,8 +64,8 @@ STOPLINE_INLINE void gather_at(const FullStreams& s, const DelayRows& radar, con
 }
 
 // Calls treat(number, i) for each batch of a lane; i is the first slot of the batch. The type of `number` tells treat()
-// the width of the batch. If R has 16 numbers or more, the last batch has half the width when the remaining vehicles
-// fit.
+// the width of the batch. If R has 16 numbers or more and the remaining vehicles fit into half a batch, the last batch
+// has half the width.
 template <class R, class Treat>
 STOPLINE_INLINE void for_each_batch(const LaneStep& lane, Treat treat) {
     int i = lane.begin;
@@ -76,9 +77,9 @@ STOPLINE_INLINE void for_each_batch(const LaneStep& lane, Treat treat) {
     }
 }
 
-// Prefetches the data of the next group, one share during each batch of the current group. Loading thus overlaps with
-// computing. The prefetcher of the hardware does not help, because the part of an array that belongs to one lane is too
-// short.
+// Prefetches the data of the next group in portions, one during each batch of the current group. Loading thus overlaps
+// with computing. The prefetcher of the hardware does not help, because the part of an array that belongs to one lane
+// is too short.
 class GroupPrefetch {
 public:
     GroupPrefetch(const FullStreams& streams, const FullKernels::NextSlots& slots, int vehicles, int width)
@@ -87,7 +88,7 @@ public:
         slots_per_batch_ = slots.empty() ? 0 : (slots.size() + batches - 1) / batches;
     }
 
-    // Prefetches a share of the next group's positions, vehicle data and measurements. The driver kernel calls it
+    // Prefetches a portion of the next group's positions, speeds and radar data. The driver kernel calls this function
     // during batch k.
     STOPLINE_INLINE void prefetch_driver_data(int k) const {
         for_each_slot(k, [&](int i) STOPLINE_INLINE_LAMBDA {
@@ -100,8 +101,8 @@ public:
                            s.closing_delayed, s.is_platoon_leader);
         });
     }
-    // Prefetches a share of the next group's powertrain state and V2V messages. The vehicle kernel calls it during
-    // batch k.
+    // Prefetches a portion of the next group's powertrain state and V2V messages. The vehicle kernel calls this
+    // function during batch k.
     STOPLINE_INLINE void prefetch_vehicle_data(int k) const {
         for_each_slot(k, [&](int i) STOPLINE_INLINE_LAMBDA {
             const FullStreams& s = streams_;
@@ -149,8 +150,8 @@ void gather(const FullStreams& streams, const DelayRows& radar_rows, const Delay
     }
 }
 
-// Computes the request of the vehicle at place k of the group. With R = Batch it computes a batch of vehicles that
-// begins there.
+// Computes the requested acceleration of the vehicle at place k of the group. If R has several numbers, computes the
+// requests of a batch of successive vehicles that begins with this vehicle.
 template <class R>
 STOPLINE_INLINE void plan_at(const DriverTablesOf<float>& d, const FullGroup& g, double dt, int k) {
     const CaccSettingsOf<float>& c = d.cacc;
@@ -192,7 +193,7 @@ STOPLINE_INLINE void plan_at(const DriverTablesOf<float>& d, const FullGroup& g,
     const R drive = min_of(choose(is_platoon_leader, as_leader, catch_up_acceleration(d, speed, limit)), slow_down);
     const R smallest = min_of(min_of(min_of(drive, follow), emergency), min_of(get(g.demand), behind));
     const R smooth = clamped<R>(smallest, last_request - c.jerk_down_mps3 * dt, last_request + c.jerk_up_mps3 * dt);
-    // The request of a stopped vehicle does not fall below 0, so that its next start begins from 0.
+    // The request of a stopped vehicle does not fall below 0. At the next start the request then rises from 0.
     const R lowest = select(speed <= kBrakeHoldSpeed_mps, splat<R>(0.0), splat<R>(-c.deceleration_emergency_mps2));
     const R request = max_of(smooth, lowest);
     store(g.request + k, request);
@@ -201,15 +202,15 @@ STOPLINE_INLINE void plan_at(const DriverTablesOf<float>& d, const FullGroup& g,
     const R held = STOPLINE_FLAG(R, speed <= kBrakeHoldSpeed_mps) * STOPLINE_FLAG(R, request <= kStart_mps2);
     store(g.mean_request + k, choose(held, splat<R>(kHold_mps2), 0.5 * (last_request + request)));
     store(g.is_platoon_leader + k, is_platoon_leader);
-    // V2V message for the end of this step, when the request takes effect. The acceleration is a mean over the last
-    // step, so it is extrapolated to that time by the first-order lag.
+    // The V2V message describes the end of this step, when the request takes effect. `acceleration` is the mean over
+    // the last step. It is extrapolated to the end of this step by the first-order lag.
     const R reached = min_of(1.5 * dt * rate, 1.0);
     store(g.sent_acceleration + k, acceleration + (request - acceleration) * reached);
     store(g.sent_rate + k, rate);
 }
 
-// Computes the response of the powertrains for a batch of vehicles that begins at place k. Only vehicles of type `only`
-// change. If `only` is below 0, all vehicles change.
+// Computes the response of the powertrains for a batch of vehicles that begins at place k. Changes only vehicles of the
+// type `only`, or all vehicles if `only` is below 0.
 template <class R>
 STOPLINE_INLINE void drive_at(const PowertrainTablesOf<float>& t, const FullGroup& g, double dt, int only, int k) {
     const auto get = [k](const auto* array) STOPLINE_INLINE_LAMBDA { return load<R>(array + k); };

@@ -41,7 +41,7 @@ bool is_connection_occupied(const Model& model, const State& state, int lane) {
                        [&](int connection) { return state.blocks[at(connection)].count > 0; });
 }
 
-// Returns the entry on a link lane without vehicles. The leader is the next vehicle downstream of the link.
+// Returns the entry on a link lane without vehicles. The leader of the new vehicle is then downstream of the link.
 Entry entry_on_empty_link(const Model& model, const State& state, int number, int policy, double max_entry_mps) {
     const int lane = model.demand.inlets[at(number)].lane;
     const double front_m = model.vehicles[0].length_m;
@@ -132,8 +132,8 @@ void mark_detectors_passed(const Model& model, State& state) {
     }
 }
 
-// Reserves memory for the queues of all lanes at once. If the blocks grew one by one, all vehicles would be moved each
-// time.
+// Reserves memory for the queues of all lanes at once. If the blocks grew one by one, all vehicles would be moved again
+// for every block.
 void reserve_initial_queues(const Model& model, State& state) {
     std::vector<int> expected(model.graph.lanes.size(), 0);
     for (const DemandPlan::Inlet& inlet : model.demand.inlets) {
@@ -143,7 +143,8 @@ void reserve_initial_queues(const Model& model, State& state) {
     reserve_blocks(state, expected);
 }
 
-// Returns the random delay of the first vehicle of an evenly spaced inlet, as a share of the headway.
+// Returns the random entry time of the first vehicle of an inlet, as a share of the headway. Used for inlets whose
+// vehicles enter at equal headways.
 double first_entry_offset(const Model& model, int number) {
     return random_uniform(model.seed, static_cast<std::uint64_t>(number), 0, Purpose::insertion);
 }

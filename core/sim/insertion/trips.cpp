@@ -22,8 +22,8 @@ namespace stopline {
 
 namespace {
 
-// Crossing vehicles have decided without the vehicle that is being inserted. Within this distance of the stop line, it
-// is inserted only if no crossing vehicle is on its way through its route.
+// If a vehicle is to be inserted within this distance of the stop line, no vehicle without priority may be crossing its
+// route or have decided to cross. The crossing vehicle could not consider the new vehicle in its decision.
 constexpr double kNearLine_m = 40.0;
 // Positions in route files are rounded, so the gaps in a queue from a file can be a little too small. This tolerance
 // allows them.
@@ -247,7 +247,7 @@ void insert_backlog(const Model& model, State& state, int approach) {
     constexpr std::size_t kMaxFailures = 16;
     std::vector<int>& trips = state.insertion.waiting_trips[at(approach)];
     const std::size_t lanes = model.graph.approaches[at(approach)].lanes.size();
-    std::bitset<kMaxFailures> full;  // [lane index] the lane has no room; lanes with a higher index share the last bit
+    std::bitset<kMaxFailures> full;  // [lane index] the lane has no room; the last bit stands for all further lanes
     std::size_t kept = 0;
     std::size_t k = 0;
     for (; k < trips.size() && full.count() < lanes && kept < kMaxFailures; ++k) {

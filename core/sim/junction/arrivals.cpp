@@ -79,8 +79,8 @@ bool is_behind_yielding_vehicle(const State& state, int lane, const JunctionOccu
 namespace {
 
 // Returns the slot of a vehicle that stops at the stop line of `lane` and blocks the traffic from there to
-// `connection`; -1: none. While the signal of `connection` is green, only a vehicle that stops for the signal of
-// another movement counts.
+// `connection`; -1: none. While the signal of `connection` is green, only a vehicle that waits for the signal of
+// another movement blocks this traffic.
 int vehicle_stopping_at_signal(const State& state, int lane, int connection) {
     const int stopping = state.stop_lines.stop_slot[at(lane)];
     if (state.stop_lines.lights[at(state.plan.signal_group_for(lane, connection))] != Light::green) return stopping;
@@ -107,8 +107,8 @@ void look_upstream(const Model& model, const State& state, const Upstream& here,
     const auto consider = [&](int slot, double distance_m, double limit_mps) {
         if (v.speed_mps[at(slot)] < kCrawlingSpeed_mps || distance_m > horizon_s * limit_mps) return;
         const VehicleRecord& record = v.record[at(slot)];
-        // A vehicle without a trip may have no following turn yet. It may then take the connection. A vehicle with a
-        // trip but without a following turn ends its trip on `here.lane`.
+        // A vehicle without a trip may have no following turn yet. The search assumes that such a vehicle takes the
+        // connection. A vehicle with a trip but without a following turn ends its trip on `here.lane`.
         const bool unknown = record.trip < 0 && record.following_turn == Turn::none;
         if (here.depth == 0 && !unknown && record.following_turn != turn) return;
         const double acceleration_mps2 = model.give_way.approach_acceleration_mps2;

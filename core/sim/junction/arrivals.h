@@ -23,11 +23,11 @@ bool is_yielding_before(const State& state, int slot, double area_m);
 bool is_blocked_by_leader(const State& state, int slot);
 
 // Returns true if `occupant`, a vehicle on connection `lane`, stands in a queue of slow vehicles whose first vehicle
-// yields. The yielding vehicle may be on another connection from the same approach lane, where both connections still
-// overlap.
+// yields. The yielding vehicle may be on another connection from the same approach lane, at a place where this
+// connection and `lane` still overlap.
 bool is_behind_yielding_vehicle(const State& state, int lane, const JunctionOccupant& occupant);
 
-// Returns the time in s to cover a distance while the vehicle accelerates up to the speed limit.
+// Returns the time in s that a vehicle needs for a distance if it accelerates up to the speed limit.
 double earliest_arrival_s(double distance_m, double speed_mps, double acceleration_mps2, double limit_mps);
 
 // The next vehicle that reaches a conflict area, and its earliest possible arrival.
@@ -41,7 +41,7 @@ struct Arrival {
 };
 // Returns the next arrival of a vehicle at the conflict area on connection `conflict.other`. The search covers the
 // connection, its approach lane, and the lanes further upstream from which a vehicle can arrive within `horizon_s`.
-// Vehicles that yield, stop for the signal or stand in a queue do not count.
+// Vehicles that yield, stop for the signal or stand in a queue are ignored, and so are the vehicles behind them.
 Arrival next_arrival(const Model& model, const State& state, const Conflict& conflict, double horizon_s);
 
 }  // namespace stopline

@@ -33,7 +33,7 @@ bool pass_is_allowed(const Model& model, const State& state, Partition& part, in
 }
 
 // Returns the number of vehicle pairs in conflict area `c` of connection `lane`, and records each pair as a violation.
-// Pairs that the pass-blocker rule allows do not count.
+// Pairs that the pass-blocker rule allows are left out.
 std::int64_t count_pairs(const Model& model, const State& state, Partition& part, int lane, const Conflict& c) {
     std::int64_t pairs = 0;
     for (const JunctionOccupant& own : state.junctions.occupants[at(lane)]) {

@@ -30,8 +30,8 @@ public:
         part_.occupied_connections.clear();
     }
 
-    // Adds vehicles on an exit lane whose rear is still inside the intersection. Returns false if the lane's last
-    // vehicle is wholly on the lane, or if the lane is empty.
+    // Adds each vehicle that has its front on an exit lane and its rear still inside the intersection. Returns false if
+    // the last vehicle of the exit lane is wholly on this lane, or if the lane is empty.
     bool add_from_exit(int exit) {
         const LaneBlock& block = state_.blocks[at(exit)];
         const auto reaches_back = [&](int slot) { return v_.position_m[at(slot)] < v_.length_m[at(slot)]; };

@@ -1,16 +1,17 @@
 // Right of way inside intersections: decides which vehicles must wait, and before which conflict area. All decisions
 // use the positions and speeds at the beginning of the step. On each connection only the first waiting vehicle checks
-// gaps. The vehicles behind it wait for it, and they also keep out of occupied areas.
+// gaps. The vehicles behind this vehicle wait for it where they must yield. They also keep out of occupied areas.
 //
 // A vehicle may enter a conflict area under these conditions:
-//   - No vehicle of the other connection is in the area, or on its way to it with an accepted gap.
-//   - If the vehicle must yield, it needs a gap: the next vehicle with priority arrives at least one critical gap after
-//     this vehicle reaches its waiting position. The gap must suffice in all areas where the vehicle must yield. It is
-//     checked again while the vehicle can still stop comfortably, because vehicles with priority may have started.
+//   - No vehicle of the other connection is in the area. No vehicle of the other connection that has accepted a gap is
+//     on its way to the area.
+//   - If the vehicle must yield, it needs a gap: the next vehicle with priority must arrive at least one critical gap
+//     after this vehicle reaches its waiting position. The gap must suffice in all areas where the vehicle must yield.
+//     The gap is checked again while the vehicle can still stop comfortably, because vehicles with priority may start.
 //   - If neither connection has priority (movements of different signal groups), no vehicle that passed its stop line
 //     earlier is still on its way to the area. If two vehicles wait for each other, one proceeds (DeadlockResolution).
 // The pass-blocker rule (driver/traffic_rules.h) lets a vehicle pass a vehicle that has been stopped inside the
-// intersection for long.
+// intersection for a long time.
 #include "sim/junction/right_of_way.h"
 
 #include <algorithm>
@@ -47,8 +48,8 @@ struct Candidate {
 };
 
 // Returns true if the pass-blocker rule lets `vehicle` on connection `lane` pass `blocker` on connection `other`. The
-// blocker must have been stopped for long, and the connections must lead to different exit lanes. A permission stays
-// valid when the blocker starts, because the passing vehicle may then be unable to stop.
+// blocker must have been stopped for a long time, and the connections must lead to different exit lanes. A permission
+// stays valid when the blocker starts, because the passing vehicle may then be unable to stop.
 bool may_pass(const Model& model, State& state, Partition& part, int vehicle, int lane, int blocker, int other) {
     const VehicleArrays& v = state.vehicles;
     if (model.rules.pass_blocker_ticks == 0) return false;
@@ -112,8 +113,8 @@ int area_blocker(const Model& model, State& state, Partition& part, int lane, co
     return -1;
 }
 
-// Returns the extra time in s that a slow vehicle needs to cross a long conflict area, for example in a U-turn. It is
-// added to the critical gap. Only imported networks have long conflict areas.
+// Returns the extra time in s that a slow vehicle needs to cross a long conflict area, for example in a U-turn. The
+// extra time is added to the critical gap. Only imported networks have long conflict areas.
 double slow_crossing_extra_gap_s(const Model& model, int lane, const Conflict& conflict, double limit_mps,
                                  double length_m) {
     constexpr double kSpare_s = 1.5;
@@ -139,8 +140,8 @@ int yield_cycle_winner(const Model& model, const State& state, int lane, const C
 }
 
 // Returns the slot of a vehicle without priority that approaches connection `conflict.other`, has accepted a gap, and
-// can no longer stop before the first conflict area of this connection; -1: none. The gap may have become too short: a
-// vehicle with priority that was stopped when the gap was accepted may have started since.
+// can no longer stop before the first conflict area of this connection; -1: none. By now the accepted gap may be too
+// short, because a stopped vehicle with priority may have started since.
 int committed_vehicle(const Model& model, const State& state, const Conflict& conflict) {
     const VehicleArrays& v = state.vehicles;
     const LanePlan& origin = state.plan.lane(state.plan.lane(conflict.other).origin);
@@ -187,9 +188,9 @@ int near_priority_vehicle(const Model& model, State& state, Partition& part, int
     return -1;
 }
 
-// Returns true if the committed vehicle in slot `other` will still be in the conflict area at the earliest possible
-// arrival of candidate `v`, which has priority. The committed vehicle is then later or slower than predicted when it
-// accepted its gap.
+// Returns true if the committed vehicle in slot `other` will still be in the conflict area when candidate `v`, which
+// has priority, can arrive at the earliest. This can happen if the committed vehicle is later or slower than was
+// predicted when it accepted its gap.
 bool occupies_area_on_arrival(const Model& model, const State& state, int lane, const Conflict& conflict,
                               const Candidate& v, int other) {
     const VehicleArrays& arrays = state.vehicles;
@@ -292,7 +293,7 @@ void decide(const Model& model, State& state, Partition& part, int lane) {
         const Wait found = find_wait(model, state, part, lane, candidate, ahead);
         if (found.place_m < kNoWait_m) {
             ahead = candidate.slot;
-            // Drop the accepted gap of a vehicle that will stop, because vehicles with priority may arrive before it
+            // Drop the accepted gap of a vehicle that will stop. Vehicles with priority may arrive before this vehicle
             // starts again.
             double room_m = found.place_m - candidate.front_m;
             for (const Conflict& c : state.plan.conflicts(lane)) {

@@ -18,9 +18,9 @@ namespace stopline {
 
 namespace {
 
-// Returns true if the vehicle stops before the line by braking with `deceleration_mps2`. The braking begins after a
-// delay: the brake lag plus half the time in which the limited jerk changes the request. Until then the vehicle keeps
-// accelerating.
+// Returns true if the vehicle can stop before the line if it brakes with `deceleration_mps2`. The braking begins after
+// a response time: the brake lag, plus half the time that the limited jerk needs to change the requested acceleration.
+// An accelerating vehicle keeps its acceleration until then.
 bool can_stop(const Model& model, const VehicleArrays& v, int slot, double line_m, double deceleration_mps2) {
     const double speed = v.speed_mps[at(slot)];
     const double lag_s = model.vehicles[at(v.type[at(slot)])].brake_lag_s;
@@ -30,15 +30,16 @@ bool can_stop(const Model& model, const VehicleArrays& v, int slot, double line_
     return square(speed + present_mps2 * delay_s) <= 2.0 * deceleration_mps2 * room_m;
 }
 
-// Returns the highest deceleration with which drivers stop for a signal: `stop.decision_deceleration` on yellow, the
-// maximum braking on red.
+// Returns the highest deceleration with which drivers stop for a signal. On yellow this is the setting
+// `stop.decision_deceleration`, on red the maximum braking.
 double stopping_deceleration_mps2(const Model& model, Light light) {
     return light == Light::yellow ? model.driver.stop.decision_deceleration_mps2
                                   : model.driver.cacc.deceleration_emergency_mps2;
 }
 
-// Returns true if a stop needs more than 90 % of the maximum braking. The vehicle may then overrun the line, because
-// downshifts can cost up to a tenth of the braking and can_stop() ignores them. The mesoscale mode has no gears.
+// Returns true if a stop needs more than 90 % of the maximum braking. The vehicle may then overrun the line: changes to
+// a lower gear can reduce the braking by up to a tenth, and can_stop() ignores these gear changes. Returns false in the
+// mesoscale mode, which has no gears.
 bool may_overrun_line(const Model& model, const VehicleArrays& v, int slot, double line_m, Light light) {
     constexpr double kReliableShare = 0.9;
     const double reliable_mps2 = kReliableShare * model.driver.cacc.deceleration_emergency_mps2;
@@ -64,7 +65,7 @@ int choose_stopper(const Model& model, const State& state, const LaneBlock& bloc
     return -1;
 }
 
-// Returns true if the signal is green and the first vehicle no longer hesitates.
+// Returns true if the signal is green and the vehicle that stopped for it no longer hesitates to start.
 bool line_is_open(const Model& model, const State& state, int signal_group, const StopLineState& line) {
     if (state.stop_lines.lights[at(signal_group)] != Light::green) return false;
     // A vehicle that stopped for the red signal hesitates at the start of green.
@@ -76,8 +77,8 @@ double space_needed_m(const VehicleArrays& v, int slot) {
     return static_cast<double>(v.length_m[at(slot)]) + static_cast<double>(v.standstill_gap_m[at(slot)]);
 }
 
-// Returns the slot of the first vehicle that must stop for the signal of its own movement and can stop; -1: none. A
-// vehicle that hesitates at the start of green counts as well. Used for lanes whose movements have separate signals.
+// Returns the slot of the first vehicle that must stop for the signal of its own movement and can stop; -1: none. This
+// may be a vehicle that still hesitates at the start of green. Used for lanes whose movements have separate signals.
 int choose_stopper_per_movement(const Model& model, const State& state, int index, const StopLineState& line) {
     const LaneBlock& block = state.blocks[at(index)];
     const VehicleArrays& v = state.vehicles;
@@ -95,9 +96,8 @@ int choose_stopper_per_movement(const Model& model, const State& state, int inde
     return -1;
 }
 
-// Returns true if the lane ends at a signal that is not green for the lane's last vehicle. With
-// `count_queue_at_red_exit` all moving vehicles on the lane then count as already stopped. Returns false without this
-// setting.
+// Returns true if the setting `count_queue_at_red_exit` is on and the lane ends at a signal that is not green for the
+// lane's last vehicle. The keep-clear rule then treats all moving vehicles on the lane as already stopped.
 bool queue_ends_at_red(const Model& model, const State& state, int lane) {
     const LanePlan& plan = state.plan.lane(lane);
     if (!model.rules.count_queue_at_red_exit || plan.signal_group < 0) return false;
@@ -113,7 +113,7 @@ bool has_slow_vehicle(const State& state, const LaneBlock& block) {
     return found;
 }
 
-// Returns the free room in an exit lane. The first call in a step computes it.
+// Returns the free room in an exit lane. The first call in a step computes the room, and later calls reuse it.
 const ExitRoom& exit_room(const Model& model, State& state, int exit) {
     const VehicleArrays& v = state.vehicles;
     ExitRoom& room = state.stop_lines.exit_rooms[at(exit)];
@@ -124,7 +124,7 @@ const ExitRoom& exit_room(const Model& model, State& state, int exit) {
     const double line_m = state.plan.lane(exit).next_limit_m;  // stop line, or end of a lane without a stop line
     const bool ends_at_red = line_m <= model.rules.sight_m && queue_ends_at_red(model, state, exit);
     if (!ends_at_red && !has_slow_vehicle(state, block)) return room;
-    double moving_m = 0.0;   // space that moving vehicles need when they stop
+    double moving_m = 0.0;   // space that the moving vehicles will occupy after they have stopped
     double leaving_m = 0.0;  // part of moving_m that belongs to vehicles past the stop line
     for (int slot = block.last(); slot >= block.first; --slot) {
         const double rear_m = v.position_m[at(slot)] - static_cast<double>(v.length_m[at(slot)]);
@@ -168,16 +168,17 @@ int crossing_blocker(const Model& model, const State& state, int connection) {
     return -1;
 }
 
-// State of one connection that the keep-clear rule checks.
+// Data of one connection for the keep-clear rule.
 struct ConnectionState {
     int connection;
     int stopped_in_exit;  // ExitRoom::stopped_slot of the exit lane
     int crossing_slot;    // result of crossing_blocker()
     double room_m;        // free room in the exit lane for the vehicles that are not checked yet
-    bool is_free;         // no crossing blocker, and room for all vehicles of the approach lane
+    bool is_free;         // no vehicle blocks the connection; the exit has room for all vehicles of the approach lane
 };
 
-// The ConnectionState of each connection that vehicles of one approach lane take. Each is evaluated on first use.
+// The ConnectionState of each connection that vehicles of one approach lane take. A state is computed when it is first
+// used.
 class ConnectionStates {
 public:
     // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): states_ is written before it is read
@@ -212,14 +213,14 @@ private:
     double ample_room_m_;                     // room that suffices for all vehicles of the approach lane
     std::array<ConnectionState, 16> states_;  // not initialised, to save time in every step
     std::size_t count_ = 0;
-    ConnectionState* last_ = nullptr;  // result of the last call; most vehicles take the connection of their leader
+    ConnectionState* last_ = nullptr;  // last result; most vehicles take the same connection as their leader
 };
 
-// Returns true if the vehicle can still stop before the line for the keep-clear rule. The limit is the highest
-// deceleration of a normal stop, or the comfortable deceleration if that is higher. A normal stop reaches its highest
-// deceleration only near the end, because the brake lags. The mesoscale mode has no brake lag.
+// Returns true if the vehicle can still stop before the line for the keep-clear rule. It may brake with the highest
+// deceleration of a normal stop, or with the comfortable deceleration if this is higher. A normal stop reaches its
+// highest deceleration only near the end, because the brake lags. The mesoscale mode has no brake lag.
 bool can_hold_for_keep_clear(const Model& model, const VehicleArrays& v, int slot, double line_m) {
-    constexpr double kLagFactor = 1.4;  // ratio of the highest deceleration in a stop to stop.deceleration (brake lag)
+    constexpr double kLagFactor = 1.4;  // highest deceleration of a normal stop, divided by `stop.deceleration`
     const CaccSettings& cacc = model.driver.cacc;
     const double peak_mps2 =
         std::min(kLagFactor * model.driver.stop.deceleration_mps2, cacc.deceleration_emergency_mps2);
@@ -280,9 +281,10 @@ void set_stopper(const Model& model, const State& state, int index, int slot, St
     line.stopping_vehicle = id;
 }
 
-// Makes the stopping vehicle the platoon leader of the next green. A vehicle that stands past the line counts as
-// entering the intersection only now. The entry tick of a vehicle before the line must not change: its rear may still
-// be in the previous intersection, where another thread reads the tick.
+// Makes the vehicle that stops for the signal the leader of the platoon that starts at the next green. If the vehicle
+// stops past the line, its entry tick is renewed in each step, so that it enters the intersection only when the stop
+// ends. If the vehicle is before the line, its entry tick must not change: its rear may still be in the previous
+// intersection, where another thread reads the tick.
 void make_platoon_leader(State& state, const LanePlan& lane, int slot) {
     state.vehicles.is_platoon_leader[at(slot)] = 1.0F;
     if (state.vehicles.position_m[at(slot)] > lane.stop_line_m) {
@@ -292,7 +294,8 @@ void make_platoon_leader(State& state, const LanePlan& lane, int slot) {
 
 // Lists the vehicles of an approach lane that will not stop at the line and are near a conflict area.
 void list_approaching(const Model& model, State& state, int index) {
-    constexpr double kLookBack_m = 60.0;           // before the lane's end; covers a comfortable stop from 50 km/h
+    // Vehicles within this distance before the lane's end are listed. It covers a comfortable stop from 50 km/h.
+    constexpr double kLookBack_m = 60.0;
     constexpr double kFastRoadLookBack_m = 160.0;  // the same distance for the faster roads of imported networks
     const bool has_trips = !model.demand.trips.empty();
     const double look_back_m = has_trips ? kFastRoadLookBack_m : kLookBack_m;

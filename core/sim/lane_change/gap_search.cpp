@@ -16,10 +16,10 @@ namespace stopline {
 
 namespace {
 
-constexpr double kFallBack_mps = 3.0;      // speed difference of a vehicle that falls back behind another vehicle
+constexpr double kFallBack_mps = 3.0;      // speed difference with which a vehicle falls back behind another vehicle
 constexpr double kMinSpeed_mps = 1.0;      // lowest target speed of a vehicle that falls back
-constexpr double kTargetGapFactor = 1.1;   // aims for 110 % of the required gap, because the approach is asymptotic
-constexpr double kDroppingBack_mps = 0.5;  // a follower slower than the changing vehicle by this falls back anyway
+constexpr double kTargetGapFactor = 1.1;   // target gap / required gap; above 1, because the target is reached slowly
+constexpr double kDroppingBack_mps = 0.5;  // if the follower is slower by more than this, the lag gap grows by itself
 
 class GapSearch {
 public:
@@ -60,8 +60,8 @@ private:
                         ahead.speed_mps - kFallBack_mps);
     }
 
-    // Returns true if the vehicle in `slot` of lane `other` must change to this lane, while `me` must change to lane
-    // `other`. Of two vehicles that want to swap lanes, the vehicle further upstream falls back.
+    // Returns true if the vehicle in `slot` of lane `other` must change to the lane of `me`, while `me` must change to
+    // lane `other`. Of two vehicles that want to swap lanes, the vehicle further upstream falls back.
     bool wants_to_swap(int other, int slot, const LaneChangeRequest& me) const {
         const LaneBlock& block = state_.blocks[at(other)];
         if (slot < block.first || slot >= block.past_last()) return false;
@@ -77,8 +77,8 @@ private:
         return follower.gap_m < needed_m && !wants_to_swap(other, follower.slot, me);
     }
 
-    // Returns true if `follower` can open a gap for vehicle `me`. The follower must be on lane `other` already, and
-    // comfortable braking to the speed of `me` must suffice. Returns false if gap opening is off.
+    // Returns true if `follower` can open a gap for vehicle `me`. The follower must be on lane `other` already, and its
+    // gap must suffice for comfortable braking to the speed of `me`. Returns false if gap opening is off.
     bool can_open_gap(int other, const Neighbour& follower, const LaneChangeRequest& me) const {
         const LaneBlock& block = state_.blocks[at(other)];
         const double braking_m =

@@ -19,13 +19,13 @@ namespace stopline {
 namespace {
 
 constexpr double kDecisionInterval_s = 0.5;  // time between two decisions of a vehicle
-constexpr double kMinInterval_s = 2.0;       // pause before the next mandatory change, about as long as a change
-// Within this time after a change, a vehicle does not return to the previous lane for speed. Otherwise it could change
-// back and forth between adjacent queues that move in turn. Our choice.
+constexpr double kMinInterval_s = 2.0;       // shortest time from a change to the next mandatory change
+// Within this time after a change, a vehicle does not return to its previous lane to gain speed. Otherwise it could
+// change back and forth between adjacent queues that move in turn. The value is our choice.
 constexpr double kReturnPause_s = 30.0;
 
-// Returns the acceleration of the intelligent driver model (Treiber, Hennecke, Helbing 2000). The desired gap of the
-// policy replaces the term s_0 + v T.
+// Returns the acceleration of the intelligent driver model (Treiber, Hennecke, Helbing 2000), with the desired gap of
+// the policy in place of the term s_0 + v T.
 double idm_mps2(const Model& model, int policy, double speed_mps, double limit_mps, double gap_m, double ahead_mps) {
     const LaneChangeSettings& c = model.lane_change;
     constexpr double kNoLeader_m = 1e5;
@@ -169,8 +169,8 @@ private:
         return true;
     }
 
-    // Returns true if the vehicle may change to lane `other` for speed. The lane must serve the route at least as well
-    // as the current lane.
+    // Returns true if the vehicle may change to lane `other` to gain speed. This lane must serve the route at least as
+    // well as the current lane.
     bool may_change_for_speed(int other) const {
         if (other < 0 || !can_move_beside(model_, me_, adjacent_position_m(state_, me_.lane, me_.front_m, other)))
             return false;
@@ -241,7 +241,8 @@ private:
         reset_leader(state_.vehicles, slot, state_.blocks[at(other)]);
         reset_leader(state_.vehicles, slot + 1, state_.blocks[at(other)]);
         reset_leader(state_.vehicles, state_.blocks[at(me_.lane)].first + from, state_.blocks[at(me_.lane)]);
-        // The vehicle that stops at the line must be chosen again, because the changed vehicle may be ahead of it.
+        // The vehicle that has just changed may be ahead of the vehicle chosen to stop at the line. The choice is
+        // therefore made again.
         state_.stop_lines.lines[at(other)].stopping_vehicle = -1;
         state_.records.lane_changes.push_back(
             {model_.time_s(state_.tick + 1), id, me_.lane, other, static_cast<float>(me_.front_m), for_route});

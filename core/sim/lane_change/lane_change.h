@@ -23,17 +23,18 @@ struct LaneChangeRequest {
     double speed_mps = 0.0;
     int policy = 0;
     Turn turn = Turn::none;
-    int lane_changes = 0;    // lane changes before the stop line, signed as TurnOption::lane_changes; 0: none required
+    int lane_changes = 0;    // lane changes required before the stop line; below 0: to the left; 0: none
     double to_line_m = 0.0;  // distance to the stopping position before the line
-    // The last two members are set if no lane change is required and the following turn is known. The offset is signed
-    // as TurnOption::lane_changes.
-    int preferred_offset = 0;     // offset to the lane that requires the fewest changes past the intersection
+    // The last two members are set if no lane change is required and the following turn is known. An offset below 0
+    // means to the left.
+    int preferred_offset = 0;     // offset to the lane with the fewest lane changes after the intersection
     double to_next_line_m = 0.0;  // distance to the stop line of the second intersection ahead
 };
 // Returns the request of the vehicle in `slot` of `lane`.
 LaneChangeRequest lane_change_request(const Model& model, const State& state, int lane, int slot);
 
-// Returns the share of the policy's gap that a mandatory change requires. The share falls towards the stop line.
+// Returns the argument `share` of required_gap_m() for a mandatory change. Near the stop line a change is more urgent,
+// so vehicles accept a smaller share of their policy's gap there.
 double urgent_share(const Model& model, double to_line_m);
 
 // Returns the position where a vehicle waits before the stop line to change lanes, m from the start of the lane.

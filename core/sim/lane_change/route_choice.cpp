@@ -1,5 +1,5 @@
-// Chooses the route of each vehicle from its current lane, and its following turn: the turn at the second intersection
-// ahead.
+// Chooses two things for each vehicle: the route that begins on its current lane, and its following turn, the turn at
+// the second intersection ahead.
 #include "sim/lane_change/route_choice.h"
 
 #include <algorithm>

@@ -23,8 +23,8 @@ void draw_following_turn(const Model& model, State& state, int slot, bool chose_
 // Gives a vehicle that has reached the start of `lane` its next route. Does nothing if no route begins on this lane.
 void choose_next_route(const Model& model, State& state, int lane, int slot);
 
-// Replaces the vehicle's route by a route with the same turn that begins on `lane`. If there is none, the vehicle keeps
-// its route but has no next lane, and must change lanes.
+// Replaces the vehicle's route by a route with the same turn that begins on `lane`. If there is no such route, the
+// vehicle keeps its route but has no next lane, and must change lanes.
 void adopt_lane_route(const Model& model, State& state, int lane, int slot);
 
 // Gives a vehicle with a trip the route that begins on edge `trip_edge` of the trip. `lane`: the lane of the vehicle.

@@ -1,9 +1,9 @@
 // Selects the vehicles that the mesoscale kernels move in a step. Caps the speed of vehicles that must stop or align
 // with a gap.
 //
-// The kernels skip vehicles inside a standing queue, because nothing changes to which these vehicles react. A lane
-// sleeps while its first vehicle rests before a red signal. The search for leaders and the decisions at stop lines skip
-// a sleeping lane.
+// The kernels skip vehicles inside a standing queue: the leader of such a vehicle stands still, so the vehicle stands
+// still too. A lane sleeps while its first vehicle is stopped before a red signal. The search for leaders and the
+// decisions at stop lines skip a sleeping lane.
 #include "sim/mesoscale/meso_blocks.h"
 
 #include <algorithm>
@@ -25,8 +25,8 @@ void update_queue(const VehicleArrays& v, const LaneBlock& block, std::int64_t t
         return v.speed_mps[i] == 0.0 && v.acceleration_mps2[i] == 0.0F;
     };
     while (queue.first < queue.end && !is_at_rest(queue.first)) ++queue.first;
-    // A vehicle that received the start message may have closed up although its leader did not start. The queue then
-    // ends before this vehicle.
+    // After a start message (relay_start()) a vehicle may have closed up although its leader did not start. The queue
+    // then ends before this vehicle.
     for (int place = queue.first + 1; place < std::min(queue.released, queue.end); ++place) {
         if (!is_at_rest(place)) queue.end = place;
     }
@@ -39,10 +39,10 @@ void update_queue(const VehicleArrays& v, const LaneBlock& block, std::int64_t t
     while (queue.end < block.count && is_at_rest(queue.end)) ++queue.end;
 }
 
-// Relays the start of a queue by V2V to vehicles that keep a constant distance. Returns the number of vehicles that
-// receive the message. A vehicle forwards the message before it moves, so the message passes several vehicles in one
-// step. A vehicle with a time gap ends the relay, because it starts later. The messages take effect when vehicles move,
-// because other lanes still read the state.
+// Tells stopped vehicles of a queue by V2V that the vehicle ahead of the queue has started. Returns the number of
+// vehicles that receive this start message. A vehicle forwards the message before it moves, so the message reaches
+// several vehicles in one step. The first vehicle whose policy has a time gap ends the relay, because it starts later.
+// The messages are only stored here, because other lanes still read the state. step_meso() applies them.
 int relay_start(const Model& model, const VehicleArrays& v, const LaneBlock& block, StandingQueue& queue,
                 std::vector<StartMessage>& messages) {
     constexpr double kClosedUp_m = 0.5;  // a vehicle whose gap exceeds its desired gap by more than this starts later
@@ -105,7 +105,7 @@ public:
         }
         if (queue.first == 0 && queue.end > 0 && waits_only_for_signal()) {
             sleep_group = state_.plan.signal_group_for(lane_, v_.next_lane[at(first)]);
-            v_.speed_cap_mps[at(first)] = 0.0;  // holds the vehicle if the kernel moves others of its block
+            v_.speed_cap_mps[at(first)] = 0.0;  // holds the vehicle when other vehicles of its block move
             return add_blocks(first + queue.end, block_.past_last());
         }
         cap_all();
@@ -120,8 +120,8 @@ private:
         return std::max(stop_slot_, yield_stops_.count == 0 ? -1 : yield_stops_.stops[at(yield_stops_.count - 1)].slot);
     }
 
-    // Returns true if the first vehicle could reach the end of the lane or the stop line in this step, at the free
-    // speed of the lane.
+    // Returns true if the first vehicle, driving at the free speed of the lane, could reach the stop line or the end of
+    // the lane in this step.
     bool is_near_end() const {
         const double end_m = plan_.signal_group < 0 ? plan_.length_m : std::min(plan_.length_m, plan_.stop_line_m);
         const double step_m = state_.plan.free_speed_mps(lane_) * model_.step_s;
@@ -134,7 +134,8 @@ private:
         const double braking_step_mps = GapAlignment::kDeceleration_mps2 * model_.step_s;
         for (const GapAlignment& alignment : state_.gap_alignments[at(lane_)]) {
             const double speed_mps = v_.speed_mps[at(alignment.slot)];
-            // The cap of a vehicle at rest stays unchanged, because it may hold the first vehicle of a sleeping lane.
+            // Sets no cap for a vehicle at rest. All caps set here are removed after the step, and the cap that holds
+            // the first vehicle of a sleeping lane must remain.
             if (speed_mps > 0.0)
                 cap_speed(alignment.slot, std::max(alignment.target_speed_mps, speed_mps - braking_step_mps));
         }
@@ -153,8 +154,8 @@ private:
         return snap_to_standstill(stopping_speed_mps(model_, v_, first, room_to_line_m(first))) == 0.0;
     }
 
-    // Sleeping lane: caps the speed of vehicles that wait to change lanes, except the first vehicle, which already has
-    // a cap.
+    // Caps the speed of vehicles that wait to change lanes on a sleeping lane. Skips the first vehicle, which already
+    // has a cap.
     void cap_behind_first() {
         for (int k = 0; k < yield_stops_.count; ++k) {
             const YieldStop& stop = yield_stops_.stops[at(k)];
@@ -206,7 +207,7 @@ private:
 
 }  // namespace
 
-// Called right after the decisions of a partition, while the data of the partition are still in the cache.
+// Called right after the right-of-way decisions of a partition, while its data are still in the cache.
 void collect_moving_blocks(const Model& model, State& state, Partition& part) {
     // Upper bound of the number of moving blocks: one for each vehicle, and a reserve for each lane.
     constexpr std::size_t kReservePerLane = 4;

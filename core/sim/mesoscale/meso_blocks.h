@@ -6,8 +6,8 @@
 
 namespace stopline {
 
-// Lists the blocks of slots whose vehicles can move, and caps the speed of vehicles that must stop. The list does not
-// contain standing queues.
+// Lists the blocks of slots that the kernels must update (MesoKernels::size). Leaves out a block if all of its vehicles
+// stand in a queue. Caps the speed of vehicles that must stop or align with a gap.
 void collect_moving_blocks(const Model& model, State& state, Partition& part);
 
 }  // namespace stopline

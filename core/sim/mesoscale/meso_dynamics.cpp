@@ -13,8 +13,8 @@ namespace stopline {
 
 namespace {
 
-// Evaluates the extra gap that a switching policy adds to its standstill gap, for all slots of the moving blocks.
-// Returns nullptr if the model has no switching policy.
+// Returns the extra gaps that switching policies (SWITCH) add to their standstill gaps, one value for each slot of the
+// moving blocks. Returns nullptr if the model has no switching policy.
 ExtraGap evaluate_extra_gap(const Model& model, std::size_t size, const VehicleArrays& v, Partition& part) {
     const auto is_switching = [&](int k) {
         return model.krauss[at(k)].constant_distance && model.policies[at(k)].settings.law != "constant_distance";

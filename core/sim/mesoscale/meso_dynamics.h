@@ -1,5 +1,5 @@
-// Mesoscale mode: moves vehicles by one step of car following with the Krauss family (driver/krauss.h). Every vehicle
-// reacts to the state at the beginning of the step.
+// Mesoscale mode: moves vehicles by one step with car-following models of the Krauss family (driver/krauss.h). Every
+// vehicle reacts to the state at the beginning of the step.
 #pragma once
 
 #include <cstdint>
@@ -14,15 +14,15 @@ namespace stopline {
 // `room_m`. The speed does not fall faster than with maximum braking.
 double stopping_speed_mps(const Model& model, const VehicleArrays& v, int slot, double room_m);
 
-// Returns the speed for the next step of a vehicle without a leader. The speed approaches Model::leader_speed_share of
-// `limit_mps`.
+// Returns the speed for the next step of a vehicle without a leader. The speed approaches `limit_mps` times
+// Model::leader_speed_share.
 double leading_speed_mps(const Model& model, double speed_mps, double limit_mps);
 
 // Return the arguments of the kernels. `prefetches`: see MesoStep.
 MesoStreams meso_streams(VehicleArrays& vehicles);
 MesoStep meso_step(const Model& model, std::int64_t tick, bool prefetches = false);
 
-// Moves the vehicles that collect_moving_blocks() selected by one step.
+// Moves the vehicles of `part.moving_blocks` by one step. collect_moving_blocks() must have listed these blocks.
 void step_meso(const Model& model, State& state, Partition& part);
 
 }  // namespace stopline

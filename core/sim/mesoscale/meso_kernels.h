@@ -1,6 +1,6 @@
-// Inner loops (kernels) of the mesoscale mode over plain arrays. There is one build for each instruction set, and
-// meso_kernels() selects one of them. The scalar build computes one vehicle at a time from the same source and is the
-// reference for all other builds.
+// Inner loops (kernels) of the mesoscale mode over plain arrays. The kernels are compiled once for each instruction
+// set, and meso_kernels() selects one version. The scalar version is compiled from the same source, but computes one
+// vehicle at a time. It is the reference for all other versions.
 #pragma once
 
 #include <cstdint>
@@ -22,18 +22,18 @@ struct MesoStreams {
 // Constants of one step. SI units.
 struct MesoStep {
     double dt;
-    std::uint64_t key;  // random key of the dawdling, from dawdle_key()
+    std::uint64_t key;  // key of the random numbers for dawdling, from dawdle_key()
     std::uint64_t tick;
     double slow_down_mps2;  // deceleration before a lower speed limit
-    double approach_share;  // share of the difference to the speed limit that a slower vehicle gains in a step
-    double turn_share;      // share of the difference to the allowed speed before a turn that a vehicle gains in a step
-    double leader_mps2;     // acceleration of platoon leaders; 0: they accelerate as their policy
+    double approach_share;  // below the speed limit, a vehicle gains this share of (limit - speed) in a step
+    double turn_share;      // before a turn, a vehicle gains this share of (allowed speed - speed) in a step
+    double leader_mps2;     // acceleration of platoon leaders; 0: acceleration of the vehicle's policy
     double leader_constant_power_speed_mps;  // above this speed leader_mps2 falls as 1 / v
-    const LeaderProfile* leader_profile;     // replaces the two values above; nullptr: they apply
-    bool relays;           // V2V relays starts; platoon leaders then anticipate the speed of the vehicle ahead
-    bool leaders_foresee;  // platoon leaders use the safe speed computed for followers; requires `relays`
+    const LeaderProfile* leader_profile;     // replaces the two values above; nullptr: no profile
+    bool relays;           // V2V relays the start of a queue; platoon leaders then anticipate their leader's speed
+    bool leaders_foresee;  // platoon leaders have the safe speed of followers; requires `relays` and no transient gap
     double hardest_mps2;   // maximum braking
-    bool prefetches;       // the kernels prefetch blocks, because the vehicles do not fit into the cache
+    bool prefetches;       // the kernels prefetch blocks; useful if the vehicle data do not fit into the cache
 };
 
 // Gap in m that switching policies (SWITCH) add to their standstill gap. The array has one value for each slot of the
@@ -46,7 +46,7 @@ struct MesoKernels {
     // in place. Slots without a vehicle keep their values.
     int size;
     // Moves the vehicles of `blocks` by one step. `blocks` must be in ascending order. The slot before a lane's first
-    // vehicle must hold the leader of the first vehicle. Returns the number of vehicles that overlap their leader.
+    // vehicle must hold a copy of this vehicle's leader. Returns the number of vehicles that overlap their leader.
     int (*step)(const MesoStreams&, std::span<const int> blocks, std::span<const Krauss> policies, ExtraGap,
                 const MesoStep&);
     // Evaluates the car-following equation alone, to measure its computing time. Writes the next speed of each vehicle.
@@ -55,7 +55,7 @@ struct MesoKernels {
                    double* next_mps);
 };
 
-// Returns the kernels with the widest vectors that this machine supports. `scalar`: returns the scalar build.
+// Returns the kernels with the widest vectors that this machine supports. `scalar`: returns the scalar version.
 const MesoKernels& meso_kernels(bool scalar);
 
 }  // namespace stopline

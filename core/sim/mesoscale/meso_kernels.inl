@@ -1,6 +1,7 @@
-// Source of the mesoscale kernels. One file for each build includes it. The kernels have internal linkage, so that the
-// linker does not mix the builds. R is the number type of the equations: one double, or a vector with one double for
-// each slot of a block.
+// Source of the mesoscale kernels. Each of the files meso_kernels_*.cpp includes it and thus compiles one version: one
+// for each instruction set, and the scalar version. The kernels have internal linkage, so that the linker keeps these
+// versions apart. R is the number type of the equations: one double, or a vector with one double for each slot of a
+// block.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -32,8 +33,8 @@ STOPLINE_INLINE To same_bits(const From& from) {
     return to;
 }
 
-// Converts the numbers of a vector to another type. For 512 bits it uses intrinsics, because the compiler would convert
-// in two halves.
+// Converts the numbers of a vector to another type. Vectors of 512 bits are converted by intrinsics, because the
+// compiler would convert them in two halves.
 template <class To, class From>
 STOPLINE_INLINE Vector<To, kWide> converted(const Vector<From, kWide>& from) {
 #if defined(__AVX512F__)
@@ -118,16 +119,17 @@ STOPLINE_INLINE KraussPerVehicle<R> of_two_policies(const R& policy, const Kraus
             pick(a.below_band_speed_share, b.below_band_speed_share)};
 }
 
-// Returns the next speed of a vehicle under a speed limit. A vehicle above the limit takes the limit at once. A slower
-// vehicle gains a share of the difference.
+// Returns the next speed of a vehicle under a speed limit. A vehicle above the limit drives at the limit in the next
+// step. A slower vehicle gains the given share of (limit - speed).
 template <class R>
 STOPLINE_INLINE R approach_limit(const R& speed_mps, const R& limit_mps, double share) {
     const R gaining_mps = speed_mps + share * (limit_mps - speed_mps);
     return min_of(gaining_mps, limit_mps);  // above the limit the result is limit_mps, because share <= 1
 }
 
-// Returns the next speed before a turn. `allowed_mps`: allowed speed, which falls towards the turn. `braked_mps`: speed
-// change of one step of braking. The equation is that of slow_down_acceleration() in full dynamics.
+// Returns the next speed before a turn. `allowed_mps`: allowed speed, which falls towards the turn. `share`: share of
+// (allowed speed - speed) that a vehicle gains in a step. `braked_mps`: speed that a vehicle loses in a step when it
+// brakes for the turn. Full dynamics uses the same equation in slow_down_acceleration().
 template <class R>
 STOPLINE_INLINE R approach_turn(const R& speed_mps, const R& allowed_mps, double share, double braked_mps) {
     return speed_mps + share * (allowed_mps - speed_mps) - braked_mps * speed_mps / max_of(allowed_mps, R(1.0));
@@ -173,8 +175,8 @@ STOPLINE_INLINE R allowed_mps(const MesoStreams& s, const MesoStep& t, int i, co
 constexpr double kNoLeader_m = 1e5;  // a vehicle with a longer gap has no leader
 
 #if defined(__AVX512DQ__)
-// Returns the table value of each vehicle's bin. Permutes 16 table values at a time, which is faster than one load for
-// each vehicle.
+// Returns the table value of each vehicle's bin. One permutation selects from 16 table values. This is faster than one
+// load for each vehicle.
 template <std::size_t bins>
 STOPLINE_INLINE Wide permute_table(const std::array<double, bins>& table, const Wide& bin) {
     const __m512i index = _mm512_cvttpd_epi64(same_bits<__m512d>(bin));
@@ -222,8 +224,9 @@ STOPLINE_INLINE R platoon_leader_acceleration_mps2(const MesoStep& t, const R& s
            R(t.leader_constant_power_speed_mps / max_of(speed_mps, R(t.leader_constant_power_speed_mps)));
 }
 
-// Returns `next` with the speeds of platoon leaders replaced. Platoon leaders accelerate alike, whatever their policy.
-// A platoon leader becomes a follower once following demands a lower speed, but not while it is at rest.
+// Computes the next speeds of platoon leaders. Returns these speeds, and `next` for all other vehicles. All platoon
+// leaders have the same acceleration, whatever their policy. A platoon leader becomes a follower when the safe speed
+// behind its leader is lower than its free speed. It stays a platoon leader as long as its next speed is 0.
 // `foreseen_mps`: result of anticipated_safe_speed_mps(). `next`: next speeds of the vehicles as followers.
 // `has_policy`: 1 for vehicles with the policy of model `k`, else 0.
 template <class R, class Model>
@@ -252,8 +255,8 @@ constexpr double kNoExtraGap[kWide] = {};
 // Properties of a run. The kernels are compiled once for each combination.
 struct MesoVariant {
     int policies;           // number of policies: 1 or 2; 0: more than 2
-    bool power_limit;       // constant power can limit the acceleration of a policy
-    bool instant_slowdown;  // vehicles take the allowed speed before a turn at once (turn_share = 1)
+    bool power_limit;       // at least one policy has an acceleration that falls at high speed (constant power)
+    bool instant_slowdown;  // before a turn, vehicles reach the allowed speed in one step (turn_share = 1)
 };
 
 // Moves the vehicles of one block. Returns 1 for each vehicle that overlaps its leader, else 0.
@@ -318,8 +321,8 @@ STOPLINE_INLINE void prefetch_block(const MesoStreams& s, int i) {
     for (const int* const stream : {s.id, s.policy}) __builtin_prefetch(stream + i);
 }
 
-// Moves the vehicles of all blocks and returns the number of overlaps. Moves the last block first: the first vehicle of
-// a block reacts to the last vehicle of the block before, which must not have moved yet.
+// Moves the vehicles of all blocks and returns the number of overlaps. Begins with the last block. The first vehicle of
+// a block may react to the last vehicle of the block before it, and that vehicle must not have moved yet.
 template <class R, MesoVariant kVariant>
 inline int step_blocks(const MesoStreams& streams, std::span<const int> blocks, std::span<const Krauss> models,
                        ExtraGap extra_gaps, const MesoStep& step) {

@@ -1,5 +1,5 @@
-// Mesoscale kernels that compute one vehicle at a time, the reference for all other builds. They are compiled without
-// vectorisation (see CMakeLists.txt).
+// Mesoscale kernels that compute one vehicle at a time. They are the reference for all other versions of the kernels,
+// and are compiled without vectorisation (see CMakeLists.txt).
 #include "sim/mesoscale/meso_kernels.inl"
 
 namespace stopline {

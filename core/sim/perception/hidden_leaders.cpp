@@ -1,6 +1,6 @@
 // Full dynamics: adds braking for hidden leaders. A vehicle follows the nearest vehicle ahead. Where connections
 // diverge or a trip ends, this leader may leave the follower's route and hide a slow vehicle further along the route.
-// The follower also brakes for the hidden vehicle, because it would otherwise see it too late.
+// The follower also brakes for the hidden vehicle. Otherwise it would see the hidden vehicle too late.
 #include "sim/perception/hidden_leaders.h"
 
 #include <algorithm>
@@ -40,9 +40,9 @@ void add_demand(const Model& model, const State& state, int lane, int slot, cons
 }
 
 // Adds braking demands on followers of the lane's first vehicle. For each connection that the first vehicle does not
-// take, only the first follower that takes it gets a demand.
+// take, only the first follower that takes this connection gets a demand.
 void react_to_leaders_hidden_from_followers(const Model& model, const State& state, int lane, Partition& part) {
-    constexpr double kMinLookBack_m = 60.0;  // before the lane's end; covers a comfortable stop from 50 km/h
+    constexpr double kMinLookBack_m = 60.0;  // distance before the lane's end; covers a comfortable stop from 50 km/h
     constexpr std::size_t kMaxConnections = 8;
     const VehicleArrays& v = state.vehicles;
     const LaneBlock& block = state.blocks[at(lane)];

@@ -1,4 +1,4 @@
-// Finds the leader of each lane's first vehicle. This leader is beyond the end of the lane.
+// Finds the leader of each lane's first vehicle. The leader is on a lane further downstream.
 #include "sim/perception/look_ahead.h"
 
 #include <algorithm>
@@ -43,9 +43,9 @@ private:
         }
     }
 
-    // Keeps the vehicle if its rear is the furthest upstream so far. `start_m`: start of the vehicle's lane, m
-    // downstream of the lane's end. Returns false if the vehicle is clear of the other connections: its rear is past
-    // `clear_m`.
+    // Keeps the vehicle if its rear is the furthest upstream so far. `start_m`: distance from the upstream end of the
+    // stretch to the start of the vehicle's lane. Returns false if the vehicle is clear of the other connections,
+    // because its rear is past `clear_m`.
     bool consider(int slot, double start_m, double clear_m) {
         const double front_m = start_m + v_.position_m[at(slot)];
         const double beyond_m = front_m - v_.length_m[at(slot)];
@@ -57,7 +57,8 @@ private:
     }
 
     static constexpr double kAll_m = -1.0;
-    static constexpr int kReachBack = 2;  // highest number of vehicles on an exit lane whose rear is on the connection
+    // Number of vehicles at the start of an exit lane that are checked, because their rear may be on the connection.
+    static constexpr int kReachBack = 2;
 
     const State& state_;
     const VehicleArrays& v_;
@@ -67,8 +68,8 @@ private:
     LeaderAhead found_;
 };
 
-// Returns the leader beyond the end of the route, on the following edges of the trip, within `range_m`. There must be
-// no vehicle ahead on the route itself.
+// Returns the leader on the edges of the trip that follow the route, within `range_m`. There must be no vehicle ahead
+// on the route itself.
 LeaderAhead ahead_on_trip(const State& state, int lane, double position_m, const RoutePosition& position,
                           double range_m) {
     const std::span<const int> route = state.plan.route(position.route);
@@ -119,8 +120,8 @@ bool rear_may_be_off_route(const State& state, std::span<const int> route, const
     return previous_lane >= 0 && std::find(route.begin(), route.end(), previous_lane) == route.end();
 }
 
-// Returns the leader on the route, or a vehicle in the diverge area if it is nearer. In the second case `hidden`
-// receives the leader on the route. The function is inlined because it runs once per lane and step.
+// Returns the leader on the route, or a vehicle in the diverge area if this vehicle is nearer. If it is nearer, the
+// function stores the leader on the route in `hidden`. The function is inlined because it runs once per lane and step.
 STOPLINE_INLINE LeaderAhead ahead_on_route(const State& state, int lane, double position_m, int route_number, int index,
                                            double range_m, LeaderAhead* hidden = nullptr) {
     const VehicleArrays& v = state.vehicles;
@@ -247,7 +248,7 @@ void find_leaders_beyond_lanes(const Model& model, const State& state, VehicleAr
             v.length_m[sentinel] = static_cast<float>(std::max(reach_m - kTouch_m, 0.0));
         }
         const double rear_m = v.position_m[sentinel] - v.length_m[sentinel];
-        // In the mesoscale mode the kernels count overlaps with these leaders.
+        // In the mesoscale mode the kernels count the overlaps with leaders beyond the lane.
         if (!model.meso && has_leader && rear_m < v.position_m[at(head)]) {
             ++part.violations.overlaps;
             part.violations.record(
@@ -259,7 +260,7 @@ void find_leaders_beyond_lanes(const Model& model, const State& state, VehicleAr
         }
         const int id = has_leader ? v.id[leader_slot] : -1;
         if (v.record[at(head)].leader_id == id) continue;
-        // The first radar measurement of a new leader fills the radar history.
+        // The leader is new: its first radar measurement replaces the whole radar history.
         v.record[at(head)].leader_id = id;
         v.is_platoon_leader[at(head)] = 1.0F;
         const double gap_m = rear_m - v.position_m[at(head)];

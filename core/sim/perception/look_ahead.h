@@ -21,23 +21,24 @@ struct RoutePosition {
     int trip_edge = 0;
 };
 
-// Return the nearest vehicle beyond the end of a lane within `range_m`. The observer is the first vehicle of the lane,
-// in `slot`, or a front at `position_m`.
+// Return the nearest vehicle beyond the end of a lane within `range_m`. The observer is the lane's first vehicle in
+// `slot`, or a vehicle with its front at `position_m`.
 LeaderAhead leader_ahead(const State& state, int lane, int slot, double range_m);
 LeaderAhead leader_ahead(const State& state, int lane, double position_m, int route, int route_index, double range_m);
 LeaderAhead leader_ahead(const State& state, int lane, double position_m, const RoutePosition& position,
                          double range_m);
 
-// Returns the nearest vehicle on the route of the vehicle in `slot`, beyond the end of its lane. Ignores vehicles that
-// are not on the route, such as those in the diverge area.
+// Returns the nearest vehicle beyond the end of `lane` on the route of the vehicle in `slot`. Ignores vehicles on other
+// lanes, for example vehicles that diverge from this route.
 LeaderAhead last_vehicle_on_route(const State& state, int lane, int slot, double range_m);
 
 // Returns true if the rear of the vehicle in slot `ahead` is still on a lane that merges into the route of the vehicle
 // in `slot`. Right of way then prevents contact with this rear, so the vehicle in `slot` need not keep a gap to it.
 bool rear_is_on_merging_path(const State& state, int lane, int slot, int ahead);
 
-// Copies the leader of each awake lane's first vehicle to the lane's sentinel slot. Resets the radar history of a first
-// vehicle whose leader has changed. Full dynamics: also adds the braking demands of hidden leaders.
+// Finds the leader of the first vehicle of each awake lane. Copies this leader to the lane's sentinel slot, the slot
+// before the first vehicle. If the leader has changed, resets the radar history of the first vehicle. In full dynamics,
+// also adds braking demands for hidden leaders.
 void find_leaders_beyond_lanes(const Model& model, const State& state, VehicleArrays& vehicles, Partition& part);
 
 }  // namespace stopline

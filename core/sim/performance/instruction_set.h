@@ -1,4 +1,5 @@
-// Chooses the build of the kernels with the widest vectors that the processor supports.
+// The kernels are compiled for several instruction sets. Chooses the version with the widest vectors that the processor
+// supports.
 #pragma once
 
 namespace stopline {

@@ -11,7 +11,7 @@ namespace stopline {
 namespace {
 
 constexpr std::uintptr_t kCacheLine = 64;  // bytes
-constexpr std::size_t kLinesPerCall = 4;   // cache lines per call; the processor drops requests beyond a few
+constexpr std::size_t kLinesPerCall = 4;   // cache lines prefetched per call; the processor drops further requests
 constexpr int kInspectedVehicles = 7;      // vehicles near the stop line that the phases of a step usually read
 
 // These functions must be inlined, because the compiler removes calls of functions that only prefetch.
@@ -107,7 +107,7 @@ void list_cache_lines(const Model& model, State& state, Partition& part) {
 void begin_prefetch(State& state, std::size_t number, std::size_t end) {
     PrefetchProgress& progress = state.partitions[number].prefetch;
     progress = {};
-    // The data of fewer vehicles stay in the third-level cache. Prefetching would cost more than it saves.
+    // With fewer vehicles all data stay in the third-level cache, and prefetching would cost more than it saves.
     constexpr int kMinVehicles = 30000;
     if (state.present() < kMinVehicles) return;
     if (number + 1 < end) progress.next = &state.partitions[number + 1];

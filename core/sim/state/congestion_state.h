@@ -24,17 +24,17 @@ struct LastBlocker {
 };
 
 // Working memory of delay attribution. The arrays indexed by slot are valid only in the step that attributed the
-// delays, since vehicles change slots. Unless noted otherwise they hold values for stopped vehicles only.
+// delays, because vehicles change slots. Unless noted otherwise, only the elements of stopped vehicles are valid.
 struct DelayWatch {
     std::vector<int> waits_for;  // [slot] slot of the blocker, the vehicle that this vehicle waits for; -1: none
     std::vector<DelayCause>
-        direct_cause;                // [slot] own reason to wait; none: only the leader stops the vehicle, or nothing
+        direct_cause;                // [slot] cause that stops the vehicle directly; none: no cause except its leader
     std::vector<DelayCause> cause;   // [slot] cause to which the delay of the vehicle is attributed
-    std::vector<int> queue_head;     // [slot] slot of the first vehicle of the queue, which the cause stops directly
+    std::vector<int> queue_head;     // [slot] slot of the first vehicle of the queue in which the vehicle stands
     std::vector<int> lane;           // [slot] lane of the vehicle, also for moving vehicles
     std::vector<int> vehicle;        // [slot] id of the vehicle, also for moving vehicles
-    std::vector<int> traversal;      // [slot] number of the traversal that visited the vehicle; 0: none
-    std::vector<int> path;           // slots that the present traversal has visited
+    std::vector<int> traversal;      // [slot] number of the chain in which find_causes() visited it; 0: not visited yet
+    std::vector<int> path;           // slots of the chain of waiting vehicles that find_causes() follows at present
     std::vector<int> stopped_slots;  // slots of all stopped vehicles
     std::vector<LastBlocker> last_blockers;  // [lane]
     std::vector<int> open_episode;           // [lane * causes + cause] index of the open episode; -1: none

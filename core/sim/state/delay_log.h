@@ -12,11 +12,11 @@ namespace stopline {
 enum class DelayCause : std::uint8_t {
     none,               // the vehicle is moving
     signal,             // the vehicle waits at a red or yellow signal
-    yielding,           // the vehicle yields to another one that has priority or is crossing
+    yielding,           // the vehicle yields to a vehicle that has priority or is moving across its path
     junction_blocking,  // situation 1: a stopped vehicle blocks a conflict area ahead
     turn_blocking,      // situation 2: the vehicle turns, and its exit lane is full
     spillback,          // the vehicle goes straight on, and its exit lane is full
-    gridlock,           // situation 3: the vehicle is in a cycle of vehicles that wait for each other, or waits for it
+    gridlock,           // situation 3: the vehicle is in a cycle of vehicles that wait for each other, or is behind it
     wrong_lane,         // the vehicle waits for a gap in the adjacent lane, from which its route continues
     queue_discharge     // the leader moves already or is far ahead, so the vehicle can start
 };
@@ -30,14 +30,15 @@ inline bool is_blocking(DelayCause cause) {
     return cause >= DelayCause::junction_blocking && cause != DelayCause::queue_discharge;
 }
 
-// A period in which one cause delays a queue without interruption. The queue begins on the lane of the episode. For
-// signals, yielding and queue discharge, only vehicles that have been stopped for two signal cycles count.
+// A period in which one cause delays a queue without interruption. The queue begins on the lane of the episode. If the
+// cause is a signal, yielding or queue discharge, short stops are normal. The episode then includes only vehicles that
+// have been stopped for at least two signal cycles.
 struct DelayEpisode {
     DelayCause cause = DelayCause::none;
     int lane = -1;          // lane of the first vehicle of the queue
     int vehicle = -1;       // id of the first vehicle of the queue when the episode began
-    int blocker = -1;       // id of the vehicle that the first one waited for at that time; -1: none
-    int blocker_lane = -1;  // lane of the blocker at that time
+    int blocker = -1;       // id of the vehicle for which `vehicle` waited when the episode began; -1: none
+    int blocker_lane = -1;  // lane of the blocker when the episode began
     double from_s = 0.0;
     double to_s = 0.0;         // time of the last observation
     int current_vehicles = 0;  // delayed vehicles at the last observation
@@ -45,12 +46,12 @@ struct DelayEpisode {
     double delay_s = 0.0;  // total delay, vehicle seconds
 };
 
-// A cycle of vehicles in which each vehicle waits for the next one. A cycle observed later continues the gridlock if it
-// shares a vehicle with it and at most one signal cycle has passed.
+// A cycle of vehicles in which each vehicle waits for the next one. If a cycle with at least one of the same vehicles
+// is observed again within the duration of a signal cycle, it is the same gridlock.
 struct Gridlock {
     double from_s = 0.0;        // time of the first observation
     double to_s = 0.0;          // time of the last observation
-    std::vector<int> vehicles;  // ids at the last observation, lowest id first; each vehicle waits for the next
+    std::vector<int> vehicles;  // ids at the last observation, lowest id first; each vehicle waits for the next one
     std::vector<int> lanes;     // lane of each vehicle
 };
 
@@ -62,7 +63,7 @@ struct RuleUse {
     int vehicle = -1;        // id of the vehicle that uses the rule
     int lane = -1;           // lane of the vehicle; passed_blocker: connection on which it passes the blocker
     int blocker = -1;        // passed_blocker, keep_clear: id of the blocking vehicle; else -1
-    double stopped_s = 0.0;  // time since the blocker stopped; teleported, reinserted: since the vehicle itself stopped
+    double stopped_s = 0.0;  // stop time of the blocker; teleported, reinserted: stop time of the vehicle itself
 };
 
 struct DelayLog {

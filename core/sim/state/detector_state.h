@@ -1,5 +1,5 @@
-// The detectors of each lane, and the vehicles that have not passed them. Owner: sim/step/detectors.cpp.
-// sim/state/lane_blocks.cpp updates the counts when vehicles enter or leave a lane.
+// The detectors on each lane, and the number of vehicles that have not passed each detector yet. Owner:
+// sim/step/detectors.cpp. sim/state/lane_blocks.cpp updates the numbers when vehicles enter or leave a lane.
 #pragma once
 
 #include <vector>

@@ -33,7 +33,7 @@ struct GapAccepted {
     int vehicle;
     int lane;  // connection that the vehicle takes
     float gap_s;
-    float needed_s;  // gap that the vehicle needs: critical gap plus travel time to the conflict area
+    float needed_s;  // gap that the vehicle needs: critical gap plus travel time to its waiting position
 };
 
 // A vehicle changes to an adjacent lane.
@@ -62,11 +62,11 @@ struct Violation {
 
 // Numbers of violations of each invariant. The invariants are checked in every step of every run.
 struct Violations {
-    std::int64_t overlaps = 0;            // vehicles with a negative net gap, summed over all steps
+    std::int64_t overlaps = 0;            // vehicles with a negative net gap to their leader, summed over all steps
     std::int64_t conflicts = 0;           // pairs of vehicles in the same conflict area, summed over all steps
     std::int64_t red_entries = 0;         // vehicles that passed the stop line on red although they could have stopped
     std::int64_t forced_red_entries = 0;  // vehicles that could not stop and passed on red; this is no violation
-    std::int64_t lost_vehicles = 0;       // entered minus exited minus present vehicles
+    std::int64_t lost_vehicles = 0;       // vehicles that entered, minus those that exited, minus those present
     std::int64_t deadlocks = 0;  // runs in which a vehicle stayed inside a junction for too long (intersection_run.cpp)
     Violation first = {};        // earliest overlap, conflict or red entry
 

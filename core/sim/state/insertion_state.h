@@ -1,4 +1,4 @@
-// The data of the insertion: inlets, trips that wait for room, and drawn turns. Owner: sim/insertion.
+// The data for the insertion of vehicles: inlets, trips that wait for room, and drawn turns. Owner: sim/insertion.
 // sim/lane_change/route_choice.cpp draws the turns.
 #pragma once
 
@@ -22,10 +22,10 @@ struct InletState {
 
 struct InsertionState {
     std::vector<InletState> inlets;
-    std::vector<int> open_inlets;  // indices of all entries, and of links that still insert vehicles; ascending
+    std::vector<int> open_inlets;  // inlets on entry lanes, and on link lanes that still insert vehicles; ascending
     std::vector<int> inlet_of;     // [lane] index of the inlet; -1: no route begins on the lane
     std::vector<std::array<std::int64_t, kMaxTurns>>
-        drawn_turns;                              // [approach][Turn] draws, if there are approach shares
+        drawn_turns;                              // [approach][Turn] number of draws at inlets with approach_shares
     std::size_t next_trip = 0;                    // index of the first trip that is not due yet
     std::vector<std::vector<int>> waiting_trips;  // [approach] due trips that have found no room yet, oldest first
     std::vector<int> approaches_with_backlog;     // approaches with waiting trips, ascending

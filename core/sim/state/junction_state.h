@@ -1,5 +1,5 @@
 // The vehicles inside intersections, and the positions where vehicles must yield. Owner: sim/junction. sim/lane_change
-// adds stops of vehicles that wait for a gap.
+// adds yield stops for vehicles that wait for a gap in the adjacent lane.
 #pragma once
 
 #include <array>
@@ -47,9 +47,9 @@ struct YieldStops {
 
 struct JunctionState {
     std::vector<std::vector<JunctionOccupant>> occupants;  // [connection] the vehicle furthest downstream first
-    std::vector<std::vector<int>> approaching;  // [connection] slots of vehicles that come near it on the approach lane
+    std::vector<std::vector<int>> approaching;  // [connection] slots of vehicles that are near it on its approach lane
     std::vector<YieldStops> yield_stops;        // [lane]
-    std::vector<char> has_yield_stops;          // [lane] 1: yield_stops is not empty
+    std::vector<char> has_yield_stops;          // [lane] 1: the lane has yield stops
     // Sets of connections. The number of a connection in these sets is its LanePlan::bitset_index.
     Bitset occupied;      // connections with occupants
     Bitset with_stopped;  // connections with an occupant slower than kCrawlingSpeed_mps

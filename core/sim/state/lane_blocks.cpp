@@ -10,7 +10,7 @@
 // Full dynamics: a block has room for a full lane and never moves. The kernels write whole batches of slots, also
 // beyond the last vehicle. The slots there must therefore not belong to another lane.
 //
-// Mesoscale mode: a block has room for the present vehicles and some more. A full block takes free slots from a block
+// Mesoscale mode: a block has room for the present vehicles and a few more. A full block takes free slots from a block
 // nearby. If no block nearby has free slots, all blocks are laid out again, which is rare.
 namespace stopline {
 
@@ -23,9 +23,9 @@ int max_vehicles(const Model& model, const Lane& lane) {
     return static_cast<int>(lane.length_m / shortest_vehicle_m(model)) + 2;
 }
 
-// Full dynamics: the vehicles of a lane are aligned to a cache line if the first one is in the first slot of the block.
-// A lane with at most kMaxShifted vehicles is shifted there whenever a vehicle leaves it. A lane with more vehicles is
-// shifted only when it reaches the end of its block.
+// Full dynamics: if the first vehicle of a lane is in the first slot of the block, the vehicles are aligned to a cache
+// line. Up to kMaxShifted vehicles are therefore shifted to the start of the block whenever a vehicle leaves the lane.
+// More vehicles are shifted only when they have reached the end of the block.
 constexpr int kMaxShifted = 64;
 
 // Moves the vehicles of a block to its first slots.
@@ -195,7 +195,8 @@ void set_lane_of(State& state, int lane, int slot) {
     v.speed_cap_mps[at(slot)] = kUnlimitedSpeed_mps;
 }
 
-// Adds a lane that gets a vehicle to the sets Partition::occupied_candidates and, for an exit lane, exit_candidates.
+// Marks a lane that receives a vehicle. The lane is added to the set Partition::occupied_candidates. An exit lane is
+// also added to the set Partition::exit_candidates.
 void mark_occupied(State& state, int lane) {
     const LaneLocation& location = state.location_of[at(lane)];
     state.partitions[location.partition].occupied_candidates.set(location.index);

@@ -24,7 +24,8 @@ void reserve_blocks(State& state, const std::vector<int>& expected);
 // Ensures that a lane has a free slot after its last vehicle.
 void ensure_free_slot(State& state, int lane);
 
-// Ensures that the block of teleported vehicles has a free slot. In full dynamics the block can be full all the same.
+// Makes a free slot in the block of teleported vehicles if it has none. In full dynamics the block cannot grow, so it
+// can still be full after the call.
 void ensure_teleport_slot(State& state);
 
 // Adds a slot for a new last vehicle of a lane and returns the slot.

@@ -21,8 +21,9 @@ struct CompiledPolicy {
     const GapLaw* law = nullptr;
 };
 
-// A sensor or message delay that is realised by storing samples of past steps. The delayed value is interpolated
-// between the sample `steps` steps ago and the next older one. The delay thus does not depend on the step length.
+// The time lag of a sensor or of V2V messages. It is realised by storing samples of past steps. The delayed value is
+// interpolated between the sample `steps` steps ago and the next older one. The lag thus need not be a whole number of
+// steps.
 struct DelayLine {
     int steps = 0;       // number of whole steps in the delay
     double share = 0.0;  // weight of the older sample
@@ -38,9 +39,9 @@ struct RulesPlan {
     bool count_queue_at_red_exit = false;
     std::int64_t teleport_ticks = 0;
     std::int64_t pass_blocker_ticks = 0;
-    std::int64_t watch_ticks = 0;      // interval between delay attributions; 0: delays are not attributed
+    std::int64_t watch_ticks = 0;      // interval at which traffic delays are attributed to causes; 0: never
     std::int64_t gridlock_ticks = 0;   // a gridlock that is observed again within this time is the same gridlock
-    std::int64_t long_wait_ticks = 0;  // stop time from which a vehicle counts in delay episodes, whatever the cause
+    std::int64_t long_wait_ticks = 0;  // after this stop time a delay episode includes the vehicle, whatever the cause
     std::int64_t memory_ticks = 0;     // time from the last use of a BlockerPass until it expires
 
     bool watches() const { return watch_ticks > 0; }
@@ -55,7 +56,7 @@ struct Model {
     std::vector<PowertrainTables> vehicles;
     std::vector<CompiledPolicy> policies;
     DriverTables driver;
-    std::int64_t hesitation_ticks = 0;  // reaction time to green of the first vehicle at a stop line
+    std::int64_t hesitation_ticks = 0;  // reaction time of the first vehicle at a stop line when its signal turns green
     DemandPlan demand;
     std::vector<Detector> detectors;
     std::vector<std::string> loop_names;
@@ -77,8 +78,8 @@ struct Model {
     std::vector<Krauss> krauss;       // [policy] car-following model
     double speed_factor = 1.0;        // factor on all speed limits
     double leader_speed_share = 1.0;  // share of the speed limit at which a vehicle without a leader drives
-    double approach_share = 1.0;  // share of the difference to the speed limit that a slower vehicle gains in a step
-    double turn_share = 1.0;      // before a turn: share of the difference to the allowed speed gained in a step
+    double approach_share = 1.0;      // a vehicle below the speed limit gains this share of the missing speed per step
+    double turn_share = 1.0;   // before a turn, this share of the difference to the allowed speed is gained per step
     double leader_mps2 = 0.0;  // acceleration of platoon leaders; 0: acceleration of the policy's car-following model
     double leader_constant_power_speed_mps = 0.0;  // speed above which leader_mps2 falls
     LeaderProfile leader_profile;  // replaces leader_mps2 and leader_constant_power_speed_mps if it has bins

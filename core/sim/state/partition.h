@@ -1,6 +1,6 @@
 // The unit of parallel work in a step: the lanes of some whole intersections, with their working memory and reports.
-// All partitions together hold the lanes in a fixed order, whatever the number of partitions. Their reports, merged in
-// this order, do not depend on the number either.
+// All partitions together hold the lanes in a fixed order. The order does not depend on the number of partitions. The
+// reports are merged in this order, so the merged reports do not depend on the number of partitions either.
 #pragma once
 
 #include <array>
@@ -36,7 +36,7 @@ struct DeadlockResolution {
 
 struct Partition;
 
-// The data of the next two partitions that have been prefetched so far.
+// How much of the data of the next two partitions has been prefetched so far.
 struct PrefetchProgress {
     const Partition* next = nullptr;    // the next partition; nullptr: no prefetching
     const Partition* second = nullptr;  // the partition after `next`; nullptr: none
@@ -44,14 +44,15 @@ struct PrefetchProgress {
     std::size_t line = 0;               // number of prefetched cache_lines of `second`
 };
 
-// The V2V message to a stopped vehicle that the queue ahead starts. It takes effect when vehicles move. Until then
-// other lanes still read the acceleration that it replaces.
+// The V2V message by which a stopped vehicle learns that the queue ahead of it starts. The message replaces the
+// acceleration of the vehicle only when vehicles move, because other lanes read the old value before.
 struct StartMessage {
     int slot;                 // slot of the receiver
     float acceleration_mps2;  // acceleration of the vehicle that started last
 };
 
-// Full dynamics: the acceleration that a hidden leader demands of the vehicle in `slot`.
+// Full dynamics: the acceleration that a hidden leader (sim/perception/hidden_leaders.h) demands of the vehicle in
+// `slot`.
 struct BrakingDemand {
     int slot;
     double acceleration_mps2;
@@ -62,7 +63,7 @@ struct Partition {
     std::vector<int> connections;  // connections that cross or merge with other connections
     std::size_t first_word = 0;    // words [first_word, end_word) of the JunctionState bitsets hold `connections`
     std::size_t end_word = 0;
-    std::vector<int> exits;      // exit lanes of `connections`
+    std::vector<int> exits;      // exit lanes of `connections`, except those that another partition lists
     std::vector<int> detectors;  // detectors on `lanes`
     // Lanes that may be occupied, because they have got a vehicle since they were last found empty.
     Bitset occupied_candidates;  // [index in `lanes`]
@@ -82,7 +83,7 @@ struct Partition {
     std::vector<int> lanes_with_yield_stops;
     std::vector<int> lanes_with_alignments;
     IndexBuffer stopped_slots;           // slots of stopped vehicles; valid in steps that attribute delays
-    int earliest_stop_tick = 0;          // earliest tick since which a vehicle of stopped_slots has been stopped
+    int earliest_stop_tick = 0;          // lowest VehicleArrays::stopped_since of all vehicles in stopped_slots
     IndexBuffer lanes_near_end;          // mesoscale mode: lanes whose first vehicle may leave the lane in this step
     std::vector<int> lanes_to_transfer;  // lanes whose first vehicle has left the lane in this step
     std::vector<StartMessage> start_messages;  // mesoscale mode: start messages of this step
@@ -91,8 +92,8 @@ struct Partition {
     std::vector<DeadlockResolution> deadlock_resolutions;
 
     // These members are reports. They are merged into the records of the run after each step.
-    std::int64_t present = 0;              // vehicles on the lanes at the start of the step
-    std::int64_t updates = 0;              // moved vehicles
+    std::int64_t present = 0;              // number of vehicles on the lanes at the start of the step
+    std::int64_t updates = 0;              // number of vehicles moved
     std::int64_t longest_in_junction = 0;  // longest time of a vehicle inside a junction, ticks
     std::int64_t passed_blockers = 0;
     Violations violations;

@@ -72,8 +72,8 @@ std::vector<Partition> make_partitions(const Model& model, const State& state, i
         if (!is_exit[at(exit)]) part.exits.push_back(exit);
         is_exit[at(exit)] = true;
     }
-    // A group takes lanes until it has kGroupVehicles. The last lane can exceed this number by all vehicles that fit on
-    // it.
+    // A lane group takes further lanes until it has kGroupVehicles vehicles. The last lane can exceed this number by as
+    // many vehicles as fit on the lane.
     const int group_vehicles =
         Partition::kGroupVehicles + static_cast<int>(longest_m / shortest_vehicle_m(model)) + 2 * kSimdWidth;
     for (Partition& part : partitions) {

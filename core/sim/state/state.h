@@ -50,8 +50,8 @@ struct State {
     explicit State(const Model& model) : plan(model) {}
     // Returns the number of vehicles in the network, including teleported vehicles.
     int present() const { return static_cast<int>(records.entered - records.exited); }
-    // Returns true if the data of all vehicles exceed a second-level cache of 1 MiB. A step uses about 150 bytes for
-    // each vehicle.
+    // Returns true if the data of all vehicles take more than about half of a second-level cache of 1 MiB. A step uses
+    // about 150 bytes for each vehicle.
     bool outgrows_cache() const { return present() > 4000; }
 };
 

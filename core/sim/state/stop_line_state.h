@@ -11,7 +11,7 @@ namespace stopline {
 // The stop line at the end of a lane.
 struct StopLineState {
     int stopping_vehicle = -1;    // id of the vehicle that stops at the line for the signal; -1: none
-    bool may_overrun = false;     // stopping takes over 90 % of the maximum braking, so overrunning is no violation
+    bool may_overrun = false;     // stopping needs over 90 % of the maximum braking, so overrunning is no violation
     int keep_clear_vehicle = -1;  // id of the vehicle that the keep-clear rule holds at green; -1: none
 };
 
@@ -24,11 +24,12 @@ struct KeepClearHold {
 // The free length of an exit lane, as the keep-clear rule computes it.
 struct ExitRoom {
     std::int64_t tick = -1;  // step for which the values are valid
-    // The free length ends at the last stopped vehicle within sight. The space of moving vehicles upstream of it is
-    // subtracted. If the signal at the end of the lane is red, moving vehicles can count as stopped there
-    // (RulesPlan::count_queue_at_red_exit). 1e9: no vehicle is stopped.
+    // The free length ends at the last stopped vehicle within RulesPlan::sight_m. The space that the moving vehicles
+    // upstream of this vehicle need is subtracted. If the signal at the end of the lane is red, moving vehicles can
+    // count as already stopped there (RulesPlan::count_queue_at_red_exit). 1e9: no vehicle is or counts as stopped.
     double room_m = 1e9;
-    // Slot of the vehicle that ends the free length. If all vehicles count as stopped: slot of the last one. -1: none.
+    // Slot of the stopped vehicle at which the free length ends. If all vehicles move but count as stopped at a red
+    // signal: slot of the last vehicle on the lane. -1: none.
     int stopped_slot = -1;
 };
 

@@ -14,8 +14,8 @@ namespace stopline {
 
 namespace {
 
-// Appends a lane to a group, with all external demands on the vehicles of the lane. `hidden_leader_demands`: demands in
-// the partition that no group contains yet. The function removes the demands of this lane from the front.
+// Appends a lane to a group, with all external demands on the vehicles of the lane. `hidden_leader_demands`: demands of
+// hidden leaders that have not been added to a group yet. The function removes the demands on this lane from the list.
 void add_lane(const Model& model, const State& state, int lane, std::span<const BrakingDemand>& hidden_leader_demands,
               LaneGroup& group) {
     const VehicleArrays& v = state.vehicles;
@@ -47,7 +47,7 @@ void add_lane(const Model& model, const State& state, int lane, std::span<const 
     }
     group.lanes.push_back(
         {block.first, block.past_last(), plan.next_limit_m, plan.limit_mps, static_cast<double>(plan.sine)});
-    // List one slot for each cache line. Arrays begin on a cache line, so every kSimdWidth-th slot begins one, too.
+    // List one slot for each cache line. A cache line begins at every kSimdWidth-th slot, counted from 0.
     const int first_of_line = block.first / kSimdWidth * kSimdWidth;
     for (int slot = first_of_line; slot < block.past_last(); slot += kSimdWidth) group.prefetch_slots.push_back(slot);
     group.vehicles += block.count;

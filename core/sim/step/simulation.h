@@ -57,8 +57,8 @@ public:
     const State& state() const { return state_; }
     const Model& model() const { return model_; }
 
-    // Returns a hash of the vehicles in lane order, of the passages and of the main counters. If two runs have the same
-    // hash, their results agree in every bit.
+    // Returns a hash of the vehicles in lane order, of the passages and of the main counters. Compare the hashes of two
+    // runs to check that their results agree in every bit.
     std::uint64_t state_hash() const;
 
 private:

@@ -26,10 +26,10 @@ struct alignas(64) LanePlan {
     bool keep_clear = true;             // connection: the keep-clear rule applies
 };
 
-// The possibilities to make one turn from a lane: a route that begins on the lane, or lane changes before it.
+// How a vehicle on a lane can make one turn: on a route that begins on this lane, or after lane changes.
 struct TurnOption {
     int route = -1;        // first route with this turn that begins on the lane; -1: none
-    int lane_changes = 0;  // changes to the nearest lane where a route with this turn begins; below 0: to the left
+    int lane_changes = 0;  // lane changes to the nearest lane where a route with this turn begins; below 0: to the left
 };
 
 // The position of an approach lane among its neighbours.

@@ -101,8 +101,8 @@ void count_lane_changes(const Approach& approach, std::size_t turn, std::vector<
     }
 }
 
-// Returns the neighbours and turn options of all lanes. Fills `next_parallel_route`, which links the routes with the
-// same first lane and turn to a chain. The route with the highest index comes first, and -1 ends the chain.
+// Returns the neighbours and turn options of all lanes. Fills `next_parallel_route`, which links routes with the same
+// first lane and the same turn into a chain. The route with the highest index comes first, and -1 ends the chain.
 std::vector<AdjacentLanes> plan_adjacent_lanes(const LaneGraph& graph, const std::vector<Turn>& turns,
                                                std::vector<int>& next_parallel_route) {
     std::vector<AdjacentLanes> adjacent(graph.lanes.size());

@@ -53,7 +53,7 @@ public:
     // Returns true if vehicles on this connection may yield inside the intersection. Otherwise they yield at the stop
     // line.
     bool may_wait_inside(int lane) const { return may_wait_inside_[static_cast<std::size_t>(lane)] != 0; }
-    // Returns the turn of a trip at the end of one of its edges; Turn::none: the trip ends on this edge.
+    // Returns the turn of a trip at the end of one of its edges, or Turn::none if the trip ends on this edge.
     Turn turn_of_trip(int trip, int trip_edge) const { return demand_->turn_of_trip(trip, trip_edge); }
     // Returns the number of lane changes that a trip needs on later edges if the vehicle leaves the edge from `lane`.
     int lane_changes_after(int trip, int trip_edge, int lane) const {

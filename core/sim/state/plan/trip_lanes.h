@@ -3,11 +3,11 @@
 // Dynamic programming from the end of the trip gives two numbers of lane changes:
 //
 //     after(edge, lane): changes on later edges if the vehicle leaves the edge from `lane`. This is the minimum of
-//         from(edge + 1, exit) over all exit lanes to which `lane` leads with the turn at the end of the edge.
+//         from(edge + 1, exit) over all exit lanes that the turn at the end of the edge reaches from `lane`.
 //     from(edge, lane): changes on this edge and later ones if the vehicle begins the edge on `lane`. This is the
 //         minimum of |lane - other| + after(edge, other) over all lanes of the edge.
 //
-// Lane changes on an edge of kLongEdge_m or more are not counted, because a vehicle has enough time for them.
+// after() does not count lane changes on edges of length kLongEdge_m or more. A vehicle has enough time for these.
 #pragma once
 
 #include <cstdint>

@@ -9,7 +9,7 @@
 namespace stopline {
 
 // Returns the number of vehicles on the given lanes whose front is downstream of their leader's rear. Leaders on other
-// lanes do not count.
+// lanes are not considered.
 std::int64_t count_overlaps(const VehicleArrays& vehicles, std::span<const LaneStep> lanes);
 
 // Searches all vehicles of a partition and records the first overlap. The search is slow, so call it only after

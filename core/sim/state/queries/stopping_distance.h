@@ -18,13 +18,13 @@ inline double braking_distance_m(double from_mps, double to_mps, double decelera
     return 0.5 * std::max(square(from_mps) - square(to_mps), 0.0) / deceleration_mps2;
 }
 
-// Returns the braking distance of a comfortable stop. The deceleration is the driver's stop.deceleration. The reaction
-// time is not included.
+// Returns the braking distance of a comfortable stop, that is, with the deceleration `stop.deceleration` of the driver
+// settings. The reaction time is not included.
 inline double comfortable_braking_distance_m(const Model& model, double speed_mps) {
     return 0.5 * square(speed_mps) / model.driver.stop.deceleration_mps2;
 }
 
-// Returns the distance of a comfortable stop. In full dynamics it includes the lag of the brake.
+// Returns the distance of a comfortable stop. In full dynamics the distance includes the effect of brake lag.
 inline double reliable_stopping_distance_m(const Model& model, double speed_mps) {
     return model.meso ? comfortable_braking_distance_m(model, speed_mps) : stopping_distance_m(model.driver, speed_mps);
 }

@@ -1,4 +1,4 @@
-// The rows of a delay line that are written and read in one step.
+// The rows of a delay line (DelayLine) that are written and read in one step.
 #pragma once
 
 #include <cstddef>

@@ -14,11 +14,11 @@ namespace stopline {
 struct FullGroup {
     // State of the vehicle, its measurements, and the road at its position.
     double* coming_speed;                         // speed at the end of the step, when the new request takes effect
-    float *speed, *acceleration, *lag, *request;  // request: that of the last step, then that of this step
+    float *speed, *acceleration, *lag, *request;  // request: value of the last step, later of this step
     float *gap, *closing;                         // net gap and closing speed, from the delayed radar measurement
     float *heard_acceleration, *heard_request, *heard_rate;  // delayed V2V message of the leader
     float *to_next_limit, *limit, *end_speed, *standstill_gap, *sine;
-    float* demand;  // lowest acceleration of all external demands; kUnconstrained_mps2: none
+    float* demand;  // lowest acceleration of all external demands; kUnconstrained_mps2: no demand
     float *is_platoon_leader, *torque, *brake, *gear_time, *gear;
     float* mean_request;                   // mean request within the step, for the powertrain
     float *sent_acceleration, *sent_rate;  // V2V message to the follower
@@ -31,8 +31,8 @@ struct FullGroup {
 class FullGroupArrays {
 public:
     void resize(int vehicles);
-    // Grows the memory if a group has more vehicles than expected. A lane can hold more vehicles than fit on it if they
-    // overlap.
+    // Grows the memory if a group has more vehicles than expected. This can happen if vehicles overlap, because a lane
+    // then holds more vehicles than fit on it bumper to bumper.
     void reserve(int vehicles) {
         if (static_cast<std::size_t>(vehicles) + kSpare > vehicles_) resize(2 * vehicles + static_cast<int>(kSpare));
     }
