@@ -82,7 +82,7 @@ void declare(Options& app, SweepCliOptions& options) {
             "  stopline-sweep scenarios/sweeps/single_light.yaml --shard 1/2 --output out/shards\n"
             "  stopline-sweep scenarios/sweeps/single_light.yaml --shard 2/2 --output out/shards\n"
             "  stopline-sweep merge --output out/joined out/shards/*.sqlite\n"
-            "  mpirun -n 3 stopline-sweep scenarios/sweeps/single_light.yaml --output out/ranks\n"
+            "  mpirun --oversubscribe -n 3 stopline-sweep scenarios/sweeps/single_light.yaml --output out/ranks\n"
             "With mpirun, rank 0 distributes the runs and the other ranks execute them.\n\n"
             "Next: open NAME.csv. It has one row per run; rows with equal axes differ in their seed.\n\n") +
         kExitCodesText);

@@ -6,13 +6,15 @@
 #                          sanitizers, and compares the release version with an unoptimised one
 # Three environment variables hold regular expressions for ctest and limit what runs under the sanitizers:
 # STOPLINE_ASAN_LABELS (default: unit|threads|cli), STOPLINE_TSAN_LABELS (default: threads) and
-# STOPLINE_SANITIZER_EXCLUDE (default: Slow). Scripts with the label slow never run under a sanitizer.
+# STOPLINE_SANITIZER_EXCLUDE (default: names that begin with Slow). Scripts with the label slow never run under a
+# sanitizer.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 all=no
 case "${1:-}" in
     "") ;;
+    --quick) echo "tests/run.sh: --quick is the default now" >&2 ;;
     --all) all=yes ;;
     *)
         echo "usage: tests/run.sh [--all]" >&2
@@ -28,6 +30,7 @@ step() {
 trap 'echo "tests/run.sh: stopped at: $current_step" >&2' ERR
 
 jobs="$(nproc)"
+slow_names='(^|[./])Slow[A-Z]'  # slow suites and cases of GoogleTest
 
 # build PRESET TESTS TARGET...: TESTS is ON or OFF and says whether the tests are configured too
 build() {
@@ -42,7 +45,7 @@ run_fast_tests() {
     local preset="$1" labels="$2"
     shift 2
     "$@" ctest --preset "$preset" -j "$jobs" --label-regex "$labels" \
-        --label-exclude slow --exclude-regex "${STOPLINE_SANITIZER_EXCLUDE:-Slow}" --no-tests=error
+        --label-exclude slow --exclude-regex "${STOPLINE_SANITIZER_EXCLUDE:-$slow_names}" --no-tests=error
 }
 
 step "Packages: installing what is missing"
@@ -56,7 +59,7 @@ build release ON all
 
 if [[ $all == no ]]; then
     step "Release: tests and checks of the sources, without the slow ones"
-    ctest --preset release -j "$jobs" --label-exclude slow --exclude-regex Slow --no-tests=error
+    ctest --preset release -j "$jobs" --label-exclude slow --exclude-regex "$slow_names" --no-tests=error
     printf '\n=== Passed (%d s). Slow tests and sanitizers: tests/run.sh --all\n' "$SECONDS"
     exit 0
 fi

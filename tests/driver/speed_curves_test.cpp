@@ -67,7 +67,7 @@ TEST(StoppingDistance, IsTheClosedForm) {
     EXPECT_EQ(stopping_distance_m(d, 0.0), 0.0);
 }
 
-TEST(SlowDown, ReachesTheLowerLimitWhereItBegins) {
+TEST(Deceleration, ReachesTheLowerLimitWhereItBegins) {
     const DriverTables d = shipped();
     const double end_mps = 7.0;
     for (const double v : {8.0, 10.0, 14.0, 20.0}) {

@@ -55,7 +55,7 @@ TEST(RightOfWay, LeftTurnsDoNotWaitWithoutOncomingTraffic) {
 
 // With a standstill gap of 2.45 m a vehicle stops past the stop line, behind a waiting left-turning vehicle. The
 // opposite left-turning vehicle must not wait for it once the signal is red.
-TEST(RightOfWay, SlowQueueBehindALeftTurnDoesNotHoldUpTheOppositeOne) {
+TEST(RightOfWay, QueueBehindALeftTurnDoesNotHoldUpTheOppositeOne) {
     const Scenario scenario =
         reference({"fidelity=meso", "meso={base: fitted, constant_time: {standstill_gap: 2.45 m}}", "demand.left=15 %",
                    "demand.right=10 %", "signal.green=25 s"});

@@ -1,6 +1,8 @@
 // One run: a constant Model, and a State that the simulation advances step by step. The phases of a step,
 // with what each phase determines or changes, and with its source file:
 //
+//   for the whole network:
+//     signals     lights of all signal groups                                   junction/stop_lines
 //   for each partition:
 //     occupied    lanes with vehicles                                           step/occupied_lanes
 //     perception  leader of the first vehicle of each lane, hidden leaders      perception/look_ahead, hidden_leaders

@@ -38,7 +38,7 @@ TEST(BerlinThreads, ThreadsAndScalarKernelsGiveTheSameBits) {
     }
 }
 
-TEST(BerlinSlow, HasNoViolationsInBothFidelitiesWithThreeAndFourLanes) {
+TEST(SlowBerlin, HasNoViolationsInBothFidelitiesWithThreeAndFourLanes) {
     for (const char* const lanes : {"network.streets=three_lanes", "network.streets=four_lanes"}) {
         for (const char* const fidelity : {"fidelity=meso", "fidelity=full"}) {
             const Scenario scenario = berlin({lanes, fidelity});
