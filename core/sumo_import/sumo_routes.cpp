@@ -172,8 +172,7 @@ private:
         add_named_route(node, std::move(shares));
     }
 
-    // Returns the index of the route with this id. Throws InputError if the id is unknown or names a distribution of
-    // routes.
+    // Returns the index of the route with this id. Throws InputError for an unknown id or the id of a distribution.
     std::size_t known_route(pugi::xml_node node, const std::string& id) const {
         const auto found = named_routes_.find(id);
         if (found == named_routes_.end())
@@ -372,8 +371,7 @@ private:
     }
 
     // Completes partial routes and lists the turns of all routes. A piece is the gap between two given edges. Pieces
-    // that end on the same edge are searched one after the other, because they share the shortest-path tree of the
-    // router.
+    // with the same last edge are searched one after the other, because they share the router's shortest-path tree.
     void complete_routes_and_turns() {
         struct Piece {
             int to;
