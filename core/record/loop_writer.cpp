@@ -30,6 +30,7 @@ class LoopWriter : public RunWriter {
 public:
     LoopWriter(const std::filesystem::path& file, double interval_s, const Model& model)
         : model_(model),
+          step_s_(model.step_s),
           interval_ticks_(std::max<std::int64_t>(to_ticks(interval_s, model.step_s), 1)),
           xml_(file, "detector", "det_e1_file.xsd"),
           loops_(model.detectors.size()) {
@@ -105,8 +106,8 @@ private:
 
     void write_interval(std::int64_t tick) {
         const auto steps = static_cast<double>(tick - interval_begin_);
-        const double from_s = model_.time_s(interval_begin_);
-        const double to_s = model_.time_s(tick);
+        const double from_s = static_cast<double>(interval_begin_) * step_s_;
+        const double to_s = static_cast<double>(tick) * step_s_;
         for (std::size_t k = 0; k < loops_.size(); ++k) {
             if (names_[k].empty()) continue;
             const Loop& loop = loops_[k];
@@ -127,7 +128,8 @@ private:
         interval_begin_ = tick;
     }
 
-    const Model& model_;
+    const Model& model_;  // finish() must not use it
+    double step_s_;
     std::int64_t interval_ticks_;
     XmlFile xml_;
     std::vector<Loop> loops_;  // [detector]

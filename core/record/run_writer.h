@@ -18,7 +18,8 @@ public:
 
     // Records the state. Call it before each step, and once after the last step.
     virtual void observe(const State& state) = 0;
-    // Completes the file and returns a summary of its contents for the user. The model may be destroyed afterwards.
+    // Completes the file and returns a summary of its contents for the user. The simulation and its model may already
+    // be destroyed, so this function must not use them.
     virtual std::string finish() = 0;
 };
 

@@ -60,6 +60,44 @@ STOPLINE_INLINE R next_gear_suffices(const PowertrainTablesOf<Number>& t, const 
     return STOPLINE_FLAG(R, torque_Nm <= 0.95 * interpolate_on_grid(t.full_load_Nm, cell));
 }
 
+// Conditions of a gear change. `locked_rpm` is the engine speed with a closed clutch. `share` is the share of full
+// load.
+template <class R>
+struct GearDemand {
+    R locked_rpm;
+    R share;
+    R wanted_Nm;
+    R full_Nm;
+    R request_brake_N;
+    R next_gear_suffices;  // 1 or 0
+};
+
+// Sets the gear of `next` and the time since the last gear change. `s` is the state before the step. The engine speed
+// of the upshift rises with the load. A car shifts down to accelerate (kick-down) if it needs more than 1.5 times the
+// full-load torque. With a smaller need, the torque interruption would cost more than the lower gear gains.
+template <class R, class Number>
+STOPLINE_INLINE void change_gear(const PowertrainTablesOf<Number>& t, const PowertrainState<R>& s,
+                                 const GearDemand<R>& demand, double dt, PowertrainState<R>& next) {
+    const auto load = clamped(2.5 * demand.share - 1.25, 0.0, 1.0);
+    const auto up_rpm = t.shift_up_part_rpm + load * (t.shift_up_full_rpm - t.shift_up_part_rpm);
+    const R gear_time_over = STOPLINE_FLAG(R, s.gear_time_s + 0.5 * dt >= t.minimum_gear_time_s);
+    const R driving = STOPLINE_FLAG(R, demand.request_brake_N <= 0.0);
+    const R upshift_due = STOPLINE_FLAG(R, demand.locked_rpm > up_rpm) * demand.next_gear_suffices;
+    const R overspeed = STOPLINE_FLAG(R, demand.locked_rpm > t.shift_up_full_rpm);
+    const R up = max_of(upshift_due, overspeed) * gear_time_over * driving * STOPLINE_FLAG(R, s.gear < t.gears - 1.5);
+    const R lower_gear = max_of(s.gear - 1.0, 0.0);
+    const R lower_rpm = s.speed_mps * of_gear(t.rpm_per_mps, lower_gear);
+    const R kick_down = STOPLINE_FLAG(R, demand.wanted_Nm > 1.5 * demand.full_Nm) *
+                        STOPLINE_FLAG(R, lower_rpm < 0.8 * t.shift_up_full_rpm) * gear_time_over;
+    const R too_slow = STOPLINE_FLAG(R, demand.locked_rpm < t.shift_down_rpm) * max_of(gear_time_over, 1.0 - driving);
+    const R down = max_of(kick_down, too_slow) * STOPLINE_FLAG(R, s.gear > 0.5) * (1.0 - up);
+    const R moving = STOPLINE_FLAG(R, next.speed_mps > 0.0);
+    next.gear = moving * (s.gear + up - down);
+    // A gear change while braking interrupts no drive torque, so gear_time_s is not reset.
+    const R keeps_time = 1.0 - (up + down) * driving * moving;
+    next.gear_time_s = keeps_time * min_of(s.gear_time_s + dt, 1000.0);
+}
+
 // Returns the state after dt. `request_mps2` is the desired acceleration, and `grade_N` = m g sin(slope) is positive
 // uphill.
 template <class R, class Number>
@@ -127,28 +165,8 @@ STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTablesOf<Numb
     next.speed_mps = choose(stops_in_step, splat<R>(0.0), speed + moving_mps2 * dt);
     next.acceleration_mps2 = choose(stops_in_step, (0.0 - speed) * (1.0 / dt), moving_mps2);
 
-    // Gear changes. The engine speed of the upshift rises with the load. A car shifts down to accelerate (kick-down) if
-    // it needs more than 1.5 times the full-load torque. With a smaller need, the torque interruption would cost more
-    // than the lower gear gains.
-    const auto load = clamped(2.5 * share - 1.25, 0.0, 1.0);
-    const auto up_rpm = t.shift_up_part_rpm + load * (t.shift_up_full_rpm - t.shift_up_part_rpm);
-    const R gear_time_over = STOPLINE_FLAG(R, s.gear_time_s + 0.5 * dt >= t.minimum_gear_time_s);
-    const R driving = STOPLINE_FLAG(R, request_brake_N <= 0.0);
-    const R next_gear_strong = next_gear_suffices<R>(t, s.gear, speed, request_mps2, resistance_N);
-    const R upshift_due = STOPLINE_FLAG(R, locked_rpm > up_rpm) * next_gear_strong;
-    const R overspeed = STOPLINE_FLAG(R, locked_rpm > t.shift_up_full_rpm);
-    const R up = max_of(upshift_due, overspeed) * gear_time_over * driving * STOPLINE_FLAG(R, s.gear < t.gears - 1.5);
-    const R lower_gear = max_of(s.gear - 1.0, 0.0);
-    const R lower_rpm = speed * of_gear(t.rpm_per_mps, lower_gear);
-    const R kick_down = STOPLINE_FLAG(R, wanted_Nm > 1.5 * full_Nm) *
-                        STOPLINE_FLAG(R, lower_rpm < 0.8 * t.shift_up_full_rpm) * gear_time_over;
-    const R too_slow = STOPLINE_FLAG(R, locked_rpm < t.shift_down_rpm) * max_of(gear_time_over, 1.0 - driving);
-    const R down = max_of(kick_down, too_slow) * STOPLINE_FLAG(R, s.gear > 0.5) * (1.0 - up);
-    const R moving = STOPLINE_FLAG(R, next.speed_mps > 0.0);
-    next.gear = moving * (s.gear + up - down);
-    // A gear change while braking interrupts no drive torque, so gear_time_s is not reset.
-    const R keeps_time = 1.0 - (up + down) * driving * moving;
-    next.gear_time_s = keeps_time * min_of(s.gear_time_s + dt, 1000.0);
+    const R next_gear = next_gear_suffices<R>(t, s.gear, speed, request_mps2, resistance_N);
+    change_gear(t, s, GearDemand<R>{locked_rpm, share, wanted_Nm, full_Nm, request_brake_N, next_gear}, dt, next);
     return next;
 }
 
