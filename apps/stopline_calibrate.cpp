@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "base/input_error.h"
+#include "base/io/data_directory.h"
 #include "base/io/output.h"
 #include "calibration/calibration.h"
 #include "calibration/leader_profile.h"
@@ -47,16 +48,19 @@ struct CalibrateCliOptions {
 };
 
 std::string scenario_file(const char* name) {
-    return (data_directory().parent_path() / "scenarios" / "sweeps" / name)
+    return (std::filesystem::absolute(scenario_directory()) / "sweeps" / name)
+        .lexically_normal()
         .lexically_relative(std::filesystem::current_path())
         .string();
 }
 
 void declare(Options& app, CalibrateCliOptions& options) {
-    app.add("SWEEP", options.timing_sweep,
-            "Sweep file of step I; its scenario needs detectors (default: scenarios/sweeps/calibration.yaml)");
+    app.add(
+        "SWEEP", options.timing_sweep,
+        runnable("Sweep file of step I; its scenario needs detectors (default: scenarios/sweeps/calibration.yaml)"));
     app.add("--metrics-sweep", options.metrics_sweep,
-            "Sweep file of step II, with at least three repetitions (default: scenarios/sweeps/intersection.yaml)")
+            runnable("Sweep file of step II, with at least three repetitions (default: "
+                     "scenarios/sweeps/intersection.yaml)"))
         .type_name("FILE");
     app.add("--step", options.step, "Step to run: I, II or both (default: both)").one_of({"I", "II", "both"});
     app.add("--start", options.start, "Parameters at which the fit starts (default: start)").type_name("NAME|FILE");
@@ -79,6 +83,7 @@ void declare(Options& app, CalibrateCliOptions& options) {
         .range(1, 100'000);
     add_common_options(app, options.common, "Folder for stored runs, tables and figures (default: out/calibration)");
     add_set_option(app, options.common);
+    add_old_column_names_option(app, options.common);
     app.footer(
         runnable(
             "\nEach finished run is stored at once. After an interruption, the same command continues and ends with\n"
@@ -238,9 +243,13 @@ void print_parameters(const std::vector<TimingResult>& results) {
     fmt::print("\n{}", table.text());
 }
 
-void write_all(const std::vector<std::pair<std::string, std::string>>& files, const std::filesystem::path& folder) {
+// Writes tables and other files, and prints their names.
+void write_all(std::vector<std::pair<std::string, std::string>> files, const std::filesystem::path& folder,
+               ColumnNames names) {
     fmt::print("\nWritten to {}\n", folder.string());
-    for (const auto& [name, text] : files) {
+    for (auto& [name, text] : files) {
+        const std::string table = name.starts_with("bands_") ? "bands_NAME.csv" : name;
+        if (name.ends_with(".csv")) text = result_file("calibrate/" + table, name, std::move(text), names).text;
         write_file(folder / name, text);
         fmt::print("  {}\n", name);
     }
@@ -280,7 +289,7 @@ MesoSettings step_one(const CalibrateCliOptions& options, const std::filesystem:
                                           full.sweep.settings().name, full.sweep.base().name, start.name)));
         files.emplace_back("fit_history.csv", history_csv(fit));
     }
-    write_all(files, folder);
+    write_all(std::move(files), folder, column_names(options.common));
     draw_figures(timing_figures(results, cases, fit.history), folder);
     for (const TimingResult& result : results) no_violations = no_violations && result.violations.none();
     no_violations = no_violations && full.totals.runs_with_violations == 0;
@@ -334,7 +343,7 @@ void step_two(const CalibrateCliOptions& options, const std::filesystem::path& f
         "\nStep II: share of {} permutations with the mean of the mesoscale mode in the 95 % band of full dynamics\n",
         checks.back().permutations);
     for (std::size_t k = 0; k < checks.size(); ++k) print_bands(sets[k].first, checks[k]);
-    write_all(files, folder);
+    write_all(std::move(files), folder, column_names(options.common));
     draw_figures(band_figures(checks.back()), folder);
     no_violations = no_violations && full.totals.runs_with_violations == 0;
 }

@@ -12,6 +12,7 @@
 #include "common/progress_bar.h"
 #include "common/results.h"
 #include "common/text_table.h"
+#include "runs/tables/column_aliases.h"
 #include "sumo_export/compare.h"
 #include "sumo_export/export.h"
 
@@ -33,11 +34,13 @@ void declare(Options& app, CompareCliOptions& options) {
         .type_name("NAME");
     app.add("--repetitions", options.repetitions, "Number of runs of each program, each with its own seed")
         .show_default()
-        .range(1, 1000);
+        .range(1, 1000)
+        .type_name("N");
     app.add_flag("--no-figures", options.no_figures, "Do not draw figures");
     app.add("--seed", options.common.seed, "Seed of the first run (default: the scenario's)");
     app.add("--output", options.common.output, "Folder for the results (default: out/NAME_sumo)").type_name("DIR");
     add_set_option(app, options.common);
+    add_old_column_names_option(app, options.common);
     app.footer(
         runnable("\nBoth programs get the same network, signals and vehicles: the vehicles that entered our run, at\n"
                  "the same times and places. On imported networks they get the vehicles of the route files, with\n"
@@ -158,8 +161,9 @@ ExitCode run(const CompareCliOptions& options) {
     fmt::print("\nWritten to {}\n", folder);
     for (const auto& [name, text] : {std::pair{"comparison.csv", comparison_csv(comparison)},
                                      std::pair{"stop_lines.csv", stop_lines_csv(comparison)}}) {
-        write_file(std::filesystem::path(folder) / name, text);
-        fmt::print("  {}\n", name);
+        const ResultFile file = result_file(std::string("compare/") + name, name, text, column_names(options.common));
+        write_file(std::filesystem::path(folder) / file.name, file.text);
+        fmt::print("  {}\n", file.name);
     }
     if (!options.no_figures) {
         draw_figures(comparison_figures(comparison, scenario.title.empty() ? scenario.name : scenario.title), folder);

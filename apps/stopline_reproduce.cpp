@@ -8,13 +8,13 @@
 #include <fmt/ranges.h>
 
 #include "base/input_error.h"
+#include "base/io/data_directory.h"
 #include "common/command_line.h"
 #include "common/examples.h"
 #include "common/program.h"
 #include "common/progress_bar.h"
 #include "paper/report/report.h"
 #include "paper/report/reproduce.h"
-#include "scenario/load_scenario.h"
 
 namespace {
 
@@ -73,11 +73,13 @@ ExitCode run(const ReproduceCliOptions& user) {
     ReproduceOptions options;
     options.section = user.section;
     if (user.quick) options.reductions = Reductions::load(data_directory() / "paper" / "quick.csv");
+    print_warnings(options.reductions.warnings());
     options.folder = !user.output.empty() ? user.output : user.quick ? "out/paper_quick" : "out/paper";
     options.threads = thread_count(user.threads);
     const std::vector<JobResult> jobs = run_with_progress(options);
     const ReportContent content = write_report(options, jobs, command_of(user));
     const Scorecard& scorecard = content.scorecard;
+    print_warnings(scorecard.warnings);
     fmt::print("\n{}{} rows of the paper: {} within tolerance, {} outside, {} open\n",
                content.reduced() ? "REDUCED: " : "", scorecard.rows.size(), scorecard.count(Verdict::inside),
                scorecard.count(Verdict::miss), scorecard.count(Verdict::open));

@@ -46,7 +46,6 @@ struct RunCliOptions {
     std::string file;
     std::string interval = "0.1 s";  // time between the samples of --trajectories
     bool trajectories = false;
-    bool old_column_names = false;
     bool no_figures = false;
     bool describe = false;
     bool describe_markdown = false;
@@ -59,15 +58,13 @@ void declare(Options& app, RunCliOptions& options) {
     app.add("FILE", options.file, runnable("Scenario file (YAML), such as scenarios/single_light.yaml"));
     add_common_options(app, options.common, "Folder for the results (default: out/ and the name of the scenario)");
     add_set_option(app, options.common);
-    app.add_flag(
-        "--trajectories", options.trajectories,
-        "Also write trajectories.csv. Single light: from 5 s before the green to 25 s after it. Single intersection: "
-        "the first measured cycle. Networks: the whole run, or --record-from to --record-until");
+    app.add_flag("--trajectories", options.trajectories,
+                 "Also write trajectories.csv. Single light: from 5 s before the green to 25 s after its end. Single "
+                 "intersection: the first measured cycle. Networks: the whole run, or --record-from to --record-until");
     app.add("--interval", options.interval, "With --trajectories: time between samples (default: 0.1 s)")
         .type_name("TIME");
     add_run_files_options(app, options.files);
-    app.add_flag("--old-column-names", options.old_column_names,
-                 "Write tables with the column and file names of the last release (removed in the next release)");
+    add_old_column_names_option(app, options.common);
     app.add_flag("--no-figures", options.no_figures, "Do not draw figures");
     app.add_flag("--describe", options.describe, "List all fields of scenario files and exit");
     app.add_flag("--describe-markdown", options.describe_markdown,
@@ -117,8 +114,8 @@ void write_tables(const RunCliOptions& options, const Scenario& scenario, std::v
     Provenance provenance;
     provenance.command = command_text("stopline-run", options.file, options.common);
     if (options.trajectories) provenance.command += " --trajectories --interval " + shell_word(options.interval);
-    if (options.old_column_names) provenance.command += " --old-column-names";
-    const ColumnNames names = options.old_column_names ? ColumnNames::old : ColumnNames::current;
+    if (options.common.old_column_names) provenance.command += " --old-column-names";
+    const ColumnNames names = column_names(options.common);
     for (auto& [name, text] : files) {
         const std::string table = table_group(scenario.network) + "/" + name;
         ResultFile file = result_file(table, std::move(name), std::move(text), names);
@@ -256,15 +253,14 @@ ExitCode run(const RunCliOptions& options) {
         throw InputError(runnable("no scenario file given; try: stopline-run scenarios/single_light.yaml (or --help)"));
     }
     const Scenario scenario = load_with_options(options.file, options.common);
-    for (const std::string& line : sumo_warnings(scenario)) fmt::print(stderr, "not read: {}\n", line);
+    for (const std::string& line : sumo_warnings(scenario)) fmt::print(stderr, "SUMO import: {}\n", line);
     if (const std::string warning = sumo_demand_warning(scenario); !warning.empty()) {
         fmt::print(stderr, "warning: {}\n", warning);
     }
     const double interval_s = trajectory_interval_s(options, scenario);
     const std::filesystem::path folder = options.common.output.empty() ? "out/" + scenario.name : options.common.output;
-    if (options.old_column_names) print_warnings({kOldNamesWarning});
     RunFilesOptions files = options.files;
-    files.column_names = options.old_column_names ? ColumnNames::old : ColumnNames::current;
+    files.column_names = column_names(options.common);
     if (options.trajectories && scenario.network.has_several_intersections()) {
         files.trajectories = (folder / "trajectories.csv").string();
         files.trajectory_interval_s = interval_s;
@@ -288,10 +284,14 @@ ExitCode run(const RunCliOptions& options) {
     write_results(options, result, interval_s, folder);
     fmt::print("{}", run_files.finish());
     if (!options.no_figures) draw_figures(single_light_figures(result, load_targets()), folder);
-    fmt::print("{}", runnable("\nNext:\n"
-                              "  another vehicle: add --set vehicle=electric_100kw (all names: stopline-run --list)\n"
-                              "  positions of all vehicles over time: add --trajectories\n"
-                              "  comparison with the paper: stopline-scorecard\n"));
+    const char* const trajectories =
+        options.trajectories ? "" : "  positions of all vehicles over time: add --trajectories\n";
+    fmt::print("{}", runnable(fmt::format("\nNext:\n"
+                                          "  another vehicle: add --set vehicle=electric_100kw (all names: "
+                                          "stopline-run --list)\n"
+                                          "{}"
+                                          "  comparison with the paper: stopline-scorecard\n",
+                                          trajectories)));
     return result.no_violations() ? ExitCode::done : ExitCode::check_failed;
 }
 

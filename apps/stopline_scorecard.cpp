@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 #include <fmt/format.h>
 
+#include "base/io/data_directory.h"
 #include "base/io/output.h"
 #include "common/command_line.h"
 #include "common/examples.h"
@@ -14,7 +15,6 @@
 #include "paper/results_page.h"
 #include "paper/scorecard.h"
 #include "runs/provenance.h"
-#include "scenario/load_scenario.h"
 
 namespace {
 
@@ -110,6 +110,7 @@ ExitCode run(const ScorecardCliOptions& options) {
     const std::filesystem::path folder = options.common.output.empty() ? "out/scorecard" : options.common.output;
     prepare_folder(folder);
     const Scorecard scorecard = score(options, folder);
+    print_warnings(scorecard.warnings);
     const std::string csv = scorecard_csv(scorecard);
     write_file(folder / "scorecard.csv", csv);
     const std::string provenance =

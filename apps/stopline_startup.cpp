@@ -2,11 +2,13 @@
 // It can fit the driver to the measured starts.
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include <fmt/core.h>
 #include <fmt/format.h>
 
 #include "base/input_error.h"
+#include "base/io/data_directory.h"
 #include "base/io/output.h"
 #include "base/nearest_name.h"
 #include "base/units.h"
@@ -19,6 +21,7 @@
 #include "figures/studies/startup_figure.h"
 #include "runs/provenance.h"
 #include "runs/run_populations.h"
+#include "runs/tables/column_aliases.h"
 #include "scenario/load_scenario.h"
 
 namespace stopline {
@@ -38,18 +41,19 @@ struct StartupCliOptions {
 
 void declare(Options& app, StartupCliOptions& options) {
     app.add("FILE", options.file,
-            "Scenario that gives the vehicle and the driver (default: scenarios/single_light.yaml)");
-    app.add("--measured", options.measured,
-            std::string(
-                "Measured starts: CSV with columns t_s and mean_kmh, and optionally ci95_of_mean, p2.5, p97.5 and n "
-                "(default: data/") +
-                kMeasuredStarts + ")");
+            runnable("Scenario that gives the vehicle and the driver (default: scenarios/single_light.yaml)"));
+    app.add(
+        "--measured", options.measured,
+        fmt::format("Measured starts: CSV with columns t_s and mean_kmh, and optionally ci95_of_mean, p2.5, p97.5 and "
+                    "n (default: {})",
+                    (data_directory() / kMeasuredStarts).string()));
     app.add_flag("--fit", options.fit,
                  "Fit the acceleration profile and the speed gain of the driver to the mean of the measured starts");
     app.add("--write", options.write, "With --fit: write the fitted driver to this file (YAML)").type_name("FILE");
     app.add_flag("--no-figures", options.no_figures, "Do not draw figures");
     add_common_options(app, options.common, "Folder for the results (default: out/startup)");
     add_set_option(app, options.common);
+    add_old_column_names_option(app, options.common);
     app.footer(runnable("\nExamples:\n"
                         "  stopline-startup\n"
                         "  stopline-startup --set vehicle=electric_100kw --output out/startup_electric\n"
@@ -96,12 +100,16 @@ void fit_driver(const StartupCliOptions& options, const StartupCurve& curve, Sce
 std::string command_of(const StartupCliOptions& options) {
     std::string command = command_text("stopline-startup", options.file, options.common);
     if (!options.measured.empty()) command += " --measured " + shell_word(options.measured);
+    if (options.common.old_column_names) command += " --old-column-names";
     return command + (options.fit ? " --fit" : "");
 }
 
 void write_results(const StartupCliOptions& options, const Scenario& scenario, const StartupReport& report) {
     const std::filesystem::path folder = options.common.output.empty() ? "out/startup" : options.common.output;
-    const Figure figure = startup_figure(report);
+    Figure figure = startup_figure(report);
+    for (auto& [name, text] : figure.data) {
+        text = result_file("startup/" + name, name, std::move(text), column_names(options.common)).text;
+    }
     Provenance provenance;
     provenance.command = command_of(options);
     prepare_folder(folder);
@@ -125,10 +133,8 @@ void write_results(const StartupCliOptions& options, const Scenario& scenario, c
 ExitCode run(const StartupCliOptions& options) {
     if (!options.write.empty() && !options.fit) throw InputError("--write needs --fit; add --fit to fit a driver");
     if (!options.write.empty()) prepare_folder(std::filesystem::absolute(options.write).parent_path());
-    const std::filesystem::path default_scenario =
-        (data_directory() / "../scenarios/single_light.yaml").lexically_normal();
-    Scenario scenario =
-        load_with_options(options.file.empty() ? default_scenario.string() : options.file, options.common);
+    Scenario scenario = load_with_options(
+        options.file.empty() ? (scenario_directory() / "single_light.yaml").string() : options.file, options.common);
     const StartupCurve curve = load_startup_curve(measured_file(options));
     if (options.fit) fit_driver(options, curve, scenario);
     const StartupReport report = report_startup(scenario, curve);

@@ -13,6 +13,7 @@
 
 #include "base/input_error.h"
 #include "base/io/csv.h"
+#include "base/io/data_directory.h"
 #include "base/io/output.h"
 #include "common/command_line.h"
 #include "common/examples.h"
@@ -42,7 +43,6 @@ struct SweepCliOptions {
     std::string file;
     std::string shard = "1/1";
     std::string rank_timeout = "60 s";
-    bool old_column_names = false;
     bool list = false;
     bool describe = false;
 
@@ -61,8 +61,7 @@ void declare(Options& app, SweepCliOptions& options) {
     app.add("--rank-timeout", options.rank_timeout,
             "With mpirun --enable-recovery: silence after which a rank counts as dead (default: 60 s)")
         .type_name("TIME");
-    app.add_flag("--old-column-names", options.old_column_names,
-                 "Write tables with the column names of the last release (removed in the next release)");
+    add_old_column_names_option(app, options.common);
     app.add_flag("--list", options.list, "List all runs as CSV and exit");
     app.add_flag("--describe", options.describe, "List all fields of sweep files and exit");
     options.merge =
@@ -84,7 +83,8 @@ void declare(Options& app, SweepCliOptions& options) {
             "  stopline-sweep merge --output out/joined out/shards/*.sqlite\n"
             "  mpirun --oversubscribe -n 3 stopline-sweep scenarios/sweeps/single_light.yaml --output out/ranks\n"
             "With mpirun, rank 0 distributes the runs and the other ranks execute them.\n\n"
-            "Next: open NAME.csv. It has one row per run; rows with equal axes differ in their seed.\n\n") +
+            "Next: open NAME_means.csv, the means over the seeds. A sweep with one seed has only NAME.csv, with one\n"
+            "row per run.\n\n") +
         kExitCodesText);
 }
 
@@ -233,41 +233,55 @@ ExitCode report_failures(const PreparedSweep& work, const SweepSession& session)
     return ExitCode::check_failed;
 }
 
+// Returns true if the sweep varies the reference intersection of the paper.
+bool is_of_reference_intersection(const Sweep& sweep) {
+    const std::filesystem::path reference = data_directory() / ".." / "scenarios" / "intersection.yaml";
+    std::error_code ignored;
+    return std::filesystem::equivalent(sweep.settings().scenario, reference.lexically_normal(), ignored);
+}
+
+// Prints the counts that test two statements of the paper. Leaves out a line if the sweep has nothing to count.
 void print_throughput_trends(const ThroughputTrends& trends) {
     const std::string largest =
         trends.rises == 0 ? ""
                           : fmt::format(", by up to {:.1f} % ({})", trends.largest_rise_percent, trends.largest_rise);
-    fmt::print("  throughput: falls in {} of {} steps to a larger turn ratio, rises in {}{}\n",
-               trends.steps - trends.rises, trends.steps, trends.rises, largest);
-    fmt::print("  throughput: grows more than in proportion to the share of CDG at {} of {} points\n",
-               trends.points - trends.above_line, trends.points);
-}
-
-ColumnNames column_names(const SweepCliOptions& options) {
-    if (!options.old_column_names) return ColumnNames::current;
-    print_warnings({kOldNamesWarning});
-    return ColumnNames::old;
+    if (trends.steps > 0) {
+        fmt::print("  throughput: falls in {} of {} steps to a larger turn ratio, rises in {}{}\n",
+                   trends.steps - trends.rises, trends.steps, trends.rises, largest);
+    }
+    if (trends.points > 0) {
+        fmt::print("  throughput: grows more than in proportion to the share of CDG at {} of {} points\n",
+                   trends.points - trends.above_line, trends.points);
+    }
 }
 
 // Writes the means over seeds, the figures, and Table 1 of the paper. Leaves out each of these outputs for which the
-// sweep lacks an axis.
-void draw_results(const Sweep& sweep, const std::string& csv, const std::filesystem::path& file, ColumnNames names) {
+// sweep lacks an axis. Only sweeps of the paper's intersection get Table 1. Returns the sentences that name the file to
+// open next.
+std::string draw_results(const Sweep& sweep, const std::string& csv, const std::filesystem::path& file,
+                         ColumnNames names) {
     const CsvTable results = parse_csv(csv, file.string());
+    std::string next = fmt::format("open {}. It has one row per run.", file.string());
     if (has_seeds(results)) {
         const ResultFile means = result_file("sweep/NAME_means.csv", file.stem().string() + "_means.csv",
                                              seed_means_csv(results, sweep.population_column()), names);
         write_file(file.parent_path() / means.name, means.text);
         fmt::print("  {}\n", means.name);
+        next = fmt::format("open {}. It has the means over the seeds, with confidence intervals.",
+                           (file.parent_path() / means.name).string());
     }
     const std::string note = network_sweep_note(results, sweep.titles(), sweep.population_column());
     if (!note.empty()) fmt::print("  {}\n", note);
     const std::vector<Figure> figures = network_sweep_figures(results, sweep.titles(), sweep.population_column());
     if (!figures.empty()) draw_figures(figures, file.parent_path());
-    if (!has_turns(results)) return;
-    write_file(file.parent_path() / "table1.csv", table1_csv(results, load_targets()));
-    fmt::print("  table1.csv\n");
-    print_throughput_trends(throughput_trends(results));
+    if (!has_turns(results)) return next;
+    if (is_of_reference_intersection(sweep)) {
+        write_file(file.parent_path() / "table1.csv", table1_csv(results, load_targets()));
+        fmt::print("  table1.csv\n");
+        print_throughput_trends(throughput_trends(results));
+    }
     draw_figures(turn_figures(results), file.parent_path());
+    return next;
 }
 
 ExitCode finish(PreparedSweep& work, const SweepSession& session, const std::string& workers, ColumnNames names) {
@@ -289,9 +303,8 @@ ExitCode finish(PreparedSweep& work, const SweepSession& session, const std::str
                    work.shard.count, program_command("stopline-sweep"), shell_word(folder + "_joined"),
                    shell_word(folder));
     } else {
-        draw_results(work.sweep, table.csv, work.files.table, names);
-        fmt::print("\nNext: open {}. It has one row per run; rows with equal axes differ in their seed.\n",
-                   work.files.table.string());
+        const std::string next = draw_results(work.sweep, table.csv, work.files.table, names);
+        fmt::print("\nNext: {}\n", next);
     }
     return table.totals.runs_with_violations == 0 ? ExitCode::done : ExitCode::check_failed;
 }
@@ -341,14 +354,14 @@ ExitCode run_sweep(const SweepCliOptions& options, Ranks& ranks) {
     }
     const std::string workers = ranks.count() > 1 ? fmt::format("{} ranks", ranks.count() - 1)
                                                   : fmt::format("{} thread{}", threads, threads == 1 ? "" : "s");
-    return finish(*work, session, workers, column_names(options));
+    return finish(*work, session, workers, column_names(options.common));
 }
 
 ExitCode merge(const SweepCliOptions& options) {
     const std::filesystem::path folder = options.merge_output;
     prepare_folder(folder);
     const MergedSweep merged =
-        merge_stores({options.stores.begin(), options.stores.end()}, folder, column_names(options));
+        merge_stores({options.stores.begin(), options.stores.end()}, folder, column_names(options.common));
     print_warnings(merged.table.warnings);
     fmt::print("{} stores joined\n{}\nWritten to {}\n", options.stores.size(), totals_text(merged.table.totals),
                folder.string());

@@ -9,6 +9,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "base/io/data_directory.h"
 #include "common/program.h"
 #include "scenario/build_model.h"
 #include "scenario/load_scenario.h"
@@ -26,7 +27,7 @@ constexpr int kWarmUpSteps = 10;
 constexpr int kSteps = 100;  // number of measured steps, 1 s in total; no vehicle leaves the network meanwhile
 
 Model queue_model(int vehicles) {
-    Scenario scenario = load_scenario(data_directory() / "../scenarios/single_light.yaml");
+    Scenario scenario = load_scenario(scenario_directory() / "single_light.yaml");
     scenario.network.approach.lanes = std::max(1, vehicles / kVehiclesPerLane);
     scenario.network.approach.length_m = 800.0;
     scenario.network.approach.exit_length_m = 2000.0;

@@ -9,6 +9,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "base/io/data_directory.h"
 #include "base/simd/simd.h"
 #include "benchmark/full_step_benchmark.h"
 #include "common/program.h"
@@ -27,7 +28,7 @@ constexpr int kSteps = 1000;       // number of measured steps: 100 s, about two
 constexpr double kWarmUp_s = 100;  // by then vehicles fill all legs of the intersection
 
 Model intersection_model() {
-    return build_model(load_scenario(data_directory() / "../scenarios/intersection.yaml", {"fidelity=meso"}), 0);
+    return build_model(load_scenario(scenario_directory() / "intersection.yaml", {"fidelity=meso"}), 0);
 }
 
 // A platoon of kFollowers vehicles. The benchmarks compute its step again and again.

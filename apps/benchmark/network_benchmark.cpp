@@ -13,6 +13,7 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
+#include "base/io/data_directory.h"
 #include "benchmark/full_step_benchmark.h"
 #include "common/program.h"
 #include "runs/network/network_run.h"
@@ -29,7 +30,7 @@ constexpr int kQueuedVehicles = 12;    // queued vehicles on each lane between t
 constexpr double kSignalCycle_s = 46.0;
 
 Scenario grid_scenario(int side) {
-    return load_scenario(data_directory() / "../scenarios/grid.yaml",
+    return load_scenario(scenario_directory() / "grid.yaml",
                          {fmt::format("network.grid.columns={}", side), fmt::format("network.grid.rows={}", side)});
 }
 

@@ -43,7 +43,7 @@ void add_common_options(Options& app, CommonOptions& options, const std::string&
     app.add("--threads", options.threads, "Number of threads (default: all processors). Results do not depend on it")
         .range(1, 1024)
         .type_name("N");
-    app.add("--seed", options.seed, "Seed of all random numbers (default: the scenario's)").type_name("S");
+    app.add("--seed", options.seed, "Seed of all random numbers (default: the scenario's)");
     app.add("--output", options.output, output_help).type_name("DIR");
 }
 
@@ -53,6 +53,17 @@ void add_set_option(Options& app, CommonOptions& options) {
                      "stopline-run --describe lists all fields"))
         .type_name("PATH=VALUE")
         .one_value_each();
+}
+
+void add_old_column_names_option(Options& app, CommonOptions& options) {
+    app.add_flag("--old-column-names", options.old_column_names,
+                 "Write tables with the column and file names of the last release (removed in the next release)");
+}
+
+ColumnNames column_names(const CommonOptions& options) {
+    if (!options.old_column_names) return ColumnNames::current;
+    print_warnings({kOldNamesWarning});
+    return ColumnNames::old;
 }
 
 void print_warnings(const std::vector<std::string>& warnings) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/options.h"
+#include "runs/tables/column_aliases.h"
 #include "scenario/scenario.h"
 
 namespace stopline {
@@ -18,6 +19,7 @@ struct CommonOptions {
     std::string output;
 
     std::vector<std::string> settings;  // values of --set
+    bool old_column_names = false;      // true: tables have the names of the last release
 };
 
 // Adds --threads, --seed and --output.
@@ -25,6 +27,11 @@ void add_common_options(Options& app, CommonOptions& options, const std::string&
 
 // Adds --set, which can be repeated.
 void add_set_option(Options& app, CommonOptions& options);
+
+// Adds --old-column-names.
+void add_old_column_names_option(Options& app, CommonOptions& options);
+// Returns the kind of names for the result tables. Warns on standard error of old names.
+ColumnNames column_names(const CommonOptions& options);
 
 // Prints warnings on standard error, with "warning: " before each. Skips warnings that it has printed before.
 void print_warnings(const std::vector<std::string>& warnings);
@@ -39,7 +46,8 @@ void set_mesoscale(const char* program, CommonOptions& options);
 // Returns `text` quoted for a shell.
 std::string shell_word(const std::string& text);
 
-// Returns the command that reproduces the results. It omits --threads and --output, which do not affect the results.
+// Returns the command that reproduces the results. It omits --threads and --output, which do not affect the results,
+// and --old-column-names.
 std::string command_text(const std::string& program, const std::string& file, const CommonOptions& options);
 
 // Returns a list of names for scenario files: policies, spacing laws, vehicles, drivers and streets. If `file` is not

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "base/io/data_directory.h"
 #include "common/command_line.h"
-#include "scenario/load_scenario.h"
 
 namespace stopline {
 

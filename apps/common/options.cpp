@@ -1,6 +1,9 @@
 #include "common/options.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
 #include "base/version.h"
@@ -34,12 +37,23 @@ Option& Option::type_name(const std::string& name) {
 }
 
 Option& Option::range(int low, int high) {
-    option_->check(CLI::Range(low, high));
+    const auto problem_of = [low, high](const std::string& text) -> std::string {
+        const ParsedWhole number = parse_whole(text);
+        const auto min = static_cast<std::uint64_t>(low);
+        const auto max = static_cast<std::uint64_t>(high);
+        if (number.problem.empty() && number.value >= min && number.value <= max) return "";
+        return fmt::format("value '{}' is not allowed; give a whole number from {} to {}", text, low, high);
+    };
+    option_->check(problem_of, fmt::format("{} to {}", low, high));
     return *this;
 }
 
 Option& Option::one_of(const std::vector<std::string>& texts) {
-    option_->check(CLI::IsMember(texts));
+    const auto problem_of = [texts](const std::string& text) -> std::string {
+        if (std::find(texts.begin(), texts.end(), text) != texts.end()) return "";
+        return fmt::format("value '{}' is not allowed; allowed: {}", text, fmt::join(texts, ", "));
+    };
+    option_->check(problem_of, fmt::format("{{{}}}", fmt::join(texts, ",")));
     return *this;
 }
 
@@ -75,8 +89,8 @@ Option Options::add(const std::string& names, int& value, const std::string& hel
 }
 
 Option Options::add(const std::string& names, std::optional<std::uint64_t>& value, const std::string& help) {
-    return Option(app_->add_option_function<std::string>(
-        names, [&value, names](const std::string& text) { value = parse_seed(names, text); }, help));
+    const auto store = [&value, names](const std::string& text) { value = parse_seed(names, text); };
+    return Option(app_->add_option_function<std::string>(names, store, help)).type_name("S");
 }
 
 Option Options::add(const std::string& names, std::vector<std::string>& values, const std::string& help) {

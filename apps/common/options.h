@@ -24,7 +24,7 @@ public:
     Option& required();
     // Sets the placeholder of the value in the help text, such as FILE.
     Option& type_name(const std::string& name);
-    // Accepts only whole numbers from `low` to `high`.
+    // Accepts only whole numbers from `low` to `high`, which must not be negative.
     Option& range(int low, int high);
     // Accepts only the given texts as value.
     Option& one_of(const std::vector<std::string>& texts);
@@ -52,6 +52,7 @@ public:
     // Adds an option or a positional argument. `names` follows CLI11: "--output", "FILE", "-n,--name".
     Option add(const std::string& names, std::string& value, const std::string& help);
     Option add(const std::string& names, int& value, const std::string& help);
+    // Adds an option for a seed, which is a whole number.
     Option add(const std::string& names, std::optional<std::uint64_t>& value, const std::string& help);
     Option add(const std::string& names, std::vector<std::string>& values, const std::string& help);
     // Adds an option without a value. `value` becomes true if the user gives the option.

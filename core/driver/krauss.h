@@ -1,7 +1,8 @@
 // Car following of the mesoscale mode: computes the speed of the next step from the state at the start of the step.
 //
 // For policies with the law constant_time this is the model of Krauss (1998, "Microscopic modeling of traffic flow",
-// chapter 5). Its safe speed is solved for the gap s as in SUMO, with v_l the speed of the leader:
+// chapter 5). Its condition for safe driving is solved for the speed, as in SUMO. At a net gap s behind a leader with
+// the speed v_l, the safe speed is (struct Krauss explains the other symbols):
 //
 //   v_safe = -b tau + sqrt(b^2 tau^2 + v_l^2 + 2 b (s - s_0))
 //

@@ -65,13 +65,15 @@ Figure intersection_picture(const IntersectionReport& report, std::size_t popula
         figure.data.emplace_back(fmt::format("intersection_vehicles_{}.dat", k),
                                  vehicles_data(figures.snapshot, static_cast<int>(k)));
     }
+    const std::size_t populations = report.populations.size();
+    const std::string others = populations > 1 ? fmt::format(" (one of {} populations)", populations) : "";
     const double shown_m = layout.radius_m + std::min({layout.approach_length_m, layout.exit_length_m, 80.0});
     figure.body = fmt::format(
         "set title {0}\nset size ratio -1\nunset grid\nset xlabel 'distance east of the centre [m]'\nset ylabel 'distance north of the "
         "centre [m]'\nset xrange [-{1:.6g}:{1:.6g}]\nset yrange [-{1:.6g}:{1:.6g}]\nset key outside above center horizontal "
         "maxcols 4\n",
-        gnuplot_text(
-            fmt::format("Population {}, {:.0f} s after the start of the run", figures.population, figures.snapshot_s)),
+        gnuplot_text(fmt::format("Population {}{}, {:.0f} s after the start of the run", figures.population, others,
+                                 figures.snapshot_s)),
         shown_m);
     for (std::size_t k = 0; k < scenario.measure.zone_radius_m.size(); ++k) {
         figure.body += fmt::format("set object {} circle at 0,0 size {:.6g} fs empty border lc rgb '#999999' dt 3\n",

@@ -19,7 +19,7 @@ constexpr std::array<const char*, 4> kPanels{"throughput [veh/h]", "travel time 
 
 // One point of the curves of a population.
 struct SeriesPoint {
-    double hours = 0.0;
+    double minutes = 0.0;
     std::array<double, kPanels.size()> values{};  // [panel] the travel time is NaN if no vehicle left the area
 };
 
@@ -40,7 +40,7 @@ std::vector<SeriesPoint> points_of(const std::vector<NetworkInterval>& series) {
         const double from_s = series[i].area.window.from_s;
         const double length_s = static_cast<double>(group) * series[i].area.window.length_s();
         points.push_back(
-            {(from_s + 0.5 * length_s) / 3600.0,
+            {(from_s + 0.5 * length_s) / 60.0,
              {exited * 3600.0 / length_s, exited > 0.0 ? travel_s / exited : std::numeric_limits<double>::quiet_NaN(),
               100.0 * occupied, teleported}});
     }
@@ -52,11 +52,11 @@ std::string number_or_nan(double value, int decimals) {
 }
 
 std::string data_of(const std::vector<SeriesPoint>& points) {
-    std::string text = "# hours throughput travel_time density teleported\n";
+    std::string text = "# minutes throughput travel_time density teleported\n";
     for (const SeriesPoint& point : points) {
         const auto& [throughput, travel_time, density, teleported] = point.values;
-        text += fmt::format("{:.4f} {:.1f} {} {:.3f} {:.0f}\n", point.hours, throughput, number_or_nan(travel_time, 2),
-                            density, teleported);
+        text += fmt::format("{:.3f} {:.1f} {} {:.3f} {:.0f}\n", point.minutes, throughput,
+                            number_or_nan(travel_time, 2), density, teleported);
     }
     return text;
 }
@@ -90,13 +90,13 @@ std::string marks_of(const NetworkReport& report) {
         text += fmt::format(
             "set object 1 rectangle from first {:.4f},graph 0 to first {:.4f},graph 1 behind fc rgb '#f2f2f2' fs solid "
             "noborder\n",
-            window.from_s / 3600.0, window.to_s / 3600.0);
+            window.from_s / 60.0, window.to_s / 60.0);
     }
     for (const NetworkResult& f : report.populations) {
         if (!f.collapse_s) continue;
         text += fmt::format(
             "set arrow from first {0:.4f},graph 0 to first {0:.4f},graph 1 nohead lw 1.5 lc rgb '{1}' dt 3\n",
-            *f.collapse_s / 3600.0, style_of(report.scenario, f.population).colour);
+            *f.collapse_s / 60.0, style_of(report.scenario, f.population).colour);
     }
     return text;
 }
@@ -121,14 +121,14 @@ Figure network_series_figure(const NetworkReport& report) {
         drawn = std::max(drawn, all.back().size());
     }
     if (drawn == 0) figure.nothing = no_interval_text(report.scenario);
-    body += fmt::format("set xrange [0:{:g}]\n", report.scenario.duration_s / 3600.0) + marks_of(report);
+    body += fmt::format("set xrange [0:{:g}]\n", report.scenario.duration_s / 60.0) + marks_of(report);
     for (std::size_t panel = 0; panel < kPanels.size(); ++panel) {
         const bool last = panel + 1 == kPanels.size();
         const std::string note = fmt::format("Shaded: measured window{}. Dotted: breakdown. Points: {}{}.",
                                              window_owner(report), points_text(intervals, interval_s),
                                              intervals_per_point(intervals) > 1 ? " (teleported: sums)" : "");
         body += last ? fmt::format(
-                           "set xlabel 'time [h]'\nset format x '%g'\n"
+                           "set xlabel 'time [min]'\nset format x '%g'\n"
                            "set label {} at screen 0.47,0.015 center font ',11' tc rgb '#404040'\n",
                            gnuplot_text(note))
                      : "unset xlabel\nset format x ''\n";

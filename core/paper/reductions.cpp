@@ -9,7 +9,7 @@
 #include "base/input_error.h"
 #include "base/io/csv.h"
 #include "base/io/output.h"
-#include "reference/targets.h"
+#include "runs/tables/column_aliases.h"
 
 namespace stopline {
 
@@ -51,10 +51,11 @@ void keep(SweepSettings& sweep, const Reductions::Row& row) {
 }  // namespace
 
 Reductions Reductions::load(const std::filesystem::path& file) {
-    const CsvTable table = parse_csv(read_file(file), file.string());
+    Reductions reductions;
+    CsvTable table = parse_csv(read_file(file), file.string());
+    reductions.warnings_ = use_current_column_names("data/paper/quick.csv", table);
     const std::size_t applies_to = table.column("applies_to"), field = table.column("field"),
                       value = table.column("value");
-    Reductions reductions;
     for (std::size_t k = 0; k < table.rows.size(); ++k) {
         const std::vector<std::string>& row = table.rows[k];
         const auto number = parse_number(row[value]);

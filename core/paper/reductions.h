@@ -27,6 +27,8 @@ public:
     static Reductions load(const std::filesystem::path& file);
 
     const std::vector<Row>& rows() const { return rows_; }
+    // Returns one line for each old column name in the file.
+    const std::vector<std::string>& warnings() const { return warnings_; }
 
     // Returns the scenario fields that the reductions change, each as "PATH=VALUE", for load_scenario().
     std::vector<std::string> settings(const std::string& applies_to) const;
@@ -37,6 +39,7 @@ public:
 
 private:
     std::vector<Row> rows_;
+    std::vector<std::string> warnings_;
 };
 
 }  // namespace stopline

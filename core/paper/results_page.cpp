@@ -4,22 +4,13 @@
 
 #include <fmt/format.h>
 
+#include "base/io/escape.h"
 #include "paper/headlines.h"
 #include "paper/row_text.h"
 
 namespace stopline {
 
 namespace {
-
-// Returns `text` as a Markdown table cell: special characters escaped, line breaks replaced with spaces.
-std::string cell(const std::string& text) {
-    std::string escaped;
-    for (const char c : text) {
-        if (c == '|' || c == '<' || c == '*' || c == '_') escaped += '\\';
-        escaped += c == '\n' ? ' ' : c;
-    }
-    return escaped;
-}
 
 std::string verdict_text(Verdict verdict) {
     if (verdict == Verdict::inside) return "inside";
@@ -52,9 +43,9 @@ std::string section_table(const Scorecard& scorecard, const std::string& section
         const Target& target = row.target;
         if (main_section(target.section) != section) continue;
         text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", target.id, quantity_text(row),
-                            cell(target.condition), cell(target.value), cell(row.ours),
-                            target.unit == "-" ? "" : target.unit, difference_text(row), tolerance_text(target),
-                            verdict_text(row.verdict), cell(row.explanation));
+                            escape_markdown_cell(target.condition), escape_markdown_cell(target.value),
+                            escape_markdown_cell(row.ours), target.unit == "-" ? "" : target.unit, difference_text(row),
+                            tolerance_text(target), verdict_text(row.verdict), escape_markdown_cell(row.explanation));
     }
     return text;
 }

@@ -12,9 +12,11 @@
 
 #include "base/input_error.h"
 #include "base/io/csv.h"
+#include "base/io/data_directory.h"
 #include "base/io/output.h"
 #include "paper/comparison_figure.h"
 #include "paper/sections/scorecard_sections.h"
+#include "runs/tables/column_aliases.h"
 #include "scenario/load_scenario.h"
 
 namespace stopline {
@@ -117,7 +119,7 @@ Scenario scenario_of(const Experiment& experiment, const ScorecardOptions& optio
     std::vector<std::string> settings = options.reductions.settings(std::string("scenarios/") + experiment.scenario);
     settings.insert(settings.end(), options.settings.begin(), options.settings.end());
     const std::string file = std::string(experiment.scenario) + ".yaml";
-    return load_scenario(data_directory().parent_path() / "scenarios" / file, settings);
+    return load_scenario(scenario_directory() / file, settings);
 }
 
 std::vector<std::string> commands_behind(const std::vector<ScoredRow>& rows) {
@@ -158,9 +160,9 @@ Scorecard make_scorecard(const ScorecardOptions& options) {
 }
 
 Scorecard score(const std::string& section, const std::map<std::string, Measurements>& measured) {
-    const std::map<std::string, Explanation> explanations =
-        load_explanations(data_directory() / "paper" / "explanations.csv");
     Scorecard scorecard;
+    const std::map<std::string, Explanation> explanations =
+        load_explanations(data_directory() / "paper" / "explanations.csv", scorecard.warnings);
     for (const Target& target : targets_in_section(section)) {
         ScoredRow row{target, "", Verdict::open, "", ""};
         const RowJudge* const judge_row = judge_of(target.id);
@@ -194,8 +196,10 @@ std::string scorecard_csv(const Scorecard& scorecard) {
     return csv.text();
 }
 
-std::map<std::string, Explanation> load_explanations(const std::filesystem::path& file) {
-    const CsvTable table = parse_csv(read_file(file), file.string());
+std::map<std::string, Explanation> load_explanations(const std::filesystem::path& file,
+                                                     std::vector<std::string>& warnings) {
+    CsvTable table = parse_csv(read_file(file), file.string());
+    warnings = use_current_column_names("data/paper/explanations.csv", table);
     const std::size_t id = table.column("id");
     const std::size_t measured_as = table.column("measured_as");
     const std::size_t explanation = table.column("explanation");

@@ -78,6 +78,7 @@ struct Scorecard {
     // Number of violations, summed over all experiments: overlaps of vehicles, entries on red, and lost vehicles. Some
     // experiments count every violation. Other experiments count the runs that have violations.
     double violations = 0.0;
+    std::vector<std::string> warnings;  // one line for each old column name in explanations.csv
     int count(Verdict verdict) const;
 };
 
@@ -100,8 +101,10 @@ struct Explanation {
     std::string measured_as;  // how we measure the quantity
     std::string explanation;  // why our value deviates; used if the verdict is 'miss'
 };
-// Loads the explanations. Returns a map from row id to explanation.
-std::map<std::string, Explanation> load_explanations(const std::filesystem::path& file);
+// Loads the explanations. Returns a map from row id to explanation. Sets `warnings` to one line for each old column
+// name in the file.
+std::map<std::string, Explanation> load_explanations(const std::filesystem::path& file,
+                                                     std::vector<std::string>& warnings);
 
 // Returns the commands that repeat the runs behind `rows` and write their tables and figures. There is one command for
 // each section of the paper, and for each part of Section VI. If sections share a command, it is listed once.

@@ -9,8 +9,8 @@
 
 #include "base/input_error.h"
 #include "base/io/csv.h"
+#include "base/io/data_directory.h"
 #include "base/io/output.h"
-#include "scenario/load_scenario.h"
 
 namespace stopline {
 

@@ -1,4 +1,4 @@
-// Loads the file data/paper/targets.csv. Each row holds one input, result or claim of the paper.
+// Loads the file data/paper/targets.csv. Each row holds one input, target or claim of the paper.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@ struct Target {
     std::string id;        // identifier of the row, such as L01
     std::string section;   // section of the paper, such as III.E or IV Table 1
     std::string scenario;  // scenario or experiment that gives the value; '-': none
-    std::string kind;      // input, target, claim
+    std::string kind;      // input: assumed value; target: numerical result; claim: statement in words
     std::string quantity;
     std::string condition;  // population and settings; for an input: the objects that have the value
     std::string value;      // value in the paper: a number, a range 'low..high', or the text of a claim

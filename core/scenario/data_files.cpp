@@ -1,19 +1,15 @@
 #include "scenario/data_files.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <system_error>
 #include <vector>
 
 #include "base/input_error.h"
+#include "base/io/data_directory.h"
 #include "base/nearest_name.h"
 #include "scenario/load_scenario.h"
 #include "scenario/yaml/yaml_source.h"
-
-#ifndef STOPLINE_SOURCE_DATA_DIR
-#define STOPLINE_SOURCE_DATA_DIR "data"
-#endif
 
 namespace stopline {
 namespace {
@@ -24,25 +20,7 @@ bool is_path(const std::string& reference) {
     return reference.find('/') != std::string::npos || reference.ends_with(".yaml");
 }
 
-// Returns the folder PREFIX/share/stopline/data of a program that is installed in PREFIX/bin. Returns an empty path if
-// this folder does not exist.
-std::filesystem::path installed_data_directory() {
-    std::error_code error;
-    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-    if (error) return {};
-    const std::filesystem::path folder = program.parent_path().parent_path() / "share" / "stopline" / "data";
-    return std::filesystem::is_directory(folder, error) ? folder : std::filesystem::path();
-}
-
 }  // namespace
-
-std::filesystem::path data_directory() {
-    // No thread changes the environment, so reading it is safe.
-    const char* const chosen = std::getenv("STOPLINE_DATA");  // NOLINT(concurrency-mt-unsafe)
-    if (chosen != nullptr && *chosen != '\0') return chosen;
-    static const std::filesystem::path kInstalled = installed_data_directory();
-    return kInstalled.empty() ? STOPLINE_SOURCE_DATA_DIR : kInstalled;
-}
 
 std::vector<std::string> data_names(const std::string& folder) {
     std::vector<std::string> names;

@@ -42,10 +42,6 @@ std::vector<GapPolicySettings> load_policies(const std::string& name_or_path = "
 MesoSettings load_meso(const std::string& name_or_path, const std::filesystem::path& directory = ".",
                        std::vector<std::string>* warnings = nullptr);
 
-// Returns the folder of the shipped data: the environment variable STOPLINE_DATA if it is set, else the data folder of
-// the installation, else the data folder of the source tree.
-std::filesystem::path data_directory();
-
 // Returns the sorted names of the files in a folder of the data directory, such as "vehicles", without extension.
 std::vector<std::string> data_names(const std::string& folder);
 

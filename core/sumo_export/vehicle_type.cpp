@@ -3,9 +3,9 @@
 namespace stopline {
 
 void add_vehicle_type(XmlFile& xml, const Model& model, std::size_t policy, const VehicleTypeText& type) {
-    // The vehicles of an initial queue stand at exactly the policy's standstill gap. SUMO does not insert a vehicle
-    // with a gap below minGap, and rounded positions in the file can make the gap slightly smaller. So minGap is
-    // reduced by this margin.
+    // In an initial queue, the gap between two vehicles equals the standstill gap of the policy. SUMO does not insert a
+    // vehicle with a gap below minGap, and rounded positions in the file can make the gap slightly smaller. So minGap
+    // is reduced by this margin.
     constexpr double kRounding_m = 0.001;
     const Krauss& k = model.krauss[policy];
     xml.add(

@@ -26,5 +26,9 @@ TEST(EscapeXml, ReplacesMarkupAndForbiddenCharacters) {
               "e");
 }
 
+TEST(EscapeMarkdownCell, ReplacesMarkupAndLineBreaks) {
+    EXPECT_EQ(escape_markdown_cell("a|b *c*\n<A11> no_turns"), "a\\|b \\*c\\* \\<A11> no_turns");
+}
+
 }  // namespace
 }  // namespace stopline

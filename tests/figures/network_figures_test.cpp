@@ -54,6 +54,8 @@ TEST(StreetFigures, AreDrawnForFewIntervals) {
         for (const Figure& figure : {network_series_figure(report), inflow_figure(report), backlog_figure(report)}) {
             EXPECT_EQ(figure.nothing.empty() ? error_of(figure) : "", "") << duration;
         }
+        EXPECT_TRUE(contains(backlog_figure(report).body, "unset label\n"))
+            << "gnuplot would draw the note with each panel";
         EXPECT_EQ(inflow_figure(report).nothing.empty(), std::string(duration) != "30 s") << duration;
     }
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/io/data_directory.h"
 #include "scenario/load_scenario.h"
 #include "scenario/scenario_text.h"
 #include "scenario/sweep_file/load_sweep.h"
@@ -58,9 +59,19 @@ TEST(Reductions, RefuseUnknownAxesAndValues) {
     EXPECT_NE(error("sweeps/grid,repetitions,\n").find("quick.csv:2"), std::string::npos);
 }
 
+TEST(Reductions, AreReadWithTheOldColumnName) {
+    const TemporaryFolder folder;
+    const Reductions reductions =
+        Reductions::load(folder.write("quick.csv", "what,field,value\nsweeps/grid,repetitions,2\n"));
+    EXPECT_EQ(reductions.repetitions("sweeps/grid"), 2);
+    ASSERT_EQ(reductions.warnings().size(), 1U);
+    EXPECT_TRUE(contains(reductions.warnings().front(), "quick.csv: column 'what' is now called 'applies_to'"));
+    EXPECT_TRUE(reductions_of("sweeps/grid,repetitions,2\n").warnings().empty());
+}
+
 TEST(Reductions, ShippedFileFitsTheShippedSweeps) {
     const Reductions reductions = Reductions::load(data_directory() / "paper" / "quick.csv");
-    const std::filesystem::path scenarios = data_directory().parent_path() / "scenarios";
+    const std::filesystem::path scenarios = scenario_directory();
     ASSERT_FALSE(reductions.rows().empty());
     for (const Reductions::Row& row : reductions.rows()) {
         const bool is_sweep = row.applies_to.starts_with("sweeps/");

@@ -95,10 +95,22 @@ TEST(Targets, RefuseDuplicateIdsAndMissingColumns) {
 TEST(Explanations, BelongToRowsOfThePaper) {
     std::set<std::string> ids;
     for (const Target& target : load_targets()) ids.insert(target.id);
-    for (const auto& [id, explanation] : load_explanations(shipped("data/paper/explanations.csv"))) {
+    std::vector<std::string> warnings;
+    for (const auto& [id, explanation] : load_explanations(shipped("data/paper/explanations.csv"), warnings)) {
         EXPECT_TRUE(ids.contains(id)) << id;
         EXPECT_FALSE(explanation.measured_as.empty() && explanation.explanation.empty()) << id;
     }
+    EXPECT_TRUE(warnings.empty());
+}
+
+TEST(Explanations, AreReadWithTheOldColumnName) {
+    const TemporaryFolder folder;
+    std::vector<std::string> warnings;
+    const std::map<std::string, Explanation> explanations =
+        load_explanations(folder.write("explanations.csv", "id,counted,explanation\nL01,how,why\n"), warnings);
+    EXPECT_EQ(explanations.at("L01").measured_as, "how");
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_TRUE(contains(warnings.front(), "explanations.csv: column 'counted' is now called 'measured_as'"));
 }
 
 TEST(Explanations, AreAddedToTheirRows) {

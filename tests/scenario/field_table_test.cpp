@@ -98,17 +98,17 @@ INSTANTIATE_TEST_SUITE_P(Shipped, EveryField,
 
 TEST_P(EveryField, AppearsInTheCanonicalText) {
     std::set<const Field*> listed;
-    std::set<std::string> kinds;  // all scalar values, choices included
+    std::set<std::string> values;  // values of all scalar fields of the scenario
     for (const Leaf& leaf : leaves_) {
         listed.insert(leaf.field);
-        kinds.insert(leaf.text);
+        values.insert(leaf.text);
     }
     std::vector<const Table*> tables{&scenario_table(),   &network_table(),    &signal_table(),
                                      &demand_table(),     &vehicle_table(),    &driver_table(),
                                      &gap_policy_table(), &population_table(), &measure_table()};
     for (const Table* const table : tables) {
         for (const Field& field : table->fields) {
-            const auto chosen = [&](const std::string& value) { return kinds.contains(value); };
+            const auto chosen = [&](const std::string& value) { return values.contains(value); };
             const bool expected = field.condition_values.empty() ||
                                   std::any_of(field.condition_values.begin(), field.condition_values.end(), chosen);
             EXPECT_EQ(listed.contains(&field), expected) << table->title << ": " << field.name;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "base/io/data_directory.h"
 #include "scenario/scenario_text.h"
 
 namespace stopline {
@@ -334,6 +335,17 @@ TEST(DataFiles, DirectoryCanBeChosen) {
     EXPECT_TRUE(none.empty());
     EXPECT_TRUE(contains(error, "there is no 'petrol_eu4_72kw' in"));
     EXPECT_EQ(error_of(kSmall), "");
+}
+
+TEST(DataFiles, HaveScenariosBesideThem) {
+    EXPECT_EQ(scenario_directory(), data_directory().parent_path() / "scenarios");
+    const TemporaryFolder folder;
+    const std::filesystem::path data = folder.write("data/vehicles/a.yaml", "").parent_path().parent_path();
+    ASSERT_EQ(::setenv("STOPLINE_DATA", data.c_str(), 1), 0);
+    const std::string error = input_error_of([] { scenario_directory(); });
+    ASSERT_EQ(::unsetenv("STOPLINE_DATA"), 0);
+    EXPECT_TRUE(contains(error, "there is no folder " + (folder.path() / "scenarios").string()));
+    EXPECT_TRUE(contains(error, "set STOPLINE_DATA"));
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ TEST(Hash, DependsOnContentNotOnSpelling) {
 TEST(Tables, AreWellFormed) {
     visit_rows(scenario_table(), "", [](const Table& table, const Field& field, const std::string& path) {
         EXPECT_TRUE(std::regex_match(field.name, std::regex("[a-z][a-z0-9_]*"))) << path;
-        EXPECT_NE(field.name, "base") << path;  // the name of a base file
+        EXPECT_NE(field.name, "base") << path;  // reserved: the key `base` of a scenario file names its base file
         EXPECT_EQ(std::count_if(table.fields.begin(), table.fields.end(),
                                 [&](const Field& f) { return f.name == field.name; }),
                   1)

@@ -43,7 +43,7 @@ ALLOWED = {
     "measure": ["base", "network", "sim/state/events.h"],
     "scenario": SIM_BELOW + ["sumo_import", "sim/state/model.h"],
     "record": ["base", "network", "signals", "sim/*"],
-    "reference": ["base", "scenario"],
+    "reference": ["base"],
     "runs": SIM_BELOW + ["sim/*", "measure", "scenario"],
     "sweeps": ["base", "measure", "scenario", "runs"],
     "calibration": ["base", "driver", "measure", "scenario", "sim/*", "runs", "sweeps"],

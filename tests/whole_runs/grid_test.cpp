@@ -203,7 +203,8 @@ TEST_P(OnGrid, SlowTurnSharesHoldDownstreamOfEveryIntersection) {
     for (const int link : model.graph.links) {
         if (passed[at(link)] == 0) continue;
         ++used;
-        // In an incomplete block of 20 vehicles at most 4 turns are missing or early.
+        // Each complete block of 20 vehicles has exactly 4 turns. The last block may be incomplete, so the number of
+        // turns differs from a fifth of the vehicles by at most 4.
         EXPECT_NEAR(turned[at(link)], 0.2 * passed[at(link)], 4.0) << model.graph.lanes[at(link)].name;
     }
     // Two lanes lead to the centre and two on to the north. One lane leads to the west and one to the east.

@@ -52,4 +52,13 @@ std::string escape_xml(std::string_view text) {
     return escaped;
 }
 
+std::string escape_markdown_cell(std::string_view text) {
+    std::string escaped;
+    for (const char c : text) {
+        if (c == '|' || c == '<' || c == '*') escaped += '\\';
+        escaped += c == '\n' ? ' ' : c;
+    }
+    return escaped;
+}
+
 }  // namespace stopline

@@ -1,4 +1,4 @@
-// Escaping of text for HTML and XML.
+// Escaping of text for HTML, XML and Markdown.
 #pragma once
 
 #include <string>
@@ -12,5 +12,8 @@ std::string escape_html(std::string_view text);
 
 // Returns the text escaped for XML attributes in double quotes. Control characters that XML 1.0 forbids become '?'.
 std::string escape_xml(std::string_view text);
+
+// Returns the text escaped for a cell of a Markdown table. Line breaks become spaces.
+std::string escape_markdown_cell(std::string_view text);
 
 }  // namespace stopline

@@ -101,16 +101,15 @@ Figure figure_of(const Means& means, double green_s) {
     figure.width_px = 1000;
     figure.height_px = 1100;
     figure.body = fmt::format(
-        "set multiplot layout 3,1 title 'Intersection over turn ratios, {:g} s green (Fig. 9)'\nset xtics rotate by -35\nset yrange "
+        "set multiplot layout 3,1 title 'Intersection over turn ratios, {:g} s of green'\nset xtics rotate by -35\nset yrange "
         "[0:*]\nset key outside right\nset lmargin 11\nset rmargin 18\n",
         green_s);
     for (const Metric& metric : kMetrics) {
         const std::string file = fmt::format("{}_{}.dat", figure.name, metric.column);
         figure.data.emplace_back(file, data_of(means, metric.column, green_s));
-        figure.body += fmt::format("set ylabel {}\nset xlabel {}\nplot ", gnuplot_text(metric.label),
-                                   metric.column == kMetrics.back().column
-                                       ? "'left turns / right turns [% of the vehicles of a lane]'"
-                                       : "''");
+        figure.body +=
+            fmt::format("set ylabel {}\nset xlabel 'left turns / right turns [% of the vehicles of a lane]'\nplot ",
+                        gnuplot_text(metric.label));
         for (std::size_t k = 0; k < means.populations.size(); ++k) {
             figure.body +=
                 fmt::format("{}'{}' using {}:xtic(1) with linespoints lc rgb '{}' lw 2 pt {} ps 0.8 title {}",

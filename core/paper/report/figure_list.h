@@ -26,8 +26,8 @@ struct ListedFigure {
 // Loads the list. Throws InputError if the file cannot be read or a row names an unknown job.
 std::vector<ListedFigure> load_figure_list(const std::filesystem::path& file);
 
-// The name that stands in the column `job` for Fig. 23. No job makes this figure: the report draws it from the
-// measurements of several jobs.
+// Entry in the column `job` for Fig. 23. No job makes this figure. The report draws it from the measurements of several
+// jobs.
 inline constexpr const char* kComparisonJob = "comparison";
 
 }  // namespace stopline

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/io/data_directory.h"
 #include "base/io/output.h"
 #include "runs/interrupted.h"
 #include "scenario/load_scenario.h"
@@ -102,7 +103,7 @@ Scenario scenario_named(const JobContext& context, const std::string& name, cons
     std::vector<std::string> all = settings;
     const std::vector<std::string> reduced = context.reductions.settings("scenarios/" + name);
     all.insert(all.end(), reduced.begin(), reduced.end());
-    return load_scenario(data_directory().parent_path() / "scenarios" / (name + ".yaml"), all);
+    return load_scenario(scenario_directory() / (name + ".yaml"), all);
 }
 
 std::string seeds_text(const std::set<std::uint64_t>& seeds) {

@@ -1,4 +1,5 @@
 // Jobs of Sections III and IV: a single signal and a single intersection.
+#include "base/io/data_directory.h"
 #include "calibration/startup_report.h"
 #include "figures/intersection_figures.h"
 #include "figures/single_light_figures.h"
@@ -9,7 +10,6 @@
 #include "runs/intersection/intersection.h"
 #include "runs/single_light/single_light.h"
 #include "runs/single_light/single_light_csv.h"
-#include "scenario/load_scenario.h"
 #include "sweeps/seed_means.h"
 #include "sweeps/sweep_results.h"
 

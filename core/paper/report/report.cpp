@@ -9,6 +9,7 @@
 
 #include "base/input_error.h"
 #include "base/io/base64.h"
+#include "base/io/data_directory.h"
 #include "base/io/output.h"
 #include "base/io/replaced_file.h"
 #include "base/version.h"
@@ -16,7 +17,6 @@
 #include "paper/report/job_writer.h"
 #include "paper/report/machine.h"
 #include "runs/program_identity.h"
-#include "scenario/load_scenario.h"
 
 namespace stopline {
 

@@ -10,13 +10,13 @@
 
 #include "base/input_error.h"
 #include "base/io/csv.h"
+#include "base/io/data_directory.h"
 #include "base/io/output.h"
 #include "base/io/replaced_file.h"
 #include "figures/gnuplot.h"
 #include "paper/report/work_estimate.h"
 #include "runs/interrupted.h"
 #include "runs/program_identity.h"
-#include "scenario/load_scenario.h"
 
 namespace stopline {
 
@@ -41,7 +41,8 @@ bool is_report_input(const fs::path& file) {
 // Returns a hash of the names and contents of all scenario and data files that jobs may read.
 std::uint64_t hash_of_inputs() {
     std::vector<fs::path> files;
-    for (const fs::path& folder : {data_directory(), data_directory().parent_path() / "scenarios"}) {
+    const fs::path scenarios = scenario_directory();  // throws InputError if a folder is missing
+    for (const fs::path& folder : {data_directory(), scenarios}) {
         for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
             if (entry.is_regular_file() && !is_report_input(entry.path())) files.push_back(entry.path());
         }
@@ -139,7 +140,9 @@ private:
         } catch (const Interrupted&) {
             throw;
         } catch (const std::exception& error) {
-            if (!show_progress(k)) throw Interrupted();  // Ctrl-C also ends gnuplot, so the job fails
+            // The failure may only be a consequence of Ctrl-C, which also ends gnuplot. Then the run is interrupted,
+            // and no failure is reported.
+            if (!show_progress(k)) throw Interrupted();
             end.output = {};
             end.problem = error.what();
             send_message(k, fmt::format("FAILED: {}", error.what()));

@@ -14,6 +14,7 @@
 
 #include "base/input_error.h"
 #include "base/io/csv.h"
+#include "base/io/data_directory.h"
 #include "paper/sections/scorecard_section6.h"
 #include "paper/sections/scorecard_sections.h"
 #include "paper/sections/scorecard_sweeps.h"
@@ -129,8 +130,7 @@ Measurements measure_platoons(const Scenario& scenario, const ScorecardOptions& 
         platoons.signal.offset_s = offset_s;
         measure_block_times(platoons, index_of(scenario, "CDG"), fmt::format("interspace {}", offset_s), measured);
     }
-    Scenario crossing =
-        load_scenario(data_directory().parent_path() / "scenarios" / "intersection.yaml", {"signal.green=10 s"});
+    Scenario crossing = load_scenario(scenario_directory() / "intersection.yaml", {"signal.green=10 s"});
     const IntersectionResult single = run_intersection(crossing, index_of(crossing, "CDG"));
     measured.set("platoon_veh", single.discharge.vehicles_per_green);
     const std::vector<std::pair<int, const char*>> runs{{25, "CTG-Ref"}, {25, "CDG"}, {35, "CTG-Ref"}, {35, "CDG"}};

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "base/input_error.h"
+#include "base/io/data_directory.h"
 #include "runs/program_identity.h"
-#include "scenario/load_scenario.h"
 #include "scenario/sweep_file/load_sweep.h"
 
 namespace stopline {
@@ -38,7 +38,7 @@ SweepRuns run_sweep(const ScorecardOptions& options, const char* file, const std
     sweep_options.overrides = options.settings;
     sweep_options.overrides.insert(sweep_options.overrides.end(), overrides.begin(), overrides.end());
     sweep_options.threads = options.threads;
-    SweepSettings settings = load_sweep(data_directory() / "../scenarios/sweeps" / file);
+    SweepSettings settings = load_sweep(scenario_directory() / "sweeps" / file);
     options.reductions.apply(settings);
     const std::vector<std::string> reduced = options.reductions.settings("sweeps/" + settings.name);
     sweep_options.overrides.insert(sweep_options.overrides.end(), reduced.begin(), reduced.end());

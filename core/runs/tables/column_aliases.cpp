@@ -75,6 +75,19 @@ constexpr std::array kColumns{
     ColumnAlias{"sweep/NAME_means.csv", "high", "ci95_high"},
     ColumnAlias{"sweep/NAME_means.csv", "difference_low", "difference_ci95_low"},
     ColumnAlias{"sweep/NAME_means.csv", "difference_high", "difference_ci95_high"},
+    ColumnAlias{"calibrate/permutations.csv", "within_percent", "within_limit_percent"},
+    ColumnAlias{"calibrate/permutations.csv", "median_s", "median_difference_s"},
+    ColumnAlias{"calibrate/permutations.csv", "p95_s", "p95_difference_s"},
+    ColumnAlias{"calibrate/permutations.csv", "largest_s", "largest_difference_s"},
+    ColumnAlias{"calibrate/permutations.csv", "other_green", "pairs_in_other_green"},
+    ColumnAlias{"calibrate/fit_history.csv", "leader_acceleration_until", "leader_constant_power_speed"},
+    ColumnAlias{"calibrate/fit_history.csv", "*.acceleration_until", "*.constant_power_speed"},
+    ColumnAlias{"calibrate/fit_history.csv", "*.catch_up", "*.catch_up_factor"},
+    ColumnAlias{"calibrate/fit_history.csv", "below_band", "below_band_speed_share"},
+    ColumnAlias{"startup/startup.csv", "low_2.5_kmh", "p2.5_kmh"},
+    ColumnAlias{"startup/startup.csv", "high_97.5_kmh", "p97.5_kmh"},
+    ColumnAlias{"data/paper/quick.csv", "what", "applies_to"},
+    ColumnAlias{"data/paper/explanations.csv", "counted", "measured_as"},
 };
 
 // The old and the current form of a cell value.
@@ -94,6 +107,10 @@ constexpr std::array kValues{
     ValueAlias{"network/summary.csv", "unstable_by", "moved_on", "teleported"},
     ValueAlias{"sweep/NAME.csv", "unstable_by", "fall", "throughput_drop"},
     ValueAlias{"sweep/NAME.csv", "unstable_by", "moved_on", "teleported"},
+    ValueAlias{"compare/comparison.csv", "metric", "standing_vehicles", "stopped_vehicles"},
+    ValueAlias{"compare/comparison.csv", "metric", "wait_outside_s", "departure_delay_s"},
+    ValueAlias{"compare/comparison.csv", "metric", "waiting_at_end_veh", "backlog"},
+    ValueAlias{"compare/comparison.csv", "metric", "moved_on_veh", "teleported"},
 };
 
 // The old file name of a table.
@@ -108,6 +125,7 @@ constexpr std::array kFiles{
 
 constexpr std::string_view kSweepTable = "sweep/NAME.csv";
 constexpr std::string_view kMeansTable = "sweep/NAME_means.csv";
+constexpr std::string_view kBandsTable = "calibrate/bands_NAME.csv";
 
 // Returns the part of `text` at the place of the '*' in `pattern`; "" if the pattern has no '*'. Returns std::nullopt
 // if the text does not match the pattern.
@@ -157,7 +175,8 @@ std::size_t first_result_column(std::string_view table, const std::vector<std::s
 }
 
 std::string old_value(std::string_view table, const std::string& column, const std::string& value) {
-    if (table == kMeansTable && column == "metric") {
+    // In these tables, the column 'metric' holds names of columns of the sweep's table.
+    if ((table == kMeansTable || table == kBandsTable) && column == "metric") {
         return renamed_column(kSweepTable, value, &ColumnAlias::name, &ColumnAlias::old_name);
     }
     return renamed_value(table, column, value, &ValueAlias::value, &ValueAlias::old_value);
@@ -180,6 +199,14 @@ std::string OldNameReader::column(const std::string& name) {
 
 std::string OldNameReader::value(const std::string& column, const std::string& value) {
     return renamed_value(table_, column, value, &ValueAlias::old_value, &ValueAlias::value);
+}
+
+std::vector<std::string> use_current_column_names(std::string_view name, CsvTable& table) {
+    OldNameReader old_names{std::string(name)};
+    for (std::string& column : table.columns) column = old_names.column(column);
+    std::vector<std::string> warnings;
+    for (const std::string& warning : old_names.warnings()) warnings.push_back(table.label + ": " + warning);
+    return warnings;
 }
 
 std::string with_old_names(std::string_view table, const std::string& csv) {
@@ -208,9 +235,9 @@ ResultFile result_file(std::string_view table, std::string file, std::string csv
 std::string old_names_markdown() {
     std::string text =
         "## Old names\n\n"
-        "The last release used other names. `stopline-run` and `stopline-sweep` write them with `--old-column-names`. "
-        "The\n"
-        "next release removes this option. `*` stands for any text.\n\n"
+        "The last release used other names. With `--old-column-names`, these programs write them: `stopline-run`,\n"
+        "`stopline-sweep`, `stopline-startup`, `stopline-calibrate` and `stopline-compare`. The programs also read\n"
+        "tables of `data/paper` with old names. The next release knows only the new names. `*` stands for any text.\n\n"
         "| table | column | old name |\n|---|---|---|\n";
     for (const ColumnAlias& alias : kColumns) {
         text += fmt::format("| {} | `{}` | `{}` |\n", alias.table, alias.name, alias.old_name);

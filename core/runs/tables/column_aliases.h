@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/io/csv.h"
+
 namespace stopline {
 
 // The kind of names in result tables: names of this release, or names of the last release.
@@ -33,6 +35,10 @@ private:
     std::map<std::string, std::string> known_;  // name in the table -> current name
     std::vector<std::string> warnings_;
 };
+
+// Replaces the old names of the columns of a table that was read from a file. `name` is the table name in the list of
+// old names, such as "data/paper/quick.csv". Returns one warning for each old name.
+std::vector<std::string> use_current_column_names(std::string_view name, CsvTable& table);
 
 // Returns the CSV text with the old names of its columns and cell values.
 std::string with_old_names(std::string_view table, const std::string& csv);

@@ -13,17 +13,17 @@ std::vector<ColumnDoc> summary_columns() {
     return {
         kPopulation,
         {"throughput_veh_h", "veh/h", "window", "vehicles that leave the area; imported networks: trips that end"},
-        {"improvement_percent", "%", "window", "throughput above that of `measure.baseline`; empty without a baseline"},
+        {"improvement_percent", "%", "window", "gain in throughput over `measure.baseline`; empty without a baseline"},
         {"travel_time_s", "s", "window",
-         "mean time in the area of the vehicles that leave it in this time; queues upstream of the area do not count. "
-         "Imported networks: mean time from entering the network to the end of the trip"},
+         "mean time in the area, over the vehicles that leave it within the window; queues upstream of the area do not "
+         "count. Imported networks: mean time from entering the network to the end of the trip"},
         {"travel_time_saved_percent", "%", "window",
-         "travel time below that of `measure.baseline`. Empty without a baseline. Also empty if in either run the "
-         "number of vehicles in the area, divided by the throughput, exceeds `travel_time_s` by more than 50 %: then "
-         "the travel times cover only the few vehicles that get through"},
+         "reduction of the travel time, compared with `measure.baseline`. Empty without a baseline. Also empty if in "
+         "either run the number of vehicles in the area, divided by the throughput, exceeds `travel_time_s` by more "
+         "than 50 %: then the travel times cover only the few vehicles that get through"},
         {"density_percent", "%", "window",
-         "share of the lane length in the area that vehicles occupy; an intersection counts once for each lane that "
-         "leads to it"},
+         "share of the lane length in the area that vehicles occupy; the length across an intersection counts once for "
+         "each lane that leads to it"},
         {"vehicles_in_area", "veh", "window", "mean number of vehicles in the area"},
         {"vehicles_present", "veh", "window, network", "mean number of vehicles in the network, sampled every second"},
         {"max_present", "veh", "run", "largest number of vehicles in the network, sampled every second"},
@@ -38,12 +38,13 @@ std::vector<ColumnDoc> summary_columns() {
          "`stable`: no gridlock and no teleported vehicle. `semi-stable`: all gridlocks dissolve, and less than 1 % "
          "of the exited vehicles were teleported. `unstable`: for the reason in `unstable_by`"},
         {"unstable_by", "", "run",
-         "first reason that holds. `throughput_drop`: gridlocks occur and throughput drops for good. `teleported`: 1 "
-         "% or more of the exited vehicles were teleported. `gridlock`: a gridlock has lasted for six signal cycles "
+         "first reason that holds. `throughput_drop`: gridlocks occur and throughput drops permanently. `teleported`: "
+         "1 % or more of the exited vehicles were teleported. `gridlock`: a gridlock has lasted for six signal cycles "
          "or more at the end. Empty: the run is not unstable"},
         {"collapse_s", "s", "run",
-         "time from which the run is unstable. `throughput_drop`: start of the signal cycle from which on throughput "
-         "is lower by 10 % or more. `teleported`: end of the last signal cycle with less than 1 % teleported. "
+         "time from which the run is unstable. "
+         "`throughput_drop`: start of the signal cycle from which on throughput is lower by 10 % or more. "
+         "`teleported`: end of the last signal cycle with less than 1 % teleported. "
          "`gridlock`: first observation of the gridlock. Empty: the run is not unstable"},
         {"gridlocks", "", "run",
          "number of gridlocks: cycles of vehicles that wait for each other. A cycle that shares a vehicle with one "
@@ -53,8 +54,8 @@ std::vector<ColumnDoc> summary_columns() {
          "vehicles removed by `rules.teleport_cycles`, including those that are not reinserted yet. Imported networks: "
          "missed turns are included"},
         {"passed_blockers", "", "run",
-         "pairs of a vehicle and a blocker in one conflict area, as `rules.pass_blocker_greens` allows; each pair "
-         "counts once"},
+         "number of times that a vehicle passes a blocker in a conflict area, as `rules.pass_blocker_greens` allows; "
+         "each pair of a vehicle and a blocker counts once"},
         {"delay_signal_h", "veh h", "run", "delay by red and yellow signals"},
         {"delay_yielding_h", "veh h", "run", "delay by vehicles with priority"},
         {"delay_junction_blocking_h", "veh h", "run", "delay by vehicles that are stopped in a conflict area"},
@@ -65,10 +66,10 @@ std::vector<ColumnDoc> summary_columns() {
         {"delay_wrong_lane_h", "veh h", "run",
          "delay by vehicles that wait for a gap in the adjacent lane, because their route continues there"},
         {"delay_queue_discharge_h", "veh h", "run",
-         "delay of vehicles that nothing stops any more: the leader moves already, or the vehicle closes up to its "
+         "delay of vehicles that nothing blocks any more: the leader already moves, or the vehicle closes up to its "
          "queue"},
         {"delay_upstream_h", "veh h", "run",
-         "part of the sum of all causes that occurs upstream of the measured area; 0 for imported networks"},
+         "part of the delay by all causes that occurs upstream of the measured area; 0 for imported networks"},
         {"longest_stop_s", "s", "run", "longest single stop of any vehicle"},
         {"longest_in_junction_s", "s", "run",
          "longest time of any vehicle in an intersection, from its front at the stop line to its rear on the exit "
@@ -110,36 +111,32 @@ std::vector<TableDoc> result_tables() {
     return {
         {"network/summary.csv",
          "Grids, streets and imported networks. One row for each population.\n\n"
-         "The delay by a cause is the time that vehicles are stopped for it, including the queue behind them. The sum "
-         "over\n"
-         "all causes is the time that vehicles are stopped.",
+         "The delay by a cause is the time for which it stops vehicles, including the queue behind the first one.\n"
+         "The sum over all causes is the time that vehicles are stopped.",
          summary},
         {"network/series.csv", "One row for each population and interval of the whole run.", series_columns(summary)},
         {"network/origin_destination.csv",
          "One row for each population and pair of sides with traffic. Imported networks have no rows.",
          {kPopulation,
           {"from", "", "", "side on which vehicles enter the area: west, south, east or north"},
-          {"to", "", "", "side on which they leave it"},
+          {"to", "", "", "side on which these vehicles leave it: west, south, east or north"},
           {"throughput_veh_h", "veh/h", "window", "vehicles of this pair that leave the area"},
-          {"travel_time_s", "s", "window", "their mean time in the area"}}},
+          {"travel_time_s", "s", "window", "mean time of these vehicles in the area"}}},
         {"network/delays.csv",
-         "One row for each episode: a period in which the traffic of one lane is delayed by one cause without "
-         "interruption.\n"
-         "For the causes `signal`, `yielding` and `queue_discharge` only vehicles that have been stopped for two "
-         "signal\n"
-         "cycles count.",
+         "One row for each episode: a period in which one cause delays the traffic of one lane without interruption.\n"
+         "For `signal`, `yielding` and `queue_discharge`, a vehicle counts only after a stop of two signal cycles.",
          {kPopulation,
           {"cause", "", "",
            "`signal`, `yielding`, `junction_blocking`, `turn_blocking`, `spillback`, `gridlock`, `wrong_lane` or "
            "`queue_discharge`; see the columns `delay_CAUSE_h` of `network/summary.csv`"},
           {"lane", "", "", "lane of the first delayed vehicle; the queue can reach back over further lanes"},
           {"vehicle", "", "", "first delayed vehicle when the episode began"},
-          {"blocker", "", "", "vehicle that it waited for then; empty: none"},
-          {"blocker_lane", "", "", "lane of the blocker then"},
+          {"blocker", "", "", "vehicle for which the first delayed vehicle waited at that time; empty: none"},
+          {"blocker_lane", "", "", "lane of the blocker at that time"},
           {"from_s", "s", "run", "first observation; vehicles are observed every second"},
           {"to_s", "s", "run", "last observation"},
           {"max_vehicles", "veh", "run", "largest number of delayed vehicles: the first one and its queue"},
-          {"delay_s", "veh s", "run", "sum of their delays"}}},
+          {"delay_s", "veh s", "run", "sum of the delays of these vehicles"}}},
         {"network/gridlocks.csv",
          "One row for each vehicle of a gridlock. Each vehicle waits for the one in the next row, and the last for "
          "the first.",
@@ -148,7 +145,7 @@ std::vector<TableDoc> result_tables() {
           {"from_s", "s", "run", "first observation"},
           {"to_s", "s", "run", "last observation"},
           {"vehicle", "", "", "vehicle at the last observation"},
-          {"lane", "", "", "its lane"}}},
+          {"lane", "", "", "lane of the vehicle"}}},
     };
 }
 
@@ -163,11 +160,12 @@ std::vector<TableDoc> rule_and_vehicle_tables() {
            "the road behind the obstruction. `passed_blocker`: a vehicle passes a blocker (`pass_blocker_greens`). "
            "`keep_clear`: a vehicle is held at a green signal (`keep_clear`); one row when it begins"},
           {"vehicle", "", "", "vehicle that is removed, reinserted, passes or is held"},
-          {"lane", "", "", "its lane; `passed_blocker`: its connection through the intersection"},
+          {"lane", "", "", "lane of the vehicle; `passed_blocker`: its connection through the intersection"},
           {"blocker", "", "", "vehicle that is passed or that blocks the way; empty: none"},
           {"stopped_s", "s", "",
            "`teleported`, `reinserted`: time for which the vehicle has been stopped. `keep_clear`: time for which the "
-           "blocker has been stopped. `passed_blocker`: the same, when passing was allowed"}}},
+           "blocker has been stopped. `passed_blocker`: time for which the blocker had been stopped when passing was "
+           "allowed"}}},
         {"network/inflow.csv",
          "Streets only. One row for each population and interval.",
          {kPopulation,
@@ -182,7 +180,7 @@ std::vector<TableDoc> rule_and_vehicle_tables() {
           {"approach", "", "", "name of the approach: the name of its lanes without their number"},
           {"from_s", "s", "", "start of the interval"},
           {"vehicles", "veh", "interval", "mean number of vehicles on the approach"},
-          {"speed_kmh", "km/h", "interval", "their mean speed; empty: no vehicle"},
+          {"speed_kmh", "km/h", "interval", "mean speed of these vehicles; empty: no vehicle"},
           {"upstream_speed_kmh", "km/h", "interval",
            "mean speed in the upstream third of the approach; empty: no vehicle"}}},
         {"network/turns.csv",
@@ -190,32 +188,31 @@ std::vector<TableDoc> rule_and_vehicle_tables() {
          {kPopulation,
           {"approach", "", "", "name of the approach: the name of its lanes without their number"},
           {"vehicles", "veh", "run", "vehicles that entered the intersection from the approach"},
-          {"right_percent", "%", "run", "share of them that turned right"},
+          {"right_percent", "%", "run", "share of these vehicles that turned right"},
           {"right_target_percent", "%", "", "share that the streets file sets"},
-          {"left_percent", "%", "run", "share of them that turned left"},
+          {"left_percent", "%", "run", "share of these vehicles that turned left"},
           {"left_target_percent", "%", "", "share that the streets file sets"},
           {"congested_from_s", "s", "run",
            "time from which the mean speed in the upstream third of the approach is below 12 km/h for five "
            "successive intervals; empty: never"}}},
         {"network/time_space.csv",
-         "Written if `measure.time_space` is set, for the last `measure.time_space` of the run. One row for each "
-         "second and\n"
-         "vehicle on one street, which begins on the side `measure.time_space_side`.",
+         "Written if `measure.time_space` is set, for the last `measure.time_space` of the run.\n"
+         "One row for each second and vehicle on one street, which begins on the side `measure.time_space_side`.",
          {kPopulation,
           {"time_s", "s", "run", "time of the sample"},
           {"vehicle", "", "", "number of the vehicle"},
-          {"policy", "", "", "its spacing policy"},
-          {"position_m", "m", "", "its front, from the start of the first lane of the street"}}},
+          {"policy", "", "", "spacing policy of the vehicle"},
+          {"position_m", "m", "", "distance of its front from the start of the first lane of the street"}}},
         {"network/trajectories.csv",
          "Written with `--trajectories`. One row for each vehicle in the network and each `--interval`.",
          {kPopulation,
           {"time_s", "s", "run", "time of the sample"},
           {"vehicle", "", "", "number of the vehicle"},
-          {"policy", "", "", "its spacing policy"},
-          {"lane", "", "", "its lane"},
-          {"position_m", "m", "", "its front, from the start of the lane"},
-          {"x_m", "m", "", "its front in the plane, toward the east"},
-          {"y_m", "m", "", "its front in the plane, toward the north"},
+          {"policy", "", "", "spacing policy of the vehicle"},
+          {"lane", "", "", "lane of the vehicle"},
+          {"position_m", "m", "", "distance of its front from the start of the lane"},
+          {"x_m", "m", "", "position of its front toward the east"},
+          {"y_m", "m", "", "position of its front toward the north"},
           {"speed_mps", "m/s", "", "speed"},
           {"acceleration_mps2", "m/s2", "", "acceleration"}}},
     };

@@ -7,7 +7,7 @@ namespace {
 
 const ColumnDoc kPopulation{"population", "", "", "name of the population"};
 const ColumnDoc kVehicle{"vehicle", "", "", "number of the vehicle"};
-const ColumnDoc kPolicy{"policy", "", "", "its spacing policy"};
+const ColumnDoc kPolicy{"policy", "", "", "spacing policy of the vehicle"};
 
 std::vector<ColumnDoc> motion_columns() {
     return {{"speed_mps", "m/s", "", "speed"},
@@ -33,10 +33,10 @@ std::vector<TableDoc> intersection_table_docs() {
          {kPopulation,
           {"throughput_veh_h", "veh/h", "window", "vehicles that leave the intersection"},
           {"improvement_percent", "%", "window",
-           "throughput above that of `measure.baseline`; empty without a baseline"},
+           "gain in throughput over `measure.baseline`; empty without a baseline"},
           {"travel_time_RADIUSm_s", "s", "window",
-           "mean time within this radius (`measure.zones`) of the vehicles that leave it"},
-          {"delay_RADIUSm_s", "s", "window", "that travel time minus the travel time at the speed limit"},
+           "mean time within this radius (`measure.zones`), over the vehicles that leave the circle"},
+          {"delay_RADIUSm_s", "s", "window", "`travel_time_RADIUSm_s` minus the travel time at the speed limit"},
           {"density_RADIUSm_percent", "%", "window", "share of the lane length within the radius that vehicles occupy"},
           {"density_network_percent", "%", "window",
            "share of the lane length of the whole network that vehicles occupy"},
@@ -73,10 +73,10 @@ std::vector<TableDoc> intersection_table_docs() {
                  {"time_s", "s", "run", "time of the sample"},
                  kVehicle,
                  kPolicy,
-                 {"lane", "", "", "its lane"},
-                 {"position_m", "m", "", "its front, from the start of its route"},
-                 {"x_m", "m", "", "its front in the plane, toward the east"},
-                 {"y_m", "m", "", "its front in the plane, toward the north"}},
+                 {"lane", "", "", "lane of the vehicle"},
+                 {"position_m", "m", "", "distance of its front from the start of its route"},
+                 {"x_m", "m", "", "position of its front toward the east"},
+                 {"y_m", "m", "", "position of its front toward the north"}},
                 motion_columns())},
     };
 }
@@ -90,7 +90,8 @@ std::vector<TableDoc> single_light_table_docs() {
          {kPopulation,
           {"passed_in_green_veh", "veh", "green", "vehicles that pass the stop line"},
           {"queue_emptied_s", "s", "green",
-           "passage of the last queued vehicle, from the start of green; empty: not within the green"},
+           "time from the start of green until the last queued vehicle passes the stop line; empty: it does not pass "
+           "within the green"},
           {"steady_vehicles", "veh", "green",
            "followers in steady state downstream of the stop line: at the speed limit for five seconds, with a net "
            "gap that changes by 0.1 m or less"},
@@ -124,7 +125,7 @@ std::vector<TableDoc> single_light_table_docs() {
           {"passed_veh", "veh", "green", "vehicles that pass the stop line within this time"},
           {"baseline", "", "", "name of the baseline population; empty without one"},
           {"baseline_passed_veh", "veh", "green", "vehicles of the baseline that pass the stop line within this time"},
-          {"improvement_percent", "%", "green", "`passed_veh` above `baseline_passed_veh`"}}},
+          {"improvement_percent", "%", "green", "gain of `passed_veh` over `baseline_passed_veh`"}}},
         {"single_light/passages.csv",
          "One row for each vehicle that passes the stop line in the green.",
          {kPopulation,
@@ -132,19 +133,18 @@ std::vector<TableDoc> single_light_table_docs() {
           {"position", "", "", "position in the queue of the lane, from 1"},
           kVehicle,
           kPolicy,
-          {"time_s", "s", "green", "passage of its front, from the start of green"},
+          {"time_s", "s", "green", "time from the start of green until its front passes the stop line"},
           {"headway_s", "s", "green", "time since the previous vehicle on the same lane; empty for the first"},
           {"speed_mps", "m/s", "green", "speed at the stop line"}}},
         {"single_light/trajectories.csv",
-         "Written with `--trajectories`, from 5 s before the green to 25 s after its end. One row for each vehicle and "
-         "each\n"
-         "`--interval`.",
+         "Written with `--trajectories`, from 5 s before the green to 25 s after its end.\n"
+         "One row for each vehicle and each `--interval`.",
          joined({kPopulation,
                  {"time_s", "s", "", "time of the sample, from the start of green"},
                  kVehicle,
                  kPolicy,
                  {"lane", "", "", "lane, from 0"},
-                 {"position_m", "m", "", "its front, from the stop line; negative upstream of it"}},
+                 {"position_m", "m", "", "distance of its front from the stop line; negative upstream of it"}},
                 motion_columns())},
     };
 }

@@ -15,9 +15,7 @@ std::vector<ColumnDoc> run_columns() {
     const std::vector<TableDoc> single_light = single_light_table_docs();
     std::vector<ColumnDoc> columns{
         {"point", "", "", "number of the run, from 0"},
-        {"population", "", "",
-         "name of the population. Before and after it there is a column for each other axis of the sweep, with its "
-         "unit"},
+        {"population", "", "", "name of the population. Each other axis of the sweep has a column too, with its unit"},
         {"seed", "", "", "seed of the run"},
     };
     const auto copy = [&](const std::vector<TableDoc>& tables, std::string_view table,
@@ -43,7 +41,7 @@ std::vector<ColumnDoc> run_columns() {
     add({{"throughput_STRETCH_veh_h", "veh/h", "stretch, area",
           "streets: vehicles that leave the area in minutes 15 to 60 (`early`) and 65 to 120 (`late`); empty if the "
           "run is shorter"},
-         {"travel_time_STRETCH_s", "s", "stretch, area", "their mean time in the area"},
+         {"travel_time_STRETCH_s", "s", "stretch, area", "mean time of these vehicles in the area"},
          {"density_STRETCH_percent", "%", "stretch, area", "share of the lane length in the area that vehicles occupy"},
          {"inflow_west_STRETCH_veh_h", "veh/h", "stretch, area", "vehicles that enter the area from the west"},
          {"inflow_east_STRETCH_veh_h", "veh/h", "stretch, area", "vehicles that enter the area from the east"},
@@ -85,14 +83,12 @@ std::vector<ColumnDoc> run_columns() {
 std::vector<TableDoc> sweep_table_docs() {
     return {
         {"sweep/NAME.csv",
-         "One row for each run. Each kind of network has some of these columns. The area of a single intersection is "
-         "the\n"
-         "intersection itself.",
+         "One row for each run. Each kind of network has some of these columns.\n"
+         "The area of a single intersection is the intersection itself.",
          run_columns()},
         {"sweep/NAME_means.csv",
-         "Written if a sweep has several seeds. One row for each combination of axis values and each numeric column "
-         "of\n"
-         "`NAME.csv`. The first columns are the axes.",
+         "Written if a sweep has several seeds. The first columns are the axes.\n"
+         "One row for each combination of axis values and each numeric column of `NAME.csv`.",
          {{"metric", "", "", "name of the column in `NAME.csv`"},
           {"runs", "", "seeds", "number of seeds with a value"},
           {"mean", "of the metric", "seeds", "mean; empty for fewer than two seeds"},
@@ -105,8 +101,8 @@ std::vector<TableDoc> sweep_table_docs() {
            "difference is significant"},
           {"difference_ci95_high", "of the metric", "seeds", "upper bound of this interval"}}},
         {"sweep/table1.csv",
-         "Written for sweeps over greens and turn shares of an intersection. One row for each value in Table 1 of the "
-         "paper.",
+         "Written for sweeps of `scenarios/intersection.yaml` over greens and turn shares.\n"
+         "One row for each value in Table 1 of the paper.",
          {{"id", "", "", "row of `data/paper/targets.csv`"},
           {"population", "", "", "name of the population"},
           {"green_s", "s", "", "green time"},

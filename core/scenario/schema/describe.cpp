@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/io/escape.h"
 #include "base/nearest_name.h"
 #include "scenario/load_scenario.h"
 #include "scenario/schema/fields.h"
@@ -129,11 +130,7 @@ std::string long_defaults(const std::vector<TableBlock>& blocks) {
 
 // --- Markdown ---
 
-std::string cell(const std::string& text) {
-    std::string escaped;
-    for (const char c : text) escaped += c == '|' ? std::string("\\|") : std::string(1, c);
-    return escaped + " | ";
-}
+std::string cell(const std::string& text) { return escape_markdown_cell(text) + " | "; }
 
 std::string as_sentence(std::string text) {
     if (text.front() >= 'a' && text.front() <= 'z') text.front() = static_cast<char>(text.front() - 'a' + 'A');

@@ -24,9 +24,9 @@ const Table& cacc_table() {
             number<&S::v2v_delay_s>("v2v_delay", "s", {0, 1}, "age of a received V2V message"),
             number<&S::prediction_start_s>(
                 "prediction_start", "s", {0, 5},
-                "constant distance: start of the interval, from now, in which the vehicle matches "
-                "its leader's predicted acceleration (Fig. 4)"),
-            number<&S::prediction_end_s>("prediction_end", "s", {0.01, 5}, "end of that interval, from now"),
+                "constant distance: time from now to the start of the interval in which the vehicle matches its "
+                "leader's predicted acceleration (Fig. 4)"),
+            number<&S::prediction_end_s>("prediction_end", "s", {0.01, 5}, "time from now to the end of that interval"),
             number<&S::acceleration_max_mps2>("acceleration_max", "m/s2", {0.1, 10},
                                               "maximum acceleration of a follower"),
             number<&S::deceleration_comfort_mps2>("deceleration_comfort", "m/s2", {0.1, 10},
@@ -41,7 +41,7 @@ const Table& cacc_table() {
             number<&S::jerk_down_mps3>("jerk_down", "m/s3", {0.1, 1000},
                                        "maximum rate of fall of the acceleration command"),
             number<&S::catch_up_factor>("catch_up_factor", "", {1, 1.5},
-                                        "factor on the speed limit for a follower that closes its gap"),
+                                        "factor by which a follower may exceed the speed limit to close its gap"),
         },
         [](const S& s, Checker& check) {
             if (s.prediction_end_s <= s.prediction_start_s) {
@@ -77,16 +77,17 @@ const Table& free_drive_table() {
 
 const Table& stop_table() {
     using S = StopSettings;
-    static const Table table = make_table<S>(
-        "stopping at a stop line",
-        {
-            number<&S::deceleration_mps2>("deceleration", "m/s2", {0.1, 10},
-                                          "braking begins when this deceleration is needed"),
-            number<&S::decision_deceleration_mps2>("decision_deceleration", "m/s2", {0.1, 10},
-                                                   "on yellow: stop if this deceleration suffices, else go on"),
-            number<&S::margin_m>("margin", "m", {0, 20},
-                                 "distance from the front of the stopped vehicle to the stop line"),
-        });
+    static const Table table =
+        make_table<S>("stopping at a stop line",
+                      {
+                          number<&S::deceleration_mps2>("deceleration", "m/s2", {0.1, 10},
+                                                        "braking begins when this deceleration is needed"),
+                          number<&S::decision_deceleration_mps2>(
+                              "decision_deceleration", "m/s2", {0.1, 10},
+                              "on yellow, a vehicle stops if this deceleration suffices; otherwise it goes on"),
+                          number<&S::margin_m>("margin", "m", {0, 20},
+                                               "distance from the front of the stopped vehicle to the stop line"),
+                      });
     return table;
 }
 
@@ -151,17 +152,18 @@ const Table& lane_change_table() {
 
 const Table& give_way_table() {
     using S = GiveWaySettings;
-    static const Table table = make_table<S>(
-        "yielding inside intersections",
-        {
-            number<&S::critical_gap_s>("critical_gap", "s", {0, 60},
-                                       "shortest accepted time to the next vehicle with priority"),
-            number<&S::margin_m>("margin", "m", {0, 10}, "distance from the front to the conflict area while waiting"),
-            number<&S::approach_acceleration_mps2>(
-                "approach_acceleration", "m/s2", {0.1, 10},
-                "assumed acceleration of approaching vehicles with priority, up to the speed limit")
-                .renamed_from("approach"),
-        });
+    static const Table table =
+        make_table<S>("yielding inside intersections",
+                      {
+                          number<&S::critical_gap_s>("critical_gap", "s", {0, 60},
+                                                     "shortest accepted time to the next vehicle with priority"),
+                          number<&S::margin_m>("margin", "m", {0, 10},
+                                               "distance from the front of a waiting vehicle to the conflict area"),
+                          number<&S::approach_acceleration_mps2>(
+                              "approach_acceleration", "m/s2", {0.1, 10},
+                              "assumed acceleration of approaching vehicles with priority, up to the speed limit")
+                              .renamed_from("approach"),
+                      });
     return table;
 }
 
@@ -245,15 +247,15 @@ const Table& gap_policy_table() {
             text<&S::name>("name", TextField::Rule::name, "name of the policy").required(),
             choice<&S::law>("law", gap_law_names(), "spacing law: how the gap depends on the speed").required(),
             number<&S::standstill_gap_m>("standstill_gap", "m", {0.1, 100}, "net gap at standstill").required(),
-            number<&S::time_gap_s>("time_gap", "s", {0, 20}, "time gap: growth of the gap per m/s")
+            number<&S::time_gap_s>("time_gap", "s", {0, 20}, "time gap: growth of the net gap per m/s of speed")
                 .required()
                 .only_if("law", {"constant_time", "switch_time_gap"}),
             number<&S::switch_speed_mps>("switch_speed", "km/h", {0, 300},
-                                         "speed up to which the gap is the standstill gap")
+                                         "speed up to which the net gap stays the standstill gap")
                 .required()
                 .only_if("law", {"switch_time_gap", "switch_distance"}),
             number<&S::reference_speed_mps>("reference_speed", "km/h", {1, 300},
-                                            "speed at which the gap is reference_gap")
+                                            "speed at which the net gap is reference_gap")
                 .required()
                 .only_if("law", {"switch_distance"}),
             number<&S::reference_gap_m>("reference_gap", "m", {0.1, 1000}, "net gap at reference_speed")
@@ -282,7 +284,8 @@ const Table& policy_file_table() {
 const Table& population_table() {
     using S = PopulationSettings;
     static const Table table = make_table<S>(
-        "the shares of the spacing policies in the traffic; the name of a policy alone: all vehicles follow it",
+        "a mix of vehicles by spacing policy, with the share of each policy; an entry can be just the name of a "
+        "policy, which all vehicles then follow",
         {
             text<&S::name>("name", TextField::Rule::name, "name of the population").required(),
             enumeration<&S::pattern>("pattern", {"alternating", "random", "balanced"},

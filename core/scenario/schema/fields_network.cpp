@@ -48,7 +48,7 @@ const Table& intersection_table() {
             number<&S::turn_speed_mps>("turn_speed", "m/s", {1, 40}, "speed on turning connections"),
             number<&S::clearance_m>(
                 "clearance", "m", {1, 5},
-                "distance between two vehicle centre lines below which they touch; at most lane_width - 0.5 m"),
+                "two vehicles touch if their centre lines are nearer than this; at most lane_width - 0.5 m"),
         },
         [](const S& s, Checker& check) {
             const std::string touching = clearance_problem(s.clearance_m, s.lane_width_m);
@@ -103,7 +103,7 @@ const Table& network_table() {
         "the road network",
         {
             choice<&NetworkSettings::kind>("kind", {"approach", "intersection", "grid", "streets", "sumo"},
-                                           "generator of the network; sumo: import of SUMO's files"),
+                                           "kind of network; sumo: imported from SUMO's files"),
             section<&NetworkSettings::approach>("approach", approach_table, "straight road with one stop line")
                 .only_if("kind", {"approach"}),
             section<&NetworkSettings::intersection>("intersection", intersection_table,
@@ -134,8 +134,9 @@ const Table& signal_table() {
     static const Table table = make_table<SignalSettings>(
         "the fixed-time signal: red first, then cycles of green, yellow and red",
         {
-            number<&SignalSettings::first_green_s>("first_green", "s", {0, 7200},
-                                                   "start of the first green; red before, so that a queue forms"),
+            number<&SignalSettings::first_green_s>(
+                "first_green", "s", {0, 7200},
+                "start of the first green; before it the signal is red, so that a queue forms"),
             number<&SignalSettings::green_s>("green", "s", {0.1, 7200}, "green time"),
             number<&SignalSettings::cross_green_s>(
                 "cross_green", "s", {0, 7200},
@@ -145,9 +146,10 @@ const Table& signal_table() {
                 "yellow time; if it is too short, a vehicle that cannot stop enters on red "
                 "(forced red entry)"),
             number<&SignalSettings::all_red_s>("all_red", "s", {0, 600}, "all-red time after yellow"),
-            number<&SignalSettings::offset_s>("offset", "s", {0, 7200},
-                                              "grid: delay of the start of green per column eastwards and per row "
-                                              "northwards"),
+            number<&SignalSettings::offset_s>(
+                "offset", "s", {0, 7200},
+                "grid: delay of the start of green from each column to the next one eastwards, and from each row to "
+                "the next one northwards"),
             number<&SignalSettings::cycle_s>("cycle", "s", {0, 14'400},
                                              "single light: time from one green to the next; 0 s: one green only"),
         },
@@ -165,9 +167,8 @@ const Table& demand_table() {
                 "waiting to enter; rate: vehicles arrive at the rate `inflow`"),
             texts<&DemandSettings::approaches>(
                 "approaches", TextField::Rule::name, {0, 1000},
-                "approaches where vehicles enter, each as the beginning of its lane names, such as south "
-                "or c1r0_south; approaches between two intersections are possible too; empty: all "
-                "entries of the network")
+                "approaches where vehicles enter, such as south or c1r0_south (the beginning of the names of the "
+                "lanes); an approach between two intersections is possible too; empty: all entries of the network")
                 .fallback("[]")
                 .renamed_from("arms"),
             whole_number<&DemandSettings::vehicles>("vehicles", {1, 100'000}, "number of vehicles per lane")
@@ -185,26 +186,31 @@ const Table& demand_table() {
                                                      "speed at the entry, at most the speed limit"),
             number<&DemandSettings::right_share>(
                 "right", "%", {0, 100},
-                "share of right turns on each lane that allows right turns and another movement; lanes with both "
-                "turns: left + right is at most 100 %; lanes for turns only: the ratio of left to right decides"),
+                "share of right turns on each lane that allows right turns and another movement; on lanes with both "
+                "turns, left + right is at most 100 %; on lanes with both turns and no straight movement, the ratio of "
+                "left to right counts"),
             number<&DemandSettings::left_share>(
                 "left", "%", {0, 100},
-                "share of left turns on each lane that allows left turns and another movement, see right"),
+                "share of left turns on each lane that allows left turns and another movement; same rules as for "
+                "right"),
             choice<&DemandSettings::cross_turns>(
                 "cross_turns", {"same", "separate"},
-                "turn shares of the streets from south to north; same: the shares are right and left, as elsewhere; "
-                "separate: they are cross_right and cross_left")
+                "turn shares of the streets from south to north; same: the fields right and left apply to all streets; "
+                "separate: the fields cross_right and cross_left apply to these streets")
                 .value_renamed("alike", "same")
                 .value_renamed("own", "separate"),
             number<&DemandSettings::cross_right_share>(
-                "cross_right", "%", {0, 100}, "share of right turns on the streets from south to north, see right")
+                "cross_right", "%", {0, 100},
+                "share of right turns on the streets from south to north; same rules as for right")
                 .only_if("cross_turns", {"separate"}),
             number<&DemandSettings::cross_left_share>(
-                "cross_left", "%", {0, 100}, "share of left turns on the streets from south to north, see right")
+                "cross_left", "%", {0, 100},
+                "share of left turns on the streets from south to north; same rules as for right")
                 .only_if("cross_turns", {"separate"}),
             choice<&DemandSettings::order>(
                 "order", {"balanced", "random"},
-                "order of the turns; balanced: the shares hold in every 20 vehicles of a lane"),
+                "order of the turns; balanced: the shares hold in every 20 vehicles of a lane; random: each turn is "
+                "drawn independently"),
             choice<&DemandSettings::start>(
                 "start", {"empty", "queued"},
                 "initial state; queued: stopped vehicles fill the approaches from the stop line to the entry"),

@@ -210,12 +210,12 @@ const Table& measure_table() {
     static const Table table = make_table<S>(
         "the measurements",
         {
-            numbers<&S::green_s>("green", "s", {0.1, 7200}, {0, 1000},
-                                 "single light: times after the start of green at which the passed vehicles are "
-                                 "counted",
-                                 true),
+            numbers<&S::green_s>(
+                "green", "s", {0.1, 7200}, {0, 1000},
+                "single light: times after the start of green at which the vehicles past the stop line are counted",
+                true),
             text<&S::baseline>("baseline", TextField::Rule::name,
-                               "reference population for improvements; absent: none"),
+                               "population with which the others are compared; absent: no improvements are computed"),
             whole_number<&S::warmup_cycles>("warmup_cycles", {0, 1000},
                                             "single intersection: signal cycles before the measurement"),
             whole_number<&S::cycles>("cycles", {1, 100'000}, "single intersection: measured signal cycles"),
@@ -235,9 +235,9 @@ const Table& measure_table() {
                 "networks: length of the measuring window at the end of the run; results are means over "
                 "it")
                 .renamed_from("steady"),
-            number<&S::time_space_s>("time_space", "s", {0, 7200},
-                                     "grids and streets: length of the time-space diagram at the end of the run; "
-                                     "0 s: none"),
+            number<&S::time_space_s>(
+                "time_space", "s", {0, 7200},
+                "grids and streets: time at the end of the run that the time-space diagram covers; 0 s: no diagram"),
             choice<&S::time_space_side>("time_space_side", {"west", "east", "south", "north"},
                                         "side from which the time-space diagram follows a street; in a grid, west and "
                                         "east: the middle row, south and north: the middle column")
@@ -255,20 +255,21 @@ const Table& scenario_table() {
             text<&S::title>("title", TextField::Rule::title, "heading of tables and figures"),
             choice<&S::fidelity>(
                 "fidelity", {"full", "meso"},
-                "vehicle model; full: controller and powertrain (full dynamics); meso: Krauss family (mesoscale mode)"),
+                "vehicle model; full: controller and powertrain (full dynamics); meso: car-following model of the "
+                "Krauss family (mesoscale mode)"),
             // A step above 0.1 s would be longer than the shortest lags of the powertrain.
             number<&S::step_s>("step", "s", {0.001, 0.1},
                                "time step of full dynamics, at most driver.cacc.v2v_delay; the mesoscale mode uses "
                                "meso.step"),
             number<&S::duration_s>(
                 "duration", "s", {0, 1'000'000},
-                "length of a run; 0 s: the time that the measured cycles take (single intersection only)"),
+                "length of a run; 0 s: the run ends after the measured cycles (single intersection only)"),
             whole_number<&S::seed>("seed", {}, "seed of all random numbers"),
             section<&S::network>("network", network_table, "road network"),
             section<&S::signal>("signal", signal_table,
-                                "fixed-time signal; streets and SUMO networks have their own programmes")
+                                "fixed-time signal; streets and SUMO networks have their own signal programmes")
                 .only_if("network.kind", {"approach", "intersection", "grid"}),
-            section<&S::demand>("demand", demand_table, "traffic that enters; SUMO networks have route files")
+            section<&S::demand>("demand", demand_table, "traffic that enters; SUMO networks have route files instead")
                 .only_if("network.kind", {"approach", "intersection", "grid", "streets"}),
             section<&S::vehicle>("vehicle", vehicle_table, "vehicle and powertrain", "vehicles")
                 .fallback("petrol_eu4_72kw"),
@@ -278,10 +279,11 @@ const Table& scenario_table() {
             section<&S::meso>("meso", meso_table, "parameters of the mesoscale mode", "meso").fallback("table2"),
             list<&S::policies>(
                 "policies", gap_policy_table, {0, 1000},
-                "additional spacing policies; one with the name of a policy in data/policies/paper.yaml replaces it",
+                "additional spacing policies; each replaces the policy of the same name in data/policies/paper.yaml",
                 "policies/paper")
                 .fallback("[]"),
-            list<&S::populations>("populations", population_table, {1, 1000}, "populations; each makes one run")
+            list<&S::populations>("populations", population_table, {1, 1000},
+                                  "populations; the scenario is run once for each of them")
                 .fallback(
                     "[CDG, CDG-6m, SWITCH-1, SWITCH-2, {name: MIX, pattern: alternating, components: [{policy: CDG, "
                     "share: 50 %}, {policy: CTG-Ref, share: 50 %}]}, CTG-Ref, CTG-HCM, CTG-HBS]"),

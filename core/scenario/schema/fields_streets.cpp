@@ -40,8 +40,10 @@ const Table& leg_table() {
                 "length", "m", {20, 20'000},
                 "distance from the border of the network to the stop line, for a leg without neighbouring "
                 "intersection"),
-            number<&S::exit_length_m>("exit_length", "m", {20, 20'000},
-                                      "distance from the intersection to the border, for such a leg"),
+            number<&S::exit_length_m>(
+                "exit_length", "m", {20, 20'000},
+                "distance from the intersection to the border of the network, for a leg without neighbouring "
+                "intersection"),
         });
     return table;
 }
@@ -105,7 +107,7 @@ const Table& streets_table() {
             number<&S::turn_speed_mps>("turn_speed", "m/s", {1, 40}, "speed on turning connections"),
             number<&S::clearance_m>(
                 "clearance", "m", {1, 5},
-                "distance between two vehicle centre lines below which they touch; at most lane_width - 0.5 m"),
+                "two vehicles touch if their centre lines are nearer than this; at most lane_width - 0.5 m"),
             list<&S::intersections>("intersections", node_table, {1, 1000}, "intersections").required(),
         },
         [](const S& streets, Checker& check) {

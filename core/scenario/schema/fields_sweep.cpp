@@ -94,7 +94,10 @@ const Table& axis_table() {
     static const Table table = make_table<S>(
         "an axis of the sweep: paths with values, or populations",
         {
-            text<&S::name>("name", TextField::Rule::name, "name of the column in the table of results").required(),
+            text<&S::name>("name", TextField::Rule::name,
+                           "name of the axis; its column in the table of results has this name, followed by the unit "
+                           "if there is one")
+                .required(),
             texts<&S::paths>("path", TextField::Rule::title, {1, 100},
                              "path of a scenario field, such as signal.green; a list: fields that change together"),
             texts<&S::values>("values", TextField::Rule::title, {1, 100'000},
@@ -124,7 +127,7 @@ const Table& sweep_table() {
                 "run"),
             whole_number<&S::repetitions>(
                 "repetitions", {1, 1'000'000},
-                "runs per combination, with the seeds n, n + 1 and so on from the seed n of the scenario"),
+                "runs per combination; their seeds are n, n + 1, n + 2 and so on, and n is the seed of the scenario"),
         },
         check_sweep);
     return table;

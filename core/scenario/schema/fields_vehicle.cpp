@@ -93,7 +93,7 @@ const Table& vehicle_table() {
                 .required(),
             curve<&S::drag_torque>(
                 "drag_torque", {"rpm", {0, 30'000}}, {"N m", {-5000, 0}}, {2, 200},
-                "engine drag torque without fuel over engine speed; electric motor: limit of recuperation")
+                "drag torque of the engine without fuel, over engine speed; electric motor: limit of recuperation")
                 .required(),
             number<&S::idle_rpm>("idle_speed", "rpm", {0, 5000}, "idle speed of the engine; electric motor: 0 rpm")
                 .required(),
@@ -115,8 +115,9 @@ const Table& vehicle_table() {
                 .required(),
             number<&S::shift_up_part_load_rpm>("shift_up_part_load", "rpm", {1, 30'000},
                                                "upshift speed of the engine at low torque"),
-            number<&S::shift_up_full_load_rpm>("shift_up_full_load", "rpm", {1, 30'000},
-                                               "upshift speed of the engine at full load; linear in between"),
+            number<&S::shift_up_full_load_rpm>(
+                "shift_up_full_load", "rpm", {1, 30'000},
+                "upshift speed of the engine at full load; linear interpolation between low torque and full load"),
             number<&S::shift_down_rpm>("shift_down", "rpm", {1, 30'000}, "downshift speed of the engine"),
             number<&S::torque_interruption_s>("torque_interruption", "s", {0, 5},
                                               "time without drive torque during a gear change"),

@@ -16,8 +16,9 @@
 
 namespace stopline {
 
-// Loads a sweep file and checks each axis value by the table row of its field. Throws InputError for a file that cannot
-// be used. Checks that compare several fields are made later, when Sweep loads the combinations (sweeps/sweep.h).
+// Loads a sweep file. Checks each value of an axis by the rules (unit, range) that the field tables (scenario/schema)
+// state for the field that the axis sets. Throws InputError for a file that cannot be used. Checks that compare several
+// fields are made later, when Sweep loads the combinations (sweeps/sweep.h).
 SweepSettings load_sweep(const std::filesystem::path& file);
 // Loads a sweep from text. `label` stands for the file in messages. Relative paths in the text start at `directory`.
 SweepSettings parse_sweep(std::string_view text, const std::string& label,

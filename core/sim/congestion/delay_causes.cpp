@@ -51,8 +51,9 @@ private:
         return model_.rules.long_wait_ticks > 0 && now_ - v_.stopped_since[at(slot)] >= model_.rules.long_wait_ticks;
     }
 
-    // Follows each chain of waiting vehicles from blocker to blocker. Then sets the causes of its vehicles, the last
-    // vehicle of the chain first, because the cause of a vehicle can depend on its blocker.
+    // Follows each chain of waiting vehicles: from a stopped vehicle to its blocker, then to the blocker of the
+    // blocker, and so on. Then sets the causes in the reverse order, because the cause of a vehicle can depend on the
+    // cause of its blocker.
     void find_causes() {
         int traversal = 0;
         for (const int start : w_.stopped_slots) {
@@ -77,8 +78,8 @@ private:
         }
     }
 
-    // Sets the cause of a vehicle from its direct cause and the cause of its blocker. If the blocker is stopped, its
-    // cause must have been set before.
+    // Sets the cause of a vehicle from its direct cause and the cause of its blocker. If the blocker is stopped, the
+    // cause of the blocker must have been set before.
     void set_cause(int slot) {
         if (w_.cause[at(slot)] == DelayCause::gridlock) return;
         const int blocker = w_.waits_for[at(slot)];
@@ -92,7 +93,7 @@ private:
         if (w_.cause[at(slot)] == DelayCause::none) w_.cause[at(slot)] = DelayCause::queue_discharge;
     }
 
-    // Records the gridlock that contains the vehicle in slot `start`, and sets the cause of its vehicles.
+    // Records the gridlock that contains the vehicle in slot `start`, and sets the cause of all its members.
     void record_gridlock(int start) {
         std::vector<int> slots;
         int slot = start;
@@ -120,8 +121,8 @@ private:
         gridlocks.push_back(std::move(found));
     }
 
-    // Returns the index of an open gridlock that shares a vehicle with `found` and has not been observed in this step
-    // yet; -1: none.
+    // Returns the index of an open gridlock that shares a vehicle with `found`; -1: none. A gridlock is open if it was
+    // observed within the last signal cycle. Ignores gridlocks that have already been observed in this step.
     int find_open_gridlock(const Gridlock& found) const {
         std::vector<int> members = found.vehicles;
         std::sort(members.begin(), members.end());
@@ -134,8 +135,8 @@ private:
         return -1;
     }
 
-    // Adds the delay of each stopped vehicle since the last observation to the totals, and to the episode of the queue
-    // in which the vehicle stands.
+    // Adds the interval between two observations to the total delay, for each stopped vehicle. If something blocks the
+    // vehicle, or if it has been stopped for long, the interval is also added to the episode of its queue.
     void add_delays() {
         const double interval_s = model_.time_s(model_.rules.watch_ticks);
         std::array<int, kDelayCauses> vehicles{};

@@ -6,12 +6,12 @@
 
 namespace stopline {
 
-// Removes the first vehicle of a lane, which will be reinserted downstream of the intersection ahead. Returns false if
-// no intersection is ahead of the vehicle, or if there is no free slot.
+// Removes the first vehicle of a lane. This vehicle will be reinserted downstream of the intersection ahead. Returns
+// false if no intersection is ahead of the vehicle, or if the list of removed vehicles is full.
 bool remove_for_teleport(const Model& model, State& state, int lane);
 
-// Reinserts teleported vehicles that have room. Then removes the first vehicle of each lane if it has been stopped for
-// too long.
+// Reinserts the removed vehicles for which there is room. Then removes the first vehicle of each lane if this vehicle
+// has been stopped for RulesPlan::teleport_ticks or longer.
 void teleport_blocked_vehicles(const Model& model, State& state);
 
 }  // namespace stopline

@@ -27,8 +27,9 @@ public:
         LastBlocker& last = w_.last_blockers[at(lane)];
         int& waits_for = w_.waits_for[at(slot)];
         if (w_.direct_cause[at(slot)] == DelayCause::signal) {
-            // A vehicle at a red signal can have a blocker as well: a leader stopped past the stop line, or the blocker
-            // of the last green. wait_for_leader() changes the direct cause, so it is set to `signal` again.
+            // A vehicle at a red signal can have a blocker as well: a leader stopped past the stop line, or the vehicle
+            // that blocked it during the previous green. wait_for_leader() overwrites the direct cause, so the cause is
+            // set to `signal` again.
             wait_for_leader(slot, lane);
             w_.direct_cause[at(slot)] = DelayCause::signal;
             if (waits_for < 0) waits_for = find_unmoved_blocker(last, v_.id[at(slot)]);
@@ -40,8 +41,8 @@ public:
 private:
     bool is_stopped(int slot) const { return v_.speed_mps[at(slot)] < kStoppedSpeed_mps; }
 
-    // Finds the blocker of a stopped vehicle and the direct cause of the wait. Only a stopped vehicle can be a blocker,
-    // except under the keep-clear rule, where the blocker may crawl.
+    // Finds the blocker of a stopped vehicle and the direct cause of the wait. Usually the blocker must be stopped,
+    // too. If the keep-clear rule holds the vehicle, the blocker may also be crawling.
     void find_direct_cause(int slot, int lane) {
         if (const YieldStop* const stop = yield_stop_of(slot, lane); stop != nullptr) {
             if (stop->blocker < 0) return set(slot, -1, DelayCause::wrong_lane);
@@ -85,8 +86,8 @@ private:
         set(slot, leader, is_exit_of(lane, w_.lane[at(leader)]) ? full_exit_cause(slot) : DelayCause::none);
     }
 
-    // Returns the slot of the vehicle that blocked `vehicle` at the last green, if this blocker has not moved since;
-    // else -1.
+    // Returns the slot of the vehicle that blocked `vehicle` during the previous green, if this blocker has not moved
+    // since; else -1.
     int find_unmoved_blocker(const LastBlocker& last, int vehicle) const {
         if (last.vehicle != vehicle) return -1;
         const LaneBlock& block = state_.blocks[at(last.blocker_lane)];
@@ -109,7 +110,8 @@ private:
     DelayCause full_exit_cause(int slot) const {
         const int lane = w_.lane[at(slot)];
         const bool is_inside = model_.graph.lanes[at(lane)].origin >= 0;
-        const int connection = is_inside ? lane : v_.next_lane[at(slot)];  // -1: the vehicle must change lanes first
+        // Connection that the vehicle takes; -1: none.
+        const int connection = is_inside ? lane : v_.next_lane[at(slot)];
         const bool turns = connection >= 0 && model_.graph.lanes[at(connection)].turn != Turn::straight;
         return turns ? DelayCause::turn_blocking : DelayCause::spillback;
     }

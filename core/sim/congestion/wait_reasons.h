@@ -1,4 +1,4 @@
-// Finds what each stopped vehicle waits for.
+// Finds the reason for which each stopped vehicle waits. Works on one partition, a group of whole intersections.
 #pragma once
 
 #include "sim/state/model.h"
@@ -6,7 +6,8 @@
 
 namespace stopline {
 
-// Lists the stopped vehicles of a partition. Updates VehicleArrays::stopped_since of all vehicles.
+// Lists the stopped vehicles of a partition (Partition::stopped_slots). Updates VehicleArrays::stopped_since of all
+// vehicles of the partition.
 void find_stopped_vehicles(State& state, Partition& part);
 
 // Finds the blocker of each stopped vehicle of a partition, and the direct cause of the wait. All partitions must have

@@ -51,8 +51,8 @@ FullStreams streams_of(const Model& model, State& state) {
 
 // Evaluates the desired gap of each vehicle for the speed that it will have at the end of the step, when its request
 // takes effect. The radar delay is also counted back from the end of the step (Model::radar). With the speed at the
-// start of the step, results would depend on the step length. Each gap law is evaluated for the whole group, and each
-// vehicle takes the result of its own policy.
+// start of the step, results would depend on the step length. The gap law of each policy is evaluated for the whole
+// group, and each vehicle takes the result of its own policy.
 void evaluate_gap_laws(const Model& model, int vehicles, const FullGroup& g) {
     const std::size_t n = at(vehicles);
     const std::span<const double> speed_mps(g.coming_speed, n);

@@ -1,5 +1,5 @@
-// Full dynamics: moves vehicles by one step. First the driver requests an acceleration from the state at the beginning
-// of the step. Then the powertrain responds to the request, and the vehicle moves.
+// Full dynamics: moves vehicles by one step. First the driver requests an acceleration, which is computed from the
+// state at the beginning of the step. Then the powertrain responds to the request, and the vehicle moves.
 #pragma once
 
 #include <span>
@@ -19,7 +19,7 @@ FullTables full_tables(const Model& model);
 
 // Moves the vehicles of a lane group by one step. The lanes may be in any order. `part.full_group` must have room for
 // all vehicles of the group. `next`: LaneGroup::prefetch_slots of the next group. The data in these slots are
-// prefetched during the step; empty: no prefetch.
+// prefetched during the step. If the list is empty, nothing is prefetched.
 void step_full(const Model& model, const FullTables& tables, const LaneGroup& lanes, std::span<const int> next,
                State& state, Partition& part);
 

@@ -26,15 +26,16 @@ struct FullStreams {
     const float *heard_acceleration_older, *heard_request_older, *heard_rate_older;
 };
 
-// The kernels of one step. They are called in this order for each lane group, `drive` once for each vehicle type.
+// The kernels of one step. For each lane group they are called in the order of the members. `drive` is called once for
+// each vehicle type.
 struct FullKernels {
     using Lanes = std::span<const LaneStep>;
-    // Slots of the next group to prefetch, one for each cache line; empty: no prefetch.
+    // Slots whose data are prefetched: one for each cache line of the next group. Empty: no prefetch.
     using NextSlots = std::span<const int>;
 
     const char* name;
     // Fills the group from the arrays of all vehicles: takes the radar measurements, reads the delayed data about the
-    // leaders and adds the external demands.
+    // leaders and adds the external demands (ExternalDemand).
     void (*gather)(const FullStreams&, const DelayRows& radar, const DelayRows& v2v, const LaneGroup&, double dt,
                    const FullGroup&);
     // Driver: computes the requested accelerations of the first `vehicles` vehicles of the group.
@@ -48,8 +49,8 @@ struct FullKernels {
     void (*scatter)(const FullStreams&, Lanes, const FullGroup&, double dt);
 };
 
-// Returns the kernels with the widest vectors that this machine supports. `scalar`: returns the kernels that compute
-// one vehicle at a time, the reference for all other versions.
+// Returns the kernels with the widest vectors that this machine supports. If `scalar` is true, returns the kernels that
+// compute one vehicle at a time. These are the reference for all other versions.
 const FullKernels& full_kernels(bool scalar);
 
 }  // namespace stopline

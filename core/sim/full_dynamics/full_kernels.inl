@@ -17,8 +17,8 @@ namespace stopline {
 
 namespace {
 
-// The brake holds a vehicle that is not faster than kBrakeHoldSpeed_mps with the acceleration kHold_mps2. It releases
-// the vehicle when the driver requests more than kStart_mps2.
+// The brake holds a vehicle whose speed is at most kBrakeHoldSpeed_mps. It releases the vehicle when the driver
+// requests more than kStart_mps2. The powertrain of a held vehicle gets the request kHold_mps2.
 constexpr double kStart_mps2 = 0.01;
 constexpr double kHold_mps2 = -0.3;
 
@@ -77,9 +77,9 @@ STOPLINE_INLINE void for_each_batch(const LaneStep& lane, Treat treat) {
     }
 }
 
-// Prefetches the data of the next group in portions, one during each batch of the current group. Loading thus overlaps
-// with computing. The prefetcher of the hardware does not help, because the part of an array that belongs to one lane
-// is too short.
+// Prefetches the data of the next group in portions, one portion during each batch of the current group. Loading thus
+// overlaps with computing. The prefetcher of the hardware does not help, because the part of an array that belongs to
+// one lane is too short.
 class GroupPrefetch {
 public:
     GroupPrefetch(const FullStreams& streams, const FullKernels::NextSlots& slots, int vehicles, int width)
@@ -193,7 +193,7 @@ STOPLINE_INLINE void plan_at(const DriverTablesOf<float>& d, const FullGroup& g,
     const R drive = min_of(choose(is_platoon_leader, as_leader, catch_up_acceleration(d, speed, limit)), slow_down);
     const R smallest = min_of(min_of(min_of(drive, follow), emergency), min_of(get(g.demand), behind));
     const R smooth = clamped<R>(smallest, last_request - c.jerk_down_mps3 * dt, last_request + c.jerk_up_mps3 * dt);
-    // The request of a stopped vehicle does not fall below 0. At the next start the request then rises from 0.
+    // The request of a stopped vehicle does not fall below 0. It thus rises from 0 when the vehicle starts.
     const R lowest = select(speed <= kBrakeHoldSpeed_mps, splat<R>(0.0), splat<R>(-c.deceleration_emergency_mps2));
     const R request = max_of(smooth, lowest);
     store(g.request + k, request);
@@ -202,8 +202,8 @@ STOPLINE_INLINE void plan_at(const DriverTablesOf<float>& d, const FullGroup& g,
     const R held = STOPLINE_FLAG(R, speed <= kBrakeHoldSpeed_mps) * STOPLINE_FLAG(R, request <= kStart_mps2);
     store(g.mean_request + k, choose(held, splat<R>(kHold_mps2), 0.5 * (last_request + request)));
     store(g.is_platoon_leader + k, is_platoon_leader);
-    // The V2V message describes the end of this step, when the request takes effect. `acceleration` is the mean over
-    // the last step. It is extrapolated to the end of this step by the first-order lag.
+    // The V2V message describes the end of this step, when the request takes effect. `acceleration` is the mean
+    // acceleration over the previous step. The first-order lag extrapolates it to the end of this step.
     const R reached = min_of(1.5 * dt * rate, 1.0);
     store(g.sent_acceleration + k, acceleration + (request - acceleration) * reached);
     store(g.sent_rate + k, rate);

@@ -13,7 +13,7 @@ struct NewVehicle {
     double length_m = 0.0;
     int policy = 0;
     int route = -1;
-    bool behind_last = true;  // true: upstream of all vehicles on the lane; false: between them, as position_m requires
+    bool behind_last = true;  // true: the vehicle is the last on its lane; false: its place depends on position_m
 };
 
 // Inserts a vehicle and returns its slot. The caller must then set the position of the vehicle on its route, and call

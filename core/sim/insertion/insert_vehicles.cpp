@@ -18,7 +18,7 @@ namespace stopline {
 namespace {
 
 constexpr double kBeforeStart_s = -1e9;
-constexpr double kBacklogHeadway_s = 2.0;  // entry headway of vehicles that may have waited for room
+constexpr double kBacklogHeadway_s = 2.0;  // assumed headway of vehicles that may have waited for room
 
 // Draws spacing policy and route of the next vehicle of an inlet, unless they have been drawn already.
 void draw_next_vehicle(const Model& model, State& state, int number) {
@@ -58,8 +58,8 @@ Entry entry_on_empty_link(const Model& model, const State& state, int number, in
     return {gap_m >= desired_gap_m(model, policy, speed_mps), front_m, speed_mps};
 }
 
-// Returns the entry at an inlet. On a link lane the new vehicle must lie wholly on the lane, so that it does not reach
-// into the intersection upstream.
+// Returns the entry at an inlet. On a link lane the new vehicle must lie wholly on the lane, so that its rear is not
+// inside the intersection upstream.
 Entry entry_at(const Model& model, const State& state, int number, int policy) {
     const int lane = model.demand.inlets[at(number)].lane;
     const double max_entry_mps = std::min(model.demand.entry_speed_mps, model.graph.lanes[at(lane)].limit_mps);

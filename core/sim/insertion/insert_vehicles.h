@@ -1,4 +1,5 @@
-// Inserts vehicles at inlets: from an endless backlog, at given headways, or as queues before the first step.
+// Inserts vehicles at inlets: from an endless backlog, at given headways, or as queues before the first step. An inlet
+// is a lane on which vehicles enter the network (DemandPlan::Inlet).
 #pragma once
 
 #include <cstdint>
@@ -11,7 +12,7 @@ namespace stopline {
 // Inserts a queue at every inlet before the first step if the demand asks for it (DemandPlan::starts_queued).
 void insert_initial_queues(const Model& model, State& state);
 
-// Inserts the next vehicle of each inlet if it is due and has room.
+// Inserts the next vehicle of each inlet if the vehicle is due and has room.
 void insert_vehicles(const Model& model, State& state);
 
 // Returns the number of vehicles that are due but have found no room to enter. Includes only vehicles on trips, and

@@ -22,11 +22,11 @@ namespace stopline {
 
 namespace {
 
-// If a vehicle is to be inserted within this distance of the stop line, no vehicle without priority may be crossing its
-// route or have decided to cross. The crossing vehicle could not consider the new vehicle in its decision.
+// Within this distance of the stop line, a vehicle is inserted only if no vehicle without priority is crossing its
+// route or has decided to cross it. The crossing vehicle could not consider the new vehicle in its decision.
 constexpr double kNearLine_m = 40.0;
 // Positions in route files are rounded, so the gaps in a queue from a file can be a little too small. This tolerance
-// allows them.
+// allows such gaps.
 constexpr double kPositionRounding_m = 0.01;
 
 // Returns the position of the rear of the last vehicle on a lane, or 1e6 if the lane is empty.
@@ -66,12 +66,12 @@ int departure_lane(const Model& model, const State& state, int number) {
 // The lane and the position at which a vehicle is to be inserted.
 struct InsertionPoint {
     int lane = -1;
-    int index = 0;  // index of the new vehicle on the lane, counted from the first vehicle
+    int index = 0;  // number of vehicles on the lane that are ahead of the new vehicle
     double front_m = 0.0;
 };
 
-// Returns a random number in [0, 1) for the departure position of a trip. For DepartPosition::free it is a new number
-// in each step.
+// Returns a random number in [0, 1) for the departure position of a trip. For DepartPosition::free, each step draws a
+// new number.
 double random_position(const Model& model, const State& state, int number) {
     const bool draws_each_step = model.demand.trips[at(number)].depart_position == Trip::DepartPosition::free;
     const std::uint64_t draw = draws_each_step ? 3 + static_cast<std::uint64_t>(state.tick) : 2;
@@ -151,8 +151,8 @@ EntryLeader entry_leader(const Model& model, const State& state, const Insertion
     return {rear_m - point.front_m, v.speed_mps[at(leader.slot)]};
 }
 
-// Returns true if the follower of the new vehicle has enough room. This is its desired gap plus the distance to brake
-// comfortably to the speed of the new vehicle.
+// Returns true if the gap of the new vehicle's follower suffices. The gap must be at least the follower's desired gap
+// plus the distance in which the follower brakes comfortably to the speed of the new vehicle.
 bool follower_has_room(const Model& model, const State& state, const InsertionPoint& point, double rear_m,
                        double speed_mps) {
     const LaneBlock& block = state.blocks[at(point.lane)];
@@ -247,7 +247,7 @@ void insert_backlog(const Model& model, State& state, int approach) {
     constexpr std::size_t kMaxFailures = 16;
     std::vector<int>& trips = state.insertion.waiting_trips[at(approach)];
     const std::size_t lanes = model.graph.approaches[at(approach)].lanes.size();
-    std::bitset<kMaxFailures> full;  // [lane index] the lane has no room; the last bit stands for all further lanes
+    std::bitset<kMaxFailures> full;  // [lane index] true: the lane has no room; the last bit: all further lanes
     std::size_t kept = 0;
     std::size_t k = 0;
     for (; k < trips.size() && full.count() < lanes && kept < kMaxFailures; ++k) {

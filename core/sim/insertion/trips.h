@@ -6,7 +6,7 @@
 
 namespace stopline {
 
-// Inserts the vehicles of all trips that are due, as far as there is room. The other vehicles stay in the backlog.
+// Inserts the vehicles of all trips that are due, as far as there is room. Vehicles without room stay in the backlog.
 void insert_trips(const Model& model, State& state);
 
 }  // namespace stopline

@@ -45,8 +45,8 @@ bool is_blocked_by_leader(const State& state, int slot) {
 
 namespace {
 
-// Returns true if the vehicle is on a lane of the intersection to which `lane` belongs. The yielding states of vehicles
-// at other intersections cannot be used: they may be updated before or after this call in the same step.
+// Returns true if the vehicle is on a lane of the intersection to which `lane` belongs. The yielding state of a vehicle
+// at another intersection cannot be used, because another thread may update it before or after this call.
 bool is_at_same_intersection(const State& state, int lane, int slot) {
     const VehicleRecord& record = state.vehicles.record[at(slot)];
     const int own_lane = state.plan.route(record.route)[at(record.route_index)];
@@ -90,8 +90,8 @@ int vehicle_stopping_at_signal(const State& state, int lane, int connection) {
 }
 
 // The arguments of one call of look_upstream(). The function searches upstream of `lane` for moving vehicles that will
-// drive over `lane` to `connection`. It reads no decisions made for these vehicles in this step, because another thread
-// may be making them.
+// drive over `lane` to `connection`. The function does not read decisions of this step about these vehicles, because
+// another thread may be making these decisions at the same time.
 struct Upstream {
     int lane;
     int connection;

@@ -1,5 +1,5 @@
 // Predicts when the next vehicle reaches a conflict area. Finds vehicles that will not arrive soon, because they yield
-// or stand in a queue. All positions and speeds are those at the beginning of the step.
+// or are in a queue. All positions and speeds are those at the beginning of the step.
 #pragma once
 
 #include "base/speed_thresholds.h"
@@ -22,7 +22,7 @@ bool is_yielding_before(const State& state, int slot, double area_m);
 // vehicle nor its followers are expected to arrive soon.
 bool is_blocked_by_leader(const State& state, int slot);
 
-// Returns true if `occupant`, a vehicle on connection `lane`, stands in a queue of slow vehicles whose first vehicle
+// Returns true if `occupant`, a vehicle on connection `lane`, is in a queue of slow vehicles whose first vehicle
 // yields. The yielding vehicle may be on another connection from the same approach lane, at a place where this
 // connection and `lane` still overlap.
 bool is_behind_yielding_vehicle(const State& state, int lane, const JunctionOccupant& occupant);
@@ -41,7 +41,7 @@ struct Arrival {
 };
 // Returns the next arrival of a vehicle at the conflict area on connection `conflict.other`. The search covers the
 // connection, its approach lane, and the lanes further upstream from which a vehicle can arrive within `horizon_s`.
-// Vehicles that yield, stop for the signal or stand in a queue are ignored, and so are the vehicles behind them.
+// Ignores vehicles that yield, stop for the signal or are in a queue, and all vehicles behind them.
 Arrival next_arrival(const Model& model, const State& state, const Conflict& conflict, double horizon_s);
 
 }  // namespace stopline

@@ -1,4 +1,5 @@
-// Counts pairs of vehicles from different connections in the same conflict area.
+// Counts conflicts: pairs of vehicles from different connections in the same conflict area. Works on one partition, a
+// group of whole intersections.
 #pragma once
 
 #include "sim/state/model.h"

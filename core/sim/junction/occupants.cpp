@@ -18,7 +18,7 @@ public:
     OccupantSearch(const State& state, JunctionState& junctions, Partition& part)
         : state_(state), v_(state.vehicles), junctions_(junctions), part_(part) {}
 
-    // Clears the lists and sets that the last step filled.
+    // Empties the occupant lists and the bitsets that the previous step filled.
     void clear_lists() {
         for (const int lane : part_.occupied_connections) {
             junctions_.occupants[at(lane)].clear();
@@ -31,7 +31,7 @@ public:
     }
 
     // Adds each vehicle that has its front on an exit lane and its rear still inside the intersection. Returns false if
-    // the last vehicle of the exit lane is wholly on this lane, or if the lane is empty.
+    // the exit lane is empty, or if even its vehicle furthest upstream is wholly on the lane.
     bool add_from_exit(int exit) {
         const LaneBlock& block = state_.blocks[at(exit)];
         const auto reaches_back = [&](int slot) { return v_.position_m[at(slot)] < v_.length_m[at(slot)]; };

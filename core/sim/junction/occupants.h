@@ -1,11 +1,11 @@
-// Finds the vehicles inside intersections.
+// Finds the vehicles inside intersections. Works on one partition, a group of whole intersections.
 #pragma once
 
 #include "sim/state/state.h"
 
 namespace stopline {
 
-// Lists the occupants of each connection of a partition, and updates the sets of connections in JunctionState.
+// Lists the occupants of each connection of a partition, and updates the bitsets of connections in JunctionState.
 void find_junction_occupants(const State& state, JunctionState& junctions, Partition& part);
 
 }  // namespace stopline

@@ -1,8 +1,10 @@
 // Right of way inside intersections: decides which vehicles must wait, and before which conflict area. All decisions
 // use the positions and speeds at the beginning of the step. On each connection only the first waiting vehicle checks
-// gaps. The vehicles behind this vehicle wait for it where they must yield. They also keep out of occupied areas.
+// gaps. The vehicles behind this vehicle wait for it where they must yield. They also keep out of occupied conflict
+// areas.
 //
-// A vehicle may enter a conflict area under these conditions:
+// In a conflict area the connection of a vehicle meets another connection. The vehicle may enter the area under these
+// conditions:
 //   - No vehicle of the other connection is in the area. No vehicle of the other connection that has accepted a gap is
 //     on its way to the area.
 //   - If the vehicle must yield, it needs a gap: the next vehicle with priority must arrive at least one critical gap
@@ -28,8 +30,8 @@ namespace stopline {
 
 namespace {
 
-// Returns the travel time over a distance, s. A vehicle faster than `limit_mps`, the speed limit of its connection,
-// brakes to the limit within the distance.
+// Returns the time in s that a vehicle needs for a distance. A vehicle faster than `limit_mps`, the speed limit of its
+// connection, brakes to the limit within the distance.
 double travel_time_s(const Model& model, double distance_m, double speed_mps, double limit_mps) {
     constexpr double kMinSpeed_mps = 2.0;
     const double b = model.driver.deceleration_mps2;
@@ -43,8 +45,8 @@ double travel_time_s(const Model& model, double distance_m, double speed_mps, do
 struct Candidate {
     int slot;
     double front_m;  // front position along the connection; below 0: on the approach lane
-    bool inside;     // the front is past the stop line
-    bool stopped;    // slower than kCrawlingSpeed_mps
+    bool inside;     // true: the front is past the stop line
+    bool stopped;    // true: slower than kCrawlingSpeed_mps
 };
 
 // Returns true if the pass-blocker rule lets `vehicle` on connection `lane` pass `blocker` on connection `other`. The
@@ -97,7 +99,7 @@ int area_blocker(const Model& model, State& state, Partition& part, int lane, co
         // one proceeds.
         if (find_resolution(state, part, occupant.slot, v.slot) != nullptr) return occupant.slot;
         if (DeadlockResolution* const resolution = find_resolution(state, part, v.slot, occupant.slot)) {
-            resolution->last_needed_tick = state.tick;  // keeps the resolution from expiring
+            resolution->last_needed_tick = state.tick;  // the resolution must not expire
             continue;
         }
         // The occupant waits too, so the candidate proceeds.
@@ -159,7 +161,8 @@ int committed_vehicle(const Model& model, const State& state, const Conflict& co
 }
 
 // Returns the slot of the vehicle to which candidate `v` must yield; -1: none. This is a vehicle with priority that
-// arrives too soon, or the winner of a yield cycle. Stores in the candidate's record whether it accepts the gap.
+// arrives too soon, or the winner of a yield cycle. Stores in the record of the candidate whether the candidate accepts
+// the gap.
 int near_priority_vehicle(const Model& model, State& state, Partition& part, int lane, const Candidate& v,
                           double to_wait_m) {
     VehicleArrays& arrays = state.vehicles;
@@ -209,9 +212,9 @@ constexpr double kNoWait_m = 1e9;  // stands for the waiting position of a vehic
 
 // The position where a candidate must wait, and the vehicle for which it waits.
 struct Wait {
-    double place_m = kNoWait_m;         // waiting position along the connection; kNoWait_m: no wait
+    double place_m = kNoWait_m;         // waiting position along the connection; kNoWait_m: the candidate need not wait
     int blocker = -1;                   // slot of the vehicle for which the candidate waits
-    bool blocker_has_priority = false;  // false: the blocker is in the area or about to enter it
+    bool blocker_has_priority = false;  // false: the blocker is in the conflict area or about to enter it
 };
 
 // Returns the waiting position at the stop line, m along the connection. Returns kNoWait_m if vehicles may wait inside
@@ -273,8 +276,8 @@ Wait find_wait(const Model& model, State& state, Partition& part, int lane, cons
     return {};
 }
 
-// Stores in the vehicle's record that it waits, and adds a yield stop at `place_m` on `lane`. A lane keeps only the
-// stops of its first few waiting vehicles.
+// Stores in the record of a vehicle that the vehicle waits, and adds a yield stop at `place_m` on `lane`. A lane keeps
+// only the stops of its first few waiting vehicles.
 void record_wait(State& state, Partition& part, int lane, int slot, double place_m, const Wait& wait) {
     VehicleRecord& record = state.vehicles.record[at(slot)];
     record.yield_tick = static_cast<int>(state.tick);

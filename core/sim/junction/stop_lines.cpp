@@ -18,9 +18,11 @@ namespace stopline {
 
 namespace {
 
-// Returns true if the vehicle can stop before the line if it brakes with `deceleration_mps2`. The braking begins after
-// a response time: the brake lag, plus half the time that the limited jerk needs to change the requested acceleration.
-// An accelerating vehicle keeps its acceleration until then.
+// Returns true if the vehicle can stop before the line if it brakes with `deceleration_mps2` after a response time. The
+// response time is the brake lag plus half the time in which the limited jerk takes the acceleration from its present
+// value to `-deceleration_mps2`. A vehicle keeps its present acceleration in the response time, so the braking starts
+// at a higher speed. The distance driven in the response time is computed with the present speed; the small additional
+// distance due to the acceleration is neglected. If the vehicle already brakes, its acceleration is taken as 0.
 bool can_stop(const Model& model, const VehicleArrays& v, int slot, double line_m, double deceleration_mps2) {
     const double speed = v.speed_mps[at(slot)];
     const double lag_s = model.vehicles[at(v.type[at(slot)])].brake_lag_s;
@@ -68,7 +70,6 @@ int choose_stopper(const Model& model, const State& state, const LaneBlock& bloc
 // Returns true if the signal is green and the vehicle that stopped for it no longer hesitates to start.
 bool line_is_open(const Model& model, const State& state, int signal_group, const StopLineState& line) {
     if (state.stop_lines.lights[at(signal_group)] != Light::green) return false;
-    // A vehicle that stopped for the red signal hesitates at the start of green.
     return line.stopping_vehicle < 0 ||
            state.tick >= model.signals[at(signal_group)].light_start_tick(state.tick) + model.hesitation_ticks;
 }
@@ -121,7 +122,8 @@ const ExitRoom& exit_room(const Model& model, State& state, int exit) {
     room = {state.tick, 1e9, -1};
     const LaneBlock& block = state.blocks[at(exit)];
     if (block.count == 0) return room;
-    const double line_m = state.plan.lane(exit).next_limit_m;  // stop line, or end of a lane without a stop line
+    // Exit lanes with a stop line have next_limit_m at this line, other exit lanes at their end.
+    const double line_m = state.plan.lane(exit).next_limit_m;
     const bool ends_at_red = line_m <= model.rules.sight_m && queue_ends_at_red(model, state, exit);
     if (!ends_at_red && !has_slow_vehicle(state, block)) return room;
     double moving_m = 0.0;   // space that the moving vehicles will occupy after they have stopped
@@ -171,10 +173,10 @@ int crossing_blocker(const Model& model, const State& state, int connection) {
 // Data of one connection for the keep-clear rule.
 struct ConnectionState {
     int connection;
-    int stopped_in_exit;  // ExitRoom::stopped_slot of the exit lane
-    int crossing_slot;    // result of crossing_blocker()
+    int stopped_in_exit;  // slot of a stopped vehicle in the exit lane (ExitRoom::stopped_slot)
+    int crossing_slot;    // slot of the vehicle that crossing_blocker() found; -1: none
     double room_m;        // free room in the exit lane for the vehicles that are not checked yet
-    bool is_free;         // no vehicle blocks the connection; the exit has room for all vehicles of the approach lane
+    bool is_free;  // true: nothing blocks the connection, and all vehicles of the approach lane fit into the exit
 };
 
 // The ConnectionState of each connection that vehicles of one approach lane take. A state is computed when it is first
@@ -213,14 +215,15 @@ private:
     double ample_room_m_;                     // room that suffices for all vehicles of the approach lane
     std::array<ConnectionState, 16> states_;  // not initialised, to save time in every step
     std::size_t count_ = 0;
-    ConnectionState* last_ = nullptr;  // last result; most vehicles take the same connection as their leader
+    // Previous result, because most vehicles take the same connection as their leader.
+    ConnectionState* last_ = nullptr;
 };
 
 // Returns true if the vehicle can still stop before the line for the keep-clear rule. It may brake with the highest
 // deceleration of a normal stop, or with the comfortable deceleration if this is higher. A normal stop reaches its
 // highest deceleration only near the end, because the brake lags. The mesoscale mode has no brake lag.
 bool can_hold_for_keep_clear(const Model& model, const VehicleArrays& v, int slot, double line_m) {
-    constexpr double kLagFactor = 1.4;  // highest deceleration of a normal stop, divided by `stop.deceleration`
+    constexpr double kLagFactor = 1.4;  // ratio of the highest deceleration of a normal stop to `stop.deceleration`
     const CaccSettings& cacc = model.driver.cacc;
     const double peak_mps2 =
         std::min(kLagFactor * model.driver.stop.deceleration_mps2, cacc.deceleration_emergency_mps2);
@@ -282,9 +285,9 @@ void set_stopper(const Model& model, const State& state, int index, int slot, St
 }
 
 // Makes the vehicle that stops for the signal the leader of the platoon that starts at the next green. If the vehicle
-// stops past the line, its entry tick is renewed in each step, so that it enters the intersection only when the stop
-// ends. If the vehicle is before the line, its entry tick must not change: its rear may still be in the previous
-// intersection, where another thread reads the tick.
+// stops past the line, each step sets its entry tick to the present tick. The vehicle thus counts as entering the
+// intersection only when the stop ends. If the vehicle is upstream of the line, its entry tick must not change: its
+// rear may still be in the previous intersection, where another thread reads the tick.
 void make_platoon_leader(State& state, const LanePlan& lane, int slot) {
     state.vehicles.is_platoon_leader[at(slot)] = 1.0F;
     if (state.vehicles.position_m[at(slot)] > lane.stop_line_m) {
@@ -296,7 +299,8 @@ void make_platoon_leader(State& state, const LanePlan& lane, int slot) {
 void list_approaching(const Model& model, State& state, int index) {
     // Vehicles within this distance before the lane's end are listed. It covers a comfortable stop from 50 km/h.
     constexpr double kLookBack_m = 60.0;
-    constexpr double kFastRoadLookBack_m = 160.0;  // the same distance for the faster roads of imported networks
+    // This value replaces kLookBack_m on all lanes of imported networks, because some of their roads are faster.
+    constexpr double kFastRoadLookBack_m = 160.0;
     const bool has_trips = !model.demand.trips.empty();
     const double look_back_m = has_trips ? kFastRoadLookBack_m : kLookBack_m;
     const VehicleArrays& v = state.vehicles;

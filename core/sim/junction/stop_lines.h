@@ -1,4 +1,4 @@
-// Decisions at signals and stop lines.
+// Decisions at signals and stop lines. decide_stop_lines() works on one partition, a group of whole intersections.
 #pragma once
 
 #include "sim/state/model.h"

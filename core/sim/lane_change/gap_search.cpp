@@ -16,10 +16,12 @@ namespace stopline {
 
 namespace {
 
-constexpr double kFallBack_mps = 3.0;      // speed difference with which a vehicle falls back behind another vehicle
-constexpr double kMinSpeed_mps = 1.0;      // lowest target speed of a vehicle that falls back
-constexpr double kTargetGapFactor = 1.1;   // target gap / required gap; above 1, because the target is reached slowly
-constexpr double kDroppingBack_mps = 0.5;  // if the follower is slower by more than this, the lag gap grows by itself
+constexpr double kFallBack_mps = 3.0;  // speed difference with which a vehicle falls back behind another vehicle
+constexpr double kMinSpeed_mps = 1.0;  // lowest target speed of a vehicle that falls back
+// Ratio of the target gap to the required gap. It is above 1, because the gap approaches the target gap slowly.
+constexpr double kTargetGapFactor = 1.1;
+// If the follower is slower than the vehicle by more than this speed, the lag gap grows by itself.
+constexpr double kDroppingBack_mps = 0.5;
 
 class GapSearch {
 public:
@@ -49,8 +51,8 @@ private:
         add_yield_stop(state_.junctions, part_, lane_, {me.slot, place_m, -1, false});
     }
 
-    // Returns the speed at which a vehicle reaches the required gap behind `ahead`. The speed is at least that of
-    // `ahead` minus kFallBack_mps.
+    // Returns the speed with which a vehicle gradually reaches its target gap behind `ahead`. The speed is at least the
+    // speed of `ahead` minus kFallBack_mps.
     double gap_reaching_speed_mps(const Neighbour& ahead, int policy, double speed_mps) const {
         const double braking_mps2 = model_.driver.stop.deceleration_mps2;
         const double share = kTargetGapFactor * model_.lane_change.gap_share;
@@ -87,9 +89,9 @@ private:
                follower.slot < block.past_last() && std::max(follower.gap_m, 0.0) >= braking_m;
     }
 
-    // Aligns the speed of `me` with a gap in the adjacent lane, or makes the follower there open a gap. `changes`:
-    // required lane changes, signed as TurnOption::lane_changes. `to_line_m`: distance to the stop line before which
-    // the lane changes must be done.
+    // Aligns the speed of `me` with a gap in the adjacent lane, or makes the follower in that lane open a gap.
+    // `changes`: required lane changes; below 0: to the left. `to_line_m`: distance to the stop line before which the
+    // lane changes must be done.
     void align_with_gap(const LaneChangeRequest& me, int changes, double to_line_m) {
         const AdjacentLanes& adjacent = state_.plan.adjacent(lane_);
         const int other = changes < 0 ? adjacent.left : adjacent.right;

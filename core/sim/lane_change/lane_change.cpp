@@ -18,8 +18,8 @@ namespace stopline {
 
 namespace {
 
-constexpr double kDecisionInterval_s = 0.5;  // time between two decisions of a vehicle
-constexpr double kMinInterval_s = 2.0;       // shortest time from a change to the next mandatory change
+constexpr double kDecisionInterval_s = 0.5;  // time between two lane-change decisions of a vehicle
+constexpr double kMinInterval_s = 2.0;       // shortest time from a lane change to the next mandatory one
 // Within this time after a change, a vehicle does not return to its previous lane to gain speed. Otherwise it could
 // change back and forth between adjacent queues that move in turn. The value is our choice.
 constexpr double kReturnPause_s = 30.0;
@@ -90,9 +90,9 @@ int changes_after(const State& state, int lane, Turn turn, const VehicleRecord& 
                : std::abs(state.plan.adjacent(state.plan.route(route).back()).turn_option(following).lane_changes);
 }
 
-// Returns the offset to the best lane, signed as TurnOption::lane_changes. From the best lane the fewest lane changes
-// remain downstream of the intersection. Among equally good lanes the nearest one is best. All lanes from the current
-// lane to the best lane allow the turn.
+// Returns the number of lanes to the best lane; below 0: to the left. From the best lane the fewest lane changes remain
+// downstream of the intersection. Among equally good lanes the nearest one is best. All lanes from the current lane to
+// the best lane allow the turn.
 int find_preferred_offset(const State& state, int lane, Turn turn, const VehicleRecord& vehicle) {
     int fewest = changes_after(state, lane, turn, vehicle);
     int offset = 0;

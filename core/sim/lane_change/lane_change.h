@@ -24,10 +24,11 @@ struct LaneChangeRequest {
     int policy = 0;
     Turn turn = Turn::none;
     int lane_changes = 0;    // lane changes required before the stop line; below 0: to the left; 0: none
-    double to_line_m = 0.0;  // distance to the stopping position before the line
-    // The last two members are set if no lane change is required and the following turn is known. An offset below 0
-    // means to the left.
-    int preferred_offset = 0;     // offset to the lane with the fewest lane changes after the intersection
+    double to_line_m = 0.0;  // distance to the position where the vehicle would stop before the line
+    // The two members below are set if no lane change is required before the stop line and the vehicle's turn at the
+    // second intersection ahead is known. preferred_offset is the number of lanes to the best lane, from which the
+    // vehicle needs the fewest lane changes after the first intersection; below 0: to the left.
+    int preferred_offset = 0;
     double to_next_line_m = 0.0;  // distance to the stop line of the second intersection ahead
 };
 // Returns the request of the vehicle in `slot` of `lane`.
@@ -42,7 +43,8 @@ double urgent_share(const Model& model, double to_line_m);
 // not block each other.
 double waiting_position_m(const Model& model, const State& state, const LaneChangeRequest& me);
 
-// Carries out the lane changes of all vehicles that decide in this step.
+// Carries out lane changes. Each vehicle considers a lane change only in some steps, so the function treats only the
+// vehicles that consider one in this step.
 void change_lanes(const Model& model, State& state);
 
 }  // namespace stopline

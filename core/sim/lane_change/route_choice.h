@@ -12,12 +12,12 @@ namespace stopline {
 // Sets the route index of a vehicle, its next lane and the speed limit at the end of its lane.
 void set_route_index(State& state, int slot, int route_index);
 
-// Returns the route of the k-th vehicle of an inlet, drawn at random. `chose_lane`: the vehicle has chosen the lane of
-// the inlet to suit its turn (DemandPlan::Inlet::lane_shares).
+// Returns the route of the k-th vehicle of an inlet, drawn at random. An inlet is a lane on which vehicles get a route.
+// `chose_lane`: true if the vehicle has chosen this lane because of its turn (DemandPlan::Inlet::lane_shares).
 int draw_route(const Model& model, State& state, int inlet, std::int64_t k, bool chose_lane);
 
-// Draws the following turn of a vehicle: the turn at the second intersection ahead. Sets it to none if there is no such
-// intersection or if the driver does not look ahead. `chose_lane`: see draw_route().
+// Draws the following turn of a vehicle: the turn at the second intersection ahead. Sets the turn to none if there is
+// no such intersection or if LaneChangeSettings::look_ahead is off. `chose_lane`: see draw_route().
 void draw_following_turn(const Model& model, State& state, int slot, bool chose_lane);
 
 // Gives a vehicle that has reached the start of `lane` its next route. Does nothing if no route begins on this lane.

@@ -1,8 +1,8 @@
-// Selects the vehicles that the mesoscale kernels move in a step. Caps the speed of vehicles that must stop or align
-// with a gap.
+// Selects the vehicles that the mesoscale kernels move in a step. The kernels move whole blocks: batches of consecutive
+// slots. Caps the speed of vehicles that must stop or align with a gap.
 //
-// The kernels skip vehicles inside a standing queue: the leader of such a vehicle stands still, so the vehicle stands
-// still too. A lane sleeps while its first vehicle is stopped before a red signal. The search for leaders and the
+// The kernels skip vehicles inside a standing queue: the leader of such a vehicle is stopped, so the vehicle remains
+// stopped too. A lane sleeps while its first vehicle is stopped before a red signal. The search for leaders and the
 // decisions at stop lines skip a sleeping lane.
 #include "sim/mesoscale/meso_blocks.h"
 
@@ -25,8 +25,8 @@ void update_queue(const VehicleArrays& v, const LaneBlock& block, std::int64_t t
         return v.speed_mps[i] == 0.0 && v.acceleration_mps2[i] == 0.0F;
     };
     while (queue.first < queue.end && !is_at_rest(queue.first)) ++queue.first;
-    // After a start message (relay_start()) a vehicle may have closed up although its leader did not start. The queue
-    // then ends before this vehicle.
+    // After a start message (relay_start()) a vehicle may have moved closer to its leader although the leader did not
+    // start. The queue then ends ahead of this vehicle.
     for (int place = queue.first + 1; place < std::min(queue.released, queue.end); ++place) {
         if (!is_at_rest(place)) queue.end = place;
     }
@@ -41,11 +41,11 @@ void update_queue(const VehicleArrays& v, const LaneBlock& block, std::int64_t t
 
 // Tells stopped vehicles of a queue by V2V that the vehicle ahead of the queue has started. Returns the number of
 // vehicles that receive this start message. A vehicle forwards the message before it moves, so the message reaches
-// several vehicles in one step. The first vehicle whose policy has a time gap ends the relay, because it starts later.
-// The messages are only stored here, because other lanes still read the state. step_meso() applies them.
+// several vehicles in one step. The relay ends at the first vehicle whose policy has a time gap, because this vehicle
+// starts later. The messages are only stored here, because other lanes still read the state. step_meso() applies them.
 int relay_start(const Model& model, const VehicleArrays& v, const LaneBlock& block, StandingQueue& queue,
                 std::vector<StartMessage>& messages) {
-    constexpr double kClosedUp_m = 0.5;  // a vehicle whose gap exceeds its desired gap by more than this starts later
+    constexpr double kClosedUp_m = 0.5;  // the relay ends at a vehicle whose gap exceeds its desired gap by more
     if (queue.first == 0) return 0;
     const std::size_t last_started = at(block.first + queue.first - 1);
     const float relayed_mps2 = v.acceleration_mps2[last_started];
@@ -93,7 +93,8 @@ public:
             return add_blocks(first + queue.end, block_.past_last());
         }
         if (is_near_end()) part_.lanes_near_end.push(lane_);
-        v_.speed_cap_mps[at(first)] = kUnlimitedSpeed_mps;  // removes the cap that was set for the sleeping lane
+        // Removes the cap that held the vehicle while the lane slept.
+        v_.speed_cap_mps[at(first)] = kUnlimitedSpeed_mps;
         cap_aligning_vehicles();
         if (last_stopping_slot() > first + queue.first) queue.last_external_tick = state_.tick;
         update_queue(v_, block_, state_.tick, queue);
@@ -105,7 +106,8 @@ public:
         }
         if (queue.first == 0 && queue.end > 0 && waits_only_for_signal()) {
             sleep_group = state_.plan.signal_group_for(lane_, v_.next_lane[at(first)]);
-            v_.speed_cap_mps[at(first)] = 0.0;  // holds the vehicle when other vehicles of its block move
+            // The kernels also compute this vehicle if another vehicle of its block moves. The cap keeps it at rest.
+            v_.speed_cap_mps[at(first)] = 0.0;
             return add_blocks(first + queue.end, block_.past_last());
         }
         cap_all();

@@ -1,4 +1,5 @@
-// Selects the vehicles that a step of the mesoscale mode must move.
+// Selects the vehicles that a step of the mesoscale mode must move. Works on one partition, a group of whole
+// intersections.
 #pragma once
 
 #include "sim/state/model.h"
@@ -7,7 +8,7 @@
 namespace stopline {
 
 // Lists the blocks of slots that the kernels must update (MesoKernels::size). Leaves out a block if all of its vehicles
-// stand in a queue. Caps the speed of vehicles that must stop or align with a gap.
+// are stopped in a queue. Caps the speed of vehicles that must stop or align with a gap.
 void collect_moving_blocks(const Model& model, State& state, Partition& part);
 
 }  // namespace stopline

@@ -29,15 +29,19 @@ struct MesoStep {
     double turn_share;      // before a turn, a vehicle gains this share of (allowed speed - speed) in a step
     double leader_mps2;     // acceleration of platoon leaders; 0: acceleration of the vehicle's policy
     double leader_constant_power_speed_mps;  // above this speed leader_mps2 falls as 1 / v
-    const LeaderProfile* leader_profile;     // replaces the two values above; nullptr: no profile
-    bool relays;           // V2V relays the start of a queue; platoon leaders then anticipate their leader's speed
-    bool leaders_foresee;  // platoon leaders have the safe speed of followers; requires `relays` and no transient gap
-    double hardest_mps2;   // maximum braking
-    bool prefetches;       // the kernels prefetch blocks; useful if the vehicle data do not fit into the cache
+    // Acceleration of platoon leaders by speed. If it is not nullptr, the kernels ignore leader_mps2 and
+    // leader_constant_power_speed_mps.
+    const LeaderProfile* leader_profile;
+    bool relays;  // true: V2V relays the start of a queue, and platoon leaders anticipate the speed of their leader
+    // True: the safe speed of a platoon leader is equal to that of a follower, so it is not computed again. Requires
+    // `relays`, and policies without a transient gap (Krauss::transient_gap_s2).
+    bool leaders_foresee;
+    double hardest_mps2;  // maximum braking
+    bool prefetches;      // true: the kernels prefetch blocks; useful if the vehicle data do not fit into the cache
 };
 
-// Gap in m that switching policies (SWITCH) add to their standstill gap. The array has one value for each slot of the
-// moving blocks, in the same order; nullptr: 0 for all slots.
+// Extra standstill gap in m of each vehicle whose policy is a switching policy (SWITCH); 0 for all other vehicles. The
+// array has one value for each slot of the blocks that move, in the same order; nullptr: 0 for all slots.
 using ExtraGap = const double*;
 
 struct MesoKernels {
@@ -55,7 +59,8 @@ struct MesoKernels {
                    double* next_mps);
 };
 
-// Returns the kernels with the widest vectors that this machine supports. `scalar`: returns the scalar version.
+// Returns the kernels with the widest vectors that this machine supports. If `scalar` is true, returns the scalar
+// version.
 const MesoKernels& meso_kernels(bool scalar);
 
 }  // namespace stopline

@@ -225,8 +225,9 @@ STOPLINE_INLINE R platoon_leader_acceleration_mps2(const MesoStep& t, const R& s
 }
 
 // Computes the next speeds of platoon leaders. Returns these speeds, and `next` for all other vehicles. All platoon
-// leaders have the same acceleration, whatever their policy. A platoon leader becomes a follower when the safe speed
-// behind its leader is lower than its free speed. It stays a platoon leader as long as its next speed is 0.
+// leaders have the same acceleration, whatever their policy. A platoon leader becomes a follower when its next speed
+// is above 0 and the safe speed behind the vehicle ahead is lower than its free speed. It does not become a follower
+// while it stands.
 // `foreseen_mps`: result of anticipated_safe_speed_mps(). `next`: next speeds of the vehicles as followers.
 // `has_policy`: 1 for vehicles with the policy of model `k`, else 0.
 template <class R, class Model>
@@ -255,8 +256,8 @@ constexpr double kNoExtraGap[kWide] = {};
 // Properties of a run. The kernels are compiled once for each combination.
 struct MesoVariant {
     int policies;           // number of policies: 1 or 2; 0: more than 2
-    bool power_limit;       // at least one policy has an acceleration that falls at high speed (constant power)
-    bool instant_slowdown;  // before a turn, vehicles reach the allowed speed in one step (turn_share = 1)
+    bool power_limit;       // true: at high speed the acceleration of at least one policy falls (constant power)
+    bool instant_slowdown;  // true: before a turn, vehicles reach the allowed speed in one step (turn_share = 1)
 };
 
 // Moves the vehicles of one block. Returns 1 for each vehicle that overlaps its leader, else 0.
@@ -322,7 +323,7 @@ STOPLINE_INLINE void prefetch_block(const MesoStreams& s, int i) {
 }
 
 // Moves the vehicles of all blocks and returns the number of overlaps. Begins with the last block. The first vehicle of
-// a block may react to the last vehicle of the block before it, and that vehicle must not have moved yet.
+// a block may react to the last vehicle of the preceding block, so the preceding block must not have moved yet.
 template <class R, MesoVariant kVariant>
 inline int step_blocks(const MesoStreams& streams, std::span<const int> blocks, std::span<const Krauss> models,
                        ExtraGap extra_gaps, const MesoStep& step) {

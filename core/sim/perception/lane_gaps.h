@@ -8,7 +8,7 @@ namespace stopline {
 
 // A vehicle that would be the leader or the follower after a lane change.
 struct Neighbour {
-    int slot = -1;       // -1: none
+    int slot = -1;       // -1: there is no such vehicle
     double gap_m = 1e6;  // net gap
     double speed_mps = 0.0;
     int policy = 0;

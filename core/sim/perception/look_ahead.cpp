@@ -73,7 +73,7 @@ private:
 LeaderAhead ahead_on_trip(const State& state, int lane, double position_m, const RoutePosition& position,
                           double range_m) {
     const std::span<const int> route = state.plan.route(position.route);
-    double start_m = 0.0;  // start of `current_lane`, from the start of `lane`
+    double start_m = 0.0;  // start of `current_lane`, measured from the start of `lane`
     int current_lane = lane;
     for (std::size_t k = at(position.route_index) + 1; k < route.size(); ++k) {
         start_m += state.plan.lane(current_lane).length_m;
@@ -97,8 +97,8 @@ LeaderAhead ahead_on_trip(const State& state, int lane, double position_m, const
 }
 
 // Returns the nearest vehicle ahead on a route: the last vehicle of the first occupied lane from lane `index` on.
-// `start_m`: start of lane `index`, from the start of the observer's lane. Lanes that start more than `range_m` from
-// `position_m` are ignored.
+// `position_m`: position of the vehicle whose leader is searched, on its own lane. `start_m`: start of lane `index`,
+// from the start of this own lane. Lanes that start more than `range_m` from `position_m` are ignored.
 STOPLINE_INLINE LeaderAhead last_vehicle_on(const State& state, std::span<const int> route, std::size_t index,
                                             double start_m, double position_m, double range_m) {
     for (std::size_t k = index; k < route.size(); ++k) {
@@ -197,7 +197,8 @@ LeaderAhead leader_ahead(const State& state, int lane, double position_m, int ro
 
 namespace {
 
-// Copies the V2V messages of the leader to the lane's sentinel slot, or neutral values if there is no leader.
+// Copies the V2V messages of the leader to the sentinel slot of the lane, the slot before the first vehicle. Copies
+// neutral values if there is no leader.
 void copy_v2v(const DelayRows& rows, VehicleArrays& v, std::size_t sentinel, std::size_t ahead, bool has_leader) {
     for (const std::size_t row : {rows.delayed, rows.older}) {
         const std::size_t to = row + sentinel;
@@ -220,7 +221,7 @@ bool rear_is_on_merging_path(const State& state, int lane, int slot, int ahead) 
         return std::find(route.begin(), route.end(), other_lane) != route.end();
     };
     if (leader.previous_lane >= 0 && state.plan.lane(leader.previous_lane).origin == lane)
-        return false;  // the vehicle `ahead` drove over this lane, so it does not merge
+        return false;  // the vehicle in slot `ahead` came over this lane, so it does not merge
     if (leader.previous_lane >= 0 && !is_on_route(leader.previous_lane)) return true;
     // If the previous lane is shorter than the vehicle, the rear may still be on the lane before it.
     if (leader.previous_lane >= 0) rear_m += state.plan.lane(leader.previous_lane).length_m;
@@ -229,7 +230,7 @@ bool rear_is_on_merging_path(const State& state, int lane, int slot, int ahead) 
 
 void find_leaders_beyond_lanes(const Model& model, const State& state, VehicleArrays& v, Partition& part) {
     constexpr double kFree_m = 1e6;
-    constexpr double kTouch_m = 1e-4;  // keeps rounding from making the gap negative
+    constexpr double kTouch_m = 1e-4;  // reserve, so that rounding does not make the gap negative
     part.extra_demands.clear();
     for (const int lane : part.awake) {
         advance_prefetch(state, part.prefetch);

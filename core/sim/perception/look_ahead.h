@@ -8,7 +8,7 @@ namespace stopline {
 
 // The leader that an observer finds beyond the end of its lane.
 struct LeaderAhead {
-    int slot = -1;              // -1: none within the range
+    int slot = -1;              // slot of the leader; -1: none within the range
     double lane_start_m = 0.0;  // start of the leader's lane, from the start of the observer's lane
 };
 
@@ -36,9 +36,9 @@ LeaderAhead last_vehicle_on_route(const State& state, int lane, int slot, double
 // in `slot`. Right of way then prevents contact with this rear, so the vehicle in `slot` need not keep a gap to it.
 bool rear_is_on_merging_path(const State& state, int lane, int slot, int ahead);
 
-// Finds the leader of the first vehicle of each awake lane. Copies this leader to the lane's sentinel slot, the slot
-// before the first vehicle. If the leader has changed, resets the radar history of the first vehicle. In full dynamics,
-// also adds braking demands for hidden leaders.
+// Finds the leader of the first vehicle of each lane in Partition::awake. Copies this leader to the lane's sentinel
+// slot, the slot before the first vehicle. If the leader has changed, resets the radar history of the first vehicle. In
+// full dynamics, also adds the braking that hidden leaders (hidden_leaders.h) demand of the vehicles behind them.
 void find_leaders_beyond_lanes(const Model& model, const State& state, VehicleArrays& vehicles, Partition& part);
 
 }  // namespace stopline

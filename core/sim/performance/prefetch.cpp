@@ -122,7 +122,7 @@ void advance_prefetch_step(const State& state, PrefetchProgress& progress) {
     }
     const Partition& next = *progress.next;
     const std::size_t k = progress.lane++;
-    const IndexBuffer& occupied = next.occupied;  // list of the last step, not updated yet
+    const IndexBuffer& occupied = next.occupied;  // still the list of the previous step
     if (k < occupied.size()) {
         prefetch_lane_ends(state, occupied[k]);
     } else if (k - occupied.size() < next.exits.size()) {

@@ -1,5 +1,6 @@
-// Loads the data of the next partitions into the cache during the decisions of the present partition. The processor
-// cannot predict the addresses itself, because the data of a lane are in many places.
+// Loads the data of the next partitions into the cache while decisions are made for the present partition. A partition
+// is a group of whole intersections. The processor cannot predict the addresses, because the data of a lane are in many
+// places.
 #pragma once
 
 #include "sim/state/model.h"
@@ -14,10 +15,11 @@ void list_cache_lines(const Model& model, State& state, Partition& part);
 // thread. Does nothing if the data of all vehicles fit into the cache.
 void begin_prefetch(State& state, std::size_t number, std::size_t end);
 
-// Prefetches a few cache lines. The prefetching must have been started.
+// Prefetches a few cache lines. begin_prefetch() must have started the prefetching.
 void advance_prefetch_step(const State& state, PrefetchProgress& progress);
 
-// Prefetches a few cache lines if the prefetching has been started. Each phase calls it once for each lane.
+// Prefetches a few cache lines if begin_prefetch() has started the prefetching. Each phase of the decisions calls this
+// function once for each lane.
 inline void advance_prefetch(const State& state, PrefetchProgress& progress) {
     if (progress.next != nullptr) advance_prefetch_step(state, progress);
 }

@@ -17,7 +17,7 @@ enum class DelayCause : std::uint8_t {
     turn_blocking,      // situation 2: the vehicle turns, and its exit lane is full
     spillback,          // the vehicle goes straight on, and its exit lane is full
     gridlock,           // situation 3: the vehicle is in a cycle of vehicles that wait for each other, or is behind it
-    wrong_lane,         // the vehicle waits for a gap in the adjacent lane, from which its route continues
+    wrong_lane,         // the vehicle waits for a gap in the adjacent lane, to which it must change
     queue_discharge     // the leader moves already or is far ahead, so the vehicle can start
 };
 inline constexpr std::array<const char*, 9> kDelayCauseNames{
@@ -63,7 +63,7 @@ struct RuleUse {
     int vehicle = -1;        // id of the vehicle that uses the rule
     int lane = -1;           // lane of the vehicle; passed_blocker: connection on which it passes the blocker
     int blocker = -1;        // passed_blocker, keep_clear: id of the blocking vehicle; else -1
-    double stopped_s = 0.0;  // stop time of the blocker; teleported, reinserted: stop time of the vehicle itself
+    double stopped_s = 0.0;  // duration of the blocker's stop; teleported, reinserted: of the vehicle's own stop
 };
 
 struct DelayLog {
@@ -74,7 +74,7 @@ struct DelayLog {
     double delay_upstream_s = 0.0;     // part of the delay that occurs upstream of the measured area
     std::int64_t teleported = 0;       // number of teleports
     std::int64_t passed_blockers = 0;  // number of blockers that a vehicle has passed
-    double longest_stop_s = 0.0;       // longest single stop of any vehicle
+    double longest_stop_s = 0.0;       // duration of the longest single stop of any vehicle
 };
 
 }  // namespace stopline

@@ -49,11 +49,11 @@ struct LaneChange {
 // One observed violation of an invariant.
 struct Violation {
     enum class Kind : std::uint8_t { overlap, conflict, red_entry };
-    double time_s = -1.0;  // below 0: no violation has occurred
+    double time_s = -1.0;  // below 0: there is no violation
     Kind kind = Kind::overlap;
     int lane = -1;
-    int vehicle = -1;  // id of the first vehicle
-    int other = -1;    // id of the second vehicle; -1: none
+    int vehicle = -1;  // id of the vehicle; overlap: id of the follower
+    int other = -1;    // id of the second vehicle; overlap: id of the leader; red_entry: -1
 
     bool precedes(const Violation& b) const {
         return std::tie(time_s, lane, vehicle) < std::tie(b.time_s, b.lane, b.vehicle);

@@ -14,22 +14,26 @@ namespace stopline {
 // A lane on which routes begin: an entry lane of the network, or a link lane between two intersections. The vehicles of
 // an inlet are numbered from 0, in the order in which they get their route.
 struct InletState {
-    std::int64_t entered = 0;    // vehicles that have got their route here
+    // Number of vehicles that have got their route from this inlet: vehicles inserted on the lane, and vehicles that
+    // come from upstream. A vehicle from upstream is counted as soon as its turn is drawn, even if it is not on the
+    // lane yet. A vehicle that still waits for insertion is not counted.
+    std::int64_t entered = 0;
     int next_policy = -1;        // spacing policy of the next vehicle; -1: not drawn yet
     int next_route = -1;         // route of the next vehicle
-    double last_entry_s = -1e9;  // time of the last insertion on this lane
+    double last_entry_s = -1e9;  // time of the most recent insertion on this lane
 };
 
 struct InsertionState {
     std::vector<InletState> inlets;
-    std::vector<int> open_inlets;  // inlets on entry lanes, and on link lanes that still insert vehicles; ascending
-    std::vector<int> inlet_of;     // [lane] index of the inlet; -1: no route begins on the lane
+    // Indices of the inlets on entry lanes, and of the inlets on link lanes that still insert vehicles; ascending
+    std::vector<int> open_inlets;
+    std::vector<int> inlet_of;  // [lane] index of the inlet; -1: no route begins on the lane
     std::vector<std::array<std::int64_t, kMaxTurns>>
-        drawn_turns;                              // [approach][Turn] number of draws at inlets with approach_shares
-    std::size_t next_trip = 0;                    // index of the first trip that is not due yet
-    std::vector<std::vector<int>> waiting_trips;  // [approach] due trips that have found no room yet, oldest first
+        drawn_turns;            // [approach][Turn] number of draws at inlets with DemandPlan::Inlet::approach_shares
+    std::size_t next_trip = 0;  // index of the first trip whose departure time has not come yet
+    std::vector<std::vector<int>> waiting_trips;  // [approach] trips whose vehicles wait for room, oldest first
     std::vector<int> approaches_with_backlog;     // approaches with waiting trips, ascending
-    int next_id = 0;                              // id of the next vehicle
+    int next_id = 0;                              // id of the next vehicle that enters the network
 };
 
 }  // namespace stopline

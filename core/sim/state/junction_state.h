@@ -24,8 +24,8 @@ struct JunctionOccupant {
 struct YieldStop {
     int slot = -1;
     double position_m = 0.0;  // stop position, from the start of the lane
-    int blocker = -1;  // slot of the vehicle to which this one yields; -1: it waits for a gap in the adjacent lane
-    bool blocker_has_priority = false;  // false: the blocker occupies or is entering the conflict area
+    int blocker = -1;  // slot of the vehicle that goes first; -1: the vehicle waits for a gap in the adjacent lane
+    bool blocker_has_priority = false;  // false: the blocker is in the conflict area or is entering it
 };
 
 // The yield stops of the vehicles on one lane, in the order of slots, that is, from downstream to upstream.
@@ -46,11 +46,12 @@ struct YieldStops {
 };
 
 struct JunctionState {
-    std::vector<std::vector<JunctionOccupant>> occupants;  // [connection] the vehicle furthest downstream first
-    std::vector<std::vector<int>> approaching;  // [connection] slots of vehicles that are near it on its approach lane
-    std::vector<YieldStops> yield_stops;        // [lane]
-    std::vector<char> has_yield_stops;          // [lane] 1: the lane has yield stops
-    // Sets of connections. The number of a connection in these sets is its LanePlan::bitset_index.
+    std::vector<std::vector<JunctionOccupant>> occupants;  // [connection] occupants, furthest downstream first
+    // [connection] slots of the vehicles on the approach lane that are near the connection and will take it
+    std::vector<std::vector<int>> approaching;
+    std::vector<YieldStops> yield_stops;  // [lane]
+    std::vector<char> has_yield_stops;    // [lane] 1: the lane has yield stops
+    // Sets of connections. The bit of a connection in these sets is its LanePlan::bitset_index.
     Bitset occupied;      // connections with occupants
     Bitset with_stopped;  // connections with an occupant slower than kCrawlingSpeed_mps
     Bitset to_decide;     // connections on which right of way must be decided in this step

@@ -5,7 +5,8 @@
 #include "base/containers/index.h"
 #include "base/simd/simd.h"
 
-// The blocks lie in the order in which lanes are processed, so that memory is read sequentially.
+// The block of a lane is its range of slots in the vehicle arrays. The blocks are in the order in which lanes are
+// processed, so that memory is read sequentially.
 //
 // Full dynamics: a block has room for a full lane and never moves. The kernels write whole batches of slots, also
 // beyond the last vehicle. The slots there must therefore not belong to another lane.
@@ -28,7 +29,7 @@ int max_vehicles(const Model& model, const Lane& lane) {
 // More vehicles are shifted only when they have reached the end of the block.
 constexpr int kMaxShifted = 64;
 
-// Moves the vehicles of a block to its first slots.
+// Moves the vehicles of a block to the start of the block.
 void shift_to_begin(State& state, LaneBlock& block) {
     if (block.first == block.begin) return;
     state.vehicles.move(block.first, block.count, block.begin);
@@ -38,13 +39,14 @@ void shift_to_begin(State& state, LaneBlock& block) {
 // Mesoscale mode: returns the size of a block for a number of vehicles, with a reserve for more.
 int capacity_for(int vehicles) { return vehicles + 2 + vehicles / 4; }
 
-// Returns the number of free slots before the block of a lane. One slot is for the sentinel of the lane. The first lane
-// of a partition has more, because the kernels also compute slots beyond the last vehicle of the previous partition.
-// Another thread may process that partition.
+// Returns the number of free slots before the block of a lane. One slot is for the sentinel, the copy of the leader
+// downstream of the lane. The first lane of a partition (a group of whole intersections) has a whole batch of free
+// slots. The kernels of the previous partition, perhaps in another thread, write whole batches beyond their last
+// vehicle. Thanks to the free slots they cannot write over vehicles of this partition.
 int slots_before(const Partition& part, int lane) { return lane == part.lanes.front() ? kSimdWidth : 1; }
 
-// Lays out the blocks of all lanes again and wakes all lanes. `expected`: see reserve_blocks(); empty: the blocks must
-// hold the present vehicles only.
+// Lays out the blocks of all lanes again and wakes all lanes. `expected`: see reserve_blocks(). If it is empty, the
+// blocks must hold the present vehicles only.
 void repack(State& state, const std::vector<int>& expected) {
     const auto capacity_of = [&](int lane) {
         return capacity_for(std::max(state.blocks[at(lane)].count, expected.empty() ? 0 : expected[at(lane)]));
@@ -124,9 +126,9 @@ void reserve_blocks(State& state, const std::vector<int>& expected) {
 
 namespace {
 
-constexpr int kMaxDistance = 8;  // lanes on each side that are searched for free slots
+constexpr int kMaxDistance = 8;  // number of lanes before and after a lane that are searched for free slots
 
-// Shifts the block of a lane and its vehicles by `slots`, and wakes the lane.
+// Shifts the block of a lane and the vehicles in it by `slots` slots, and wakes the lane.
 void shift(State& state, int lane, int slots) {
     LaneBlock& block = state.blocks[at(lane)];
     state.vehicles.move(block.first, block.count, block.begin + slots);
@@ -195,8 +197,8 @@ void set_lane_of(State& state, int lane, int slot) {
     v.speed_cap_mps[at(slot)] = kUnlimitedSpeed_mps;
 }
 
-// Marks a lane that receives a vehicle. The lane is added to the set Partition::occupied_candidates. An exit lane is
-// also added to the set Partition::exit_candidates.
+// Marks a lane that receives a vehicle: adds it to the bitset Partition::occupied_candidates. Adds an exit lane also to
+// the bitset Partition::exit_candidates.
 void mark_occupied(State& state, int lane) {
     const LaneLocation& location = state.location_of[at(lane)];
     state.partitions[location.partition].occupied_candidates.set(location.index);

@@ -39,10 +39,12 @@ struct RulesPlan {
     bool count_queue_at_red_exit = false;
     std::int64_t teleport_ticks = 0;
     std::int64_t pass_blocker_ticks = 0;
-    std::int64_t watch_ticks = 0;      // interval at which traffic delays are attributed to causes; 0: never
-    std::int64_t gridlock_ticks = 0;   // a gridlock that is observed again within this time is the same gridlock
-    std::int64_t long_wait_ticks = 0;  // after this stop time a delay episode includes the vehicle, whatever the cause
-    std::int64_t memory_ticks = 0;     // time from the last use of a BlockerPass until it expires
+    // Interval at which the delays of stopped vehicles are attributed to causes; 0: never.
+    std::int64_t watch_ticks = 0;
+    // If a gridlock is observed again within this time, it counts as the same gridlock.
+    std::int64_t gridlock_ticks = 0;
+    std::int64_t long_wait_ticks = 0;  // a delay episode includes a vehicle stopped for this long, whatever the cause
+    std::int64_t memory_ticks = 0;     // a BlockerPass expires when it has not been needed for this time
 
     bool watches() const { return watch_ticks > 0; }
 };
@@ -76,10 +78,10 @@ struct Model {
     // Settings of the mesoscale mode.
     bool meso = false;                // true: mesoscale mode; false: full dynamics
     std::vector<Krauss> krauss;       // [policy] car-following model
-    double speed_factor = 1.0;        // factor on all speed limits
-    double leader_speed_share = 1.0;  // share of the speed limit at which a vehicle without a leader drives
-    double approach_share = 1.0;      // a vehicle below the speed limit gains this share of the missing speed per step
-    double turn_share = 1.0;   // before a turn, this share of the difference to the allowed speed is gained per step
+    double speed_factor = 1.0;        // factor by which all speed limits are multiplied
+    double leader_speed_share = 1.0;  // a vehicle without a leader drives at this share of the speed limit
+    double approach_share = 1.0;      // below the speed limit, a vehicle gains this share of (limit - speed) per step
+    double turn_share = 1.0;          // before a turn, a vehicle gains this share of (allowed speed - speed) per step
     double leader_mps2 = 0.0;  // acceleration of platoon leaders; 0: acceleration of the policy's car-following model
     double leader_constant_power_speed_mps = 0.0;  // speed above which leader_mps2 falls
     LeaderProfile leader_profile;  // replaces leader_mps2 and leader_constant_power_speed_mps if it has bins

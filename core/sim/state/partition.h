@@ -21,9 +21,9 @@ namespace stopline {
 struct BlockerPass {
     int vehicle = -1;                        // id of the vehicle that may pass
     int blocker = -1;                        // id of the blocker
-    std::int64_t last_needed_tick = 0;       // last tick at which the blocker was in the way of the vehicle
-    std::int64_t blocker_stopped_ticks = 0;  // stop time of the blocker when the permission was given
-    bool begun = false;                      // true: the two vehicles have been in the same conflict area
+    std::int64_t last_needed_tick = 0;       // latest tick at which the blocker was in the way of the vehicle
+    std::int64_t blocker_stopped_ticks = 0;  // duration of the blocker's stop when the permission was given
+    bool begun = false;                      // true: both vehicles have been in one conflict area at the same time
 };
 
 // The decision between two stopped vehicles that wait for each other and have no priority over each other. One
@@ -31,24 +31,25 @@ struct BlockerPass {
 struct DeadlockResolution {
     int proceeds = -1;                  // id of the vehicle that proceeds
     int yields = -1;                    // id of the vehicle that yields
-    std::int64_t last_needed_tick = 0;  // last tick at which the decision was applied
+    std::int64_t last_needed_tick = 0;  // latest tick at which the decision was applied
 };
 
 struct Partition;
 
-// How much of the data of the next two partitions has been prefetched so far.
+// The progress in prefetching the data of the next two partitions.
 struct PrefetchProgress {
     const Partition* next = nullptr;    // the next partition; nullptr: no prefetching
     const Partition* second = nullptr;  // the partition after `next`; nullptr: none
-    std::size_t lane = 0;               // number of prefetched lanes of `next`: its occupied lanes, then its exits
-    std::size_t line = 0;               // number of prefetched cache_lines of `second`
+    std::size_t lane = 0;               // number of prefetched lanes of `next`; first its occupied lanes, then exits
+    std::size_t line = 0;               // number of prefetched cache lines of `second`
 };
 
-// The V2V message by which a stopped vehicle learns that the queue ahead of it starts. The message replaces the
-// acceleration of the vehicle only when vehicles move, because other lanes read the old value before.
+// The V2V message by which a stopped vehicle learns that the queue ahead of it starts. The acceleration in the message
+// replaces the acceleration of the receiver. This happens only after all decisions of the step, because other lanes
+// read the old value for them.
 struct StartMessage {
     int slot;                 // slot of the receiver
-    float acceleration_mps2;  // acceleration of the vehicle that started last
+    float acceleration_mps2;  // acceleration of the vehicle just ahead of the stopped vehicles; it has already started
 };
 
 // Full dynamics: the acceleration that a hidden leader (sim/perception/hidden_leaders.h) demands of the vehicle in
@@ -59,13 +60,14 @@ struct BrakingDemand {
 };
 
 struct Partition {
-    std::vector<int> lanes;        // grouped by intersection
+    std::vector<int> lanes;        // all lanes of the partition, grouped by intersection
     std::vector<int> connections;  // connections that cross or merge with other connections
-    std::size_t first_word = 0;    // words [first_word, end_word) of the JunctionState bitsets hold `connections`
+    // The bits of `connections` are in words [first_word, end_word) of JunctionState bitsets.
+    std::size_t first_word = 0;
     std::size_t end_word = 0;
-    std::vector<int> exits;      // exit lanes of `connections`, except those that another partition lists
-    std::vector<int> detectors;  // detectors on `lanes`
-    // Lanes that may be occupied, because they have got a vehicle since they were last found empty.
+    std::vector<int> exits;      // exit lanes of `connections`; a lane is in this list of one partition only
+    std::vector<int> detectors;  // indices of the detectors on `lanes`
+    // Lanes that may be occupied: a vehicle has entered the lane, and no step has found the lane empty since then.
     Bitset occupied_candidates;  // [index in `lanes`]
     // Exit lanes that may have a vehicle whose rear is still inside the intersection.
     Bitset exit_candidates;  // [index in `exits`]
@@ -78,12 +80,12 @@ struct Partition {
     IndexBuffer awake;                         // occupied lanes that do not sleep (QueueState)
     IndexBuffer awake_approaches;              // awake lanes with a stop line
     IndexBuffer awake_connections;             // awake lanes that are connections
-    std::vector<int> occupied_connections;     // connections with occupants
+    std::vector<int> occupied_connections;     // connections with at least one JunctionOccupant
     std::vector<BrakingDemand> extra_demands;  // full dynamics: demands of hidden leaders, in the order of slots
     std::vector<int> lanes_with_yield_stops;
     std::vector<int> lanes_with_alignments;
     IndexBuffer stopped_slots;           // slots of stopped vehicles; valid in steps that attribute delays
-    int earliest_stop_tick = 0;          // lowest VehicleArrays::stopped_since of all vehicles in stopped_slots
+    int earliest_stop_tick = 0;          // tick at which the longest stop of a vehicle in stopped_slots began
     IndexBuffer lanes_near_end;          // mesoscale mode: lanes whose first vehicle may leave the lane in this step
     std::vector<int> lanes_to_transfer;  // lanes whose first vehicle has left the lane in this step
     std::vector<StartMessage> start_messages;  // mesoscale mode: start messages of this step
@@ -93,7 +95,7 @@ struct Partition {
 
     // These members are reports. They are merged into the records of the run after each step.
     std::int64_t present = 0;              // number of vehicles on the lanes at the start of the step
-    std::int64_t updates = 0;              // number of vehicles moved
+    std::int64_t updates = 0;              // number of vehicles that the step moved
     std::int64_t longest_in_junction = 0;  // longest time of a vehicle inside a junction, ticks
     std::int64_t passed_blockers = 0;
     Violations violations;
@@ -101,14 +103,14 @@ struct Partition {
     std::vector<GapAccepted> gaps_accepted;
     std::vector<RuleUse> rule_uses;
 
-    // Full dynamics: a group takes further lanes until it has at least this many vehicles.
+    // Full dynamics: lanes are added to a lane group until the group has at least this many vehicles.
     static constexpr int kGroupVehicles = 128;
     std::array<LaneGroup, 2> groups;  // the group that the kernels compute, and the next one
     FullGroupArrays full_group;
     // Mesoscale mode. A block is a batch of consecutive slots that the kernels move together.
     IndexBuffer moving_blocks;        // blocks to move in this step
     std::vector<int> capped_slots;    // slots with a speed cap in this step
-    std::vector<double> extra_gap_m;  // ExtraGap values of all slots in moving_blocks
+    std::vector<double> extra_gap_m;  // ExtraGap (mesoscale/meso_kernels.h): one value for each slot in moving_blocks
 };
 
 }  // namespace stopline

@@ -17,7 +17,8 @@ struct RunRecords {
     std::vector<Crossing> crossings;
     std::vector<GapAccepted> gaps_accepted;
     std::vector<LaneChange> lane_changes;
-    std::vector<std::array<std::int64_t, kMaxTurns>> turned;  // [approach][Turn] vehicles that have made the turn
+    std::vector<std::array<std::int64_t, kMaxTurns>>
+        turned;  // [approach][Turn] number of vehicles that have made the turn
     Violations violations;
     std::int64_t entered = 0;
     std::int64_t exited = 0;

@@ -9,7 +9,7 @@ namespace stopline {
 
 DelayRows delay_rows_at(const DelayLine& line, std::int64_t tick, int slots) {
     const std::int64_t present = tick % line.rows;
-    const auto row = [&](int age) {  // age: steps before `tick`, at most line.rows
+    const auto row = [&](int age) {  // age: number of steps before `tick`; at most line.rows
         const std::int64_t wrapped = present >= age ? present - age : present - age + line.rows;
         return static_cast<std::size_t>(wrapped) * static_cast<std::size_t>(slots);
     };
@@ -72,8 +72,8 @@ std::vector<Partition> make_partitions(const Model& model, const State& state, i
         if (!is_exit[at(exit)]) part.exits.push_back(exit);
         is_exit[at(exit)] = true;
     }
-    // A lane group takes further lanes until it has kGroupVehicles vehicles. The last lane can exceed this number by as
-    // many vehicles as fit on the lane.
+    // Lanes are added to a lane group until the group has kGroupVehicles vehicles. The lane added last can exceed this
+    // number by as many vehicles as fit on the lane.
     const int group_vehicles =
         Partition::kGroupVehicles + static_cast<int>(longest_m / shortest_vehicle_m(model)) + 2 * kSimdWidth;
     for (Partition& part : partitions) {

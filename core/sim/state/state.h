@@ -34,10 +34,10 @@ struct State {
     NetworkPlan plan;
     VehicleArrays vehicles;
     std::vector<LaneBlock> blocks;  // [lane]
-    DelayRows radar;                // rows of the radar delay line in this step
-    DelayRows v2v;                  // rows of the V2V delay line in this step
+    DelayRows radar;                // rows of the stored radar measurements that this step writes and reads
+    DelayRows v2v;                  // rows of the stored V2V messages that this step writes and reads
     std::vector<Partition> partitions;
-    std::vector<LaneLocation> location_of;  // [lane]
+    std::vector<LaneLocation> location_of;  // [lane] position in the lists of `partitions`
     StopLines stop_lines;
     JunctionState junctions;
     std::vector<std::vector<GapAlignment>> gap_alignments;  // [lane]

@@ -11,25 +11,26 @@ namespace stopline {
 // The stop line at the end of a lane.
 struct StopLineState {
     int stopping_vehicle = -1;    // id of the vehicle that stops at the line for the signal; -1: none
-    bool may_overrun = false;     // stopping needs over 90 % of the maximum braking, so overrunning is no violation
+    bool may_overrun = false;     // true: the stop needs over 90 % of the maximum braking; overrunning is no violation
     int keep_clear_vehicle = -1;  // id of the vehicle that the keep-clear rule holds at green; -1: none
 };
 
 // The reason why the keep-clear rule holds a vehicle at a green signal.
 struct KeepClearHold {
     int blocker = -1;      // slot of the vehicle past the stop line that blocks the way; -1: the rule holds no vehicle
-    bool in_exit = false;  // the blocker is in the exit lane; false: in a conflict area
+    bool in_exit = false;  // true: the blocker is in the exit lane; false: it is in a conflict area
 };
 
 // The free length of an exit lane, as the keep-clear rule computes it.
 struct ExitRoom {
-    std::int64_t tick = -1;  // step for which the values are valid
-    // The free length ends at the last stopped vehicle within RulesPlan::sight_m. The space that the moving vehicles
-    // upstream of this vehicle need is subtracted. If the signal at the end of the lane is red, moving vehicles can
-    // count as already stopped there (RulesPlan::count_queue_at_red_exit). 1e9: no vehicle is or counts as stopped.
+    std::int64_t tick = -1;  // tick of the step for which the values are valid
+    // Only vehicles within RulesPlan::sight_m of the start of the lane are considered. The free length ends at the
+    // stopped vehicle furthest upstream. The space that the moving vehicles upstream of it need is subtracted. If the
+    // signal at the end of the lane is red, moving vehicles can count as already stopped there
+    // (RulesPlan::count_queue_at_red_exit). 1e9: no considered vehicle is stopped or counts as stopped.
     double room_m = 1e9;
     // Slot of the stopped vehicle at which the free length ends. If all vehicles move but count as stopped at a red
-    // signal: slot of the last vehicle on the lane. -1: none.
+    // signal: slot of the vehicle furthest upstream on the lane. -1: none.
     int stopped_slot = -1;
 };
 
@@ -37,7 +38,7 @@ struct StopLines {
     std::vector<Light> lights;                 // [signal group]
     std::vector<StopLineState> lines;          // [lane]
     std::vector<int> stop_slot;                // [lane] slot of the vehicle that stops at the line; -1: none
-    std::vector<KeepClearHold> held_at_green;  // [lane] reason why the vehicle in stop_slot is held at green
+    std::vector<KeepClearHold> held_at_green;  // [lane] reason to hold the vehicle in stop_slot at green
     std::vector<ExitRoom> exit_rooms;          // [exit lane]
 };
 

@@ -8,8 +8,8 @@ namespace stopline {
 
 namespace {
 
-// Records that a vehicle enters the intersection. Counts a violation if it passes the line on red although it could
-// have stopped.
+// Records that a vehicle enters the intersection. Counts a violation if the vehicle passes the stop line on red
+// although it could have stopped.
 void pass_stop_line(const Model& model, State& state, Partition& part, int lane, int slot) {
     VehicleRecord& record = state.vehicles.record[at(slot)];
     record.junction_entry_tick = static_cast<int>(state.tick);

@@ -1,4 +1,4 @@
-// Records the vehicles whose front passes a detector.
+// Records the vehicles whose front passes a detector. Works on one partition, a group of whole intersections.
 #pragma once
 
 #include "sim/state/model.h"

@@ -53,7 +53,8 @@ void add_lane(const Model& model, const State& state, int lane, std::span<const 
     group.vehicles += block.count;
 }
 
-// Fills a group with occupied lanes, starting with the k-th one. Advances k to the first lane that is not in the group.
+// Fills a group with occupied lanes, starting with the k-th occupied lane. Advances k to the first lane after the
+// group.
 void collect_group(const Model& model, const State& state, const Partition& part, std::size_t& k,
                    std::span<const BrakingDemand>& hidden_leader_demands, LaneGroup& group) {
     group.clear();

@@ -1,4 +1,4 @@
-// Moves all vehicles of a partition.
+// Moves all vehicles of a partition, a group of whole intersections.
 #pragma once
 
 #include "sim/full_dynamics/full_dynamics.h"

@@ -10,7 +10,7 @@ namespace stopline {
 
 namespace {
 
-// Sets the number of lost vehicles: entered minus exited minus present vehicles.
+// Sets the number of lost vehicles: vehicles that entered, minus those that exited, minus those present.
 void update_lost_vehicles(RunRecords& records, std::int64_t present) {
     records.violations.lost_vehicles = records.entered - records.exited - present;
 }
@@ -46,7 +46,7 @@ void merge_partition_reports(State& state) {
     std::stable_sort(rule_uses.begin(), rule_uses.end(),
                      [](const RuleUse& a, const RuleUse& b) { return a.vehicle < b.vehicle; });
     move_to(state.congestion.delays.rule_uses, rule_uses);
-    // Partitions count their vehicles at the start of the step. The number is still correct here, because vehicles
+    // Each partition counts its vehicles at the start of the step. The sum is still correct here, because vehicles
     // enter and leave the network only in later phases of the step.
     update_lost_vehicles(records, present);
 }

@@ -1,5 +1,6 @@
-// One run: a constant Model, and a State that the simulation advances step by step. The phases of a step,
-// with what each phase determines or changes, and with its source file:
+// One run: a constant Model, and a State that the simulation advances step by step. The table lists the phases of a
+// step, the data that each phase determines or changes, and its source file. A partition is a group of whole
+// intersections.
 //
 //   for the whole network:
 //     signals     lights of all signal groups                                   junction/stop_lines

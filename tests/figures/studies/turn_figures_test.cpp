@@ -33,6 +33,7 @@ TEST(TurnFigures, HaveOneFigurePerGreenWithMeansOverSeeds) {
     ASSERT_EQ(figures[0].data.size(), 3u);
     EXPECT_NE(figures[0].data[0].second.find("0/0 5100 12240\n"), std::string::npos) << figures[0].data[0].second;
     EXPECT_NE(figures[0].data[0].second.find("30/0 NaN 7000\n"), std::string::npos);
+    EXPECT_EQ(figures[0].body.find("Fig."), std::string::npos) << "own intersections are not in the paper";
 }
 
 TEST(Table1, HasOurValueAndTheDifferenceForMeasuredPoints) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "base/io/data_directory.h"
 #include "base/io/output.h"
 #include "paper/report/figure_list.h"
 #include "paper/report/reproduce.h"

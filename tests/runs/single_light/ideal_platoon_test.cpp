@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "base/io/data_directory.h"
 #include "runs/single_light/single_light.h"
 #include "scenario/load_scenario.h"
 
@@ -67,8 +68,7 @@ TEST(IdealPlatoon, NeverPassesBehindAStoppedLeader) {
 // ideal follower stops accelerating at once. The controller switches smoothly, so gaps grow later and more vehicles
 // pass.
 TEST(IdealPlatoon, IsCloseToTheSimulatedPlatoon) {
-    const SingleLightReport result =
-        run_single_light(load_scenario(data_directory() / "../scenarios/single_light.yaml"));
+    const SingleLightReport result = run_single_light(load_scenario(scenario_directory() / "single_light.yaml"));
     for (const PopulationSummary& summary : result.populations) {
         const bool switches = summary.name.starts_with("SWITCH");
         for (const double green_s : result.scenario.measure.green_s) {

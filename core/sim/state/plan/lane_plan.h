@@ -16,19 +16,19 @@ struct alignas(64) LanePlan {
     double limit_mps = 0.0;
     double first_conflict_m = 1e9;      // connection: start of its first conflict area
     float sine = 0.0F;                  // sine of the slope angle
-    int signal_group = -1;              // -1: no stop line
+    int signal_group = -1;              // signal group of the stop line; -1: no stop line
     int origin = -1;                    // connection: its approach lane; -1: not a connection
     int exit = -1;                      // connection: its exit lane
     int bitset_index = -1;              // number of the connection in the bitsets; -1: it has no conflict area
-    bool yields = false;                // connection: gives way to another connection
-    bool branches = false;              // more than one lane follows
-    bool has_movement_signals = false;  // approach lane: each movement has its own signal group
+    bool yields = false;                // connection: must yield in at least one conflict area
+    bool branches = false;              // true: more than one lane follows
+    bool has_movement_signals = false;  // approach lane: movements have signal groups of their own
     bool keep_clear = true;             // connection: the keep-clear rule applies
 };
 
 // How a vehicle on a lane can make one turn: on a route that begins on this lane, or after lane changes.
 struct TurnOption {
-    int route = -1;        // first route with this turn that begins on the lane; -1: none
+    int route = -1;        // one of the routes with this turn that begin on the lane; -1: none
     int lane_changes = 0;  // lane changes to the nearest lane where a route with this turn begins; below 0: to the left
 };
 
@@ -37,8 +37,8 @@ struct AdjacentLanes {
     int left = -1;  // adjacent lane; -1: none
     int right = -1;
     int index = 0;                // index of the lane on the approach, counted from the left
-    double start_offset_m = 0.0;  // start of the lane, from the start of the longest lane of the approach
-    std::array<TurnOption, kMaxTurns> turn_options = {};  // [Turn]
+    double start_offset_m = 0.0;  // start of the lane, measured from the start of the longest lane of the approach
+    std::array<TurnOption, kMaxTurns> turn_options = {};  // [Turn] how a vehicle on this lane can make the turn
 
     const TurnOption& turn_option(Turn turn) const { return turn_options[static_cast<std::size_t>(turn)]; }
     bool has_neighbours() const { return left >= 0 || right >= 0; }

@@ -55,12 +55,13 @@ public:
     bool may_wait_inside(int lane) const { return may_wait_inside_[static_cast<std::size_t>(lane)] != 0; }
     // Returns the turn of a trip at the end of one of its edges, or Turn::none if the trip ends on this edge.
     Turn turn_of_trip(int trip, int trip_edge) const { return demand_->turn_of_trip(trip, trip_edge); }
-    // Returns the number of lane changes that a trip needs on later edges if the vehicle leaves the edge from `lane`.
+    // Returns the number of lane changes that a trip needs after edge `trip_edge` if the vehicle leaves this edge from
+    // `lane`.
     int lane_changes_after(int trip, int trip_edge, int lane) const {
         return trip_lanes_.after(demand_->trips[static_cast<std::size_t>(trip)], trip_edge, adjacent(lane).index);
     }
-    // Returns the number of lane changes that a trip needs on this edge and later ones if the vehicle begins the edge
-    // on `lane`. `lanes`: number of lanes of the edge.
+    // Returns the number of lane changes that a trip needs on edge `trip_edge` and on later edges if the vehicle begins
+    // edge `trip_edge` on `lane`. `lanes`: number of lanes of this edge.
     int lane_changes_from(int trip, int trip_edge, int lane, int lanes) const {
         return trip_lanes_.from(demand_->trips[static_cast<std::size_t>(trip)], trip_edge, adjacent(lane).index, lanes);
     }
@@ -69,10 +70,11 @@ public:
     }
     // Returns the conflict areas of a connection, in the order from its start to its end.
     std::span<const Conflict> conflicts(int lane) const { return conflicts_.of(lane); }
-    // Returns the connections that have a conflict area with a connection, as masks for the bitsets.
+    // Returns the connections that share a conflict area with connection `lane`, as masks for the bitsets.
     std::span<const BitsetMask> conflicting(int lane) const { return conflicting_.of(lane); }
     // Each connection with conflict areas has a number, which is its bit in the bitsets. The numbers follow
-    // lane_order(). No two intersections share a word of a bitset, so some numbers are unused.
+    // lane_order(). No two intersections share a word of a bitset, so that no two threads write the same word. Some
+    // numbers are therefore unused.
     std::size_t bitset_size() const { return connections_.size(); }
     int connection_at(std::size_t bitset_index) const {
         return connections_[bitset_index];
@@ -104,13 +106,13 @@ private:
     PackedLists<int> next_;
     PackedLists<Conflict> conflicts_;
     PackedLists<BitsetMask> conflicting_;
-    std::vector<int> connections_;  // [bitset index]
+    std::vector<int> connections_;  // [bitset index] connection with this index; -1: unused
     std::vector<int> lane_order_;
     std::vector<int> intersection_of_;  // [lane]
     std::vector<AdjacentLanes> adjacent_;
     std::vector<int> lanes_with_neighbours_;
     std::vector<Turn> turns_;                              // [route]
-    std::vector<std::array<int, kMaxTurns>> routes_with_;  // [approach][turn]
+    std::vector<std::array<int, kMaxTurns>> routes_with_;  // [approach][turn] index of a route; -1: none
     std::vector<int> next_parallel_route_;                 // [route]
     std::vector<int> movement_groups_;   // [lane] signal group of the movement of a connection; -1: none
     std::vector<char> may_wait_inside_;  // [lane]

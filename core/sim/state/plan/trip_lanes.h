@@ -7,7 +7,8 @@
 //     from(edge, lane): changes on this edge and later ones if the vehicle begins the edge on `lane`. This is the
 //         minimum of |lane - other| + after(edge, other) over all lanes of the edge.
 //
-// after() does not count lane changes on edges of length kLongEdge_m or more. A vehicle has enough time for these.
+// after() does not count lane changes on edges of length kLongEdge_m or more. A vehicle has enough time for these
+// changes.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +28,7 @@ public:
     TripLanes() = default;
     TripLanes(const Model& model, const NetworkPlan& plan);
 
-    // Return the numbers of lane changes that are defined above. after() returns 14 for 14 or more changes. `edge` is
+    // Return the numbers defined at the top of this file. after() returns 14 for 14 or more changes. `edge` is
     // counted along the trip from 0, `lane_index` from the left.
     int after(const Trip& trip, int edge, int lane_index) const {
         if (edge >= trip.turn_count || lane_index >= kMaxLanes) return 0;

@@ -13,9 +13,10 @@ namespace stopline {
 // Pointers to the arrays of a group. Each array has one value for each vehicle, in the order of the lanes. SI units.
 struct FullGroup {
     // State of the vehicle, its measurements, and the road at its position.
-    double* coming_speed;                         // speed at the end of the step, when the new request takes effect
-    float *speed, *acceleration, *lag, *request;  // request: value of the last step, later of this step
-    float *gap, *closing;                         // net gap and closing speed, from the delayed radar measurement
+    double* coming_speed;  // speed at the end of the step, when the new request takes effect
+    float *speed, *acceleration, *lag,
+        *request;          // request: from the previous step, until the driver kernel replaces it
+    float *gap, *closing;  // net gap and closing speed, from the delayed radar measurement
     float *heard_acceleration, *heard_request, *heard_rate;  // delayed V2V message of the leader
     float *to_next_limit, *limit, *end_speed, *standstill_gap, *sine;
     float* demand;  // lowest acceleration of all external demands; kUnconstrained_mps2: no demand
@@ -25,7 +26,9 @@ struct FullGroup {
     int *policy, *type;
     // Desired gap of the spacing policy, and its slope over speed.
     double *desired_gap, *slope;
-    double *law_gap, *law_slope;  // results of one spacing law, if the model has several policies
+    // Scratch memory, used if the model has several policies: results of the spacing law that is being evaluated. The
+    // values of the vehicles with this law are then copied to desired_gap and slope.
+    double *law_gap, *law_slope;
 };
 
 class FullGroupArrays {
@@ -42,7 +45,8 @@ private:
     LargeArray<double> doubles_;
     LargeArray<float> floats_;
     LargeArray<int> ints_;
-    static constexpr std::size_t kSpare = 2 * kSimdWidth;  // batches reach beyond the last vehicle
+    // Reserve of elements, because the last batch can reach beyond the last vehicle.
+    static constexpr std::size_t kSpare = 2 * kSimdWidth;
     std::size_t vehicles_ = 0;
 };
 

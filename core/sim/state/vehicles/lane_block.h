@@ -3,10 +3,12 @@
 
 namespace stopline {
 
-// A lane owns the slots [begin, end). Its vehicles use consecutive slots, the vehicle furthest downstream first.
+// A lane owns the slots [begin, end). Its vehicles use consecutive slots, the vehicle furthest downstream first. The
+// slot before the first vehicle is the sentinel: it holds a copy of the first vehicle's leader, which is on a lane
+// downstream.
 struct LaneBlock {
-    int begin = 0;  // at least 1, since the slot before may hold the sentinel; full dynamics: a multiple of kSimdWidth
-    int end = 0;    // slot after the last one of the block
+    int begin = 0;  // at least 1, because the sentinel can be in slot begin - 1; full dynamics: multiple of kSimdWidth
+    int end = 0;    // slot after the last slot of the lane
     int first = 0;  // slot of the vehicle furthest downstream
     int count = 0;  // number of vehicles
 

@@ -6,7 +6,7 @@
 namespace stopline {
 
 struct LaneStep {
-    int begin = 0;  // slots [begin, stop) hold the vehicles
+    int begin = 0;  // the vehicles of the lane are in the slots [begin, stop)
     int stop = 0;
     double next_limit_m = 0.0;  // position from which the speed limit of the next lane applies
     double limit_mps = 0.0;
@@ -15,7 +15,8 @@ struct LaneStep {
     int count() const { return stop - begin; }
 };
 
-// The acceleration that a stop line, yielding, a gap alignment or a hidden leader demands of one vehicle.
+// The acceleration that a stop line, yielding, a gap alignment or a hidden leader (sim/perception/hidden_leaders.h)
+// demands of one vehicle.
 struct ExternalDemand {
     int index = 0;  // index of the vehicle in the group
     double acceleration_mps2 = 0.0;

@@ -36,20 +36,21 @@ struct VehicleArrays {
     LargeArray<double> next_limit_m;   // position from which end_speed_mps applies
     LargeArray<double> speed_cap_mps;  // highest speed in this step that stop lines, yielding and free driving allow
     // Full dynamics only.
-    LargeArray<float> request_mps2;  // u: acceleration requested in the last step
+    LargeArray<float> request_mps2;  // acceleration requested in the last step, u in the equations
     LargeArray<float> torque_Nm;
     LargeArray<float> brake_N;
     LargeArray<float> gear_time_s;
-    LargeArray<float> lag_s;  // tau: lag of the powertrain; the follower gets it by V2V
-    LargeArray<float> gear;   // 0: first gear
+    LargeArray<float> lag_s;  // lag of the powertrain, tau in the equations; the follower gets it by V2V
+    LargeArray<float> gear;   // index of the gear; 0: first gear
     // Delay lines, indexed [row][slot]. They hold radar measurements and V2V messages of past steps.
     LargeArray<float> radar_gap_m;
     LargeArray<float> radar_closing_mps;
     LargeArray<float> v2v_acceleration_mps2;
     LargeArray<float> v2v_request_mps2;
     LargeArray<float> v2v_rate_1ps;  // 1 / lag_s
-    // A step reads these values mainly at events and for the first vehicles of a lane. Full dynamics also reads the
-    // standstill gap of all vehicles, and their type if the model has several types.
+    // A step reads these values only for some vehicles, mainly for the first vehicles of a lane and for vehicles that
+    // change the lane or the route. Full dynamics also reads the standstill gap of all vehicles, and their type if the
+    // model has several types.
     LargeArray<int> next_lane;  // next lane of the route; -1: the vehicle leaves the network here or must change lanes
     LargeArray<VehicleRecord> record;
     LargeArray<int> stopped_since;  // tick at which the vehicle was last observed in motion

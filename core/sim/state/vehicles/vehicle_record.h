@@ -1,4 +1,4 @@
-// The data of a vehicle that are read mainly at events.
+// The data of a vehicle that are needed only now and then, for example when the vehicle reaches an intersection.
 #pragma once
 
 #include "network/lane_graph.h"
@@ -13,14 +13,14 @@ struct alignas(64) VehicleRecord {
     int second_previous_lane = -1;      // lane before previous_lane; -1: none
     int leader_id = -1;                 // id of the vehicle that the radar tracks; -1: none
     int accepted_gap_on = -1;           // connection on which the vehicle has accepted a gap; -1: none
-    int junction_entry_tick = 0;        // tick at which the vehicle passed its last stop line
-    int yield_tick = -2;                // last tick at which the vehicle had to wait before a conflict area
-    float yield_position_m = 0.0F;      // where the vehicle had to wait, from the start of the connection
+    int junction_entry_tick = 0;        // tick at which the vehicle most recently passed a stop line
+    int yield_tick = -2;                // latest tick at which the vehicle had to wait before a conflict area
+    float yield_position_m = 0.0F;      // position where the vehicle had to wait, from the start of the connection
     Turn following_turn = Turn::none;   // turn at the second intersection ahead; none: not known yet
-    int lane_change_tick = -1'000'000;  // tick of the last lane change
-    int lane_before_change = -1;        // lane that the vehicle left in the last lane change; -1: none
+    int lane_change_tick = -1'000'000;  // tick of the most recent lane change
+    int lane_before_change = -1;        // lane that the vehicle left in the most recent lane change; -1: none
     int trip = -1;                      // index of the trip in the demand; -1: no trip, the turns are drawn
-    int trip_edge = 0;  // index of the present edge in the trip; inside an intersection: of the edge upstream
+    int trip_edge = 0;  // index of the present edge in the trip; inside an intersection: index of the edge upstream
 };
 
 }  // namespace stopline

@@ -39,8 +39,8 @@ for program in "$run" "$scorecard" "$STOPLINE_BIN/stopline-calibrate"; do
     prints "--help" "--version" "--threads" "--seed" "--output" "Examples:" "Exit codes: 0 done, 1 " -- "$program" --help
     prints "stopline 0." -- "$program" --version
     refuses "--nonsense" -- "$program" --nonsense
-    refuses "--threads" -- "$program" --threads 0
-    refuses "--threads" -- "$program" --threads two
+    refuses "--threads: value '0' is not allowed; give a whole number from 1 to 1024" -- "$program" --threads 0
+    refuses "--threads: value 'two' is not allowed" -- "$program" --threads two
     refuses "--seed" -- "$program" --seed -1
     refuses "--seed" -- "$program" --seed 1.5
     refuses "--seed" -- "$program" --seed 99999999999999999999999
@@ -95,5 +95,6 @@ refuses "--interval" -- "$run" "$scenario" --trajectories --interval 5
 refuses "whole number of steps" -- "$run" "$scenario" --trajectories --interval "15 ms"
 refuses "whole number of steps" -- "$run" "$scenario" --trajectories --interval "0 s"
 refuses "no rows of section 'XI'" -- "$scorecard" --section XI
+refuses "--step: value 'III' is not allowed; allowed: I, II, both" -- "$STOPLINE_BIN/stopline-calibrate" --step III
 
 exit $((failures > 0))

@@ -106,6 +106,9 @@ refused "unknown section" "allowed: III, IV, V, VI, VII, all" --section VIII --o
 [ -e "$work/none" ] && fail "there is a folder for an unknown section"
 refused "no folder" "cannot create the folder" --section III --output "$work/file/sub"
 refused "no threads" "--threads" --threads 0
+mkdir "$work/alone"
+cp -r "$STOPLINE_SOURCE/data" "$work/alone"
+STOPLINE_DATA="$work/alone/data" refused "no scenarios" "there is no folder $work/alone/scenarios" --section III --output "$work/none"
 search=/nowhere
 refused "no gnuplot" "install the Debian package gnuplot-nox" --section III --output "$work/no_gnuplot"
 

@@ -52,4 +52,13 @@ grep -q ',settled_headway_s,' "$work/old_sweep/light_means.csv" || fail "light_m
 same_numbers new_sweep/light.csv old_sweep/light.csv
 same_numbers new_sweep/light_means.csv old_sweep/light_means.csv
 
+startup=("$STOPLINE_BIN/stopline-startup" --no-figures)
+"${startup[@]}" --output "$work/new_startup" >"$work/stdout" 2>"$work/stderr" || fail "startup: exit code $?"
+grep -qF -- "$warning" "$work/stderr" && fail "startup: a warning without the option"
+"${startup[@]}" --output "$work/old_startup" --old-column-names >"$work/stdout" 2>"$work/stderr" || fail "startup: exit code $?"
+grep -qF -- "$warning" "$work/stderr" || fail "startup: no warning in: $(cat "$work/stderr")"
+header new_startup/startup.csv ",mean_ci95_kmh,p2.5_kmh,p97.5_kmh,gear"
+header old_startup/startup.csv ",mean_ci95_kmh,low_2.5_kmh,high_97.5_kmh,gear"
+same_numbers new_startup/startup.csv old_startup/startup.csv
+
 exit $((failures > 0))

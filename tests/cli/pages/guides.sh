@@ -6,7 +6,8 @@ set -u
 
 . "$STOPLINE_SOURCE/tests/tools/cli.sh"
 
-guides=(README.md scenarios/README.md scenarios/SWEEPS.md scenarios/SUMO.md core/README.md tests/README.md data/README.md)
+guides=(README.md scenarios/README.md scenarios/SWEEPS.md scenarios/CALIBRATION.md scenarios/SUMO.md data/paper/README.md
+    data/README.md core/README.md tests/README.md)
 
 # can_run PROGRAM: PROGRAM is installed, and for mpirun the programs are built with MPI
 can_run() {
