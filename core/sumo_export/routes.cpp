@@ -118,7 +118,11 @@ private:
         std::vector<int> edges = trip.edges;
         int lane = trip.lane;
         const std::vector<int>& route = model_.graph.routes[at(trip.route)].lanes;
-        for (auto k = std::find(route.begin(), route.end(), lane); k != route.end(); ++k) {
+        auto k = std::find(route.begin(), route.end(), lane);
+        const int approach = model_.graph.lanes[at(lane)].approach;
+        // A vehicle that has not reached the lane of its turn yet is on another lane of the same approach.
+        if (approach >= 0 && model_.graph.lanes[at(route[0])].approach == approach) k = route.begin();
+        for (; k != route.end(); ++k) {
             lane = *k;
             add_edges_of(lane, edges);
         }
@@ -142,11 +146,13 @@ private:
 
     void add_trip(XmlFile& xml, int vehicle, const Trip& trip) const {
         const LanePart& part = network_.part_at(trip.depart_lane, trip.depart_m);
+        // A front between two edges of an approach departs at the end of the first one.
+        const double depart_m = std::min(trip.depart_m - part.from_m, network_.edges[at(part.edge)].length_m);
         xml.add(
             "    <vehicle id=\"{}\" type=\"{}\" depart=\"{:.2f}\" departLane=\"{}\" departPos=\"{:.4f}\" "
             "departSpeed=\"{:.3f}\">",
-            vehicle, escape_xml(model_.policies[at(trip.policy)].settings.name), trip.depart_s, part.index,
-            trip.depart_m - part.from_m, trip.depart_mps);
+            vehicle, escape_xml(model_.policies[at(trip.policy)].settings.name), trip.depart_s, part.index, depart_m,
+            trip.depart_mps);
         std::string edges;
         for (const int edge : complete_route(trip)) edges += (edges.empty() ? "" : " ") + network_.edges[at(edge)].id;
         xml.add("<route edges=\"{}\"/></vehicle>\n", escape_xml(edges));

@@ -14,7 +14,7 @@ SIDES = ["west", "south", "east", "north"]
 TURNS = ["straight", "right", "left"]
 EDGE = re.compile(r"(?P<approach>.+_(?P<side>west|south|east|north))_(?P<kind>in|out)(\.(?P<part>\d+))?$")
 HEADWAY_S = 1.5    # between planned departures on one inlet lane; shorter than the headway of a discharging queue
-MAX_DELAY_S = 3.0  # a vehicle that has waited longer is dropped, so that the backlog stays short
+MAX_DELAY_S = 1.6  # a vehicle that has waited longer is dropped, so that one or two wait on each lane
 
 
 def turn_of(edge, next_edge):
@@ -134,11 +134,12 @@ def inlet_shares(streets, inlet, shares):
 def write_demand(file, streets, shares, vehicle_type, duration_s, seed):
     """Writes saturated demand: on each inlet lane, vehicles depart faster than a queue discharges. The first turn is
     drawn from the shares of the inlet lane, each later turn from the shares of its approach. Vehicles are named
-    INLET.LANE.NUMBER.TURN."""
-    rng = random.Random(seed)
+    INLET.LANE.NUMBER.TURN. A longer duration only adds vehicles at the end."""
     routes, vehicles = {}, []
     for inlet in streets.inlets():
         for lane, lane_shares in enumerate(inlet_shares(streets, inlet, shares[EDGE.match(inlet)["approach"]])):
+            rng = random.Random(f"{seed} {inlet} {lane}")
+            first_s = rng.random() * HEADWAY_S
             for k in range(int(duration_s / HEADWAY_S)):
                 edges = streets.parts(inlet)
                 turn = first = draw(rng, lane_shares)
@@ -148,8 +149,7 @@ def write_demand(file, streets, shares, vehicle_type, duration_s, seed):
                         break
                     turn = draw(rng, shares[EDGE.match(edges[-1])["approach"]])
                 route = routes.setdefault(" ".join(edges), f"r{len(routes)}")
-                depart_s = (k + rng.random()) * HEADWAY_S
-                vehicles.append((depart_s, f"{inlet}.{lane}.{k}.{first}", route, lane))
+                vehicles.append((first_s + k * HEADWAY_S, f"{inlet}.{lane}.{k}.{first}", route, lane))
     vehicles.sort()
     with open(file, "w", encoding="utf-8") as out:
         out.write(f"<routes>\n{vehicle_type}\n")

@@ -6,6 +6,7 @@ A count is a dictionary: {detector: [vehicles in each signal cycle]}. Detectors 
 import csv
 import hashlib
 import json
+import os
 import re
 import shutil
 import subprocess
@@ -18,7 +19,8 @@ import street_inputs
 POPULATIONS = {"CTG": "CTG-Ref", "dense": "CDG"}
 DENSE = {"tau": "0.1"}  # SUMO's step; SUMO does not allow a shorter reaction time
 MARGIN_M = 20
-EXPORT_S = 300  # longer than a signal cycle
+EXPORT_S = 300  # run of stopline-export; longer than a signal cycle
+KEY_S = 60      # part of the demand that identifies it
 VIOLATIONS = ["overlaps", "conflicts", "red_entries", "lost_vehicles"]
 
 
@@ -87,31 +89,47 @@ def export(options, policy, folder):
     return "<vType " + " ".join(f'{name}="{value}"' for name, value in vehicle_type.items()) + "/>"
 
 
-def run_sumo(options, sumo, seed, study, folder):
-    """Runs SUMO. Returns its Run. If an earlier run had the same inputs, its stored result is returned."""
-    folder.mkdir(parents=True, exist_ok=True)
-    street_inputs.write_demand(folder / "demand.rou.xml", study.streets, study.shares, study.vehicle_type,
-                               options.duration, seed)
-    street_inputs.write_detectors(folder / "area.add.xml", study.streets, study.detectors, MARGIN_M, study.cycle_s)
-    choices = ["--end", str(options.duration), "--seed", str(seed), "--max-depart-delay",
-               str(street_inputs.MAX_DELAY_S), "--no-step-log", "--no-warnings", *options.sumo_option]
-    key = hashlib.sha256(" ".join(choices).encode())
+def sumo_key(study, seed, choices, folder):
+    """Returns a hash of everything on which a run of SUMO depends, except its duration."""
+    key = hashlib.sha256(" ".join([*choices, str(seed)]).encode())
+    write_sumo_inputs(study, seed, KEY_S, folder)
     for file in (study.folder / "net.net.xml", study.folder / "run.sumocfg", folder / "demand.rou.xml",
                  folder / "area.add.xml"):
-        key.update(re.sub(rb"<!--.*?-->", b"", file.read_bytes(), flags=re.DOTALL))  # comments hold the date
-    stored = Path(options.cache) / f"{key.hexdigest()[:24]}.json"
-    if not stored.exists():
+        text = re.sub(rb"<!--.*?-->", b"", file.read_bytes(), flags=re.DOTALL)  # comments hold the date
+        key.update(re.sub(rb"<end value=.*?/>", b"", text))
+    return key.hexdigest()[:24]
+
+
+def write_sumo_inputs(study, seed, duration_s, folder):
+    folder.mkdir(parents=True, exist_ok=True)
+    street_inputs.write_demand(folder / "demand.rou.xml", study.streets, study.shares, study.vehicle_type, duration_s,
+                               seed)
+    street_inputs.write_detectors(folder / "area.add.xml", study.streets, study.detectors, MARGIN_M, study.cycle_s)
+
+
+def run_sumo(options, sumo, seed, study, folder):
+    """Runs SUMO. Returns its Run. If an earlier run with the same inputs was at least as long, its stored counts are
+    used."""
+    choices = ["--seed", str(seed), "--max-depart-delay", str(street_inputs.MAX_DELAY_S), *options.sumo_option]
+    stored = Path(options.cache) / f"{sumo_key(study, seed, choices, folder)}.json"
+    cycles = int(options.duration // study.cycle_s)
+    result = json.loads(stored.read_text()) if stored.exists() else None
+    if result is None or len(result["teleported"]) < cycles:
+        write_sumo_inputs(study, seed, options.duration, folder)
         check_call([sumo, "-c", study.folder / "run.sumocfg", "--route-files", "demand.rou.xml", "--additional-files",
-                    "area.add.xml", "--statistic-output", "statistics.xml", *choices], folder)
-        statistics = ElementTree.parse(folder / "statistics.xml").getroot()
-        result = {"counts": read_loops(folder / "loops.xml"),
-                  "teleported": int(statistics.find("teleports").get("total")),
-                  "collisions": int(statistics.find("safety").get("collisions"))}
+                    "area.add.xml", "--summary-output", "summary.xml", "--summary-output.period", study.cycle_s,
+                    "--end", options.duration + 1, "--no-step-log", "--no-warnings", *choices], folder)
+        # The first row is for the start. The others hold sums since the start, at the end of each cycle.
+        steps = list(ElementTree.parse(folder / "summary.xml").getroot().iter("step"))[1:cycles + 1]
+        result = {"counts": {name: counts[:cycles] for name, counts in read_loops(folder / "loops.xml").items()},
+                  "teleported": [int(step.get("teleports")) for step in steps],
+                  "collisions": [int(step.get("collisions")) for step in steps]}
         stored.parent.mkdir(parents=True, exist_ok=True)
-        part = stored.with_suffix(f".{seed}.part")
+        part = stored.with_suffix(f".{os.getpid()}.part")
         part.write_text(json.dumps(result))
         part.replace(stored)
-    result = json.loads(stored.read_text())
     shutil.rmtree(folder)
-    notes = [f"SUMO, seed {seed}: {result['collisions']} collisions"] if result["collisions"] else []
-    return Run(result["counts"], result["teleported"], notes)
+    collisions = result["collisions"][cycles - 1]
+    notes = [f"SUMO, seed {seed}: {collisions} collisions"] if collisions else []
+    counts = {name: by_cycle[:cycles] for name, by_cycle in result["counts"].items()}
+    return Run(counts, result["teleported"][cycles - 1], notes)
