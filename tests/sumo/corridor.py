@@ -3,8 +3,8 @@
 
     corridor.py --bin FOLDER_OF_STOPLINE_PROGRAMS
 
-Both programs get the same network (stopline-export), signals and car-following parameters (Table 2 of the paper). SUMO's
-vehicles are drawn independently of our run: each inlet lane always has waiting vehicles, and turns have the shares of
+Both programs get the same network (stopline-export), signals and car-following parameters (Table 2 of the paper). Our
+drivers start and stop as SUMO's. SUMO's vehicles are drawn independently of our run: each inlet lane always has waiting vehicles, and turns have the shares of
 the streets file. Both programs count vehicles at the same places. SUMO's results are stored, so that a second
 comparison with the same inputs is fast.
 
@@ -64,6 +64,8 @@ def add_run_options(parser):
     parser.add_argument("--duration", type=int, default=3600, help="length of a run, s (default: 3600)")
     parser.add_argument("--warm-up", type=float, default=480, help="start of the measured window, s (default: 480)")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="setting of our scenario")
+    parser.add_argument("--own-driver", action="store_true", help="keep the driver of the scenario. By default our "
+                        "drivers start and stop as SUMO's (no hesitation, deceleration 4.7 m/s2)")
     parser.add_argument("--sumo-option", action="append", default=[], metavar="OPTION", help="option of SUMO, such as "
                         "--sumo-option=--lanechange.duration=3")
     parser.add_argument("--vtype", action="append", default=[], metavar="KEY=VALUE",

@@ -19,6 +19,9 @@ import street_inputs
 POPULATIONS = {"CTG": "CTG-Ref", "dense": "CDG"}
 DENSE = {"tau": "0.1"}  # SUMO's step; SUMO does not allow a shorter reaction time
 MARGIN_M = 20
+# Our drivers as SUMO's: no hesitation at the start of green, and SUMO's deceleration at stop lines.
+LIKE_SUMO = ["driver.free_drive.hesitation=0 s", "driver.stop.deceleration=4.7 m/s2",
+             "driver.stop.decision_deceleration=5.3 m/s2"]
 EXPORT_S = 300  # run of stopline-export; longer than a signal cycle
 KEY_S = 60      # part of the demand that identifies it
 VIOLATIONS = ["overlaps", "conflicts", "red_entries", "lost_vehicles"]
@@ -38,6 +41,8 @@ def settings_of(options, policy, duration_s):
     population = POPULATIONS[policy]
     own = ["fidelity=meso", "meso=table2", f"populations=[{population}]", f"measure.baseline={population}",
            f"duration={duration_s} s", f"measure.area_margin={MARGIN_M} m", "measure.window=1 s"]
+    if not options.own_driver:
+        own += LIKE_SUMO
     if options.layout:
         own.append(f"network.streets={options.layout}")
     arguments = []
