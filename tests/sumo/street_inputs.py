@@ -157,3 +157,23 @@ def write_demand(file, streets, shares, vehicle_type, duration_s, seed):
         out.writelines(f'<vehicle id="{name}" type="car" route="{route}" depart="{depart_s:.1f}" departLane="{lane}" '
                        f'departPos="base" departSpeed="max"/>\n' for depart_s, name, route, lane in vehicles)
         out.write("</routes>\n")
+
+
+def insertion_faults(streets, shares, inserted, run_s):
+    """Checks the vehicles that SUMO inserted: {"INLET.LANE": {turn: number}}. On each inlet lane a vehicle must always
+    have waited, so that some planned vehicles were dropped. The first turns must have their shares, within four
+    standard deviations. Returns the faults as sentences."""
+    faults = []
+    for inlet in streets.inlets():
+        for lane, lane_shares in enumerate(inlet_shares(streets, inlet, shares[EDGE.match(inlet)["approach"]])):
+            counts = inserted.get(f"{inlet}.{lane}", {})
+            number = sum(counts.values())
+            if number > 0.98 * run_s / HEADWAY_S:
+                faults.append(f"demand on lane {inlet}_{lane} is not saturated")
+            for turn in TURNS:
+                share = lane_shares[turn] / sum(lane_shares.values())
+                deviation = (number * share * (1 - share)) ** 0.5
+                if abs(counts.get(turn, 0) - number * share) > 4 * deviation + 1:
+                    faults.append(f"{counts.get(turn, 0)} of {number} vehicles on lane {inlet}_{lane} turn {turn}, "
+                                  f"expected {number * share:.0f}")
+    return faults

@@ -40,11 +40,13 @@ def settings_of(options, policy, duration_s):
     """Returns the settings of the scenario."""
     population = POPULATIONS[policy]
     own = ["fidelity=meso", "meso=table2", f"populations=[{population}]", f"measure.baseline={population}",
-           f"duration={duration_s} s", f"measure.area_margin={MARGIN_M} m", "measure.window=1 s"]
+           "demand.kind=saturated", "demand.start=empty", f"duration={duration_s} s",
+           f"measure.area_margin={MARGIN_M} m", "measure.window=1 s"]
     if not options.own_driver:
         own += LIKE_SUMO
     if options.layout:
-        own.append(f"network.streets={options.layout}")
+        path = Path(options.layout)
+        own.append(f"network.streets={path.resolve() if path.is_file() else options.layout}")
     arguments = []
     for setting in own + options.set:
         arguments += ["--set", setting]
@@ -66,6 +68,17 @@ def read_loops(file):
             counts[interval.get("id")].append(int(interval.get("nVehEntered")))
             interval.clear()
     return dict(counts)
+
+
+def read_inserted(file):
+    """Returns the numbers of inserted vehicles by inlet lane and first turn: {"INLET.LANE": {turn: number}}."""
+    inserted = defaultdict(lambda: defaultdict(int))
+    for _, trip in ElementTree.iterparse(file):
+        if trip.tag == "tripinfo":
+            lane, _, turn = trip.get("id").rsplit(".", 2)
+            inserted[lane][turn] += 1
+            trip.clear()
+    return inserted
 
 
 def run_ours(options, policy, seed, cycle_s, folder):
@@ -123,10 +136,12 @@ def run_sumo(options, sumo, seed, study, folder):
         write_sumo_inputs(study, seed, options.duration, folder)
         check_call([sumo, "-c", study.folder / "run.sumocfg", "--route-files", "demand.rou.xml", "--additional-files",
                     "area.add.xml", "--summary-output", "summary.xml", "--summary-output.period", study.cycle_s,
+                    "--tripinfo-output", "trips.xml", "--tripinfo-output.write-unfinished",
                     "--end", options.duration + 1, "--no-step-log", "--no-warnings", *choices], folder)
         # The first row is for the start. The others hold sums since the start, at the end of each cycle.
         steps = list(ElementTree.parse(folder / "summary.xml").getroot().iter("step"))[1:cycles + 1]
         result = {"counts": {name: counts[:cycles] for name, counts in read_loops(folder / "loops.xml").items()},
+                  "inserted": read_inserted(folder / "trips.xml"), "run_s": options.duration,
                   "teleported": [int(step.get("teleports")) for step in steps],
                   "collisions": [int(step.get("collisions")) for step in steps]}
         stored.parent.mkdir(parents=True, exist_ok=True)
@@ -136,5 +151,7 @@ def run_sumo(options, sumo, seed, study, folder):
     shutil.rmtree(folder)
     collisions = result["collisions"][cycles - 1]
     notes = [f"SUMO, seed {seed}: {collisions} collisions"] if collisions else []
+    notes += [f"SUMO, seed {seed}: {fault}" for fault in street_inputs.insertion_faults(
+        study.streets, study.shares, result["inserted"], result["run_s"])]
     counts = {name: by_cycle[:cycles] for name, by_cycle in result["counts"].items()}
     return Run(counts, result["teleported"][cycles - 1], notes)

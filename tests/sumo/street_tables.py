@@ -77,7 +77,11 @@ class Comparison:
             missed.append(f"{beyond} of {len(self.lanes)} lanes differ by more than {limit_lane:g} vehicles a cycle")
         if self.ours.teleported:
             missed.append(f"we teleport {self.ours.teleported:.1f} vehicles in a run")
-        return missed + [note for run in self.ours.runs + self.sumo.runs for note in run.notes]
+        return missed + self.notes()
+
+    def notes(self):
+        """Returns the sentences about violations and collisions."""
+        return [note for run in self.ours.runs + self.sumo.runs for note in run.notes]
 
     def text(self):
         lines = [f"== {self.name}", "vehicles a minute        ours (seeds)        SUMO (seeds)   difference"]
