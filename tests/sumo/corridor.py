@@ -4,9 +4,9 @@
     corridor.py --bin FOLDER_OF_STOPLINE_PROGRAMS
 
 Both programs get the same network (stopline-export), signals and car-following parameters (Table 2 of the paper). Our
-drivers start and stop as SUMO's. SUMO's vehicles are drawn independently of our run: each inlet lane always has waiting vehicles, and turns have the shares of
-the streets file. Both programs count vehicles at the same places. SUMO's results are stored, so that a second
-comparison with the same inputs is fast.
+drivers start and stop as SUMO's. SUMO's vehicles are drawn independently of our run: each inlet lane always has waiting
+vehicles, and turns have the shares of the streets file. Both programs count vehicles at the same places. SUMO's results
+are stored, so that a second comparison with the same inputs is fast.
 
 Exit codes: 0 all requirements are met, 1 some are missed, 77 SUMO is not installed.
 """
@@ -76,6 +76,12 @@ def add_run_options(parser):
                         help="folder for SUMO's results (default: %(default)s)")
 
 
+def table_of(options, name, policy, sumo):
+    """Runs both programs in a temporary folder. Returns the Comparison."""
+    with tempfile.TemporaryDirectory() as folder:
+        return compare(options, name, policy, sumo, Path(folder).resolve())
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scenario", nargs="?", type=Path, default=HERE.parents[1] / "scenarios" / "berlin.yaml",
@@ -96,19 +102,15 @@ def main():
     for layout in layouts:
         for policy in options.policy or list(street_runs.POPULATIONS):
             options.layout = layout
-            name = f"{Path(layout or options.scenario).stem}, {policy}"
-            with tempfile.TemporaryDirectory() as folder:
-                result = compare(options, name, policy, found[0], Path(folder).resolve())
+            result = table_of(options, f"{Path(layout or options.scenario).stem}, {policy}", policy, found[0])
             faults = result.faults(LIMIT_PERCENT, LIMIT_LANE)
             missed += len(faults)
             text = result.text() + "".join(f"MISSED: {fault}\n" for fault in faults)
             print(text, flush=True)
-            (output / f"{name.replace(', ', '_')}.txt").write_text(text)
+            (output / f"{result.name.replace(', ', '_')}.txt").write_text(text)
             rows += result.csv_rows()
-            short.append(f"{name:28s} {result.total[0]:7.1f} {result.total[1]:7.1f} {result.difference_percent:+7.1f} % "
-                         f"{result.worst_lane_difference:+6.1f} {result.ours.teleported:8.1f} {result.sumo.teleported:6.1f}")
-    heading = "vehicles a minute that leave    ours    SUMO  difference  worst  teleported: ours   SUMO\n"
-    print(heading + "\n".join(short))
+            short.append(result.short_line())
+    print("\n".join([street_tables.SHORT_HEADING, *short]))
     with open(output / "comparison.csv", "w", newline="", encoding="utf-8") as file:
         csv.writer(file).writerows([("comparison", "quantity", "lane", "ours", "sumo"), *rows])
     print(f"Written to {output}")

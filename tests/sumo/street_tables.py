@@ -4,6 +4,8 @@ import re
 from collections import defaultdict
 
 SIDES = ["west", "south", "east", "north"]
+SHORT_HEADING = ("                                ours     SUMO  difference  worst lane      ours      SUMO\n"
+                 "                             vehicles a minute          veh/cycle      teleported")
 
 
 def mean(values):
@@ -87,14 +89,16 @@ class Comparison:
         lines = [f"== {self.name}", "vehicles a minute        ours (seeds)        SUMO (seeds)   difference"]
 
         def row(title, ours, theirs):
-            lines.append(f"{title:18s} {spread(ours):>18s} {spread(theirs):>19s} {percent(mean(ours), mean(theirs)):+8.1f} %")
+            difference = percent(mean(ours), mean(theirs))
+            lines.append(f"{title:18s} {spread(ours):>18s} {spread(theirs):>19s} {difference:+8.1f} %")
 
         row("leave the area", self.ours.leaving(), self.sumo.leaving())
         cycles = len(next(iter(self.ours.runs[0].counts.values())))
         step = max((cycles - self.ours.first) // 4, 1)
         for first in range(self.ours.first, cycles - step + 1, step):
             window = {"first": first, "last": first + step}
-            title = f"  minutes {first * self.ours.minutes_a_cycle:.0f} to {(first + step) * self.ours.minutes_a_cycle:.0f}"
+            minutes = [number * self.ours.minutes_a_cycle for number in (first, first + step)]
+            title = "  minutes {:.0f} to {:.0f}".format(*minutes)
             row(title, self.ours.leaving(**window), self.sumo.leaving(**window))
         for side in SIDES:
             row(f"leave to {side}", self.ours.leaving(side), self.sumo.leaving(side))
@@ -116,14 +120,21 @@ class Comparison:
                      f"{theirs:.1f} vehicles a cycle.")
         sums = [(approach, sum(ours), sum(self.use[1][approach])) for approach, ours in self.use[0].items()]
         approach, ours, theirs = max(sums, key=lambda one: abs(one[1] - one[2]))
-        lines.append(f"Largest difference of an approach: {approach}: ours {ours:.1f}, SUMO {theirs:.1f} vehicles a cycle.")
+        lines.append(f"Largest difference of an approach: {approach}: ours {ours:.1f}, SUMO {theirs:.1f} vehicles a "
+                     "cycle.")
         return lines
+
+    def short_line(self):
+        """Returns a row below SHORT_HEADING."""
+        return (f"{self.name:28s} {self.total[0]:8.1f} {self.total[1]:8.1f} {self.difference_percent:+9.1f} %"
+                f" {self.worst_lane_difference:+11.1f} {self.ours.teleported:9.1f} {self.sumo.teleported:9.1f}")
 
     def csv_rows(self):
         """Returns rows of name, place, lane, our value and SUMO's value."""
         rows = [(self.name, "leave_per_minute", "", *self.total)]
         for side in SIDES:
-            rows.append((self.name, f"leave_{side}_per_minute", "", mean(self.ours.leaving(side)), mean(self.sumo.leaving(side))))
-            rows.append((self.name, f"enter_{side}_per_minute", "", mean(self.ours.entering(side)), mean(self.sumo.entering(side))))
+            for kind, total in (("leave", Totals.leaving), ("enter", Totals.entering)):
+                rows.append((self.name, f"{kind}_{side}_per_minute", "", mean(total(self.ours, side)),
+                             mean(total(self.sumo, side))))
         rows.append((self.name, "teleported", "", self.ours.teleported, self.sumo.teleported))
         return rows + [(self.name, approach, k + 1, ours, theirs) for approach, k, ours, theirs in self.lanes]
