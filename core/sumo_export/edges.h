@@ -3,6 +3,10 @@
 // Each approach lane or exit lane becomes a lane of a SUMO edge. A lane with a stop line ends there in SUMO. If the
 // lane continues beyond its stop line in the graph, the stretch beyond the line becomes part of each connection that
 // begins on the lane. So every path from a stop line to an exit lane keeps its length.
+//
+// All lanes of a SUMO edge are equally long. So an approach with turn pockets becomes several edges, one behind the
+// other. A new edge begins where a pocket begins. There the lane beside the pocket leads both straight on and into the
+// pocket.
 #pragma once
 
 #include <string>
@@ -24,11 +28,21 @@ struct PlainEdge {
     int to = -1;             // index of the node at its end
     std::vector<int> lanes;  // its lanes in the graph, from the right as in SUMO
     double length_m = 0.0;
+    bool ends_at_stop_line = false;
+};
+
+// The part of a lane of the graph that lies on one edge.
+struct LanePart {
+    int edge = -1;
+    int index = -1;       // lane index in the edge, from the right
+    double from_m = 0.0;  // start of the part, measured on the lane of the graph
 };
 
 struct PlainConnection {
     int from = -1;             // lane of the graph where the connection begins
-    int to = -1;               // lane of the graph where the connection ends
+    int to = -1;               // lane of the graph where the connection ends; equal to `from` inside an approach
+    LanePart begin = {};       // the last metres of this part lead to the connection
+    LanePart end = {};         // the connection leads to the start of this part
     int connection_lane = -1;  // lane of the graph between `from` and `to`; -1: `from` leads directly to `to`
     double length_m = 0.0;
     int node = -1;  // index of the node that the connection crosses
@@ -36,21 +50,21 @@ struct PlainConnection {
 };
 
 struct PlainNetwork {
-    struct LanePosition {
-        int edge = -1;
-        int index = -1;  // lane index in the edge, from the right
-    };
     std::vector<PlainNode> nodes;
     std::vector<PlainEdge> edges;
     std::vector<PlainConnection> connections;
-    std::vector<LanePosition> position_of;  // [lane of the graph]; for a connection: position of its approach lane
+    std::vector<std::vector<LanePart>> parts_of;  // [lane of the graph] in driving direction; empty for connections
 
-    // Returns the id that SUMO gives to a lane of the graph.
+    // Returns the part of the lane on which a vehicle is whose front is at `position_m`.
+    const LanePart& part_at(int lane, double position_m) const;
+    // Returns the part of the lane that lies on the edge. There must be one.
+    const LanePart& part_on(int lane, int edge) const;
+    // Returns the ids that SUMO gives to a part of a lane, and to the last part of a lane of the graph.
+    std::string lane_id(const LanePart& part) const;
     std::string lane_id(int lane) const;
 };
 
-// Converts the graph. Throws InputError if lanes of one edge differ in length (turn pockets), because all lanes of an
-// edge have the same length in SUMO.
+// Converts the graph. Throws InputError if lanes of one approach end at different positions.
 PlainNetwork plain_network(const LaneGraph& graph);
 
 }  // namespace stopline

@@ -16,18 +16,18 @@ std::string points_text(const Polyline& line) {
     return text;
 }
 
-// Returns the shape of a lane from its start up to the position `end_m`.
-Polyline lane_shape(const Lane& lane, double end_m) {
+// Returns the shape of a lane between two positions on it.
+Polyline lane_shape(const Lane& lane, double from_m, double to_m) {
     Polyline part;
     double along_m = 0.0;
-    part.push_back(pose_at(lane.shape, lane.shape_start_m).point);
+    part.push_back(pose_at(lane.shape, lane.shape_start_m + from_m).point);
     for (std::size_t k = 1; k < lane.shape.size(); ++k) {
         along_m += length_m({lane.shape[k - 1], lane.shape[k]});
-        if (along_m > lane.shape_start_m + 1e-6 && along_m < lane.shape_start_m + end_m - 1e-6) {
+        if (along_m > lane.shape_start_m + from_m + 1e-6 && along_m < lane.shape_start_m + to_m - 1e-6) {
             part.push_back(lane.shape[k]);
         }
     }
-    part.push_back(pose_at(lane.shape, lane.shape_start_m + end_m).point);
+    part.push_back(pose_at(lane.shape, lane.shape_start_m + to_m).point);
     return part;
 }
 
@@ -42,10 +42,15 @@ void write_nodes(const std::filesystem::path& file, const PlainNetwork& network)
 
 void write_edges(const std::filesystem::path& file, const LaneGraph& graph, const PlainNetwork& network) {
     XmlFile xml(file, "edges", "edges_file.xsd");
-    for (const PlainEdge& edge : network.edges) {
+    for (int number = 0; number < static_cast<int>(network.edges.size()); ++number) {
+        const PlainEdge& edge = network.edges[at(number)];
+        const auto shape_of = [&](int lane) {
+            const double from_m = network.part_on(lane, number).from_m;
+            return lane_shape(graph.lanes[at(lane)], from_m, from_m + edge.length_m);
+        };
         const Lane& first = graph.lanes[at(edge.lanes[0])];
-        Polyline centre_line = lane_shape(first, edge.length_m);
-        const Polyline last = lane_shape(graph.lanes[at(edge.lanes.back())], edge.length_m);
+        Polyline centre_line = shape_of(edge.lanes[0]);
+        const Polyline last = shape_of(edge.lanes.back());
         for (std::size_t k = 0; k < std::min(centre_line.size(), last.size()); ++k) {
             centre_line[k] = {0.5 * (centre_line[k].x_m + last[k].x_m), 0.5 * (centre_line[k].y_m + last[k].y_m)};
         }
@@ -61,15 +66,15 @@ void write_edges(const std::filesystem::path& file, const LaneGraph& graph, cons
 void write_connections(const std::filesystem::path& file, const LaneGraph& graph, const PlainNetwork& network) {
     XmlFile xml(file, "connections", "connections_file.xsd");
     for (const PlainConnection& c : network.connections) {
-        const PlainNetwork::LanePosition& from = network.position_of[at(c.from)];
-        const PlainNetwork::LanePosition& to = network.position_of[at(c.to)];
         xml.add(R"(    <connection from="{}" to="{}" fromLane="{}" toLane="{}")",
-                escape_xml(network.edges[at(from.edge)].id), escape_xml(network.edges[at(to.edge)].id), from.index,
-                to.index);
+                escape_xml(network.edges[at(c.begin.edge)].id), escape_xml(network.edges[at(c.end.edge)].id),
+                c.begin.index, c.end.index);
         if (c.connection_lane >= 0) {
             const Lane& connection = graph.lanes[at(c.connection_lane)];
             xml.add(R"( speed="{:.6f}" length="{:.3f}" shape="{}")", connection.limit_mps, c.length_m,
                     points_text(connection.shape));
+        } else if (c.length_m > 0.0) {
+            xml.add(R"( length="{:.3f}")", c.length_m);
         }
         xml.add("/>\n");
     }
@@ -153,11 +158,9 @@ void write_lights(const std::filesystem::path& file, const Model& model, const P
     }
     for (const PlainConnection& c : network.connections) {
         if (c.link < 0) continue;
-        const PlainNetwork::LanePosition& from = network.position_of[at(c.from)];
-        const PlainNetwork::LanePosition& to = network.position_of[at(c.to)];
         xml.add("    <connection from=\"{}\" to=\"{}\" fromLane=\"{}\" toLane=\"{}\" tl=\"{}\" linkIndex=\"{}\"/>\n",
-                escape_xml(network.edges[at(from.edge)].id), escape_xml(network.edges[at(to.edge)].id), from.index,
-                to.index, network.nodes[at(c.node)].id, c.link);
+                escape_xml(network.edges[at(c.begin.edge)].id), escape_xml(network.edges[at(c.end.edge)].id),
+                c.begin.index, c.end.index, network.nodes[at(c.node)].id, c.link);
     }
     xml.finish();
 }

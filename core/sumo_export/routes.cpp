@@ -28,7 +28,7 @@ public:
     RouteWriter(std::filesystem::path file, const Model& model, const PlainNetwork& network)
         : file_(std::move(file)), model_(model), network_(network), next_edges_(network.edges.size()) {
         for (const PlainConnection& c : network.connections) {
-            next_edges_[at(network.position_of[at(c.from)].edge)].push_back(network.position_of[at(c.to)].edge);
+            next_edges_[at(c.begin.edge)].push_back(c.end.edge);
         }
     }
 
@@ -71,18 +71,19 @@ private:
             trip.policy = v.policy[slot];
         }
         trip.lane = lane;
-        add_edge_of(lane, trip.edges);
+        if (trip.edges.empty()) trip.edges.push_back(network_.part_at(lane, v.position_m[slot]).edge);
+        add_edges_of(lane, trip.edges);
     }
 
-    // Adds the edge of a lane to the route. Does nothing if the lane is a connection, or if the route already ends on
-    // this edge.
-    void add_edge_of(int lane, std::vector<int>& edges) const {
-        if (model_.graph.lanes[at(lane)].origin >= 0) return;
-        const int edge = network_.position_of[at(lane)].edge;
-        if (edges.empty()) {
-            edges.push_back(edge);
-        } else if (edges.back() != edge) {
-            add_path_to(edge, edges);
+    // Adds the edges of a lane to the route. Omits those up to the edge of the same approach where the route ends. Does
+    // nothing if the lane is a connection.
+    void add_edges_of(int lane, std::vector<int>& edges) const {
+        const std::vector<LanePart>& parts = network_.parts_of[at(lane)];
+        if (parts.empty() || edges.back() == parts.back().edge) return;
+        const auto here =
+            std::find_if(parts.begin(), parts.end(), [&](const LanePart& part) { return part.edge == edges.back(); });
+        for (auto part = here == parts.end() ? parts.begin() : here + 1; part != parts.end(); ++part) {
+            add_path_to(part->edge, edges);
         }
     }
 
@@ -117,9 +118,13 @@ private:
         std::vector<int> edges = trip.edges;
         int lane = trip.lane;
         const std::vector<int>& route = model_.graph.routes[at(trip.route)].lanes;
-        for (auto k = std::find(route.begin(), route.end(), lane); k != route.end(); ++k) {
+        auto k = std::find(route.begin(), route.end(), lane);
+        const int approach = model_.graph.lanes[at(lane)].approach;
+        // A vehicle that has not reached the lane of its turn yet is on another lane of the same approach.
+        if (approach >= 0 && model_.graph.lanes[at(route[0])].approach == approach) k = route.begin();
+        for (; k != route.end(); ++k) {
             lane = *k;
-            add_edge_of(lane, edges);
+            add_edges_of(lane, edges);
         }
         while (edges.size() <= network_.edges.size() && !model_.graph.lanes[at(lane)].next.empty()) {
             const std::vector<int>& next = model_.graph.lanes[at(lane)].next;
@@ -127,7 +132,7 @@ private:
                 return model_.graph.lanes[at(connection)].turn == Turn::straight;
             });
             lane = straight == next.end() ? next.front() : *straight;
-            add_edge_of(lane, edges);
+            add_edges_of(lane, edges);
         }
         return edges;
     }
@@ -140,12 +145,14 @@ private:
     }
 
     void add_trip(XmlFile& xml, int vehicle, const Trip& trip) const {
-        const PlainNetwork::LanePosition& position = network_.position_of[at(trip.depart_lane)];
+        const LanePart& part = network_.part_at(trip.depart_lane, trip.depart_m);
+        // A front between two edges of an approach departs at the end of the first one.
+        const double depart_m = std::min(trip.depart_m - part.from_m, network_.edges[at(part.edge)].length_m);
         xml.add(
             "    <vehicle id=\"{}\" type=\"{}\" depart=\"{:.2f}\" departLane=\"{}\" departPos=\"{:.4f}\" "
             "departSpeed=\"{:.3f}\">",
-            vehicle, escape_xml(model_.policies[at(trip.policy)].settings.name), trip.depart_s, position.index,
-            trip.depart_m, trip.depart_mps);
+            vehicle, escape_xml(model_.policies[at(trip.policy)].settings.name), trip.depart_s, part.index, depart_m,
+            trip.depart_mps);
         std::string edges;
         for (const int edge : complete_route(trip)) edges += (edges.empty() ? "" : " ") + network_.edges[at(edge)].id;
         xml.add("<route edges=\"{}\"/></vehicle>\n", escape_xml(edges));

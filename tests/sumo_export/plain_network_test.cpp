@@ -41,9 +41,11 @@ TEST(PlainNetwork, ListsEachEdgeLaneOnceFromTheRight) {
         const PlainEdge& edge = network.edges[k];
         for (std::size_t i = 0; i < edge.lanes.size(); ++i) {
             EXPECT_TRUE(listed.insert(edge.lanes[i]).second);
-            const PlainNetwork::LanePosition& position = network.position_of[at(edge.lanes[i])];
-            EXPECT_EQ(position.edge, static_cast<int>(k));
-            EXPECT_EQ(position.index, static_cast<int>(i));
+            ASSERT_EQ(network.parts_of[at(edge.lanes[i])].size(), 1U);
+            const LanePart& part = network.parts_of[at(edge.lanes[i])][0];
+            EXPECT_EQ(part.edge, static_cast<int>(k));
+            EXPECT_EQ(part.index, static_cast<int>(i));
+            EXPECT_EQ(part.from_m, 0.0);
             const Lane& lane = model.graph.lanes[at(edge.lanes[i])];
             if (i == 0) continue;
             // The previous lane lies to the right: the cross product with the direction of travel is negative.
@@ -87,8 +89,6 @@ TEST(PlainNetwork, ConnectionsKeepTheirLength) {
               static_cast<std::size_t>(std::count_if(model.graph.lanes.begin(), model.graph.lanes.end(),
                                                      [](const Lane& lane) { return lane.origin >= 0; })));
 }
-
-TEST(PlainNetwork, RefusesPockets) { EXPECT_THROW(plain_network(model_of("berlin.yaml").graph), InputError); }
 
 TEST(SumoExport, RefusesImportedNetworks) {
     Scenario scenario = load_scenario(STOPLINE_SOURCE_DIR "/scenarios/single_light.yaml", {});
@@ -169,8 +169,7 @@ TEST(SumoInputs, RoutesAreConnected) {
     const PlainNetwork network = plain_network(model.graph);
     std::set<std::pair<std::string, std::string>> connected;
     for (const PlainConnection& c : network.connections) {
-        connected.emplace(network.edges[at(network.position_of[at(c.from)].edge)].id,
-                          network.edges[at(network.position_of[at(c.to)].edge)].id);
+        connected.emplace(network.edges[at(c.begin.edge)].id, network.edges[at(c.end.edge)].id);
     }
     const TemporaryFolder folder;
     const auto writer = make_sumo_route_writer(folder.path() / "v.rou.xml", model, network);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <string>
 #include <utility>
@@ -34,11 +35,13 @@ struct ConflictView {
 };
 using ConflictViews = std::map<std::pair<ConnectionName, ConnectionName>, ConflictView>;
 
+// `name_of_end` and `name_of_start` return the SUMO names of the lanes that contain the end and the start of a lane.
 template <class NameOfLane>
-ConflictViews conflicts_of_graph(const LaneGraph& graph, const NameOfLane& name_of) {
+ConflictViews conflicts_of_graph(const LaneGraph& graph, const NameOfLane& name_of_end,
+                                 const NameOfLane& name_of_start) {
     const auto connection_name = [&](int connection) {
         const Lane& lane = graph.lanes[at(connection)];
-        return ConnectionName{name_of(lane.origin), name_of(lane.next.front())};
+        return ConnectionName{name_of_end(lane.origin), name_of_start(lane.next.front())};
     };
     ConflictViews views;
     for (int connection = 0; connection < static_cast<int>(graph.lanes.size()); ++connection) {
@@ -69,9 +72,12 @@ TEST_P(RoundTrip, KeepsConflictsAndRightOfWay) {
     make_net_file(folder.path());
     const SumoNetwork imported_network = make_sumo_network(read_sumo_net(folder.path() / "net.net.xml"), kClearance_m);
 
-    const ConflictViews original = conflicts_of_graph(model.graph, [&](int lane) { return network.lane_id(lane); });
-    const ConflictViews imported = conflicts_of_graph(
-        imported_network.graph, [&](int lane) { return imported_network.graph.lanes[at(lane)].name; });
+    using NameOfLane = std::function<std::string(int)>;
+    const ConflictViews original = conflicts_of_graph<NameOfLane>(
+        model.graph, [&](int lane) { return network.lane_id(network.parts_of[at(lane)].back()); },
+        [&](int lane) { return network.lane_id(network.parts_of[at(lane)].front()); });
+    const NameOfLane own_name = [&](int lane) { return imported_network.graph.lanes[at(lane)].name; };
+    const ConflictViews imported = conflicts_of_graph(imported_network.graph, own_name, own_name);
     EXPECT_EQ(original.size(), conflicts);
     EXPECT_EQ(imported.size(), conflicts);
     double largest_shift_m = 0.0;
@@ -89,7 +95,7 @@ TEST_P(RoundTrip, KeepsConflictsAndRightOfWay) {
 
 INSTANTIATE_TEST_SUITE_P(Networks, RoundTrip,
                          ::testing::Values(std::pair{"intersection", 88U}, std::pair{"arterial", 440U},
-                                           std::pair{"grid", 528U}));
+                                           std::pair{"grid", 528U}, std::pair{"berlin", 632U}));
 
 }  // namespace
 }  // namespace stopline

@@ -18,10 +18,9 @@ refused() {
 }
 
 compare="$STOPLINE_BIN/stopline-compare"
-refused "pockets" "$compare" "$scenarios/berlin.yaml" --output "$work/new/a"
 refused "unknown population" "$compare" "$scenarios/single_light.yaml" --population Nobody --output "$work/new/a"
 mkdir "$work/old"
-refused "existing folder" "$compare" "$scenarios/berlin.yaml" --output "$work/old"
+refused "existing folder" "$compare" "$scenarios/single_light.yaml" --population Nobody --output "$work/old"
 [ -d "$work/old" ] || fail "an existing folder was removed"
 [ -z "$(ls -A "$work/old")" ] || fail "files are left in an existing folder: $(ls -A "$work/old")"
 
@@ -36,8 +35,13 @@ reports_fidelity() {
 
 export_light=("$STOPLINE_BIN/stopline-export" --sumo "$work/exported" "$scenarios/single_light.yaml")
 reports_fidelity "export" "${export_light[@]}" --set fidelity=full
-reports_fidelity "compare" "$compare" "$scenarios/berlin.yaml" --output "$work/new/a" --set fidelity=full
+reports_fidelity "compare" "$compare" "$scenarios/single_light.yaml" --population Nobody --output "$work/new/a" \
+    --set fidelity=full
 "${export_light[@]}" --set fidelity=meso >"$work/stdout" 2>"$work/stderr" || fail "export: $(head -c 300 "$work/stderr")"
 grep -qF fidelity "$work/stderr" && fail "the message appears without need"
+
+"$STOPLINE_BIN/stopline-export" --sumo "$work/streets" "$scenarios/berlin.yaml" --set 'duration=60 s' \
+    --set 'measure.window=1 s' >"$work/stdout" 2>"$work/stderr" || fail "export of streets: $(head -c 300 "$work/stderr")"
+grep -qF '<edge id="suarezstr_east_in.1"' "$work/streets/edges.edg.xml" || fail "the approach with a pocket is not split"
 
 exit $((failures > 0))
