@@ -9,7 +9,7 @@ namespace {
 
 const ColumnDoc kPopulation{"population", "", "", "name of the population"};
 
-std::vector<ColumnDoc> summary_columns() {
+std::vector<ColumnDoc> window_columns() {
     return {
         kPopulation,
         {"throughput_veh_h", "veh/h", "window", "vehicles that leave the area; imported networks: trips that end"},
@@ -34,6 +34,11 @@ std::vector<ColumnDoc> summary_columns() {
         {"window_to_s", "s", "", "end of the measured window"},
         {"warm_up_s", "s", "run",
          "end of the warm-up, found from the number of vehicles in the area with the rule MSER-5"},
+    };
+}
+
+std::vector<ColumnDoc> stability_columns() {
+    return {
         {"stability", "", "run",
          "`stable`: no gridlock and no teleported vehicle. `semi-stable`: all gridlocks dissolve, and less than 1 % "
          "of the exited vehicles were teleported. `unstable`: for the reason in `unstable_by`"},
@@ -56,6 +61,11 @@ std::vector<ColumnDoc> summary_columns() {
         {"passed_blockers", "", "run",
          "number of times that a vehicle passes a blocker in a conflict area, as `rules.pass_blocker_greens` allows; "
          "each pair of a vehicle and a blocker counts once"},
+    };
+}
+
+std::vector<ColumnDoc> delay_columns() {
+    return {
         {"delay_signal_h", "veh h", "run", "delay by red and yellow signals"},
         {"delay_yielding_h", "veh h", "run", "delay by vehicles with priority"},
         {"delay_junction_blocking_h", "veh h", "run", "delay by vehicles that are stopped in a conflict area"},
@@ -74,6 +84,11 @@ std::vector<ColumnDoc> summary_columns() {
         {"longest_in_junction_s", "s", "run",
          "longest time of any vehicle in an intersection, from its front at the stop line to its rear on the exit "
          "lane"},
+    };
+}
+
+std::vector<ColumnDoc> count_columns() {
+    return {
         {"entered", "veh", "run", "vehicles that entered the network"},
         {"exited", "veh", "run", "vehicles that left the network"},
         {"overlaps", "", "run", "vehicles with a net gap below 0, counted in each step; a violation"},
@@ -90,6 +105,14 @@ std::vector<ColumnDoc> summary_columns() {
         {"backlog", "veh", "end of the run",
          "vehicles that should have entered by then but found no room; 0 for saturated inlets and for queues"},
     };
+}
+
+std::vector<ColumnDoc> summary_columns() {
+    std::vector<ColumnDoc> columns;
+    for (const auto& group : {window_columns(), stability_columns(), delay_columns(), count_columns()}) {
+        columns.insert(columns.end(), group.begin(), group.end());
+    }
+    return columns;
 }
 
 std::vector<ColumnDoc> series_columns(const std::vector<ColumnDoc>& summary) {
