@@ -158,8 +158,8 @@ CompletedSweep run_sweep(const CalibrateCliOptions& options, const std::string& 
     return {std::move(sweep), std::move(store), totals};
 }
 
-// Reads the evaluations of earlier sessions from the store, by their number. The store holds each evaluation as a text:
-// first the loss, then all parameter values.
+// Reads the evaluations of earlier sessions from the store. The index in the returned list is the number of the
+// evaluation. The store holds each evaluation as a text: first the loss, then all parameter values.
 std::vector<std::optional<FitEvaluation>> stored_evaluations(const RunStore& store) {
     std::vector<std::optional<FitEvaluation>> stored(store.identity().points);
     store.for_each_run([&](std::size_t index, const std::string& text) {

@@ -124,7 +124,7 @@ void print(const Comparison& comparison) {
 }
 
 // Prints the settings that make our drivers behave like SUMO's, unless the scenario has them. Without these settings
-// most metrics lie outside the bands, by design.
+// most metrics lie outside the bands, because the drivers differ.
 void print_settings_like_sumo(const Scenario& scenario) {
     std::string settings;
     const auto add_if = [&](bool is_missing, const char* setting) {

@@ -128,7 +128,7 @@ RunStore open_store(const Sweep& sweep, const Shard& shard, const SweepFiles& fi
     return RunStore::open_or_make(files.store, identity);
 }
 
-// A sweep with its open store. `todo` holds the points (numbers of runs) that the store lacks.
+// A sweep with its open store. `todo` holds the numbers of the runs that are not in the store yet.
 struct PreparedSweep {
     Sweep sweep;
     Shard shard;
@@ -155,7 +155,7 @@ std::size_t count_runs(const Sweep& sweep, const Shard& shard) {
     return runs;
 }
 
-// Removes the table of an earlier sweep, because it does not match a store with missing runs.
+// Removes the table of an earlier sweep, so that no table disagrees with the store while runs are missing.
 void remove_old_table(const SweepFiles& files) {
     std::error_code ignored;
     std::filesystem::remove(files.table, ignored);
@@ -255,9 +255,9 @@ void print_throughput_trends(const ThroughputTrends& trends) {
     }
 }
 
-// Writes the means over seeds, the figures, and Table 1 of the paper. Leaves out each of these outputs for which the
-// sweep lacks an axis. Only sweeps of the paper's intersection get Table 1. Returns the sentences that name the file to
-// open next.
+// Writes the means over seeds, the figures, and Table 1 of the paper. An output is left out if the sweep lacks one of
+// its axes. Only sweeps of the paper's intersection get Table 1. Returns the sentences that tell the user which file to
+// open.
 std::string draw_results(const Sweep& sweep, const std::string& csv, const std::filesystem::path& file,
                          ColumnNames names) {
     const CsvTable results = parse_csv(csv, file.string());

@@ -24,7 +24,7 @@ constexpr double kGreen_s = 120.0;  // start of green; all queues have formed by
 constexpr double kHeadway_s = 0.9;
 constexpr double kDriving_s = 10.0;  // time from the start of green to the measurement; by then all vehicles move
 constexpr int kWarmUpSteps = 10;
-constexpr int kSteps = 100;  // number of measured steps, 1 s in total; no vehicle leaves the network meanwhile
+constexpr int kSteps = 100;  // number of measured steps, 1 s in total; during them no vehicle leaves the network
 
 Model queue_model(int vehicles) {
     Scenario scenario = load_scenario(scenario_directory() / "single_light.yaml");
@@ -38,7 +38,7 @@ Model queue_model(int vehicles) {
     return model;
 }
 
-// A simulation of moving platoons. It is built once for each number of vehicles and each kind of kernels.
+// A simulation of moving platoons. Each number of vehicles with each kind of kernels has one such simulation.
 struct DrivingPlatoons {
     explicit DrivingPlatoons(int vehicles, bool scalar) : model(queue_model(vehicles)), simulation(model) {
         simulation.run_until(kGreen_s + kDriving_s);
@@ -55,8 +55,8 @@ const DrivingPlatoons& driving_platoons(int vehicles, bool scalar) {
     return *platoons;
 }
 
-// Measures the same second of simulated time in every iteration. The time excludes copying the simulation and the
-// warm-up steps.
+// Measures the same second of simulated time in every iteration. The measured time includes neither the copying of the
+// simulation nor the warm-up steps.
 void full_dynamics(benchmark::State& state, bool scalar) {
     const DrivingPlatoons& initial = driving_platoons(static_cast<int>(state.range(0)), scalar);
     std::int64_t updates = 0;

@@ -29,8 +29,8 @@ constexpr const char* kFooter =
     "All options of Google Benchmark (--benchmark_...) work too. The benchmarks use one thread unless\n"
     "the name says otherwise.\n\n";
 
-// Prints the table of Google Benchmark and keeps the minimum time over the repetitions of each benchmark. Other work of
-// the machine affects the minimum least.
+// Prints the table of Google Benchmark and keeps the minimum time over the repetitions of each benchmark. Other
+// programs on the machine affect the minimum less than the mean.
 class TableReporter : public benchmark::ConsoleReporter {
 public:
     void ReportRuns(const std::vector<Run>& runs) override {
@@ -128,7 +128,8 @@ std::string network_limits_text(const TableReporter& table) {
     return text;
 }
 
-// Throws InputError for an option that does not begin with --benchmark_. Google Benchmark itself would end the program.
+// Throws InputError for an option that does not begin with --benchmark_. Google Benchmark would end the program
+// instead.
 void check_flags(const std::vector<std::string>& flags) {
     for (const std::string& flag : flags) {
         if (!flag.starts_with("--benchmark_")) throw InputError(fmt::format("unknown option '{}'; see --help", flag));

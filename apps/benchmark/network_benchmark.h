@@ -16,7 +16,7 @@ inline constexpr const char* kLargeGrid = "meso_grid_with_queues";
 inline constexpr std::array<int, 5> kGridSides{3, 6, 11, 33, 102};
 inline constexpr int kTwoThreadSide = 33;  // streets in each direction of the grid that also runs with two threads
 inline constexpr const char* kVehiclesCounter = "vehicles";
-// Name of the counter of resident memory per vehicle. It excludes the Model.
+// Name of the counter of resident memory per vehicle. The memory of the Model is not counted.
 inline constexpr const char* kBytesCounter = "bytes_per_vehicle";
 
 std::string grid_name(const char* population);

@@ -19,7 +19,7 @@ struct CommonOptions {
     std::string output;
 
     std::vector<std::string> settings;  // values of --set
-    bool old_column_names = false;      // true: tables have the names of the last release
+    bool old_column_names = false;      // true: columns of tables have the names of the previous release
 };
 
 // Adds --threads, --seed and --output.
@@ -30,7 +30,7 @@ void add_set_option(Options& app, CommonOptions& options);
 
 // Adds --old-column-names.
 void add_old_column_names_option(Options& app, CommonOptions& options);
-// Returns the kind of names for the result tables. Warns on standard error of old names.
+// Returns whether result tables get current or old column names. Prints a warning on standard error for old names.
 ColumnNames column_names(const CommonOptions& options);
 
 // Prints warnings on standard error, with "warning: " before each. Skips warnings that it has printed before.

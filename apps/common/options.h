@@ -58,7 +58,7 @@ public:
     // Adds an option without a value. `value` becomes true if the user gives the option.
     Option add_flag(const std::string& names, bool& value, const std::string& help);
 
-    // Adds a subcommand and returns its options, which this object owns.
+    // Adds a subcommand. Returns its options; this object owns them.
     Options& add_subcommand(const std::string& name, const std::string& help);
     // Returns true if the command line named this subcommand.
     bool parsed() const;
@@ -69,8 +69,8 @@ public:
     // Sets the text below the options in the help text.
     void footer(const std::string& text);
 
-    // Parses the command line. Returns an exit code if the program must end now: after --help, --version or a wrong
-    // command line.
+    // Parses the command line. Returns an exit code if the program must end at once, because the user asked for --help
+    // or --version or because the command line is wrong.
     std::optional<ExitCode> parse(int argc, const char* const* argv);
 
 private:

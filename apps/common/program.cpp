@@ -25,7 +25,7 @@ std::sig_atomic_t monotonic_time_s() {
     return static_cast<std::sig_atomic_t>(now.tv_sec);
 }
 
-// The first Ctrl-C asks the program to stop, the next one kills it. Wrappers such as timeout(1) send each interrupt
+// The first Ctrl-C asks the program to stop, a second Ctrl-C kills it. Wrappers such as timeout(1) send each interrupt
 // twice, so the handler ignores a repetition within about two seconds.
 extern "C" void on_interrupt(int signal) {
     const std::sig_atomic_t now = monotonic_time_s();

@@ -23,7 +23,7 @@ inline constexpr const char* kExitCodesText =
 // error for an exception from `body` and for a failure to write standard output.
 int run_program(const std::string& name, const std::function<ExitCode()>& body);
 
-// Returns true once the user has pressed Ctrl-C. Long-running code must poll this function.
+// Returns true after the user has pressed Ctrl-C. Long-running code must poll this function.
 bool interrupted();
 
 // Returns `requested`, or the default of OpenMP (all processors) if `requested` is 0.

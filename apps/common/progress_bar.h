@@ -20,7 +20,7 @@ public:
     // Shows the share of the work that is done, 0 .. 1. Returns false after Ctrl-C, which tells the caller to stop.
     // Only one thread at a time may call this function.
     bool update(double share);
-    // Does the same with another label. If `remaining_s` is given, it replaces the estimate of the remaining time.
+    // Updates the share and the label. If `remaining_s` is given, it replaces the estimate of the remaining time.
     bool update(double share, const std::string& label, std::optional<double> remaining_s);
     // Removes the line so that other text can be printed. The next update() draws the line again.
     void clear();

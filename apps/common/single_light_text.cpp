@@ -21,8 +21,8 @@ std::string signed_number(double value, int decimals) {
     return std::isnan(value) ? "-" : fmt::format("{:+.{}f}", value, decimals);
 }
 
-// Returns true if the queue empties before the green time ends. A longer queue would then give a larger number of
-// passed vehicles.
+// Returns true if the queue empties before the green time ends. In that case more vehicles would pass if the queue were
+// longer.
 bool queue_empties_within(const PopulationSummary& summary, double green_s) { return summary.emptied_s < green_s; }
 
 void append_improvements(const SingleLightReport& result, const PopulationSummary& summary,
@@ -126,7 +126,8 @@ std::string headways_text(const SingleLightReport& result) {
 }
 
 std::string queue_text(const SingleLightReport& result) {
-    constexpr double kTolerance_m = 1.0;  // if net gaps in a queue differ by more, it has not closed up
+    // A queue has not closed up if its net gaps differ by more than this tolerance.
+    constexpr double kTolerance_m = 1.0;
     std::string names;
     for (const PopulationSummary& summary : result.populations) {
         if (!(summary.queue.largest_m > summary.queue.smallest_m + kTolerance_m)) continue;

@@ -24,8 +24,8 @@ double parse_time_s(const char* option, const std::string& text) {
     return time.si;
 }
 
-// Parses an interval, which must be a whole number of simulation steps. If no file uses the interval (`is_used` is
-// false), it may be any time, because the default interval is not a multiple of every step length.
+// Parses an interval. An interval that a file uses must be a whole number of simulation steps. An unused interval
+// (`is_used` is false) may have any length, because the default interval does not fit every step length.
 double parse_interval_s(const char* option, const std::string& text, const Scenario& scenario, bool is_used) {
     const double time_s = parse_time_s(option, text);
     if (!is_used) return time_s;
@@ -63,7 +63,7 @@ std::filesystem::path population_file(const std::filesystem::path& file, const S
     return file.parent_path() / name;
 }
 
-// Creates the folder of `file`. This happens before the runs, so that the user learns of a wrong path at once.
+// Creates the folder of `file`. It is called before the runs, so that a wrong path is reported before any run starts.
 void prepare_folder_of(const std::string& file) {
     const std::filesystem::path path(file);
     if (path.filename().empty()) throw InputError(fmt::format("'{}' is a folder; add the name of a file to it", file));

@@ -44,7 +44,8 @@ public:
 
     // Returns the observer to pass to the runs. It must not outlive this object.
     Observation observation();
-    // Completes all files after the runs. Returns a text for the user that lists them; empty if there are none.
+    // Completes all files after the runs. Returns a text that lists the files for the user; empty if there are no
+    // files.
     std::string finish();
 
 private:
@@ -63,7 +64,7 @@ private:
     const Scenario& scenario_;
     RecordingWindow window_;
     std::vector<FileKind> kinds_;
-    std::vector<std::vector<OpenFile>> open_files_;  // [population][kind]
+    std::vector<std::vector<OpenFile>> open_files_;  // [population][kind of file]
     bool needs_detectors_ = false;
     bool has_recording_ = false;
 };

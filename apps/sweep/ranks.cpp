@@ -26,8 +26,9 @@ namespace stopline {
 
 namespace {
 
-// Message types. A worker sends `ready`, then for each run `alive` (every second), `done` or `failed`, and at the end
-// `bye`. It sends `broken` if an exception makes all runs impossible. Rank 0 sends `run` with a point, or `stop`.
+// Message types. A worker sends `ready` at the start, `alive` every second during a run, `done` or `failed` after the
+// run, and `bye` at the end. It sends `broken` if an exception makes all runs impossible. Rank 0 sends `run` with the
+// number of a run, or `stop`.
 enum Tag : int { ready, alive, done, failed, broken, bye, run, stop };
 
 using Clock = std::chrono::steady_clock;
@@ -75,7 +76,7 @@ bool started_by_launcher() {
     });
 }
 
-// Assigns points to the workers and stores their results. Exists on rank 0 only.
+// Assigns points (numbers of runs) to the workers and stores the results. Exists on rank 0 only.
 class Server {
 public:
     Server(int ranks, const std::vector<std::size_t>& points, RunStore& store, std::function<bool(double)> on_progress,
@@ -267,7 +268,7 @@ void Ranks::work(const Sweep& sweep) const {
     for (Message message = receive(0); message.tag == run; message = receive(0)) {
         try {
             const PointResult result = runner.run(message.point, [&heartbeat] { return heartbeat.keep_going(); });
-            // The next message is the stop message of rank 0.
+            // An interrupted run means that rank 0 has sent the stop message. The loop receives it next.
             if (result.state == PointResult::State::interrupted) continue;
             send(0, result.state == PointResult::State::done ? done : failed, message.point, result.text);
         } catch (const std::exception& error) {

@@ -3,9 +3,9 @@
 // or mpirun there is one rank.
 //
 // Rank 0 executes no run itself, because workers would have to wait for its answers. If a worker dies, plain mpirun
-// ends the job. Finished runs are stored, and the same command continues with the missing ones. Under `mpirun
-// --enable-recovery` the other workers go on. Rank 0 then counts a worker as dead if it sends no message for too long,
-// and assigns the point of this worker again.
+// ends the job. The finished runs are stored, and the same command executes the remaining runs. Under `mpirun
+// --enable-recovery` the other workers continue. Rank 0 then counts a worker as dead if it sends no message for too
+// long, and assigns the point of the dead worker again.
 #pragma once
 
 #include <cstddef>

@@ -37,7 +37,7 @@ double cycle_of(const Scenario& scenario) {
 }
 
 // Returns the cause of the difference at a detector as text. A difference of half a cycle or more means that the
-// vehicle used another green. A smaller difference means that the vehicle is late or early within the same green.
+// vehicle used another green. With a smaller difference, the vehicle passes at another time of the same green.
 std::string cause_of(const TimingMiss& miss, double cycle_s) {
     if (miss.pairs_beyond_limit == 0) return "one mode has more passages than the other";
     if (cycle_s > 0.0 && std::abs(miss.largest_s) >= 0.5 * cycle_s) {

@@ -27,12 +27,12 @@ struct DetectorRun {
     bool complete = false;     // false: keep_going stopped the run
 };
 
-// Runs the model until all vehicles have exited or the scenario ends. Stops early if `keep_going` returns false.
+// Runs the model until all vehicles have exited or the scenario ends. Stops before that if `keep_going` returns false.
 DetectorRun run_detectors(const Scenario& scenario, const Model& model, const std::function<bool()>& keep_going = {});
 
-// Runs the scenario and returns the results that a sweep stores. The result of a detector is the text of its passage
-// times, separated by spaces. Then follow the numbers of violations and of vehicle updates. Returns an empty list if
-// `keep_going` stopped the run.
+// Runs the scenario and returns the results that a sweep stores. Each detector with passages has one result: the text
+// of its passage times, separated by spaces. The other results are the numbers of violations of each kind and of
+// vehicle updates. Returns an empty list if `keep_going` stopped the run.
 std::vector<RunMetric> detector_metrics(const Scenario& scenario, std::size_t population,
                                         const std::function<bool()>& keep_going);
 // Reads the passage times from a stored result of detector_metrics().

@@ -19,7 +19,8 @@ namespace {
 
 enum class LawSubset { constant_time, constant_distance, all };
 
-// Returns true if all spacing policies of the case use the constant-distance model, or all use the time-gap model.
+// Returns true if all spacing policies of the case use one model: the constant-distance model if `constant_distance` is
+// true, else the time-gap model.
 bool has_law(const FitCase& c, bool constant_distance) {
     return std::all_of(c.model.krauss.begin(), c.model.krauss.end(),
                        [&](const Krauss& k) { return k.constant_distance == constant_distance; });
@@ -34,7 +35,7 @@ bool is_in(const FitCase& c, LawSubset subset) {
 struct Search {
     std::vector<const FitCase*> cases;
     std::vector<std::size_t> free;  // indices of the fitted parameters in fit_parameters()
-    std::vector<double> values;     // values of all parameters, fitted parameters as in the last evaluation
+    std::vector<double> values;     // values of all parameters; fitted parameters as in the latest evaluation
     std::string stage;
     const FitOptions& options;
     MesoSettings settings;
@@ -57,7 +58,7 @@ struct Search {
 
 MesoSettings with_values(MesoSettings settings, const std::vector<double>& values) {
     for (std::size_t k = 0; k < values.size(); ++k) fit_parameters()[k].value(settings) = values[k];
-    // The gap at rest is s_0 + s_t, so s_0 makes up for a change of s_t.
+    // The gap at rest is s_0 + s_t. A change of s_t therefore changes s_0 by the opposite amount.
     settings.constant_distance.standstill_gap_m = settings.calibrated_standstill_gap_m - settings.band_m;
     return settings;
 }

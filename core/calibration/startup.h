@@ -54,7 +54,7 @@ StartupFit fit_startup(const Scenario& scenario, const StartupCurve& curve,
 // A time interval in which a start is above or below a band. Between measured points the band is interpolated.
 struct BandExit {
     double from_s, to_s;
-    double largest_deviation_mps;  // largest deviation from the mean; negative below it
+    double largest_deviation_mps;  // largest deviation from the mean; negative if the start is slower
 };
 // Returns the exits from the confidence band of the mean (`of_mean` true) or from the band of single starts (false).
 // Returns nothing if the curve does not have that band.

@@ -12,8 +12,8 @@ namespace stopline {
 
 namespace {
 
-// A component is one of the spacing policies or one of the routes from which a vehicle gets its own. The functions
-// below draw a component according to the shares of all components.
+// The functions below draw one component for a vehicle, according to the shares of all components. The components are
+// the spacing policies that the vehicle can have, or the routes that it can take.
 
 // Returns the index of the component that `number`, in [0, 1), selects. The shares sum to 1.
 std::size_t pick(std::span<const double> shares, double number) {
@@ -23,9 +23,9 @@ std::size_t pick(std::span<const double> shares, double number) {
     return k;
 }
 
-// `drawn` holds the number of draws of each component, n in total. Returns the component whose number of draws is
-// furthest below the number that its share demands, and adds the new draw to `drawn`. So the shares hold in every part
-// of the sequence. Components with equal shares alternate, beginning with the first component.
+// Returns the component that is furthest behind: its number of draws is furthest below the number that its share
+// demands. `drawn` holds the number of draws of each component, n in total; the new draw is added to it. So the shares
+// hold in every part of the sequence. Components with equal shares alternate, beginning with the first component.
 std::size_t draw_most_behind(std::span<const double> shares, std::int64_t n, std::vector<double>& drawn) {
     std::size_t chosen = 0;
     for (std::size_t c = 1; c < shares.size(); ++c) {

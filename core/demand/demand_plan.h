@@ -23,10 +23,11 @@ struct Trip {
     int turn_count = 0;  // number of turns: one at the end of each edge except the last edge
     float length_m = 0.0F;
     enum class DepartLane : std::uint8_t { given, rightmost, free, random, best };
-    enum class DepartSpeed : std::uint8_t { given, limit, last, random };  // last: as the vehicle ahead
-    // base: the rear of the vehicle is at the start of the lane. last: the vehicle is as close behind the last vehicle
-    // on the lane as its desired gap allows. random: one position is drawn at random. free: a new position is drawn in
-    // each step until there is room.
+    // limit: the speed limit. last: the speed of the vehicle ahead.
+    enum class DepartSpeed : std::uint8_t { given, limit, last, random };
+    // base: the rear of the vehicle is at the start of the lane. last: the vehicle is as close behind the rearmost
+    // vehicle on the lane as its desired gap allows. random: one position is drawn at random. free: a new position is
+    // drawn in each step until there is room.
     enum class DepartPosition : std::uint8_t { base, given, last, random, free };
     DepartLane depart_lane = DepartLane::rightmost;
     DepartSpeed depart_speed = DepartSpeed::given;
@@ -41,7 +42,8 @@ struct DemandPlan {
     // link lane, vehicles get the route through the next intersection.
     struct Inlet {
         int lane = 0;
-        std::int64_t vehicles = 0;   // number of vehicles that enter the network here; usually 0 on link lanes
+        // Number of vehicles that enter the network on this lane; usually 0 on link lanes.
+        std::int64_t vehicles = 0;
         std::vector<int> routes;     // routes from which the route of a vehicle is drawn
         std::vector<double> shares;  // [index in `routes`] share of the route; the shares sum to 1
         // [index in `routes`] share of the route for a vehicle that chose this lane because of its turn. These shares
@@ -56,7 +58,8 @@ struct DemandPlan {
     std::vector<Inlet> inlets;  // entry lanes, then link lanes
     double entry_speed_mps = 0.0;
     double entry_headway_s = 2.0;  // minimum headway of entering vehicles; if evenly_spaced: headway of arrivals
-    bool evenly_spaced = false;    // vehicles arrive with a constant headway; without room they form a backlog
+    // True: vehicles arrive with a constant headway. Vehicles that find no room form a backlog.
+    bool evenly_spaced = false;
     // The backlog of every inlet is endless, and vehicles enter as an endless platoon: each has the speed of the
     // vehicle ahead and the desired gap of its own policy.
     bool saturated = false;

@@ -24,7 +24,8 @@ struct DemandSettings {
     // Shares of right and left turns, 0 .. 1. A share applies on each lane that allows the turn and another movement.
     double right_share = 0.0;
     double left_share = 0.0;
-    // If cross_turns is `separate`, the legs in the south and north have the turn shares below, else the shares above.
+    // separate: the turn shares below apply to the legs in the south and north. same: the shares above apply to all
+    // legs.
     std::string cross_turns = "same";  // same | separate
     double cross_right_share = 0.0;
     double cross_left_share = 0.0;

@@ -22,7 +22,8 @@
 
 namespace stopline {
 
-// The result of a law that demands nothing. It is higher than any acceleration, so it is never the minimum.
+// A law returns this value if it does not limit the acceleration. The value is higher than any acceleration, so it is
+// never the smallest one.
 inline constexpr double kUnconstrained_mps2 = 1e3;
 
 // The settings of the driver, prepared for the kernels (the loops over vehicles).
@@ -51,8 +52,8 @@ struct LeaderView {
     R rate_1ps;           // 1 / tau_p (inverse lag of the leader), from V2V, delayed
 };
 
-// Returns the acceleration of a vehicle without leader. It follows the calibrated start-up profile, and falls to 0
-// towards the desired speed.
+// Returns the acceleration of a vehicle without leader. This acceleration follows the calibrated start-up profile, and
+// falls to 0 towards the desired speed.
 template <class R, class Number>
 STOPLINE_INLINE R free_acceleration(const DriverTablesOf<Number>& d, const R& speed_mps,
                                     const std::type_identity_t<R>& desired_mps) {
@@ -135,9 +136,9 @@ STOPLINE_INLINE R stop_behind_acceleration(const DriverTablesOf<Number>& d, cons
 }
 
 // Returns the predictive feedforward of Fig. 4: the constant request u that brings the own acceleration to that of the
-// leader. It minimises the sum of the squared differences between both accelerations at three times in the prediction
-// horizon, and is limited to the allowed range. With first-order lags and the V2V delay, the accelerations at the time
-// th from now are
+// leader. u minimises the sum of the squared differences between both accelerations at three times in the prediction
+// horizon, and is limited to the allowed range. With first-order lags and the V2V delay, the accelerations after a
+// further time th are
 //     a_p(t + th) = u_p + (a_p - u_p) exp(-(th + delay) / tau_p),   a(t + th) = u + (a - u) exp(-th / tau),
 // Each of the three times thus gives one equation for u: w u = a_p(t + th) - (1 - w) a with w = 1 - exp(-th / tau).
 template <class R, class Number>
@@ -167,11 +168,11 @@ inline constexpr double kMinFilterRoom_s = 0.3;
 inline constexpr double kHardBraking_mps2 = 2.0;
 
 // Returns the acceleration of the spacing controller. `desired_gap_m` and `slope_s` come from the spacing law at the
-// current speed. `request_mps2` is the request of the last step, which is the state of the filter 1 / H.
+// current speed. `request_mps2` is the request of the previous step, which is the state of the filter 1 / H.
 //
 // The filter delays braking. With a time gap, the vehicle normally has room for this delay. The room is `gap_growth_m`
-// (the desired gap minus the standstill gap). If the gap is shorter than desired, the missing part is subtracted. If
-// the vehicle covers this room in less than kMinFilterRoom_s and the leader requests a deceleration above
+// (the desired gap minus the standstill gap). If the gap is shorter than desired, the difference is subtracted from the
+// room. If the vehicle covers the room in less than kMinFilterRoom_s and the leader requests a deceleration above
 // kHardBraking_mps2, the vehicle brakes at least as hard as with a constant distance gap. Both thresholds are our
 // choice. Only a stop makes a leader brake that hard.
 template <class R, class Number>
@@ -201,15 +202,15 @@ inline constexpr double kEmergencyMargin = 1.15;
 
 // Returns the emergency braking, or kUnconstrained_mps2 while the needed deceleration is below the threshold of the
 // settings. The needed deceleration is the smallest constant one that avoids a collision if the leader brakes
-// constantly with b_p.
+// constantly with b_p. The own speed is v, and the speed of the leader is v_p.
 //
 // Here `room` is the net gap minus the gap that must remain, and `closing` is the closing speed. If the vehicle reaches
 // the speed of the leader before the leader stops (if 2 room / closing < v_p / b_p), the needed deceleration is b_p +
-// closing^2 / (2 room). Otherwise it is v^2 / (2 (room + v_p^2 / (2 b_p))), which stops the vehicle behind the stopped
-// leader.
+// closing^2 / (2 room). Otherwise the needed deceleration is v^2 / (2 (room + v_p^2 / (2 b_p))), and the vehicle stops
+// behind the stopped leader.
 //
-// The factor kEmergencyMargin makes the request stronger than needed (our choice), because the brake lags. Without it,
-// the braking would always come late, and the needed deceleration would grow.
+// The factor kEmergencyMargin makes the request stronger than needed (our choice), because the brake lags. Without this
+// factor, the braking would always come late, and the needed deceleration would grow.
 template <class R, class Number>
 STOPLINE_INLINE R emergency_acceleration(const CaccSettingsOf<Number>& c, const R& speed_mps, const LeaderView<R>& p) {
     const R closing = max_of(p.closing_mps, 0.0);
@@ -230,7 +231,7 @@ STOPLINE_INLINE R emergency_acceleration(const CaccSettingsOf<Number>& c, const 
 
 // Reserves of keep_room_acceleration(), which explains them. All three values are our choice. If kReservedGrowthShare
 // were 1, vehicles with SWITCH-2 would brake during every start. A larger kMinReserve_s would slow down the starts of
-// Section III.
+// Section III of the paper.
 inline constexpr double kBrakeReserve_s = 0.3;  // lag of the brake (0.2 s), and 0.1 s for the request to change
 inline constexpr double kReservedGrowthShare = 0.5;
 inline constexpr double kMinReserve_s = 0.15;
@@ -240,14 +241,14 @@ inline constexpr double kMinReserve_s = 0.15;
 // brakes with b:
 //     v_safe^2 = v_p^2 + 2 b room
 // This is the safe speed of Gipps 1981 for two vehicles that begin to brake at the same time. A vehicle faster than
-// v_safe decelerates at the rate at which v_safe falls, d v_safe / dt = (v_p a_p - b closing) / v_safe. It brakes a
-// little harder than this to return to v_safe.
+// v_safe decelerates at the rate at which v_safe falls, d v_safe / dt = (v_p a_p - b closing) / v_safe. The vehicle
+// brakes a little harder than that, to return to v_safe.
 //
-// Two reserves reduce the room. The first reserve covers the delays of radar and brake. It is the closing speed times
-// the sum of the radar delay and kBrakeReserve_s. The second reserve is for policies with a time gap. Their filter (H =
-// 1 + h s) also delays braking, so a vehicle with a short gap would use up its room. The second reserve is the own
-// speed times kBrakeReserve_s, but at most kReservedGrowthShare of `gap_growth_m`, the desired gap minus the standstill
-// gap. Just above a switch speed gap_growth_m is almost 0, so this reserve is at least the own speed times
+// Two reserves reduce the room. The first reserve covers the delays of radar and brake. This reserve is the closing
+// speed times the sum of the radar delay and kBrakeReserve_s. The second reserve is for policies with a time gap. Their
+// filter (H = 1 + h s) also delays braking, so a vehicle with a short gap would use up its room. The second reserve is
+// the own speed times kBrakeReserve_s, but at most kReservedGrowthShare of `gap_growth_m`, the desired gap minus the
+// standstill gap. Just above a switch speed gap_growth_m is almost 0, so this reserve is at least the own speed times
 // kMinReserve_s. With a constant distance gap_growth_m is 0 and there is no second reserve, because the feedforward
 // reports the leader's braking in time.
 template <class R, class Number>
@@ -270,10 +271,10 @@ STOPLINE_INLINE R keep_room_acceleration(const CaccSettingsOf<Number>& c, const 
     return choose(is_faster, result, unconstrained);
 }
 
-// Returns the braking for a hidden leader. A vehicle that will leave the own route drives in between, and hides the
-// next vehicle on the own route. The own vehicle must not hit this hidden leader after the vehicle in between has left.
-// Returns kUnconstrained_mps2 or more if no braking is needed. `gap_growth_m` is the desired gap minus the standstill
-// gap.
+// Returns the braking for a hidden leader, or at least kUnconstrained_mps2 if no braking is needed. The own leader will
+// leave the route of the own vehicle. Until then it hides the vehicle ahead of it, the hidden leader, which stays on
+// the route. The own vehicle must not hit the hidden leader later. `gap_growth_m` is the desired gap minus the
+// standstill gap.
 inline double hidden_leader_acceleration(const DriverTables& d, double speed_mps, double standstill_gap_m,
                                          double gap_growth_m, const LeaderView<double>& p) {
     const double collision_free_mps2 = min_of(emergency_acceleration(d.cacc, speed_mps, p),

@@ -18,8 +18,8 @@ struct CaccSettingsOf {
     Number radar_delay_s = 0.15;    // Section III.D of the paper
     Number radar_range_m = 150.0;
     Number v2v_delay_s = 0.02;
-    Number prediction_start_s = 0.1;           // start of the prediction horizon, from now (Fig. 4)
-    Number prediction_end_s = 0.5;             // end of the prediction horizon, from now
+    Number prediction_start_s = 0.1;           // start of the prediction horizon, after the current time (Fig. 4)
+    Number prediction_end_s = 0.5;             // end of the prediction horizon, after the current time
     Number acceleration_max_mps2 = 2.5;        // comfort limit of followers
     Number deceleration_comfort_mps2 = 3.5;    // limit without an emergency (ISO 15622 for ACC)
     Number deceleration_emergency_mps2 = 7.0;  // maximum braking
@@ -34,7 +34,7 @@ using CaccSettings = CaccSettingsOf<double>;
 // Driving without a leader: the acceleration as a function of speed (the calibrated start-up of Section III.B).
 struct FreeDriveSettings {
     std::vector<double> speed_mps;          // nodes of the profile, rising from 0
-    std::vector<double> acceleration_mps2;  // acceleration at each speed; constant beyond the last
+    std::vector<double> acceleration_mps2;  // acceleration at each speed; constant above the highest speed
     double speed_gain_1ps = 0.35;           // limit of the acceleration: gain x (desired speed - speed)
     double deceleration_mps2 = 1.5;         // deceleration before a lower speed limit, such as in a turn
     double hesitation_s = 0.0;              // reaction time of the first vehicle at the stop line
@@ -60,8 +60,8 @@ struct GiveWaySettings {
 // Lane changes (sim/lane_change/lane_change.cpp).
 struct LaneChangeSettings {
     // Mandatory changes. A vehicle begins to look for a gap when the distance to the stop line is strategic_m times the
-    // number of changes that it needs. At urgent_m times this number it begins to adapt its speed to gaps in the target
-    // lane.
+    // number of changes that it needs. When the distance is urgent_m times this number, the vehicle begins to adapt its
+    // speed to gaps in the target lane.
     double strategic_m = 300.0;
     double urgent_m = 200.0;
     // Smallest accepted lead gap and lag gap, as a share of the gap of the spacing policy. The share falls linearly
@@ -111,11 +111,13 @@ struct KraussSettings {
 struct MesoSettings {
     std::string name;  // name of this set of values; default: the name of the file in data/meso
     double step_s = 0.1;
-    double leader_speed_share = 0.95;  // speed of a vehicle without leader, as a share of the limit (Section V.A)
-    double speed_factor = 1.0;         // factor on every speed limit
-    double speed_gain_1ps = 1000;      // largest acceleration: gain x (leader_speed_share x limit - speed)
+    // Speed of a vehicle without leader, as a share of the speed limit (Section V.A of the paper).
+    double leader_speed_share = 0.95;
+    double speed_factor = 1.0;     // factor on every speed limit
+    double speed_gain_1ps = 1000;  // largest acceleration: gain x (leader_speed_share x limit - speed)
     // The acceleration before a turn is this gain times (safe speed - own speed), minus the braking for the turn. The
-    // safe speed is the highest speed that still allows braking in time. 1000: the vehicle takes that speed at once.
+    // safe speed is the highest speed that still allows braking in time. With 1000, the vehicle takes the safe speed at
+    // once.
     double turn_gain_1ps = 1000;
     // Acceleration of platoon leaders. leader_mps2 applies up to the constant-power speed. If leader_mps2 is 0, platoon
     // leaders accelerate as in the car-following model of their policy. A profile (speeds, and the accelerations at
@@ -133,7 +135,7 @@ struct MesoSettings {
     double band_m = 0.5;                   // s_t of equation (1) of the paper
     double below_band_speed_share = 0.95;  // d of equation (1) of the paper
     // Gaps of the policy for which the models were calibrated. For a policy with another time gap or standstill gap,
-    // tau or s_0 changes by the difference.
+    // the parameter tau or s_0 of the model (krauss.h) changes by the difference.
     double calibrated_time_gap_s = 0.87;
     double calibrated_standstill_gap_m = 2.95;
 };

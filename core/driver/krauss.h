@@ -6,8 +6,8 @@
 //
 //   v_safe = -b tau + sqrt(b^2 tau^2 + v_l^2 + 2 b (s - s_0))
 //
-// All other policies use equation (1) of the paper. As printed, v_safe jumps at s_0, because a plus sign is missing.
-// Here the plus sign is restored:
+// All other policies use equation (1) of the paper. In the printed equation, v_safe jumps at s_0, because a plus sign
+// is missing. The model restores the plus sign:
 //
 //   s > s_0               v_safe as above, with s_0 + s_t in place of s_0
 //   s_0 - s_t < s <= s_0  v_safe = v_l
@@ -19,8 +19,8 @@
 //   v' = min(v_safe, v + a(v) dt, cap),  v <- max(0, v' - sigma dt xi min(v', a 1 s)),  x <- x + v dt
 //
 // Here xi is uniform in [0, 1), and `cap` is the highest speed that the speed limit and the stop line allow. Slow
-// vehicles dawdle less, so that dawdling never prevents a start (as in SUMO). A v' below 1 cm/s is set to 0. Switching
-// policies (SWITCH) raise s_0 by the gap that they add at the current speed.
+// vehicles dawdle less, so that dawdling never prevents a start (as in SUMO). A v' below 1 cm/s is set to 0. For
+// switching policies (SWITCH), s_0 also contains the extra gap of the policy at the current speed.
 //
 // The following extensions are off in the models of the paper:
 //   constant power   a(v) = a min(1, v_p / v); in the paper v_p is above all speed limits
@@ -45,17 +45,18 @@ namespace stopline {
 struct Krauss {
     double acceleration_mps2 = 0.0;         // a, maximum acceleration
     double constant_power_speed_mps = 1e9;  // v_p, speed from which on the power is constant
-    double transient_gap_s2 = 0.0;          // extra gap per acceleration of the leader; 0 if the leader brakes
-    double catch_up_factor = 1.0;           // factor on the acceleration close behind the leader
-    double gap_tracking = 0.0;              // 0 .. 1, see track_time_gap()
-    double anticipation_s = 0.0;            // T, time over which the leader's speed is extrapolated
-    double deceleration_mps2 = 0.0;         // b, expected deceleration of both vehicles
-    double reaction_s = 0.0;                // tau, reaction time
-    double standstill_gap_m = 0.0;          // s_0
-    double dawdling = 0.0;                  // sigma, 0 .. 1
-    bool constant_distance = false;         // true: equation (1); false: Krauss
-    double band_m = 0.0;                    // s_t of equation (1); 0 for Krauss
-    double below_band_speed_share = 1.0;    // d of equation (1)
+    // Extra gap per acceleration of the leader; not used if the leader brakes.
+    double transient_gap_s2 = 0.0;
+    double catch_up_factor = 1.0;         // factor on the acceleration close behind the leader
+    double gap_tracking = 0.0;            // 0 .. 1, see track_time_gap()
+    double anticipation_s = 0.0;          // T, time over which the leader's speed is extrapolated
+    double deceleration_mps2 = 0.0;       // b, expected deceleration of both vehicles
+    double reaction_s = 0.0;              // tau, reaction time
+    double standstill_gap_m = 0.0;        // s_0
+    double dawdling = 0.0;                // sigma, 0 .. 1
+    bool constant_distance = false;       // true: equation (1); false: Krauss
+    double band_m = 0.0;                  // s_t of equation (1); 0 for Krauss
+    double below_band_speed_share = 1.0;  // d of equation (1)
 
     double equilibrium_gap_m(double speed_mps) const { return standstill_gap_m + band_m + reaction_s * speed_mps; }
 };
@@ -82,7 +83,8 @@ STOPLINE_INLINE R braking_speed_mps(const Parameter& b, const Parameter& tau, co
     return square_root(max_of(square, R(0.0))) - bt;
 }
 
-// Returns v_safe for a net gap. `extra_gap_m` is the gap that the policy adds to s_0 at the current speed.
+// Returns v_safe for a net gap. `extra_gap_m` is added to s_0: the extra gap of a switching policy at the current
+// speed.
 template <class R, class Model>
 STOPLINE_INLINE R safe_speed_mps(const Model& k, const R& gap_m, const R& leader_speed_mps, const R& extra_gap_m) {
     const R spare_gap_m = gap_m - k.standstill_gap_m - extra_gap_m;
@@ -91,8 +93,8 @@ STOPLINE_INLINE R safe_speed_mps(const Model& k, const R& gap_m, const R& leader
     return select(k.constant_distance, select(spare_gap_m <= 0.0, close, braking), braking);
 }
 
-// Returns the speed, or 0 if it is below 1 cm/s. Without this, a follower would close its gap ever more slowly and
-// never come to rest.
+// Returns the speed, or 0 if it is below 1 cm/s. Otherwise a follower would close its gap ever more slowly and never
+// come to rest.
 template <class R>
 STOPLINE_INLINE R snap_to_standstill(const R& speed_mps) {
     return select(speed_mps < kMesoStopSpeed_mps, R(0.0), speed_mps);
@@ -104,7 +106,7 @@ struct KraussInputOf {
     R speed_mps;
     R gap_m;  // net gap to the leader
     R leader_speed_mps;
-    R leader_acceleration_mps2;  // in the last step; 0 if the leader brakes
+    R leader_acceleration_mps2;  // in the previous step; 0 if the leader brakes
     R extra_gap_m;               // see safe_speed_mps()
     R speed_cap_mps;             // highest speed that the speed limit and the stop line allow
 };
@@ -136,9 +138,9 @@ STOPLINE_INLINE R anticipated_safe_speed_mps(const Model& k, const KraussInputOf
 }
 
 // Returns the speed of the next step. `safe_mps` is the result of anticipated_safe_speed_mps(), `random` is uniform in
-// [0, 1), and `power_limit` is the result of has_power_limit(). The leader does not make the vehicle brake below
-// `lowest_mps`, except to avoid contact. This matters only after lane changes; otherwise the models do not demand such
-// hard braking.
+// [0, 1), and `power_limit` is the result of has_power_limit(). The leader makes the vehicle brake at most down to
+// `lowest_mps`, unless it must brake harder to avoid contact. This limit matters only after lane changes; otherwise the
+// models do not demand such hard braking.
 template <bool power_limit, class R, class Model>
 STOPLINE_INLINE R speed_after_mps(const Model& k, const KraussInputOf<R>& in, const R& safe_mps, const R& random,
                                   double dt, const R& lowest_mps = R(0.0)) {

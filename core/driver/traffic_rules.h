@@ -14,11 +14,11 @@ struct TrafficRules {
     std::string keep_clear = "off";  // off | on
     double sight_m = 300.0;          // distance into the exit lane that drivers see; SUMO considers the whole lane
     // on: while the signal at the end of the exit lane is not green, moving vehicles on the exit lane count as already
-    // stopped at that signal. SUMO has a similar rule: a lane counts as occupied if its last vehicle must wait at the
-    // end.
+    // stopped at that signal. SUMO has a similar rule: a lane counts as occupied if its rearmost vehicle must wait at
+    // the end of the lane.
     std::string count_queue_at_red_exit = "on";  // off | on
     // If the first vehicle of a lane has been stopped for this many signal cycles, it is teleported past the
-    // intersection as soon as there is room (SUMO: teleport). 0: never.
+    // intersection as soon as there is room beyond it (SUMO: teleport). 0: never.
     double teleport_cycles = 0.0;
     // If a vehicle has been stopped inside an intersection for the duration of this many green times, it no longer
     // blocks crossing vehicles (SUMO: ignore-junction-blocker). If the green times of the signal groups differ, the

@@ -102,7 +102,7 @@ std::string counter_data(const SingleLightReport& result, const std::vector<std:
 }
 
 // Returns the time from which on the improvement is shown: the passage of the second vehicle of the baseline. Before
-// it, the counts are too small for a meaningful ratio.
+// this passage, the counts are too small for a meaningful ratio.
 double first_ratio_s(const SingleLightReport& result) {
     const Counter& baseline = result.populations[*result.baseline].counter;
     return baseline.total() < 2 ? result.scenario.signal.green_s : baseline.times_s()[1];

@@ -16,8 +16,8 @@ std::vector<Figure> single_light_figures(const SingleLightReport& result, const 
 
 Figure counters_figure(const SingleLightReport& result, const std::vector<Target>& targets);
 Figure improvement_figure(const SingleLightReport& result, const std::vector<Target>& targets);
-// The next two figures show the baseline and the first other population. If the scenario has no baseline, they show the
-// first two populations.
+// The next two figures show two populations: the baseline and the first population that is not the baseline. If the
+// scenario has no baseline, they show the first two populations.
 Figure time_space_figure(const SingleLightReport& result);
 Figure platoon_figure(const SingleLightReport& result);
 

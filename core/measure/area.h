@@ -26,7 +26,7 @@ Side goes_to(const Lane& lane);
 struct AreaResult {
     TimeWindow window;
     int exited = 0;              // vehicles that left the area within the window
-    double travel_time_s = 0.0;  // mean of these vehicles; NaN if there are none
+    double travel_time_s = 0.0;  // mean over these vehicles; NaN if no vehicle left
     double vehicles = 0.0;       // mean number of vehicles in the area
     double occupied = 0.0;       // share of the lane length that vehicles cover, 0 .. 1
 
@@ -37,7 +37,7 @@ struct OriginDestinationResult {
     Side from = Side::west;
     Side to = Side::west;
     int exited = 0;              // vehicles that left the area within the window
-    double travel_time_s = 0.0;  // mean of these vehicles; NaN if there are none
+    double travel_time_s = 0.0;  // mean over these vehicles; NaN if no vehicle left
 };
 
 // In the functions below, crossings must be in order of time. Detectors of any kind but `zone` are ignored.

@@ -2,7 +2,7 @@
 //
 //   student   mean -+ t(0.975, n - 1) s / sqrt(n): the usual two-sided interval
 //   paper     mean -+ t(0.95, n) s / sqrt(n / 2 - 1): equation (2) of the paper as printed, with nu = n. For six runs
-//             it is 1.31 times as wide as the student interval.
+//             this interval is 1.31 times as wide as the student interval.
 //
 // Here n is the number of runs, s their sample standard deviation, and t(p, nu) the quantile of Student's distribution.
 #pragma once

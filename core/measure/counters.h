@@ -14,8 +14,9 @@ public:
     // Returns the number of vehicles that have passed up to and including `time_s`.
     int passed(double time_s) const;
 
-    // Returns the count interpolated between passages. It is k at the k-th passage, grows linearly in between (from 0
-    // at time 0) and is constant after the last passage. It can distinguish two policies with equal whole counts.
+    // Returns the interpolated count. It is k at the time of the k-th passage, grows linearly between passages (from 0
+    // at time 0), and is constant after the final passage. It can distinguish two policies whose whole counts are
+    // equal.
     double interpolated(double time_s) const;
 
     int total() const { return static_cast<int>(times_s_.size()); }

@@ -9,13 +9,14 @@ namespace stopline {
 
 namespace {
 
-constexpr std::size_t kLostPositions = 4;  // number of vehicles at the front whose additional headways are lost time
+// Number of vehicles at the front of the queue whose headways determine the lost time.
+constexpr std::size_t kLostPositions = 4;
 
 // The latest green of a lane.
 struct Green {
     double start_s = -1.0;
-    double last_s = 0.0;       // time of the last passage, or the start of green
-    std::size_t position = 0;  // position in the queue of the next vehicle
+    double last_s = 0.0;       // time of the latest passage; before the first passage, the start of green
+    std::size_t position = 0;  // queue position of the vehicle that passes next
 };
 
 // Computes saturation headway, saturation flow and lost time from the mean headways.

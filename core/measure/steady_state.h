@@ -15,7 +15,7 @@ namespace stopline {
 // cut with the smallest ratio wins, because it gives the best estimate of the mean.
 std::size_t warm_up(std::span<const double> values);
 
-// Returns the index of the first value that is at least 90 % of the highest value, which ends the initial rise.
+// Returns the end of the initial rise: the index of the first value that is at least 90 % of the highest value.
 std::size_t rise_end(std::span<const double> values);
 
 // A lasting drop of the level of a series.

@@ -1,6 +1,6 @@
 // Travel time and density of a zone, from the times at which vehicle fronts pass its borders. By the definition of Edie
-// (1963), density follows from the mean number of vehicles in the zone. Here density is the share of the lane length
-// that vehicles cover.
+// (1963), density follows from the mean number of vehicles in the zone. In this file, density is the share of the lane
+// length that vehicles cover.
 #pragma once
 
 #include <span>

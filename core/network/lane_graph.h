@@ -1,10 +1,10 @@
 // The network for the simulation: lanes, their successors, routes and conflict areas. A generator or the SUMO import
 // builds the lane graph. The graph does not change during a run.
 //
-// There are three kinds of lanes. An approach lane leads to a stop line. It ends where its movements diverge; this
-// point can lie beyond the stop line. A connection leads through an intersection, from one approach lane to one exit
-// lane. An exit lane leads away from an intersection. A link lane leads from one intersection to the next, so it is
-// both an exit lane and an approach lane.
+// There are three kinds of lanes. An approach lane leads to a stop line. The lane ends where its movements diverge;
+// this point can lie beyond the stop line. A connection leads through an intersection, from one approach lane to one
+// exit lane. An exit lane leads away from an intersection. A link lane leads from one intersection to the next, so it
+// is both an exit lane and an approach lane.
 #pragma once
 
 #include <cstdint>
@@ -58,8 +58,8 @@ struct Conflict {
     bool other_yields = false;  // the other connection gives way to this one
 };
 
-// A sequence of lanes that a vehicle follows. A route begins on an entry lane or a link lane. It ends at the border of
-// the network, or on the next link lane, where the vehicle gets its next route.
+// A sequence of lanes that a vehicle follows. A route begins on an entry lane or a link lane. The route ends at the
+// border of the network, or on the next link lane, where the vehicle gets its next route.
 struct Route {
     std::string name;
     std::vector<int> lanes;
@@ -71,7 +71,7 @@ struct Approach {
     std::string name;
     std::vector<int> lanes;    // from the left
     double right_share = 0.0;  // share of right turns, 0 .. 1
-    double left_share = 0.0;   // share of left turns, 0 .. 1; the rest goes straight on
+    double left_share = 0.0;   // share of left turns, 0 .. 1; the remaining vehicles go straight on
 };
 
 struct LaneGraph {

@@ -20,7 +20,7 @@ struct StreetLeg {
     int exits = 0;                       // number of exit lanes
     double speed_limit_mps = 50.0 / 3.6;
     double right_share = 0.0;  // share of right turns, 0 .. 1
-    double left_share = 0.0;   // share of left turns, 0 .. 1; the rest goes straight on
+    double left_share = 0.0;   // share of left turns, 0 .. 1; the remaining vehicles go straight on
     // The next two members are used only for a leg that leads to the border of the network.
     double length_m = 300.0;       // from the border to the stop line
     double exit_length_m = 100.0;  // from the intersection to the border

@@ -128,7 +128,7 @@ private:
         interval_begin_ = tick;
     }
 
-    const Model& model_;  // finish() must not use it
+    const Model& model_;  // finish() must not use the model, which may be destroyed by then
     double step_s_;
     std::int64_t interval_ticks_;
     XmlFile xml_;

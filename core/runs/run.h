@@ -36,8 +36,8 @@ struct RunOptions {
     double trajectory_interval_s = 0.0;  // sampling interval; 0: no trajectories
     double trajectory_from_s = 0.0;
     double trajectory_until_s = std::numeric_limits<double>::infinity();
-    // Called every 1000 steps with the completed share of the run, 0 .. 1. If it returns false, the run stops early and
-    // the result is incomplete.
+    // Called every 1000 steps with the completed share of the run, 0 .. 1. If it returns false, the run is stopped
+    // before its end, and the result is incomplete.
     std::function<bool(double)> on_progress;
     Observation observation = {};
 };
@@ -55,7 +55,7 @@ struct RunResult {
     std::int64_t updates = 0;  // number of vehicles in the network, summed over all steps
     double wall_s = 0.0;       // wall-clock time of the step loop
     std::uint64_t state_hash = 0;
-    bool complete = false;  // false: the run was stopped early
+    bool complete = false;  // false: the run was stopped before its end
 
     // Returns the number of vehicles that passed a stop line up to `green_s` after green_start_s.
     int passed_within(double green_s) const;

@@ -14,7 +14,7 @@ class MeanProgress {
 public:
     MeanProgress(std::size_t runs, const std::function<bool(double)>& report) : shares_(runs), report_(report) {}
 
-    // Stores the progress of one run. Returns false once the user wants to stop.
+    // Stores the progress of one run. Returns false if the user has asked to stop the runs.
     bool update(std::size_t run, double share) {
         const std::lock_guard lock(mutex_);
         shares_[run] = share;

@@ -133,8 +133,8 @@ void add_zones(const Scenario& scenario, int lane, Model& model) {
     }
 }
 
-// Adds a detector to an exit lane of an intersection, one vehicle length after its start. If the lane leads to another
-// intersection, adds a second detector in its middle.
+// Adds a detector to an exit lane of an intersection, one vehicle length after the start of the lane. If the lane leads
+// to another intersection, adds a second detector in the middle of the lane.
 void add_counters(const Scenario& scenario, int lane, Model& model) {
     const Lane& road = model.graph.lanes[at(lane)];
     const std::vector<int>& entries = model.graph.entries;

@@ -14,7 +14,7 @@
 namespace stopline {
 namespace {
 
-constexpr int kBasesMax = 8;  // largest number of data files in a chain of `base` references
+constexpr int kBasesMax = 8;  // largest number of data files of which each names the next one as its `base`
 
 using Kind = SourceNode::Kind;
 
@@ -157,7 +157,7 @@ std::string choice_at(const Table& table, const SourceNode* map, const std::stri
     return value != nullptr ? value->text : std::get<ChoiceField>(kind).get(table.make_default().get());
 }
 
-// Returns true if the choices in `map` fulfil the condition of the field, see Field::condition_field.
+// Returns true if the field exists for the choices in `map`, see Field::condition_field.
 bool exists(const Table& table, const Field& field, const SourceNode& map) {
     if (field.condition_field.empty()) return true;
     const std::string choice = choice_at(table, &map, field.condition_field);

@@ -1,6 +1,6 @@
 // Loads a file of differences that a user accepts. Each entry names a detector at which full dynamics and the mesoscale
-// mode give different passages, and the reason why a user accepts this (the subjective criterion in Section V.B of the
-// paper).
+// mode give different passages, and the reason why the user accepts this difference (the subjective criterion in
+// Section V.B of the paper).
 //
 //     accepted:
 //     - permutation: green = 15 s, offset = 0 s, population = CDG

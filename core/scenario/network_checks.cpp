@@ -35,9 +35,9 @@ double queue_space_m(const Scenario& scenario) {
     return scenario.vehicle.length_m + longest_standstill_gap_m(scenario);
 }
 
-// Returns the stopping distance with the deceleration that drivers accept on yellow, m. The distance includes the way
-// driven during the lag of the brake and while the deceleration builds up (sim/junction/stop_lines.cpp). It is rounded
-// up to 0.1 m, so that a user can enter the minimum that a message names.
+// Returns the stopping distance with the deceleration that drivers accept on yellow, m. The result includes the
+// distance driven during the lag of the brake and while the deceleration builds up (sim/junction/stop_lines.cpp). It is
+// rounded up to 0.1 m, so that a user can enter the minimum that a message names.
 double stopping_m(const Scenario& scenario, double speed_mps) {
     const double b = scenario.driver.stop.decision_deceleration_mps2;
     const double delay_s = scenario.vehicle.brake_lag_s + 0.5 * b / scenario.driver.cacc.jerk_down_mps3;

@@ -1,5 +1,6 @@
-// Fixed-time signal programmes. Each signal group runs through stages of green, yellow and red, either once or again in
-// each cycle. Times and durations are in ticks, which are simulation steps. Tick 0 is the beginning of the run.
+// Fixed-time signal programmes. Each signal group runs through stages of green, yellow and red, either a single time or
+// again in each cycle. Times and durations are in ticks, which are simulation steps. Tick 0 is the beginning of the
+// run.
 #pragma once
 
 #include <array>
@@ -58,8 +59,8 @@ std::vector<GroupProgramme> make_stage_programmes(const SignalSettings& settings
 
 // Makes the seven-step programme of an intersection (Table 3 of the paper). The three signal groups are those of
 // make_streets(): the major street, its left-turn lanes and the minor street. Left-turn lanes have a permissive green
-// together with the major street, and later a protected green. A cycle begins at `offset_s`. The programmes already run
-// at time 0, because earlier cycles precede it.
+// together with the major street, and later a protected green. A cycle begins at `offset_s`. The programmes also run
+// from time 0 to `offset_s`, as the end of an earlier cycle.
 std::array<GroupProgramme, 3> make_seven_steps(const SevenSteps& steps, double offset_s, double step_s);
 // Makes the programmes of all signal groups of make_streets(), in the order of the groups.
 std::vector<GroupProgramme> make_street_signals(const StreetSettings& streets, double step_s);

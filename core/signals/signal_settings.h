@@ -12,7 +12,7 @@ struct SignalSettings {
     double offset_s = 0.0;       // grid: how much later green starts, per column to the east or row to the north
     double cycle_s = 0.0;        // only for the network kind `approach`; 0: one green, then red until the end
 
-    // The next functions are for intersections and grids. Even signal groups serve the streets from west to east, and
+    // The functions below are for intersections and grids. Even signal groups serve the streets from west to east, and
     // odd signal groups serve the streets from south to north.
     double group_green_s(int group) const { return group % 2 == 1 && cross_green_s > 0.0 ? cross_green_s : green_s; }
     double stage_s(int group) const { return group_green_s(group) + yellow_s + all_red_s; }

@@ -71,7 +71,8 @@ private:
     }
 
     // Returns the positions at which the edges of an approach begin, measured from the start of the approach: 0, and
-    // the starts of the pockets. A pocket that begins less than kMinEdge_m behind another start begins there too.
+    // the starts of the pockets. If a pocket begins less than kMinEdge_m after another start, it begins at that start
+    // in SUMO.
     std::vector<double> edge_starts_m(const std::vector<int>& lanes) const {
         std::vector<double> pockets_m;
         for (const int lane : lanes) pockets_m.push_back(graph_.lanes[at(lane)].start_offset_m);
@@ -84,7 +85,7 @@ private:
     }
 
     // Adds the edges of one approach or exit in driving direction. `lanes` lists its lanes from the right. The last
-    // edge has the given name. The other edges have this name with a number.
+    // edge gets the name `name`. Each other edge gets this name with a number.
     void add_edges(const std::string& name, const std::vector<int>& lanes) {
         const std::vector<double> starts_m = edge_starts_m(lanes);
         const double end_of_approach_m = approach_end_m(graph_.lanes[at(lanes[0])]);

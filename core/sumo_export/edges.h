@@ -1,12 +1,12 @@
 // Converts a LaneGraph into the nodes, edges and connections of SUMO's plain XML files.
 //
-// Each approach lane or exit lane becomes a lane of a SUMO edge. A lane with a stop line ends there in SUMO. If the
-// lane continues beyond its stop line in the graph, the stretch beyond the line becomes part of each connection that
-// begins on the lane. So every path from a stop line to an exit lane keeps its length.
+// Each approach lane or exit lane becomes a lane of a SUMO edge. A lane with a stop line ends at this line in SUMO. If
+// the lane continues beyond its stop line in the graph, the stretch beyond the line becomes part of each connection
+// that begins on the lane. So every path from a stop line to an exit lane keeps its length.
 //
 // All lanes of a SUMO edge are equally long. So an approach with turn pockets becomes several edges, one behind the
-// other. A new edge begins where a pocket begins. There the lane beside the pocket leads both straight on and into the
-// pocket.
+// other. A new edge begins where a pocket begins. At this point, the lane beside the pocket leads both straight on and
+// into the pocket.
 #pragma once
 
 #include <string>

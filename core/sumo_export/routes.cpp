@@ -75,8 +75,8 @@ private:
         add_edges_of(lane, trip.edges);
     }
 
-    // Adds the edges of a lane to the route. Omits those up to the edge of the same approach where the route ends. Does
-    // nothing if the lane is a connection.
+    // Adds the edges of a lane to the route. If the route already ends on an edge of the same approach, adds only the
+    // edges after that edge. Does nothing if the lane is a connection.
     void add_edges_of(int lane, std::vector<int>& edges) const {
         const std::vector<LanePart>& parts = network_.parts_of[at(lane)];
         if (parts.empty() || edges.back() == parts.back().edge) return;
@@ -146,7 +146,7 @@ private:
 
     void add_trip(XmlFile& xml, int vehicle, const Trip& trip) const {
         const LanePart& part = network_.part_at(trip.depart_lane, trip.depart_m);
-        // A front between two edges of an approach departs at the end of the first one.
+        // If the front is between two edges of an approach, the vehicle departs at the end of the first edge.
         const double depart_m = std::min(trip.depart_m - part.from_m, network_.edges[at(part.edge)].length_m);
         xml.add(
             "    <vehicle id=\"{}\" type=\"{}\" depart=\"{:.2f}\" departLane=\"{}\" departPos=\"{:.4f}\" "

@@ -202,7 +202,8 @@ private:
         }
     }
 
-    // Returns the distance, from the start of the connections in `next`, at which the selected ones have diverged.
+    // Returns the distance from the start of the connections in `next` to the point where the selected connections
+    // diverge.
     template <class IsSelected>
     double last_diverge_m(const std::vector<int>& next, const IsSelected& is_selected) {
         double last_m = 0.0;

@@ -3,8 +3,8 @@
 // - Every lane open to cars becomes a lane with SUMO's name and length. The lanes of an edge form an approach.
 // - Every connection becomes one lane inside an intersection. If SUMO splits the connection into several internal
 //   lanes, the import joins them.
-// - Connections that begin on the same lane share a first stretch. It becomes part of the lane, as in generated
-//   networks.
+// - Connections that begin on the same lane have a common first stretch. This stretch becomes part of the lane, as in
+//   generated networks.
 // - U-turns are extended into the junction until the other movements have diverged. netconvert draws a U-turn directly
 //   at the end of its lane.
 // - SUMO calls a connection through a junction a link. Conflict areas are computed from the shapes of links. They can

@@ -19,14 +19,15 @@ namespace stopline {
 
 namespace {
 
-// Converts a row of a right-of-way matrix to bits, indexed by link. In SUMO's text the bit of link 0 is the last one.
+// Converts a row of a right-of-way matrix to bits, indexed by link. In SUMO's text, the last character belongs to link
+// 0.
 std::vector<bool> bits_of(std::string_view text) {
     std::vector<bool> bits;
     std::transform(text.rbegin(), text.rend(), std::back_inserter(bits), [](char letter) { return letter == '1'; });
     return bits;
 }
 
-// Appends the point unless it coincides with the last one.
+// Appends the point unless it coincides with the last point of the line.
 void append_point(Polyline& line, const Point& point) {
     constexpr double kCoincident_m = 0.005;
     const bool coincides =

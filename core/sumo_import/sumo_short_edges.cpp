@@ -104,8 +104,8 @@ private:
         replace_connections(before, edge, std::move(new_connections));
     }
 
-    // Records that `lane` now ends where the lane `index` of the merged edge ends. If `replace` is set, removes the
-    // ends that were recorded before.
+    // Records that, after the merge, `lane` ends where the lane `index` of the merged edge ends. If `replace` is set,
+    // removes the ends that were recorded before.
     static void add_end_lane(SumoLane& lane, const SumoEdge& merged, int index, bool replace) {
         if (replace) lane.end_lanes.clear();
         const SumoLane& last = merged.lanes[at(index)];

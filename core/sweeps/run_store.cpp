@@ -35,8 +35,8 @@ public:
     void bind(int index, std::size_t number) {
         if (code_ == SQLITE_OK) code_ = sqlite3_bind_int64(statement_, index, static_cast<sqlite3_int64>(number));
     }
-    // Returns SQLITE_ROW, SQLITE_DONE or an error code. If an earlier call has failed, returns the error code of this
-    // call.
+    // Returns SQLITE_ROW, SQLITE_DONE or an error code. If an earlier call has failed, returns the error code of that
+    // earlier call.
     int step() { return code_ == SQLITE_OK ? sqlite3_step(statement_) : code_; }
 
     std::string text(int column) const {

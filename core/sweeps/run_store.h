@@ -2,8 +2,8 @@
 // killed, the file still holds every run that was stored before.
 //
 // Only one program at a time can open the file. This way SQLite's write-ahead log works without shared memory, which
-// the network file systems of clusters do not offer. The log is used because storing a run then does not wait for the
-// disk. A power cut can lose the last runs, but does not damage the file. The sweep then repeats these runs.
+// the network file systems of clusters do not offer. With this log, storing a run does not wait for the disk. A power
+// cut can lose the last runs, but does not damage the file. The sweep then repeats these runs.
 #pragma once
 
 #include <cstddef>

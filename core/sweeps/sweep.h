@@ -1,7 +1,7 @@
 // The runs of a sweep. Each run has a number from 0, called its point. The axis values and the seed of a run follow
 // from its point alone. So shards, threads and machines need no communication, and no list of runs is kept in memory.
 //
-// Points number all combinations of axis values and seeds. The seed varies fastest, then the last axis of the sweep
+// The points number all combinations of axis values and seeds. The seed varies fastest, then the last axis of the sweep
 // file, and the first axis varies slowest. If no axis selects populations, the populations are an additional last axis.
 #pragma once
 

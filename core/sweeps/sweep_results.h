@@ -45,7 +45,7 @@ struct SweepTable {
     SweepTotals totals;
     std::vector<std::string> warnings;  // one line for each old column name in the store
 };
-// Returns the result table of a store. Replaces old column names, so that a store of the last release can be read.
+// Returns the result table of a store. Replaces old column names, so that a store of the previous release can be read.
 SweepTable sweep_results(const RunStore& store);
 
 // Returns the provenance as JSON text. `command` is a command line that reproduces the results of the whole sweep.

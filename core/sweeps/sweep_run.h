@@ -63,7 +63,7 @@ public:
         : store_(store), todo_(todo), on_progress_(std::move(on_progress)), begin_(std::chrono::steady_clock::now()) {}
 
     void record(std::size_t point, const PointResult& result);
-    // Reports the progress. Returns false once the user wants to stop.
+    // Reports the progress. Returns false if the user has asked to stop.
     bool keep_going();
     bool stopped() const { return stopped_; }
     SweepSession session() const;

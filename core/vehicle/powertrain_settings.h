@@ -22,14 +22,14 @@ struct PowertrainSettings {
     double load_kg = 50.0;    // driver and luggage
     double drag_coefficient = 0.311;
     double frontal_area_m2 = 2.118;
-    double rolling_r0 = 0.009;           // rolling resistance coefficient at standstill, -
+    double rolling_r0 = 0.009;           // rolling resistance coefficient at standstill (no unit)
     double rolling_r1_s_per_m = 5.0e-5;  // increase of the coefficient per m/s
     double wheel_diameter_m = 0.606;
 
     // Engine or motor
     SampledCurve full_load;  // maximum torque [N m] over engine speed [rpm]
-    // Lowest torque [N m], <= 0, over engine speed [rpm]: that of an engine without fuel supply, or of an electric
-    // motor at the limit of its recuperation.
+    // Lowest torque [N m], <= 0, over engine speed [rpm]. For an engine: the torque without fuel supply. For an
+    // electric motor: the torque at the limit of its recuperation.
     SampledCurve drag_torque;
     double idle_rpm = 798.0;  // 0 for an electric motor
     double limiter_rpm = 6500.0;
@@ -53,7 +53,7 @@ struct PowertrainSettings {
     std::vector<double> lag_drive_s;       // [rpm][share] time constant; one row per engine speed
     std::vector<double> lag_gear_factor;   // [gear]
     double brake_lag_s = 0.2;
-    double brake_friction = 0.8;  // tyre-road friction coefficient that limits braking (and traction), -
+    double brake_friction = 0.8;  // tyre-road friction coefficient (no unit) that limits braking and traction
 };
 
 }  // namespace stopline

@@ -23,7 +23,7 @@ namespace stopline {
 template <class R>
 struct PowertrainState {
     R speed_mps;
-    R acceleration_mps2;  // realised in the last step
+    R acceleration_mps2;  // realised in the previous step
     R torque_Nm;          // torque at the crankshaft, after the lag
     R brake_N;            // brake force >= 0, after the lag
     R gear_time_s;        // time since the last gear change
@@ -74,7 +74,7 @@ struct GearDemand {
 
 // Sets the gear of `next` and the time since the last gear change. `s` is the state before the step. The engine speed
 // of the upshift rises with the load. A car shifts down to accelerate (kick-down) if it needs more than 1.5 times the
-// full-load torque. With a smaller need, the torque interruption would cost more than the lower gear gains.
+// full-load torque. For a smaller need, the torque interruption would cost more than the lower gear gains.
 template <class R, class Number>
 STOPLINE_INLINE void change_gear(const PowertrainTablesOf<Number>& t, const PowertrainState<R>& s,
                                  const GearDemand<R>& demand, double dt, PowertrainState<R>& next) {
@@ -93,7 +93,7 @@ STOPLINE_INLINE void change_gear(const PowertrainTablesOf<Number>& t, const Powe
     const R down = max_of(kick_down, too_slow) * STOPLINE_FLAG(R, s.gear > 0.5) * (1.0 - up);
     const R moving = STOPLINE_FLAG(R, next.speed_mps > 0.0);
     next.gear = moving * (s.gear + up - down);
-    // A gear change while braking interrupts no drive torque, so gear_time_s is not reset.
+    // A gear change during braking or at standstill interrupts no drive torque, so gear_time_s is not reset.
     const R keeps_time = 1.0 - (up + down) * driving * moving;
     next.gear_time_s = keeps_time * min_of(s.gear_time_s + dt, 1000.0);
 }
@@ -104,7 +104,7 @@ template <class R, class Number>
 STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTablesOf<Number>& t, const PowertrainState<R>& s,
                                                    const R& request_mps2, const std::type_identity_t<R>& grade_N,
                                                    double dt) {
-    // Engine speed. In first gear the clutch slips: the engine runs at launch speed until the wheels have caught up.
+    // Engine speed. In first gear the clutch slips: the engine runs at launch speed until the car is fast enough.
     const R rpm_per_mps = of_gear(t.rpm_per_mps, s.gear);
     const R locked_rpm = s.speed_mps * rpm_per_mps;
     const auto floor_rpm = select(s.gear < 0.5, splat<R>(t.launch_rpm), splat<R>(t.idle_rpm));
@@ -158,8 +158,8 @@ STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTablesOf<Numb
     const auto drive_N =
         transmitted_Nm * gain * select(transmitted_Nm > 0.0, splat<R>(t.efficiency), splat<R>(per_efficiency));
     const auto force_N = drive_N - 0.5 * (s.brake_N + next.brake_N) - resistance_N;
-    // Friction limits the deceleration here too. When the clutch opens, a brake force computed for the closed clutch
-    // could lock the wheels.
+    // Friction limits the deceleration a second time. When the clutch opens, a brake force computed for the closed
+    // clutch could otherwise lock the wheels.
     const R moving_mps2 = max_of<R>(flush_tiny<R>(force_N / inertia_kg), lowest_mps2);
     const R stops_in_step = STOPLINE_FLAG(R, speed + moving_mps2 * dt <= 0.0);
     next.speed_mps = choose(stops_in_step, splat<R>(0.0), speed + moving_mps2 * dt);

@@ -38,7 +38,7 @@ struct PowertrainTablesOf {
     Number gears = 1;
     // The clutch is open below 3/4 of a reference engine speed and closed from the reference speed on. The reference is
     // launch_rpm in first gear and idle_rpm in other gears. The degree of closing is factor x rpm - offset, limited to
-    // 0 .. 1. Without a clutch the factor is 0 and the offset is -1.
+    // 0 .. 1. Without a clutch the factor is 0 and the offset is -1, so the degree is always 1 (closed).
     Number closing_launch_1prpm = 0.0;
     Number closing_idle_1prpm = 0.0;
     Number closing_offset = -1.0;

@@ -32,7 +32,7 @@ TEST(ExpNegative, NeverIncreases) {
     for (const double x : {1e3, 1e6, std::numeric_limits<double>::infinity()}) EXPECT_LT(exp_negative(x), 1e-6);
 }
 
-// The leading error term of the second-order approximation is (dt / tau)^3 / 12.
+// The leading error term of the second-order approximation is (dt / tau)^3 / 12, with step dt and time constant tau.
 TEST(LagShare, HasAnErrorOfThirdOrder) {
     for (const double tau : {0.05, 0.1, 0.2, 0.5, 1.0}) {
         for (const double dt : {0.005, 0.01, 0.02, 0.1 * tau}) {

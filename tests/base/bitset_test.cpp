@@ -9,7 +9,7 @@
 namespace stopline {
 namespace {
 
-// Clears all bits but multiples of `divisor`. Returns the visited bits in order.
+// Clears each bit whose number is not a multiple of `divisor`. Returns the visited bits in order.
 std::vector<std::size_t> retain_multiples(Bitset& bits, std::size_t divisor) {
     std::vector<std::size_t> visited;
     bits.retain_if([&](std::size_t number) {

@@ -38,7 +38,7 @@ TEST(Csv, RefusesMalformedTables) {
     EXPECT_TRUE(contains(error(""), "t.csv: the file is empty"));
     EXPECT_TRUE(contains(error("a,b\n1,2\n3\n"), "t.csv:3: the number of fields is 1, but the header has 2 columns"));
     EXPECT_TRUE(contains(error("a,b\n1,\"2\n3,4\n"), "t.csv:2: the quote that opens here is never closed"));
-    EXPECT_TRUE(contains(error("a,b\n\"x\ny\",2\n1\n"), "t.csv:4:"));  // line breaks inside quotes count
+    EXPECT_TRUE(contains(error("a,b\n\"x\ny\",2\n1\n"), "t.csv:4:"));  // a line break inside quotes counts as a line
     const CsvTable table = parse_csv("a,b\n", "t.csv");
     EXPECT_TRUE(
         contains(input_error_of([&] { (void)table.column("c"); }), "there is no column 'c'; the columns are a, b"));

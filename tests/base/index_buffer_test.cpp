@@ -1,4 +1,4 @@
-// Tests of IndexBuffer: it lists the pushed indices in order, without leftovers of branchless writes past the end.
+// Tests of IndexBuffer: it lists the pushed indices in order. Branchless writes past the end leave no entries.
 #include "base/containers/index_buffer.h"
 
 #include <gtest/gtest.h>

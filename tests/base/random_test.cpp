@@ -40,7 +40,8 @@ double chi_square(const std::vector<int>& counts) {
     return sum;
 }
 
-// Allows five standard deviations. The keys are fixed, so the result repeats; any structure exceeds the limit by far.
+// Allows five standard deviations. The keys are fixed, so the result repeats. Numbers with a pattern exceed the limit
+// by far.
 void expect_uniform(const std::vector<int>& counts, const char* subject) {
     const double degrees_of_freedom = static_cast<double>(counts.size()) - 1.0;
     EXPECT_NEAR(chi_square(counts), degrees_of_freedom, 5.0 * std::sqrt(2.0 * degrees_of_freedom)) << subject;

@@ -75,7 +75,7 @@ TEST(SlowFit, RecoversKnownParameters) {
     EXPECT_NEAR(fit.settings.constant_time.reaction_s, truth.constant_time.reaction_s, 0.06);
 }
 
-// A continued search does not repeat stored evaluations and follows the same path.
+// A continued search does not repeat stored evaluations, and it tries the same parameters as an uninterrupted search.
 TEST(SlowFit, ContinuesOnTheSamePathFromStoredEvaluations) {
     const std::vector<FitCase> cases = cases_with_known_parameters(load_meso("fitted"));
     const MesoSettings start = load_meso("start");

@@ -59,8 +59,8 @@ TEST(MesoStart, RelayEndsAtAVehicleWithATimeGap) {
     EXPECT_DOUBLE_EQ(with_relay_s, without_relay_s);
 }
 
-// After the first metre a single vehicle takes as long as in full dynamics. The start itself depends on start_delay,
-// which is fitted.
+// Beyond the first metre a single vehicle needs the same time as in full dynamics. The start itself depends on
+// start_delay, which is fitted.
 TEST(MesoStart, PlatoonLeaderAcceleratesAsInFullDynamics) {
     const auto times_s = [](Track track) {
         std::vector<double> times;

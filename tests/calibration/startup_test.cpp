@@ -1,4 +1,4 @@
-// Time intervals in which a simulated start leaves the band of measured starts.
+// Tests of the time intervals ('exits') in which a simulated start leaves the band of measured starts.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -35,7 +35,8 @@ TEST(Startup, FindsExitsBetweenMeasuredPoints) {
     const StartupRun run = run_of({0.0, 1.0, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0}, {0, 0, 0.12, 0.2, -0.3, 0, 0.24, 0});
     const std::vector<BandExit> exits = band_exits(curve(), run, true);
     ASSERT_EQ(exits.size(), 2u);
-    EXPECT_EQ(exits[0].from_s, 1.5);  // 0.12 at 1.25 s is within 0.125; each side has exits of its own
+    // At 1.25 s the deviation of 0.12 m/s is within the band of 0.125 m/s. Exits above and below the band are separate.
+    EXPECT_EQ(exits[0].from_s, 1.5);
     EXPECT_EQ(exits[0].to_s, 1.5);
     EXPECT_NEAR(exits[0].largest_deviation_mps, 0.2, 1e-12);
     EXPECT_EQ(exits[1].from_s, 1.75);

@@ -58,7 +58,7 @@ TEST(RandomMix, RealisesTheSharesWithinSamplingError) {
     }
 }
 
-// Independent draws with two equal shares change n / 2 times on average.
+// With two equal shares and independent draws, the policy of n successive vehicles changes n / 2 times on average.
 TEST(RandomMix, DoesNotAlternate) {
     const DemandPlan plan = mix(DemandPlan::Pattern::random, {0.5, 0.5});
     double changes = 0.0;

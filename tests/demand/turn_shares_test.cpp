@@ -27,15 +27,15 @@ TEST(TurnsByLane, FillLanesEvenly) {
     expect_row(lanes[2], {0.64, 0.36, 0.0});
 }
 
-// Fitting keeps the odds between the lanes, so two lanes with the same movements get the same shares.
+// The iterative fit scales whole lanes and whole turns, so two lanes with the same movements get the same shares.
 TEST(TurnsByLane, AreEqualForEqualLanes) {
     const auto lanes = turns_by_lane({{true, true, true}, {true, true, true}}, {0.5, 0.3, 0.2});
     expect_row(lanes[0], {0.5, 0.3, 0.2});
     expect_row(lanes[1], {0.5, 0.3, 0.2});
 }
 
-// The left-turn lane carries 30 % of the traffic, the others 35 % each. The third lane has 5 % straight and 30 % right.
-// No vehicle enters on a lane that does not serve its turn.
+// The left-turn lane carries 30 % of the traffic, the other two lanes 35 % each. On the third lane, 5 % go straight and
+// 30 % turn right. No vehicle enters on a lane that does not serve its turn.
 TEST(TurnsByLane, AreServedByTheLane) {
     const auto lanes = turns_by_lane({kLeft, kStraight, kStraightRight}, {0.4, 0.3, 0.3});
     expect_row(lanes[0], {0.0, 0.0, 1.0});

@@ -1,4 +1,4 @@
-// Simulations in parallel threads share only their model. Each gives the same result as alone.
+// Simulations in parallel threads share only their model. Each gives the same result as a simulation that runs alone.
 #include <gtest/gtest.h>
 
 #include <thread>

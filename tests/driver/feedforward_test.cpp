@@ -33,7 +33,7 @@ Problem arbitrary_problem(std::uint64_t k) {
     return problem;
 }
 
-// Sets up the equations w u = b: the two accelerations shall agree at three times. Uses the exact exponential.
+// Sets up w u = b: own and leader's acceleration shall agree at three times. Uses the exact exponential.
 void equations(const Problem& q, Eigen::Vector3d& w, Eigen::Vector3d& b) {
     for (int k = 0; k < 3; ++k) {
         const double t = q.cacc.prediction_start_s + 0.5 * k * (q.cacc.prediction_end_s - q.cacc.prediction_start_s);
@@ -109,7 +109,7 @@ double largest_error_m(double tau_p, double tau, double kp, double kd) {
         a += (u - a) * lag_share(kStep_s, tau);
         a_p += (u_p - a_p) * lag_share(kStep_s, tau_p);
         closing += 0.5 * (a + a_previous - a_p - a_p_previous) * kStep_s;
-        // error = gap - r - h v
+        // ^error = gap - r - h v, with standstill gap r and time gap h
         error_m -= 0.5 * (closing + closing_previous) * kStep_s + kTimeGap_s * 0.5 * (a + a_previous) * kStep_s;
         largest_m = std::fmax(largest_m, std::fabs(error_m));
     }

@@ -31,7 +31,7 @@ double speed_after(const Krauss& k, double time_s) {
 
 TEST(Krauss, AcceleratesConstantlyWithoutAPowerLimit) { EXPECT_NEAR(speed_after(model(), 20.0), 40.0, 1e-9); }
 
-// Constant power: v dv/dt = a v_p, so v^2 = v_p^2 + 2 a v_p (t - v_p / a).
+// Above the speed v_p the power is constant: v dv/dt = a v_p, so v^2 = v_p^2 + 2 a v_p (t - v_p / a).
 TEST(Krauss, AcceleratesWithConstantPowerAboveASpeed) {
     Krauss k = model();
     k.constant_power_speed_mps = 5.0;
@@ -49,7 +49,8 @@ TEST(Krauss, AddsTheTransientGap) {
     EXPECT_GT(next_speed_mps(k, {8.0, gap_m, 8.0, 0.0, 0.0, 1e3}, 0.0, kStep_s), 8.05);
 }
 
-// Behind a leader that pulls away, v_safe exceeds the speed that keeps the time gap. Gap tracking prevents this.
+// Behind a leader that pulls away, the safe speed exceeds the speed that keeps the time gap. Gap tracking prevents
+// this.
 TEST(Krauss, TracksItsTimeGap) {
     Krauss k = model();
     const double gap_m = k.standstill_gap_m + 5.0 * k.reaction_s;

@@ -97,7 +97,7 @@ TEST(Emergency, IsMonotone) {
     }
 }
 
-// The law is either inactive or brakes at least as hard as the situation requires.
+// The emergency law is either inactive or brakes at least as hard as the situation requires.
 TEST(Emergency, BrakesEnoughOrNotAtAll) {
     const CaccSettings c = shipped().cacc;
     for (double v = 1.0; v < 20.0; v += 1.0) {
@@ -116,8 +116,8 @@ TEST(Emergency, BrakesEnoughOrNotAtAll) {
     }
 }
 
-// Returns the smallest room between two vehicles that brake with b and b_p from the speeds v and v_p. The room is
-// `room_m` at first.
+// Returns the smallest distance between a follower that brakes with b from speed v and a leader that brakes with b_p
+// from speed v_p. The distance at the start is `room_m`.
 double smallest_room_m(double v, double b, double v_p, double b_p, double room_m) {
     constexpr double kStep_s = 1e-3;
     const double until_s = std::fmax(v / b, v_p / b_p);
@@ -132,7 +132,7 @@ double smallest_room_m(double v, double b, double v_p, double b_p, double room_m
     return smallest_m;
 }
 
-// Behind a braking leader, a follower brakes only as hard as the room requires, not with its maximum.
+// Behind a braking leader, a follower brakes only as hard as the distance requires, not with its maximum.
 TEST(Emergency, BrakesOnlyAsHardAsABrakingLeaderRequires) {
     const CaccSettings c = shipped().cacc;
     int moving_leader_cases = 0;
@@ -215,7 +215,7 @@ TEST(Stop, IsMonotoneInDistanceAndSpeed) {
     }
 }
 
-// The follower is accelerating when its leader requests maximum braking.
+// The follower is accelerating at the moment when its leader requests maximum braking.
 TEST(Follow, PassesHardBrakingUnfilteredAtSmallGaps) {
     const CaccSettings cacc = shipped().cacc;
     const auto acceleration = [&](double gap_growth_m, double slope_s, double request_mps2, double room_m = 0.0) {

@@ -1,5 +1,5 @@
-// Time-space diagrams of a street: the lane that they follow, positions of stop lines, red phases, and vehicles in a
-// green wave.
+// Tests of time-space diagrams of a street: the lane that a diagram follows, positions of stop lines, red phases, and
+// vehicles in a green wave.
 #include <gtest/gtest.h>
 
 #include <map>

@@ -1,4 +1,5 @@
-// Tests of confidence intervals against printed tables of Student's distribution and against their definition.
+// Tests of confidence intervals against printed tables of Student's distribution and against their definition. t(p, n)
+// is the quantile for probability p with n degrees of freedom.
 #include "measure/confidence.h"
 
 #include <gtest/gtest.h>

@@ -40,7 +40,7 @@ TEST(Improvement, IsTheRelativeIncrease) {
     EXPECT_TRUE(std::isnan(improvement_percent(3, 0)));
 }
 
-// Returns a counter with a vehicle every `headway_s`, the first after one headway. Interpolated, it is time / headway.
+// Returns a counter that a vehicle passes every `headway_s`. With interpolation, its count is time / headway.
 Counter steady_counter(double headway_s, int vehicles) {
     std::vector<double> times_s;
     for (int k = 1; k <= vehicles; ++k) times_s.push_back(k * headway_s);
@@ -48,7 +48,8 @@ Counter steady_counter(double headway_s, int vehicles) {
 }
 
 TEST(MeanImprovement, IsTheHeadwayRatioOfSteadyFlows) {
-    // These headways give the limit of Fig. 6. Whole counts would give a higher value, because both are rounded down.
+    // These headways give the limit of Fig. 6. Whole counts would give a higher value, because both counts are rounded
+    // down.
     const double mean = mean_improvement_percent(steady_counter(0.5832, 100), steady_counter(1.4532, 40), 10.0, 50.0);
     EXPECT_NEAR(mean, 100.0 * (1.4532 / 0.5832 - 1.0), 1e-9);
 }

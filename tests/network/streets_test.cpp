@@ -77,8 +77,8 @@ TEST(Streets, ConnectionsBeginWhereTheMovementsDiverge) {
     }
 }
 
-// Turns are quarters of circles or ellipses. Each end lies on the centre line of a lane. Its distance from the axis of
-// the street is half the width of the median, the widths of the lanes in between, and half a lane width.
+// Turns are quarters of circles or ellipses. Each end of a turn lies on the centre line of a lane. The distance of this
+// line from the axis of the street is half the median width, the widths of the lanes in between, and half a lane width.
 TEST(Streets, TurnsLeadToTheNearestExitLane) {
     const LaneGraph graph = make_streets(two_streets());
     const Lane& left = lane(graph, "first_west_0_left");
@@ -157,7 +157,7 @@ TEST(Streets, LanesOfAnApproachLinkToTheirNeighbours) {
         EXPECT_EQ(this_lane.approach >= 0, this_lane.signal_group >= 0) << this_lane.name;
 }
 
-// Oncoming straight traffic has priority, also if the left lane has its own signal group: both can be green at once.
+// Oncoming straight traffic has priority, also if the left lane has its own signal group. Both can be green together.
 TEST(Streets, LeftTurnsYieldToOncomingTraffic) {
     for (const StreetSettings& streets : {two_streets(), streets_with_pockets()}) {
         const LaneGraph graph = make_streets(streets);
@@ -191,7 +191,8 @@ TEST(Streets, OnlyProtectedLanesHaveTheirOwnSignalGroup) {
     EXPECT_EQ(group("first_west_in_0"), 0);
 }
 
-// With fewer lanes than exit lanes, the sum of the lateral shifts is the smallest. The lanes keep their order.
+// If there are more exit lanes than straight lanes, the sum of the lateral shifts is the smallest. The lanes keep their
+// order.
 TEST(Streets, StraightLanesLeadToTheNearestExitLanes) {
     StreetSettings streets = two_streets();
     streets.intersections[0].legs[0].lanes = {{"left"}, {"straight"}, {"straight+right"}};

@@ -58,7 +58,8 @@ TEST(SectionThree, UsesTheWorstPopulationForRowsAboutAll) {
     EXPECT_EQ(answer_of("P02", measured)->low, 2.9);
 }
 
-// Returns measurements of the vehicles that pass within 15 s. The fraction shows how near the next vehicle is.
+// Returns measured counts of vehicles that pass within 15 s. The fractional part shows how near the following vehicle
+// is.
 Measurements counts(double cdg, double switch_1, double switch_2, double mix, double ref, double hbs) {
     Measurements measured;
     const std::vector<std::pair<const char*, double>> all{{"CDG", cdg}, {"SWITCH-1", switch_1}, {"SWITCH-2", switch_2},

@@ -61,7 +61,7 @@ TEST(Judge, RangeAcceptsNumbersWithinAndRangesWithItsEnds) {
     EXPECT_EQ(judge(target, range_answer(15.0, 50.0)), Verdict::inside);
     EXPECT_EQ(judge(target, range_answer(15.0, 54.0)), Verdict::miss);
     EXPECT_EQ(judge(target, range_answer(30.0, 32.0)),
-              Verdict::miss);  // it does not reach the ends of the paper's range
+              Verdict::miss);  // our range does not reach the ends of the paper's range
 }
 
 TEST(Judge, ClaimsHoldOrNot) {

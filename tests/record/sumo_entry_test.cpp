@@ -116,7 +116,8 @@ TEST(SumoEntry, OnShortEdgesCausesNoViolation) {
     EXPECT_GT(result.exited, 25);
 }
 
-// Edge s is 2 m long. A conflicting connection may come close right after its end.
+// Edge s is 2 m long. If a conflicting connection comes close to the end of s, vehicles are inserted before the margin
+// for yielding.
 TEST(SumoEntry, OnShortEdgesLeavesTheMarginForYielding) {
     const auto front_m = [](const std::string& position, const std::string& conflicting_shape) {
         const SumoFiles files;

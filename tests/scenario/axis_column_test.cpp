@@ -1,4 +1,4 @@
-// Tests of the table columns of sweep axes. Two values have equal texts only if they mean the same.
+// Tests of the table columns of sweep axes. Two axis values have equal texts only if they mean the same.
 #include "scenario/sweep_file/axis_column.h"
 
 #include <gtest/gtest.h>

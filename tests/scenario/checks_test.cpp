@@ -124,7 +124,7 @@ TEST(Checks, SignalFitsItsCycleAndTheRun) {
 }
 
 TEST(Checks, QueueFitsTheApproach) {
-    // 60 x (5.15 m + 6 m) + 1 m
+    // 60 vehicles with gaps: 60 x (5.15 m + 6 m) + 1 m
     EXPECT_TRUE(
         contains(error_with({"network.approach.length=669.9 m"}), "a queue of 60 vehicles a lane is 670 m long"));
     EXPECT_EQ(error_with({"network.approach.length=670 m"}), "");

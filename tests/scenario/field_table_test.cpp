@@ -133,7 +133,7 @@ TEST_P(EveryField, RefusesAMisspeltKeyWithTheRightOne) {
         const std::string path =
             leaf.path.substr(0, leaf.path.size() - leaf.field->name.size()) + "q" + leaf.field->name;
         EXPECT_TRUE(contains(message, to_string(leaf.key) + ": field '"));
-        // The path of an entry with a misspelt name has its index.
+        // If the misspelt key is the name of a list entry, the path has the index of the entry instead of its name.
         EXPECT_TRUE(leaf.field->name == "name" || contains(message, "field '" + path + "' is unknown"));
         EXPECT_TRUE(contains(message, "did you mean '" + leaf.field->name + "'?"));
     }
@@ -186,7 +186,7 @@ TEST_P(EveryField, WholeNumbersRefuseInvalidValues) {
 TEST_P(EveryField, TextsAndChoicesRefuseInvalidValues) {
     for (const Leaf& leaf : leaves_) {
         if (const auto* const text = std::get_if<TextField>(&leaf.field->kind)) {
-            // The path of an entry with a bad name has its index.
+            // If the name of a list entry is invalid, its path has the index of the entry instead of the name.
             const Leaf anonymous{leaf.path.substr(0, leaf.path.find('[')), leaf.field, leaf.key, leaf.value, ""};
             const Leaf& named = leaf.field->name == "name" ? anonymous : leaf;
             expect_refused(named, "[a]", "needs a single value");
@@ -280,7 +280,7 @@ TEST_P(EveryField, AcceptsAndWritesAnotherValue) {
         const std::string message =
             input_error_of([&] { changed = parse_scenario(text_, "single_light.yaml", {leaf.path + "=" + new_text}); });
         EXPECT_EQ(message.find("is out of range"), std::string::npos) << message;
-        if (!message.empty()) continue;  // a check with another field fails
+        if (!message.empty()) continue;  // another check, which compares several fields, fails
         ++accepted;
         EXPECT_EQ(canonical_text(changed), replaced(leaf.value, new_text)) << leaf.path;
         EXPECT_NE(changed.hash, original.hash) << leaf.path;

@@ -68,7 +68,7 @@ TEST(LoadScenario, MissingFieldsHaveTheDefaultsOfTheStructs) {
                                                "CTG-HBS"}));
 }
 
-// All values differ, so that a row bound to the wrong member fails the test.
+// All values differ, so that the test fails if the row of a field table is bound to the wrong member.
 TEST(LoadScenario, EachFieldFillsItsOwnMember) {
     const Scenario s = parse_scenario(R"(
 name: n

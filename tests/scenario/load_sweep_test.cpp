@@ -69,7 +69,7 @@ TEST(LoadSweep, ErrorsNameThePlaceOfAMissingScenario) {
     EXPECT_EQ(input_error_of([&] { load_sweep(file); }),
               file + ":2:11: field 'scenario': value 'rte.yaml' leads to " + (folder.path() / "rte.yaml").string() +
                   ": no such file (relative paths start at the sweep file's folder)");
-    // Other errors are reported together with it.
+    // Other errors are reported together with the error of the missing scenario.
     const std::string both = sweep_error("scenario: none.yaml\naxes:\n- {name: a, path: signal.green, values: [5]}\n");
     EXPECT_TRUE(contains(both, "test.yaml:1:11: field 'scenario': value 'none.yaml' leads to none.yaml: no such file"));
     EXPECT_TRUE(contains(both, "test.yaml:3:42: field 'axes[a]: signal.green': value '5' has no unit"));

@@ -68,7 +68,7 @@ TEST(MeasuredArea, EndsWithinTheNetwork) {
     EXPECT_TRUE(contains(
         error_of(streets, {"measure.area_margin=101 m"}),
         "at most 100 m, the value of network.streets.intersections[koenigin_elisabeth_str].legs[0].exit_length"));
-    // A single intersection has zones instead.
+    // The margin has no effect on a single intersection, which has zones instead of an area.
     EXPECT_EQ(error_for_kind("intersection", {"measure.area_margin=500 m"}), "");
 }
 
@@ -97,7 +97,7 @@ TEST(Turns, OfALaneSumToAtMost100Percent) {
             error_with_lanes(kind, all,
                              {"demand.cross_turns=separate", "demand.cross_left=60 %", "demand.cross_right=60 %"}),
             "field 'demand.cross_left': cross_left and cross_right sum to 120 %"));
-        // The shares are per lane, and no lane here has both turns.
+        // The shares are per lane, and in this network no lane has both turns.
         EXPECT_EQ(error_for_kind(kind, {"demand.left=60 %", "demand.right=60 %"}), "");
     }
 }

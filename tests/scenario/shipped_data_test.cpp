@@ -37,13 +37,13 @@ TEST(ShippedVehicles, HaveTheirRatedPower) {
         const PowertrainSettings car = load_vehicle(name);
         const double rated = std::stod(std::string(name).substr(std::string(name).rfind('_') + 1));
         for (int rpm = 0; rpm <= car.limiter_rpm;
-             rpm += 50) {  // a coarse curve may exceed it a little between its points
+             rpm += 50) {  // a coarse curve may exceed the rated power a little between its points
             EXPECT_LE(power_kW(car, rpm), rated * 1.03) << name << " at " << rpm;
         }
     }
 }
 
-// tau = (420 c - 240) / (2 c) / n + 0.1 s with four cylinders, at most 0.5 s.
+// Time constant of torque: tau = (420 c - 240) / (2 c) / rpm + 0.1 s with c = 4 cylinders, at most 0.5 s.
 TEST(ShippedVehicles, HaveTheLagOfTheFormula) {
     for (const char* name : {"petrol_eu4_72kw", "petrol_eu4_84kw", "diesel_eu4_103kw"}) {
         const PowertrainSettings car = load_vehicle(name);
@@ -57,7 +57,7 @@ TEST(ShippedVehicles, HaveTheLagOfTheFormula) {
     }
 }
 
-// Friction mean effective pressures by Heywood, see the comments in the files.
+// Friction mean effective pressures by Heywood, see the comments in the vehicle files.
 TEST(ShippedVehicles, HaveTheDragTorqueOfTheFormula) {
     const auto torque_Nm = [](double pressure_bar, double displacement_l) {
         return -pressure_bar * 1e5 * displacement_l * 1e-3 / (4.0 * kPi);

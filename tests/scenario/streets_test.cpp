@@ -109,7 +109,7 @@ TEST(Streets, HaveTheirOwnSignalsAndTurns) {
     EXPECT_TRUE(contains(with({"network.streets.intersections[first].offset=0.005 s"}), "not a whole number of steps"));
 }
 
-// The rows of Table 3 in the paper: seven steps, offset, turn shares of the major and the minor street.
+// Compares with the rows of Table 3 in the paper: seven steps, offset, turn shares of the major and the minor street.
 TEST(Berlin, MatchesTable3) {
     struct Row {
         const char* name;

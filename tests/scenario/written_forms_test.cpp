@@ -1,4 +1,4 @@
-// Tests of the other uses of the field tables: canonical text, hash and list of fields.
+// Tests of what the field tables serve for besides reading files: canonical text, hash and list of fields.
 #include <gtest/gtest.h>
 
 #include <regex>

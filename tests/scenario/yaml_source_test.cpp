@@ -71,7 +71,7 @@ TEST(YamlSource, RefusesInvalidUtf8) {
     EXPECT_EQ(parse("a: 1\r\nb: 2\r\n").find("b")->text, "2");
 }
 
-// Each hostile text must be refused quickly, whatever its expanded size.
+// Each hostile text must be refused quickly, however large it is after its aliases (`*name`) are expanded.
 class HostileYaml : public ::testing::Test {
 protected:
     void expect_refused(const std::string& text, const std::string& reason) {

@@ -65,7 +65,7 @@ TEST(SevenSteps, SeparateTheMinorStreetFromTheMajorStreet) {
     }
 }
 
-// light_start_tick() returns the start of the light, also if it lies before the run.
+// light_start_tick() returns the start of the light, also if this start lies before the run.
 TEST(SevenSteps, ReportWhenALightStarted) {
     for (const double offset_s : {0.0, 19.0, 54.0}) {
         for (const GroupProgramme& group : make_seven_steps(kProtected, offset_s, kStep_s)) {

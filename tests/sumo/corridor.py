@@ -25,7 +25,7 @@ from cross_check import HERE, find_sumo
 
 LAYOUTS = ["three_lanes", "four_lanes", "three_lanes_pockets", "four_lanes_pockets"]
 LIMIT_PERCENT = 5.0
-LIMIT_LANE = 1.5  # vehicles a cycle
+LIMIT_LANE = 1.5  # vehicles in a signal cycle
 
 
 class Study:

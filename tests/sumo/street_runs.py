@@ -23,7 +23,7 @@ MARGIN_M = 20
 LIKE_SUMO = ["driver.free_drive.hesitation=0 s", "driver.stop.deceleration=4.7 m/s2",
              "driver.stop.decision_deceleration=5.3 m/s2"]
 EXPORT_S = 300  # run of stopline-export; longer than a signal cycle
-KEY_S = 60      # part of the demand that identifies it
+KEY_S = 60      # seconds of the demand that are enough to identify it
 VIOLATIONS = ["overlaps", "conflicts", "red_entries", "lost_vehicles"]
 
 

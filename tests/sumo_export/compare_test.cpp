@@ -80,7 +80,9 @@ TEST(ComparisonFigures, ShowMeanAndBandOverSeeds) {
     const std::string& rows = two_seeds[0].data.at(0).second;
     EXPECT_NE(rows.find("\n9,0.000,0.000,0.000,0.000\n"), std::string::npos) << rows;
     EXPECT_NE(rows.find("\n10,0.000,1.000,1.000,1.000\n"), std::string::npos) << rows;
-    EXPECT_NE(rows.find("\n35,0.500,1.500,0.000,7.853\n"), std::string::npos) << rows;  // t = 12.706, s = 0.707
+    // The mean is 1.5. The band is 1.5 +- t s / sqrt(2), not below 0, with Student's t = 12.706 and standard deviation
+    // s = 0.707.
+    EXPECT_NE(rows.find("\n35,0.500,1.500,0.000,7.853\n"), std::string::npos) << rows;
     EXPECT_NE(two_seeds[0].body.find("filledcurves"), std::string::npos);
     comparison.runs.resize(1);
     const Figure one_seed = comparison_figures(comparison, "t")[0];

@@ -74,7 +74,8 @@ TEST_P(ExportedStreets, PartsCoverEachLane) {
     EXPECT_GT(pockets, 0);
 }
 
-// Each part but the first is reached from the part before it, and each pocket from one lane beside it.
+// One connection leads to each part that is not the first part of an approach lane. It comes from the previous part of
+// the lane or, for the first part of a pocket, from a lane beside the pocket.
 TEST_P(ExportedStreets, EachPartHasOneConnectionToIt) {
     const LaneGraph graph = GetParam()();
     const PlainNetwork network = plain_network(graph);

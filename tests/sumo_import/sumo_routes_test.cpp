@@ -61,7 +61,7 @@ TEST(SumoRoutes, ReadsDepartPos) {
     EXPECT_EQ(trip("departPos=\"random\"").depart_position, Trip::DepartPosition::random);
     EXPECT_EQ(trip("departPos=\"random_free\"").depart_position, Trip::DepartPosition::free);
     EXPECT_EQ(trip("departPos=\"-12.5\"").depart_position, Trip::DepartPosition::given);
-    EXPECT_FLOAT_EQ(trip("departPos=\"-12.5\"").front_m, 177.5F);  // of 190 m
+    EXPECT_FLOAT_EQ(trip("departPos=\"-12.5\"").front_m, 177.5F);  // 12.5 m before the end of the 190 m
     EXPECT_FLOAT_EQ(trip("departPos=\"190\"").front_m, 190.0F);
 }
 

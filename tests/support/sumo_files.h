@@ -42,14 +42,14 @@ inline std::string dead_ends(const std::string& ids) {
     return text;
 }
 
-// Returns the text with the first `from` replaced. Fails the test if the text does not contain `from`.
+// Returns `text` with the first occurrence of `from` replaced by `to`. Fails the test if `from` does not occur.
 inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
     const std::size_t at = text.find(from);
     EXPECT_NE(at, std::string::npos) << from;
     return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
-// Returns the message without the temporary folder of SumoFiles.
+// Returns the message without the path of the temporary folder of SumoFiles.
 inline std::string without_folder(const std::string& message) {
     const std::string folder = (std::filesystem::temp_directory_path() / "stopline_sumo_").string();
     return message.starts_with(folder) ? message.substr(message.find('/', folder.size()) + 1) : message;

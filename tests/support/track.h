@@ -31,7 +31,7 @@ struct TrackPlan {
     double exit_m = 500.0;
     double limit_mps = 50.0 / 3.6;
     double gradient = 0.0;
-    double green_from_s = 0.0;  // kForever_s keeps the signal red
+    double green_from_s = 0.0;  // kForever_s: the signal stays red
     double green_s = kForever_s;
     double step_s = 0.01;
     bool scalar = false;

@@ -28,7 +28,7 @@ TEST(SeedMeans, HaveStudentIntervalsAndPairedDifferences) {
     ASSERT_TRUE(has_seeds(results));
     const CsvTable means = parse_csv(seed_means_csv(results, "population"), "means");
     ASSERT_EQ(means.rows.size(), 4u);  // one metric per combination; texts and updates are no metrics
-    constexpr double kT = 4.302653;    // t(0.975, 2)
+    constexpr double kT = 4.302653;    // Student's quantile for 95 %, two degrees of freedom
     EXPECT_EQ(means.rows[0][means.column("metric")], "throughput_veh_h");
     EXPECT_NEAR(number(means, 0, "mean"), 104.0, 1e-9);
     EXPECT_NEAR(number(means, 0, "ci95_high"), 104.0 + kT * 4.0 / std::sqrt(3.0), 1e-3);

@@ -1,4 +1,4 @@
-// Sweeps give the same table when they run at once, continue after an interruption, or are joined from shards.
+// Sweeps give the same table when they run without a break, continue after an interruption, or are joined from shards.
 #include "sweeps/sweep_run.h"
 
 #include <gtest/gtest.h>

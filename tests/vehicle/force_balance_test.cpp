@@ -23,7 +23,8 @@ Car without_engine(const std::string& name, std::size_t gear) {
     return Car(std::move(s));
 }
 
-// Returns the speed at time t: the solution of m lambda dv/dt = -(A + B v + C v^2) for 4 A C > B^2.
+// Returns the speed at time t from m lambda dv/dt = -(A + B v + C v^2) with 4 A C > B^2: mass m, rotating mass factor
+// lambda, driving resistances A, B and C.
 double coasting_speed(const Car& car, double grade_N, double v0, double t) {
     const double A = car.rolling_N() + grade_N;
     const double B = car.rolling_Nspm();

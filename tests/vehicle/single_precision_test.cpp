@@ -30,7 +30,7 @@ TEST_P(SinglePrecision, StaysWithinMillimetresPerSecondOfDouble) {
         const double request = request_at(0.01 * tick);
         wide = testing_support::advance(car, wide, request, 0.0, 0.01);
         s = powertrain_step<Single>(narrow, s, Single(request), 0.0, 0.01);
-        // The simulation adds small increments in double precision, too.
+        // Like this test, the simulation adds the small increments in double precision.
         const double next_mps = speed_mps + static_cast<double>(s.acceleration_mps2.v) * 0.01;
         speed_mps = next_mps > 1e-6 ? next_mps : 0.0;
         s.speed_mps = Single(speed_mps);

@@ -1,6 +1,6 @@
-// Regression tests: in each of these runs two vehicles once collided. In some runs junctions are blocked for long,
-// because drivers do not keep them clear. In others junctions are close together or have fast turns. A random search
-// found them.
+// Regression tests: an earlier version had a collision of two vehicles in each of these runs. In some runs junctions
+// are blocked for long, because drivers do not keep them clear. In other runs junctions are close together or have fast
+// turns. A random search found these runs.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -19,7 +19,8 @@ void expect_no_violations(const std::string& text) {
     EXPECT_TRUE(result.violations.none());
 }
 
-// The leader brakes at the maximum. Its follower passes the switching speed of its policy while its gap is too short.
+// The leader brakes with its maximum. The follower's gap is too short when its speed passes the switching speed of its
+// policy.
 TEST(CrowdedJunctions, SwitchingPoliciesStopBehindEmergencyBraking) {
     expect_no_violations(R"(
 duration: 460 s
@@ -36,7 +37,7 @@ populations: [SWITCH-1]
 )");
 }
 
-// The same case with a desired gap that grows so fast with speed that the actual gap is far below it.
+// As in the previous test, but the desired gap grows so fast with speed that the actual gap is far below it.
 TEST(CrowdedJunctions, FollowersDoNotRelyOnAGapStillMissing) {
     expect_no_violations(R"(
 duration: 172 s
@@ -66,7 +67,8 @@ populations: [STEEP]
 }
 
 // A vehicle with priority yields at a position inside the conflict area that it shares with a left-turning vehicle.
-// Both start at once. The left-turning vehicle must expect the other one to enter the area.
+// Both vehicles start at the same time. The left-turning vehicle must expect the vehicle with priority to enter the
+// area.
 TEST(CrowdedJunctions, VehicleYieldingInsideAnAreaStillEntersIt) {
     expect_no_violations(R"(
 duration: 397 s
@@ -86,8 +88,8 @@ populations: [SWITCH-1]
 )");
 }
 
-// A left-turning vehicle has accepted a gap, because a vehicle with priority is stopped in the junction. When that
-// vehicle starts, the left-turning vehicle can no longer stop, so it must go first.
+// A left-turning vehicle has accepted a gap, because a vehicle with priority is stopped in the junction. When the
+// stopped vehicle starts, the left-turning vehicle can no longer stop. The starting vehicle must let it pass.
 TEST(CrowdedJunctions, StartingVehicleYieldsToOneThatCannotStop) {
     expect_no_violations(R"(
 duration: 364 s
@@ -106,8 +108,8 @@ populations: [S-SHORT]
 )");
 }
 
-// A left-turning vehicle has started when an occupant of the junction would take its gap. It has barely room to stop,
-// and its brakes lag, so it must keep the gap.
+// A left-turning vehicle has started into its gap when a vehicle inside the junction would take the gap from it. The
+// left-turning vehicle has barely room to stop, and its brakes lag, so it must keep the gap.
 TEST(CrowdedJunctions, VehicleThatMayStopTooLateKeepsItsGap) {
     expect_no_violations(R"(
 duration: 456 s
@@ -135,8 +137,9 @@ populations: [{name: MIXED, pattern: random, components: [{policy: SHORT, share:
 )");
 }
 
-// A stopped vehicle reaches back to the stretch before the connections diverge. Vehicles from another leg turn into the
-// exit lane and hide it for moments. The vehicle at the stop line must not creep forward in these moments.
+// The rear of a stopped vehicle is on the stretch before the connections diverge. Vehicles from another leg turn into
+// the exit lane and hide the stopped vehicle for moments. Meanwhile the vehicle at the stop line must not creep
+// forward.
 TEST(CrowdedJunctions, VehicleTurningIntoTheExitDoesNotHideAStoppedOne) {
     expect_no_violations(R"(
 duration: 382 s
@@ -165,8 +168,8 @@ populations: [STEEP]
 )");
 }
 
-// The links are so short that a vehicle with priority can come from upstream of the previous intersection within the
-// critical gap.
+// The links are so short that a vehicle with priority can arrive within the critical gap even if it is still upstream
+// of the previous intersection.
 TEST(CrowdedJunctions, GapSearchReachesBeyondShortLinks) {
     expect_no_violations(R"(
 fidelity: meso

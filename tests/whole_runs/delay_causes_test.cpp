@@ -1,5 +1,5 @@
-// Attribution of delays to causes. The tests place vehicles by hand on two intersections and attribute their delays
-// once.
+// Attribution of delays to causes. The tests place vehicles by hand on two intersections and attribute the delays of
+// single steps.
 #include "sim/congestion/delay_causes.h"
 
 #include <gtest/gtest.h>
@@ -148,8 +148,8 @@ TEST_F(DelayCauses, FullExitLaneIsSpillbackOrTurnBlocking) {
     }
 }
 
-// The keep-clear rule has held the vehicle for a blocker in its exit lane. At red it still waits for this blocker,
-// until the blocker has moved.
+// The keep-clear rule has held a vehicle because of a blocker in its exit lane. When the signal is red, the vehicle
+// still counts as waiting for this blocker, until the blocker has moved.
 TEST_F(DelayCauses, VehicleAtARedLightStillWaitsForItsLastBlocker) {
     place_stopped("c1r0_west_in_0", 4.0, "c1r0_west_0_straight");
     place_stopped("c0r0_west_in_0", 154.0, "c0r0_west_0_straight");
@@ -182,7 +182,7 @@ TEST_F(DelayCauses, VehicleAtARedLightAlsoWaitsForALeaderInTheJunction) {
     EXPECT_EQ(delay_s(DelayCause::signal), 1.0);
 }
 
-// A red signal is no blocking cause. A stop of two cycles is reported all the same.
+// A stop at a red signal has no blocking vehicle, but a stop of two cycles is reported as for any other cause.
 TEST_F(DelayCauses, EveryCauseIsReportedAfterAStopOfTwoCycles) {
     const int waiting_vehicle = place_stopped("c0r0_south_in_0", 154.0, "c0r0_south_0_straight");
     state().tick += track_.model().rules.long_wait_ticks - 1;
@@ -195,8 +195,8 @@ TEST_F(DelayCauses, EveryCauseIsReportedAfterAStopOfTwoCycles) {
     EXPECT_EQ(state().congestion.delays.episodes[0].vehicle, waiting_vehicle);
 }
 
-// Threads decide at several intersections at once. A decision of this step at the next intersection must not matter,
-// because it may not be known yet.
+// Threads decide at several intersections at the same time. A decision of the current step at the next intersection
+// must not matter, because another thread may not have made it yet.
 TEST_F(DelayCauses, YieldingAtTheNextIntersectionDoesNotCount) {
     place_stopped("c1r0_west_in_0", 5.0, "c1r0_west_0_straight");
     const std::size_t leader = at(state().blocks[at(lane("c1r0_west_in_0"))].first);
@@ -216,7 +216,8 @@ TEST_F(DelayCauses, YieldingAtTheNextIntersectionDoesNotCount) {
     }
 }
 
-// In full dynamics vehicles crawl for some seconds while they close up to a queue. Others must treat them as stopped.
+// In full dynamics vehicles crawl for some seconds while they close up to a queue. Other drivers must treat them as
+// stopped.
 TEST_F(DelayCauses, CrawlingBlockerCountsAsStopped) {
     const double conflict_m = conflict_start_m("c0r0_south_0_straight", "c0r0_west_0_straight");
     for (const double speed_mps : {0.3, 2.0}) {
@@ -243,8 +244,8 @@ TEST_F(DelayCauses, CrawlingBlockerCountsAsStopped) {
     }
 }
 
-// A vehicle waits for its full exit lane. The queue there waits for a blocker in the next intersection, which is
-// stopped at first and crawls a second later.
+// A vehicle waits because its exit lane is full. The queue on the exit lane waits for a blocker in the next
+// intersection. The blocker is stopped at first and crawls a second later.
 TEST_F(DelayCauses, BlockerThatStartsToCrawlIsNotInAGridlock) {
     const double conflict_m = conflict_start_m("c1r0_south_0_straight", "c1r0_west_0_straight");
     const int blocker = place_stopped("c1r0_south_0_straight", conflict_m + 1.0);
@@ -276,7 +277,7 @@ TEST_F(DelayCauses, MovingVehiclesCountAsStoppedBeforeARedLight) {
             set_lights();
             state().stop_lines.lights[at(track_.model().graph.lanes[at(lane(exit))].signal_group)] = light;
             int last = -1;
-            // The vehicles are spaced evenly, not at the positions where they will stop.
+            // Each vehicle is still upstream of the position at which it will stop.
             for (int k = 0; k < present; ++k) {
                 last = place(exit, line_m - 1.0 - kSpace_m * (k + 0.3), kMoving_mps, "c1r0_west_0_straight");
             }
@@ -300,8 +301,8 @@ TEST_F(DelayCauses, CycleOfWaitingVehiclesIsAGridlock) {
                                         "c0r0_north_0_straight"};
     std::set<int> members;
     for (std::size_t k = 0; k < ring.size(); ++k) {
-        // The front is just before the conflict area with the blocker. The body blocks the area with the previous
-        // vehicle.
+        // The front is just before the conflict area that this vehicle shares with its blocker. The body is in the
+        // conflict area that it shares with the previous vehicle.
         double blocked_m = 0.0;
         for (const std::string& other : ring) {
             if (other == ring[k] || other == ring[(k + 2) % 4]) continue;

@@ -78,8 +78,8 @@ TEST(TurnShares, AreScaledOnALaneWithoutStraightMovement) {
     }
 }
 
-// Vehicles that enter between two intersections are inserted into the traffic from the first one without an overlap.
-// The run measures them.
+// Vehicles that enter between two intersections are inserted without overlap into the traffic from the upstream
+// intersection. The results of the run include them.
 TEST(Inflow, BetweenTwoIntersectionsIsInsertedAndMeasured) {
     for (const char* const fidelity : {"full", "meso"}) {
         for (const char* const approaches : {"[c0r1_south]", "[c0r0_south, c0r1_south]"}) {
@@ -112,8 +112,8 @@ TEST(Inflow, LightTrafficHasNoConflicts) {
     EXPECT_TRUE(simulation.state().records.violations.none());
 }
 
-// Regression test: two vehicles were in the same conflict area at 3,908 s. A vehicle that has accepted a gap and is
-// held up beyond the conflict area must keep the gap until it has used it.
+// Regression test: two vehicles were in the same conflict area at 3,908 s. A vehicle has accepted a gap and must then
+// wait for traffic beyond the conflict area. It must keep the gap until it has passed the conflict area.
 TEST(Saturated, SlowTrafficHasNoConflicts) {
     const Scenario scenario = load_scenario(
         STOPLINE_SOURCE_DIR "/scenarios/grid.yaml",
@@ -124,8 +124,8 @@ TEST(Saturated, SlowTrafficHasNoConflicts) {
     EXPECT_TRUE(simulation.state().records.violations.none());
 }
 
-// Coordinated signals repeat in every cycle, so no intersection stays red until its offsets have added up. Each
-// intersection turns green one offset after its upstream neighbour.
+// Coordinated signals repeat in every cycle, so every intersection turns green within the first cycle, even if the sum
+// of its offsets is longer than a cycle. Each intersection turns green one offset after its upstream neighbour.
 TEST(GridSignals, TurnGreenWithinTheFirstCycleInOffsetOrder) {
     const Scenario scenario =
         load_scenario(STOPLINE_SOURCE_DIR "/scenarios/grid.yaml", {"signal.green=10 s", "signal.offset=15 s"});
@@ -207,7 +207,7 @@ TEST_P(OnGrid, SlowTurnSharesHoldDownstreamOfEveryIntersection) {
         // turns differs from a fifth of the vehicles by at most 4.
         EXPECT_NEAR(turned[at(link)], 0.2 * passed[at(link)], 4.0) << model.graph.lanes[at(link)].name;
     }
-    // Two lanes lead to the centre and two on to the north. One lane leads to the west and one to the east.
+    // Two lanes lead to the centre and two from there to the north. One lane leads to the west and one to the east.
     EXPECT_EQ(used, 6);
 }
 

@@ -30,7 +30,7 @@ TEST(InsertVehicle, KeepsAGapToAVehicleStoppedBeyondTheLink) {
     EXPECT_LT(result.violations.forced_red_entries, result.entered / 20);
 }
 
-// The links are too short to stop from the speed limit.
+// On these short links a vehicle at the speed limit could not stop before the next signal.
 TEST(InsertVehicle, TeleportedVehicleCanStopAtTheNextSignal) {
     const NetworkResult result = result_of(
         "duration: 900 s\n"
@@ -47,8 +47,8 @@ TEST(InsertVehicle, TeleportedVehicleCanStopAtTheNextSignal) {
     EXPECT_TRUE(result.violations.none());
 }
 
-// On such short links vehicles need maximum braking to stop on yellow. A vehicle that overruns the stop line
-// nevertheless is counted as a forced red entry, not as a violation.
+// On links as short as this one, vehicles need maximum braking to stop on yellow. A vehicle that overruns the stop line
+// despite maximum braking is counted as a forced red entry, not as a violation.
 TEST(InsertVehicle, OverrunOnYellowIsNoViolation) {
     const NetworkResult result = result_of(
         "network: {kind: grid, intersection: {radius: 40 m}, grid: {rows: 2, row_spacing: 98.6 m}}\n"
@@ -60,8 +60,8 @@ TEST(InsertVehicle, OverrunOnYellowIsNoViolation) {
     EXPECT_GT(result.violations.forced_red_entries, 0);
 }
 
-// Overlapping vehicles can make a lane hold more vehicles than fit. The group must have memory for them, so that the
-// overlaps can be reported.
+// Overlapping vehicles can make a lane hold more vehicles than it has room for. The arrays for a group of lanes must
+// then grow, so that the run can go on and report the overlaps.
 TEST(FullGroup, GrowsBeyondThePlannedSize) {
     FullGroupArrays arrays;
     arrays.resize(16);

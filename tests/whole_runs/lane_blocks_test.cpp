@@ -9,7 +9,8 @@
 namespace stopline {
 namespace {
 
-// Checks that blocks are in order and disjoint, and that all slots outside of vehicle ranges are empty.
+// Checks that the blocks of the lanes are in order and disjoint, and that exactly the slots of vehicles have a vehicle
+// id.
 void check_blocks(const State& state) {
     int first_free = 1;
     for (const Partition& part : state.partitions) {

@@ -53,8 +53,8 @@ TEST(RightOfWay, LeftTurnsDoNotWaitWithoutOncomingTraffic) {
     EXPECT_GT(simulation.state().records.gaps_accepted.size(), 8u);
 }
 
-// With a standstill gap of 2.45 m a vehicle stops past the stop line, behind a waiting left-turning vehicle. The
-// opposite left-turning vehicle must not wait for it once the signal is red.
+// With a standstill gap of 2.45 m, a vehicle behind a waiting left-turning vehicle stops past the stop line. After the
+// signal has turned red, the opposite left-turning vehicle must not wait for this vehicle.
 TEST(RightOfWay, QueueBehindALeftTurnDoesNotHoldUpTheOppositeOne) {
     const Scenario scenario =
         reference({"fidelity=meso", "meso={base: fitted, constant_time: {standstill_gap: 2.45 m}}", "demand.left=15 %",
@@ -86,7 +86,7 @@ TEST(RightOfWay, TurnsKeepTheirSpeedLimit) {
     EXPECT_LT(fastest_mps, 7.0 * 1.1) << "a follower may exceed the limit by 5 %";
 }
 
-// The next vehicle with priority reaches the conflict area no sooner than expected when the gap was accepted.
+// The next vehicle with priority arrives at the conflict area no sooner than the left-turning vehicle expected.
 TEST(RightOfWay, LeftTurnsUseGapsAboveTheCriticalGap) {
     Scenario scenario = reference(turn_shares(15, 10));
     scenario.measure.cycles = 8;
@@ -160,8 +160,8 @@ TEST_P(SlowIntersection, HasNoConflictsAndNoDeadlocks) {
     EXPECT_LT(result.zones[0].travel_time_s, 12.0 * 2.0 * (GetParam().green_s + 8.0));
 }
 
-// Regression test: turning vehicles slow CDG platoons down, and yellow splits them. One follower closed in from a gap
-// of only 1.2 m.
+// Regression test: turning vehicles slow CDG platoons down, and yellow splits them. In an earlier version one follower
+// closed in on its leader from a gap of only 1.2 m.
 TEST(RightOfWay, PlatoonsSplitByYellowDoNotCollide) {
     std::vector<std::string> overrides = turn_shares(10, 20);
     for (const char* setting : {"network.intersection.lanes=[{movements: straight+left+right}]", "signal.green=22 s",

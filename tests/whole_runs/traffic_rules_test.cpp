@@ -97,8 +97,8 @@ TEST_P(SlowRules, ApplyOnlyUnderTheirConditions) {
         EXPECT_GT(passed, 0);
         EXPECT_FALSE(state.congestion.delays.gridlocks.empty());
     }
-    // No vehicle waits forever: a vehicle stopped first on its lane for three cycles is teleported, and its followers
-    // move up.
+    // No vehicle waits forever: the first vehicle of a lane is teleported after a stop of three cycles, and its
+    // followers move up.
     EXPECT_LT(state.congestion.delays.longest_stop_s, 10.0 * cycle_s);
 }
 

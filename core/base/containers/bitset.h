@@ -37,7 +37,7 @@ public:
     void retain_if(Visit visit) {
         retain_if(0, words_.size(), visit);
     }
-    // Does the same, but only for the members in the 64-bit words first_word .. end_word - 1.
+    // Like the function above, but visits only the members in the 64-bit words first_word .. end_word - 1.
     template <class Visit>
     void retain_if(std::size_t first_word, std::size_t end_word, Visit visit) {
         for (std::size_t k = first_word; k < end_word; ++k) {

@@ -8,7 +8,8 @@
 namespace stopline {
 
 // Creates the folder and its parents, and checks that files can be created in the folder. On failure it throws
-// InputError with path and reason. Call the function before a long run, so that the user learns early of a wrong path.
+// InputError with path and reason. Call the function before a long run, so that a wrong path is reported before the run
+// starts.
 void prepare_folder(const std::filesystem::path& folder);
 
 // Writes the file atomically (see base/io/replaced_file.h); a device or a pipe is written directly. On failure the old

@@ -81,7 +81,7 @@ Figure counters(const std::string& name, const std::string& what, const PairedTi
 }
 
 // Draws a histogram of the differences between passage times, in bins of 0.1 s. The first and the last bin also contain
-// all larger differences.
+// all differences beyond them.
 Figure histogram(const std::vector<TimingResult>& results) {
     constexpr int kZeroBin = 20;
     constexpr int kBins = 2 * kZeroBin + 1;

@@ -80,7 +80,8 @@ std::optional<PlotAxis> numeric_axis(const CsvTable& results, const std::string&
 }
 
 // Returns the x axis and the line axis of the figures, in this order. Returns the x axis alone if a single axis varies.
-// If no numeric axis varies, returns green if the table has the axes green and offset, and nothing otherwise.
+// If no numeric axis varies, returns the axis `green` if the table has the axes `green` and `offset`, and nothing
+// otherwise.
 std::vector<PlotAxis> drawn_axes(const CsvTable& results, const CellTitles& titles,
                                  const std::string& population_column) {
     std::vector<PlotAxis> all;
@@ -98,7 +99,7 @@ std::vector<PlotAxis> drawn_axes(const CsvTable& results, const CellTitles& titl
     std::erase_if(varied, single);
     if (varied.empty() && paper.size() == 2) return {paper.front()};
     if (varied.size() > 2) varied.resize(2);  // each combination of the other axes gets figures of its own
-    // As in the paper, green is the x axis and offset the line axis.
+    // As in the paper, the axis `green` is the x axis and the axis `offset` is the line axis.
     if (varied.size() == 2 && (varied[0].column == kOffsetColumn || varied[1].column == kGreenColumn)) {
         std::swap(varied[0], varied[1]);
     }

@@ -2,9 +2,9 @@
 // vary, it also has a line axis, with one line for each value. All other axes are constant in a figure, so each
 // combination of their values gets figures of its own. The results for one combination are called a plane.
 //
-// As in the paper, the x axis is green and the line axis is offset, provided that both are axes of the sweep and at
-// least one of them varies. Otherwise the first one or two numeric axes that vary are used. An axis with a single value
-// appears in the title only.
+// As in the paper, the x axis is the axis `green` (green time) and the line axis is the axis `offset`, provided that
+// the sweep has both axes and at least one of them varies. Otherwise the first one or two numeric axes that vary are
+// used. An axis with a single value appears in the title only.
 #pragma once
 
 #include <array>
@@ -112,7 +112,7 @@ bool has_network_metrics(const CsvTable& results, const std::string& population_
 std::vector<std::string> axis_columns(const CsvTable& results, const std::string& population_column);
 
 // Highest number of planes (combinations of the constant axes) that get figures. A sweep with more planes gets figures
-// only if its x axis is green and its line axis is offset.
+// only if its x axis is the axis `green` and its line axis is the axis `offset`.
 inline constexpr std::size_t kMaxPlanes = 24;
 
 // Arranges the results in planes. Returns nothing if the figures have no x axis, because no numeric axis varies, or if

@@ -21,8 +21,8 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// Returns advice if the axis `name` sets several fields. The name of its column then has no unit, so the axis is not
-// recognised as green or offset.
+// Returns advice if the axis `name` sets several fields. The name of its column then has no unit, so the figures do not
+// recognise it as the axis `green` or `offset`.
 std::string advice_for(const CsvTable& results, const std::vector<std::string>& axes, const std::string& name) {
     if (!contains(axes, name)) return "";
     return fmt::format(

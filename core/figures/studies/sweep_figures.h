@@ -12,7 +12,7 @@
 
 namespace stopline {
 
-// Returns true if the table has the axes green, offset and population and the metrics of several intersections.
+// Returns true if the table has the axes `green`, `offset` and `population` and the metrics of several intersections.
 bool is_network_sweep(const CsvTable& results);
 
 // Returns the figures of a results table: network_N (lines), surfaces_N (maps) and stability_N. planes.h says how their
@@ -22,8 +22,8 @@ bool is_network_sweep(const CsvTable& results);
 std::vector<Figure> network_sweep_figures(const CsvTable& results, const CellTitles& titles,
                                           const std::string& population_column = "population");
 
-// Returns a note to the user if the sweep lacks an axis green or offset: the required column names, and the axes that
-// the figures use instead. Returns an empty text if both axes exist.
+// Returns a note to the user if the sweep lacks the axis `green` or `offset`. The note names the required columns, and
+// the axes that the figures use instead. Returns an empty text if both axes exist.
 std::string network_sweep_note(const CsvTable& results, const CellTitles& titles,
                                const std::string& population_column = "population");
 

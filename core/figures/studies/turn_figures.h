@@ -12,7 +12,8 @@
 
 namespace stopline {
 
-// Returns true if the table has the axes green, left, right and population and the metrics of a single intersection.
+// Returns true if the table has the axes `green`, `left`, `right` and `population` and the metrics of a single
+// intersection.
 bool has_turns(const CsvTable& results);
 
 // Returns one figure for each green time, named such as turns_green_15. Values are means over seeds.
@@ -22,9 +23,9 @@ std::vector<Figure> turn_figures(const CsvTable& results);
 // the results lack its combination.
 std::string table1_csv(const CsvTable& results, const std::vector<Target>& targets);
 
-// Check of two statements of Section IV on mean throughput. First, throughput falls with the share of turns. Second, it
-// grows more than in proportion to the share of CDG: at equal green and turns, the throughput of a mixed population
-// lies below the straight line between CTG-Ref and CDG.
+// Check of two statements of Section IV on mean throughput. First, throughput falls with the share of turns. Second,
+// throughput grows more than in proportion to the share of CDG: at equal green and turns, the throughput of a mixed
+// population lies below the straight line between CTG-Ref and CDG.
 struct ThroughputTrends {
     int steps = 0;  // number of steps to the next larger share of left or right turns, at all greens and populations
     int rises = 0;  // number of steps in which throughput rises

@@ -64,7 +64,8 @@ struct Builder {
 
     // Returns the index of the exit lane to which an approach lane leads. The leftmost lane with a left turn leads to
     // the leftmost exit lane, the second such lane to the second exit lane, and so on. Right turns are assigned in the
-    // same way, counted from the right. A lane straight on leads to the exit lane with the same index.
+    // same way, counted from the right. A movement straight on leads to the exit lane with the index of the approach
+    // lane.
     int exit_lane(Turn turn, int lane) const {
         int rank = 0;  // number of lanes with the same turn further left (left turn) or right (right turn)
         if (turn == Turn::straight) return lane;

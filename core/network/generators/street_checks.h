@@ -14,8 +14,8 @@ struct StreetProblem {
     std::string message;
 };
 
-// Returns the problems that prevent building a lane graph. If an early check finds a problem, later checks are skipped,
-// because they rely on it.
+// Returns the problems that prevent building a lane graph. The checks run in groups. If a group finds a problem, the
+// groups after it are skipped, because they rely on its success.
 std::vector<StreetProblem> street_problems(const StreetSettings& streets);
 
 // Returns a message if the clearance is too large for the lane width, else "". Vehicles on two lanes can touch where

@@ -19,8 +19,8 @@ void JobWriter::table(const std::string& name, const std::string& csv) {
 }
 
 Figure marked_as_reduced(Figure figure) {
-    // The tag is 1000, because labels of the figure have the tags 1, 2, ... A label with the same tag replaces the
-    // mark.
+    // A label with the same tag would replace the mark. The tag is 1000, because the labels of the figure have the tags
+    // 1, 2, ...
     const std::string mark =
         "set label 1000 'REDUCED: quick run' at screen 0.992,0.02 left rotate by 90 noenhanced tc rgb '#b00000' font ',10' "
         "front\n";

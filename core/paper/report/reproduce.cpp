@@ -140,8 +140,8 @@ private:
         } catch (const Interrupted&) {
             throw;
         } catch (const std::exception& error) {
-            // The failure may only be a consequence of Ctrl-C, which also ends gnuplot. Then the run is interrupted,
-            // and no failure is reported.
+            // The failure may only be a consequence of Ctrl-C, which also ends gnuplot. In this case the run is
+            // interrupted, and no failure is reported.
             if (!show_progress(k)) throw Interrupted();
             end.output = {};
             end.problem = error.what();

@@ -1,8 +1,8 @@
 // Section IV of the paper: the reference intersection (I01..I13) and its Table 1 (T01..T48).
 //
 // Every number is the mean over six seeds. An improvement compares two such means. The population MIX of the paper,
-// half of the vehicles with CDG, is called P50 here. Density is the percentage of the total lane length that vehicles
-// occupy.
+// half of the vehicles with CDG, has the name P50 in our files. Density is the percentage of the total lane length that
+// vehicles occupy.
 #include <algorithm>
 #include <array>
 #include <atomic>

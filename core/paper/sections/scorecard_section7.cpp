@@ -41,8 +41,8 @@ constexpr std::array<const char*, 15> kColumns{"throughput_early_veh_h",
                                                "congested_from_witzlebenplatz_west_s",
                                                "congested_from_sophie_charlotte_str_west_s",
                                                "congested_from_koenigin_elisabeth_str_west_s"};
-// Columns of successive approaches. Each list leads from the place where a backlog may start, upstream to the place
-// where vehicles enter the network.
+// Columns of successive approaches, ordered upstream: from the place where a backlog may start to the place where
+// vehicles enter the network.
 using Columns = std::span<const char* const>;
 constexpr Columns kFromSuarezEast{kColumns.data() + 4, 7};
 constexpr Columns kFromKrummeEast{kColumns.data() + 7, 4};

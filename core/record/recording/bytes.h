@@ -23,8 +23,8 @@ inline void put_varint(std::string& bytes, std::uint64_t number) {
     bytes += static_cast<char>(number);
 }
 
-// Reads numbers from bytes, one after the other. All functions throw InputError if the bytes end too early or a number
-// is out of range.
+// Reads numbers from bytes, one after the other. All functions throw InputError if the bytes end before the number is
+// complete, or if the number is out of range.
 class ByteReader {
 public:
     explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}

@@ -27,7 +27,7 @@ void encode_motion(const double* position_m, const double* speed_mps, int count,
     }
 }
 
-// Returns true if the arrays differ. The loop has no early exit, because the compiler could not vectorise it then.
+// Returns true if the arrays differ. The loop always visits all elements, so that the compiler can vectorise it.
 bool differ(const int* a, const int* b, int count) {
     int bits = 0;
     for (int k = 0; k < count; ++k) bits |= a[k] ^ b[k];

@@ -44,7 +44,7 @@ struct IntersectionResult {
     std::int64_t exited = 0;
     std::int64_t updates = 0;  // number of vehicles in the network, summed over all steps
     std::uint64_t state_hash = 0;
-    bool complete = false;  // false: the run was stopped early
+    bool complete = false;  // false: the run was stopped before its end
 };
 
 // Returns the measured window. It begins after the warm-up cycles. If Scenario::duration_s is 0, the window is
@@ -53,8 +53,8 @@ TimeWindow measured_window(const Scenario& scenario);
 // Returns the first cycle of the measured window.
 TimeWindow first_cycle(const Scenario& scenario);
 
-// Runs scenario.populations[population]. `on_step` is called before every step; if it returns false, the run stops
-// early.
+// Runs scenario.populations[population]. `on_step` is called before every step; if it returns false, the run is stopped
+// before its end.
 IntersectionResult run_intersection(const Scenario& scenario, std::size_t population,
                                     const std::function<bool(const Simulation&)>& on_step = {},
                                     const Observation& observation = {});

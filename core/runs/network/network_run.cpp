@@ -33,8 +33,8 @@ void add_trip_detectors(Model& model) {
     model.detectors.push_back({-1, 0.0, Detector::Kind::zone, 0, true});
 }
 
-// Vehicles can also enter the network on lanes inside the measured area. Adds a detector at the start of each such
-// lane. Vehicles that reach this lane from upstream are in the area already.
+// Adds a detector at the start of each lane inside the measured area on which vehicles can enter the network. Other
+// vehicles reach such a lane from upstream. They are in the area already, so measure/area.h ignores this second entry.
 void add_inner_inlet_detectors(Model& model) {
     for (const DemandPlan::Inlet& inlet : model.demand.inlets) {
         if (inlet.vehicles == 0 || is_fed_from_outside(model.graph, inlet.lane)) continue;
@@ -42,8 +42,8 @@ void add_inner_inlet_detectors(Model& model) {
     }
 }
 
-// Adds detectors at the boundary of the measured area, on the entry and exit lanes of the network. Turning pockets
-// wholly inside the area get no detector, because vehicles reach them from the adjacent lane.
+// Adds detectors at the boundary of the measured area, on the entry and exit lanes of the network. Turn pockets wholly
+// inside the area get no detector, because vehicles reach them from the adjacent lane.
 void add_area_detectors(const Scenario& scenario, Model& model) {
     if (scenario.network.is_sumo()) return add_trip_detectors(model);
     std::erase_if(model.detectors, [](const Detector& d) { return d.kind != Detector::Kind::stop_line; });
@@ -191,8 +191,8 @@ private:
         result_.collapse_s = since_s;
     }
 
-    // Returns the index of the first cycle after the network has filled. Throughput no longer rises then. The function
-    // uses means over five cycles, because the throughput of single cycles scatters.
+    // Returns the index of the first signal cycle after the network has filled. From this cycle on, throughput no
+    // longer rises. The function uses means over five cycles, because the throughput of single cycles scatters.
     std::size_t first_full_cycle() const {
         constexpr std::size_t kCycles = 5;
         std::vector<double> means;

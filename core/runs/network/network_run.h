@@ -68,15 +68,15 @@ struct NetworkResult {
     std::int64_t backlog = 0;       // vehicles that should have entered but found no room until the end of the run
     std::int64_t discretionary_lane_changes = 0;
     StreetTrace street_trace;  // empty unless measure.time_space is set
-    bool complete = false;     // false: the run was stopped early
+    bool complete = false;     // false: the run was stopped before its end
 };
 
 // Returns the model of a network run. The model records delays, and crossings of stop lines and of the boundary of the
 // measured area.
 Model network_model(const Scenario& scenario, std::size_t population);
 
-// Runs scenario.populations[population]. `on_step` is called before every step; if it returns false, the run stops
-// early. `threads` is the number of threads that share the run.
+// Runs scenario.populations[population]. `on_step` is called before every step; if it returns false, the run is stopped
+// before its end. `threads` is the number of threads that share the run.
 NetworkResult run_network(const Scenario& scenario, std::size_t population,
                           const std::function<bool(const Simulation&)>& on_step = {}, int threads = 1,
                           const Observation& observation = {});

@@ -7,15 +7,15 @@
 
 namespace stopline {
 
-// A speed within this tolerance of the limit counts as the limit (Section III.B of the paper), because a driver without
-// leader approaches the limit asymptotically.
+// A speed within this tolerance of the speed limit counts as equal to the limit (Section III.B of the paper), because a
+// driver without leader approaches the limit asymptotically.
 inline constexpr double kAtLimit_mps = 0.5 / 3.6;
 
 // Returns the points of one vehicle in the order of time.
 std::vector<TrajectoryPoint> points_of(const std::vector<TrajectoryPoint>& trajectory, int vehicle);
 
 struct LeaderStart {
-    double start_s = 0.0;  // time of the last sample at rest
+    double start_s = 0.0;  // time of the last sample at rest, before the limit is reached
     double limit_s = 0.0;  // time of the first later sample within kAtLimit_mps of the limit; NaN: none
     double duration_s() const { return limit_s - start_s; }
 };

@@ -56,8 +56,8 @@ QueueGaps queue_gaps(const std::vector<double>& gaps_m) {
     return {mean(gaps_m), *smallest, *largest};
 }
 
-// Returns the points downstream of the stop line. Upstream of it, vehicles that arrive after the queue can drive at the
-// limit too, and must not count as steady.
+// Returns the points downstream of the stop line. Vehicles that arrive after the queue has left can also drive at the
+// speed limit upstream of the stop line, but must not count as steady there.
 std::vector<TrajectoryPoint> downstream_points(const std::vector<TrajectoryPoint>& points, double line_m) {
     std::vector<TrajectoryPoint> downstream;
     std::copy_if(points.begin(), points.end(), std::back_inserter(downstream),

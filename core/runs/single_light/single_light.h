@@ -74,7 +74,7 @@ struct SingleLightOptions {
 inline constexpr int kLastPositions = 10;
 inline constexpr double kSampleInterval_s = 0.1;
 // Trajectories are kept from kTrajectoryBefore_s before the green to kTrajectoryAfter_s after it. This is long enough
-// for the last vehicles to reach steady state.
+// for the last queued vehicles to reach steady state.
 inline constexpr double kTrajectoryBefore_s = 5.0;
 inline constexpr double kTrajectoryAfter_s = 25.0;
 

@@ -12,7 +12,7 @@
 
 namespace stopline {
 
-// The kind of names in result tables: names of this release, or names of the last release.
+// The kind of names in result tables: names of this release, or names of the previous release.
 enum class ColumnNames { current, old };
 
 inline constexpr const char* kOldNamesWarning =

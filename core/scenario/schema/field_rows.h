@@ -37,12 +37,12 @@ struct Row {
         field.is_rule_parameter = true;
         return std::move(*this).only_if(std::move(rule), {"on"});
     }
-    // Adds a name that the field had in the last release, see old_names.h.
+    // Adds a name that the field had in the previous release, see old_names.h.
     Row renamed_from(std::string old_name) && {
         field.old_names.push_back(std::move(old_name));
         return std::move(*this);
     }
-    // Adds a name that the choice value `name` had in the last release.
+    // Adds a name that the choice value `name` had in the previous release.
     Row value_renamed(std::string old_name, std::string name) && {
         field.old_values.push_back({std::move(old_name), std::move(name)});
         return std::move(*this);

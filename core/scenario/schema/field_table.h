@@ -135,8 +135,9 @@ struct Field {
     // may still give the parameter the value 'off'. If an override switches the rule off, the file may keep any value
     // of the parameter.
     bool is_rule_parameter = false;
-    std::vector<std::string> old_names = {};  // names of the last release, accepted with a warning (old_names.h)
-    std::vector<OldValue> old_values = {};    // old names of choice values, accepted with a warning
+    // Names of the previous release, accepted with a warning (old_names.h).
+    std::vector<std::string> old_names = {};
+    std::vector<OldValue> old_values = {};  // old names of choice values, accepted with a warning
 };
 
 struct Table {

@@ -164,7 +164,7 @@ void check_times(const Scenario& scenario, Checker& check) {
     }
 }
 
-// Checks that signal.cycle is not set for intersections. Their cycle is the sum of their two stages.
+// Checks that signal.cycle is not set for intersections, because their cycle is the sum of their two stages.
 void check_cycle(const Scenario& scenario, Checker& check) {
     const std::string& kind = scenario.network.kind;
     if (scenario.signal.cycle_s == 0.0 || (kind != "intersection" && kind != "grid")) return;

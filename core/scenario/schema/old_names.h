@@ -1,4 +1,4 @@
-// Replaces names of fields and of choice values that were valid in the last release and that files may still use.
+// Replaces names of fields and of choice values that were valid in the previous release and that files may still use.
 //
 // The old names in a YAML tree are replaced before other code reads the tree, so all other code handles current names
 // only. Each old name gives a warning with its file and line. Row::renamed_from() adds an old name to a field.

@@ -1,7 +1,8 @@
 // Quantities with units, as files write them: "50 km/h", "0.87 s", "2.5 m/s2", "30 %".
 //
-// A missing unit is an error, and no unit is assumed. A unit of the wrong dimension is an error too, and so is a unit
-// after a plain number. All values are converted to SI units, except engine speeds, which stay in rpm.
+// A quantity without its unit is an error; no unit is assumed. A unit of the wrong dimension is an error, too. The only
+// unit of a plain number (without dimension) is %. All values are converted to SI units, except engine speeds, which
+// stay in rpm.
 #pragma once
 
 #include <string>

@@ -122,7 +122,8 @@ private:
     }
 
     // Returns the index of an open gridlock that shares a vehicle with `found`; -1: none. A gridlock is open if it was
-    // observed within the last signal cycle. Ignores gridlocks that have already been observed in this step.
+    // observed within the duration of one signal cycle before this step. Ignores gridlocks that have already been
+    // observed in this step.
     int find_open_gridlock(const Gridlock& found) const {
         std::vector<int> members = found.vehicles;
         std::sort(members.begin(), members.end());

@@ -126,7 +126,7 @@ bool reinsert_teleported(const Model& model, State& state, int k) {
 }
 
 // Changes the target lane of a vehicle that waits for reinsertion to the exit lane of the next intersection, if the
-// vehicle has waited for longer than the travel time along the present target lane.
+// vehicle has waited for at least the travel time along the present target lane.
 void advance_target(const Model& model, State& state, int waiting, TeleportTarget& target) {
     const Lane& lane = model.graph.lanes[at(target.lane)];
     const double waiting_s = model.time_s(state.tick - target.waiting_since);

@@ -28,8 +28,8 @@ public:
         int& waits_for = w_.waits_for[at(slot)];
         if (w_.direct_cause[at(slot)] == DelayCause::signal) {
             // A vehicle at a red signal can have a blocker as well: a leader stopped past the stop line, or the vehicle
-            // that blocked it during the previous green. wait_for_leader() overwrites the direct cause, so the cause is
-            // set to `signal` again.
+            // that blocked the waiting vehicle during the previous green. wait_for_leader() overwrites the direct
+            // cause, so the cause is set to `signal` again.
             wait_for_leader(slot, lane);
             w_.direct_cause[at(slot)] = DelayCause::signal;
             if (waits_for < 0) waits_for = find_unmoved_blocker(last, v_.id[at(slot)]);
@@ -41,8 +41,8 @@ public:
 private:
     bool is_stopped(int slot) const { return v_.speed_mps[at(slot)] < kStoppedSpeed_mps; }
 
-    // Finds the blocker of a stopped vehicle and the direct cause of the wait. Usually the blocker must be stopped,
-    // too. If the keep-clear rule holds the vehicle, the blocker may also be crawling.
+    // Finds the blocker of a stopped vehicle and the direct cause of the wait. The blocker must be stopped, too, with
+    // one exception: if the keep-clear rule holds the vehicle, the blocker may still be moving.
     void find_direct_cause(int slot, int lane) {
         if (const YieldStop* const stop = yield_stop_of(slot, lane); stop != nullptr) {
             if (stop->blocker < 0) return set(slot, -1, DelayCause::wrong_lane);

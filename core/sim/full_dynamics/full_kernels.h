@@ -15,11 +15,11 @@ namespace stopline {
 struct FullStreams {
     double *position, *speed;
     const float *length, *standstill_gap, *end_speed;
-    const int *policy, *type;  // policy: null if the model has a single policy; type: null if it has a single type
+    const int *policy, *type;  // policy: null if the model has one policy; type: null if the model has one type
     float *acceleration, *lag, *request, *is_platoon_leader, *torque, *brake, *gear_time, *gear;
-    // Rows that store the radar and V2V samples of the last steps (DelayRows). The kernels write the samples of this
-    // step into the rows `..._now` and `sent_...`. They read delayed samples from `..._delayed`, `..._older` and
-    // `heard_...`.
+    // Rows that store the radar and V2V samples of the present and previous steps (DelayRows). The kernels write the
+    // samples of this step into the rows `..._now` and `sent_...`. They read delayed samples from `..._delayed`,
+    // `..._older` and `heard_...`.
     float *gap_now, *closing_now, *sent_acceleration, *sent_request, *sent_rate;
     const float *gap_delayed, *gap_older, *closing_delayed, *closing_older;
     const float *heard_acceleration, *heard_request, *heard_rate;

@@ -35,7 +35,7 @@ template <class R>
 STOPLINE_INLINE void gather_at(const FullStreams& s, const DelayRows& radar, const DelayRows& v2v, const LaneStep& lane,
                                int i, int k, double dt, const FullGroup& g) {
     const R speed = load<R>(s.speed + i);
-    // Radar measurement of this step. If the radar has no delay, the calls of delayed() below read this measurement.
+    // Radar measurement of this step. If the radar has no delay, delayed() reads this measurement.
     store(s.gap_now + i, load_difference<R>(s.position + i - 1, s.position + i) - load<R>(s.length + i - 1));
     store(s.closing_now + i, speed - load<R>(s.speed + i - 1));
     // Delayed data about the leader.
@@ -184,11 +184,11 @@ STOPLINE_INLINE void plan_at(const DriverTablesOf<float>& d, const FullGroup& g,
     const R follow = follow_acceleration(c, speed, acceleration, lag, rate, last_request, desired_gap, gap_growth_m,
                                          get(g.slope), p, dt);
     const R emergency = min_of(emergency_acceleration(c, speed, p), keep_room_acceleration(c, speed, gap_growth_m, p));
-    // Stopping behind a leader that is about to stop. Stops at stop lines and conflict areas are in g.demand.
+    // Stopping behind a leader that is about to stop. g.demand holds the demands of stop lines and conflict areas.
     const R behind = stop_behind_acceleration(d, speed, standstill_gap, p);
 
-    // The lowest acceleration applies. A platoon leader becomes a follower once the acceleration for following is below
-    // that of free driving.
+    // The lowest acceleration applies. A platoon leader becomes a follower when the acceleration for following no
+    // longer exceeds the acceleration in free driving.
     const R is_platoon_leader = get(g.is_platoon_leader) * STOPLINE_FLAG(R, follow > as_leader);
     const R drive = min_of(choose(is_platoon_leader, as_leader, catch_up_acceleration(d, speed, limit)), slow_down);
     const R smallest = min_of(min_of(min_of(drive, follow), emergency), min_of(get(g.demand), behind));
@@ -197,8 +197,8 @@ STOPLINE_INLINE void plan_at(const DriverTablesOf<float>& d, const FullGroup& g,
     const R lowest = select(speed <= kBrakeHoldSpeed_mps, splat<R>(0.0), splat<R>(-c.deceleration_emergency_mps2));
     const R request = max_of(smooth, lowest);
     store(g.request + k, request);
-    // The request changes linearly within the step, so its mean is the average of the last and the new request. For a
-    // vehicle that is held by its brake, kHold_mps2 replaces this mean.
+    // The request changes linearly within the step, so its mean is the average of the previous and the new request. For
+    // a vehicle that is held by its brake, kHold_mps2 replaces this mean.
     const R held = STOPLINE_FLAG(R, speed <= kBrakeHoldSpeed_mps) * STOPLINE_FLAG(R, request <= kStart_mps2);
     store(g.mean_request + k, choose(held, splat<R>(kHold_mps2), 0.5 * (last_request + request)));
     store(g.is_platoon_leader + k, is_platoon_leader);

@@ -41,7 +41,8 @@ bool is_connection_occupied(const Model& model, const State& state, int lane) {
                        [&](int connection) { return state.blocks[at(connection)].count > 0; });
 }
 
-// Returns the entry on a link lane without vehicles. The leader of the new vehicle is then downstream of the link.
+// Returns the entry on an empty link lane, that is, a lane between two intersections. The leader of the new vehicle is
+// then downstream of the link.
 Entry entry_on_empty_link(const Model& model, const State& state, int number, int policy, double max_entry_mps) {
     const int lane = model.demand.inlets[at(number)].lane;
     const double front_m = model.vehicles[0].length_m;

@@ -22,7 +22,7 @@ namespace stopline {
 
 namespace {
 
-// Within this distance of the stop line, a vehicle is inserted only if no vehicle without priority is crossing its
+// Within this distance of the stop line, a vehicle is not inserted while a vehicle without priority is crossing its
 // route or has decided to cross it. The crossing vehicle could not consider the new vehicle in its decision.
 constexpr double kNearLine_m = 40.0;
 // Positions in route files are rounded, so the gaps in a queue from a file can be a little too small. This tolerance
@@ -78,8 +78,8 @@ double random_position(const Model& model, const State& state, int number) {
     return random_uniform(model.seed, static_cast<std::uint64_t>(number), draw, Purpose::insertion);
 }
 
-// Returns the front position furthest downstream at which a vehicle may enter. It is at the stop line or upstream of
-// it, and far enough from the first conflict area for the vehicle to yield.
+// Returns the front position furthest downstream at which a vehicle may enter. This position is at the stop line or
+// further upstream, and far enough upstream of the first conflict area for the vehicle to yield.
 double max_departure_m(const Model& model, const State& state, int lane, int number) {
     const Lane& road = model.graph.lanes[at(lane)];
     const int route = state.plan.adjacent(lane).turn_option(model.demand.turn_of_trip(number, 0)).route;
@@ -88,8 +88,8 @@ double max_departure_m(const Model& model, const State& state, int lane, int num
     return std::max(std::min(road.stop_line_m, road.length_m + first_conflict_m - model.give_way.margin_m), 0.0);
 }
 
-// Returns the front position of a new vehicle. If the lane is a link, the rear of the vehicle is placed on the lane,
-// too.
+// Returns the front position of a new vehicle. If the lane is a link (a lane between two intersections), the rear of
+// the vehicle is placed on the lane, too.
 double departure_front_m(const Model& model, const State& state, int lane, int number) {
     using enum Trip::DepartPosition;
     const Trip& trip = model.demand.trips[at(number)];
@@ -247,7 +247,7 @@ void insert_backlog(const Model& model, State& state, int approach) {
     constexpr std::size_t kMaxFailures = 16;
     std::vector<int>& trips = state.insertion.waiting_trips[at(approach)];
     const std::size_t lanes = model.graph.approaches[at(approach)].lanes.size();
-    std::bitset<kMaxFailures> full;  // [lane index] true: the lane has no room; the last bit: all further lanes
+    std::bitset<kMaxFailures> full;  // [lane index] true: no room on the lane; the last bit is for all further lanes
     std::size_t kept = 0;
     std::size_t k = 0;
     for (; k < trips.size() && full.count() < lanes && kept < kMaxFailures; ++k) {

@@ -46,7 +46,7 @@ bool is_blocked_by_leader(const State& state, int slot) {
 namespace {
 
 // Returns true if the vehicle is on a lane of the intersection to which `lane` belongs. The yielding state of a vehicle
-// at another intersection cannot be used, because another thread may update it before or after this call.
+// at another intersection cannot be used, because another thread may update this state before or after the call.
 bool is_at_same_intersection(const State& state, int lane, int slot) {
     const VehicleRecord& record = state.vehicles.record[at(slot)];
     const int own_lane = state.plan.route(record.route)[at(record.route_index)];
@@ -79,8 +79,8 @@ bool is_behind_yielding_vehicle(const State& state, int lane, const JunctionOccu
 namespace {
 
 // Returns the slot of a vehicle that stops at the stop line of `lane` and blocks the traffic from there to
-// `connection`; -1: none. While the signal of `connection` is green, only a vehicle that waits for the signal of
-// another movement blocks this traffic.
+// `connection`; -1: none. While the signal of `connection` is green, a stopping vehicle blocks this traffic only if the
+// signal of its own movement is not green.
 int vehicle_stopping_at_signal(const State& state, int lane, int connection) {
     const int stopping = state.stop_lines.stop_slot[at(lane)];
     if (state.stop_lines.lights[at(state.plan.signal_group_for(lane, connection))] != Light::green) return stopping;
@@ -107,8 +107,9 @@ void look_upstream(const Model& model, const State& state, const Upstream& here,
     const auto consider = [&](int slot, double distance_m, double limit_mps) {
         if (v.speed_mps[at(slot)] < kCrawlingSpeed_mps || distance_m > horizon_s * limit_mps) return;
         const VehicleRecord& record = v.record[at(slot)];
-        // A vehicle without a trip may have no following turn yet. The search assumes that such a vehicle takes the
-        // connection. A vehicle with a trip but without a following turn ends its trip on `here.lane`.
+        // The following turn is the turn at the second intersection ahead. The turns of a vehicle without a trip are
+        // drawn, and its following turn may not be drawn yet. The search then assumes that it takes `here.connection`.
+        // A vehicle with a trip but without a following turn ends its trip on `here.lane`, so the search ignores it.
         const bool unknown = record.trip < 0 && record.following_turn == Turn::none;
         if (here.depth == 0 && !unknown && record.following_turn != turn) return;
         const double acceleration_mps2 = model.give_way.approach_acceleration_mps2;

@@ -11,7 +11,7 @@ namespace stopline {
 inline constexpr double kNoArrival_s = 1e9;
 
 // Returns true if the vehicle is slower than kCrawlingSpeed_mps and had to wait before a conflict area in this step or
-// the last one. A yielding vehicle is not expected to arrive soon, because it lets other vehicles go first.
+// the previous step. A yielding vehicle is not expected to arrive soon, because it lets other vehicles go first.
 bool is_yielding(const State& state, int slot);
 
 // Returns true if the vehicle yields and its waiting position is at or upstream of `area_m`, the start of a conflict
@@ -23,16 +23,17 @@ bool is_yielding_before(const State& state, int slot, double area_m);
 bool is_blocked_by_leader(const State& state, int slot);
 
 // Returns true if `occupant`, a vehicle on connection `lane`, is in a queue of slow vehicles whose first vehicle
-// yields. The yielding vehicle may be on another connection from the same approach lane, at a place where this
-// connection and `lane` still overlap.
+// yields. The yielding vehicle may be on another connection from the same approach lane, at a place where the two
+// connections still overlap.
 bool is_behind_yielding_vehicle(const State& state, int lane, const JunctionOccupant& occupant);
 
-// Returns the time in s that a vehicle needs for a distance if it accelerates up to the speed limit.
+// Returns the time in s that a vehicle needs for a distance if it accelerates up to the speed limit. A vehicle above
+// the limit keeps its speed.
 double earliest_arrival_s(double distance_m, double speed_mps, double acceleration_mps2, double limit_mps);
 
 // The next vehicle that reaches a conflict area, and its earliest possible arrival.
 struct Arrival {
-    double time_s = kNoArrival_s;  // time from now until the arrival
+    double time_s = kNoArrival_s;  // time from the beginning of the step until the arrival
     int slot = -1;                 // slot of the vehicle; -1: no arrival
 
     void keep_earlier(double other_time_s, int other_slot) {

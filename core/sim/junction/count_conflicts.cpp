@@ -1,5 +1,5 @@
 // Counts conflicts: pairs of vehicles from different connections in the same conflict area. The decisions in
-// right_of_way.cpp should prevent all of them.
+// right_of_way.cpp should prevent all conflicts.
 #include "sim/junction/count_conflicts.h"
 
 #include <algorithm>
@@ -13,8 +13,8 @@ namespace stopline {
 
 namespace {
 
-// Returns true if the pass-blocker rule lets one of two vehicles in the same conflict area pass the other. Records the
-// use of the rule in the first step in which both vehicles are in the area.
+// Returns true if the pass-blocker rule (driver/traffic_rules.h) lets one of two vehicles in the same conflict area
+// pass the other vehicle. Records the use of the rule in the first step in which both vehicles are in the area.
 bool pass_is_allowed(const Model& model, const State& state, Partition& part, int slot_a, int lane_a, int slot_b,
                      int lane_b) {
     const std::pair<int, int> pair = std::minmax(state.vehicles.id[at(slot_a)], state.vehicles.id[at(slot_b)]);
@@ -50,8 +50,8 @@ std::int64_t count_pairs(const Model& model, const State& state, Partition& part
     return pairs;
 }
 
-// Returns the number of conflicts in all conflict areas of connection `lane`. Only checks connections with a higher
-// index than `lane`, so that each pair is counted once.
+// Returns the number of conflicts in all conflict areas of connection `lane`. Checks only areas that `lane` shares with
+// a connection of a higher index, so that each pair is counted once.
 std::int64_t count_conflicts_of_lane(const Model& model, const State& state, Partition& part, int lane) {
     std::int64_t pairs = 0;
     for (const Conflict& c : state.plan.conflicts(lane)) {

@@ -18,7 +18,7 @@ public:
     OccupantSearch(const State& state, JunctionState& junctions, Partition& part)
         : state_(state), v_(state.vehicles), junctions_(junctions), part_(part) {}
 
-    // Empties the occupant lists and the bitsets that the previous step filled.
+    // Removes the occupants of the previous step from the occupant lists, and their connections from the bitsets.
     void clear_lists() {
         for (const int lane : part_.occupied_connections) {
             junctions_.occupants[at(lane)].clear();
@@ -31,7 +31,8 @@ public:
     }
 
     // Adds each vehicle that has its front on an exit lane and its rear still inside the intersection. Returns false if
-    // the exit lane is empty, or if even its vehicle furthest upstream is wholly on the lane.
+    // the exit lane is empty, or if its vehicle furthest upstream is wholly on the lane. All other vehicles are then
+    // wholly on the lane, too.
     bool add_from_exit(int exit) {
         const LaneBlock& block = state_.blocks[at(exit)];
         const auto reaches_back = [&](int slot) { return v_.position_m[at(slot)] < v_.length_m[at(slot)]; };

@@ -1,17 +1,18 @@
 // Right of way inside intersections: decides which vehicles must wait, and before which conflict area. All decisions
 // use the positions and speeds at the beginning of the step. On each connection only the first waiting vehicle checks
-// gaps. The vehicles behind this vehicle wait for it where they must yield. They also keep out of occupied conflict
-// areas.
+// gaps. The vehicles behind the first waiting vehicle wait for it where they must yield. They also keep out of occupied
+// conflict areas.
 //
 // In a conflict area the connection of a vehicle meets another connection. The vehicle may enter the area under these
 // conditions:
 //   - No vehicle of the other connection is in the area. No vehicle of the other connection that has accepted a gap is
 //     on its way to the area.
 //   - If the vehicle must yield, it needs a gap: the next vehicle with priority must arrive at least one critical gap
-//     after this vehicle reaches its waiting position. The gap must suffice in all areas where the vehicle must yield.
-//     The gap is checked again while the vehicle can still stop comfortably, because vehicles with priority may start.
-//   - If neither connection has priority (movements of different signal groups), no vehicle that passed its stop line
-//     earlier is still on its way to the area. If two vehicles wait for each other, one proceeds (DeadlockResolution).
+//     after the yielding vehicle reaches its waiting position. The gap must suffice in all areas where the vehicle must
+//     yield. The gap is checked again while the vehicle can still stop comfortably, because a stopped vehicle with
+//     priority may start.
+//   - If neither connection has priority (movements of different signal groups), the vehicle that was the first to pass
+//     its stop line drives first. If two vehicles wait for each other, one of them proceeds (DeadlockResolution).
 // The pass-blocker rule (driver/traffic_rules.h) lets a vehicle pass a vehicle that has been stopped inside the
 // intersection for a long time.
 #include "sim/junction/right_of_way.h"
@@ -31,7 +32,8 @@ namespace stopline {
 namespace {
 
 // Returns the time in s that a vehicle needs for a distance. A vehicle faster than `limit_mps`, the speed limit of its
-// connection, brakes to the limit within the distance.
+// connection, brakes to the limit at the end of the distance. A slower vehicle keeps its speed, which is taken as at
+// least kMinSpeed_mps.
 double travel_time_s(const Model& model, double distance_m, double speed_mps, double limit_mps) {
     constexpr double kMinSpeed_mps = 2.0;
     const double b = model.driver.deceleration_mps2;
@@ -96,13 +98,13 @@ int area_blocker(const Model& model, State& state, Partition& part, int lane, co
             continue;
         }
         // Neither connection has priority. If both vehicles wait for each other, a deadlock resolution decides which
-        // one proceeds.
+        // vehicle proceeds.
         if (find_resolution(state, part, occupant.slot, v.slot) != nullptr) return occupant.slot;
         if (DeadlockResolution* const resolution = find_resolution(state, part, v.slot, occupant.slot)) {
             resolution->last_needed_tick = state.tick;  // the resolution must not expire
             continue;
         }
-        // The occupant waits too, so the candidate proceeds.
+        // If the candidate and the occupant both wait, a new resolution lets the candidate proceed.
         if (v.stopped &&
             (is_yielding(state, occupant.slot) || is_behind_yielding_vehicle(state, conflict.other, occupant))) {
             part.deadlock_resolutions.push_back(
@@ -115,8 +117,9 @@ int area_blocker(const Model& model, State& state, Partition& part, int lane, co
     return -1;
 }
 
-// Returns the extra time in s that a slow vehicle needs to cross a long conflict area, for example in a U-turn. The
-// extra time is added to the critical gap. Only imported networks have long conflict areas.
+// Returns the time in s by which crossing the conflict area at the speed limit of the connection takes longer than the
+// critical gap, for example in a U-turn. The caller adds this time to the critical gap. Returns 0 in networks without
+// trips. These are not imported, and their conflict areas are short.
 double slow_crossing_extra_gap_s(const Model& model, int lane, const Conflict& conflict, double limit_mps,
                                  double length_m) {
     constexpr double kSpare_s = 1.5;
@@ -142,8 +145,8 @@ int yield_cycle_winner(const Model& model, const State& state, int lane, const C
 }
 
 // Returns the slot of a vehicle without priority that approaches connection `conflict.other`, has accepted a gap, and
-// can no longer stop before the first conflict area of this connection; -1: none. By now the accepted gap may be too
-// short, because a stopped vehicle with priority may have started since.
+// can no longer stop before the first conflict area of this connection; -1: none. The accepted gap may have become too
+// short, because a stopped vehicle with priority may have started after the gap was accepted.
 int committed_vehicle(const Model& model, const State& state, const Conflict& conflict) {
     const VehicleArrays& v = state.vehicles;
     const LanePlan& origin = state.plan.lane(state.plan.lane(conflict.other).origin);
@@ -161,8 +164,8 @@ int committed_vehicle(const Model& model, const State& state, const Conflict& co
 }
 
 // Returns the slot of the vehicle to which candidate `v` must yield; -1: none. This is a vehicle with priority that
-// arrives too soon, or the winner of a yield cycle. Stores in the record of the candidate whether the candidate accepts
-// the gap.
+// arrives too soon, or the vehicle that yield_cycle_winner() returns. Stores in the record of the candidate whether the
+// candidate accepts the gap.
 int near_priority_vehicle(const Model& model, State& state, Partition& part, int lane, const Candidate& v,
                           double to_wait_m) {
     VehicleArrays& arrays = state.vehicles;
@@ -183,7 +186,8 @@ int near_priority_vehicle(const Model& model, State& state, Partition& part, int
         if (arrival.time_s < until_s) return arrival.slot;
     }
     record.accepted_gap_on = lane;
-    // Clear the yielding state at once, so that the other vehicles of a yield cycle see that this vehicle proceeds.
+    // Clear the yielding state at once. Several vehicles may yield to each other in a cycle, and the other vehicles of
+    // the cycle must see that this vehicle proceeds.
     if (!model.demand.trips.empty()) record.yield_tick = -2;
     if (!model.records_all || had_accepted_gap) return -1;
     part.gaps_accepted.push_back({model.time_s(state.tick), arrays.id[at(v.slot)], lane,
@@ -191,9 +195,9 @@ int near_priority_vehicle(const Model& model, State& state, Partition& part, int
     return -1;
 }
 
-// Returns true if the committed vehicle in slot `other` will still be in the conflict area when candidate `v`, which
-// has priority, can arrive at the earliest. This can happen if the committed vehicle is later or slower than was
-// predicted when it accepted its gap.
+// Returns true if the committed vehicle in slot `other` will still be in the conflict area at the earliest time at
+// which candidate `v`, which has priority, can arrive. This can happen if the committed vehicle is later or slower than
+// was predicted when it accepted its gap.
 bool occupies_area_on_arrival(const Model& model, const State& state, int lane, const Conflict& conflict,
                               const Candidate& v, int other) {
     const VehicleArrays& arrays = state.vehicles;
@@ -212,9 +216,11 @@ constexpr double kNoWait_m = 1e9;  // stands for the waiting position of a vehic
 
 // The position where a candidate must wait, and the vehicle for which it waits.
 struct Wait {
-    double place_m = kNoWait_m;         // waiting position along the connection; kNoWait_m: the candidate need not wait
-    int blocker = -1;                   // slot of the vehicle for which the candidate waits
-    bool blocker_has_priority = false;  // false: the blocker is in the conflict area or about to enter it
+    double place_m = kNoWait_m;  // waiting position along the connection; kNoWait_m: the candidate need not wait
+    int blocker = -1;            // slot of the vehicle for which the candidate waits
+    // True: the candidate must let the blocker go first, or the blocker waits ahead on the same connection. False: the
+    // blocker is in the conflict area or about to enter it.
+    bool blocker_has_priority = false;
 };
 
 // Returns the waiting position at the stop line, m along the connection. Returns kNoWait_m if vehicles may wait inside

@@ -19,10 +19,10 @@ namespace stopline {
 namespace {
 
 // Returns true if the vehicle can stop before the line if it brakes with `deceleration_mps2` after a response time. The
-// response time is the brake lag plus half the time in which the limited jerk takes the acceleration from its present
-// value to `-deceleration_mps2`. A vehicle keeps its present acceleration in the response time, so the braking starts
-// at a higher speed. The distance driven in the response time is computed with the present speed; the small additional
-// distance due to the acceleration is neglected. If the vehicle already brakes, its acceleration is taken as 0.
+// response time is the brake lag plus half the time that the acceleration needs, at the jerk limit, to fall from its
+// present value to `-deceleration_mps2`. A vehicle keeps its present acceleration in the response time, so the braking
+// starts at a higher speed. The distance driven in the response time is computed with the present speed; the small
+// additional distance due to the acceleration is neglected. A present acceleration below 0 is taken as 0.
 bool can_stop(const Model& model, const VehicleArrays& v, int slot, double line_m, double deceleration_mps2) {
     const double speed = v.speed_mps[at(slot)];
     const double lag_s = model.vehicles[at(v.type[at(slot)])].brake_lag_s;
@@ -33,7 +33,7 @@ bool can_stop(const Model& model, const VehicleArrays& v, int slot, double line_
 }
 
 // Returns the highest deceleration with which drivers stop for a signal. On yellow this is the setting
-// `stop.decision_deceleration`, on red the maximum braking.
+// `stop.decision_deceleration`, on any other light the maximum braking.
 double stopping_deceleration_mps2(const Model& model, Light light) {
     return light == Light::yellow ? model.driver.stop.decision_deceleration_mps2
                                   : model.driver.cacc.deceleration_emergency_mps2;
@@ -67,7 +67,7 @@ int choose_stopper(const Model& model, const State& state, const LaneBlock& bloc
     return -1;
 }
 
-// Returns true if the signal is green and the vehicle that stopped for it no longer hesitates to start.
+// Returns true if the signal is green and no vehicle that stopped for it still hesitates to start.
 bool line_is_open(const Model& model, const State& state, int signal_group, const StopLineState& line) {
     if (state.stop_lines.lights[at(signal_group)] != Light::green) return false;
     return line.stopping_vehicle < 0 ||
@@ -114,7 +114,8 @@ bool has_slow_vehicle(const State& state, const LaneBlock& block) {
     return found;
 }
 
-// Returns the free room in an exit lane. The first call in a step computes the room, and later calls reuse it.
+// Returns the free room in an exit lane. The first call in a step computes the room, and later calls in the same step
+// reuse it.
 const ExitRoom& exit_room(const Model& model, State& state, int exit) {
     const VehicleArrays& v = state.vehicles;
     ExitRoom& room = state.stop_lines.exit_rooms[at(exit)];
@@ -122,7 +123,7 @@ const ExitRoom& exit_room(const Model& model, State& state, int exit) {
     room = {state.tick, 1e9, -1};
     const LaneBlock& block = state.blocks[at(exit)];
     if (block.count == 0) return room;
-    // Exit lanes with a stop line have next_limit_m at this line, other exit lanes at their end.
+    // next_limit_m: position of the stop line of the exit lane, or of the lane's end if there is no stop line.
     const double line_m = state.plan.lane(exit).next_limit_m;
     const bool ends_at_red = line_m <= model.rules.sight_m && queue_ends_at_red(model, state, exit);
     if (!ends_at_red && !has_slow_vehicle(state, block)) return room;
@@ -175,7 +176,7 @@ struct ConnectionState {
     int connection;
     int stopped_in_exit;  // slot of a stopped vehicle in the exit lane (ExitRoom::stopped_slot)
     int crossing_slot;    // slot of the vehicle that crossing_blocker() found; -1: none
-    double room_m;        // free room in the exit lane for the vehicles that are not checked yet
+    double room_m;        // free room in the exit lane minus the space for the vehicles already checked
     bool is_free;  // true: nothing blocks the connection, and all vehicles of the approach lane fit into the exit
 };
 
@@ -187,7 +188,7 @@ public:
     ConnectionStates(const Model& model, State& state, int vehicles)
         : model_(model), state_(state), ample_room_m_(vehicles * state.plan.max_space_per_vehicle_m() + kRounding_m) {}
 
-    // Returns nullptr if the keep-clear rule does not apply to the connection.
+    // Returns nullptr if the keep-clear rule does not apply to the connection, or if there is no memory for its state.
     ConnectionState* state_of(int connection) {
         if (last_ != nullptr && last_->connection == connection) return last_;
         return last_ = find(connection);
@@ -215,13 +216,14 @@ private:
     double ample_room_m_;                     // room that suffices for all vehicles of the approach lane
     std::array<ConnectionState, 16> states_;  // not initialised, to save time in every step
     std::size_t count_ = 0;
-    // Previous result, because most vehicles take the same connection as their leader.
+    // Result of the previous call of state_of(). Most vehicles take the same connection as their leader.
     ConnectionState* last_ = nullptr;
 };
 
 // Returns true if the vehicle can still stop before the line for the keep-clear rule. It may brake with the highest
 // deceleration of a normal stop, or with the comfortable deceleration if this is higher. A normal stop reaches its
-// highest deceleration only near the end, because the brake lags. The mesoscale mode has no brake lag.
+// highest deceleration only near the end, because the brake lags. The mesoscale mode has no brake lag, so a normal stop
+// needs no response time there.
 bool can_hold_for_keep_clear(const Model& model, const VehicleArrays& v, int slot, double line_m) {
     constexpr double kLagFactor = 1.4;  // ratio of the highest deceleration of a normal stop to `stop.deceleration`
     const CaccSettings& cacc = model.driver.cacc;
@@ -237,7 +239,7 @@ bool can_hold_for_keep_clear(const Model& model, const VehicleArrays& v, int slo
 // Returns the slot of the first vehicle that the keep-clear rule holds before the line; -1: none. Stores the reason in
 // StopLines::held_at_green: the exit lane has no room, or a stopped vehicle blocks the connection.
 int choose_keep_clear_stop(const Model& model, State& state, int index) {
-    constexpr double kDecisionDistance_m = 80.0;  // vehicles further from the stop line are not held
+    constexpr double kDecisionDistance_m = 80.0;  // vehicles further upstream of the line are not held
     const VehicleArrays& v = state.vehicles;
     const double line_m = state.plan.lane(index).stop_line_m;
     const LaneBlock& block = state.blocks[at(index)];
@@ -257,8 +259,8 @@ int choose_keep_clear_stop(const Model& model, State& state, int index) {
     return -1;
 }
 
-// Records the use of the keep-clear rule when it begins to hold a vehicle. `slot`: the vehicle held in this step; -1:
-// none.
+// Records the use of the keep-clear rule when the rule begins to hold a vehicle. `slot`: the vehicle held in this step;
+// -1: none.
 void record_keep_clear_use(const Model& model, const State& state, Partition& part, int index, int slot,
                            StopLineState& line) {
     const VehicleArrays& v = state.vehicles;
@@ -284,10 +286,10 @@ void set_stopper(const Model& model, const State& state, int index, int slot, St
     line.stopping_vehicle = id;
 }
 
-// Makes the vehicle that stops for the signal the leader of the platoon that starts at the next green. If the vehicle
-// stops past the line, each step sets its entry tick to the present tick. The vehicle thus counts as entering the
-// intersection only when the stop ends. If the vehicle is upstream of the line, its entry tick must not change: its
-// rear may still be in the previous intersection, where another thread reads the tick.
+// Marks the vehicle in `slot`, which stops for the signal, as the leader of the platoon that starts at the next green.
+// If the vehicle stops past the line, each step sets its entry tick to the present tick. The vehicle thus counts as
+// entering the intersection only when the stop ends. If the vehicle is upstream of the line, its entry tick must not
+// change: its rear may still be in the previous intersection, where another thread reads the tick.
 void make_platoon_leader(State& state, const LanePlan& lane, int slot) {
     state.vehicles.is_platoon_leader[at(slot)] = 1.0F;
     if (state.vehicles.position_m[at(slot)] > lane.stop_line_m) {
@@ -297,9 +299,9 @@ void make_platoon_leader(State& state, const LanePlan& lane, int slot) {
 
 // Lists the vehicles of an approach lane that will not stop at the line and are near a conflict area.
 void list_approaching(const Model& model, State& state, int index) {
-    // Vehicles within this distance before the lane's end are listed. It covers a comfortable stop from 50 km/h.
+    // Vehicles within this distance before the lane's end are listed. 60 m suffice for a comfortable stop from 50 km/h.
     constexpr double kLookBack_m = 60.0;
-    // This value replaces kLookBack_m on all lanes of imported networks, because some of their roads are faster.
+    // This value replaces kLookBack_m on all lanes of imported networks, because some of their speed limits are higher.
     constexpr double kFastRoadLookBack_m = 160.0;
     const bool has_trips = !model.demand.trips.empty();
     const double look_back_m = has_trips ? kFastRoadLookBack_m : kLookBack_m;
@@ -313,8 +315,8 @@ void list_approaching(const Model& model, State& state, int index) {
         if (next < 0) continue;
         const LanePlan& connection_plan = state.plan.lane(next);
         if (connection_plan.origin != index || connection_plan.bitset_index < 0) continue;
-        // A vehicle with priority needs no decision while all conflicting connections are empty. In imported networks
-        // it may still have to wait, for a vehicle without priority that is too fast to stop.
+        // A vehicle with priority needs no decision while all conflicting connections are empty. In imported networks a
+        // vehicle with priority may still have to wait for a vehicle without priority that is too fast to stop.
         if (!has_trips && !connection_plan.yields && !state.junctions.occupied.has_any(state.plan.conflicting(next)))
             continue;
         double to_area_m = to_end_m + connection_plan.first_conflict_m - model.give_way.margin_m;

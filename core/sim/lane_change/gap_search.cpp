@@ -1,5 +1,5 @@
 // Speed adaptation for mandatory lane changes. Near the stop line a vehicle aligns its speed with a gap in the target
-// lane. If it finds no gap, it stops before the line and waits for one.
+// lane. A vehicle that finds no gap stops before the line and waits for a gap.
 #include "sim/lane_change/gap_search.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kFallBack_mps = 3.0;  // speed difference with which a vehicle falls back behind another vehicle
 constexpr double kMinSpeed_mps = 1.0;  // lowest target speed of a vehicle that falls back
-// Ratio of the target gap to the required gap. It is above 1, because the gap approaches the target gap slowly.
+// Ratio of the target gap to the required gap. This ratio is above 1, because the gap approaches the target gap slowly.
 constexpr double kTargetGapFactor = 1.1;
 // If the follower is slower than the vehicle by more than this speed, the lag gap grows by itself.
 constexpr double kDroppingBack_mps = 0.5;

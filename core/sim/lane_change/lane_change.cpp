@@ -19,13 +19,13 @@ namespace stopline {
 namespace {
 
 constexpr double kDecisionInterval_s = 0.5;  // time between two lane-change decisions of a vehicle
-constexpr double kMinInterval_s = 2.0;       // shortest time from a lane change to the next mandatory one
+constexpr double kMinInterval_s = 2.0;       // shortest time from a lane change to the vehicle's next mandatory change
 // Within this time after a change, a vehicle does not return to its previous lane to gain speed. Otherwise it could
 // change back and forth between adjacent queues that move in turn. The value is our choice.
 constexpr double kReturnPause_s = 30.0;
 
 // Returns the acceleration of the intelligent driver model (Treiber, Hennecke, Helbing 2000), with the desired gap of
-// the policy in place of the term s_0 + v T.
+// the policy in place of the model's own gap s_0 + v T (standstill gap plus speed times time gap).
 double idm_mps2(const Model& model, int policy, double speed_mps, double limit_mps, double gap_m, double ahead_mps) {
     const LaneChangeSettings& c = model.lane_change;
     constexpr double kNoLeader_m = 1e5;
@@ -42,8 +42,8 @@ double follower_mps2(const Model& model, const Neighbour& follower, double limit
     return idm_mps2(model, follower.policy, follower.speed_mps, limit_mps, gap_m, ahead_mps);
 }
 
-// Returns the MOBIL incentive of vehicle `me` for a lane change, m/s2. `here`: its neighbours on its lane. `there`: its
-// neighbours on the target lane.
+// Returns the MOBIL incentive of vehicle `me` for a lane change, m/s2. `here`: the leader and the follower of `me` on
+// its present lane. `there`: those on the target lane.
 double incentive_mps2(const Model& model, const State& state, const LaneChangeRequest& me, const LaneNeighbours& here,
                       const LaneNeighbours& there, bool to_the_right) {
     const LaneChangeSettings& c = model.lane_change;
@@ -241,8 +241,8 @@ private:
         reset_leader(state_.vehicles, slot, state_.blocks[at(other)]);
         reset_leader(state_.vehicles, slot + 1, state_.blocks[at(other)]);
         reset_leader(state_.vehicles, state_.blocks[at(me_.lane)].first + from, state_.blocks[at(me_.lane)]);
-        // The vehicle that has just changed may be ahead of the vehicle chosen to stop at the line. The choice is
-        // therefore made again.
+        // The vehicle that has changed lanes may be ahead of the vehicle chosen to stop at the line.
+        // decide_stop_lines() therefore chooses again.
         state_.stop_lines.lines[at(other)].stopping_vehicle = -1;
         state_.records.lane_changes.push_back(
             {model_.time_s(state_.tick + 1), id, me_.lane, other, static_cast<float>(me_.front_m), for_route});

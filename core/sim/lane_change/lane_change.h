@@ -6,8 +6,8 @@
 // the stop line it aligns its speed with a gap. If it finds no gap, it stops before the line and waits for one.
 //
 // Discretionary changes serve the speed. They follow MOBIL (Kesting, Treiber, Helbing 2007, "General lane-changing
-// model MOBIL for car-following models"). A vehicle changes if the other lane allows a higher acceleration, computed
-// with the intelligent driver model and the gap of the policy.
+// model MOBIL for car-following models"). A vehicle changes if the other lane allows a higher acceleration. The
+// intelligent driver model with the gap of the policy gives the accelerations.
 #pragma once
 
 #include "sim/perception/lane_gaps.h"
@@ -35,7 +35,7 @@ struct LaneChangeRequest {
 LaneChangeRequest lane_change_request(const Model& model, const State& state, int lane, int slot);
 
 // Returns the argument `share` of required_gap_m() for a mandatory change. Near the stop line a change is more urgent,
-// so vehicles accept a smaller share of their policy's gap there.
+// so vehicles accept a smaller part of their policy's gap there.
 double urgent_share(const Model& model, double to_line_m);
 
 // Returns the position where a vehicle waits before the stop line to change lanes, m from the start of the lane.

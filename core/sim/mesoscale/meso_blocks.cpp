@@ -42,10 +42,11 @@ void update_queue(const VehicleArrays& v, const LaneBlock& block, std::int64_t t
 // Tells stopped vehicles of a queue by V2V that the vehicle ahead of the queue has started. Returns the number of
 // vehicles that receive this start message. A vehicle forwards the message before it moves, so the message reaches
 // several vehicles in one step. The relay ends at the first vehicle whose policy has a time gap, because this vehicle
-// starts later. The messages are only stored here, because other lanes still read the state. step_meso() applies them.
+// starts later. This function only stores the messages, because the decisions for other lanes still read the
+// accelerations. step_meso() applies the messages.
 int relay_start(const Model& model, const VehicleArrays& v, const LaneBlock& block, StandingQueue& queue,
                 std::vector<StartMessage>& messages) {
-    constexpr double kClosedUp_m = 0.5;  // the relay ends at a vehicle whose gap exceeds its desired gap by more
+    constexpr double kClosedUp_m = 0.5;  // the relay ends at a vehicle whose gap exceeds the desired gap by more
     if (queue.first == 0) return 0;
     const std::size_t last_started = at(block.first + queue.first - 1);
     const float relayed_mps2 = v.acceleration_mps2[last_started];
@@ -93,7 +94,7 @@ public:
             return add_blocks(first + queue.end, block_.past_last());
         }
         if (is_near_end()) part_.lanes_near_end.push(lane_);
-        // Removes the cap that held the vehicle while the lane slept.
+        // Removes the cap that held the first vehicle while the lane slept.
         v_.speed_cap_mps[at(first)] = kUnlimitedSpeed_mps;
         cap_aligning_vehicles();
         if (last_stopping_slot() > first + queue.first) queue.last_external_tick = state_.tick;
@@ -106,7 +107,8 @@ public:
         }
         if (queue.first == 0 && queue.end > 0 && waits_only_for_signal()) {
             sleep_group = state_.plan.signal_group_for(lane_, v_.next_lane[at(first)]);
-            // The kernels also compute this vehicle if another vehicle of its block moves. The cap keeps it at rest.
+            // The kernels also compute the first vehicle if another vehicle of its block moves. A cap of 0 keeps it at
+            // rest.
             v_.speed_cap_mps[at(first)] = 0.0;
             return add_blocks(first + queue.end, block_.past_last());
         }
@@ -136,8 +138,8 @@ private:
         const double braking_step_mps = GapAlignment::kDeceleration_mps2 * model_.step_s;
         for (const GapAlignment& alignment : state_.gap_alignments[at(lane_)]) {
             const double speed_mps = v_.speed_mps[at(alignment.slot)];
-            // Sets no cap for a vehicle at rest. All caps set here are removed after the step, and the cap that holds
-            // the first vehicle of a sleeping lane must remain.
+            // Sets no cap for a vehicle at rest. cap_speed() sets a cap for one step only, and the cap that holds the
+            // first vehicle of a sleeping lane must remain.
             if (speed_mps > 0.0)
                 cap_speed(alignment.slot, std::max(alignment.target_speed_mps, speed_mps - braking_step_mps));
         }

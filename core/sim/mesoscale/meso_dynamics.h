@@ -11,7 +11,7 @@
 namespace stopline {
 
 // Returns the highest speed for the next step from which the vehicle in `slot` can still stop comfortably within
-// `room_m`. The speed does not fall faster than with maximum braking.
+// `room_m`. The result is at least the speed after one step of maximum braking.
 double stopping_speed_mps(const Model& model, const VehicleArrays& v, int slot, double room_m);
 
 // Returns the speed for the next step of a vehicle without a leader. The speed approaches `limit_mps` times

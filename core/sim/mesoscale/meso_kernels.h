@@ -28,7 +28,7 @@ struct MesoStep {
     double approach_share;  // below the speed limit, a vehicle gains this share of (limit - speed) in a step
     double turn_share;      // before a turn, a vehicle gains this share of (allowed speed - speed) in a step
     double leader_mps2;     // acceleration of platoon leaders; 0: acceleration of the vehicle's policy
-    double leader_constant_power_speed_mps;  // above this speed leader_mps2 falls as 1 / v
+    double leader_constant_power_speed_mps;  // above this speed, leader_mps2 falls as 1 / speed
     // Acceleration of platoon leaders by speed. If it is not nullptr, the kernels ignore leader_mps2 and
     // leader_constant_power_speed_mps.
     const LeaderProfile* leader_profile;

@@ -162,7 +162,7 @@ template <class R, bool kInstantSlowdown>
 STOPLINE_INLINE R allowed_mps(const MesoStreams& s, const MesoStep& t, int i, const R& position, const R& speed) {
     const R here_mps = min_of(approach_limit(speed, get<R>(s.limit + i), t.approach_share), get<R>(s.speed_cap + i));
     if (!any_differs<R>(s.end_speed + i, kNoLowerLimit_mps)) return here_mps;
-    // Braking before a lower speed limit at the end of the lane: v^2 = v_end^2 + 2 b distance.
+    // Deceleration b before a lower speed limit v_end at the end of the lane: v^2 = v_end^2 + 2 b distance.
     const R end_mps = get<R>(s.end_speed + i);
     const R to_next_limit_m = max_of(R(get<R>(s.next_limit + i) - position), R(0.0));
     const R allowed_before_turn_mps = square_root(end_mps * end_mps + 2.0 * t.slow_down_mps2 * to_next_limit_m);
@@ -225,9 +225,8 @@ STOPLINE_INLINE R platoon_leader_acceleration_mps2(const MesoStep& t, const R& s
 }
 
 // Computes the next speeds of platoon leaders. Returns these speeds, and `next` for all other vehicles. All platoon
-// leaders have the same acceleration, whatever their policy. A platoon leader becomes a follower when its next speed
-// is above 0 and the safe speed behind the vehicle ahead is lower than its free speed. It does not become a follower
-// while it stands.
+// leaders have the same acceleration, whatever their policy. A platoon leader becomes a follower when two conditions
+// hold: its next speed is above 0, and its safe speed behind the vehicle ahead is lower than its speed in free driving.
 // `foreseen_mps`: result of anticipated_safe_speed_mps(). `next`: next speeds of the vehicles as followers.
 // `has_policy`: 1 for vehicles with the policy of model `k`, else 0.
 template <class R, class Model>

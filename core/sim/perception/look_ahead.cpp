@@ -97,8 +97,9 @@ LeaderAhead ahead_on_trip(const State& state, int lane, double position_m, const
 }
 
 // Returns the nearest vehicle ahead on a route: the last vehicle of the first occupied lane from lane `index` on.
-// `position_m`: position of the vehicle whose leader is searched, on its own lane. `start_m`: start of lane `index`,
-// from the start of this own lane. Lanes that start more than `range_m` from `position_m` are ignored.
+// `position_m`: position of the vehicle whose leader is searched, on its present lane. `start_m`: distance from the
+// start of this present lane to the start of lane `index`. Lanes that start more than `range_m` from `position_m` are
+// ignored.
 STOPLINE_INLINE LeaderAhead last_vehicle_on(const State& state, std::span<const int> route, std::size_t index,
                                             double start_m, double position_m, double range_m) {
     for (std::size_t k = index; k < route.size(); ++k) {

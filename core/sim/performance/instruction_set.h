@@ -1,5 +1,5 @@
-// The kernels are compiled for several instruction sets. Chooses the version with the widest vectors that the processor
-// supports.
+// The kernels are compiled for several instruction sets. widest_of() returns the version with the widest vectors that
+// the processor supports.
 #pragma once
 
 namespace stopline {

@@ -28,7 +28,8 @@ STOPLINE_INLINE void prefetch_vehicle(const VehicleArrays& v, int slot) {
     prefetch(v.id, slot);
 }
 
-// Prefetches the first and the last vehicle of a lane.
+// Prefetches the last vehicle of a lane. For an awake lane, also prefetches the first vehicle and the vehicles that the
+// decisions at the stop line read.
 STOPLINE_INLINE void prefetch_lane_ends(const State& state, int lane) {
     const VehicleArrays& v = state.vehicles;
     const LaneBlock& block = state.blocks[at(lane)];
@@ -107,7 +108,8 @@ void list_cache_lines(const Model& model, State& state, Partition& part) {
 void begin_prefetch(State& state, std::size_t number, std::size_t end) {
     PrefetchProgress& progress = state.partitions[number].prefetch;
     progress = {};
-    // With fewer vehicles all data stay in the third-level cache, and prefetching would cost more than it saves.
+    // With fewer than kMinVehicles vehicles, all data stay in the third-level cache, and prefetching would cost more
+    // than it saves.
     constexpr int kMinVehicles = 30000;
     if (state.present() < kMinVehicles) return;
     if (number + 1 < end) progress.next = &state.partitions[number + 1];

@@ -1,5 +1,5 @@
 // Decides whether the next step uses one thread or all threads. If other programs use the processors, threads that wait
-// for each other are much slower than a single thread. The results of a step are the same in both cases.
+// for each other are much slower than a single thread. The results of a step do not depend on this choice.
 //
 // A trial times some steps with one thread, then some steps with all threads. The faster choice is kept until the next
 // trial. The pause between two trials is so long that trials take only a small share of the run time.

@@ -32,8 +32,8 @@ struct DelayWatch {
     std::vector<int> queue_head;  // [slot] slot of the first vehicle of the queue in which the vehicle is stopped
     std::vector<int> lane;        // [slot] lane of the vehicle, also for moving vehicles
     std::vector<int> vehicle;     // [slot] id of the vehicle, also for moving vehicles
-    // [slot] find_causes() numbers the chains of waiting vehicles from 1. This is the number of the chain in which it
-    // visited the vehicle; 0: not visited yet.
+    // [slot] find_causes() follows chains: from a waiting vehicle to its blocker, to the blocker of the blocker, and so
+    // on. The chains are numbered from 1. This is the number of the chain that contains the vehicle; 0: none yet.
     std::vector<int> traversal;
     std::vector<int> path;                   // slots of the vehicles in the chain that find_causes() follows at present
     std::vector<int> stopped_slots;          // slots of all stopped vehicles
@@ -47,7 +47,8 @@ struct DelayWatch {
 struct CongestionState {
     LaneBlock teleporting;                         // slots of vehicles that were removed and are not reinserted yet
     std::vector<TeleportTarget> teleport_targets;  // target of each vehicle in `teleporting`, in the same order
-    std::int64_t missed_turns = 0;  // vehicles on trips that reached the intersection in a lane without their turn
+    // Number of times that a vehicle on a trip has reached an intersection on a lane that does not allow its turn.
+    std::int64_t missed_turns = 0;
     DelayLog delays;
     DelayWatch watch;
 };

@@ -7,8 +7,8 @@
 
 namespace stopline {
 
-// The cause of the delay of a stopped vehicle (Section VI.A of the paper, situations 1 to 3). A vehicle in a queue has
-// the cause that stops the first vehicle of the queue.
+// The cause of the delay of a stopped vehicle. Situations 1 to 3 are those of Massow, Radusch and Shorten (2021),
+// Section VI.A. A vehicle in a queue has the cause that stops the first vehicle of the queue.
 enum class DelayCause : std::uint8_t {
     none,               // the vehicle is moving
     signal,             // the vehicle waits at a red or yellow signal
@@ -24,8 +24,8 @@ inline constexpr std::array<const char*, 9> kDelayCauseNames{
     "none",      "signal",   "yielding",   "junction_blocking", "turn_blocking",
     "spillback", "gridlock", "wrong_lane", "queue_discharge"};
 
-// Returns true if the cause is a blocked junction or lane. Signals, yielding and queue discharge delay vehicles even if
-// nothing is blocked.
+// Returns true if the cause is a blockage: a blocked junction, a full exit lane, a gridlock, or a vehicle that waits on
+// the wrong lane and blocks it. Signals, yielding and queue discharge delay vehicles even if nothing is blocked.
 inline bool is_blocking(DelayCause cause) {
     return cause >= DelayCause::junction_blocking && cause != DelayCause::queue_discharge;
 }
@@ -40,18 +40,18 @@ struct DelayEpisode {
     int blocker = -1;       // id of the vehicle for which `vehicle` waited when the episode began; -1: none
     int blocker_lane = -1;  // lane of the blocker when the episode began
     double from_s = 0.0;
-    double to_s = 0.0;         // time of the last observation
-    int current_vehicles = 0;  // delayed vehicles at the last observation
+    double to_s = 0.0;         // time of the latest observation
+    int current_vehicles = 0;  // delayed vehicles at the latest observation
     int max_vehicles = 0;
     double delay_s = 0.0;  // total delay, vehicle seconds
 };
 
 // A cycle of vehicles in which each vehicle waits for the next one. If a cycle with at least one of the same vehicles
-// is observed again within the duration of a signal cycle, it is the same gridlock.
+// is observed again within the duration of a signal cycle, it counts as the same gridlock.
 struct Gridlock {
     double from_s = 0.0;        // time of the first observation
-    double to_s = 0.0;          // time of the last observation
-    std::vector<int> vehicles;  // ids at the last observation, lowest id first; each vehicle waits for the next one
+    double to_s = 0.0;          // time of the latest observation
+    std::vector<int> vehicles;  // ids at the latest observation, lowest id first, then in the order of the cycle
     std::vector<int> lanes;     // lane of each vehicle
 };
 

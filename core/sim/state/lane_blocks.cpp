@@ -26,7 +26,7 @@ int max_vehicles(const Model& model, const Lane& lane) {
 
 // Full dynamics: if the first vehicle of a lane is in the first slot of the block, the vehicles are aligned to a cache
 // line. Up to kMaxShifted vehicles are therefore shifted to the start of the block whenever a vehicle leaves the lane.
-// More vehicles are shifted only when they have reached the end of the block.
+// A larger number of vehicles is shifted only when these vehicles have reached the end of the block.
 constexpr int kMaxShifted = 64;
 
 // Moves the vehicles of a block to the start of the block.
@@ -42,11 +42,11 @@ int capacity_for(int vehicles) { return vehicles + 2 + vehicles / 4; }
 // Returns the number of free slots before the block of a lane. One slot is for the sentinel, the copy of the leader
 // downstream of the lane. The first lane of a partition (a group of whole intersections) has a whole batch of free
 // slots. The kernels of the previous partition, perhaps in another thread, write whole batches beyond their last
-// vehicle. Thanks to the free slots they cannot write over vehicles of this partition.
+// vehicle. Thanks to the free slots these kernels cannot overwrite vehicles of this partition.
 int slots_before(const Partition& part, int lane) { return lane == part.lanes.front() ? kSimdWidth : 1; }
 
-// Lays out the blocks of all lanes again and wakes all lanes. `expected`: see reserve_blocks(). If it is empty, the
-// blocks must hold the present vehicles only.
+// Lays out the blocks of all lanes again and wakes all lanes. `expected`: see reserve_blocks(). If `expected` is empty,
+// the blocks must hold only the present vehicles.
 void repack(State& state, const std::vector<int>& expected) {
     const auto capacity_of = [&](int lane) {
         return capacity_for(std::max(state.blocks[at(lane)].count, expected.empty() ? 0 : expected[at(lane)]));
@@ -60,7 +60,7 @@ void repack(State& state, const std::vector<int>& expected) {
     slots += kSimdWidth;
     if (slots > state.vehicles.slots) state.vehicles.grow(slots + slots / 4);
     // First move all vehicles to the front of the arrays. Then distribute the blocks, from the last one to the first,
-    // so that no block overwrites vehicles of another one.
+    // so that no block overwrites vehicles of another block.
     int next = kSimdWidth;
     const auto pack = [&](LaneBlock& block) {
         block.begin = next;
@@ -116,7 +116,7 @@ void allocate_lane_blocks(const Model& model, State& state) {
     if (model.rules.teleport_ticks > 0 || !model.demand.trips.empty()) {
         append(state.congestion.teleporting, rounded_up(64 + lanes));
     }
-    slots = rounded_up(slots) + kSimdWidth;  // the last batch of a block can reach beyond its end
+    slots = rounded_up(slots) + kSimdWidth;  // the last batch of a block can reach beyond the block's end
     state.vehicles.resize(slots, model.radar.rows, model.v2v.rows);
 }
 
@@ -207,7 +207,8 @@ void mark_occupied(State& state, int lane) {
     }
 }
 
-// Wakes a lane and dissolves its standing queue. Must be called after the order of its vehicles has changed.
+// Wakes a lane and dissolves its standing queue (QueueState). Must be called after the order of its vehicles has
+// changed.
 void wake(State& state, int lane) {
     state.queues.sleeps_until_green[at(lane)] = -1;
     state.queues.standing[at(lane)] = {0, 0, state.tick};

@@ -22,8 +22,8 @@ struct CompiledPolicy {
 };
 
 // The time lag of a sensor or of V2V messages. It is realised by storing samples of past steps. The delayed value is
-// interpolated between the sample `steps` steps ago and the next older one. The lag thus need not be a whole number of
-// steps.
+// interpolated between the sample of `steps` steps ago and the sample of one step before that. The lag thus need not be
+// a whole number of steps.
 struct DelayLine {
     int steps = 0;       // number of whole steps in the delay
     double share = 0.0;  // weight of the older sample

@@ -17,7 +17,7 @@
 
 namespace stopline {
 
-// The permission to pass a blocker that has been stopped inside an intersection for long.
+// The permission to pass a blocker that has been stopped inside an intersection for a long time.
 struct BlockerPass {
     int vehicle = -1;                        // id of the vehicle that may pass
     int blocker = -1;                        // id of the blocker
@@ -26,8 +26,8 @@ struct BlockerPass {
     bool begun = false;                      // true: both vehicles have been in one conflict area at the same time
 };
 
-// The decision between two stopped vehicles that wait for each other and have no priority over each other. One
-// proceeds, the other yields.
+// The decision between two stopped vehicles that wait for each other and have no priority over each other. One vehicle
+// proceeds, the other vehicle yields.
 struct DeadlockResolution {
     int proceeds = -1;                  // id of the vehicle that proceeds
     int yields = -1;                    // id of the vehicle that yields
@@ -40,16 +40,16 @@ struct Partition;
 struct PrefetchProgress {
     const Partition* next = nullptr;    // the next partition; nullptr: no prefetching
     const Partition* second = nullptr;  // the partition after `next`; nullptr: none
-    std::size_t lane = 0;               // number of prefetched lanes of `next`; first its occupied lanes, then exits
+    std::size_t lane = 0;               // number of prefetched lanes of `next`: first occupied lanes, then exit lanes
     std::size_t line = 0;               // number of prefetched cache lines of `second`
 };
 
 // The V2V message by which a stopped vehicle learns that the queue ahead of it starts. The acceleration in the message
-// replaces the acceleration of the receiver. This happens only after all decisions of the step, because other lanes
-// read the old value for them.
+// replaces the acceleration of the receiver. This happens only after all decisions of the step, because the decisions
+// for other lanes read the old value.
 struct StartMessage {
     int slot;                 // slot of the receiver
-    float acceleration_mps2;  // acceleration of the vehicle just ahead of the stopped vehicles; it has already started
+    float acceleration_mps2;  // acceleration of the vehicle that has just started ahead of the stopped vehicles
 };
 
 // Full dynamics: the acceleration that a hidden leader (sim/perception/hidden_leaders.h) demands of the vehicle in
@@ -65,7 +65,7 @@ struct Partition {
     // The bits of `connections` are in words [first_word, end_word) of JunctionState bitsets.
     std::size_t first_word = 0;
     std::size_t end_word = 0;
-    std::vector<int> exits;      // exit lanes of `connections`; a lane is in this list of one partition only
+    std::vector<int> exits;      // exit lanes of `connections`; only one partition lists each exit lane
     std::vector<int> detectors;  // indices of the detectors on `lanes`
     // Lanes that may be occupied: a vehicle has entered the lane, and no step has found the lane empty since then.
     Bitset occupied_candidates;  // [index in `lanes`]

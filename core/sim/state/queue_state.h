@@ -15,7 +15,7 @@ struct StandingQueue {
     // The latest tick at which a vehicle was inserted into the lane, or at which a vehicle of the queue other than the
     // first one had to stop for a reason other than its leader.
     std::int64_t last_external_tick = -1;
-    int released = 0;  // vehicles with a lower index may have moved in the previous step because of a start message
+    int released = 0;  // vehicles with a lower index may have moved in the previous step after a StartMessage
 };
 
 struct QueueState {

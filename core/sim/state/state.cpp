@@ -41,7 +41,7 @@ std::vector<Partition> make_partitions(const Model& model, const State& state, i
     double longest_m = 0.0;
     for (const int lane : order) total_m += length_of(lane), longest_m = std::max(longest_m, length_of(lane));
     // The lanes and vehicles of one intersection take about 20 kB. The data of a partition and the prefetched data of
-    // the next ones should fit into the second-level cache together.
+    // the next partitions should fit into the second-level cache together.
     const int intersections_a_partition = model.meso ? 8 : 16;
     const int count = std::max(threads, state.plan.intersection_count() / intersections_a_partition);
     std::vector<std::vector<int>> detectors(order.size());
@@ -72,8 +72,8 @@ std::vector<Partition> make_partitions(const Model& model, const State& state, i
         if (!is_exit[at(exit)]) part.exits.push_back(exit);
         is_exit[at(exit)] = true;
     }
-    // Lanes are added to a lane group until the group has kGroupVehicles vehicles. The lane added last can exceed this
-    // number by as many vehicles as fit on the lane.
+    // Lanes are added to a lane group until the group has kGroupVehicles vehicles. The lane added last can make the
+    // group larger by as many vehicles as fit on this lane.
     const int group_vehicles =
         Partition::kGroupVehicles + static_cast<int>(longest_m / shortest_vehicle_m(model)) + 2 * kSimdWidth;
     for (Partition& part : partitions) {

@@ -25,8 +25,8 @@ struct KeepClearHold {
 struct ExitRoom {
     std::int64_t tick = -1;  // tick of the step for which the values are valid
     // Only vehicles within RulesPlan::sight_m of the start of the lane are considered. The free length ends at the
-    // stopped vehicle furthest upstream. The space that the moving vehicles upstream of it need is subtracted. If the
-    // signal at the end of the lane is red, moving vehicles can count as already stopped there
+    // stopped vehicle furthest upstream. The space that the moving vehicles upstream of this vehicle need is
+    // subtracted. If the signal at the end of the lane is red, moving vehicles can count as already stopped there
     // (RulesPlan::count_queue_at_red_exit). 1e9: no considered vehicle is stopped or counts as stopped.
     double room_m = 1e9;
     // Slot of the stopped vehicle at which the free length ends. If all vehicles move but count as stopped at a red

@@ -78,7 +78,8 @@ void Simulation::decide(Partition& part) {
 }
 
 // Moves the partitions from the last to the first. The data of the last partitions are still in the cache after
-// decide(). The data of the first partitions are then in the cache when the next step begins with them.
+// decide(). After move() the data of the first partitions are in the cache, and decide() of the next step begins with
+// these partitions.
 void Simulation::move(int thread, int threads) {
     const Share share = share_of(state_.partitions.size(), thread, threads);
     for (std::size_t k = share.end; k-- > share.begin;) move(state_.partitions[k]);

@@ -14,7 +14,7 @@ namespace stopline {
 namespace {
 
 // Handles a vehicle on a trip that has reached the end of a lane without a connection for its turn. Teleports the
-// vehicle past the intersection. If that is impossible, stops it at the end of the lane.
+// vehicle past the intersection. If teleporting is impossible, stops the vehicle at the end of the lane.
 void miss_turn(const Model& model, State& state, int lane) {
     ++state.congestion.missed_turns;
     if (remove_for_teleport(model, state, lane)) return;

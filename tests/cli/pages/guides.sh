@@ -9,12 +9,12 @@ set -u
 guides=(README.md scenarios/README.md scenarios/SWEEPS.md scenarios/CALIBRATION.md scenarios/SUMO.md data/paper/README.md
     data/README.md core/README.md tests/README.md)
 
-# can_run PROGRAM: PROGRAM is installed, and for mpirun the programs are built with MPI
+# can_run PROGRAM: succeeds if PROGRAM is installed; for mpirun the programs must also be built with MPI
 can_run() {
     command -v "$1" >/dev/null && { [ "$1" != mpirun ] || ldd "$STOPLINE_BIN/stopline-sweep" | grep -q libmpi; }
 }
 
-# run_guide GUIDE: runs its blocks, in order, in a folder that looks like the project after the build
+# run_guide GUIDE: runs the marked blocks of GUIDE, in order, in a folder that looks like the project after the build
 run_guide() {
     local guide=$1 folder="$work/run/$1" blocks="$work/blocks/$1" block
     [ -s "$STOPLINE_SOURCE/$guide" ] || { fail "$guide is missing"; return; }

@@ -48,7 +48,7 @@ same_report() {
     bytes_of "$2" | cmp - "$work/expected" || fail "$1: the report differs"
 }
 
-# A second call repeats no job. The page has the same bytes.
+# A second call with the same folder repeats no job, and its page has the same bytes.
 report "$work/whole" --threads 1 >"$work/stdout" || fail "again: exit code $?"
 [ "$(grep -c "done before" "$work/stdout")" -eq 2 ] || fail "again: jobs were repeated: $(cat "$work/stdout")"
 same_report "again" "$work/whole"
@@ -71,7 +71,7 @@ for ms in 50 200 400 800 1200 1600; do
 done
 mkdir -p "$work/killed/figures" "$work/killed/runs_reduced/startup"
 sleep 0 &
-wait $!  # no process has this number now
+wait $!  # now no process has this number
 touch "$work/killed/figures/.fig05_counters.svg.$!.part" "$work/killed/runs_reduced/startup/.startup.csv.$!.part"
 report "$work/killed" >/dev/null || fail "after kills: exit code $?"
 find "$work/killed" -name '.*.part' | grep -q . && fail "partial files of killed programs are left: $(find "$work/killed" -name '.*.part')"

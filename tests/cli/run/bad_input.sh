@@ -30,7 +30,7 @@ refused() {
     done
 }
 
-# refused_text CASE TEXT PART...: the same for a scenario file with this TEXT
+# refused_text CASE TEXT PART...: does the same as refused, for a scenario file with this TEXT
 refused_text() {
     local case_name=$1 text=$2
     shift 2

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Tests --old-column-names: it writes tables with the names of the last release and warns. The numbers are the same.
+# Tests --old-column-names: it writes tables with the names of the previous release and warns. The numbers are the same.
 set -u
 
 . "$STOPLINE_SOURCE/tests/tools/cli.sh"

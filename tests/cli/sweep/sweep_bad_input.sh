@@ -28,7 +28,7 @@ refused() {
     done
 }
 
-# refused_text CASE TEXT PART...: the same for a sweep file with this TEXT
+# refused_text CASE TEXT PART...: does the same as refused, for a sweep file with this TEXT
 refused_text() {
     local case_name=$1 text=$2
     shift 2
@@ -36,7 +36,7 @@ refused_text() {
     refused "$case_name" "$@" -- "$work/bad.yaml"
 }
 
-# refused_axis CASE AXIS PART...: the same for a sweep with one AXIS, in line 3 of the file
+# refused_axis CASE AXIS PART...: does the same as refused, for a sweep with one AXIS, in line 3 of the file
 refused_axis() {
     local case_name=$1 axis=$2
     shift 2

@@ -46,7 +46,7 @@ done
 ranks 3 "$work/ranks3" --seed 2 >/dev/null 2>"$work/stderr" && fail "a changed seed is accepted"
 grep -q "has changed since" "$work/stderr" || fail "changed seed: $(cat "$work/stderr")"
 
-# kill_a_rank FOLDER: kills the last rank of a running sweep; it works on runs and does not own the store
+# kill_a_rank FOLDER: kills the last rank of a running sweep; this rank executes runs and does not own the store
 kill_a_rank() {
     local victim=""
     for _ in $(seq 50); do

@@ -1,4 +1,4 @@
-// Ids and tables in HTML.
+// Tests of ids and tables in HTML.
 #include "paper/report/html.h"
 
 #include <gtest/gtest.h>

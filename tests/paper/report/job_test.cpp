@@ -39,7 +39,7 @@ TEST(JobList, OfASectionIncludesTheJobsThatItComparesWith) {
     EXPECT_EQ(sections, (std::set<std::string>{"IV", "VI"}));  // Fig. 23 compares with Section IV
 }
 
-// A new experiment needs a job that measures it. Add the job and the name in this list.
+// If this test fails after a new experiment, add a job that measures the experiment, and add its name to this list.
 TEST(JobList, CoversTheExperimentsOfTheScorecard) {
     const std::set<std::string> measured_by_jobs{"single_light_inputs",
                                                  "single_light",

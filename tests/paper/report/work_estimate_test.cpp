@@ -34,7 +34,7 @@ TEST(WorkEstimate, AdaptsToASlowMachine) {
     EXPECT_NEAR(estimate.remaining_s(3000.0), 3000.0, 100.0);
 }
 
-// A job that takes longer than expected says little about the others.
+// A job that takes longer than expected says little about the other jobs.
 TEST(WorkEstimate, CorrectsMostlyTheCurrentJob) {
     WorkEstimate estimate({100.0, 900.0}, 1);
     estimate.begin(0, 0.0);
@@ -44,7 +44,7 @@ TEST(WorkEstimate, CorrectsMostlyTheCurrentJob) {
     EXPECT_LT(remaining_s, 1000.0 * 4.5);
 }
 
-// Work of earlier sessions counts neither as work of this session nor as a sign of its speed.
+// The estimate counts work of earlier sessions neither as work of this session nor as a sign of this session's speed.
 TEST(WorkEstimate, ExcludesWorkOfEarlierSessions) {
     WorkEstimate estimate({500.0, 100.0, 100.0}, 1);
     estimate.skip(0);
@@ -58,7 +58,8 @@ TEST(WorkEstimate, ExcludesWorkOfEarlierSessions) {
     EXPECT_NEAR(estimate.remaining_s(5.0), 105.0, 1e-9);
 }
 
-// The reported share can drop when a later part of the job has less stored. The estimate must not drop.
+// The share that a job reports can drop when the job reaches a part with fewer stored results. The estimate must not
+// drop.
 TEST(WorkEstimate, NeverDecreases) {
     WorkEstimate estimate({100.0}, 1);
     estimate.begin(0, 0.0);

@@ -29,7 +29,7 @@ inline constexpr double kZones_m[] = {94.0, 40.0};
 // Times and position of one vehicle. Positions are those of the front along the whole route.
 struct Trip {
     int entry = 0;
-    char from = ' ', to = ' ';  // legs
+    char from = ' ', to = ' ';  // legs of entry and exit
     double front_m = 0.0;
     double line_s = kNotYet_s;  // passage of the stop line
     double exit_s = kNotYet_s;  // passage of the end of the junction

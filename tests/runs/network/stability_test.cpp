@@ -15,7 +15,8 @@ NetworkResult small_grid(std::vector<std::string> overrides) {
     return run_network(load_scenario(STOPLINE_SOURCE_DIR "/scenarios/grid.yaml", overrides), 2);
 }
 
-// The keep-clear rule holds each street around a block for the next one. The streets have green one after the other.
+// Because of the keep-clear rule, vehicles on each street around a block wait for the queue on the next street of the
+// block. The streets have green one after the other.
 TEST(Stability, GridlockAroundABlockIsFoundDuringAnyGreen) {
     const double cycle_s = 2.0 * (20.0 + 8.0);
     const NetworkResult result =
@@ -31,8 +32,8 @@ TEST(Stability, GridlockAroundABlockIsFoundDuringAnyGreen) {
     EXPECT_LE(*result.collapse_s, first.from_s + 6.0 * cycle_s);
 }
 
-// Without rules all vehicles stop before throughput reaches a steady state, so there is no level from which it could
-// drop.
+// Without traffic rules all vehicles stop before throughput reaches a steady state. The run counts as unstable,
+// although there is no steady level from which throughput drops.
 TEST(Stability, NetworkAtRestIsUnstable) {
     const NetworkResult result =
         small_grid({"rules={}", "duration=1500 s", "measure={area_margin: 20 m, window: 300 s}"});
@@ -41,7 +42,7 @@ TEST(Stability, NetworkAtRestIsUnstable) {
     EXPECT_TRUE(result.collapse_s.has_value());
 }
 
-// measure.interval only sets the resolution of the series.
+// measure.interval only sets the resolution of the series, so it must not change the verdict on stability.
 TEST(Stability, DoesNotDependOnTheInterval) {
     const std::vector<std::string> unstable_run{"rules={keep_clear: on}", "duration=2000 s"};
     std::vector<NetworkResult> runs;

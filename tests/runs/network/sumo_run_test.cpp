@@ -89,7 +89,7 @@ TEST(SumoRun, RightOfWayFollowsTheRequestMatrix) {
     const double alone_s = first_arrival_s(scenario_of(crossing_net(), minor), "n_out_1", 150.0);
     EXPECT_NEAR(alone_s, 20.0 + 205.0 / 13.89, 3.0);
     EXPECT_GT(first_arrival_s(scenario_of(crossing_net(), stream + minor), "n_out_1", 150.0), 95.0);
-    // With the reversed matrix the major stream must yield.
+    // With the reversed request matrix the major stream must yield.
     std::string reversed =
         testing::replaced(crossing_net(), "index=\"0\" response=\"1110\"", "index=\"0\" response=\"0000\"");
     reversed = testing::replaced(reversed, "index=\"1\" response=\"0000\"", "index=\"1\" response=\"0001\"");
@@ -119,8 +119,8 @@ TEST(SumoRun, VehicleExitsAtTheEndOfItsRouteDespiteRed) {
     EXPECT_TRUE(f.violations.none());
 }
 
-// On an edge shorter than a truck, the truck still occupies its connection. Yielding vehicles must also see vehicles
-// that approach across this edge.
+// The rear of a truck on an edge shorter than the truck still occupies the connection to this edge. Yielding vehicles
+// must also see vehicles that approach across this edge.
 TEST(SumoRun, VehiclesYieldAcrossShortEdges) {
     const std::string traffic =
         R"(<vType id="truck" length="12"/>
@@ -152,8 +152,8 @@ TEST(SumoRun, VehiclesYieldToArrivalsAcrossAnEmptyShortEdge) {
     }
 }
 
-// Each left-turning vehicle yields to oncoming traffic. It must not wait for vehicles stopped behind the opposing
-// left-turning vehicle, because both would wait forever.
+// Each left-turning vehicle yields to oncoming traffic. It must not yield to vehicles that are stopped behind the
+// opposing left-turning vehicle. Otherwise both left-turning vehicles would wait forever.
 TEST(SumoRun, OpposingLeftTurnsDoNotBlockEachOther) {
     const Scenario scenario = scenario_of(testing::opposing_lefts_net(),
                                           R"(<flow id="wl" from="w" to="to_n" period="12" end="240" departSpeed="max"/>

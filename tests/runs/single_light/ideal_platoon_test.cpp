@@ -21,8 +21,8 @@ GapPolicySettings policy(const std::string& law, double time_gap_s) {
     return settings;
 }
 
-// The leader drives at speed v from the start. A follower with the gap s0 + h v has the speed v (1 - exp(-t / h)), and
-// the k-th follower lags behind by k such terms. In the end the headway is (length + s0 + h v) / v.
+// The leader drives at speed v from the start. With standstill gap s0 and time gap h, its follower drives at the speed
+// v (1 - exp(-t / h)). The k-th follower passes through k such lags. Later the headway is (length + s0 + h v) / v.
 TEST(IdealPlatoon, TimeGapActsAsAChainOfLags) {
     const GapPolicySettings time_gap = policy("constant_time", 0.87);
     const double v = 12.0;
@@ -33,7 +33,7 @@ TEST(IdealPlatoon, TimeGapActsAsAChainOfLags) {
         ideal_passages_s(leader, {&time_gap, &time_gap, &time_gap}, kLength_m, line_m, 60.0);
     ASSERT_EQ(times_s.size(), 3U);
     EXPECT_NEAR(times_s[0], line_m / v, 1e-9);
-    // Each lag costs a distance of v h until the follower has reached v. Fronts are then length + s0 + h v apart.
+    // Each lag costs a follower the distance v h until it has reached v. Later fronts are length + s0 + h v apart.
     const double headway_s = (kLength_m + time_gap.standstill_gap_m + h * v) / v;
     EXPECT_NEAR(times_s[1] - times_s[0], headway_s, 2e-3);
     EXPECT_NEAR(times_s[2] - times_s[1], headway_s, 2e-3);

@@ -11,7 +11,7 @@ namespace {
 
 using namespace testing_support;
 
-constexpr double kBraking_mps2[] = {2.0, 4.0, 7.0};  // the last is the maximum request
+constexpr double kBraking_mps2[] = {2.0, 4.0, 7.0};  // the last value is the maximum request
 constexpr double kMinGap_m[] = {0.3, 0.3, 0.1};
 constexpr int kFollowers = 10;
 constexpr double kSpeed_mps = 50.0 / 3.6;

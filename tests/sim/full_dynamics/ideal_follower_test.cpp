@@ -45,8 +45,8 @@ Discharge discharge(const std::string& policy) {
     return result;
 }
 
-// Returns the times at which the vehicles of an ideal platoon pass the stop line behind the same platoon leader. The
-// gap law gap(v) = r + h v gives dx/dt = (gap - r) / h.
+// Returns the times at which the vehicles of an ideal platoon pass the stop line behind the same platoon leader. With
+// standstill gap r and time gap h, the gap law gap(v) = r + h v gives the speed v = dx/dt = (gap - r) / h.
 std::vector<double> ideal_passages_s(const Discharge& d, double r_m, double h_s) {
     std::vector<double> leader_m = d.leader_m;
     std::vector<double> passages;
@@ -56,7 +56,7 @@ std::vector<double> ideal_passages_s(const Discharge& d, double r_m, double h_s)
             double x = leader_m.front() - d.length_m - r_m;
             for (const double front_m : leader_m) {
                 const double limit_m = front_m - d.length_m - r_m;
-                // Exact for a leader at rest during the step. With h = 0 the position equals the limit.
+                // Exact if the leader is at rest during the step. With h = 0 the position x equals limit_m.
                 x = h_s > 0.0 ? limit_m + (x - limit_m) * std::exp(-d.step_s / h_s) : limit_m;
                 own_m.push_back(x);
             }

@@ -10,7 +10,7 @@ namespace {
 
 using namespace testing_support;
 
-// A state is feasible if this braking suffices after this delay, which covers the jerk limit and the lag of the brake.
+// A state is feasible if this braking suffices after kDelay_s, which covers the jerk limit and the lag of the brake.
 constexpr double kFeasible_mps2 = 6.0;
 constexpr double kDelay_s = 0.35;
 

@@ -38,7 +38,8 @@ private:
 struct Case {
     const char* policy;
     const char* v2v_delay;
-    double min_amplification, max_amplification;  // per vehicle, at the frequency where it is largest
+    // Limits of the amplification per vehicle, at the frequency at which the amplification is largest.
+    double min_amplification, max_amplification;
 };
 
 // For a lag of 0.3 s, linear analysis gives an amplification of 1.02 for CDG with a delay of 20 ms and of 1.09 with 100

@@ -101,8 +101,9 @@ TEST_P(GapAcceptance, AcceptsLongGapsAndRejectsShortOnes) {
     bool awaited = false;
     int last_id = -1;
     std::vector<double> accepted_s;
-    int checked_gaps = 0;           // accepted before an undisturbed oncoming vehicle
-    std::vector<Arrival> arrivals;  // of vehicles with priority at the conflict area
+    // Number of gaps that were accepted before an oncoming vehicle at full speed.
+    int checked_gaps = 0;
+    std::vector<Arrival> arrivals;  // arrivals of vehicles with priority at the conflict area
     Simulation simulation(model_);
     const State& state = simulation.state();
     while (simulation.time_s() < kEnd_s) {

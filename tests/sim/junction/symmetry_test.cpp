@@ -23,7 +23,7 @@ Scenario turning_scenario() {
     return load_scenario(STOPLINE_SOURCE_DIR "/scenarios/intersection.yaml", {"demand.left=15 %", "demand.right=10 %"});
 }
 
-// Uses the population P50, so that policies and turns are both drawn.
+// Uses the population P50, so that both the policies and the turns of vehicles are drawn at random.
 Model turning_model() { return build_model(turning_scenario(), 4); }
 
 using Transform = std::function<Point(Point)>;

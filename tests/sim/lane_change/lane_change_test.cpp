@@ -77,8 +77,8 @@ double uniform(std::uint64_t seed, int vehicle, int quantity) {
                           Purpose::turn);
 }
 
-// Fills each lane with vehicles from `first_front_m` upstream. The gaps are random between `min_gap_m` and twice that
-// length. Each vehicle draws its target lane.
+// Fills each lane with vehicles from `first_front_m` upstream. The gaps are random between `min_gap_m` and twice
+// `min_gap_m`. Each vehicle draws its target lane.
 void fill(Track& track, std::uint64_t seed, int lanes, double min_gap_m, double speed_mps, double first_front_m) {
     int vehicle = 0;
     for (int k = 0; k < lanes; ++k) {
@@ -129,7 +129,8 @@ void run_traffic(const Case& which, std::uint64_t seed, double gap_m) {
     expect_no_oscillation(track.state().records.lane_changes);
 }
 
-// Seeds 2, 10 and 29 are regression tests: SWITCH-1 and SWITCH-2 overlapped without a gap reserve at their own speed.
+// Seeds 2, 10 and 29 are regression tests: vehicles with SWITCH-1 and SWITCH-2 overlapped before
+// keep_room_acceleration() reserved room in proportion to the own speed of the vehicle.
 TEST_P(DenseLaneChanging, HasNoCollisionAtAnyDensity) {
     for (const std::uint64_t seed : {2U, 7U, 10U, 29U}) {
         for (const double gap_m : {3.2, 5.5, 8.0, 16.0, 40.0}) run_traffic(GetParam(), seed, gap_m);

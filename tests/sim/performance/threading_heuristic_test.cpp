@@ -1,4 +1,5 @@
-// Threads share a step as long as that is faster. The durations of the steps are made up.
+// Several threads share the work of a step only while that is faster than one thread. The durations of steps are made
+// up.
 #include <gtest/gtest.h>
 
 #include <chrono>

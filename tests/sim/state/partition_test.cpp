@@ -1,5 +1,6 @@
-// A run shared by threads gives the same bits and events for any number of threads, and the same as the scalar kernels.
-// In the simulated networks junctions are blocked, gridlocks form, and vehicles are teleported or pass blockers.
+// A run gives the same bits and events for any number of threads, and with the scalar kernels. Each thread computes one
+// partition of the lanes. In the simulated networks junctions are blocked, gridlocks form, and vehicles are teleported
+// or pass blockers.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -69,8 +70,8 @@ TEST(Partitions, AnyNumberOfThreadsGivesTheSameRun) {
     }
 }
 
-// A connection without conflicts forms an intersection of its own, which may lie in another partition. The longest time
-// in a junction must include it.
+// A connection without conflicts forms an intersection of its own, which may lie in another partition than the lanes at
+// its ends. The longest time in a junction must include the time on such a connection.
 TEST(Partitions, IncludeConnectionsWithoutConflicts) {
     const Scenario scenario = parse_scenario(
         "network: {kind: grid, intersection: {lanes: [{movements: straight+left}, {movements: right}], radius: 40 m, "
@@ -94,9 +95,10 @@ TEST(Partitions, ThreadsGiveTheSameRunInFullDynamics) {
     expect_same(alone, shared, 60.0, 10.0, "full dynamics");
 }
 
-// The scalar kernels evaluate all vehicles, standing queues included.
+// The vectorised kernels leave out standing queues. The scalar kernels evaluate all vehicles and must give the same
+// result.
 TEST(StandingQueues, LeavingThemOutChangesNothing) {
-    for (const char* const meso : {"fitted", "passages"}) {  // the second one sends start messages by V2V
+    for (const char* const meso : {"fitted", "passages"}) {  // with passages, vehicles send start messages by V2V
         for (const int population : {0, 1, 2}) {
             const Model model = crowded_grid("meso", population, meso);
             Model scalar = model;
@@ -108,7 +110,7 @@ TEST(StandingQueues, LeavingThemOutChangesNothing) {
     }
 }
 
-// Slots without a vehicle have no id. The first vehicle of a sleeping lane is stopped at its signal.
+// Slots without a vehicle have no id. On a lane that sleeps until green, the first vehicle is stopped at its signal.
 TEST(Slots, HaveNoIdWithoutAVehicle) {
     const Model model = crowded_grid("meso", 2);
     Simulation simulation(model, 2);

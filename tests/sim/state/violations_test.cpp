@@ -1,4 +1,4 @@
-// The first violation does not depend on the order in which partitions report violations.
+// The first violation does not depend on the order in which the partitions (the lanes of one thread) report violations.
 #include <gtest/gtest.h>
 
 #include <algorithm>

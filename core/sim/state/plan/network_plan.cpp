@@ -71,8 +71,8 @@ double max_space_per_vehicle(const Model& model) {
 }
 
 // Joins the lanes of each intersection to one set. A connection depends on its approach lane and on the connections
-// that it meets. An exit lane without a stop line joins the set of its connections, so that their data are close
-// together.
+// that it meets. An exit lane without a stop line joins the set of its connections, so that the data of these lanes are
+// close together in memory.
 void join_intersections(const Model& model, LaneSets& sets) {
     for (int index = 0; index < static_cast<int>(model.graph.lanes.size()); ++index) {
         const Lane& lane = model.graph.lanes[at(index)];
@@ -101,8 +101,9 @@ void count_lane_changes(const Approach& approach, std::size_t turn, std::vector<
     }
 }
 
-// Returns the neighbours and turn options of all lanes. Fills `next_parallel_route`, which links routes with the same
-// first lane and the same turn into a chain. The route with the highest index comes first, and -1 ends the chain.
+// Returns the neighbours and turn options of all lanes. Fills `next_parallel_route`: for each route, the next
+// route with the same first lane and the same turn; -1: none. TurnOption::route holds the first route of each such
+// list, which is the one with the highest index.
 std::vector<AdjacentLanes> plan_adjacent_lanes(const LaneGraph& graph, const std::vector<Turn>& turns,
                                                std::vector<int>& next_parallel_route) {
     std::vector<AdjacentLanes> adjacent(graph.lanes.size());

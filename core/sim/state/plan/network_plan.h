@@ -77,8 +77,8 @@ public:
     // numbers are therefore unused.
     std::size_t bitset_size() const { return connections_.size(); }
     int connection_at(std::size_t bitset_index) const {
-        return connections_[bitset_index];
-    }  // -1: the number is unused
+        return connections_[bitset_index];  // -1: no connection has this number
+    }
     // Calls visit(begin, end) for each range of memory that a step reads for this lane.
     template <class Visit>
     void for_each_memory_range(int lane, Visit visit) const {

@@ -12,7 +12,7 @@ namespace stopline {
 
 TripLanes::TripLanes(const Model& model, const NetworkPlan& plan) : after_(model.demand.trip_turns.size(), 0) {
     // Trips along the same route share their entries of trip_turns, and therefore the entries of after_ with the same
-    // indices. The first of these trips computes them.
+    // indices. The first of these trips computes these entries.
     std::vector<char> planned(after_.size(), 0);
     for (const Trip& trip : model.demand.trips) {
         if (trip.turn_count == 0 || planned[at(trip.first_turn)] != 0) continue;
@@ -29,8 +29,8 @@ void TripLanes::plan_trip(const Model& model, const NetworkPlan& plan, const Tri
         const int route = plan.route_with(approaches.back(), turn_at(edge));
         approaches.push_back(graph.lanes[at(plan.route(route).back())].approach);
     }
-    // [lane index] fewest lane changes for the rest of the trip of a vehicle that enters the next edge on this lane;
-    // changes on a long edge are not counted
+    // [lane index] Fewest lane changes for the rest of the trip if the vehicle begins the next edge on this lane.
+    // Changes on a long edge are not counted.
     std::array<int, kMaxLanes> from_next{};
     for (int edge = trip.turn_count - 1; edge >= 0; --edge) {
         const std::vector<int>& lanes = graph.approaches[at(approaches[at(edge)])].lanes;

@@ -24,7 +24,7 @@ struct VehicleArrays {
     // Every step reads these values and changes many of them. Each array has one value for each slot, in SI units.
     LargeArray<double> position_m;  // position of the front, from the start of the lane
     LargeArray<double> speed_mps;
-    LargeArray<float> acceleration_mps2;  // acceleration realised in the last step
+    LargeArray<float> acceleration_mps2;  // acceleration realised in the previous step
     LargeArray<float> length_m;
     LargeArray<float> end_speed_mps;      // speed limit of the next lane of the route, if lower than the present limit
     LargeArray<float> is_platoon_leader;  // 1: platoon leader; 0: follower
@@ -36,11 +36,11 @@ struct VehicleArrays {
     LargeArray<double> next_limit_m;   // position from which end_speed_mps applies
     LargeArray<double> speed_cap_mps;  // highest speed in this step that stop lines, yielding and free driving allow
     // Full dynamics only.
-    LargeArray<float> request_mps2;  // acceleration requested in the last step, u in the equations
+    LargeArray<float> request_mps2;  // acceleration requested in the previous step; u in driver/acceleration_laws.h
     LargeArray<float> torque_Nm;
     LargeArray<float> brake_N;
     LargeArray<float> gear_time_s;
-    LargeArray<float> lag_s;  // lag of the powertrain, tau in the equations; the follower gets it by V2V
+    LargeArray<float> lag_s;  // lag of the powertrain; tau in driver/acceleration_laws.h. Sent to the follower by V2V
     LargeArray<float> gear;   // index of the gear; 0: first gear
     // Delay lines, indexed [row][slot]. They hold radar measurements and V2V messages of past steps.
     LargeArray<float> radar_gap_m;
@@ -51,9 +51,10 @@ struct VehicleArrays {
     // A step reads these values only for some vehicles, mainly for the first vehicles of a lane and for vehicles that
     // change the lane or the route. Full dynamics also reads the standstill gap of all vehicles, and their type if the
     // model has several types.
-    LargeArray<int> next_lane;  // next lane of the route; -1: the vehicle leaves the network here or must change lanes
+    // Next lane of the route. -1: the vehicle leaves the network from its present lane, or must change lanes.
+    LargeArray<int> next_lane;
     LargeArray<VehicleRecord> record;
-    LargeArray<int> stopped_since;  // tick at which the vehicle was last observed in motion
+    LargeArray<int> stopped_since;  // latest tick at which the vehicle was observed in motion
     LargeArray<float> standstill_gap_m;
     LargeArray<int> type;
 

@@ -16,7 +16,7 @@ struct alignas(64) VehicleRecord {
     int junction_entry_tick = 0;        // tick at which the vehicle most recently passed a stop line
     int yield_tick = -2;                // latest tick at which the vehicle had to wait before a conflict area
     float yield_position_m = 0.0F;      // position where the vehicle had to wait, from the start of the connection
-    Turn following_turn = Turn::none;   // turn at the second intersection ahead; none: not known yet
+    Turn following_turn = Turn::none;   // turn at the second intersection ahead; none: unknown or no turn
     int lane_change_tick = -1'000'000;  // tick of the most recent lane change
     int lane_before_change = -1;        // lane that the vehicle left in the most recent lane change; -1: none
     int trip = -1;                      // index of the trip in the demand; -1: no trip, the turns are drawn
