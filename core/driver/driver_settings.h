@@ -35,7 +35,7 @@ using CaccSettings = CaccSettingsOf<double>;
 struct FreeDriveSettings {
     std::vector<double> speed_mps;          // nodes of the profile, rising from 0
     std::vector<double> acceleration_mps2;  // acceleration at each speed; constant above the highest speed
-    double speed_gain_1ps = 0.35;           // limit of the acceleration: gain x (desired speed - speed)
+    double speed_gain_1ps = 0.35;           // the acceleration is at most this gain x (desired speed - speed)
     double deceleration_mps2 = 1.5;         // deceleration before a lower speed limit, such as in a turn
     double hesitation_s = 0.0;              // reaction time of the first vehicle at the stop line
 };

@@ -1,8 +1,9 @@
 // The runs of a sweep. Each run has a number from 0, called its point. The axis values and the seed of a run follow
 // from its point alone. So shards, threads and machines need no communication, and no list of runs is kept in memory.
 //
-// The points number all combinations of axis values and seeds. The seed varies fastest, then the last axis of the sweep
-// file, and the first axis varies slowest. If no axis selects populations, the populations are an additional last axis.
+// There is one point for each combination of axis values and seed. In their order the seed varies fastest, then the
+// last axis of the sweep file, and the first axis varies slowest. If no axis selects populations, the populations are
+// an additional last axis.
 #pragma once
 
 #include <cstdint>

@@ -46,7 +46,7 @@ TEST(Entries, VehiclesCanStopBeforeTheLine) {
                  "at 3.5 m/s2 (driver.stop.decision_deceleration) before the stop line: at least 259.3 m, or a "
                  "lower demand.entry_speed than 150 km/h"));
     EXPECT_EQ(error_for_kind("intersection", {fast[0], fast[1], "network.intersection.approach_length=259.3 m"}), "");
-    // No vehicle enters faster than the limit.
+    // With the default speed limit, vehicles enter at 50 km/h despite the entry speed of 150 km/h, so 50 m suffice.
     EXPECT_EQ(error_for_kind("intersection", {fast[1], "network.intersection.approach_length=50 m"}), "");
     EXPECT_TRUE(contains(error_of("demand: {vehicles: 1}\n", {"network.approach.length=30 m"}),
                          "field 'network.approach.length': value 30 m is too short to stop from 50 km/h"));

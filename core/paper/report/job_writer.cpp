@@ -19,8 +19,8 @@ void JobWriter::table(const std::string& name, const std::string& csv) {
 }
 
 Figure marked_as_reduced(Figure figure) {
-    // A label with the same tag would replace the mark. The tag is 1000, because the labels of the figure have the tags
-    // 1, 2, ...
+    // The mark is a gnuplot label with the tag 1000. The labels of the figure have the tags 1, 2, ..., and a label with
+    // the tag of the mark would replace it.
     const std::string mark =
         "set label 1000 'REDUCED: quick run' at screen 0.992,0.02 left rotate by 90 noenhanced tc rgb '#b00000' font ',10' "
         "front\n";

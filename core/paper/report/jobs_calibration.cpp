@@ -32,7 +32,7 @@ JobOutput run_calibration_times_job(const JobContext& context) {
     JobWriter writer(context);
     writer.experiment("meso_parameters");
     writer.experiment("calibration_times");
-    // writer.experiment() has stored the runs of this sweep, so run_sweep only loads them.
+    // writer.experiment() has stored the runs with full dynamics, so run_sweep() only loads them.
     const SweepRuns full = run_sweep(context.scorecard(), "calibration.yaml", {"fidelity=full"}, "times_full",
                                      detector_metrics, {0.9, 1.0});
     const MesoSettings paper = load_meso("table2");
@@ -55,7 +55,7 @@ JobOutput run_calibration_times_job(const JobContext& context) {
 JobOutput run_calibration_bands_job(const JobContext& context) {
     JobWriter writer(context);
     writer.experiment("calibration_bands");
-    // writer.experiment() has stored the runs of this sweep, so run_sweep only loads them.
+    // writer.experiment() has stored the runs of both sweeps, so the next two calls only load them.
     const SweepRuns full = intersection_runs(context.scorecard(), {1.0, 1.0});
     const SweepRuns meso =
         run_sweep(context.scorecard(), "intersection.yaml", {"fidelity=meso", std::string("meso=") + kCalibratedMeso},

@@ -34,7 +34,7 @@ code=0
 [ "$(grep -c '^[A-Z][0-9][0-9]  misses: ' "$work/table")" -eq "$misses" ] || fail "a miss has no line in the table"
 grep -q 'Not explained yet' "$work/table" && fail "a miss is not explained: $(grep 'Not explained' "$work/table")"
 
-# Rows without a tolerance in the paper appear as open rows.
+# Every row of Section V.A in targets.csv appears in the scorecard, also rows without a tolerance.
 "$scorecard" --section V.A --csv --output "$work/out" >"$work/later.csv" 2>/dev/null || fail "exit code $?"
 [ "$(grep -c '^C[0-9][0-9],' "$work/later.csv")" -eq "$(grep -c ',V.A' "$STOPLINE_SOURCE/data/paper/targets.csv")" ] ||
     fail "the number of rows of Section V.A differs from targets.csv"
