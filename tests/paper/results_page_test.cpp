@@ -3,7 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "base/io/data_directory.h"
+#include "base/io/escape.h"
 #include "paper/headlines.h"
+#include "reference/targets.h"
 #include "scenario/scenario_text.h"
 
 namespace stopline {
@@ -56,10 +63,47 @@ TEST(ResultsPage, HasATablePerSectionAndTheFindingsAtTheEnd) {
     const std::size_t introduction = page.find("## Section I: numbers of the introduction");
     EXPECT_LT(introduction, page.find("## Section VII: Berlin"));
     EXPECT_TRUE(contains(page,
-                         "| A05 | improvement over CTG-Ref | CDG no\\_turns \\| mean | 50 | 80 | % | +30 | ±12 | "
+                         "| A05 | improvement over CTG-Ref | CDG no_turns \\| mean | 50 | 80 | % | +30 | ±12 | "
                          "**outside** | See \\<A11>. |"));
     EXPECT_TRUE(contains(page, "| All | 3 | 1 | 1 | 1 |"));
     EXPECT_TRUE(page.ends_with("\n## Findings\n"));
+}
+
+// Returns the cells of each line of data/paper/RESULTS.md that begins with the id of a row.
+std::map<std::string, std::vector<std::string>> rows_of_committed_page() {
+    std::ifstream file(data_directory() / "paper" / "RESULTS.md");
+    std::map<std::string, std::vector<std::string>> rows;
+    for (std::string line; std::getline(file, line);) {
+        std::vector<std::string> cells;
+        std::istringstream text(line);
+        for (std::string cell; std::getline(text, cell, '|');) {
+            if (!cells.empty() && cells.back().ends_with('\\')) {
+                cells.back() += "|" + cell;  // an escaped bar does not end the cell
+            } else {
+                cells.push_back(cell);
+            }
+        }
+        constexpr std::size_t kCells = 11;  // ten columns, after the empty text before the first bar
+        if (cells.size() == kCells) rows[cells[1]] = cells;
+    }
+    return rows;
+}
+
+TEST(ResultsPage, InTheRepositoryHasEachRowOfThePaperWithItsCause) {
+    const auto rows = rows_of_committed_page();
+    const std::vector<Target> targets = load_targets();
+    int outside = 0;
+    for (const Target& target : targets) {
+        const auto row = rows.find(" " + target.id + " ");
+        ASSERT_NE(row, rows.end()) << target.id << ": stopline-scorecard --markdown data/paper/RESULTS.md";
+        const std::vector<std::string>& cells = row->second;
+        EXPECT_EQ(cells[4], " " + escape_markdown_cell(target.value) + " ") << target.id;
+        if (cells[9] != " **outside** ") continue;
+        ++outside;
+        EXPECT_NE(cells[10], " Not explained yet. ") << target.id;
+    }
+    EXPECT_GT(outside, 0);
+    EXPECT_GE(targets.size(), 100U);
 }
 
 }  // namespace
