@@ -160,7 +160,7 @@ def main():
     parser.add_argument("--first", type=int, default=1, help="number of the first corridor (default: 1)")
     parser.add_argument("--write-only", action="store_true", help="write the streets files and end")
     corridor.add_run_options(parser)
-    parser.set_defaults(scenario=HERE.parents[1] / "scenarios" / "berlin.yaml", seeds=1, duration=1800)
+    parser.set_defaults(scenario=HERE.parents[1] / "scenarios" / "berlin.yaml", seeds=1, duration=1200, warm_up=300)
     options = parser.parse_args()
     output = (options.output or Path("out/random_corridors")).resolve()
     output.mkdir(parents=True, exist_ok=True)
