@@ -25,6 +25,7 @@
 #include "figures/street_figures.h"
 #include "figures/street_map.h"
 #include "figures/time_space_figure.h"
+#include "record/streamed_file.h"
 #include "run/run_files.h"
 #include "runs/network/street_results.h"
 #include "runs/provenance.h"
@@ -40,12 +41,15 @@ namespace {
 
 using namespace stopline;
 
+constexpr const char* kTrajectoriesName = "trajectories.csv";
+
 struct RunCliOptions {
     CommonOptions common;
     RunFilesOptions files;
     std::string file;
     std::string interval = "0.1 s";  // time between the samples of --trajectories
     bool trajectories = false;
+    std::string trajectories_file = kTrajectoriesName;  // relative to the results folder
     bool old_column_names = false;
     bool no_figures = false;
     bool describe = false;
@@ -63,6 +67,10 @@ void declare(Options& app, RunCliOptions& options) {
         "--trajectories", options.trajectories,
         "Also write trajectories.csv. Single light: from 5 s before the green to 25 s after it. Single intersection: "
         "the first measured cycle. Networks: the whole run, or --record-from to --record-until");
+    app.add("--trajectories-file", options.trajectories_file,
+            "With --trajectories: file in the results folder. A file that ends with .gz is compressed")
+        .type_name("FILE")
+        .show_default();
     app.add("--interval", options.interval, "With --trajectories: time between samples (default: 0.1 s)")
         .type_name("TIME");
     add_run_files_options(app, options.files);
@@ -117,12 +125,15 @@ void write_tables(const RunCliOptions& options, const Scenario& scenario, std::v
     Provenance provenance;
     provenance.command = command_text("stopline-run", options.file, options.common);
     if (options.trajectories) provenance.command += " --trajectories --interval " + shell_word(options.interval);
+    if (options.trajectories_file != kTrajectoriesName)
+        provenance.command += " --trajectories-file " + shell_word(options.trajectories_file);
     if (options.old_column_names) provenance.command += " --old-column-names";
     const ColumnNames names = options.old_column_names ? ColumnNames::old : ColumnNames::current;
     for (auto& [name, text] : files) {
+        const std::string name_in_results = name;
         const std::string table = table_group(scenario.network) + "/" + name;
         ResultFile file = result_file(table, std::move(name), std::move(text), names);
-        name = std::move(file.name);
+        name = name_in_results == kTrajectoriesName ? options.trajectories_file : std::move(file.name);
         text = std::move(file.text);
         provenance.files.push_back(name);
     }
@@ -130,7 +141,7 @@ void write_tables(const RunCliOptions& options, const Scenario& scenario, std::v
     files.emplace_back(scenario.name + ".provenance.json", provenance_json(scenario, provenance));
     fmt::print("\nWritten to {}\n", folder.string());
     for (const auto& [name, text] : files) {
-        write_file(folder / name, text);
+        write_streamed_file(folder / name, text);
         fmt::print("  {}\n", name);
     }
 }
@@ -257,6 +268,7 @@ ExitCode run(const RunCliOptions& options) {
     }
     const Scenario scenario = load_with_options(options.file, options.common);
     for (const std::string& line : sumo_warnings(scenario)) fmt::print(stderr, "not read: {}\n", line);
+    for (const std::string& line : sumo_notes(scenario)) fmt::print(stderr, "note: {}\n", line);
     if (const std::string warning = sumo_demand_warning(scenario); !warning.empty()) {
         fmt::print(stderr, "warning: {}\n", warning);
     }
@@ -266,7 +278,7 @@ ExitCode run(const RunCliOptions& options) {
     RunFilesOptions files = options.files;
     files.column_names = options.old_column_names ? ColumnNames::old : ColumnNames::current;
     if (options.trajectories && scenario.network.has_several_intersections()) {
-        files.trajectories = (folder / "trajectories.csv").string();
+        files.trajectories = (folder / options.trajectories_file).string();
         files.trajectory_interval_s = interval_s;
     }
     RunFiles run_files(files, scenario, command_text("stopline-run", options.file, options.common));
