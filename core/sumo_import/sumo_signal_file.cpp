@@ -16,9 +16,9 @@ constexpr double kMaxDuration_s = 1e6;
 SumoPhase phase_of(const SumoXml& xml, pugi::xml_node node, SumoWarnings& warnings) {
     constexpr std::string_view kLetters = "rugGyYsoO";
     SumoPhase phase{xml.number(node, "duration"), xml.text(node, "state")};
-    if (phase.duration_s < 0.0 || phase.duration_s > kMaxDuration_s) {
-        xml.refuse(
-            node, fmt::format("duration=\"{}\" must be 0 to {} s", node.attribute("duration").value(), kMaxDuration_s));
+    if (!(phase.duration_s > 0.0) || phase.duration_s > kMaxDuration_s) {
+        xml.refuse(node, fmt::format("duration=\"{}\" must be more than 0 and at most {} s",
+                                     node.attribute("duration").value(), kMaxDuration_s));
     }
     const std::size_t unknown = phase.state.find_first_not_of(kLetters);
     if (unknown != std::string::npos) {
