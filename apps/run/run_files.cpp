@@ -54,8 +54,8 @@ RecordingWindow window_of(const RunFilesOptions& options, const Scenario& scenar
     return window;
 }
 
-// Returns the path of a population's file: NAME.ext, or NAME.POPULATION.ext if there are several populations. The ending
-// of a compressed file has two parts, such as .xml.gz.
+// Returns the path of a population's file: NAME.ext, or NAME.POPULATION.ext if there are several populations. The
+// ending of a compressed file has two parts, such as .xml.gz.
 std::filesystem::path population_file(const std::filesystem::path& file, const Scenario& scenario,
                                       std::size_t population) {
     if (scenario.populations.size() == 1) return file;

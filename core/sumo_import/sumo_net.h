@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -119,6 +120,7 @@ struct SumoNet {
     std::vector<SumoJunction> junctions;
     std::vector<SumoSignal> signals;
     std::vector<SumoLoop> loops;
+    std::unordered_set<std::string> loop_ids;
     std::unordered_map<std::string, int> edge_by_id;
     std::unordered_map<std::string, int> signal_by_id;
     std::unordered_map<std::string, std::pair<int, int>> link_of;  // [id of an internal lane] junction and link

@@ -16,7 +16,9 @@ namespace {
 
 class Merger {
 public:
-    explicit Merger(SumoNet& net) : net_(net), outgoing_(net.edges.size()), incoming_(net.edges.size()) {
+    explicit Merger(SumoNet& net)
+        : net_(net), outgoing_(net.edges.size()), incoming_(net.edges.size()), loops_(net.edges.size()) {
+        for (std::size_t k = 0; k < net.loops.size(); ++k) loops_[at(net.loops[k].edge)].push_back(k);
         for (std::size_t k = 0; k < net.connections.size(); ++k) {
             const SumoConnection& c = net.connections[k];
             if (net.edges[at(c.from)].internal) {
@@ -137,13 +139,15 @@ private:
 
     // Moves the detectors of the merged edge `edge` to the edge `before`. Their places on the road stay the same.
     void move_loops(int before, int edge) {
-        for (SumoLoop& loop : net_.loops) {
-            if (loop.edge != edge) continue;
+        const std::vector<std::size_t> loops = std::move(loops_[at(edge)]);
+        for (const std::size_t number : loops) {
+            SumoLoop& loop = net_.loops[number];
             const auto leads_to_loop = [&](std::size_t k) { return connection(k).to_lane == loop.lane; };
             const auto in = std::find_if(incoming_[at(edge)].begin(), incoming_[at(edge)].end(), leads_to_loop);
             if (in == incoming_[at(edge)].end()) continue;  // no connection leads to the lane of the detector
             const SumoConnection& c = connection(*in);
             loop.edge = before;
+            loops_[at(before)].push_back(number);
             loop.lane = c.from_lane;
             loop.position_m += net_.edges[at(before)].lanes[at(c.from_lane)].length_m;
             for (const LaneId& part : via_lanes(c)) loop.position_m += lane_of(part).length_m;
@@ -169,6 +173,7 @@ private:
     SumoNet& net_;
     std::vector<std::vector<std::size_t>> outgoing_;            // [edge] connections from the edge to other edges
     std::vector<std::vector<std::size_t>> incoming_;            // [edge] connections from other edges to the edge
+    std::vector<std::vector<std::size_t>> loops_;               // [edge] detectors on the edge
     std::map<std::pair<int, int>, std::size_t> next_in_chain_;  // [internal edge, lane] connection from this lane
 };
 

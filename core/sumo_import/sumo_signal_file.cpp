@@ -124,8 +124,7 @@ void read_loop(const SumoXml& xml, pugi::xml_node node, SumoNet& net) {
         if (!node.attribute(ignored)) continue;
         net.warnings.note(loop.where, fmt::format("'{}' is ignored: the detector counts all vehicles", ignored));
     }
-    const auto has_same_id = [&](const SumoLoop& other) { return other.id == loop.id; };
-    if (std::any_of(net.loops.begin(), net.loops.end(), has_same_id)) {
+    if (!net.loop_ids.insert(loop.id).second) {
         xml.refuse(node, fmt::format("there are two detectors '{}'; ids must be unique", loop.id));
     }
     net.loops.push_back(std::move(loop));

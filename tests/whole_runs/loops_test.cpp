@@ -80,8 +80,7 @@ TEST_P(Loops, CountLaneChangersOnce) {
     EXPECT_GT(at_loop, 5) << records.lane_changes.size();
 }
 
-INSTANTIATE_TEST_SUITE_P(BothFidelities, Loops,
-                         ::testing::Values("fidelity: meso\n", "fidelity: full\nstep: 10 ms\n"),
+INSTANTIATE_TEST_SUITE_P(BothFidelities, Loops, ::testing::Values("fidelity: meso\n", "fidelity: full\nstep: 10 ms\n"),
                          [](const auto& test) { return test.index == 0 ? "Meso" : "Full"; });
 
 }  // namespace

@@ -21,8 +21,8 @@ struct ProcessResult {
 using ProcessWatch = std::function<bool(const std::string& output)>;
 
 // Runs `command` in `folder` with empty standard input. The first word is the name of the program, which is searched in
-// PATH. A failure is reported in the result; no exception is thrown, except by `watch`, which may be empty. In this case
-// the program is killed first.
+// PATH. A failure is reported in the result. `watch` may be empty. If it throws an exception, the program is killed and
+// the exception passes on.
 ProcessResult run_process(std::vector<std::string> command, const std::filesystem::path& folder,
                           const ProcessWatch& watch = {});
 
