@@ -98,6 +98,7 @@ void SumoRouter::settle(int target) {
 // same travel time remains. An edge whose travel time falls is looked at again, so rounded lower bounds do no harm.
 void SumoRouter::search(int from) {
     constexpr double kRounding = 1e-9;
+    choose_active(from);
     while (!open_.empty()) {
         const auto [bound_s, edge] = pop(open_);
         if (bound_s > remaining_s_[at(from)] * (1.0 + kRounding)) break;
@@ -160,23 +161,42 @@ std::optional<std::vector<int>> SumoRouter::fastest_route(int from, int to) {
     return route(from);
 }
 
-// Returns a lower bound of the travel time from the end of the edge `from` to the end of `edge`, by the triangle
-// inequality.
-double SumoRouter::lower_bound_s(int from, int edge) const {
-    if (landmarks_.empty()) return 0.0;
+// Returns a lower bound of a travel time: the difference of two travel times from or to a landmark, by the triangle
+// inequality. The result is not a number if both are infinite.
+double SumoRouter::difference_s(float longer_s, float shorter_s) {
     constexpr double kRounding = 4.0 * static_cast<double>(std::numeric_limits<float>::epsilon());
-    double bound_s = 0.0;
-    const auto consider = [&](float longer_s, float shorter_s) {
-        const double least_s = static_cast<double>(longer_s) * (1.0 - kRounding) - static_cast<double>(shorter_s);
-        if (least_s > bound_s) bound_s = least_s;  // false if both are infinite
-    };
+    return static_cast<double>(longer_s) * (1.0 - kRounding) - static_cast<double>(shorter_s);
+}
+
+// Chooses the landmarks that give the highest lower bounds of the travel time from the edge `from` to to_.
+void SumoRouter::choose_active(int from) {
+    active_count_ = 0;
+    if (landmarks_.empty()) return;
     const LandmarkTimes& origin = landmarks_[at(from)];
-    const LandmarkTimes& own = landmarks_[at(edge)];
+    const LandmarkTimes& end = landmarks_[at(to_)];
+    std::array<std::pair<double, std::size_t>, 2 * kLandmarks> bounds;
     for (std::size_t k = 0; k < kLandmarks; ++k) {
-        consider(own.from_s[k], origin.from_s[k]);
-        consider(origin.to_s[k], own.to_s[k]);
+        bounds[k] = {difference_s(end.from_s[k], origin.from_s[k]), k};
+        bounds[k + kLandmarks] = {difference_s(origin.to_s[k], end.to_s[k]), k + kLandmarks};
     }
-    return bound_s;
+    for (auto& [bound_s, k] : bounds) bound_s = bound_s > 0.0 ? bound_s : 0.0;  // also replaces what is no number
+    std::partial_sort(bounds.begin(), bounds.begin() + kActive, bounds.end(), std::greater<>());
+    for (std::size_t k = 0; k < kActive; ++k) active_[k] = bounds[k].second;
+    active_count_ = kActive;
+}
+
+// Returns a lower bound of the travel time from the end of the edge `from` to the end of `edge`.
+double SumoRouter::lower_bound_s(int from, int edge) const {
+    double best_s = 0.0;
+    for (std::size_t k = 0; k < active_count_; ++k) {
+        const LandmarkTimes& origin = landmarks_[at(from)];
+        const LandmarkTimes& own = landmarks_[at(edge)];
+        const std::size_t number = active_[k] % kLandmarks;
+        const double bound_s = active_[k] < kLandmarks ? difference_s(own.from_s[number], origin.from_s[number])
+                                                       : difference_s(origin.to_s[number], own.to_s[number]);
+        if (bound_s > best_s) best_s = bound_s;  // false if it is not a number
+    }
+    return best_s;
 }
 
 // Returns the travel times from the end of `edge` to the ends of all edges, or the other way round.

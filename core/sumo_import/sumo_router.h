@@ -48,6 +48,8 @@ private:
     void search(int from);
     std::vector<int> route(int from) const;
     int next_edge(int edge) const;
+    static double difference_s(float longer_s, float shorter_s);
+    void choose_active(int from);
     double lower_bound_s(int from, int edge) const;
     void choose_landmarks();
     std::vector<float> travel_times_s(int edge, bool backwards);
@@ -57,7 +59,11 @@ private:
     PackedLists<Link> predecessors_;        // [edge]
     std::vector<double> time_s_;            // [edge] free-flow travel time
     std::vector<LandmarkTimes> landmarks_;  // [edge]; empty until there have been some searches
-    int searches_ = 0;                      // searches without landmarks so far
+    static constexpr std::size_t kActive = 4;
+    // Landmarks that the present search uses: k for travel times from landmark k, k + kLandmarks for those to it.
+    std::array<std::size_t, kActive> active_{};
+    std::size_t active_count_ = 0;
+    int searches_ = 0;  // searches without landmarks so far
     // The next members are the present search.
     int to_ = -1;
     int requests_ = 0;                 // successive calls with this to_
