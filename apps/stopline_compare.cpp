@@ -13,6 +13,7 @@
 #include "common/results.h"
 #include "common/text_table.h"
 #include "runs/tables/column_aliases.h"
+#include "scenario/schema/quantity.h"
 #include "sumo_export/compare.h"
 #include "sumo_export/export.h"
 
@@ -25,6 +26,7 @@ struct CompareCliOptions {
     std::string file;
     std::string population;
     int repetitions = 3;
+    std::string sumo_limit = "30 min";
     bool no_figures = false;
 };
 
@@ -36,6 +38,9 @@ void declare(Options& app, CompareCliOptions& options) {
         .show_default()
         .range(1, 1000)
         .type_name("N");
+    app.add("--sumo-limit", options.sumo_limit, "Longest time that one run of SUMO may take on this machine")
+        .type_name("TIME")
+        .show_default();
     app.add_flag("--no-figures", options.no_figures, "Do not draw figures");
     app.add("--seed", options.common.seed, "Seed of the first run (default: the scenario's)");
     app.add("--output", options.common.output, "Folder for the results (default: out/NAME_sumo)").type_name("DIR");
@@ -140,15 +145,24 @@ void print_settings_like_sumo(const Scenario& scenario) {
                settings);
 }
 
+double parse_limit_s(const std::string& text) {
+    const ParsedQuantity time = parse_quantity(text, unit("s"));
+    if (!time.problem.empty()) throw InputError(fmt::format("--sumo-limit: value '{}' {}", text, time.problem));
+    if (!(time.si > 0.0)) throw InputError(fmt::format("--sumo-limit: value '{}' must be more than 0 s", text));
+    return time.si;
+}
+
 ExitCode run(const CompareCliOptions& options) {
     CommonOptions common = options.common;
     set_mesoscale("stopline-compare", common);
+    const double sumo_limit_s = parse_limit_s(options.sumo_limit);
     const Scenario scenario = load_with_options(options.file, common);
     const std::string folder = common.output.empty() ? "out/" + scenario.name + "_sumo" : common.output;
     const Comparison comparison = [&] {
         ProgressBar bar(fmt::format("{} runs of both programs", options.repetitions));
         CompareOptions compare;
         compare.repetitions = options.repetitions;
+        compare.sumo_limit_s = sumo_limit_s;
         compare.on_progress = [&bar](double share) { return bar.update(share); };
         return compare_with_sumo(scenario, chosen_population(options, scenario), folder, compare);
     }();

@@ -25,6 +25,7 @@
 #include "figures/street_figures.h"
 #include "figures/street_map.h"
 #include "figures/time_space_figure.h"
+#include "record/streamed_file.h"
 #include "run/run_files.h"
 #include "runs/network/street_results.h"
 #include "runs/provenance.h"
@@ -40,12 +41,15 @@ namespace {
 
 using namespace stopline;
 
+constexpr const char* kTrajectoriesName = "trajectories.csv";
+
 struct RunCliOptions {
     CommonOptions common;
     RunFilesOptions files;
     std::string file;
     std::string interval = "0.1 s";  // time between the samples of --trajectories
     bool trajectories = false;
+    std::string trajectories_file = kTrajectoriesName;  // relative to the results folder
     bool no_figures = false;
     bool describe = false;
     bool describe_markdown = false;
@@ -58,9 +62,14 @@ void declare(Options& app, RunCliOptions& options) {
     app.add("FILE", options.file, runnable("Scenario file (YAML), such as scenarios/single_light.yaml"));
     add_common_options(app, options.common, "Folder for the results (default: out/ and the name of the scenario)");
     add_set_option(app, options.common);
-    app.add_flag("--trajectories", options.trajectories,
-                 "Also write trajectories.csv. Single light: from 5 s before the green to 25 s after its end. Single "
-                 "intersection: the first measured cycle. Networks: the whole run, or --record-from to --record-until");
+    app.add_flag(
+        "--trajectories", options.trajectories,
+        "Also write trajectories.csv. Single light: from 5 s before the green to 25 s after it. Single intersection: "
+        "the first measured cycle. Networks: the whole run, or --record-from to --record-until");
+    app.add("--trajectories-file", options.trajectories_file,
+            "With --trajectories: file in the results folder. A file that ends with .gz is compressed")
+        .type_name("FILE")
+        .show_default();
     app.add("--interval", options.interval, "With --trajectories: time between samples (default: 0.1 s)")
         .type_name("TIME");
     add_run_files_options(app, options.files);
@@ -115,11 +124,14 @@ void write_tables(const RunCliOptions& options, const Scenario& scenario, std::v
     provenance.command = command_text("stopline-run", options.file, options.common);
     if (options.trajectories) provenance.command += " --trajectories --interval " + shell_word(options.interval);
     if (options.common.old_column_names) provenance.command += " --old-column-names";
+    if (options.trajectories_file != kTrajectoriesName)
+        provenance.command += " --trajectories-file " + shell_word(options.trajectories_file);
     const ColumnNames names = column_names(options.common);
     for (auto& [name, text] : files) {
+        const std::string name_in_results = name;
         const std::string table = table_group(scenario.network) + "/" + name;
         ResultFile file = result_file(table, std::move(name), std::move(text), names);
-        name = std::move(file.name);
+        name = name_in_results == kTrajectoriesName ? options.trajectories_file : std::move(file.name);
         text = std::move(file.text);
         provenance.files.push_back(name);
     }
@@ -127,7 +139,7 @@ void write_tables(const RunCliOptions& options, const Scenario& scenario, std::v
     files.emplace_back(scenario.name + ".provenance.json", provenance_json(scenario, provenance));
     fmt::print("\nWritten to {}\n", folder.string());
     for (const auto& [name, text] : files) {
-        write_file(folder / name, text);
+        write_streamed_file(folder / name, text);
         fmt::print("  {}\n", name);
     }
 }
@@ -254,6 +266,7 @@ ExitCode run(const RunCliOptions& options) {
     }
     const Scenario scenario = load_with_options(options.file, options.common);
     for (const std::string& line : sumo_warnings(scenario)) fmt::print(stderr, "SUMO import: {}\n", line);
+    for (const std::string& line : sumo_notes(scenario)) fmt::print(stderr, "note: {}\n", line);
     if (const std::string warning = sumo_demand_warning(scenario); !warning.empty()) {
         fmt::print(stderr, "warning: {}\n", warning);
     }
@@ -262,7 +275,7 @@ ExitCode run(const RunCliOptions& options) {
     RunFilesOptions files = options.files;
     files.column_names = column_names(options.common);
     if (options.trajectories && scenario.network.has_several_intersections()) {
-        files.trajectories = (folder / "trajectories.csv").string();
+        files.trajectories = (folder / options.trajectories_file).string();
         files.trajectory_interval_s = interval_s;
     }
     RunFiles run_files(files, scenario, command_text("stopline-run", options.file, options.common));

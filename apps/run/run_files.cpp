@@ -54,12 +54,18 @@ RecordingWindow window_of(const RunFilesOptions& options, const Scenario& scenar
     return window;
 }
 
-// Returns the path of a population's file: NAME.ext, or NAME.POPULATION.ext if there are several populations.
+// Returns the path of a population's file: NAME.ext, or NAME.POPULATION.ext if there are several populations. The
+// ending of a compressed file has two parts, such as .xml.gz.
 std::filesystem::path population_file(const std::filesystem::path& file, const Scenario& scenario,
                                       std::size_t population) {
     if (scenario.populations.size() == 1) return file;
-    const std::string name =
-        fmt::format("{}.{}{}", file.stem().string(), scenario.populations[population].name, file.extension().string());
+    std::filesystem::path stem = file.stem();
+    std::string ending = file.extension().string();
+    if (ending == ".gz") {
+        ending = stem.extension().string() + ending;
+        stem = stem.stem();
+    }
+    const std::string name = fmt::format("{}.{}{}", stem.string(), scenario.populations[population].name, ending);
     return file.parent_path() / name;
 }
 
@@ -100,7 +106,10 @@ void add_run_files_options(Options& app, RunFilesOptions& options) {
         "--record", options.record,
         "Record all vehicles and signals for stopline-replay. Several populations write one file each, here and below: "
         "NAME.POPULATION.EXT");
-    file("--fcd", options.fcd, "Write the positions of all vehicles as SUMO floating car data (XML)");
+    file(
+        "--fcd", options.fcd,
+        "Write the positions of all vehicles as SUMO floating car data (XML). A file that ends with .gz is compressed, here "
+        "and below");
     time("--record-interval", options.interval, "With --record or --fcd: time between frames (default: 1 s)");
     time("--record-from", options.from, "With --record or --fcd: time of the first frame (default: 0 s)");
     time("--record-until", options.until, "With --record or --fcd: time of the last frame (default: end of the run)");

@@ -23,8 +23,8 @@ struct Trip {
     int turn_count = 0;  // number of turns: one at the end of each edge except the last edge
     float length_m = 0.0F;
     enum class DepartLane : std::uint8_t { given, rightmost, free, random, best };
-    // limit: the speed limit. last: the speed of the vehicle ahead.
-    enum class DepartSpeed : std::uint8_t { given, limit, last, random };
+    // limit: the speed limit. last: the speed of the vehicle ahead. mean: the mean speed of the vehicles on the lane.
+    enum class DepartSpeed : std::uint8_t { given, limit, last, mean, random };
     // base: the rear of the vehicle is at the start of the lane. last: the vehicle is as close behind the rearmost
     // vehicle on the lane as its desired gap allows. random: one position is drawn at random. free: a new position is
     // drawn in each step until there is room.

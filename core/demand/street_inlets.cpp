@@ -65,20 +65,16 @@ DemandPlan::Inlet inlet_of(const Routes& routes, int lane, const TurnShares& sha
     return inlet;
 }
 
-// Returns the turn shares for the inlet lanes of an approach, from the left. `inlet_lanes` lists the inlet lanes of the
+// Returns the turn shares for the inlet lanes of an approach, from the left. `is_inlet` marks the inlet lanes of the
 // network. Inlet lanes of one approach are adjacent. Other lanes, such as pockets, lie beside the inlet lanes. A turn
 // from such a lane is assigned to the nearest inlet lane.
-std::vector<TurnShares> lane_shares(const std::vector<int>& inlet_lanes, const Routes& routes,
-                                    const Approach& approach) {
-    const auto is_inlet = [&](int lane) {
-        return std::find(inlet_lanes.begin(), inlet_lanes.end(), lane) != inlet_lanes.end();
-    };
+std::vector<TurnShares> lane_shares(const std::vector<bool>& is_inlet, const Routes& routes, const Approach& approach) {
     std::vector<TurnsAllowed> allowed;
     TurnsAllowed left_pockets{};
     for (const int lane : approach.lanes) {
         TurnsAllowed own{};
         for (std::size_t turn = 0; turn < own.size(); ++turn) own[turn] = routes.on(lane, turn) >= 0;
-        if (is_inlet(lane)) allowed.push_back(own);
+        if (is_inlet[at(lane)]) allowed.push_back(own);
         TurnsAllowed& target = allowed.empty() ? left_pockets : allowed.back();
         for (std::size_t turn = 0; turn < own.size(); ++turn) target[turn] = target[turn] || own[turn];
     }
@@ -96,13 +92,15 @@ std::vector<DemandPlan::Inlet> street_inlets(const LaneGraph& graph) {
     // Calls add(lane, turn shares of the lane, turn shares of its approach) for each lane of the list. Lanes of the
     // same approach must be consecutive in the list.
     const auto for_each = [&](const std::vector<int>& lanes, auto add) {
+        std::vector<bool> is_inlet(graph.lanes.size(), false);
+        for (const int lane : lanes) is_inlet[at(lane)] = true;
         std::vector<TurnShares> shares;
         int approach = -1;
         std::size_t next = 0;
         for (const int lane : lanes) {
             if (graph.lanes[at(lane)].approach != approach) {
                 approach = graph.lanes[at(lane)].approach;
-                shares = lane_shares(lanes, routes, graph.approaches[at(approach)]);
+                shares = lane_shares(is_inlet, routes, graph.approaches[at(approach)]);
                 next = 0;
             }
             add(lane, shares[next++], shares_of(graph.approaches[at(approach)]));

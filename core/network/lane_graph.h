@@ -21,6 +21,13 @@ namespace stopline {
 enum class Turn : std::uint8_t { none, straight, right, left };
 inline constexpr int kMaxTurns = 12;  // number of values of Turn, including `none`
 
+// A part of an imported lane that is a lane of its own in the file of the network.
+struct LanePart {
+    std::string name;       // name of the lane in the file
+    double end_m = 0.0;     // end of the part, from the start of the lane; connection: from the stop line before it
+    double length_m = 0.0;  // length of the lane in the file
+};
+
 struct Lane {
     std::string name = {};
     double length_m = 0.0;
@@ -43,6 +50,8 @@ struct Lane {
     int movement_signal_group = -1;  // connection: signal group of its movement; -1: group of the stop line
     bool waits_inside = true;  // connection: yielding vehicles wait before the conflict area; false: at the stop line
     bool keep_clear = true;    // connection: the keep-clear rule (TrafficRules) applies
+    // Imported lane: its parts in driving order, as far as the stop line. Empty: the lane is a single part.
+    std::vector<LanePart> parts = {};
 };
 
 // A conflict area: the parts of two connections where vehicles on one can touch vehicles on the other. The bounds are

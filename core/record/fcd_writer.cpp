@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "base/io/escape.h"
+#include "record/lane_names.h"
 #include "record/sumo_files.h"
 #include "record/vehicle_name.h"
 #include "record/vehicle_place.h"
@@ -14,8 +15,10 @@ namespace {
 class FcdWriter : public RunWriter {
 public:
     FcdWriter(const std::filesystem::path& file, const RecordingWindow& window, const Model& model)
-        : model_(model), clock_(window, model.step_s), xml_(file, "fcd-export", "fcd_file.xsd") {
-        for (const Lane& lane : model.graph.lanes) lanes_.push_back(sumo_lane_name(lane));
+        : model_(model),
+          clock_(window, model.step_s),
+          xml_(file, "fcd-export", "fcd_file.xsd"),
+          lane_names_(model.graph, LaneNames::Style::sumo) {
         for (const CompiledPolicy& policy : model.policies) policies_.push_back(escape_xml(policy.settings.name));
     }
 
@@ -39,15 +42,15 @@ public:
 private:
     void add(const State& state, int lane, std::size_t slot) {
         const VehicleArrays& v = state.vehicles;
-        const Pose place = front_pose(model_, state, lane, slot);
-        const double north_deg = 90.0 - std::atan2(place.sine, place.cosine) * 180.0 / std::numbers::pi;
+        const Pose pose = front_pose(model_, state, lane, slot);
+        const LaneNames::Place place = lane_names_.front(state, lane, slot);
+        const double north_deg = 90.0 - std::atan2(pose.sine, pose.cosine) * 180.0 / std::numbers::pi;
         xml_.add(
             "        <vehicle id=\"{}\" x=\"{:.2f}\" y=\"{:.2f}\" angle=\"{:.2f}\" type=\"{}\" speed=\"{:.2f}\" "
             "pos=\"{:.2f}\" lane=\"{}\" slope=\"{:.2f}\" acceleration=\"{:.2f}\"/>\n",
-            vehicle_name(model_, v.record[slot].trip, v.id[slot]), place.point.x_m, place.point.y_m,
+            vehicle_name(model_, v.record[slot].trip, v.id[slot]), pose.point.x_m, pose.point.y_m,
             north_deg < 0.0 ? north_deg + 360.0 : north_deg, policies_[static_cast<std::size_t>(v.policy[slot])],
-            v.speed_mps[slot], v.position_m[slot], lanes_[static_cast<std::size_t>(lane)], slope_deg(lane),
-            v.acceleration_mps2[slot]);
+            v.speed_mps[slot], place.position_m, place.lane, slope_deg(lane), v.acceleration_mps2[slot]);
         ++rows_;
     }
     double slope_deg(int lane) const {
@@ -57,7 +60,7 @@ private:
     const Model& model_;
     FrameClock clock_;
     XmlFile xml_;
-    std::vector<std::string> lanes_;
+    LaneNames lane_names_;
     std::vector<std::string> policies_;
     std::int64_t frames_ = 0;
     std::int64_t rows_ = 0;

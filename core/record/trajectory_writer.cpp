@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "base/io/replaced_file.h"
+#include "record/lane_names.h"
+#include "record/streamed_file.h"
 #include "record/vehicle_place.h"
 
 namespace stopline {
@@ -13,7 +14,11 @@ class TrajectoryWriter : public RunWriter {
 public:
     TrajectoryWriter(const std::filesystem::path& file, const RecordingWindow& window, std::string population,
                      const Model& model, const std::string& header)
-        : model_(model), clock_(window, model.step_s), population_(std::move(population)), file_(file) {
+        : model_(model),
+          clock_(window, model.step_s),
+          population_(std::move(population)),
+          lane_names_(model.graph, LaneNames::Style::plain),
+          file_(file) {
         file_.write(header);
     }
 
@@ -36,19 +41,20 @@ public:
 private:
     void add(const State& state, int lane, std::size_t slot) {
         const VehicleArrays& v = state.vehicles;
+        const LaneNames::Place place = lane_names_.front(state, lane, slot);
         const Point front = front_pose(model_, state, lane, slot).point;
         fmt::format_to(std::back_inserter(text_), "{},{:.3f},{},{},{},{:.3f},{:.3f},{:.3f},{:.4f},{:.4f}\n",
                        population_, model_.time_s(state.tick), v.id[slot],
-                       model_.policies[static_cast<std::size_t>(v.policy[slot])].settings.name,
-                       model_.graph.lanes[static_cast<std::size_t>(lane)].name, v.position_m[slot], front.x_m,
-                       front.y_m, v.speed_mps[slot], v.acceleration_mps2[slot]);
+                       model_.policies[static_cast<std::size_t>(v.policy[slot])].settings.name, place.lane,
+                       place.position_m, front.x_m, front.y_m, v.speed_mps[slot], v.acceleration_mps2[slot]);
         ++rows_;
     }
 
     const Model& model_;
     FrameClock clock_;
     std::string population_;
-    ReplacedFile file_;
+    LaneNames lane_names_;
+    StreamedFile file_;
     std::string text_;
     std::int64_t rows_ = 0;
 };

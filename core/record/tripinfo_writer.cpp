@@ -3,6 +3,7 @@
 
 #include "base/io/escape.h"
 #include "base/speed_thresholds.h"
+#include "record/lane_names.h"
 #include "record/sumo_files.h"
 #include "record/vehicle_name.h"
 #include "record/xml_file.h"
@@ -15,7 +16,7 @@ struct Trip {
     double depart_s = 0.0;
     double depart_m = 0.0;
     double depart_mps = 0.0;
-    int depart_lane = -1;
+    std::string depart_lane;
     int policy = 0;
     int number = -1;  // index in DemandPlan::trips; -1: the vehicle has no planned trip
     // State of the vehicle in the latest step:
@@ -34,7 +35,9 @@ struct Trip {
 class TripinfoWriter : public RunWriter {
 public:
     TripinfoWriter(const std::filesystem::path& file, const Model& model)
-        : model_(model), xml_(file, "tripinfos", "tripinfo_file.xsd") {}
+        : model_(model),
+          xml_(file, "tripinfos", "tripinfo_file.xsd"),
+          lane_names_(model.graph, LaneNames::Style::sumo) {}
 
     void observe(const State& state) override {
         for (int lane = 0; lane < static_cast<int>(state.blocks.size()); ++lane) {
@@ -61,9 +64,10 @@ private:
         const double speed_mps = v.speed_mps[slot];
         if (trip.last_tick < 0) {
             trip.depart_s = model_.time_s(state.tick);
-            trip.depart_m = v.position_m[slot];
+            const LaneNames::Place place = lane_names_.front(state, lane, slot);
+            trip.depart_m = place.position_m;
             trip.depart_mps = speed_mps;
-            trip.depart_lane = lane;
+            trip.depart_lane = place.lane;
             trip.policy = v.policy[slot];
             trip.number = v.record[slot].trip;
         } else {
@@ -96,15 +100,14 @@ private:
     }
 
     void write(int vehicle, const Trip& trip, std::int64_t tick) {
-        const Lane& from = model_.graph.lanes[static_cast<std::size_t>(trip.depart_lane)];
-        const Lane& to = model_.graph.lanes[static_cast<std::size_t>(trip.lane)];
+        const LaneNames::Place arrival = lane_names_.end(trip.lane);
         const double arrival_s = model_.time_s(tick);
-        const double distance_m = trip.distance_m + std::max(to.length_m - trip.position_m, 0.0);
+        const double distance_m = trip.distance_m + std::max(lane_names_.to_end_m(trip.lane, trip.position_m), 0.0);
         xml_.add(
             "    <tripinfo id=\"{}\" depart=\"{:.2f}\" departLane=\"{}\" departPos=\"{:.2f}\" departSpeed=\"{:.2f}\" "
             "departDelay=\"{:.2f}\" arrival=\"{:.2f}\" arrivalLane=\"{}\" arrivalPos=\"{:.2f}\" arrivalSpeed=\"{:.2f}\" ",
-            vehicle_name(model_, trip.number, vehicle), trip.depart_s, sumo_lane_name(from), trip.depart_m,
-            trip.depart_mps, departure_delay_s(trip), arrival_s, sumo_lane_name(to), to.length_m, trip.speed_mps);
+            vehicle_name(model_, trip.number, vehicle), trip.depart_s, trip.depart_lane, trip.depart_m, trip.depart_mps,
+            departure_delay_s(trip), arrival_s, arrival.lane, arrival.position_m, trip.speed_mps);
         xml_.add(
             "duration=\"{:.2f}\" routeLength=\"{:.2f}\" waitingTime=\"{:.2f}\" waitingCount=\"{}\" stopTime=\"0.00\" "
             "timeLoss=\"{:.2f}\" rerouteNo=\"0\" devices=\"\" vType=\"{}\" speedFactor=\"1.00\" vaporized=\"\"/>\n",
@@ -121,6 +124,7 @@ private:
 
     const Model& model_;
     XmlFile xml_;
+    LaneNames lane_names_;
     std::unordered_map<int, Trip> trips_;  // [vehicle]
     std::int64_t ended_ = 0;
 };

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "base/io/replaced_file.h"
 #include "network/lane_graph.h"
+#include "record/streamed_file.h"
 
 namespace stopline {
 
@@ -19,7 +19,8 @@ std::string sumo_lane_name(const Lane& lane);
 
 class XmlFile {
 public:
-    // Begins the file with the XML declaration and the root element. `schema` is the file name of SUMO's schema.
+    // Begins the file with the XML declaration and the root element. `schema` is the file name of SUMO's schema. A file
+    // whose name ends with ".gz" is compressed.
     XmlFile(const std::filesystem::path& file, std::string root, std::string_view schema);
 
     // Appends formatted text. The caller escapes attribute values with escape_xml().
@@ -37,7 +38,7 @@ private:
     static constexpr std::size_t kBlockBytes = 1U << 20U;
     void flush();
 
-    ReplacedFile file_;
+    StreamedFile file_;
     std::string root_;
     std::string text_;
 };

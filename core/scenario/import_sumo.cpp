@@ -80,6 +80,10 @@ std::vector<std::string> sumo_warnings(const Scenario& scenario) {
     return lines;
 }
 
+std::vector<std::string> sumo_notes(const Scenario& scenario) {
+    return scenario.demand.sumo ? scenario.demand.sumo->notes : std::vector<std::string>{};
+}
+
 std::vector<FieldProblem> sumo_demand_problems(const Scenario& scenario) {
     if (!scenario.demand.sumo || scenario.demand.sumo->elements > 0) return {};
     return {{"network.routes", "the files of 'routes' and 'additional' have no vehicle, trip or flow"}};

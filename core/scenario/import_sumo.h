@@ -40,6 +40,9 @@ std::vector<SumoLoopPlace> sumo_loops(const Scenario& scenario);
 // files that the import ignores.
 std::vector<std::string> sumo_warnings(const Scenario& scenario);
 
+// Returns choices of the import that the user should know, one line each, such as the defaults of departure.
+std::vector<std::string> sumo_notes(const Scenario& scenario);
+
 // Returns an error if the SUMO files have no vehicle, trip or flow.
 std::vector<FieldProblem> sumo_demand_problems(const Scenario& scenario);
 // Returns the reason why no vehicle departs within the run, or "" if a vehicle departs.

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <map>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,6 +13,7 @@
 #include "base/input_error.h"
 #include "base/io/child_process.h"
 #include "base/io/csv.h"
+#include "runs/interrupted.h"
 #include "runs/intersection/intersection_run.h"
 #include "scenario/build_model.h"
 #include "sumo_export/export.h"
@@ -29,16 +32,64 @@ double measured_from_s(const Scenario& scenario, double end_s) {
     return 0.0;
 }
 
-void run_sumo(const std::filesystem::path& folder, std::uint64_t seed) {
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+constexpr std::string_view kStepLog = "Step #";  // begins each line of SUMO's step log, which ends with '\r'
+
+// Returns the simulated time in SUMO's latest step log, s.
+double simulated_s(const std::string& output) {
+    const std::size_t last = output.rfind(kStepLog);
+    return last == std::string::npos ? 0.0 : std::strtod(output.c_str() + last + kStepLog.size(), nullptr);
+}
+
+// Returns the output of SUMO without its step log.
+std::string without_step_log(const std::string& output) {
+    std::string text;
+    for (std::size_t begin = 0; begin < output.size();) {
+        const std::size_t end = std::min(output.find_first_of("\r\n", begin), output.size() - 1) + 1;
+        const std::string line = output.substr(begin, end - begin);
+        if (!line.starts_with(kStepLog)) text += line;
+        begin = end;
+    }
+    return text;
+}
+
+struct SumoRun {
+    std::filesystem::path folder;  // contains run.sumocfg
+    std::uint64_t seed = 0;
+    double end_s = 0.0;                              // simulated time at the end of the run
+    double limit_s = 0.0;                            // longest wall-clock time
+    const std::function<bool(double)>& on_progress;  // gets the simulated share of the run; returns false to stop
+};
+
+// Runs SUMO. Throws InputError if SUMO fails or needs more than the longest wall-clock time, and Interrupted if the
+// caller stops it.
+void run_sumo(const SumoRun& run) {
+    const auto start = std::chrono::steady_clock::now();
+    bool is_late = false;
+    const auto watch = [&](const std::string& output) {
+        if (!run.on_progress(simulated_s(output) / run.end_s)) throw Interrupted();
+        is_late = seconds_since(start) > run.limit_s;
+        return !is_late;
+    };
     const ProcessResult ended =
-        run_process({"sumo", "-c", "run.sumocfg", "--seed", std::to_string(seed), "--no-step-log", "--tripinfo-output",
-                     "trips.out.xml", "--summary-output", "summary.out.xml", "--summary-output.period", "1"},
-                    folder);
+        run_process({"sumo", "-c", "run.sumocfg", "--seed", std::to_string(run.seed), "--no-step-log", "false",
+                     "--step-log.period", "100", "--tripinfo-output", "trips.out.xml", "--summary-output",
+                     "summary.out.xml", "--summary-output.period", "1"},
+                    run.folder, watch);
+    if (is_late) {
+        throw InputError(fmt::format(
+            "SUMO was stopped after {:.0f} s of wall-clock time. It had simulated {:.0f} of {:.0f} s in {}. Allow more "
+            "with --sumo-limit, or shorten the run with --set 'duration=...'",
+            run.limit_s, simulated_s(ended.output), run.end_s, run.folder.string()));
+    }
     if (!ended.failed()) return;
     constexpr std::size_t kMaxOutput = 2000;  // characters; SUMO can repeat the same warning for every vehicle
-    const std::string output =
-        ended.output.size() > kMaxOutput ? ended.output.substr(0, kMaxOutput) + "\n(output cut off)" : ended.output;
-    throw InputError(fmt::format("SUMO failed in {}:\n{}", folder.string(), output));
+    const std::string all = without_step_log(ended.output);
+    const std::string output = all.size() > kMaxOutput ? all.substr(0, kMaxOutput) + "\n(output cut off)" : all;
+    throw InputError(fmt::format("SUMO failed in {}:\n{}", run.folder.string(), output));
 }
 
 // Throws InputError if a signal has a programme in an additional file but none in the network file. SUMO does not load
@@ -63,10 +114,6 @@ std::vector<double> column(const Comparison& comparison, bool ours, double RunSu
     return values;
 }
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 // Returns, for each lane of a generated network, the name of its stop line, or "" if the lane has no stop line.
 std::vector<std::string> own_stop_lines(const Model& model, const PlainNetwork& network) {
     std::vector<std::string> names(model.graph.lanes.size());
@@ -89,8 +136,11 @@ void rename_stop_lines(const std::map<std::string, std::string>& names, RunFacts
 }
 
 ComparedRun compare_seed(const Scenario& scenario, std::size_t population, const std::filesystem::path& folder,
-                         const std::function<bool(double)>& on_progress) {
+                         double sumo_limit_s, const std::function<bool(double)>& on_progress) {
     ComparedRun run{scenario.seed};
+    // Our run is the first half of the work, and SUMO's run the second half.
+    const std::function<bool(double)> on_own_progress = [&](double share) { return on_progress(0.5 * share); };
+    const std::function<bool(double)> on_sumo_progress = [&](double share) { return on_progress(0.5 + 0.5 * share); };
     Model model = build_model(scenario, population);
     model.records_detectors = true;
     const double end_s = run_end_s(scenario);
@@ -111,12 +161,12 @@ ComparedRun compare_seed(const Scenario& scenario, std::size_t population, const
     writers.push_back(make_facts_writer(model, lines.stop_line_of_lane, run.ours));
     Simulation simulation(model);
     const auto start = std::chrono::steady_clock::now();
-    run_with_writers(simulation, end_s, writers, on_progress);
+    run_with_writers(simulation, end_s, writers, on_own_progress);
     run.ours_wall_s = seconds_since(start);
     const Violations& v = simulation.state().records.violations;
     run.violations = v.overlaps + v.conflicts + v.red_entries + v.lost_vehicles + v.deadlocks;
     const auto start_of_sumo = std::chrono::steady_clock::now();
-    run_sumo(folder, scenario.seed);
+    run_sumo({folder, scenario.seed, end_s, sumo_limit_s, on_sumo_progress});
     run.sumo_wall_s = seconds_since(start_of_sumo);
     const bool has_loops = !scenario.network.is_sumo() || !lines.stop_line_at_end.empty();
     run.sumo = read_sumo_facts(folder, has_loops);
@@ -190,10 +240,11 @@ Comparison compare_with_sumo(const Scenario& scenario, std::size_t population, c
     for (int k = 0; k < options.repetitions; ++k) {
         Scenario run_scenario = scenario;
         run_scenario.seed = scenario.seed + static_cast<std::uint64_t>(k);
-        comparison.runs.push_back(compare_seed(
-            run_scenario, population, folder / fmt::format("seed_{}", run_scenario.seed), [&](double share) {
-                return !options.on_progress || options.on_progress((k + 0.5 * share) / options.repetitions);
-            }));
+        comparison.runs.push_back(
+            compare_seed(run_scenario, population, folder / fmt::format("seed_{}", run_scenario.seed),
+                         options.sumo_limit_s, [&](double share) {
+                             return !options.on_progress || options.on_progress((k + share) / options.repetitions);
+                         }));
     }
     return comparison;
 }

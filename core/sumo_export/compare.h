@@ -51,15 +51,16 @@ struct Comparison {
 };
 
 struct CompareOptions {
-    int repetitions = 3;   // number of runs; run k, counted from 0, has the scenario's seed + k
-    double from_s = -1.0;  // start of the compared period; < 0: start of the scenario's measured period
+    int repetitions = 3;           // number of runs; run k, counted from 0, has the scenario's seed + k
+    double from_s = -1.0;          // start of the compared period; < 0: start of the scenario's measured period
+    double sumo_limit_s = 1800.0;  // longest wall-clock time of one run of SUMO
     std::function<bool(double)> on_progress;  // gets the finished share of the work, 0 .. 1; returns false to stop
 };
 
 // Runs both programs. On an imported network, SUMO runs the network file of the scenario with the planned vehicles
 // (imported.h). On other networks, SUMO gets the vehicles that entered our run (inputs.h). The files of each seed stay
-// in FOLDER/seed_N. Throws InputError if SUMO is missing or fails. Throws Interrupted if on_progress returns false. If
-// the comparison is rejected before a file is written, no new folder remains.
+// in FOLDER/seed_N. Throws InputError if SUMO is missing, fails or exceeds its time limit. Throws Interrupted if
+// on_progress returns false. If the comparison is rejected before a file is written, no new folder remains.
 Comparison compare_with_sumo(const Scenario& scenario, std::size_t population, const std::filesystem::path& folder,
                              const CompareOptions& options);
 

@@ -118,6 +118,8 @@ std::string depart_speed(const Trip& trip) {
             return "max";
         case Trip::DepartSpeed::last:
             return "last";
+        case Trip::DepartSpeed::mean:
+            return "avg";
         case Trip::DepartSpeed::random:
             return "random";
         case Trip::DepartSpeed::given:

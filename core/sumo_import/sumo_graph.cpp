@@ -32,12 +32,13 @@ public:
         add_edges();
         index_chains();
         for (const SumoConnection& c : net().connections) {
-            if (!edge(c.from).internal && !edge(c.to).internal) connections_.push_back({&c, {}, 0.0, -1, -1});
+            if (!edge(c.from).internal && !edge(c.to).internal) connections_.push_back({&c});
         }
         for (BuiltConnection& connection : connections_) trace_chain(connection);
         assign_turns();
         for (BuiltConnection& connection : connections_) add_connection(connection);
         assign_shared_stretches();
+        name_internal_lanes();
         for (int lane = 0; lane < first_connection_; ++lane) finish_lane(lane);
         assign_signal_groups();
         find_sumo_conflicts(network_, connections_, clearance_m_);
@@ -81,6 +82,8 @@ private:
                 lane.shape = from.shape;
                 lane.shape_scale = length_m(lane.shape) / lane.length_m;
                 lane.approach = network_.approach_of.back();
+                const double first_m = from.merged_lanes.size() > 1 ? from.merged_lanes.front().second : 0.0;
+                lane.parts = parts_of(from.merged_lanes, first_m, lane.stop_line_m);
                 lane.left = approach.lanes.empty() ? -1 : approach.lanes.back();
                 numbers[at(k)] = static_cast<int>(lanes().size());
                 if (lane.left >= 0) lanes()[at(lane.left)].right = numbers[at(k)];
@@ -90,6 +93,18 @@ private:
             network_.graph.approaches.push_back(std::move(approach));
         }
         first_connection_ = static_cast<int>(lanes().size());
+    }
+
+    // Returns the parts of a lane that consists of the given lanes of the file. The lane has the length `length_m`. The
+    // first `fixed_m` metres keep their lengths, and the rest is stretched evenly.
+    static std::vector<LanePart> parts_of(const std::vector<std::pair<std::string, double>>& lanes, double fixed_m,
+                                          double length_m) {
+        std::vector<LanePart> parts;
+        double sum_m = 0.0;
+        for (const auto& [name, part_m] : lanes) parts.push_back({name, sum_m += part_m, part_m});
+        const double stretch = sum_m > fixed_m ? (length_m - fixed_m) / (sum_m - fixed_m) : 1.0;
+        for (LanePart& part : parts) part.end_m = fixed_m + stretch * (part.end_m - fixed_m);
+        return parts;
     }
 
     void index_chains() {
@@ -111,7 +126,8 @@ private:
             const SumoLane& inner = edge(via).lanes[at(lane)];
             connection.speed_mps = std::min(connection.speed_mps, inner.speed_mps);
             sumo_append(connection.shape, inner.shape);
-            const auto link = net().link_of.find(fmt::format("{}_{}", edge(via).id, lane));
+            connection.internal_lanes.emplace_back(fmt::format("{}_{}", edge(via).id, lane), inner.length_m);
+            const auto link = net().link_of.find(connection.internal_lanes.back().first);
             if (link != net().link_of.end()) std::tie(connection.junction, connection.link) = link->second;
             const auto next = next_in_chain_.find({via, lane});
             if (next == next_in_chain_.end() || next->second->to != c.to || next->second->to_lane != c.to_lane ||
@@ -199,6 +215,17 @@ private:
                 connection.shape_start_m = shared_m;
                 connection.diverge_end_m = diverge_m - shared_m;
             }
+        }
+    }
+
+    // Sets the parts of all connections. A connection without internal lanes has the name of the lane that it leads to,
+    // and no length.
+    void name_internal_lanes() {
+        for (const BuiltConnection& connection : connections_) {
+            Lane& lane = lanes()[at(connection.lane)];
+            const double length_m = lane.shape_start_m + lane.length_m;
+            lane.parts = parts_of(connection.internal_lanes, 0.0, length_m);
+            if (lane.parts.empty()) lane.parts.push_back({lanes()[at(lane.next[0])].name, length_m, 0.0});
         }
     }
 

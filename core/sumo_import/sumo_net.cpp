@@ -70,11 +70,22 @@ public:
             xml_.refuse(xml_.root(), "the network has no lane for passenger cars");
         }
         net_.hash = xml_.hash();
+        net_.version = version();
         net_.file = std::filesystem::absolute(file_).lexically_normal();
         return std::move(net_);
     }
 
 private:
+    // Returns the version of SUMO that wrote the file. Without a comment, the version of the format tells it as long as
+    // each release of SUMO had a format of its own: versions since 1.20 write "1.20".
+    std::optional<SumoVersion> version() const {
+        constexpr SumoVersion kLastFormat{1, 20};
+        if (xml_.version()) return xml_.version();
+        const std::string format = xml_.root().attribute("version").value();
+        const std::optional<SumoVersion> version = sumo_version("<!-- SUMO net " + format + " -->");
+        return version && *version < kLastFormat ? version : std::nullopt;
+    }
+
     void read_edge(pugi::xml_node node) {
         SumoEdge edge;
         edge.id = xml_.text(node, "id");

@@ -10,10 +10,12 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
 #include "network/geometry.h"
+#include "sumo_import/sumo_xml.h"
 
 namespace stopline {
 
@@ -43,6 +45,9 @@ struct SumoLane {
     // If short edges were merged into the edge of this lane, the lane ends where one or more lanes of the short edges
     // ended. This list holds the ids of those lanes. Otherwise the list is empty.
     std::vector<std::string> end_lanes = {};
+    // If short edges were merged into the edge of this lane: ids and lengths of the lanes of which it consists, in
+    // driving order. Otherwise the list is empty.
+    std::vector<std::pair<std::string, double>> merged_lanes = {};
 };
 
 struct SumoEdge {
@@ -108,12 +113,14 @@ struct SumoLoop {
 };
 
 struct SumoNet {
-    std::filesystem::path file;  // absolute path of the network file
+    std::filesystem::path file;          // absolute path of the network file
+    std::optional<SumoVersion> version;  // version of SUMO that wrote the network file, if the file tells it
     std::vector<SumoEdge> edges;
     std::vector<SumoConnection> connections;
     std::vector<SumoJunction> junctions;
     std::vector<SumoSignal> signals;
     std::vector<SumoLoop> loops;
+    std::unordered_set<std::string> loop_ids;
     std::unordered_map<std::string, int> edge_by_id;
     std::unordered_map<std::string, int> signal_by_id;
     std::unordered_map<std::string, std::pair<int, int>> link_of;  // [id of an internal lane] junction and link

@@ -2,6 +2,8 @@
 // matrices of junctions, and the signal programmes. Only sumo_graph.cpp uses it.
 #pragma once
 
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "sumo_import/sumo_graph.h"
@@ -12,6 +14,7 @@ namespace stopline {
 struct BuiltConnection {
     const SumoConnection* source = nullptr;
     Polyline shape = {};
+    std::vector<std::pair<std::string, double>> internal_lanes = {};  // ids and lengths, in driving order
     double speed_mps = 0.0;
     int junction = -1;  // index in SumoNet::junctions; -1: unknown
     int link = -1;      // row in the right-of-way matrices of the junction; -1: unknown

@@ -14,6 +14,7 @@
 #include "base/containers/index.h"
 #include "base/input_error.h"
 #include "base/random.h"
+#include "sumo_import/sumo_departure.h"
 #include "sumo_import/sumo_flow.h"
 #include "sumo_import/sumo_router.h"
 #include "sumo_import/sumo_types.h"
@@ -50,9 +51,12 @@ public:
         const SumoXml xml(file, {"routes", "trips", "additional", "add", "flows", "tlLogics"});
         additional_ = additional;
         xml_ = &xml;
+        defaults_ = sumo_departure_defaults(xml, network_.net);
+        uses_defaults_ = false;
         for (const pugi::xml_node node : xml.root()) {
             if (node.type() == pugi::node_element) read_element(node);
         }
+        if (uses_defaults_) traffic_.notes.push_back(fmt::format("{}: {}", xml.name(), text_of(defaults_)));
         traffic_.hash = traffic_.hash * 0x100000001b3U ^ xml.hash();
         xml_ = nullptr;
     }
@@ -67,6 +71,7 @@ public:
         SumoTraffic sorted;
         sorted.turns = std::move(traffic_.turns);
         sorted.warnings = std::move(traffic_.warnings);
+        sorted.notes = std::move(traffic_.notes);
         sorted.hash = traffic_.hash;
         sorted.elements = traffic_.elements;
         sorted.first_late_departure_s = traffic_.first_late_departure_s;
@@ -190,10 +195,7 @@ private:
             if (found == named_routes_.end()) xml_->refuse(node, fmt::format("route: there is no route '{}'", id));
             return found->second;
         }
-        for (const char* const other : {"fromTaz", "toTaz", "fromJunction", "toJunction", "fromXY", "toXY"}) {
-            if (node.attribute(other))
-                xml_->refuse(node, fmt::format("'{}' is not supported; give edges with 'from' and 'to'", other));
-        }
+        refuse_places_without_edges(node);
         TripRoute route;
         route.complete = false;
         route.where = xml_->where(node);
@@ -208,58 +210,28 @@ private:
         return {{routes_.size() - 1, 1.0}};
     }
 
-    void read_depart_lane(pugi::xml_node node, Trip& trip) {
-        const std::string lane = node.attribute("departLane").value();
-        const std::map<std::string, Trip::DepartLane> known{
-            {"", Trip::DepartLane::rightmost},    {"first", Trip::DepartLane::rightmost},
-            {"random", Trip::DepartLane::random}, {"free", Trip::DepartLane::free},
-            {"allowed", Trip::DepartLane::free},  {"best", Trip::DepartLane::best},
-            {"best_prob", Trip::DepartLane::best}};
-        const auto found = known.find(lane);
-        if (found != known.end()) {
-            trip.depart_lane = found->second;
-        } else {
-            trip.depart_lane = Trip::DepartLane::given;
-            trip.lane = xml_->whole_number(node, "departLane");
+    // Throws InputError if an origin or destination is a zone, a junction or a point. Edges in 'from' and 'to' take
+    // precedence over them, as in the output of od2trips.
+    void refuse_places_without_edges(pugi::xml_node node) const {
+        for (const std::string end : {"from", "to"}) {
+            if (node.attribute(end.c_str())) continue;
+            for (const char* const place : {"Taz", "Junction", "XY", "LonLat"}) {
+                if (!node.attribute((end + place).c_str())) continue;
+                xml_->refuse(node, fmt::format("'{0}{1}' is not supported without an edge; give an edge with '{0}'",
+                                               end, place));
+            }
         }
+    }
+
+    // Reads the attributes of departure. A vehicle that lacks some of them gets the defaults of the file.
+    void read_departure(pugi::xml_node node, Trip& trip) {
+        if (read_sumo_departure(*xml_, node, defaults_, traffic_.warnings, trip)) uses_defaults_ = true;
         if (node.attribute("arrivalPos") || node.attribute("arrivalLane") || node.attribute("arrivalSpeed")) {
             traffic_.warnings.note(
                 xml_->where(node),
                 "'arrivalPos', 'arrivalLane' and 'arrivalSpeed' are ignored: trips end at the end of an edge");
         }
         if (node.child("stop")) traffic_.warnings.note(xml_->where(node), kStopIgnored);
-    }
-
-    void read_depart_position(pugi::xml_node node, Trip& trip) {
-        const std::string position = node.attribute("departPos").value();
-        const std::map<std::string, Trip::DepartPosition> known{
-            {"", Trip::DepartPosition::base},     {"base", Trip::DepartPosition::base},
-            {"last", Trip::DepartPosition::last}, {"random", Trip::DepartPosition::random},
-            {"free", Trip::DepartPosition::free}, {"random_free", Trip::DepartPosition::free}};
-        if (const auto found = known.find(position); found != known.end()) {
-            trip.depart_position = found->second;
-        } else if (position == "stop") {
-            traffic_.warnings.note(xml_->where(node), "departPos=\"stop\" is not supported; 'base' is used");
-        } else {
-            trip.depart_position = Trip::DepartPosition::given;
-            trip.front_m = static_cast<float>(xml_->number(node, "departPos"));
-        }
-    }
-
-    void read_depart_speed(pugi::xml_node node, Trip& trip) {
-        const std::string speed = node.attribute("departSpeed").value();
-        const std::map<std::string, Trip::DepartSpeed> known{
-            {"max", Trip::DepartSpeed::limit},        {"desired", Trip::DepartSpeed::limit},
-            {"speedLimit", Trip::DepartSpeed::limit}, {"last", Trip::DepartSpeed::last},
-            {"avg", Trip::DepartSpeed::last},         {"random", Trip::DepartSpeed::random}};
-        if (speed.empty()) return;
-        if (const auto found = known.find(speed); found != known.end()) {
-            trip.depart_speed = found->second;
-            return;
-        }
-        const double given = xml_->number(node, "departSpeed");
-        if (given < 0.0 || given > 200.0) xml_->refuse(node, "'departSpeed' must be between 0 and 200 m/s");
-        trip.speed_mps = static_cast<float>(given);
     }
 
     // All attributes of a vehicle, trip or flow element except its times.
@@ -270,9 +242,7 @@ private:
     };
     VehicleTemplate read_template(pugi::xml_node node) {
         VehicleTemplate vehicle{{}, read_route_choice(node), node.attribute("type").value()};
-        read_depart_lane(node, vehicle.trip);
-        read_depart_position(node, vehicle.trip);
-        read_depart_speed(node, vehicle.trip);
+        read_departure(node, vehicle.trip);
         return vehicle;
     }
 
@@ -423,6 +393,8 @@ private:
     std::vector<char> merged_;      // [edge] 1: short edges were merged into it
     const SumoXml* xml_ = nullptr;  // the file that is being read
     bool additional_ = false;       // the file that is being read is an additional file
+    SumoDepartureDefaults defaults_;
+    bool uses_defaults_ = false;  // a vehicle of the file that is being read lacks an attribute of departure
     SumoTypes types_;
     std::vector<TripRoute> routes_;
     std::unordered_map<std::string, Shares> named_routes_;

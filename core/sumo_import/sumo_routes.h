@@ -20,6 +20,7 @@ struct SumoTraffic {
     std::vector<Turn> turns;       // turns of all trips, one trip after the other; see Trip::first_turn
     std::vector<std::string> ids;  // [trip]
     SumoWarnings warnings;
+    std::vector<std::string> notes;                     // choices of the import that the user should know
     std::uint64_t hash = 0;                             // hash of the text of all files
     std::int64_t elements = 0;                          // number of vehicle, trip and flow elements in the files
     std::optional<double> first_late_departure_s = {};  // earliest departure that is not before the end of the run

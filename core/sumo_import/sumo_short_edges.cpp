@@ -16,7 +16,9 @@ namespace {
 
 class Merger {
 public:
-    explicit Merger(SumoNet& net) : net_(net), outgoing_(net.edges.size()), incoming_(net.edges.size()) {
+    explicit Merger(SumoNet& net)
+        : net_(net), outgoing_(net.edges.size()), incoming_(net.edges.size()), loops_(net.edges.size()) {
+        for (std::size_t k = 0; k < net.loops.size(); ++k) loops_[at(net.loops[k].edge)].push_back(k);
         for (std::size_t k = 0; k < net.connections.size(); ++k) {
             const SumoConnection& c = net.connections[k];
             if (net.edges[at(c.from)].internal) {
@@ -38,7 +40,10 @@ public:
     }
 
 private:
+    using LaneId = std::pair<int, int>;  // edge and index of a lane
+
     const SumoConnection& connection(std::size_t k) const { return net_.connections[k]; }
+    const SumoLane& lane_of(const LaneId& id) const { return net_.edges[at(id.first)].lanes[at(id.second)]; }
 
     void try_to_merge(int edge) {
         SumoEdge& own = net_.edges[at(edge)];
@@ -56,13 +61,13 @@ private:
     }
 
     // Returns the internal lanes of a connection, in driving order.
-    std::vector<const SumoLane*> via_lanes(const SumoConnection& c) const {
+    std::vector<LaneId> via_lanes(const SumoConnection& c) const {
         constexpr std::size_t kMaxLanes = 16;
-        std::vector<const SumoLane*> lanes;
+        std::vector<LaneId> lanes;
         int via = c.via;
         int lane = c.via_lane;
         while (via >= 0 && lanes.size() < kMaxLanes) {
-            lanes.push_back(&net_.edges[at(via)].lanes[at(lane)]);
+            lanes.push_back({via, lane});
             const auto next = next_in_chain_.find({via, lane});
             via = next == next_in_chain_.end() ? -1 : connection(next->second).via;
             lane = next == next_in_chain_.end() ? 0 : connection(next->second).via_lane;
@@ -82,12 +87,13 @@ private:
             const SumoConnection c = connection(in);
             SumoLane& lane = predecessor.lanes[at(c.from_lane)];
             double added_m = own.lanes[at(c.to_lane)].length_m;
-            std::vector<const SumoLane*> parts = via_lanes(c);
-            for (const SumoLane* const part : parts) added_m += part->length_m;
-            parts.push_back(&own.lanes[at(c.to_lane)]);
+            std::vector<LaneId> parts = via_lanes(c);
+            for (const LaneId& part : parts) added_m += lane_of(part).length_m;
+            parts.emplace_back(edge, c.to_lane);
             add_end_lane(lane, own, c.to_lane, !grown[at(c.from_lane)]);
             if (!grown[at(c.from_lane)]) {
-                for (const SumoLane* const part : parts) sumo_append(lane.shape, part->shape);
+                add_merged_lanes({before, c.from_lane}, parts);
+                for (const LaneId& part : parts) sumo_append(lane.shape, lane_of(part).shape);
                 growth_m = std::max(growth_m, added_m);
             }
             grown[at(c.from_lane)] = true;
@@ -98,10 +104,27 @@ private:
                 new_connections.back().from_lane = c.from_lane;
             }
         }
-        for (SumoLane& lane : predecessor.lanes) lane.length_m += growth_m;
+        for (std::size_t k = 0; k < grown.size(); ++k) {
+            if (!grown[k]) add_merged_lanes({before, static_cast<int>(k)}, {});
+            predecessor.lanes[k].length_m += growth_m;
+        }
         for (const std::size_t removed : incoming_[at(edge)]) net_.connections[removed].from = -1;
         for (const std::size_t removed : outgoing_[at(edge)]) net_.connections[removed].from = -1;
         replace_connections(before, edge, std::move(new_connections));
+    }
+
+    // Records that the lane `first` now continues along the lanes `parts`.
+    void add_merged_lanes(const LaneId& first, const std::vector<LaneId>& parts) {
+        const auto lanes_in = [&](const LaneId& id) {
+            const SumoLane& lane = lane_of(id);
+            if (!lane.merged_lanes.empty()) return lane.merged_lanes;
+            return std::vector{std::pair{fmt::format("{}_{}", net_.edges[at(id.first)].id, id.second), lane.length_m}};
+        };
+        std::vector<std::pair<std::string, double>> lanes = lanes_in(first);
+        for (const LaneId& part : parts) {
+            for (std::pair<std::string, double>& lane : lanes_in(part)) lanes.push_back(std::move(lane));
+        }
+        net_.edges[at(first.first)].lanes[at(first.second)].merged_lanes = std::move(lanes);
     }
 
     // Records that, after the merge, `lane` ends where the lane `index` of the merged edge ends. If `replace` is set,
@@ -116,16 +139,18 @@ private:
 
     // Moves the detectors of the merged edge `edge` to the edge `before`. Their places on the road stay the same.
     void move_loops(int before, int edge) {
-        for (SumoLoop& loop : net_.loops) {
-            if (loop.edge != edge) continue;
+        const std::vector<std::size_t> loops = std::move(loops_[at(edge)]);
+        for (const std::size_t number : loops) {
+            SumoLoop& loop = net_.loops[number];
             const auto leads_to_loop = [&](std::size_t k) { return connection(k).to_lane == loop.lane; };
             const auto in = std::find_if(incoming_[at(edge)].begin(), incoming_[at(edge)].end(), leads_to_loop);
             if (in == incoming_[at(edge)].end()) continue;  // no connection leads to the lane of the detector
             const SumoConnection& c = connection(*in);
             loop.edge = before;
+            loops_[at(before)].push_back(number);
             loop.lane = c.from_lane;
             loop.position_m += net_.edges[at(before)].lanes[at(c.from_lane)].length_m;
-            for (const SumoLane* const part : via_lanes(c)) loop.position_m += part->length_m;
+            for (const LaneId& part : via_lanes(c)) loop.position_m += lane_of(part).length_m;
         }
     }
 
@@ -148,6 +173,7 @@ private:
     SumoNet& net_;
     std::vector<std::vector<std::size_t>> outgoing_;            // [edge] connections from the edge to other edges
     std::vector<std::vector<std::size_t>> incoming_;            // [edge] connections from other edges to the edge
+    std::vector<std::vector<std::size_t>> loops_;               // [edge] detectors on the edge
     std::map<std::pair<int, int>, std::size_t> next_in_chain_;  // [internal edge, lane] connection from this lane
 };
 

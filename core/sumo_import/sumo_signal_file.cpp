@@ -16,9 +16,9 @@ constexpr double kMaxDuration_s = 1e6;
 SumoPhase phase_of(const SumoXml& xml, pugi::xml_node node, SumoWarnings& warnings) {
     constexpr std::string_view kLetters = "rugGyYsoO";
     SumoPhase phase{xml.number(node, "duration"), xml.text(node, "state")};
-    if (phase.duration_s < 0.0 || phase.duration_s > kMaxDuration_s) {
-        xml.refuse(
-            node, fmt::format("duration=\"{}\" must be 0 to {} s", node.attribute("duration").value(), kMaxDuration_s));
+    if (!(phase.duration_s > 0.0) || phase.duration_s > kMaxDuration_s) {
+        xml.refuse(node, fmt::format("duration=\"{}\" must be more than 0 and at most {} s",
+                                     node.attribute("duration").value(), kMaxDuration_s));
     }
     const std::size_t unknown = phase.state.find_first_not_of(kLetters);
     if (unknown != std::string::npos) {
@@ -124,8 +124,7 @@ void read_loop(const SumoXml& xml, pugi::xml_node node, SumoNet& net) {
         if (!node.attribute(ignored)) continue;
         net.warnings.note(loop.where, fmt::format("'{}' is ignored: the detector counts all vehicles", ignored));
     }
-    const auto has_same_id = [&](const SumoLoop& other) { return other.id == loop.id; };
-    if (std::any_of(net.loops.begin(), net.loops.end(), has_same_id)) {
+    if (!net.loop_ids.insert(loop.id).second) {
         xml.refuse(node, fmt::format("there are two detectors '{}'; ids must be unique", loop.id));
     }
     net.loops.push_back(std::move(loop));

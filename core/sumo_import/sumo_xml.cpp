@@ -115,6 +115,18 @@ std::string_view element_before(std::string_view text, std::size_t position) {
     return text.substr(begin + 1, std::min(text.find_first_of(" \t\r\n/>", begin + 1), position) - begin - 1);
 }
 
+// Returns the version in a word such as "1.28.0" or "v1_8_0+2135", or nothing if the word is no version.
+std::optional<SumoVersion> version_of(std::string_view word) {
+    if (word.starts_with('v')) word.remove_prefix(1);
+    SumoVersion version;
+    const char* const end = word.data() + word.size();
+    const auto [dot, major_error] = std::from_chars(word.data(), end, version.major);
+    if (major_error != std::errc() || dot == end || (*dot != '.' && *dot != '_')) return std::nullopt;
+    const auto [rest, minor_error] = std::from_chars(dot + 1, end, version.minor);
+    if (minor_error != std::errc()) return std::nullopt;
+    return version;
+}
+
 std::string shortened(std::string_view text) {
     constexpr std::size_t kMaxLength = 60;
     return text.size() <= kMaxLength ? std::string(text) : std::string(text.substr(0, kMaxLength)) + "...";
@@ -150,8 +162,32 @@ std::vector<std::string_view> sumo_words(std::string_view text) {
     return words;
 }
 
+std::string text_of(const SumoVersion& version) { return fmt::format("{}.{}", version.major, version.minor); }
+
+// Releases write "netconvert 1.28.0" or "netconvert Version 1.4.0", other builds "netconvert Version v1_8_0+2135-a1b2".
+std::optional<SumoVersion> sumo_version(std::string_view text) {
+    constexpr std::string_view kProgram = "SUMO ";
+    for (std::size_t k = text.find('<'); k != std::string_view::npos;) {
+        const bool is_comment = text.substr(k).starts_with("<!--");
+        if (!is_comment && !text.substr(k).starts_with("<?")) return std::nullopt;
+        const std::size_t end = std::min(text.find(is_comment ? "-->" : "?>", k), text.size());
+        const std::string_view line = text.substr(k, std::min(text.find('\n', k), end) - k);
+        k = text.find('<', end);
+        const std::size_t program = line.find(kProgram);
+        if (!is_comment || program == std::string_view::npos) continue;
+        const std::vector<std::string_view> words = sumo_words(line.substr(program + kProgram.size()));
+        for (std::size_t word = 1; word < words.size(); ++word) {
+            if (const std::optional<SumoVersion> version = version_of(words[word])) return version;
+        }
+    }
+    return std::nullopt;
+}
+
 SumoXml::SumoXml(const std::filesystem::path& file, std::initializer_list<std::string_view> root_names)
-    : name_(file.lexically_normal().generic_string()), text_(read_text(file, name_)), hash_(hash_of(text_)) {
+    : name_(file.lexically_normal().generic_string()),
+      text_(read_text(file, name_)),
+      hash_(hash_of(text_)),
+      version_(sumo_version(text_)) {
     for (const char* at = text_.data(); at != nullptr;) {
         at =
             static_cast<const char*>(std::memchr(at, '\n', static_cast<std::size_t>(text_.data() + text_.size() - at)));

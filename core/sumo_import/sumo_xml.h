@@ -5,6 +5,7 @@
 // numbers that are not finite. It also rejects duplicate attributes and unknown entities, which pugixml accepts.
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <filesystem>
 #include <initializer_list>
@@ -18,6 +19,14 @@
 
 namespace stopline {
 
+// A version of SUMO, such as 1.28. The third number is left out, because no third number changed the format.
+struct SumoVersion {
+    int major = 0;
+    int minor = 0;
+    auto operator<=>(const SumoVersion&) const = default;
+};
+std::string text_of(const SumoVersion& version);
+
 class SumoXml {
 public:
     // Reads and parses the file. Throws InputError unless the name of the root element is in `root_names`.
@@ -30,6 +39,10 @@ public:
     std::size_t bytes() const { return text_.size(); }
     // Returns the 64-bit FNV-1a hash of the unpacked text.
     std::uint64_t hash() const { return hash_; }
+
+    // Returns the version of SUMO in the comment that SUMO's programs write before the root element, such as "generated
+    // on 2026-01-31 by Eclipse SUMO netconvert 1.28.0". Returns nothing if there is no such comment.
+    std::optional<SumoVersion> version() const { return version_; }
 
     // Throws InputError with the message, preceded by file and line of the node.
     [[noreturn]] void refuse(pugi::xml_node node, const std::string& message) const;
@@ -51,12 +64,15 @@ private:
     std::string text_;                      // text of the file; pugixml parses it in place
     std::vector<std::uint32_t> line_ends_;  // byte offsets of the line breaks in text_
     std::uint64_t hash_ = 0;
+    std::optional<SumoVersion> version_;
     std::unique_ptr<pugi::xml_document> document_;
     pugi::xml_node root_;
 };
 
 // Returns the reason why the file cannot be read, or "" if it is a readable regular file.
 std::string sumo_file_problem(const std::filesystem::path& file);
+// Returns the version in the comments before the root element of a file with this text, as SumoXml::version() does.
+std::optional<SumoVersion> sumo_version(std::string_view text);
 // Converts the text to a number. Returns nothing unless the whole text is one finite decimal number.
 std::optional<double> sumo_number(std::string_view text);
 // Returns the words of the text, which are separated by white space.

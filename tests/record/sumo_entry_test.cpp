@@ -70,9 +70,10 @@ TEST(SumoEntry, FollowsDepartPos) {
 
 TEST(SumoEntry, BetweenOtherVehiclesKeepsTheOrder) {
     for (const char* const fidelity : {kMeso, kFull}) {
-        const Scenario scenario = scenario_of(R"(<trip id="a" depart="0" from="w_in" to="e_out" departPos="40"/>
-<trip id="b" depart="0" from="w_in" to="e_out" departPos="150"/>
-<trip id="c" depart="1" from="w_in" to="e_out" departPos="100"/>)",
+        const Scenario scenario = scenario_of(R"(
+<trip id="a" depart="0" from="w_in" to="e_out" departLane="0" departSpeed="0" departPos="40"/>
+<trip id="b" depart="0" from="w_in" to="e_out" departLane="0" departSpeed="0" departPos="150"/>
+<trip id="c" depart="1" from="w_in" to="e_out" departLane="0" departSpeed="0" departPos="100"/>)",
                                               "", fidelity);
         const std::vector<double> fronts = fronts_m(scenario, "w_in_0", 1.2);
         ASSERT_EQ(fronts.size(), 3U);
@@ -154,8 +155,9 @@ TEST(SumoLoops, CountPassingVehicles) {
     const std::string loops = R"(<inductionLoop id="far" lane="w_in_0" pos="-40" period="60" file="x.xml"/>
 <e1Detector id="near &amp; dear" lane="w_in_0" pos="30" period="60" file="x.xml"/>
 <e1Detector id="feet" lane="n_out_0" pos="30" period="60" file="x.xml"/>)";
-    const Scenario scenario = scenario_of(R"(<trip id="a" depart="0" from="w_in" to="e_out" departSpeed="max"/>
-<trip id="b" depart="0" from="w_in" to="e_out" departPos="100" departSpeed="max"/>)",
+    const Scenario scenario = scenario_of(R"(
+<trip id="a" depart="0" from="w_in" to="e_out" departLane="0" departSpeed="max"/>
+<trip id="b" depart="0" from="w_in" to="e_out" departLane="0" departPos="100" departSpeed="max"/>)",
                                           loops);
     EXPECT_EQ(testing::without_folder(sumo_warnings(scenario).back()),
               "my.add.xml:4: the detector is ignored: it lies inside a junction or on a lane closed to cars");

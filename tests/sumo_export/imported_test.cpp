@@ -103,8 +103,8 @@ TEST(ImportedNetwork, KeepsVehiclesAndTheirPlannedTimes) {
 <trip id="after" depart="60" from="s_in" to="n_out"/>)"));
     EXPECT_EQ(
         inputs.rows("vehicles.rou.xml", "vehicle", {"id", "type", "depart", "departLane", "departPos", "departSpeed"}),
-        (Rows{"v CTG-Ref_7.1m 4.000 best random max: w_in e_out", "f.0 CTG-Ref_5m 4.000 first base 0.00: s_in n_out",
-              "f.1 CTG-Ref_5m 5.000 first base 0.00: s_in n_out",
+        (Rows{"v CTG-Ref_7.1m 4.000 best random max: w_in e_out", "f.0 CTG-Ref_5m 4.000 best base avg: s_in n_out",
+              "f.1 CTG-Ref_5m 5.000 best base avg: s_in n_out",
               "late & slow CTG-Ref_5m 20.250 1 150.00 3.00: w_in n_out"}));
     const Rows types = inputs.rows("vehicles.rou.xml", "vType", {"id", "length"});
     EXPECT_EQ(types, (Rows{"CTG-Ref_5m 5.0000", "CTG-Ref_7.1m 7.1000"}));

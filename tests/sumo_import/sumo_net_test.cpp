@@ -437,6 +437,8 @@ INSTANTIATE_TEST_SUITE_P(
         InvalidNet{"state=\"ryyy\"", "state=\"ryy\"", ":34: 'state' has 3 letters"},
         InvalidNet{"state=\"ryyy\"", "state=\"ryXy\"", ":34: 'state' has the unknown letter 'X'"},
         InvalidNet{"duration=\"4\"", "duration=\"-4\"", ":34: duration"},
+        InvalidNet{"duration=\"4\"", "duration=\"0\"", ":34: duration=\"0\" must be more than 0"},
+        InvalidNet{"duration=\"4\"", "duration=\"-0.0\"", ":34: duration=\"-0.0\" must be more than 0"},
         InvalidNet{"response=\"1110\"", "response=\"110\"", "'response' and 'foes' of request 0 must have 4 bits"},
         InvalidNet{"intLanes=\"", "intLanes=\":J_9_0 ", "has 5 links in 'intLanes' but 4 requests"},
         InvalidNet{"request index=\"1\"", "request index=\"2\"", "requests must be numbered"},

@@ -2,21 +2,28 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace stopline {
 
 struct ProcessResult {
-    int start_error = 0;  // errno if the program could not be started, else 0
-    int wait_status = 0;  // status from waitpid(); 0: success
-    std::string output;   // standard output and standard error, interleaved
+    int start_error = 0;   // errno if the program could not be started, else 0
+    int wait_status = 0;   // status from waitpid(); 0: success
+    std::string output;    // standard output and standard error, interleaved
+    bool stopped = false;  // the caller has stopped the program
 
     bool failed() const { return start_error != 0 || wait_status != 0; }
 };
 
+// Gets the output of the program so far, several times a second. If it returns false, the program is killed.
+using ProcessWatch = std::function<bool(const std::string& output)>;
+
 // Runs `command` in `folder` with empty standard input. The first word is the name of the program, which is searched in
-// PATH. A failure is reported in the result; no exception is thrown.
-ProcessResult run_process(std::vector<std::string> command, const std::filesystem::path& folder);
+// PATH. A failure is reported in the result. `watch` may be empty. If it throws an exception, the program is killed and
+// the exception passes on.
+ProcessResult run_process(std::vector<std::string> command, const std::filesystem::path& folder,
+                          const ProcessWatch& watch = {});
 
 }  // namespace stopline

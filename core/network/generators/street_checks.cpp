@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <map>
+#include <unordered_set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -25,8 +27,9 @@ public:
     std::vector<StreetProblem> run() {
         const std::string clearance_message = clearance_problem(s_.clearance_m, s_.lane_width_m);
         if (!clearance_message.empty()) add_problem("clearance", clearance_message);
+        std::unordered_set<std::string> names;
         for (int n = 0; n < layout_.nodes(); ++n) {
-            check_name_and_sides(n);
+            check_name_and_sides(n, names);
             check_programme(n);
         }
         if (problems_.empty()) check_distances();
@@ -62,10 +65,10 @@ private:
         }
     }
 
-    void check_name_and_sides(int n) {
+    // Adds the name of the intersection to the names of those before it.
+    void check_name_and_sides(int n, std::unordered_set<std::string>& names) {
         const StreetIntersection& node = layout_.node(n);
-        for (int other = 0; other < n; ++other) {
-            if (layout_.node(other).name != node.name) continue;
+        if (!names.insert(node.name).second) {
             add_problem(field_of(n) + ".name", fmt::format("the name '{}' appears twice", node.name));
         }
         if (node.legs.size() < 2) add_problem(field_of(n) + ".legs", "at least two legs are needed");
@@ -105,19 +108,41 @@ private:
         }
     }
 
+    // Compares each intersection with those in its own and the adjacent squares. Intersections that are not in adjacent
+    // squares are far enough apart.
     void check_distances() {
+        double square_m = kMinLink_m;
         for (int n = 0; n < layout_.nodes(); ++n) {
-            for (int other = 0; other < n; ++other) {
-                const StreetIntersection& a = layout_.node(n);
-                const StreetIntersection& b = layout_.node(other);
-                const double distance_m = std::hypot(a.x_m - b.x_m, a.y_m - b.y_m);
-                if (distance_m >= a.radius_m + b.radius_m + kMinLink_m) continue;
-                add_problem(
-                    field_of(n) + ".x",
+            square_m = std::max(square_m, 2.0 * layout_.node(n).radius_m + kMinLink_m);
+        }
+        const auto square_of = [&](int n) {
+            return std::pair{std::floor(layout_.node(n).x_m / square_m), std::floor(layout_.node(n).y_m / square_m)};
+        };
+        std::map<std::pair<double, double>, std::vector<int>> squares;
+        for (int n = 0; n < layout_.nodes(); ++n) {
+            const auto [column, row] = square_of(n);
+            std::vector<int> others;
+            for (const double right : {-1.0, 0.0, 1.0}) {
+                for (const double up : {-1.0, 0.0, 1.0}) {
+                    const auto found = squares.find({column + right, row + up});
+                    if (found == squares.end()) continue;
+                    others.insert(others.end(), found->second.begin(), found->second.end());
+                }
+            }
+            std::sort(others.begin(), others.end());
+            for (const int other : others) check_distance(n, other);
+            squares[{column, row}].push_back(n);
+        }
+    }
+
+    void check_distance(int n, int other) {
+        const StreetIntersection& a = layout_.node(n);
+        const StreetIntersection& b = layout_.node(other);
+        const double distance_m = std::hypot(a.x_m - b.x_m, a.y_m - b.y_m);
+        if (distance_m >= a.radius_m + b.radius_m + kMinLink_m) return;
+        add_problem(field_of(n) + ".x",
                     fmt::format("the centre is only {:g} m from '{}': both radii and {:g} m of road need {:g} m",
                                 distance_m, b.name, kMinLink_m, a.radius_m + b.radius_m + kMinLink_m));
-            }
-        }
     }
 
     // Checks that the lanes serve, from left to right, first left turns, then straight traffic, then right turns. In

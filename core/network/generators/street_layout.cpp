@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
+#include <utility>
 
 #include "base/containers/index.h"
 
@@ -11,6 +13,10 @@ namespace stopline {
 
 namespace {
 
+constexpr std::size_t kWest = 0;  // sides, as in kSides
+constexpr std::size_t kSouth = 1;
+constexpr std::size_t kEast = 2;
+constexpr std::size_t kNorth = 3;
 constexpr double kSameLine_m = 1.0;  // intersections with at most this sideways offset lie on one straight road
 
 }  // namespace
@@ -39,6 +45,7 @@ StreetLayout::StreetLayout(const StreetSettings& streets) : streets_(&streets) {
         }
         legs_.push_back(legs);
     }
+    find_nearest();
 }
 
 const StreetLeg* StreetLayout::leg(int n, int side) const {
@@ -46,19 +53,48 @@ const StreetLeg* StreetLayout::leg(int n, int side) const {
     return index < 0 ? nullptr : &node(n).legs[at(index)];
 }
 
-int StreetLayout::nearest(int n, int side) const {
-    int nearest = -1;
-    double nearest_m = std::numeric_limits<double>::infinity();
-    const Point here{node(n).x_m, node(n).y_m};
-    for (int other = 0; other < nodes(); ++other) {
-        // Position of the other intersection relative to this one. The x axis points toward `side`.
-        const Point offset = rotated({{node(other).x_m - here.x_m, node(other).y_m - here.y_m}}, (6 - side) % 4)[0];
-        const double ahead_m = offset.x_m;
-        if (other == n || ahead_m <= 0.0 || ahead_m >= nearest_m || std::abs(offset.y_m) > kSameLine_m) continue;
-        nearest = other;
-        nearest_m = ahead_m;
+void StreetLayout::find_nearest() {
+    nearest_.assign(legs_.size(), {-1, -1, -1, -1});
+    for (const bool eastward : {true, false}) {
+        const auto along_m = [&](int n) { return eastward ? node(n).x_m : node(n).y_m; };
+        const auto across_m = [&](int n) { return eastward ? node(n).y_m : node(n).x_m; };
+        // Strips of the plane, as wide as the largest offset of intersections on one road. Each holds positions along
+        // the strip and indices of intersections, sorted.
+        std::map<double, std::vector<std::pair<double, int>>> strips;
+        for (int n = 0; n < nodes(); ++n) strips[std::floor(across_m(n) / kSameLine_m)].emplace_back(along_m(n), n);
+        for (auto& [strip, places] : strips) std::sort(places.begin(), places.end());
+        const auto is_on_line = [&](int n, int other) {
+            return std::abs(across_m(other) - across_m(n)) <= kSameLine_m;
+        };
+        for (int n = 0; n < nodes(); ++n) {
+            double ahead_m = std::numeric_limits<double>::infinity();
+            double behind_m = std::numeric_limits<double>::infinity();
+            int& ahead = nearest_[at(n)][eastward ? kEast : kNorth];
+            int& behind = nearest_[at(n)][eastward ? kWest : kSouth];
+            // Of several intersections at the same distance, the one with the lowest index counts.
+            const auto take = [&](int other, double distance_m, int& nearest, double& nearest_m) {
+                if (distance_m > nearest_m || (distance_m == nearest_m && other > nearest)) return;
+                nearest = other;
+                nearest_m = distance_m;
+            };
+            const double own_strip = std::floor(across_m(n) / kSameLine_m);
+            for (const double strip : {own_strip - 1.0, own_strip, own_strip + 1.0}) {
+                const auto found = strips.find(strip);
+                if (found == strips.end()) continue;
+                const std::vector<std::pair<double, int>>& places = found->second;
+                const auto first_ahead = std::upper_bound(places.begin(), places.end(), std::pair{along_m(n), nodes()});
+                for (auto place = first_ahead; place != places.end() && place->first - along_m(n) <= ahead_m; ++place) {
+                    if (is_on_line(n, place->second)) take(place->second, place->first - along_m(n), ahead, ahead_m);
+                }
+                const auto first_level = std::lower_bound(places.begin(), places.end(), std::pair{along_m(n), -1});
+                for (auto place = first_level; place != places.begin();) {
+                    --place;
+                    if (along_m(n) - place->first > behind_m) break;
+                    if (is_on_line(n, place->second)) take(place->second, along_m(n) - place->first, behind, behind_m);
+                }
+            }
+        }
     }
-    return nearest;
 }
 
 int StreetLayout::neighbour(int n, int side) const {

@@ -36,7 +36,9 @@ public:
     // Returns null if the intersection has no leg on that side.
     const StreetLeg* leg(int node, int side) const;
     // Returns the nearest intersection on the straight line from `node` toward `side`, or -1 if there is none.
-    int nearest(int node, int side) const;
+    int nearest(int node, int side) const {
+        return nearest_[static_cast<std::size_t>(node)][static_cast<std::size_t>(side)];
+    }
     // Returns the intersection at the other end of the road on `side`, or -1 if there is none. Two neighbouring
     // intersections are joined by a road if each has a leg toward the other.
     int neighbour(int node, int side) const;
@@ -74,8 +76,12 @@ private:
     // Returns the index of the exit lane to which the leftmost lane with straight traffic leads.
     int straight_shift(int node, int side) const;
 
+    // Fills nearest_. The time grows with N log N for N intersections.
+    void find_nearest();
+
     const StreetSettings* streets_;
-    std::vector<std::array<int, 4>> legs_;  // [intersection][side] index of the leg; -1: none
+    std::vector<std::array<int, 4>> legs_;     // [intersection][side] index of the leg; -1: none
+    std::vector<std::array<int, 4>> nearest_;  // [intersection][side] see nearest()
 };
 
 }  // namespace stopline

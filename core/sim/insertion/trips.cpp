@@ -165,25 +165,55 @@ bool follower_has_room(const Model& model, const State& state, const InsertionPo
            desired_gap_m(model, v.policy[follower], follower_mps) + braking_m;
 }
 
-// Returns the speed with which a new vehicle can enter behind its leader. A result below 0 means that the gap is too
-// small.
-double departure_speed_mps(const Model& model, const Trip& trip, int number, int policy, double limit_mps,
-                           const EntryLeader& leader) {
-    using enum Trip::DepartSpeed;
-    double wanted_mps = limit_mps;
-    if (trip.depart_speed == given) wanted_mps = std::min(limit_mps, static_cast<double>(trip.speed_mps));
-    if (trip.depart_speed == last && leader.exists()) wanted_mps = std::min(limit_mps, leader.speed_mps);
-    if (trip.depart_speed == random) {
-        wanted_mps *= random_uniform(model.seed, static_cast<std::uint64_t>(number), 1, Purpose::insertion);
+// Returns the mean speed of the vehicles on a lane, or `empty_mps` if there are none.
+double mean_speed_mps(const State& state, int lane, double empty_mps) {
+    const LaneBlock& block = state.blocks[at(lane)];
+    if (block.count == 0) return empty_mps;
+    double sum_mps = 0.0;
+    for (int slot = block.first; slot < block.past_last(); ++slot) sum_mps += state.vehicles.speed_mps[at(slot)];
+    return sum_mps / block.count;
+}
+
+// Returns the speed that the trip asks for, at most `limit_mps`.
+double wanted_speed_mps(const Model& model, const State& state, int number, int lane, double limit_mps,
+                        const EntryLeader& leader) {
+    const Trip& trip = model.demand.trips[at(number)];
+    switch (trip.depart_speed) {
+        case Trip::DepartSpeed::limit:
+            return limit_mps;
+        case Trip::DepartSpeed::given:
+            return std::min(limit_mps, static_cast<double>(trip.speed_mps));
+        case Trip::DepartSpeed::last:
+            return leader.exists() ? std::min(limit_mps, leader.speed_mps) : limit_mps;
+        case Trip::DepartSpeed::mean:
+            return std::min(limit_mps, mean_speed_mps(state, lane, limit_mps));
+        case Trip::DepartSpeed::random:
+            break;
     }
+    return limit_mps * random_uniform(model.seed, static_cast<std::uint64_t>(number), 1, Purpose::insertion);
+}
+
+// Returns the highest speed from the leader's speed to `wanted_mps` with which a new vehicle can enter behind its
+// leader. A result below 0 means that the gap is too small. The vehicle never enters slower than its leader drives: it
+// stands for a vehicle that followed the leader upstream of the network. Entering as soon as a crawling vehicle fits
+// would keep the flow low forever after a blockage. A trip with a given speed enters only with this speed.
+double departure_speed_mps(const Model& model, const Trip& trip, int policy, double wanted_mps,
+                           const EntryLeader& leader) {
     if (!leader.exists()) return wanted_mps;
     const auto is_safe = [&](double speed_mps) {
         const double braking_m = braking_distance_m(speed_mps, leader.speed_mps, model.driver.stop.deceleration_mps2);
         return leader.gap_m + kPositionRounding_m >= desired_gap_m(model, policy, speed_mps) + braking_m;
     };
     if (is_safe(wanted_mps)) return wanted_mps;
-    const double leader_mps = std::min(wanted_mps, leader.speed_mps);
-    return trip.depart_speed != given && is_safe(leader_mps) ? leader_mps : -1.0;
+    double safe_mps = std::min(wanted_mps, leader.speed_mps);
+    if (trip.depart_speed == Trip::DepartSpeed::given || !is_safe(safe_mps)) return -1.0;
+    constexpr int kHalvings = 12;  // the error is below 0.01 m/s
+    double unsafe_mps = wanted_mps;
+    for (int k = 0; k < kHalvings; ++k) {
+        const double middle_mps = 0.5 * (safe_mps + unsafe_mps);
+        (is_safe(middle_mps) ? safe_mps : unsafe_mps) = middle_mps;
+    }
+    return safe_mps;
 }
 
 // Returns true if a vehicle without priority is crossing the route of the new vehicle, or has accepted a gap to cross
@@ -222,7 +252,8 @@ bool insert_trip(const Model& model, State& state, int number, const InsertionPo
     const double to_line_m = road.stop_line_m - point.front_m;
     const double stoppable_mps = std::sqrt(2.0 * model.driver.stop.deceleration_mps2 * to_line_m);
     if (road.signal_group >= 0) limit_mps = std::min(limit_mps, stoppable_mps);
-    const double speed_mps = departure_speed_mps(model, trip, number, policy, limit_mps, leader);
+    const double wanted_mps = wanted_speed_mps(model, state, number, point.lane, limit_mps, leader);
+    const double speed_mps = departure_speed_mps(model, trip, policy, wanted_mps, leader);
     const double rear_m = point.front_m - static_cast<double>(trip.length_m);
     if (speed_mps < 0.0 || !follower_has_room(model, state, point, rear_m, speed_mps)) return false;
     if (lane_route >= 0 && to_line_m < kNearLine_m && crossing_vehicle_is_committed(state, lane_route)) return false;

@@ -44,4 +44,32 @@ grep -qF fidelity "$work/stderr" && fail "the message appears without need"
     --set 'measure.window=1 s' >"$work/stdout" 2>"$work/stderr" || fail "export of streets: $(head -c 300 "$work/stderr")"
 grep -qF '<edge id="suarezstr_east_in.1"' "$work/streets/edges.edg.xml" || fail "the approach with a pocket is not split"
 
+# A program in place of SUMO that never ends: the time limit stops it, and the message says how far it came.
+mkdir "$work/bin"
+printf '#!/bin/sh\nexit 0\n' >"$work/bin/netconvert"
+cat >"$work/bin/sumo" <<'END'
+#!/bin/sh
+[ "$1" = --version ] && exit 0
+printf 'Step #12.00 (0ms)\r'
+exec sleep 60
+END
+chmod +x "$work/bin/netconvert" "$work/bin/sumo"
+data="$STOPLINE_SOURCE/tests/data"
+cat >"$work/slow.yaml" <<END
+fidelity: meso
+duration: 60 s
+network: {kind: sumo, net: $data/left_turns.net.xml, routes: [$data/left_turns.rou.xml]}
+populations: [CTG-Ref]
+measure: {window: 60 s}
+END
+slow=(env "PATH=$work/bin:$PATH" "$compare" "$work/slow.yaml" --repetitions 1 --no-figures)
+code=0
+"${slow[@]}" --sumo-limit "1 s" --output "$work/slow" >"$work/stdout" 2>"$work/stderr" || code=$?
+[ $code -eq 2 ] || fail "slow SUMO: exit code $code"
+[ -s "$work/slow/seed_1/run.sumocfg" ] || fail "slow SUMO: the inputs are not kept"
+grep -qF "SUMO was stopped after 1 s of wall-clock time. It had simulated 12 of 60 s" "$work/stderr" ||
+    fail "slow SUMO: $(head -c 300 "$work/stderr")"
+refused "wrong limit" "${slow[@]}" --sumo-limit "1" --output "$work/new"
+grep -qF -- "--sumo-limit" "$work/stderr" || fail "wrong limit: $(head -c 300 "$work/stderr")"
+
 exit $((failures > 0))

@@ -1,0 +1,37 @@
+// A result file that is written piece by piece. A file whose name ends with ".gz" is compressed with gzip.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string_view>
+
+#include "base/io/replaced_file.h"
+
+namespace stopline {
+
+class StreamedFile {
+public:
+    // Opens the file as ReplacedFile does, and throws the same errors.
+    explicit StreamedFile(const std::filesystem::path& file);
+    StreamedFile(const StreamedFile&) = delete;
+    StreamedFile& operator=(const StreamedFile&) = delete;
+    StreamedFile(StreamedFile&&) = delete;
+    StreamedFile& operator=(StreamedFile&&) = delete;
+    ~StreamedFile();
+
+    void write(std::string_view bytes);
+    // Completes the file, which replaces an older file of the same name. Without this call the old file remains.
+    void commit();
+    const std::filesystem::path& path() const { return file_.path(); }
+
+private:
+    class Compressor;
+
+    ReplacedFile file_;
+    std::unique_ptr<Compressor> compressor_;  // null: the file is plain
+};
+
+// Writes a whole file, compressed if its name ends with ".gz". Throws InputError with path and reason on failure.
+void write_streamed_file(const std::filesystem::path& file, std::string_view text);
+
+}  // namespace stopline
