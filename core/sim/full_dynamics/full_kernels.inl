@@ -171,7 +171,7 @@ STOPLINE_INLINE void plan_at(const DriverTablesOf<float>& d, const FullGroup& g,
 
     // Free driving.
     const R unconstrained = splat<R>(kUnconstrained_mps2);
-    const R as_leader = free_acceleration(d, speed, limit);
+    const R as_leader = free_acceleration(d, speed, closing_up_speed(c, limit, p));
     const R end_speed = get(g.end_speed);
     R slow_down = unconstrained;
     if (any(STOPLINE_FLAG(R, end_speed < kUnconstrained_mps2))) {

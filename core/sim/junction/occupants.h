@@ -6,6 +6,6 @@
 namespace stopline {
 
 // Lists the occupants of each connection of a partition, and updates the sets of connections in JunctionState.
-void find_junction_occupants(const State& state, JunctionState& junctions, Partition& part);
+void find_junction_occupants(const Model& model, const State& state, JunctionState& junctions, Partition& part);
 
 }  // namespace stopline

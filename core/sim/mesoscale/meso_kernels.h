@@ -30,10 +30,14 @@ struct MesoStep {
     double leader_mps2;     // acceleration of platoon leaders; 0: acceleration of the vehicle's policy
     double leader_constant_power_speed_mps;  // above this speed leader_mps2 falls as 1 / v
     const LeaderProfile* leader_profile;     // replaces the two values above; nullptr: no profile
-    bool relays;           // V2V relays the start of a queue; platoon leaders then anticipate their leader's speed
-    bool leaders_foresee;  // platoon leaders have the safe speed of followers; requires `relays` and no transient gap
-    double hardest_mps2;   // maximum braking
-    bool prefetches;       // the kernels prefetch blocks; useful if the vehicle data do not fit into the cache
+    // Lowest accelerations where the speed limit exceeds calibrated_limit_mps; nullptr: no lane has such a limit.
+    const LeaderProfile* power_profile;
+    double calibrated_limit_mps;
+    bool relays;            // V2V relays the start of a queue; platoon leaders then anticipate their leader's speed
+    bool leaders_foresee;   // platoon leaders have the safe speed of followers; requires `relays` and no transient gap
+    double hardest_mps2;    // maximum braking behind a leader
+    double emergency_mps2;  // maximum braking before a lower speed limit
+    bool prefetches;        // the kernels prefetch blocks; useful if the vehicle data do not fit into the cache
 };
 
 // Gap in m that switching policies (SWITCH) add to their standstill gap. The array has one value for each slot of the

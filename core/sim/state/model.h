@@ -39,10 +39,11 @@ struct RulesPlan {
     bool count_queue_at_red_exit = false;
     std::int64_t teleport_ticks = 0;
     std::int64_t pass_blocker_ticks = 0;
-    std::int64_t watch_ticks = 0;      // interval at which traffic delays are attributed to causes; 0: never
-    std::int64_t gridlock_ticks = 0;   // a gridlock that is observed again within this time is the same gridlock
-    std::int64_t long_wait_ticks = 0;  // after this stop time a delay episode includes the vehicle, whatever the cause
-    std::int64_t memory_ticks = 0;     // time from the last use of a BlockerPass until it expires
+    std::int64_t watch_ticks = 0;       // interval at which traffic delays are attributed to causes; 0: never
+    std::int64_t gridlock_ticks = 0;    // a gridlock that is observed again within this time is the same gridlock
+    std::int64_t long_wait_ticks = 0;   // after this stop time a delay episode includes the vehicle, whatever the cause
+    std::int64_t starvation_ticks = 0;  // after this stop time the first vehicle of a queue starves; 0: never
+    std::int64_t memory_ticks = 0;      // time from the last use of a BlockerPass until it expires
 
     bool watches() const { return watch_ticks > 0; }
 };
@@ -82,8 +83,11 @@ struct Model {
     double turn_share = 1.0;   // before a turn, this share of the difference to the allowed speed is gained per step
     double leader_mps2 = 0.0;  // acceleration of platoon leaders; 0: acceleration of the policy's car-following model
     double leader_constant_power_speed_mps = 0.0;  // speed above which leader_mps2 falls
-    LeaderProfile leader_profile;  // replaces leader_mps2 and leader_constant_power_speed_mps if it has bins
-    int start_relay_vehicles = 0;  // number of stopped vehicles that a start message reaches in one step
+    double calibrated_limit_mps = 1e9;  // limit, times speed_factor, up to which the accelerations are calibrated
+    bool has_fast_lanes = false;        // some lanes have a higher limit
+    LeaderProfile power_profile;        // lowest accelerations on these lanes
+    LeaderProfile leader_profile;       // replaces leader_mps2 and leader_constant_power_speed_mps if it has bins
+    int start_relay_vehicles = 0;       // number of stopped vehicles that a start message reaches in one step
 
     double time_s(std::int64_t tick) const { return static_cast<double>(tick) * step_s; }
 };
