@@ -159,7 +159,9 @@ void write_results(const RunCliOptions& options, const SingleLightReport& result
 
 void write_results(const RunCliOptions& options, const IntersectionReport& report,
                    const std::filesystem::path& folder) {
-    std::vector<NamedText> files{{"summary.csv", intersection_csv(report)}, {"headways.csv", headways_csv(report)}};
+    std::vector<NamedText> files{{"summary.csv", intersection_csv(report)},
+                                 {"headways.csv", headways_csv(report)},
+                                 {"starvations.csv", starvations_csv(report.starvations(), report.lanes)}};
     if (options.trajectories) files.emplace_back("trajectories.csv", intersection_trajectories_csv(report));
     StateHashes hashes;
     for (const IntersectionResult& f : report.populations) {
@@ -201,7 +203,7 @@ ExitCode run_as_intersection(const RunCliOptions& options, const Scenario& scena
                               "  other greens and turns: add --set 'signal.green=10 s' --set 'demand.left=30 %'\n"
                               "  all combinations: stopline-sweep scenarios/sweeps/intersection.yaml\n"
                               "  comparison with the paper: stopline-scorecard\n"));
-    return report.no_violations() ? ExitCode::done : ExitCode::check_failed;
+    return report.no_violations() && report.no_starvation() ? ExitCode::done : ExitCode::check_failed;
 }
 
 // Runs a network (grid, streets or imported) and writes its results.
@@ -223,6 +225,7 @@ ExitCode run_as_network(const RunCliOptions& options, const Scenario& scenario, 
                                   {"origin_destination.csv", origin_destination_csv(report)},
                                   {"delays.csv", delays_csv(report)},
                                   {"gridlocks.csv", gridlocks_csv(report)},
+                                  {"starvations.csv", starvations_csv(report.starvations(), report.lanes)},
                                   {"rules.csv", rules_csv(report)}};
     std::vector<Figure> figures{network_series_figure(report), delay_causes_figure(report)};
     if (scenario.network.is_streets()) {
@@ -252,7 +255,7 @@ ExitCode run_as_network(const RunCliOptions& options, const Scenario& scenario, 
         "  {}\n"
         "  many variations at once: {} --help\n",
         variation, program_command("stopline-sweep"));
-    return report.no_violations() ? ExitCode::done : ExitCode::check_failed;
+    return report.no_violations() && report.no_starvation() ? ExitCode::done : ExitCode::check_failed;
 }
 
 ExitCode run(const RunCliOptions& options) {

@@ -186,6 +186,10 @@ SweepSession run_all(PreparedSweep& work, Ranks& ranks, int threads, double sile
     return run_points(work.sweep, work.todo, work.store, options);
 }
 
+ExitCode verdict_of(const SweepTotals& totals) {
+    return totals.runs_with_violations == 0 && totals.starving_runs == 0 ? ExitCode::done : ExitCode::check_failed;
+}
+
 std::string totals_text(const SweepTotals& totals) {
     TextTable table("lr");
     table.add_row({"runs", fmt::format("{}", totals.runs)});
@@ -198,6 +202,9 @@ std::string totals_text(const SweepTotals& totals) {
     if (totals.gridlocks) {
         table.add_row({"gridlocks", fmt::format("{}", *totals.gridlocks)});
         table.add_row({"teleported vehicles", fmt::format("{}", totals.teleported)});
+    }
+    if (totals.gridlocks || totals.deadlocks) {
+        table.add_row({"runs with starving movements", fmt::format("{}", totals.starving_runs)});
     }
     if (totals.longest_in_junction_s > 0.0) {
         table.add_row({"longest time in a junction", fmt::format("{:.1f} s", totals.longest_in_junction_s)});
@@ -306,7 +313,7 @@ ExitCode finish(PreparedSweep& work, const SweepSession& session, const std::str
         const std::string next = draw_results(work.sweep, table.csv, work.files.table, names);
         fmt::print("\nNext: {}\n", next);
     }
-    return table.totals.runs_with_violations == 0 ? ExitCode::done : ExitCode::check_failed;
+    return verdict_of(table.totals);
 }
 
 // Returns a text that is equal on all ranks if they run the same sweep with the same program.
@@ -373,7 +380,7 @@ ExitCode merge(const SweepCliOptions& options) {
         "\nNext: add figures and means over seeds. Use the sweep file and options of the shards, but not --shard\n"
         "  {} FILE --output {}\n",
         program_command("stopline-sweep"), shell_word(folder.string()));
-    return merged.table.totals.runs_with_violations == 0 ? ExitCode::done : ExitCode::check_failed;
+    return verdict_of(merged.table.totals);
 }
 
 ExitCode run(const SweepCliOptions& options, Ranks& ranks) {

@@ -1,8 +1,8 @@
 #include "common/intersection_text.h"
 
 #include <fmt/format.h>
-#include <cmath>
 
+#include "common/starvation_text.h"
 #include "common/text_table.h"
 
 namespace stopline {
@@ -21,13 +21,14 @@ std::string intersection_text(const IntersectionReport& report) {
     table.add_row(head);
     table.add_row(units);
     std::int64_t runs_with_violations = 0;
+    std::string unsaturated;  // populations without a saturated green
     for (const IntersectionResult& f : report.populations) {
         const double gain = report.improvement_percent(f);
         std::vector<std::string> row{f.population, fmt::format("{:.0f}", f.throughput_veh_h),
                                      gain == gain ? fmt::format("{:.0f}", gain) : "-"};
         for (const ZoneResult& zone : f.zones) row.push_back(fmt::format("{:.1f}", zone.travel_time_s));
-        // The saturation flow is known only if more than four vehicles pass in some greens.
-        const bool has_saturation = !std::isnan(f.discharge.startup_lost_time_s);
+        const bool has_saturation = f.discharge.saturated_greens > 0;
+        if (!has_saturation) unsaturated += (unsaturated.empty() ? "" : ", ") + f.population;
         for (const std::string& cell :
              {fmt::format("{:.1f}", 100.0 * f.occupied), fmt::format("{:.0f}", f.vehicles_present),
               fmt::format("{:.2f}", f.discharge.vehicles_per_green),
@@ -44,15 +45,19 @@ std::string intersection_text(const IntersectionReport& report) {
         "throughput: vehicles that leave the intersection; time in R m: mean travel time from R before its\n"
         "centre to R behind it; density: share of the lane length that vehicles occupy; vehicles: mean number\n"
         "on all lanes; per green: vehicles that pass a stop line per lane in one green and its yellow;\n"
-        "saturation: flow from the fifth vehicle of a queue on; lost time: start-up lost time of the first four;\n"
+        "saturation: flow from the fifth vehicle of a queue on; lost time: start-up lost time of the first four\n"
+        "(vehicles that stood in the queue only);\n"
         "queue: stopped vehicles per lane when its green starts.\n"
         "Measured from {:.0f} to {:.0f} s ({} cycles).\n",
         window.from_s, window.to_s, report.populations.empty() ? 0 : report.populations[0].discharge.greens);
+    if (!unsaturated.empty())
+        unsaturated = "No saturated cycles: in no green did five vehicles of a queue pass (" + unsaturated + ").\n";
     const std::string verdict =
         runs_with_violations == 0
             ? "No overlaps on lanes or in conflict areas, no entries on red, no deadlocks, no lost vehicles.\n"
             : fmt::format("VIOLATIONS in {} runs: summary.csv has the counts of each.\n", runs_with_violations);
-    return table.text() + "\n" + notes + "\n" + verdict;
+    return table.text() + "\n" + notes + unsaturated + "\n" + verdict +
+           starvation_text(scenario, report.starvations(), report.lanes);
 }
 
 }  // namespace stopline

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <cmath>
 
+#include "common/starvation_text.h"
 #include "common/text_table.h"
 #include "measure/steady_state.h"
 
@@ -56,6 +57,8 @@ std::string breakdown_text(const NetworkResult& f) {
             return fmt::format(", 1 % teleported by {:.0f} s", since_s);
         case InstabilityCause::gridlock:
             return fmt::format(", gridlock since {:.0f} s", since_s);
+        case InstabilityCause::starvation:
+            return fmt::format(", a movement starves since {:.0f} s", since_s);
     }
     return "";
 }
@@ -166,7 +169,8 @@ std::string network_text(const NetworkReport& report) {
             : fmt::format("VIOLATIONS in {} runs: summary.csv has the counts of each.\n{}", runs_with_violations,
                           first_violations);
     return traffic_text(report) + "\n" + traffic_notes + "\n" + congestion_text(report) + "\n" + congestion_notes +
-           (sumo ? trips_text(report) : backlog_text(report)) + "\n" + verdict;
+           (sumo ? trips_text(report) : backlog_text(report)) + "\n" + verdict +
+           starvation_text(report.scenario, report.starvations(), report.lanes);
 }
 
 }  // namespace stopline

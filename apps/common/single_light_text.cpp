@@ -36,6 +36,20 @@ void append_improvements(const SingleLightReport& result, const PopulationSummar
     }
 }
 
+// Returns a text that names the populations with vehicles that keep far larger gaps than those of their policies; ""
+// if there are none.
+std::string open_gaps_text(const SingleLightReport& result) {
+    std::string names;
+    for (const PopulationSummary& summary : result.populations) {
+        if (summary.steady.not_closed_up == 0) continue;
+        names += fmt::format("{}{} ({} at {:.1f} m)", names.empty() ? "" : ", ", summary.name,
+                             summary.steady.not_closed_up, summary.steady.open_gap_m);
+    }
+    if (names.empty()) return "";
+    return "Vehicles that have not closed up beyond the stop line (mean net gap); they are not in steady state:\n  " +
+           names + "\n";
+}
+
 }  // namespace
 
 std::string counts_text(const SingleLightReport& result) {
@@ -118,11 +132,14 @@ std::string headways_text(const SingleLightReport& result) {
         }
         table.add_row(cells);
     }
+    const double limit_mps = result.scenario.network.approach.speed_limit_mps;
+    const double cruise_mps = cruise_speed_mps(result.scenario);
     return fmt::format(
-               "Steady state at the speed limit of {:.4g} km/h, measured and by the policy | "
+               "Steady state at {} {:.4g} km/h, measured and by the policy | "
                "last {} vehicles per lane at the stop line\n",
-               result.scenario.network.approach.speed_limit_mps * kKmhPerMps, kLastPositions) +
-           table.text();
+               cruise_mps == limit_mps ? "the speed limit of" : "the speed of vehicles without leader,",
+               cruise_mps * kKmhPerMps, kLastPositions) +
+           table.text() + open_gaps_text(result);
 }
 
 std::string queue_text(const SingleLightReport& result) {

@@ -15,6 +15,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <type_traits>
 
 #include "base/simd/arithmetic.h"
@@ -36,11 +37,19 @@ struct DriverTablesOf {
     Number deceleration_mps2 = 0.0;  // braking before a lower speed limit
     Number profile_nodes_per_mps = 0.0;
     std::array<Number, kProfileNodes> profile_mps2{};  // [node] acceleration of free driving, from speed 0
+    // Driving at desired speeds beyond the range of the profile. extend_by_power() sets these values.
+    Number profile_end_mps = 1e9;  // highest desired speed for which the profile holds
+    Number power_nodes_per_mps = 0.0;
+    std::array<Number, kProfileNodes> power_mps2{};  // [node] lowest acceleration beyond, from speed 0
 };
 using DriverTables = DriverTablesOf<double>;
 
 // Compiles the settings. Throws InputError if the acceleration profile is empty or incomplete.
 DriverTables compile_driver(const DriverSettings& settings);
+// Sets the accelerations beyond the range of the profile. `available_mps2` returns the highest acceleration of the
+// vehicle at a speed, m/s.
+void extend_by_power(const FreeDriveSettings& free, const std::function<double(double)>& available_mps2,
+                     DriverTables& tables);
 
 // The measured and received data of a vehicle about its leader.
 template <class R>
@@ -52,13 +61,31 @@ struct LeaderView {
     R rate_1ps;           // 1 / tau_p (inverse lag of the leader), from V2V, delayed
 };
 
-// Returns the acceleration of a vehicle without leader. This acceleration follows the calibrated start-up profile, and
-// falls to 0 towards the desired speed.
+// Returns the acceleration of a vehicle without leader. This acceleration follows the calibrated start-up profile,
+// and falls to 0 towards the desired speed. If the desired speed is beyond the range of the profile, the power of the vehicle gives a
+// lower bound.
 template <class R, class Number>
 STOPLINE_INLINE R free_acceleration(const DriverTablesOf<Number>& d, const R& speed_mps,
                                     const std::type_identity_t<R>& desired_mps) {
-    const R profile = interpolate_on_grid(d.profile_mps2, R(speed_mps * d.profile_nodes_per_mps));
+    R profile = interpolate_on_grid(d.profile_mps2, R(speed_mps * d.profile_nodes_per_mps));
+    const R is_beyond = STOPLINE_FLAG(R, desired_mps > splat<R>(static_cast<double>(d.profile_end_mps)));
+    if (any(is_beyond)) {
+        const R power = interpolate_on_grid(d.power_mps2, R(speed_mps * d.power_nodes_per_mps));
+        profile = choose(is_beyond, max_of(profile, power), profile);
+    }
     return min_of(profile, d.speed_gain_1ps * (desired_mps - speed_mps));
+}
+
+// Returns the speed at which a platoon leader drives. Without a leader this is the speed limit. A platoon leader whose
+// radar sees a leader exceeds the limit slightly, or it would never close up to a leader at the limit. It needs the
+// time
+//     t = (gap - desired gap) / ((catch_up_factor - 1) limit)
+// to reach its gap behind a leader at the limit. In the mesoscale mode the speeds differ by the same share: there a
+// vehicle without leader drives at 95 % of the limit (Section V.A of the paper).
+template <class R, class Number>
+STOPLINE_INLINE R closing_up_speed(const CaccSettingsOf<Number>& c, const R& limit_mps, const LeaderView<R>& p) {
+    const R sees_leader = STOPLINE_FLAG(R, p.gap_m < splat<R>(static_cast<double>(c.radar_range_m)));
+    return choose(sees_leader, limit_mps * c.catch_up_factor, limit_mps);
 }
 
 // Returns the upper limit of a follower's acceleration. To close its gap, a follower may exceed the start-up profile

@@ -35,9 +35,14 @@ using CaccSettings = CaccSettingsOf<double>;
 struct FreeDriveSettings {
     std::vector<double> speed_mps;          // nodes of the profile, rising from 0
     std::vector<double> acceleration_mps2;  // acceleration at each speed; constant above the highest speed
-    double speed_gain_1ps = 0.35;           // the acceleration is at most this gain x (desired speed - speed)
-    double deceleration_mps2 = 1.5;         // deceleration before a lower speed limit, such as in a turn
-    double hesitation_s = 0.0;              // reaction time of the first vehicle at the stop line
+    // Highest speed limit for which the profile holds; 0: its last speed. Near its end the profile falls, because the
+    // measured drivers approached their limit. On roads with a higher limit, drivers accelerate at least with the share
+    // power_share of the acceleration that the vehicle can give.
+    double profile_limit_mps = 0.0;
+    double power_share = 0.5;
+    double speed_gain_1ps = 0.35;    // the acceleration is at most this gain x (desired speed - speed)
+    double deceleration_mps2 = 1.5;  // deceleration before a lower speed limit, such as in a turn
+    double hesitation_s = 0.0;       // reaction time of the first vehicle at the stop line
 };
 
 // Stopping at a stop line.
@@ -138,6 +143,10 @@ struct MesoSettings {
     // the parameter tau or s_0 of the model (krauss.h) changes by the difference.
     double calibrated_time_gap_s = 0.87;
     double calibrated_standstill_gap_m = 2.95;
+    // Highest speed limit and longest step for which the models were calibrated. On faster roads the accelerations are
+    // at least those of FreeDriveSettings::power_share.
+    double calibrated_speed_limit_mps = 50.0 / 3.6;
+    double calibrated_step_s = 0.1;
 };
 
 // A spacing policy. `law` is the name of a registered spacing law. Parameters that the law does not use stay 0.

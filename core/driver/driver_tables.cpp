@@ -34,4 +34,18 @@ DriverTables compile_driver(const DriverSettings& settings) {
     return t;
 }
 
+void extend_by_power(const FreeDriveSettings& free, const std::function<double(double)>& available_mps2,
+                     DriverTables& t) {
+    constexpr double kTop_mps = 250.0 / 3.6;
+    constexpr double kRounding = 1.001;
+    const double profile_limit_mps = free.profile_limit_mps > 0.0 ? free.profile_limit_mps : free.speed_mps.back();
+    // A follower that closes its gap desires a speed above the limit by catch_up_factor.
+    t.profile_end_mps = kRounding * t.cacc.catch_up_factor * profile_limit_mps;
+    t.power_nodes_per_mps = (DriverTables::kProfileNodes - 1) / kTop_mps;
+    for (std::size_t node = 0; node < t.power_mps2.size(); ++node) {
+        const double speed_mps = static_cast<double>(node) / t.power_nodes_per_mps;
+        t.power_mps2[node] = free.power_share * std::max(available_mps2(speed_mps), 0.0);
+    }
+}
+
 }  // namespace stopline

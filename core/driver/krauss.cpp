@@ -20,6 +20,18 @@ LeaderProfile leader_profile(const MesoSettings& settings) {
     return profile;
 }
 
+LeaderProfile power_profile(const DriverTables& driver) {
+    LeaderProfile profile;
+    const double top_mps = (DriverTables::kProfileNodes - 1) / driver.power_nodes_per_mps;
+    profile.bins_per_mps = LeaderProfile::kBins / top_mps;
+    for (std::size_t bin = 0; bin < profile.acceleration_mps2.size(); ++bin) {
+        const double middle_mps = (static_cast<double>(bin) + 0.5) / profile.bins_per_mps;
+        profile.acceleration_mps2[bin] =
+            interpolate_on_grid(driver.power_mps2, middle_mps * driver.power_nodes_per_mps);
+    }
+    return profile;
+}
+
 Krauss make_krauss_model(const MesoSettings& settings, const GapPolicySettings& policy) {
     const bool time_gap = policy.law == "constant_time";
     const KraussSettings& s = time_gap ? settings.constant_time : settings.constant_distance;

@@ -37,6 +37,7 @@
 #include "base/simd/arithmetic.h"
 #include "base/simd/simd.h"
 #include "base/speed_thresholds.h"
+#include "driver/acceleration_laws.h"
 #include "driver/driver_settings.h"
 
 namespace stopline {
@@ -138,17 +139,18 @@ STOPLINE_INLINE R anticipated_safe_speed_mps(const Model& k, const KraussInputOf
 }
 
 // Returns the speed of the next step. `safe_mps` is the result of anticipated_safe_speed_mps(), `random` is uniform in
-// [0, 1), and `power_limit` is the result of has_power_limit(). The leader makes the vehicle brake at most down to
-// `lowest_mps`, unless it must brake harder to avoid contact. This limit matters only after lane changes; otherwise the
-// models do not demand such hard braking.
+// [0, 1), and `power_limit` is the result of has_power_limit(). With a power limit, the acceleration is at least
+// `least_mps2`. The leader makes the vehicle brake at most down to `lowest_mps`, unless it must brake harder to avoid
+// contact. This limit matters only after lane changes; otherwise the models do not demand such hard braking.
 template <bool power_limit, class R, class Model>
 STOPLINE_INLINE R speed_after_mps(const Model& k, const KraussInputOf<R>& in, const R& safe_mps, const R& random,
-                                  double dt, const R& lowest_mps = R(0.0)) {
+                                  double dt, const R& lowest_mps = R(0.0), const R& least_mps2 = R(0.0)) {
     const R extra_gap_m = in.extra_gap_m + k.transient_gap_s2 * in.leader_acceleration_mps2;
     const R safe = track_time_gap(k, in, extra_gap_m, safe_mps);
     R acceleration = k.acceleration_mps2;
     if constexpr (power_limit)
-        acceleration = acceleration * min_of(R(1.0), R(k.constant_power_speed_mps / max_of(in.speed_mps, R(1e-3))));
+        acceleration = max_of(
+            acceleration * min_of(R(1.0), R(k.constant_power_speed_mps / max_of(in.speed_mps, R(1e-3)))), least_mps2);
     constexpr double kCatchUp_m = 2.0;  // catch_up_factor applies up to this excess over the equilibrium gap
     const R equilibrium_m = k.standstill_gap_m + k.band_m + k.reaction_s * in.speed_mps;
     const R factor = select(in.gap_m - in.extra_gap_m < equilibrium_m + kCatchUp_m, R(k.catch_up_factor), R(1.0));
@@ -171,6 +173,9 @@ struct LeaderProfile {
 // Converts leader_profile_mps and leader_profile_mps2 of the settings into bins. Each bin gets the acceleration of the
 // listed speed that is nearest to the middle of the bin. If the settings list no speeds, bins_per_mps is 0.
 LeaderProfile leader_profile(const MesoSettings& settings);
+
+// Returns the lowest accelerations beyond the calibrated speed limit, from DriverTables::power_mps2.
+LeaderProfile power_profile(const DriverTables& driver);
 
 // Returns the next speed of one vehicle.
 inline double next_speed_mps(const Krauss& k, const KraussInput& in, double random, double dt) {

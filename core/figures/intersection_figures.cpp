@@ -100,6 +100,30 @@ Figure intersection_picture(const IntersectionReport& report, std::size_t popula
 
 namespace {
 
+// The mean headway at one queue position.
+struct PositionHeadway {
+    double headway_s = 0.0;
+    int samples = 0;
+};
+
+// Returns the mean headways over all lanes with saturated greens, by queue position. The list ends before the first
+// position that not all of these lanes reach. A mean over fewer lanes would show which lanes have long queues.
+std::vector<PositionHeadway> common_positions(const Discharge& discharge) {
+    std::vector<PositionHeadway> positions;
+    for (std::size_t n = 0;; ++n) {
+        PositionHeadway mean;
+        for (const LaneDischarge& lane : discharge.lanes) {
+            if (lane.saturated_greens == 0) continue;
+            if (n >= lane.samples.size()) return positions;
+            mean.headway_s += lane.headway_s[n] * lane.samples[n];
+            mean.samples += lane.samples[n];
+        }
+        if (mean.samples == 0) return positions;
+        mean.headway_s /= mean.samples;
+        positions.push_back(mean);
+    }
+}
+
 // Returns the mean headways by queue position, or nothing if no position has enough samples.
 std::optional<Figure> headway_figure(const IntersectionReport& report) {
     constexpr int kMinSamples = 8;  // fewest headways from which a point of the figure is computed
@@ -111,9 +135,10 @@ std::optional<Figure> headway_figure(const IntersectionReport& report) {
         const IntersectionResult& f = report.populations[k];
         std::string text = "# position headway_s\n";
         bool found = false;
-        for (std::size_t n = 0; n < f.discharge.headway_s.size(); ++n) {
-            if (f.discharge.samples[n] < kMinSamples) continue;
-            text += fmt::format("{} {:.4f}\n", n + 1, f.discharge.headway_s[n]);
+        const std::vector<PositionHeadway> positions = common_positions(f.discharge);
+        for (std::size_t n = 0; n < positions.size(); ++n) {
+            if (positions[n].samples < kMinSamples) continue;
+            text += fmt::format("{} {:.4f}\n", n + 1, positions[n].headway_s);
             last = std::max(last, static_cast<double>(n + 1));
             found = true;
         }

@@ -11,63 +11,105 @@ namespace {
 
 // Number of vehicles at the front of the queue whose headways determine the lost time.
 constexpr std::size_t kLostPositions = 4;
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-// The latest green of a lane.
+// The headways of the queue of one green.
 struct Green {
     double start_s = -1.0;
-    double last_s = 0.0;       // time of the latest passage; before the first passage, the start of green
-    std::size_t position = 0;  // queue position of the vehicle that passes next
+    double last_s = 0.0;  // time of the last passage, or the start of green
+    bool queue_ended = false;
+    std::vector<double> headways_s;
+
+    bool is_saturated() const { return headways_s.size() > kLostPositions; }
 };
 
-// Computes saturation headway, saturation flow and lost time from the mean headways.
-void summarise(Discharge& result) {
-    double sum_s = 0.0;
-    int samples = 0;
-    for (std::size_t k = kLostPositions; k < result.headway_s.size(); ++k) {
-        sum_s += result.headway_s[k] * result.samples[k];
-        samples += result.samples[k];
+// Sums over saturated greens.
+struct SaturatedSums {
+    double later_s = 0.0;  // headways from the fifth vehicle on
+    int later = 0;         // number of these headways
+    double first_s = 0.0;  // headways of the first four vehicles
+    int greens = 0;
+
+    void add(const Green& green) {
+        if (!green.is_saturated()) return;
+        ++greens;
+        for (std::size_t k = 0; k < green.headways_s.size(); ++k) {
+            (k < kLostPositions ? first_s : later_s) += green.headways_s[k];
+            later += k < kLostPositions ? 0 : 1;
+        }
     }
-    result.saturation_headway_s = samples > 0 ? sum_s / samples : std::numeric_limits<double>::quiet_NaN();
+    double saturation_headway_s() const { return later > 0 ? later_s / later : kNone; }
+    double lost_time_s() const { return first_s / greens - kLostPositions * saturation_headway_s(); }
+};
+
+LaneDischarge lane_discharge(const std::string& name, const std::vector<Green>& greens, SaturatedSums& all) {
+    LaneDischarge result;
+    result.lane = name;
+    SaturatedSums sums;
+    for (const Green& green : greens) {
+        const std::size_t positions = std::max(result.samples.size(), green.headways_s.size());
+        result.headway_s.resize(positions, 0.0);
+        result.samples.resize(positions, 0);
+        for (std::size_t k = 0; k < green.headways_s.size(); ++k) {
+            result.headway_s[k] += green.headways_s[k];
+            ++result.samples[k];
+        }
+        sums.add(green);
+        all.add(green);
+    }
+    for (std::size_t k = 0; k < result.headway_s.size(); ++k) result.headway_s[k] /= result.samples[k];
+    result.saturated_greens = sums.greens;
+    result.saturation_headway_s = sums.saturation_headway_s();
+    result.startup_lost_time_s = sums.greens > 0 ? sums.lost_time_s() : kNone;
+    return result;
+}
+
+// Computes the values of all lanes from those of the lanes.
+void summarise(const SaturatedSums& all, Discharge& result) {
+    result.saturated_greens = all.greens;
+    result.saturation_headway_s = all.saturation_headway_s();
     result.saturation_flow_veh_h = 3600.0 / result.saturation_headway_s;
-    if (samples == 0) result.startup_lost_time_s = std::numeric_limits<double>::quiet_NaN();
-    for (std::size_t k = 0; k < std::min(kLostPositions, result.headway_s.size()); ++k) {
-        result.startup_lost_time_s += result.headway_s[k] - result.saturation_headway_s;
+    result.startup_lost_time_s = all.greens > 0 ? 0.0 : kNone;
+    for (const LaneDischarge& lane : result.lanes) {
+        if (lane.saturated_greens == 0) continue;
+        result.startup_lost_time_s += lane.startup_lost_time_s * lane.saturated_greens / all.greens;
     }
 }
 
 }  // namespace
 
 Discharge discharge(const LaneGraph& graph, std::span<const Detector> detectors, std::span<const Crossing> crossings,
-                    const TimeWindow& window, const LatestGreenStart& latest_green_start_s, double cycle_s) {
+                    const TimeWindow& window, const LatestGreenStart& latest_green_start_s, double cycle_s,
+                    const HasQueued& has_queued) {
     Discharge result;
-    std::vector<Green> greens(detectors.size());
+    std::vector<std::vector<Green>> greens_of(detectors.size());
     int vehicles = 0;
-    int lanes = 0;
-    for (const Detector& detector : detectors) lanes += detector.kind == Detector::Kind::stop_line ? 1 : 0;
     for (const Crossing& crossing : crossings) {
         const auto d = static_cast<std::size_t>(crossing.detector);
         const Detector& detector = detectors[d];
         if (detector.kind != Detector::Kind::stop_line || !window.contains(crossing.time_s)) continue;
-        const int signal_group = graph.lanes[static_cast<std::size_t>(detector.lane)].signal_group;
         ++vehicles;
-        Green& green = greens[d];
+        const int signal_group = graph.lanes[static_cast<std::size_t>(detector.lane)].signal_group;
         const double start_s = latest_green_start_s(signal_group, crossing.time_s);
-        if (start_s > green.start_s) green = {start_s, start_s, 0};
-        if (green.start_s < window.from_s) continue;
-        if (result.headway_s.size() <= green.position) {
-            result.headway_s.push_back(0.0);
-            result.samples.push_back(0);
-        }
-        result.headway_s[green.position] += crossing.time_s - green.last_s;
-        ++result.samples[green.position];
-        ++green.position;
+        if (start_s < window.from_s) continue;
+        std::vector<Green>& greens = greens_of[d];
+        if (greens.empty() || start_s > greens.back().start_s) greens.push_back({start_s, start_s, false, {}});
+        Green& green = greens.back();
+        green.queue_ended = green.queue_ended || !has_queued(crossing.vehicle);
+        if (green.queue_ended) continue;
+        green.headways_s.push_back(crossing.time_s - green.last_s);
         green.last_s = crossing.time_s;
     }
-    for (std::size_t k = 0; k < result.headway_s.size(); ++k) result.headway_s[k] /= result.samples[k];
-
+    SaturatedSums all;
+    for (std::size_t d = 0; d < detectors.size(); ++d) {
+        if (detectors[d].kind != Detector::Kind::stop_line) continue;
+        result.lanes.push_back(
+            lane_discharge(graph.lanes[static_cast<std::size_t>(detectors[d].lane)].name, greens_of[d], all));
+    }
     result.greens = static_cast<int>(std::lround(window.length_s() / cycle_s));
-    result.vehicles_per_green = static_cast<double>(vehicles) / lanes / (window.length_s() / cycle_s);
-    summarise(result);
+    result.vehicles_per_green =
+        static_cast<double>(vehicles) / static_cast<double>(result.lanes.size()) / (window.length_s() / cycle_s);
+    summarise(all, result);
     return result;
 }
 

@@ -45,6 +45,7 @@ std::vector<RunMetric> metrics_of(const PopulationSummary& summary, const RunRes
     }
     metrics.push_back(number_metric("queue_emptied", "s", summary.emptied_s, 6));
     metrics.push_back(count_metric("steady_vehicles", "", summary.steady.vehicles));
+    metrics.push_back(count_metric("not_closed_up_vehicles", "", summary.steady.not_closed_up));
     metrics.push_back(number_metric("steady_headway", "s", summary.steady.headway_s, 6));
     metrics.push_back(number_metric("steady_net_gap", "m", summary.steady.net_gap_m, 6));
     add_counts(run.vehicles_entered, run.vehicles_exited, run.violations, run.updates, run.state_hash, metrics);
@@ -75,6 +76,7 @@ std::vector<RunMetric> metrics_of(const Scenario& scenario, const IntersectionRe
     metrics.push_back(number_metric("density_network", "percent", 100.0 * f.occupied, 6));
     metrics.push_back(number_metric("vehicles_present", "", f.vehicles_present, 6));
     metrics.push_back(number_metric("vehicles_per_green", "", f.discharge.vehicles_per_green, 6));
+    metrics.push_back(count_metric("saturated_greens", "", f.discharge.saturated_greens));
     metrics.push_back(number_metric("saturation_headway", "s", f.discharge.saturation_headway_s, 6));
     metrics.push_back(number_metric("startup_lost_time", "s", f.discharge.startup_lost_time_s, 6));
     metrics.push_back(number_metric("queue", "veh", f.queue_veh, 6));
@@ -82,6 +84,7 @@ std::vector<RunMetric> metrics_of(const Scenario& scenario, const IntersectionRe
     metrics.push_back(number_metric("turned_right", "percent", 100.0 * f.right_share, 6));
     metrics.push_back(number_metric("turned_left", "percent", 100.0 * f.left_share, 6));
     metrics.push_back(count_metric("gaps_accepted", "", f.gaps_accepted));
+    metrics.push_back(count_metric("starvations", "", static_cast<std::int64_t>(f.starvations.size())));
     metrics.push_back(number_metric("longest_in_junction", "s", f.longest_in_junction_s, 2));
     add_counts(f.entered, f.exited, f.violations, f.updates, f.state_hash, metrics);
     return metrics;
@@ -125,6 +128,7 @@ std::vector<RunMetric> metrics_of(const Scenario& scenario, const NetworkResult&
     metrics.push_back(count_metric("gridlocks", "", static_cast<std::int64_t>(delays.gridlocks.size())));
     metrics.push_back(
         number_metric("first_gridlock", "s", delays.gridlocks.empty() ? none : delays.gridlocks[0].from_s, 1));
+    metrics.push_back(count_metric("starvations", "", static_cast<std::int64_t>(delays.starvations.size())));
     metrics.push_back(count_metric("teleported", "", delays.teleported));
     metrics.push_back(count_metric("passed_blockers", "", delays.passed_blockers));
     for (std::size_t cause = 1; cause < kDelayCauseNames.size(); ++cause) {

@@ -162,6 +162,7 @@ void add_rules(const Scenario& scenario, Model& model) {
     model.rules.pass_blocker_ticks = to_ticks(rules.pass_blocker_greens * scenario.longest_green_s(), model.step_s);
     model.rules.gridlock_ticks = to_ticks(scenario.intersection_cycle_s(), model.step_s);
     model.rules.long_wait_ticks = 2 * model.rules.gridlock_ticks;
+    model.rules.starvation_ticks = to_ticks(scenario.measure.starvation_s, model.step_s);
     model.rules.memory_ticks = to_ticks(2.0, model.step_s);
     const bool needs_watch = model.rules.teleport_ticks > 0 || model.rules.pass_blocker_ticks > 0;
     model.rules.watch_ticks = needs_watch ? std::max<std::int64_t>(to_ticks(1.0, model.step_s), 1) : 0;
@@ -224,6 +225,13 @@ void set_meso(const Scenario& scenario, const MesoSettings& settings, Model& mod
     model.leader_mps2 = settings.leader_mps2;
     model.leader_constant_power_speed_mps = settings.leader_constant_power_speed_mps;
     model.leader_profile = leader_profile(settings);
+    // The rounding keeps lanes at the calibrated limit within the range.
+    constexpr double kRounding = 1.001;
+    model.calibrated_limit_mps = kRounding * settings.speed_factor * settings.calibrated_speed_limit_mps;
+    model.power_profile = power_profile(model.driver);
+    model.has_fast_lanes = std::any_of(model.graph.lanes.begin(), model.graph.lanes.end(), [&](const Lane& lane) {
+        return model.speed_factor * lane.limit_mps > model.calibrated_limit_mps;
+    });
     model.start_relay_vehicles = settings.start_relay_vehicles;
     model.hesitation_ticks = to_ticks(scenario.driver.free_drive.hesitation_s + settings.start_delay_s, model.step_s);
 }
@@ -235,6 +243,8 @@ Model build_model(const Scenario& scenario, std::size_t population) {
     add_network(scenario, model);
     model.vehicles.push_back(compile_powertrain(scenario.vehicle));
     model.driver = compile_driver(scenario.driver);
+    const auto available_mps2 = [&](double v) { return available_acceleration_mps2(model.vehicles[0], v); };
+    extend_by_power(scenario.driver.free_drive, available_mps2, model.driver);
     model.hesitation_ticks = to_ticks(scenario.driver.free_drive.hesitation_s, scenario.tick_s());
     // A command of the controller takes effect at the end of its step. This delay of one step is a part of
     // radar_delay_s, so it is subtracted.

@@ -7,6 +7,7 @@
 #include "base/input_error.h"
 #include "base/nearest_name.h"
 #include "scenario/compose.h"
+#include "scenario/driving_checks.h"
 #include "scenario/file_name.h"
 #include "scenario/import_sumo.h"
 #include "scenario/schema/field_path.h"
@@ -73,6 +74,7 @@ Scenario scenario_from(SourceNode root, const std::vector<std::string>& override
     throw_if_any(sumo_demand_problems(scenario));
     scenario.hash = scenario_hash(scenario);
     scenario.warnings = report.warnings();
+    for (std::string& line : range_warnings(scenario)) scenario.warnings.push_back(std::move(line));
     return scenario;
 }
 

@@ -21,6 +21,8 @@ struct MeasureSettings {
     int warmup_cycles = 1;                   // signal cycles before the measurement
     int cycles = 5;                          // measured signal cycles
     std::vector<double> zone_radius_m = {};  // radii of the zones for travel time and density (measure.zones)
+    // For all networks with intersections:
+    double starvation_s = 300.0;  // a movement starves if its first vehicle stands for this time; 0: never
     // For networks of several intersections only:
     double area_margin_m = 20.0;           // distance from the outer intersections to the boundary of the measured area
     double interval_s = 60.0;              // interval of the time series

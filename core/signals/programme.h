@@ -33,6 +33,7 @@ public:
     // Returns the start of the latest green that began at or before `tick`, or -1 if there was no such green.
     std::int64_t last_green_start_tick(std::int64_t tick) const;
     std::int64_t cycle_ticks() const { return cycle_; }
+    std::int64_t first_tick() const { return offset_; }
 
 private:
     struct StageStart {

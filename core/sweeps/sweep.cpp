@@ -58,7 +58,7 @@ void check_axes_are_independent(const SweepSettings& settings) {
             });
             if (same != earlier.end()) {
                 throw InputError(fmt::format("{}: the axes '{}' and '{}' both change '{}': make them one axis",
-                                             settings.name, same->second, axis.name, std::max(path, same->first)));
+                                             axis.place, same->second, axis.name, std::max(path, same->first)));
             }
             earlier.emplace_back(path, axis.name);
         }
@@ -105,8 +105,8 @@ Sweep::Sweep(SweepSettings settings, const SweepOptions& options)
     if (runs > kSweepPointsMax) {
         const std::string count = runs == std::numeric_limits<std::size_t>::max() ? "" : fmt::format(" ({})", runs);
         throw InputError(
-            fmt::format("the sweep {} has more than {} runs{}: leave out values, or split it into several sweeps",
-                        settings_.name, kSweepPointsMax, count));
+            fmt::format("{}: the sweep has more than {} runs{}: leave out values, or split it into several sweeps",
+                        settings_.file, kSweepPointsMax, count));
     }
     load_combinations(combinations, options);
 }
@@ -163,7 +163,8 @@ void Sweep::load_combinations(std::size_t count, const SweepOptions& options) {
             if (i >= first_bad) continue;
             first_bad = i;
             error = std::make_exception_ptr(
-                InputError(fmt::format("the sweep {}{}: {}", settings_.name, describe_combination(i), bad.what())));
+                InputError(fmt::format("{}: the sweep {}{}: {}", place_of_problem(i, bad.what()), settings_.name,
+                                       describe_combination(i), bad.what())));
         } catch (...) {
             const std::lock_guard lock(mutex);
             if (!error) error = std::current_exception();
@@ -271,13 +272,32 @@ std::string Sweep::describe_combination(std::size_t combination) const {
     return text.empty() ? "" : ", with " + text;
 }
 
-std::vector<std::string> Sweep::overrides(std::size_t combination) const {
+std::vector<std::size_t> Sweep::values_of(std::size_t combination) const {
     std::vector<std::size_t> values(columns_.size());
     for (std::size_t k = columns_.size(); k-- > 0;) {
         if (k == population_column_) continue;
         values[k] = combination % columns_[k].cells.size();
         combination /= columns_[k].cells.size();
     }
+    return values;
+}
+
+std::string Sweep::place_of_problem(std::size_t combination, const std::string& problem) const {
+    const std::vector<std::size_t> values = values_of(combination);
+    std::string first = settings_.axes.empty() ? settings_.file : settings_.axes[0].place;
+    for (std::size_t k = columns_.size(); k-- > 0;) {
+        if (k == population_column_) continue;
+        const SweepAxis& axis = settings_.axes[columns_[k].axis_index];
+        first = axis.value_places[values[k]];
+        for (const std::string& text : axis_overrides(axis, values[k])) {
+            if (problem.find("--set '" + shortened(text) + "'") != std::string::npos) return first;
+        }
+    }
+    return first;
+}
+
+std::vector<std::string> Sweep::overrides(std::size_t combination) const {
+    const std::vector<std::size_t> values = values_of(combination);
     std::vector<std::string> texts = overrides_;
     for (std::size_t k = 0; k < columns_.size(); ++k) {
         if (k == population_column_) continue;

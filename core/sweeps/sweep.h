@@ -78,6 +78,11 @@ private:
     std::vector<std::size_t> value_indices(std::size_t point) const;  // [column] index of the axis value
     std::vector<std::string> overrides(std::size_t combination) const;
     std::string describe_combination(std::size_t combination) const;
+    // Returns the index of the value of each column in a combination. The column of populations has the index 0.
+    std::vector<std::size_t> values_of(std::size_t combination) const;
+    // Returns the position in the sweep file to name in an error message: that of the axis value which the message
+    // quotes, or that of the value of the first axis.
+    std::string place_of_problem(std::size_t combination, const std::string& problem) const;
     void add_columns();
     void check_column_names(std::set<std::string> taken) const;
     void load_combinations(std::size_t count, const SweepOptions& options);

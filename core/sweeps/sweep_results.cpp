@@ -81,6 +81,7 @@ void add_to(SweepTotals& totals, const std::string& result) {
         totals.longest_in_junction_s = std::max(totals.longest_in_junction_s, number_of(value));
     });
     totals.measured_in_warm_up += from_s < warm_up_s ? 1U : 0U;
+    totals.starving_runs += count_in(result, "starvations") > 0 ? 1U : 0U;
     totals.with_backlog += count_in(result, "backlog") > 0 ? 1U : 0U;
     if (has_gridlocks) {
         totals.gridlocks = totals.gridlocks.value_or(0) + count_in(result, "gridlocks");

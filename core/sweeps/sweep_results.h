@@ -35,6 +35,7 @@ struct SweepTotals {
     std::optional<std::int64_t> deadlocks;  // set for single intersections only
     std::optional<std::int64_t> gridlocks;  // set for networks of several intersections only
     std::int64_t teleported = 0;            // number of teleported vehicles in networks of several intersections
+    std::size_t starving_runs = 0;          // number of runs in which a movement starves
     double longest_in_junction_s = 0.0;     // longest stay of a vehicle in an intersection, over all runs
     std::size_t measured_in_warm_up = 0;    // number of runs whose measured window begins before the warm-up ends
     std::size_t with_backlog = 0;           // number of runs with a backlog of vehicles at the end

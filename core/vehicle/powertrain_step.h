@@ -29,6 +29,7 @@ struct PowertrainState {
     R gear_time_s;        // time since the last gear change
     R lag_s;              // time constant of the brake if a brake force is requested, otherwise of the torque
     R gear;               // 0: first gear
+    R available_mps2;     // highest acceleration that the engine can hold in this gear, after the lag; 0 at first
 };
 
 // Returns the value of a table for this gear.
@@ -164,6 +165,11 @@ STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTablesOf<Numb
     const R stops_in_step = STOPLINE_FLAG(R, speed + moving_mps2 * dt <= 0.0);
     next.speed_mps = choose(stops_in_step, splat<R>(0.0), speed + moving_mps2 * dt);
     next.acceleration_mps2 = choose(stops_in_step, (0.0 - speed) * (1.0 / dt), moving_mps2);
+
+    // A closed clutch is assumed even during the torque interruption of a gear change, because it is short.
+    const auto highest_Nm = select(locked_rpm < t.limiter_rpm, full_Nm, drag_Nm);
+    const auto highest_N = highest_Nm * gain * t.efficiency - resistance_N;
+    next.available_mps2 = min_of<R>(highest_N / inertia_kg, t.friction_mps2 - resistance_mps2);
 
     const R next_gear = next_gear_suffices<R>(t, s.gear, speed, request_mps2, resistance_N);
     change_gear(t, s, GearDemand<R>{locked_rpm, share, wanted_Nm, full_Nm, request_brake_N, next_gear}, dt, next);

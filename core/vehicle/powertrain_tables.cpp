@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/input_error.h"
+#include "base/simd/arithmetic.h"
 #include "base/units.h"
 
 namespace stopline {
@@ -58,6 +59,20 @@ int cruising_gear(const PowertrainTables& t, double speed_mps) {
     int gear = static_cast<int>(t.gears) - 1;
     while (gear > 0 && speed_mps * t.rpm_per_mps[static_cast<std::size_t>(gear)] < 1.1 * t.shift_down_rpm) --gear;
     return gear;
+}
+
+double available_acceleration_mps2(const PowertrainTables& t, double speed_mps) {
+    const double resistance_N = t.rolling_N + t.rolling_Nspm * speed_mps + t.drag_Ns2pm2 * square(speed_mps);
+    double highest_mps2 = -resistance_N * t.inverse_mass_1pkg;
+    for (std::size_t gear = 0; gear < static_cast<std::size_t>(t.gears); ++gear) {
+        const double locked_rpm = speed_mps * t.rpm_per_mps[gear];
+        if (locked_rpm > t.limiter_rpm || (gear > 0 && locked_rpm < t.idle_rpm)) continue;
+        const double rpm = gear == 0 ? std::max(locked_rpm, t.launch_rpm) : locked_rpm;
+        const double torque_Nm = interpolate_on_grid(t.full_load_Nm, rpm * t.torque_nodes_per_rpm);
+        const double force_N = torque_Nm * t.rpm_per_mps[gear] * kRadpsPerRpm * t.efficiency - resistance_N;
+        highest_mps2 = std::max(highest_mps2, force_N * t.inverse_mass_1pkg / t.rotating_mass[gear]);
+    }
+    return std::min(highest_mps2, t.friction_mps2);
 }
 
 PowertrainTables compile_powertrain(const PowertrainSettings& s) {

@@ -64,6 +64,10 @@ PowertrainTables compile_powertrain(const PowertrainSettings& settings);
 // above the downshift speed. 0 is the first gear.
 int cruising_gear(const PowertrainTables& tables, double speed_mps);
 
+// Returns the highest acceleration at a speed on a level road, m/s2: that of the gear which gives most, with a closed
+// clutch. It is below 0 above the highest speed of the vehicle.
+double available_acceleration_mps2(const PowertrainTables& tables, double speed_mps);
+
 // Returns the linear interpolation of a sampled curve, constant beyond its ends.
 double interpolate(const SampledCurve& curve, double x);
 

@@ -30,12 +30,14 @@ Model two_lanes() {
     return model;
 }
 
-Discharge discharge_in(const Model& model, const std::vector<Crossing>& crossings, const TimeWindow& window) {
+Discharge discharge_in(
+    const Model& model, const std::vector<Crossing>& crossings, const TimeWindow& window,
+    const HasQueued& has_queued = [](int) { return true; }) {
     const auto latest_green_start_s = [&](int signal_group, double time_s) {
         const auto tick = static_cast<std::int64_t>(time_s / model.step_s);
         return model.time_s(model.signals[static_cast<std::size_t>(signal_group)].last_green_start_tick(tick));
     };
-    return discharge(model.graph, model.detectors, crossings, window, latest_green_start_s, kCycle_s);
+    return discharge(model.graph, model.detectors, crossings, window, latest_green_start_s, kCycle_s, has_queued);
 }
 
 // Adds passages at one detector during one green, given by their headways.
@@ -65,14 +67,26 @@ TEST(Discharge, MatchesHandCalculation) {
     add_passages(crossings, kGreen_s + 2.0 * kCycle_s, 2, {1.0, 1.0, 1.0, 1.0, 1.0, 1.0});  // after the window
     const Discharge d = discharge_in(model, sorted_by_time(crossings), {kGreen_s, kGreen_s + 2.0 * kCycle_s});
 
-    const std::vector<double> mean_s{3.2, 2.6, 2.4, 2.1, 1.9, 2.0, 1.7};
-    ASSERT_EQ(d.headway_s.size(), mean_s.size());
-    for (std::size_t k = 0; k < mean_s.size(); ++k) EXPECT_NEAR(d.headway_s[k], mean_s[k], 1e-9) << k;
-    EXPECT_EQ(d.samples, (std::vector{3, 3, 3, 3, 3, 2, 1}));
+    ASSERT_EQ(d.lanes.size(), 2U);
+    const std::vector<double> first_s{3.1, 2.55, 2.35, 2.15, 1.95, 2.0, 1.7};
+    const std::vector<double> second_s{3.4, 2.7, 2.5, 2.0, 1.8};
+    ASSERT_EQ(d.lanes[0].headway_s.size(), first_s.size());
+    ASSERT_EQ(d.lanes[1].headway_s.size(), second_s.size());
+    for (std::size_t k = 0; k < first_s.size(); ++k) EXPECT_NEAR(d.lanes[0].headway_s[k], first_s[k], 1e-9) << k;
+    for (std::size_t k = 0; k < second_s.size(); ++k) EXPECT_NEAR(d.lanes[1].headway_s[k], second_s[k], 1e-9) << k;
+    EXPECT_EQ(d.lanes[0].samples, (std::vector{2, 2, 2, 2, 2, 2, 1}));
+    EXPECT_EQ(d.lanes[1].samples, std::vector(5, 1));
+    EXPECT_EQ(d.lanes[0].lane, model.graph.lanes[0].name);
+    EXPECT_EQ(d.saturated_greens, 3);
     // From the fifth vehicle on, all headways have equal weight: (2.0 + 2.0 + 1.7 + 1.8 + 1.9 + 2.0) / 6.
     EXPECT_NEAR(d.saturation_headway_s, 1.9, 1e-9);
     EXPECT_NEAR(d.saturation_flow_veh_h, 3600.0 / 1.9, 1e-6);
-    EXPECT_NEAR(d.startup_lost_time_s, 3.2 + 2.6 + 2.4 + 2.1 - 4.0 * 1.9, 1e-9);
+    // The lost time of a lane refers to its own saturation headway. The first lane has two greens, the second one.
+    const double first_lost_s = 3.1 + 2.55 + 2.35 + 2.15 - 4.0 * (2.0 + 2.0 + 1.7 + 1.9 + 2.0) / 5.0;
+    const double second_lost_s = 3.4 + 2.7 + 2.5 + 2.0 - 4.0 * 1.8;
+    EXPECT_NEAR(d.lanes[0].startup_lost_time_s, first_lost_s, 1e-9);
+    EXPECT_NEAR(d.lanes[1].startup_lost_time_s, second_lost_s, 1e-9);
+    EXPECT_NEAR(d.startup_lost_time_s, (2.0 * first_lost_s + second_lost_s) / 3.0, 1e-9);
     EXPECT_EQ(d.greens, 2);
     EXPECT_DOUBLE_EQ(d.vehicles_per_green, 18.0 / 2.0 / 2.0) << "two lanes, two greens, one of them empty";
 }
@@ -83,8 +97,8 @@ TEST(Discharge, CountsAFirstVehicleOnYellowTowardsItsGreen) {
     add_passages(crossings, kGreen_s, 0, {3.0, 2.5});
     add_passages(crossings, kGreen_s + kCycle_s, 0, {15.5});
     const Discharge d = discharge_in(model, sorted_by_time(crossings), {kGreen_s, kGreen_s + 2.0 * kCycle_s});
-    EXPECT_EQ(d.samples, (std::vector{2, 1}));
-    EXPECT_NEAR(d.headway_s.at(0), (3.0 + 15.5) / 2.0, 1e-9);
+    EXPECT_EQ(d.lanes[0].samples, (std::vector{2, 1}));
+    EXPECT_NEAR(d.lanes[0].headway_s.at(0), (3.0 + 15.5) / 2.0, 1e-9);
 }
 
 TEST(Discharge, IgnoresAGreenThatStartsBeforeTheWindow) {
@@ -93,8 +107,8 @@ TEST(Discharge, IgnoresAGreenThatStartsBeforeTheWindow) {
     add_passages(crossings, kGreen_s, 0, {3.0, 2.0, 2.0, 2.0, 2.0, 1.0});
     add_passages(crossings, kGreen_s + kCycle_s, 0, {4.0, 3.0, 3.0, 3.0, 2.5});
     const Discharge d = discharge_in(model, crossings, {kGreen_s + 6.0, kGreen_s + 6.0 + kCycle_s * 2.0});
-    ASSERT_EQ(d.samples, std::vector(5, 1));
-    EXPECT_NEAR(d.headway_s[0], 4.0, 1e-9);
+    ASSERT_EQ(d.lanes[0].samples, std::vector(5, 1));
+    EXPECT_NEAR(d.lanes[0].headway_s[0], 4.0, 1e-9);
     EXPECT_NEAR(d.saturation_headway_s, 2.5, 1e-9);
 }
 
@@ -106,6 +120,31 @@ TEST(Discharge, HasNoSaturationFlowWithoutAFifthVehicle) {
     EXPECT_TRUE(std::isnan(d.saturation_headway_s));
     EXPECT_TRUE(std::isnan(d.saturation_flow_veh_h));
     EXPECT_DOUBLE_EQ(d.vehicles_per_green, 2.0);
+}
+
+// The sixth vehicle has not stopped, so the queue ends before it. The seventh vehicle is not of the queue either.
+TEST(Discharge, CountsOnlyVehiclesOfTheQueue) {
+    const Model model = two_lanes();
+    std::vector<Crossing> crossings;
+    add_passages(crossings, kGreen_s, 0, {3.0, 2.5, 2.3, 2.2, 2.0, 4.0, 1.0});
+    const auto has_queued = [](int vehicle) { return vehicle != 5; };
+    const Discharge d = discharge_in(model, crossings, {kGreen_s, kGreen_s + kCycle_s}, has_queued);
+    EXPECT_EQ(d.lanes[0].samples, std::vector(5, 1));
+    EXPECT_EQ(d.saturated_greens, 1);
+    EXPECT_NEAR(d.saturation_headway_s, 2.0, 1e-9);
+    EXPECT_DOUBLE_EQ(d.vehicles_per_green, 3.5) << "all seven vehicles, on two lanes";
+}
+
+TEST(Discharge, VehiclesThatNeverQueuedGiveNoSaturationFlow) {
+    const Model model = two_lanes();
+    std::vector<Crossing> crossings;
+    add_passages(crossings, kGreen_s, 0, {1.0, 4.0, 4.0, 4.0, 4.0, 4.0});
+    const Discharge d =
+        discharge_in(model, crossings, {kGreen_s, kGreen_s + kCycle_s}, [](int /*vehicle*/) { return false; });
+    EXPECT_EQ(d.saturated_greens, 0);
+    EXPECT_TRUE(std::isnan(d.saturation_headway_s));
+    EXPECT_TRUE(std::isnan(d.startup_lost_time_s));
+    EXPECT_TRUE(d.lanes[0].headway_s.empty());
 }
 
 }  // namespace

@@ -96,7 +96,7 @@ protected:
         const Model& model = track_.model();
         Partition& all = state().partitions[0];
         find_occupied_lanes(state(), state().queues, all);
-        find_junction_occupants(state(), state().junctions, all);
+        find_junction_occupants(model, state(), state().junctions, all);
         decide_stop_lines(model, state(), all);
         decide_right_of_way(model, state(), all);
         watch_delays(model, state());

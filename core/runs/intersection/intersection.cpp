@@ -8,6 +8,7 @@
 #include "base/io/csv.h"
 #include "runs/parallel_runs.h"
 #include "scenario/build_model.h"
+#include "scenario/make_network.h"
 
 namespace stopline {
 
@@ -19,6 +20,11 @@ double IntersectionReport::improvement_percent(const IntersectionResult& result)
     return std::numeric_limits<double>::quiet_NaN();
 }
 
+bool IntersectionReport::no_starvation() const {
+    return std::all_of(populations.begin(), populations.end(),
+                       [](const IntersectionResult& f) { return f.starvations.empty(); });
+}
+
 bool IntersectionReport::no_violations() const {
     return std::all_of(populations.begin(), populations.end(),
                        [](const IntersectionResult& f) { return f.violations.none(); });
@@ -27,7 +33,8 @@ bool IntersectionReport::no_violations() const {
 IntersectionReport run_intersections(const Scenario& scenario, const IntersectionOptions& options) {
     constexpr std::int64_t kProgressSteps = 1000;
     const std::size_t runs = scenario.populations.size();
-    IntersectionReport report{scenario, std::vector<IntersectionResult>(runs), {}};
+    IntersectionReport report{scenario, std::vector<IntersectionResult>(runs), {}, {}};
+    for (const Lane& lane : make_network(scenario.network).lanes) report.lanes.push_back(lane.name);
     report.trajectories.resize(runs);
     const TimeWindow traced_window = first_cycle(scenario);
     const std::int64_t sample_ticks = to_ticks(options.trajectory_interval_s, scenario.tick_s());
@@ -56,10 +63,11 @@ std::string intersection_csv(const IntersectionReport& report) {
             columns.push_back(fmt::format(fmt::runtime(format), radius_m));
         }
     }
-    for (const char* const column : {"density_network_percent", "vehicles_present", "vehicles_per_green",
-                                     "saturation_flow_veh_h", "startup_lost_time_s", "queue_veh", "longest_queue_m",
-                                     "turned_right_percent", "turned_left_percent", "longest_in_junction_s", "overlaps",
-                                     "conflicts", "red_entries", "forced_red_entries", "lost_vehicles", "deadlocks"}) {
+    for (const char* const column :
+         {"density_network_percent", "vehicles_present", "vehicles_per_green", "saturated_greens",
+          "saturation_flow_veh_h", "startup_lost_time_s", "queue_veh", "longest_queue_m", "turned_right_percent",
+          "turned_left_percent", "longest_in_junction_s", "starvations", "overlaps", "conflicts", "red_entries",
+          "forced_red_entries", "lost_vehicles", "deadlocks"}) {
         columns.emplace_back(column);
     }
     CsvWriter csv(columns);
@@ -74,11 +82,12 @@ std::string intersection_csv(const IntersectionReport& report) {
         const Violations& v = f.violations;
         for (const std::string& cell :
              {fixed(100.0 * f.occupied, 3), fixed(f.vehicles_present, 2), fixed(f.discharge.vehicles_per_green, 3),
-              fixed(f.discharge.saturation_flow_veh_h, 1), fixed(f.discharge.startup_lost_time_s, 3),
-              fixed(f.queue_veh, 2), fixed(f.longest_queue_m, 2), fixed(100.0 * f.right_share, 2),
-              fixed(100.0 * f.left_share, 2), fixed(f.longest_in_junction_s, 2), std::to_string(v.overlaps),
-              std::to_string(v.conflicts), std::to_string(v.red_entries), std::to_string(v.forced_red_entries),
-              std::to_string(v.lost_vehicles), std::to_string(v.deadlocks)}) {
+              std::to_string(f.discharge.saturated_greens), fixed(f.discharge.saturation_flow_veh_h, 1),
+              fixed(f.discharge.startup_lost_time_s, 3), fixed(f.queue_veh, 2), fixed(f.longest_queue_m, 2),
+              fixed(100.0 * f.right_share, 2), fixed(100.0 * f.left_share, 2), fixed(f.longest_in_junction_s, 2),
+              std::to_string(f.starvations.size()), std::to_string(v.overlaps), std::to_string(v.conflicts),
+              std::to_string(v.red_entries), std::to_string(v.forced_red_entries), std::to_string(v.lost_vehicles),
+              std::to_string(v.deadlocks)}) {
             row.push_back(cell);
         }
         csv.row(row);
@@ -106,14 +115,22 @@ std::string intersection_trajectories_csv(const IntersectionReport& report) {
 }
 
 std::string headways_csv(const IntersectionReport& report) {
-    CsvWriter csv({"population", "position", "headway_s", "samples"});
+    CsvWriter csv({"population", "lane", "position", "headway_s", "samples"});
     for (const IntersectionResult& f : report.populations) {
-        for (std::size_t k = 0; k < f.discharge.headway_s.size(); ++k) {
-            csv.row({f.population, std::to_string(k + 1), fixed(f.discharge.headway_s[k], 4),
-                     std::to_string(f.discharge.samples[k])});
+        for (const LaneDischarge& lane : f.discharge.lanes) {
+            for (std::size_t k = 0; k < lane.headway_s.size(); ++k) {
+                csv.row({f.population, lane.lane, std::to_string(k + 1), fixed(lane.headway_s[k], 4),
+                         std::to_string(lane.samples[k])});
+            }
         }
     }
     return csv.text();
+}
+
+std::vector<PopulationStarvations> IntersectionReport::starvations() const {
+    std::vector<PopulationStarvations> all;
+    for (const IntersectionResult& f : populations) all.push_back({f.population, f.starvations});
+    return all;
 }
 
 }  // namespace stopline

@@ -7,6 +7,7 @@
 
 #include "runs/intersection/intersection_run.h"
 #include "runs/run.h"
+#include "runs/starvation.h"
 
 namespace stopline {
 
@@ -14,10 +15,13 @@ struct IntersectionReport {
     Scenario scenario;
     std::vector<IntersectionResult> populations;             // in the order of scenario.populations
     std::vector<std::vector<TrajectoryPoint>> trajectories;  // [population] first measured cycle; empty: not sampled
+    std::vector<std::string> lanes;                          // [lane] name of the lane
 
     // Returns the gain in throughput over the population that measure.baseline names, %; NaN without a baseline.
     double improvement_percent(const IntersectionResult& result) const;
     bool no_violations() const;
+    bool no_starvation() const;
+    std::vector<PopulationStarvations> starvations() const;
 };
 
 struct IntersectionOptions {

@@ -12,16 +12,18 @@ namespace stopline {
 
 namespace {
 
-// Samples values that cannot be computed from the recorded events of a run: the number of vehicles in the network, and
-// the queues at the start of green.
+// Samples values that cannot be computed from the recorded events of a run: the number of vehicles in the network, the
+// queues at the start of green, and the vehicles that have stood in a queue.
 class QueueSampler {
 public:
     explicit QueueSampler(const Model& model, const TimeWindow& window)
         : model_(model),
           window_tick_(to_ticks(window.from_s, model.step_s)),
-          second_ticks_(to_ticks(1.0, model.step_s)) {}
+          second_ticks_(to_ticks(1.0, model.step_s)),
+          queue_ticks_(std::max<std::int64_t>(to_ticks(kQueueSample_s, model.step_s), 1)) {}
 
     void sample(const State& state) {
+        if (state.tick % queue_ticks_ == 0) list_queued(state);
         if (state.tick < window_tick_) return;
         if ((state.tick - window_tick_) % second_ticks_ == 0) {
             present_ += state.present();
@@ -38,6 +40,9 @@ public:
         }
     }
 
+    // Returns true if the vehicle has been slower than kQueuedSpeed_mps before its stop line.
+    bool has_queued(int vehicle) const { return at(vehicle) < has_queued_.size() && has_queued_[at(vehicle)]; }
+
     void finish(IntersectionResult& result) const {
         result.vehicles_present =
             static_cast<double>(present_) / static_cast<double>(std::max<std::int64_t>(samples_, 1));
@@ -46,6 +51,22 @@ public:
     }
 
 private:
+    static constexpr double kQueueSample_s = 0.2;
+
+    void list_queued(const State& state) {
+        const VehicleArrays& v = state.vehicles;
+        for (const int lane : model_.graph.entries) {
+            const LaneBlock& block = state.blocks[at(lane)];
+            for (int slot = block.first; slot < block.past_last(); ++slot) {
+                if (v.speed_mps[at(slot)] > kQueuedSpeed_mps) continue;
+                if (v.position_m[at(slot)] > model_.graph.lanes[at(lane)].stop_line_m) continue;
+                const std::size_t vehicle = at(v.id[at(slot)]);
+                if (vehicle >= has_queued_.size()) has_queued_.resize(2 * vehicle + 1, false);
+                has_queued_[vehicle] = true;
+            }
+        }
+    }
+
     void measure_queue(const State& state, int lane, double line_m) {
         const VehicleArrays& v = state.vehicles;
         const LaneBlock& block = state.blocks[at(lane)];
@@ -61,6 +82,8 @@ private:
     const Model& model_;
     std::int64_t window_tick_;
     std::int64_t second_ticks_;
+    std::int64_t queue_ticks_;
+    std::vector<bool> has_queued_;  // [vehicle]
     std::int64_t present_ = 0;
     std::int64_t samples_ = 0;
     std::int64_t queued_ = 0;
@@ -172,6 +195,7 @@ IntersectionResult run_intersection(const Scenario& scenario, std::size_t popula
                                     const Observation& observation) {
     Model model = build_model(scenario, population);
     observation.prepare(model);
+    model.rules.watch_ticks = std::max<std::int64_t>(to_ticks(1.0, model.step_s), 1);  // finds starving movements
     Simulation simulation(model);
     IntersectionResult result;
     result.population = scenario.populations.at(population).name;
@@ -202,9 +226,11 @@ IntersectionResult run_intersection(const Scenario& scenario, std::size_t popula
         return model.time_s(model.signals[at(signal_group)].last_green_start_tick(tick));
     };
     result.discharge = discharge(model.graph, model.detectors, state.records.crossings, result.window,
-                                 latest_green_start_s, model.time_s(model.signals[0].cycle_ticks()));
+                                 latest_green_start_s, model.time_s(model.signals[0].cycle_ticks()),
+                                 [&](int vehicle) { return sampler.has_queued(vehicle); });
     result.gaps_accepted = static_cast<std::int64_t>(state.records.gaps_accepted.size());
     result.longest_in_junction_s = model.time_s(state.records.longest_in_junction);
+    result.starvations = state.congestion.delays.starvations;
     result.violations = state.records.violations;
     // A run has a deadlock if a vehicle stays in the intersection for slowest_crossing_s() plus two signal cycles or
     // longer.

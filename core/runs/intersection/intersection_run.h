@@ -36,7 +36,8 @@ struct IntersectionResult {
     double straight_share = 0.0, right_share = 0.0, left_share = 0.0;
     std::int64_t gaps_accepted = 0;
     double longest_in_junction_s = 0.0;  // longest time of a vehicle from the stop line (front) to the exit lane (rear)
-    double snapshot_s = 0.0;             // time of the snapshot: middle of the first measured green of the second stage
+    std::vector<Starvation> starvations;  // movements that starve
+    double snapshot_s = 0.0;  // time of the snapshot: middle of the first measured green of the second stage
     std::vector<DrawnVehicle> snapshot;
     std::vector<Light> snapshot_lights;  // [signal group] at the time of the snapshot
     Violations violations;

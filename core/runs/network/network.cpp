@@ -56,6 +56,11 @@ double NetworkReport::time_saved_percent(const NetworkResult& result) const {
     return 100.0 * (1.0 - result.measured.travel_time_s / base->measured.travel_time_s);
 }
 
+bool NetworkReport::no_starvation() const {
+    return std::all_of(populations.begin(), populations.end(),
+                       [](const NetworkResult& f) { return f.delays.starvations.empty(); });
+}
+
 bool NetworkReport::no_violations() const {
     return std::all_of(populations.begin(), populations.end(),
                        [](const NetworkResult& f) { return f.violations.none(); });
@@ -122,10 +127,10 @@ std::string window_text(const NetworkReport& report) {
 
 std::string network_csv(const NetworkReport& report) {
     std::vector<std::string> columns{
-        "population",      "throughput_veh_h", "improvement_percent", "travel_time_s",  "travel_time_saved_percent",
-        "density_percent", "vehicles_in_area", "vehicles_present",    "max_present",    "window_from_s",
-        "window_to_s",     "warm_up_s",        "stability",           "unstable_by",    "collapse_s",
-        "gridlocks",       "first_gridlock_s", "teleported",          "passed_blockers"};
+        "population",      "throughput_veh_h", "improvement_percent", "travel_time_s", "travel_time_saved_percent",
+        "density_percent", "vehicles_in_area", "vehicles_present",    "max_present",   "window_from_s",
+        "window_to_s",     "warm_up_s",        "stability",           "unstable_by",   "collapse_s",
+        "gridlocks",       "first_gridlock_s", "starvations",         "teleported",    "passed_blockers"};
     for (std::size_t cause = 1; cause < kDelayCauseNames.size(); ++cause) {
         columns.push_back(fmt::format("delay_{}_h", kDelayCauseNames[cause]));
     }
@@ -156,6 +161,7 @@ std::string network_csv(const NetworkReport& report) {
                                      f.collapse_s ? fixed(*f.collapse_s, 0) : "",
                                      std::to_string(delays.gridlocks.size()),
                                      delays.gridlocks.empty() ? "" : fixed(delays.gridlocks[0].from_s, 0),
+                                     std::to_string(delays.starvations.size()),
                                      std::to_string(delays.teleported),
                                      std::to_string(delays.passed_blockers)};
         for (std::size_t cause = 1; cause < kDelayCauseNames.size(); ++cause) {
@@ -239,6 +245,12 @@ std::string gridlocks_csv(const NetworkReport& report) {
         }
     }
     return csv.text();
+}
+
+std::vector<PopulationStarvations> NetworkReport::starvations() const {
+    std::vector<PopulationStarvations> all;
+    for (const NetworkResult& f : populations) all.push_back({f.population, f.delays.starvations});
+    return all;
 }
 
 std::string rules_csv(const NetworkReport& report) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "runs/network/network_run.h"
+#include "runs/starvation.h"
 
 namespace stopline {
 
@@ -20,6 +21,8 @@ struct NetworkReport {
     // is_travel_time_biased() is true for the result or for the baseline.
     double time_saved_percent(const NetworkResult& result) const;
     bool no_violations() const;
+    bool no_starvation() const;
+    std::vector<PopulationStarvations> starvations() const;
 };
 
 // Returns true if the travel time by Little's law (vehicles in the area divided by throughput) is more than 1.5 times

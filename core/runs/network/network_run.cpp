@@ -180,6 +180,9 @@ public:
                 return set_unstable(InstabilityCause::gridlock, gridlock.from_s);
             }
         }
+        if (!delays.starvations.empty()) {
+            return set_unstable(InstabilityCause::starvation, delays.starvations.front().from_s);
+        }
         const bool is_semi_stable = !delays.gridlocks.empty() || delays.teleported > 0;
         result_.stability = is_semi_stable ? Stability::semi_stable : Stability::stable;
     }

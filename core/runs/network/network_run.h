@@ -28,8 +28,10 @@ inline constexpr std::array<const char*, 3> kStabilityNames{"stable", "semi-stab
 //   throughput_drop  gridlocks occur and throughput drops for good, by kCollapseShare or more
 //   teleported       the number of teleported vehicles is kSemiStableShare of the exited vehicles or more
 //   gridlock         a gridlock exists at the end of the run and has lasted for six signal cycles or more
-enum class InstabilityCause : std::uint8_t { none, throughput_drop, teleported, gridlock };
-inline constexpr std::array<const char*, 4> kInstabilityCauseNames{"", "throughput_drop", "teleported", "gridlock"};
+//   starvation       a movement starves (Starvation in sim/state/delay_log.h)
+enum class InstabilityCause : std::uint8_t { none, throughput_drop, teleported, gridlock, starvation };
+inline constexpr std::array<const char*, 5> kInstabilityCauseNames{"", "throughput_drop", "teleported", "gridlock",
+                                                                   "starvation"};
 inline constexpr double kSemiStableShare = 0.01;  // from Section VI.D of the paper
 inline constexpr double kCollapseShare = 0.1;     // chosen for this project; the paper only says "significant"
 

@@ -14,22 +14,44 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kSteadyTime_s = 5.0;
 constexpr double kSteadyGapChange_m = 0.1;
 
-bool at_limit(const TrajectoryPoint& point, double limit_mps) {
-    return std::abs(point.speed_mps - limit_mps) <= kAtLimit_mps;
-}
+// A range of speeds, both ends included.
+struct SpeedRange {
+    double low_mps;
+    double high_mps;
+    bool contains(double speed_mps) const { return speed_mps >= low_mps && speed_mps <= high_mps; }
+};
 
-// Returns the last sample at which a vehicle is in steady state; null if there is none. `points` are its samples.
-const TrajectoryPoint* last_steady_point(std::span<const TrajectoryPoint> points, double interval_s, double limit_mps) {
+// Returns the last sample at which a vehicle has kept its speed in the range, and its net gap, for kSteadyTime_s; null
+// if there is none. `points` are its samples.
+const TrajectoryPoint* last_steady_point(std::span<const TrajectoryPoint> points, double interval_s,
+                                         const SpeedRange& range) {
     const auto window = static_cast<std::size_t>(std::lround(kSteadyTime_s / interval_s));
     const TrajectoryPoint* last = nullptr;
-    std::size_t steady = 0;  // number of successive samples at the speed limit
+    std::size_t steady = 0;  // number of successive samples in the range
     for (std::size_t k = 0; k < points.size(); ++k) {
-        steady = at_limit(points[k], limit_mps) ? steady + 1 : 0;
+        steady = range.contains(points[k].speed_mps) ? steady + 1 : 0;
         if (steady <= window) continue;
         // Without a leader the net gap is NaN and the comparison is false.
         if (std::abs(points[k].net_gap_m - points[k - window].net_gap_m) <= kSteadyGapChange_m) last = &points[k];
     }
     return last;
+}
+
+// Returns the vehicles with such a sample, and their values at it.
+std::vector<SteadyVehicle> vehicles_in_range(const std::vector<TrajectoryPoint>& trajectory, double interval_s,
+                                             const SpeedRange& range, double length_m) {
+    std::vector<TrajectoryPoint> points = trajectory;
+    std::stable_sort(points.begin(), points.end(),
+                     [](const TrajectoryPoint& a, const TrajectoryPoint& b) { return a.vehicle < b.vehicle; });
+    std::vector<SteadyVehicle> steady;
+    for (std::size_t begin = 0, end = 0; begin < points.size(); begin = end) {
+        while (end < points.size() && points[end].vehicle == points[begin].vehicle) ++end;
+        const TrajectoryPoint* const last = last_steady_point({&points[begin], end - begin}, interval_s, range);
+        if (last == nullptr) continue;
+        steady.push_back(
+            {last->vehicle, last->policy, last->net_gap_m, (length_m + last->net_gap_m) / last->speed_mps});
+    }
+    return steady;
 }
 
 }  // namespace
@@ -56,19 +78,14 @@ LeaderStart leader_start(const std::vector<TrajectoryPoint>& points, double limi
 }
 
 std::vector<SteadyVehicle> steady_vehicles(const std::vector<TrajectoryPoint>& trajectory, double interval_s,
-                                           double limit_mps, double length_m) {
-    std::vector<TrajectoryPoint> points = trajectory;
-    std::stable_sort(points.begin(), points.end(),
-                     [](const TrajectoryPoint& a, const TrajectoryPoint& b) { return a.vehicle < b.vehicle; });
-    std::vector<SteadyVehicle> steady;
-    for (std::size_t begin = 0, end = 0; begin < points.size(); begin = end) {
-        while (end < points.size() && points[end].vehicle == points[begin].vehicle) ++end;
-        const TrajectoryPoint* const last = last_steady_point({&points[begin], end - begin}, interval_s, limit_mps);
-        if (last == nullptr) continue;
-        steady.push_back(
-            {last->vehicle, last->policy, last->net_gap_m, (length_m + last->net_gap_m) / last->speed_mps});
-    }
-    return steady;
+                                           double cruise_mps, double length_m) {
+    return vehicles_in_range(trajectory, interval_s, {cruise_mps - kAtLimit_mps, cruise_mps + kAtLimit_mps}, length_m);
+}
+
+std::vector<SteadyVehicle> cruising_vehicles(const std::vector<TrajectoryPoint>& trajectory, double interval_s,
+                                             double cruise_mps, double length_m) {
+    constexpr double kAny_mps = std::numeric_limits<double>::max();
+    return vehicles_in_range(trajectory, interval_s, {cruise_mps - kAtLimit_mps, kAny_mps}, length_m);
 }
 
 }  // namespace stopline

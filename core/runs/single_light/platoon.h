@@ -30,9 +30,18 @@ struct SteadyVehicle {
     double headway_s = 0.0;  // (length + net gap) / speed
 };
 // Returns the vehicles that reach steady state, with their values at the last sample in steady state. A vehicle is in
-// steady state if, for five seconds, its speed was within kAtLimit_mps of the limit and its net gap changed by 0.1 m or
-// less. The samples must be `interval_s` apart.
+// steady state if, for five seconds, its speed was within kAtLimit_mps of `cruise_mps` and its net gap changed by 0.1 m
+// or less. `cruise_mps` is the speed of a vehicle without leader. The samples must be `interval_s` apart.
 std::vector<SteadyVehicle> steady_vehicles(const std::vector<TrajectoryPoint>& trajectory, double interval_s,
-                                           double limit_mps, double length_m);
+                                           double cruise_mps, double length_m);
+// Returns the vehicles that kept their net gap for five seconds at the speed `cruise_mps` or a higher one. Vehicles
+// that close up one after the other are faster than `cruise_mps`. They keep their gaps until the vehicles ahead have
+// closed up.
+std::vector<SteadyVehicle> cruising_vehicles(const std::vector<TrajectoryPoint>& trajectory, double interval_s,
+                                             double cruise_mps, double length_m);
+
+// Returns true if a vehicle has reached the gap of its policy. A gap that exceeds it by more than a quarter and half a
+// metre is far beyond all errors of the controllers, and the vehicle has not closed up.
+inline bool has_closed_up(double net_gap_m, double policy_gap_m) { return net_gap_m <= 1.25 * policy_gap_m + 0.5; }
 
 }  // namespace stopline

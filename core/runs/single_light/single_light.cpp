@@ -28,25 +28,36 @@ const GapPolicySettings& policy_named(const Scenario& scenario, const std::strin
 }
 
 SteadyFlow steady_flow(const Scenario& scenario, const PopulationSettings& population,
-                       const std::vector<SteadyVehicle>& steady) {
-    const double limit_mps = scenario.network.approach.speed_limit_mps;
-    SteadyFlow flow{static_cast<int>(steady.size()), 0.0, 0.0, 0.0, 0.0, 0.0};
+                       const std::vector<TrajectoryPoint>& points, double interval_s) {
+    const double cruise_mps = cruise_speed_mps(scenario);
+    const double length_m = scenario.vehicle.length_m;
+    const std::vector<SteadyVehicle> steady = steady_vehicles(points, interval_s, cruise_mps, length_m);
+    const std::vector<SteadyVehicle> cruising = cruising_vehicles(points, interval_s, cruise_mps, length_m);
+    SteadyFlow flow;
+    std::vector<double> open_gaps_m;
     for (std::size_t k = 0; k < population.components.size(); ++k) {
         const double share = population.components[k].share;
-        const double gap_m = equilibrium_gap_m(policy_named(scenario, population.components[k].policy), limit_mps);
+        const double gap_m = equilibrium_gap_m(policy_named(scenario, population.components[k].policy), cruise_mps);
         std::vector<double> gaps_m;
         std::vector<double> headways_s;
         for (const SteadyVehicle& vehicle : steady) {
-            if (vehicle.policy != static_cast<int>(k)) continue;
+            if (vehicle.policy != static_cast<int>(k) || !has_closed_up(vehicle.net_gap_m, gap_m)) continue;
             gaps_m.push_back(vehicle.net_gap_m);
             headways_s.push_back(vehicle.headway_s);
         }
+        for (const SteadyVehicle& vehicle : cruising) {
+            if (vehicle.policy != static_cast<int>(k) || has_closed_up(vehicle.net_gap_m, gap_m)) continue;
+            open_gaps_m.push_back(vehicle.net_gap_m);
+        }
+        flow.vehicles += static_cast<int>(gaps_m.size());
         flow.net_gap_m += share * mean(gaps_m);
         flow.headway_s += share * mean(headways_s);
         flow.policy_gap_m += share * gap_m;
-        flow.policy_headway_s += share * (scenario.vehicle.length_m + gap_m) / limit_mps;
+        flow.policy_headway_s += share * (length_m + gap_m) / cruise_mps;
     }
     flow.deviation_percent = 100.0 * (flow.headway_s / flow.policy_headway_s - 1.0);
+    flow.not_closed_up = static_cast<int>(open_gaps_m.size());
+    flow.open_gap_m = mean(open_gaps_m);
     return flow;
 }
 
@@ -146,13 +157,16 @@ PopulationSummary summary_of(const Scenario& scenario, std::size_t index, const 
     summary.emptied_s = summary.counter.total() >= queued ? summary.counter.times_s().back() : kNone;
     summary.last_positions = last_positions_flow(summary.line, kLastPositions);
     const ApproachSettings& road = scenario.network.approach;
-    summary.steady = steady_flow(scenario, population,
-                                 steady_vehicles(downstream_points(points, road.length_m), interval_s,
-                                                 road.speed_limit_mps, scenario.vehicle.length_m));
+    summary.steady = steady_flow(scenario, population, downstream_points(points, road.length_m), interval_s);
     summary.leader = leader_of(scenario, summary.line, points, run.green_start_s);
     summary.queue = queue_gaps(run.queue_gaps_m);
     summary.ideal = ideal_counter(scenario, population, points, run.green_start_s);
     return summary;
+}
+
+double cruise_speed_mps(const Scenario& scenario) {
+    const double limit_mps = scenario.network.approach.speed_limit_mps;
+    return scenario.is_meso() ? scenario.meso.leader_speed_share * scenario.meso.speed_factor * limit_mps : limit_mps;
 }
 
 std::vector<TrajectoryPoint> thin_out(const std::vector<TrajectoryPoint>& points, double interval_s, double step_s) {

@@ -14,17 +14,23 @@
 
 namespace stopline {
 
-// Mean gaps and headways in steady state at the speed limit, downstream of the stop line. In a mixed population the
+// Mean gaps and headways in steady state at the cruise speed, downstream of the stop line. In a mixed population the
 // mean of each policy is weighted with the share of the policy, so the mean does not depend on which vehicles reach
-// steady state.
+// steady state. Vehicles that have not closed up (platoon.h) are counted apart.
 struct SteadyFlow {
-    int vehicles = 0;                // number of vehicles that reach steady state (platoon.h)
+    int vehicles = 0;                // number of vehicles that reach steady state and have closed up
     double net_gap_m = 0.0;          // simulated net gap; NaN if a policy has no vehicle in steady state
     double headway_s = 0.0;          // simulated headway; NaN if net_gap_m is NaN
-    double policy_gap_m = 0.0;       // net gap that the policy prescribes at the speed limit
-    double policy_headway_s = 0.0;   // headway of the policy at the limit: (length + net gap) / speed
+    double policy_gap_m = 0.0;       // net gap that the policy prescribes at the cruise speed
+    double policy_headway_s = 0.0;   // headway of the policy at the cruise speed: (length + net gap) / speed
     double deviation_percent = 0.0;  // deviation of headway_s from policy_headway_s
+    int not_closed_up = 0;           // number of vehicles that keep a gap at which they have not closed up
+    double open_gap_m = 0.0;         // mean net gap of these vehicles; NaN if there are none
 };
+
+// Returns the cruise speed: the speed of a vehicle without leader on the road of a single light. It is the speed limit
+// in full dynamics, and a share of it in the mesoscale mode.
+double cruise_speed_mps(const Scenario& scenario);
 
 struct QueueGaps {
     double mean_m = 0.0;

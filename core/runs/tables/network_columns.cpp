@@ -43,18 +43,21 @@ std::vector<ColumnDoc> stability_columns() {
          "`stable`: no gridlock and no teleported vehicle. `semi-stable`: all gridlocks dissolve, and less than 1 % "
          "of the exited vehicles were teleported. `unstable`: for the reason in `unstable_by`"},
         {"unstable_by", "", "run",
-         "first reason that holds. `throughput_drop`: gridlocks occur and throughput drops permanently. `teleported`: "
-         "1 % or more of the exited vehicles were teleported. `gridlock`: a gridlock has lasted for six signal cycles "
-         "or more at the end. Empty: the run is not unstable"},
+         "first reason that holds. `throughput_drop`: gridlocks occur and throughput drops permanently. `teleported`: 1 "
+         "% or more of the exited vehicles were teleported. `gridlock`: a gridlock has lasted for six signal cycles "
+         "or more at the end. `starvation`: a movement starves (`starvations`). Empty: the run is not unstable"},
         {"collapse_s", "s", "run",
-         "time from which the run is unstable. "
-         "`throughput_drop`: start of the signal cycle from which on throughput is lower by 10 % or more. "
-         "`teleported`: end of the last signal cycle with less than 1 % teleported. "
-         "`gridlock`: first observation of the gridlock. Empty: the run is not unstable"},
+         "time from which the run is unstable. `throughput_drop`: start of the signal cycle from which on throughput "
+         "is lower by 10 % or more. `teleported`: end of the last signal cycle with less than 1 % teleported. "
+         "`gridlock`: first observation of the gridlock. `starvation`: stop of the first vehicle that starves. Empty: "
+         "the run is not unstable"},
         {"gridlocks", "", "run",
          "number of gridlocks: cycles of vehicles that wait for each other. A cycle that shares a vehicle with one "
          "seen within the last signal cycle is the same gridlock"},
         {"first_gridlock_s", "s", "run", "first observation of the first gridlock"},
+        {"starvations", "", "run",
+         "number of vehicles that stand at the head of a queue for `measure.starvation` or longer although nothing "
+         "blocks their way; stopline-run fails if there are any"},
         {"teleported", "veh", "run",
          "vehicles removed by `rules.teleport_cycles`, including those that are not reinserted yet. Imported networks: "
          "missed turns are included"},
@@ -160,6 +163,16 @@ std::vector<TableDoc> result_tables() {
           {"to_s", "s", "run", "last observation"},
           {"max_vehicles", "veh", "run", "largest number of delayed vehicles: the first one and its queue"},
           {"delay_s", "veh s", "run", "sum of the delays of these vehicles"}}},
+        {"network/starvations.csv",
+         "One row for each vehicle that stands at the head of a queue for `measure.starvation` or longer although "
+         "nothing blocks\nits way. Its movement starves.",
+         {kPopulation,
+          {"lane", "", "", "lane of the vehicle"},
+          {"vehicle", "", "", "number of the vehicle"},
+          {"cause", "", "",
+           "cause of its delay at the last observation: `signal`, `yielding`, `wrong_lane` or `queue_discharge`"},
+          {"from_s", "s", "run", "time at which the vehicle stopped"},
+          {"to_s", "s", "run", "last observation; vehicles are observed every second"}}},
         {"network/gridlocks.csv",
          "One row for each vehicle of a gridlock. Each vehicle waits for the one in the next row, and the last for "
          "the first.",

@@ -27,6 +27,9 @@ std::vector<ColumnDoc> joined(std::vector<ColumnDoc> first, const std::vector<Co
 std::vector<TableDoc> intersection_table_docs() {
     const std::vector<TableDoc> network = network_table_docs();
     const auto as_network = [&](std::string_view column) { return column_doc(network, "network/summary.csv", column); };
+    const auto as_starving = [&](std::string_view column) {
+        return column_doc(network, "network/starvations.csv", column);
+    };
     return {
         {"intersection/summary.csv",
          "One row for each population. The window is `measure.cycles` whole cycles after `measure.warmup_cycles`.",
@@ -43,15 +46,21 @@ std::vector<TableDoc> intersection_table_docs() {
           {"vehicles_present", "veh", "window", "mean number of vehicles in the network, sampled every second"},
           {"vehicles_per_green", "veh", "window",
            "mean number of vehicles that pass a stop line in one green and its yellow"},
+          {"saturated_greens", "", "window",
+           "number of greens, summed over the lanes, in which five or more vehicles of a queue pass. Only vehicles "
+           "that were slower than 5 km/h before the stop line are of the queue, and it ends before the first other "
+           "vehicle"},
           {"saturation_flow_veh_h", "veh/h", "window",
-           "flow at the mean headway from the fifth vehicle of a queue on; empty: no fifth vehicle"},
+           "flow at the mean headway from the fifth vehicle of a queue on; empty: no saturated green"},
           {"startup_lost_time_s", "s", "window",
-           "sum over the first four vehicles of a queue: headway minus the mean headway from the fifth vehicle on"},
+           "sum over the first four vehicles of a queue: headway minus the mean headway of the lane from the fifth "
+           "vehicle on; mean over saturated greens"},
           {"queue_veh", "veh", "window", "queued vehicles at the start of green, mean over lanes and greens"},
           {"longest_queue_m", "m", "window", "longest of these queues"},
           {"turned_right_percent", "%", "window", "share of the vehicles that leave the intersection to the right"},
           {"turned_left_percent", "%", "window", "share of the vehicles that leave the intersection to the left"},
           as_network("longest_in_junction_s"),
+          as_network("starvations"),
           as_network("overlaps"),
           as_network("conflicts"),
           as_network("red_entries"),
@@ -61,12 +70,16 @@ std::vector<TableDoc> intersection_table_docs() {
            "1 if a vehicle stays in the intersection for two cycles longer than the slowest unobstructed crossing "
            "takes, else 0; a violation"}}},
         {"intersection/headways.csv",
-         "One row for each population and queue position.",
+         "One row for each population, lane and queue position. Only vehicles that stood in the queue count.",
          {kPopulation,
+          {"lane", "", "", "approach lane"},
           {"position", "", "", "position in the queue, from 1"},
-          {"headway_s", "s", "window",
-           "mean headway over lanes and greens; first position: time since the start of green"},
+          {"headway_s", "s", "window", "mean headway over greens; first position: time since the start of green"},
           {"samples", "", "window", "number of headways in the mean"}}},
+        {"intersection/starvations.csv",
+         "One row for each starving vehicle, as in `network/starvations.csv`.",
+         {kPopulation, as_starving("lane"), as_starving("vehicle"), as_starving("cause"), as_starving("from_s"),
+          as_starving("to_s")}},
         {"intersection/trajectories.csv",
          "Written with `--trajectories`, for the first measured cycle. One row for each vehicle and each `--interval`.",
          joined({kPopulation,
@@ -93,12 +106,17 @@ std::vector<TableDoc> single_light_table_docs() {
            "time from the start of green until the last queued vehicle passes the stop line; empty: it does not pass "
            "within the green"},
           {"steady_vehicles", "veh", "green",
-           "followers in steady state downstream of the stop line: at the speed limit for five seconds, with a net "
-           "gap that changes by 0.1 m or less"},
+           "followers in steady state downstream of the stop line: at the cruise speed for five seconds, with a net "
+           "gap that changes by 0.1 m or less and is at most 25 % and 0.5 m larger than that of the policy. The cruise "
+           "speed is that of a vehicle without leader: the speed limit in full dynamics, and "
+           "`meso.leader_speed_share` of `meso.speed_factor` times the limit in the mesoscale mode"},
+          {"not_closed_up_vehicles", "veh", "green",
+           "followers downstream of the stop line that keep a larger net gap for five seconds, at the cruise speed or "
+           "faster. They have not reached the gap of their policy"},
           {"steady_net_gap_m", "m", "green", "mean net gap of these vehicles"},
-          {"policy_gap_m", "m", "", "net gap of the spacing policy at the speed limit"},
+          {"policy_gap_m", "m", "", "net gap of the spacing policy at the cruise speed"},
           {"steady_headway_s", "s", "green", "mean headway of these vehicles: (length + net gap) / speed"},
-          {"policy_headway_s", "s", "", "headway of the spacing policy at the speed limit"},
+          {"policy_headway_s", "s", "", "headway of the spacing policy at the cruise speed"},
           {"headway_deviation_percent", "%", "green", "deviation of `steady_headway_s` from `policy_headway_s`"},
           {"asymptotic_improvement_percent", "%", "green",
            "improvement over `measure.baseline` for very long queues, from the steady-state headways; empty without a "

@@ -32,7 +32,7 @@ std::vector<ColumnDoc> run_columns() {
     copy(network, kNetwork, {"vehicles_in_area", "vehicles_present", "max_present", "window_from_s", "window_to_s"});
     copy(network, kNetwork, {"warm_up_s", "stability", "unstable_by", "collapse_s", "gridlocks"});
     copy(network, kNetwork,
-         {"first_gridlock_s", "teleported", "passed_blockers", "delay_signal_h", "delay_yielding_h"});
+         {"first_gridlock_s", "starvations", "teleported", "passed_blockers", "delay_signal_h", "delay_yielding_h"});
     copy(network, kNetwork,
          {"delay_junction_blocking_h", "delay_turn_blocking_h", "delay_spillback_h", "delay_gridlock_h",
           "delay_wrong_lane_h"});
@@ -56,8 +56,9 @@ std::vector<ColumnDoc> run_columns() {
     copy(intersection, kIntersection,
          {"travel_time_RADIUSm_s", "delay_RADIUSm_s", "density_RADIUSm_percent", "density_network_percent",
           "vehicles_per_green"});
+    copy(intersection, kIntersection, {"saturated_greens"});
     add({{"saturation_headway_s", "s", "window",
-          "single intersections: mean headway from the fifth vehicle of a queue on; empty: no fifth vehicle"}});
+          "single intersections: mean headway from the fifth vehicle of a queue on; empty: no saturated green"}});
     copy(intersection, kIntersection,
          {"startup_lost_time_s", "queue_veh", "longest_queue_m", "turned_right_percent", "turned_left_percent"});
     add({{"gaps_accepted", "", "run", "single intersections: gaps that left-turning vehicles accepted"}});
@@ -65,7 +66,8 @@ std::vector<ColumnDoc> run_columns() {
     // Columns of single lights.
     add({{"passed_K_veh", "veh", "green",
           "single lights: vehicles that pass the stop line within the K-th green time of `measure.green`"}});
-    copy(single_light, kSingleLight, {"queue_emptied_s", "steady_vehicles", "steady_headway_s", "steady_net_gap_m"});
+    copy(single_light, kSingleLight,
+         {"queue_emptied_s", "steady_vehicles", "not_closed_up_vehicles", "steady_headway_s", "steady_net_gap_m"});
 
     // Columns of all kinds of networks.
     add({{"vehicles_entered", "veh", "run", "vehicles that entered the network"},

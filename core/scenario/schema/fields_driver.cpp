@@ -64,6 +64,12 @@ const Table& free_drive_table() {
                                                         "desired acceleration over speed, from 0 km/h; constant "
                                                         "beyond the last point (start-up curve, Section III.B)")
                 .required(),
+            number<&S::profile_limit_mps>("profile_limit", "km/h", {0, 300},
+                                          "highest speed limit for which the acceleration curve was measured; "
+                                          "0 km/h: its last speed"),
+            number<&S::power_share>("power_share", "%", {1, 100},
+                                    "on roads with a higher limit: lowest acceleration, as a share of the highest "
+                                    "acceleration that the vehicle can give at its speed"),
             number<&S::speed_gain_1ps>("speed_gain", "1/s", {0.01, 10}, "acceleration per m/s below the desired speed"),
             number<&S::deceleration_mps2>("deceleration", "m/s2", {0.1, 10}, "deceleration before a lower speed limit"),
             number<&S::hesitation_s>("hesitation", "s", {0, 10},
@@ -194,6 +200,24 @@ SourceNode population_of_one_policy(const SourceNode& policy) {
     return population;
 }
 
+// Checks that no kind of braking is harder than the one that must be able to correct it.
+void check_driver(const DriverSettings& driver, Checker& check) {
+    const CaccSettings& cacc = driver.cacc;
+    const auto compare = [&](const std::string& field, double value, const std::string& other, double most) {
+        if (value <= most) return;
+        check.error(field, "value " + short_text(value, unit("m/s2")) + " must be at most " + other + ", " +
+                               short_text(most, unit("m/s2")));
+    };
+    compare("cacc.emergency_threshold", cacc.emergency_threshold_mps2, "cacc.deceleration_comfort",
+            cacc.deceleration_comfort_mps2);
+    compare("stop.deceleration", driver.stop.deceleration_mps2, "cacc.deceleration_emergency",
+            cacc.deceleration_emergency_mps2);
+    compare("stop.decision_deceleration", driver.stop.decision_deceleration_mps2, "cacc.deceleration_emergency",
+            cacc.deceleration_emergency_mps2);
+    compare("free_drive.deceleration", driver.free_drive.deceleration_mps2, "cacc.deceleration_emergency",
+            cacc.deceleration_emergency_mps2);
+}
+
 }  // namespace
 
 const Table& driver_table() {
@@ -207,7 +231,8 @@ const Table& driver_table() {
             section<&S::stop>("stop", stop_table, "stopping at a stop line"),
             section<&S::give_way>("give_way", give_way_table, "yielding inside intersections"),
             section<&S::lane_change>("lane_change", lane_change_table, "lane changes"),
-        });
+        },
+        check_driver);
     return table;
 }
 

@@ -104,6 +104,13 @@ const Table& meso_table() {
                 "calibrated_standstill_gap", "m", {0.1, 20},
                 "standstill gap of the policies that were calibrated; a policy with another standstill gap gets s_0 "
                 "plus the difference"),
+            number<&S::calibrated_speed_limit_mps>(
+                "calibrated_speed_limit", "km/h", {5, 500},
+                "highest speed limit that the models were calibrated for; on faster roads the accelerations are at "
+                "least driver.free_drive.power_share of what the vehicle can give"),
+            number<&S::calibrated_step_s>("calibrated_step", "s", {0.01, 0.5},
+                                          "longest step that the models were calibrated for; a longer step gives a "
+                                          "warning"),
         },
         [](const S& s, Checker& check) {
             if (s.band_m >= s.constant_distance.standstill_gap_m) {

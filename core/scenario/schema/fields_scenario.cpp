@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/nearest_name.h"
+#include "scenario/driving_checks.h"
 #include "scenario/network_checks.h"
 #include "scenario/schema/field_rows.h"
 #include "scenario/schema/fields.h"
@@ -195,6 +196,7 @@ void check_scenario(const Scenario& scenario, Checker& check) {
     check_steps(scenario, check);
     check_times(scenario, check);
     check_names(scenario, check);
+    check_gaps(scenario, check);
     check_queue(scenario, check);
     check_grid_links(scenario, check);
     check_entries(scenario, check);
@@ -224,6 +226,10 @@ const Table& measure_table() {
                 "single intersection: radii around the centre within which travel time and density are "
                 "measured; reports show the first",
                 false),
+            number<&S::starvation_s>(
+                "starvation", "s", {0, 86'400},
+                "intersections: a movement starves, and the run fails, if the first vehicle of a queue stands for this "
+                "time although nothing blocks its way; the default is the time after which SUMO teleports; 0 s: never"),
             number<&S::area_margin_m>("area_margin", "m", {0, 10'000},
                                       "grids and streets: distance from the outer intersections to the boundary of the "
                                       "measured area, on their approaches and exit lanes")

@@ -146,7 +146,14 @@ SweepSettings sweep_from(SourceNode root) {
     report.throw_if_any();
     check_values_differ(sweep, report);
     report.throw_if_any();
-    for (SweepAxis& axis : sweep.axes) axis.place = to_string(report.place_of("axes[" + axis.name + "].name"));
+    for (SweepAxis& axis : sweep.axes) {
+        const std::string field = "axes[" + axis.name + "]";
+        axis.place = to_string(report.place_of(field + ".name"));
+        for (std::size_t i = 0; i < axis.values.size(); ++i) {
+            axis.value_places.push_back(to_string(report.place_of(field + ".values[" + std::to_string(i) + "]")));
+        }
+    }
+    sweep.file = source.label;
     if (sweep.name.empty()) sweep.name = name_from_file(source.label, "sweep");
     sweep.scenario = file.string();
     sweep.warnings = report.warnings();

@@ -10,14 +10,16 @@ namespace stopline {
 // One axis of a sweep. It lists either values of one or more fields, or populations of the scenario.
 struct SweepAxis {
     std::string name;
-    std::vector<std::string> paths;        // paths of the scenario fields that change together
-    std::vector<std::string> values;       // written as for --set; "a | b" gives each of two paths its own value
-    std::vector<std::string> populations;  // names of populations, or "all" for all populations of the scenario
-    std::string place;                     // position of the axis name, "file:line:column"
+    std::vector<std::string> paths;              // paths of the scenario fields that change together
+    std::vector<std::string> values;             // written as for --set; "a | b" gives each of two paths its own value
+    std::vector<std::string> populations;        // names of populations, or "all" for all populations of the scenario
+    std::string place;                           // position of the axis name, "file:line:column"
+    std::vector<std::string> value_places = {};  // [value] positions of the values
 };
 
 struct SweepSettings {
     std::string name;
+    std::string file;  // name of the sweep file in messages
     std::string title;
     std::string scenario;  // path of the scenario file, relative to the current directory
     std::vector<SweepAxis> axes;

@@ -145,6 +145,7 @@ private:
             const DelayCause cause = w_.cause[at(slot)];
             ++vehicles[static_cast<std::size_t>(cause)];
             if (is_upstream_of_area(slot)) log_.delay_upstream_s += interval_s;
+            if (starves(slot, cause)) record_starvation(slot, cause);
             if (!is_blocking(cause) && !is_stopped_for_long(slot)) continue;
             DelayEpisode& episode = episode_of(w_.queue_head[at(slot)], cause);
             if (episode.to_s < now_s_) {
@@ -157,6 +158,39 @@ private:
         for (std::size_t cause = 0; cause < vehicles.size(); ++cause) {
             log_.delay_s[cause] += interval_s * vehicles[cause];
         }
+    }
+
+    // Returns true if the vehicle in `slot` is the first of its queue, nothing blocks its way, and it has been stopped
+    // for rules.starvation_ticks.
+    bool starves(int slot, DelayCause cause) const {
+        const std::int64_t stopped_ticks = now_ - v_.stopped_since[at(slot)];
+        if (model_.rules.starvation_ticks == 0 || stopped_ticks < model_.rules.starvation_ticks) return false;
+        if (w_.queue_head[at(slot)] != slot) return false;
+        if (cause == DelayCause::signal) return signal_has_failed(slot, stopped_ticks);
+        return !is_blocking(cause) || cause == DelayCause::wrong_lane;
+    }
+
+    // Returns true if a vehicle that waits for its signal has waited for two cycles of the programme. A red before the
+    // programme begins does not count.
+    bool signal_has_failed(int slot, std::int64_t stopped_ticks) const {
+        const int group = state_.plan.signal_group_for(w_.lane[at(slot)], v_.next_lane[at(slot)]);
+        if (group < 0) return true;
+        const GroupProgramme& programme = model_.signals[at(group)];
+        return now_ >= programme.first_tick() + 2 * programme.cycle_ticks() &&
+               stopped_ticks >= 2 * programme.cycle_ticks();
+    }
+
+    // Records that the movement of the vehicle starves. A vehicle that was found before keeps its entry.
+    void record_starvation(int slot, DelayCause cause) {
+        const double from_s = model_.time_s(v_.stopped_since[at(slot)]);
+        const int vehicle = v_.id[at(slot)];
+        std::vector<Starvation>& found = log_.starvations;
+        const auto known = std::find_if(found.rbegin(), found.rend(), [&](const Starvation& s) {
+            return s.vehicle == vehicle && s.from_s == from_s;
+        });
+        if (known == found.rend()) return found.push_back({cause, w_.lane[at(slot)], vehicle, from_s, now_s_});
+        known->cause = cause;
+        known->to_s = now_s_;
     }
 
     bool is_upstream_of_area(int slot) const {

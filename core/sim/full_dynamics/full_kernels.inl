@@ -171,7 +171,7 @@ STOPLINE_INLINE void plan_at(const DriverTablesOf<float>& d, const FullGroup& g,
 
     // Free driving.
     const R unconstrained = splat<R>(kUnconstrained_mps2);
-    const R as_leader = free_acceleration(d, speed, limit);
+    const R as_leader = free_acceleration(d, speed, closing_up_speed(c, limit, p));
     const R end_speed = get(g.end_speed);
     R slow_down = unconstrained;
     if (any(STOPLINE_FLAG(R, end_speed < kUnconstrained_mps2))) {
@@ -202,10 +202,6 @@ STOPLINE_INLINE void plan_at(const DriverTablesOf<float>& d, const FullGroup& g,
     const R held = STOPLINE_FLAG(R, speed <= kBrakeHoldSpeed_mps) * STOPLINE_FLAG(R, request <= kStart_mps2);
     store(g.mean_request + k, choose(held, splat<R>(kHold_mps2), 0.5 * (last_request + request)));
     store(g.is_platoon_leader + k, is_platoon_leader);
-    // The V2V message describes the end of this step, when the request takes effect. `acceleration` is the mean
-    // acceleration over the previous step. The first-order lag extrapolates it to the end of this step.
-    const R reached = min_of(1.5 * dt * rate, 1.0);
-    store(g.sent_acceleration + k, acceleration + (request - acceleration) * reached);
     store(g.sent_rate + k, rate);
 }
 
@@ -234,6 +230,15 @@ STOPLINE_INLINE void drive_at(const PowertrainTablesOf<float>& t, const FullGrou
     write(g.gear_time, next.gear_time_s, now.gear_time_s);
     write(g.lag, next.lag_s, now.lag_s);
     write(g.gear, next.gear, now.gear);
+    // The V2V message describes the end of this step, when the request takes effect. The message contains no more
+    // acceleration than the engine can give: a follower adds the announced acceleration to its own request, so it would
+    // run into a leader that cannot keep its announcement. `acceleration` is the mean over the last step. It is
+    // extrapolated to the end of this step by the first-order lag.
+    const R announced = min_of(get(g.request), next.available_mps2);
+    const R reached = min_of(1.5 * dt * get(g.sent_rate), 1.0);
+    const R acceleration = now.acceleration_mps2 + (announced - now.acceleration_mps2) * reached;
+    write(g.sent_request, announced, get(g.sent_request));
+    write(g.sent_acceleration, acceleration, get(g.sent_acceleration));
 }
 
 template <class R>
@@ -272,7 +277,7 @@ void scatter(const FullStreams& streams, FullKernels::Lanes lanes, const FullGro
             copy(g.request, s.request), copy(g.is_platoon_leader, s.is_platoon_leader),
                 copy(g.acceleration, s.acceleration);
             copy(g.torque, s.torque), copy(g.brake, s.brake), copy(g.gear_time, s.gear_time);
-            copy(g.lag, s.lag), copy(g.gear, s.gear), copy(g.request, s.sent_request);
+            copy(g.lag, s.lag), copy(g.gear, s.gear), copy(g.sent_request, s.sent_request);
             copy(g.sent_acceleration, s.sent_acceleration), copy(g.sent_rate, s.sent_rate);
         });
         // Speed and position follow from the acceleration that the powertrain realised in the step.

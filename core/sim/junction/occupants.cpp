@@ -1,5 +1,6 @@
 // Lists the vehicles inside intersections. A vehicle enters an intersection when its front passes the stop line, and
-// leaves it when its rear reaches the exit lane.
+// leaves it when its rear reaches the exit lane. A vehicle that will pass the stop line without green is listed before
+// it enters, so that crossing vehicles do not start into its way.
 #include "sim/junction/occupants.h"
 
 #include <algorithm>
@@ -54,14 +55,16 @@ public:
         state_.plan.prefetch_conflicts(lane);
     }
 
-    // Adds vehicles on an approach lane whose front has passed the stop line.
-    void add_from_approach(int lane) {
+    // Adds vehicles on an approach lane whose front has passed the stop line, or that can no longer stop before it.
+    void add_from_approach(const Model& model, int lane) {
         const LaneBlock& block = state_.blocks[at(lane)];
         const LanePlan& plan = state_.plan.lane(lane);
         for (int slot = block.first; slot < block.past_last(); ++slot) {
-            if (v_.position_m[at(slot)] <= plan.stop_line_m) break;
+            const bool is_inside = v_.position_m[at(slot)] > plan.stop_line_m;
+            if (!is_inside && !passes_without_green(model, lane, slot)) break;
             const int next = v_.next_lane[at(slot)];
-            if (next >= 0 && state_.plan.lane(next).origin == lane) add(next, slot, -plan.length_m);
+            if (next < 0 || state_.plan.lane(next).origin != lane) continue;
+            add(next, slot, -plan.length_m, is_inside ? v_.record[at(slot)].junction_entry_tick : state_.tick);
         }
     }
 
@@ -82,12 +85,24 @@ public:
     }
 
 private:
+    // Returns true if the signal of the vehicle's movement is not green, but the vehicle is too near to stop at the
+    // line. All vehicles ahead of the one that was chosen to stop are too near. In the step in which the light changes,
+    // no vehicle has been chosen yet.
+    bool passes_without_green(const Model& model, int lane, int slot) const {
+        if (state_.stop_lines.lines[at(lane)].stopping_vehicle == v_.id[at(slot)]) return false;
+        const int group = state_.plan.signal_group_for(lane, v_.next_lane[at(slot)]);
+        return state_.stop_lines.lights[at(group)] != Light::green &&
+               model.signals[at(group)].light_start_tick(state_.tick) < state_.tick;
+    }
+
     void add(int lane, int slot, double offset_m) {
+        add(lane, slot, offset_m, v_.record[at(slot)].junction_entry_tick);
+    }
+    void add(int lane, int slot, double offset_m, std::int64_t since) {
         std::vector<JunctionOccupant>& occupants_of_lane = junctions_.occupants[at(lane)];
         if (occupants_of_lane.empty()) part_.occupied_connections.push_back(lane);
         const double front_m = v_.position_m[at(slot)] + offset_m;
-        occupants_of_lane.push_back(
-            {slot, front_m, front_m - v_.length_m[at(slot)], v_.record[at(slot)].junction_entry_tick});
+        occupants_of_lane.push_back({slot, front_m, front_m - v_.length_m[at(slot)], since});
     }
 
     const State& state_;
@@ -98,7 +113,7 @@ private:
 
 }  // namespace
 
-void find_junction_occupants(const State& state, JunctionState& junctions, Partition& part) {
+void find_junction_occupants(const Model& model, const State& state, JunctionState& junctions, Partition& part) {
     OccupantSearch search(state, junctions, part);
     search.clear_lists();
     // Each list must begin with the vehicle furthest downstream. Exit lanes are therefore searched first, then
@@ -108,7 +123,7 @@ void find_junction_occupants(const State& state, JunctionState& junctions, Parti
         return search.add_from_exit(part.exits[place]);
     });
     for (const int lane : part.awake_connections) search.add_from_connection(lane);
-    for (const int lane : part.awake_approaches) search.add_from_approach(lane);
+    for (const int lane : part.awake_approaches) search.add_from_approach(model, lane);
     search.update_bitsets();
 }
 

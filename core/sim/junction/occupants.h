@@ -5,7 +5,7 @@
 
 namespace stopline {
 
-// Lists the occupants of each connection of a partition, and updates the bitsets of connections in JunctionState.
-void find_junction_occupants(const State& state, JunctionState& junctions, Partition& part);
+// Lists the occupants of each connection of a partition, and updates the sets of connections in JunctionState.
+void find_junction_occupants(const Model& model, const State& state, JunctionState& junctions, Partition& part);
 
 }  // namespace stopline

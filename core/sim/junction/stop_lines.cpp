@@ -28,7 +28,8 @@ bool can_stop(const Model& model, const VehicleArrays& v, int slot, double line_
     const double lag_s = model.vehicles[at(v.type[at(slot)])].brake_lag_s;
     const double present_mps2 = std::max(static_cast<double>(v.acceleration_mps2[at(slot)]), 0.0);
     const double delay_s = lag_s + 0.5 * (present_mps2 + deceleration_mps2) / model.driver.cacc.jerk_down_mps3;
-    const double room_m = line_m - v.position_m[at(slot)] - speed * delay_s;
+    const double delay_m = (speed + 0.5 * present_mps2 * delay_s) * delay_s;
+    const double room_m = line_m - v.position_m[at(slot)] - delay_m;
     return square(speed + present_mps2 * delay_s) <= 2.0 * deceleration_mps2 * room_m;
 }
 

@@ -15,12 +15,12 @@ namespace stopline {
 
 namespace {
 
-// Returns the speed limit of the next lane on the route if it is lower than the limit of the current lane; else
+// Returns the entry speed of the next lane on the route if it is lower than the limit of the current lane; else
 // kNoLowerLimit_mps.
 float end_speed(const State& state, std::span<const int> route, int index) {
     if (at(index) + 1 >= route.size()) return kNoLowerLimit_mps;
     const double here = state.plan.lane(route[at(index)]).limit_mps;
-    const double next = state.plan.lane(route[at(index) + 1]).limit_mps;
+    const double next = state.plan.entry_speed_mps(route[at(index) + 1]);
     return next < here ? static_cast<float>(next) : kNoLowerLimit_mps;
 }
 

@@ -53,6 +53,7 @@ double stopping_speed_mps(const Model& model, const VehicleArrays& v, int slot, 
 
 double leading_speed_mps(const Model& model, double speed_mps, double limit_mps) {
     const double target_mps = model.leader_speed_share * limit_mps;
+    if (speed_mps > target_mps) return std::max(target_mps, speed_mps - model.driver.deceleration_mps2 * model.step_s);
     return std::min(speed_mps + model.approach_share * (target_mps - speed_mps), target_mps);
 }
 
@@ -75,9 +76,12 @@ MesoStep meso_step(const Model& model, std::int64_t tick, bool prefetches) {
             model.leader_mps2,
             model.leader_constant_power_speed_mps,
             model.leader_profile.bins_per_mps > 0.0 ? &model.leader_profile : nullptr,
+            model.has_fast_lanes ? &model.power_profile : nullptr,
+            model.calibrated_limit_mps,
             relays,
             relays && std::all_of(model.krauss.begin(), model.krauss.end(), has_no_transient_gap),
             model.graph.approaches.empty() ? kNoLimit_mps2 : model.driver.cacc.deceleration_emergency_mps2,
+            model.driver.cacc.deceleration_emergency_mps2,
             prefetches};
 }
 

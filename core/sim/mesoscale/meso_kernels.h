@@ -32,12 +32,16 @@ struct MesoStep {
     // Acceleration of platoon leaders by speed. If it is not nullptr, the kernels ignore leader_mps2 and
     // leader_constant_power_speed_mps.
     const LeaderProfile* leader_profile;
+    // Lowest accelerations where the speed limit exceeds calibrated_limit_mps; nullptr: no lane has such a limit.
+    const LeaderProfile* power_profile;
+    double calibrated_limit_mps;
     bool relays;  // true: V2V relays the start of a queue, and platoon leaders anticipate the speed of their leader
     // True: the safe speed of a platoon leader is equal to that of a follower, so it is not computed again. Requires
     // `relays`, and policies without a transient gap (Krauss::transient_gap_s2).
     bool leaders_foresee;
-    double hardest_mps2;  // maximum braking
-    bool prefetches;      // true: the kernels prefetch blocks; useful if the vehicle data do not fit into the cache
+    double hardest_mps2;    // maximum braking behind a leader
+    double emergency_mps2;  // maximum braking before a lower speed limit
+    bool prefetches;        // true: the kernels prefetch blocks; useful if the vehicle data do not fit into the cache
 };
 
 // Extra standstill gap in m of each vehicle whose policy is a switching policy (SWITCH); 0 for all other vehicles. The

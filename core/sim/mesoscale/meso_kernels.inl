@@ -119,12 +119,13 @@ STOPLINE_INLINE KraussPerVehicle<R> of_two_policies(const R& policy, const Kraus
             pick(a.below_band_speed_share, b.below_band_speed_share)};
 }
 
-// Returns the next speed of a vehicle under a speed limit. A vehicle above the limit drives at the limit in the next
-// step. A slower vehicle gains the given share of (limit - speed).
+// Returns the next speed of a vehicle under a speed limit. A slower vehicle gains the given share of (limit - speed). A
+// vehicle above the limit brakes to the limit at once, but loses at most `braked_mps` in the step.
 template <class R>
-STOPLINE_INLINE R approach_limit(const R& speed_mps, const R& limit_mps, double share) {
+STOPLINE_INLINE R approach_limit(const R& speed_mps, const R& limit_mps, double share, double braked_mps) {
     const R gaining_mps = speed_mps + share * (limit_mps - speed_mps);
-    return min_of(gaining_mps, limit_mps);  // above the limit the result is limit_mps, because share <= 1
+    // Above the limit the inner result is limit_mps, because share <= 1.
+    return max_of(min_of(gaining_mps, limit_mps), speed_mps - braked_mps);
 }
 
 // Returns the next speed before a turn. `allowed_mps`: allowed speed, which falls towards the turn. `share`: share of
@@ -160,7 +161,9 @@ STOPLINE_INLINE bool any_differs(const float* floats, float value) {
 // Returns the highest next speed that the speed limits and the speed caps allow.
 template <class R, bool kInstantSlowdown>
 STOPLINE_INLINE R allowed_mps(const MesoStreams& s, const MesoStep& t, int i, const R& position, const R& speed) {
-    const R here_mps = min_of(approach_limit(speed, get<R>(s.limit + i), t.approach_share), get<R>(s.speed_cap + i));
+    const double braked_mps = t.emergency_mps2 * t.dt;
+    const R here_mps =
+        min_of(approach_limit(speed, get<R>(s.limit + i), t.approach_share, braked_mps), get<R>(s.speed_cap + i));
     if (!any_differs<R>(s.end_speed + i, kNoLowerLimit_mps)) return here_mps;
     // Deceleration b before a lower speed limit v_end at the end of the lane: v^2 = v_end^2 + 2 b distance.
     const R end_mps = get<R>(s.end_speed + i);
@@ -169,6 +172,7 @@ STOPLINE_INLINE R allowed_mps(const MesoStreams& s, const MesoStep& t, int i, co
     R turn_mps = allowed_before_turn_mps;
     if constexpr (!kInstantSlowdown)
         turn_mps = approach_turn(speed, allowed_before_turn_mps, t.turn_share, t.slow_down_mps2 * t.dt);
+    turn_mps = max_of(turn_mps, speed - braked_mps);
     return select(end_mps < static_cast<double>(kNoLowerLimit_mps), min_of(here_mps, turn_mps), here_mps);
 }
 
@@ -209,6 +213,14 @@ STOPLINE_INLINE R table_value(const std::array<double, bins>& table, const R& bi
     }
 }
 
+// Returns the lowest acceleration of each vehicle. It is 0 on lanes with a limit for which the models were calibrated.
+template <class R>
+STOPLINE_INLINE R least_acceleration_mps2(const MesoStreams& s, const MesoStep& t, int i, const R& speed_mps) {
+    if (t.power_profile == nullptr) return R(0.0);
+    const R by_power = table_value(t.power_profile->acceleration_mps2, R(speed_mps * t.power_profile->bins_per_mps));
+    return select(get<R>(s.limit + i) > t.calibrated_limit_mps, by_power, R(0.0));
+}
+
 // Returns the acceleration of a platoon leader at a speed.
 template <class R>
 STOPLINE_INLINE R platoon_leader_acceleration_mps2(const MesoStep& t, const R& speed_mps) {
@@ -228,12 +240,13 @@ STOPLINE_INLINE R platoon_leader_acceleration_mps2(const MesoStep& t, const R& s
 // leaders have the same acceleration, whatever their policy. A platoon leader becomes a follower when two conditions
 // hold: its next speed is above 0, and its safe speed behind the vehicle ahead is lower than its speed in free driving.
 // `foreseen_mps`: result of anticipated_safe_speed_mps(). `next`: next speeds of the vehicles as followers.
-// `has_policy`: 1 for vehicles with the policy of model `k`, else 0.
+// `has_policy`: 1 for vehicles with the policy of model `k`, else 0. `least_mps2`: lowest acceleration.
 template <class R, class Model>
 STOPLINE_INLINE R platoon_leader_speed(const Model& k, const MesoStep& t, const KraussInputOf<R>& in,
-                                       const R& foreseen_mps, const R& next, const R& has_policy,
+                                       const R& foreseen_mps, const R& next, const R& has_policy, const R& least_mps2,
                                        float* is_platoon_leader) {
-    const R free_mps = in.speed_mps + platoon_leader_acceleration_mps2(t, in.speed_mps) * t.dt;
+    const R acceleration_mps2 = max_of(platoon_leader_acceleration_mps2(t, in.speed_mps), least_mps2);
+    const R free_mps = in.speed_mps + acceleration_mps2 * t.dt;
     const R contact_mps = max_of(in.gap_m, R(0.0)) * (1.0 / t.dt);
     R policy_safe_mps = foreseen_mps;
     if (!t.leaders_foresee) {
@@ -275,13 +288,15 @@ STOPLINE_INLINE R step_slots(const MesoStreams& s, int i, std::span<const Krauss
     const bool has_platoon_leaders =
         (t.leader_mps2 > 0.0 || t.leader_profile != nullptr) && any_differs<R>(s.is_platoon_leader + i, 0.0F);
     const R policy = get<R>(s.policy + i);
+    const R least_mps2 = least_acceleration_mps2(s, t, i, speed);
     R next = speed;
     const auto drive = [&](const auto& model, const R& has_policy) STOPLINE_INLINE_LAMBDA {
         const R safe_mps = anticipated_safe_speed_mps(model, in);
         const R lowest_mps = in.speed_mps - t.hardest_mps2 * t.dt;
-        R following = speed_after_mps<kVariant.power_limit>(model, in, safe_mps, random, t.dt, lowest_mps);
+        R following = speed_after_mps<kVariant.power_limit>(model, in, safe_mps, random, t.dt, lowest_mps, least_mps2);
         if (has_platoon_leaders)
-            following = platoon_leader_speed(model, t, in, safe_mps, following, has_policy, s.is_platoon_leader + i);
+            following = platoon_leader_speed(model, t, in, safe_mps, following, has_policy, least_mps2,
+                                             s.is_platoon_leader + i);
         return following;
     };
     if constexpr (kVariant.policies == 1) {

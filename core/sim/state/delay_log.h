@@ -55,6 +55,16 @@ struct Gridlock {
     std::vector<int> lanes;     // lane of each vehicle
 };
 
+// The first vehicle of a queue that stands for RulesPlan::starvation_ticks or longer although no queue or vehicle ahead
+// blocks its way. It waits for right of way, for its signal or for a gap in the adjacent lane. Its movement starves.
+struct Starvation {
+    DelayCause cause = DelayCause::none;  // at the last observation
+    int lane = -1;
+    int vehicle = -1;     // id of the vehicle
+    double from_s = 0.0;  // time at which the vehicle stopped
+    double to_s = 0.0;    // time of the last observation
+};
+
 // One use of a traffic rule (driver/traffic_rules.h).
 struct RuleUse {
     enum class Kind : std::uint8_t { teleported, reinserted, passed_blocker, keep_clear };
@@ -69,6 +79,7 @@ struct RuleUse {
 struct DelayLog {
     std::vector<DelayEpisode> episodes;
     std::vector<Gridlock> gridlocks;
+    std::vector<Starvation> starvations;  // in the order in which they were found
     std::vector<RuleUse> rule_uses;
     std::array<double, kDelayCauseNames.size()> delay_s{};  // [cause] delay in the whole network, vehicle seconds
     double delay_upstream_s = 0.0;     // part of the delay that occurs upstream of the measured area

@@ -11,13 +11,14 @@
 
 namespace stopline {
 
-// A vehicle inside an intersection: its front has passed the stop line, and its rear has not reached the exit lane.
-// Positions are measured from the start of the connection. They are negative on the approach lane.
+// A vehicle inside an intersection: its front has passed the stop line, and its rear has not reached the exit lane. A
+// vehicle that can no longer stop at the line, although its signal is not green, counts as inside too. Positions are
+// measured from the start of the connection. They are negative on the approach lane.
 struct JunctionOccupant {
     int slot;
     double front_m;
     double rear_m;
-    std::int64_t since;  // tick at which the front passed the stop line
+    std::int64_t since;  // tick at which the front passed the stop line; the present tick before that
 };
 
 // The position where one vehicle must stop, to yield or to wait for a gap in the adjacent lane.

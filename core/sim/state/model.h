@@ -43,8 +43,9 @@ struct RulesPlan {
     std::int64_t watch_ticks = 0;
     // If a gridlock is observed again within this time, it counts as the same gridlock.
     std::int64_t gridlock_ticks = 0;
-    std::int64_t long_wait_ticks = 0;  // a delay episode includes a vehicle stopped for this long, whatever the cause
-    std::int64_t memory_ticks = 0;     // a BlockerPass expires when it has not been needed for this time
+    std::int64_t long_wait_ticks = 0;   // a delay episode includes a vehicle stopped for this long, whatever the cause
+    std::int64_t starvation_ticks = 0;  // the first vehicle of a queue starves after this stop time; 0: never
+    std::int64_t memory_ticks = 0;      // a BlockerPass expires when it has not been needed for this time
 
     bool watches() const { return watch_ticks > 0; }
 };
@@ -84,8 +85,11 @@ struct Model {
     double turn_share = 1.0;          // before a turn, a vehicle gains this share of (allowed speed - speed) per step
     double leader_mps2 = 0.0;  // acceleration of platoon leaders; 0: acceleration of the policy's car-following model
     double leader_constant_power_speed_mps = 0.0;  // speed above which leader_mps2 falls
-    LeaderProfile leader_profile;  // replaces leader_mps2 and leader_constant_power_speed_mps if it has bins
-    int start_relay_vehicles = 0;  // number of stopped vehicles that a start message reaches in one step
+    double calibrated_limit_mps = 1e9;  // limit, times speed_factor, up to which the accelerations are calibrated
+    bool has_fast_lanes = false;        // some lanes have a higher limit
+    LeaderProfile power_profile;        // lowest accelerations on these lanes
+    LeaderProfile leader_profile;       // replaces leader_mps2 and leader_constant_power_speed_mps if it has bins
+    int start_relay_vehicles = 0;       // number of stopped vehicles that a start message reaches in one step
 
     double time_s(std::int64_t tick) const { return static_cast<double>(tick) * step_s; }
 };

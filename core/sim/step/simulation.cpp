@@ -70,7 +70,7 @@ void Simulation::decide(int thread, int threads) {
 void Simulation::decide(Partition& part) {
     find_occupied_lanes(state_, state_.queues, part);
     find_leaders_beyond_lanes(model_, state_, state_.vehicles, part);
-    find_junction_occupants(state_, state_.junctions, part);
+    find_junction_occupants(model_, state_, state_.junctions, part);
     decide_stop_lines(model_, state_, part);
     decide_right_of_way(model_, state_, part);
     prepare_lane_changes(model_, state_, part);

@@ -54,10 +54,10 @@ refused_axis "axis without values" '{name: a, path: signal.green}' "bad.yaml:3:3
 refused_axis "axis with an empty list" '{name: a, path: signal.green, values: []}' "axes[a].values" "has 0 entries"
 refused_axis "value without unit" '{name: a, path: signal.green, values: [9 s, 5]}' "bad.yaml:3:47" "'5' has no unit" "5 s"
 refused_axis "value out of range" '{name: a, path: demand.vehicles, values: [0]}' "'0' is out of range" "1 to 100000"
-refused_axis "unknown vehicle" '{name: a, path: vehicle, values: [petrol]}' "a = petrol" "there is no 'petrol'"
-refused_axis "unknown population" '{name: a, populations: [CDG, CGT-Ref]}' "no population 'CGT-Ref'"
+refused_axis "unknown vehicle" '{name: a, path: vehicle, values: [petrol]}' "bad.yaml:3:36: " "a = petrol" "there is no 'petrol'"
+refused_axis "unknown population" '{name: a, populations: [CDG, CGT-Ref]}' "bad.yaml:3:10: " "no population 'CGT-Ref'"
 refused_axis "unknown policy" "{name: a, path: 'policies[CGT].time_gap', values: [1 s]}" "a = 1 s" "no entry [CGT]"
-refused_axis "value that violates a check" '{name: a, path: signal.green, values: [20 s, 9 s]}' "with a = 9 s" \
+refused_axis "value that violates a check" '{name: a, path: signal.green, values: [20 s, 9 s]}' "bad.yaml:3:48: " "with a = 9 s" \
     "measure.green[1]"
 refused_axis "same value in another unit" '{name: a, path: signal.green, values: [60 s, 1 min]}' "bad.yaml:3:48" \
     "'1 min' is the same value as '60 s'"
@@ -74,7 +74,7 @@ units=("" " s" " s" " s" "00 m" "00 m" " km/h" "000 kg" " m" "0 ms" "0 ms" " s")
 for i in "${!fields[@]}"; do
     axes+="- {name: a$i, path: ${fields[$i]}, values: [${values//,/${units[$i]},}${units[$i]}]}\n"
 done
-refused_text "10^12 permutations" "$axes" "more than 10000000 runs"
+refused_text "10^12 permutations" "$axes" "bad.yaml: " "more than 10000000 runs"
 
 refused "shard 5/4" "'5/4' must be K/N" -- "$good" --shard 5/4
 refused "shard 0/4" "'0/4' must be K/N" -- "$good" --shard 0/4

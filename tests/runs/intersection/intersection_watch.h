@@ -31,6 +31,7 @@ struct Trip {
     int entry = 0;
     char from = ' ', to = ' ';  // legs of entry and exit
     double front_m = 0.0;
+    bool queued = false;        // has been slower than 5 km/h before the stop line
     double line_s = kNotYet_s;  // passage of the stop line
     double exit_s = kNotYet_s;  // passage of the end of the junction
     double zone_in_s[2] = {kNotYet_s, kNotYet_s};
@@ -78,6 +79,7 @@ struct IntersectionWatch {
             if (passage_s != kNotYet_s || front_m < line_m) return;
             passage_s = is_new ? time_s : time_s - kStep_s * (front_m - line_m) / (front_m - trip.front_m);
         };
+        if (front_m <= 155.0 && v.speed_mps[at(slot)] <= 5.0 / 3.6) trip.queued = true;
         record_passage(155.0, trip.line_s);
         record_passage(exit_m, trip.exit_s);
         for (std::size_t zone = 0; zone < 2; ++zone) {

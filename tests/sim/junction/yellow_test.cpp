@@ -29,7 +29,7 @@ double stopping_distance_m(const Model& model, const VehicleView& car) {
     const double a = std::max(car.acceleration_mps2, 0.0);
     const double delay_s = model.vehicles[0].brake_lag_s + 0.5 * (a + b) / model.driver.cacc.jerk_down_mps3;
     const double v = car.speed_mps + a * delay_s;
-    return v * v / (2.0 * b) + car.speed_mps * delay_s;
+    return v * v / (2.0 * b) + (car.speed_mps + 0.5 * a * delay_s) * delay_s;
 }
 
 // Accepted decelerations: the default of drivers, and maximum braking.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 
 #include "base/containers/index.h"
 #include "base/simd/arithmetic.h"
@@ -55,6 +56,26 @@ LanePlan plan_of(const Model& model, int index) {
         plan.yields = plan.yields || conflict.yields;
     }
     return plan;
+}
+
+// Returns the entry speed of each lane. A lower limit reaches back over as many lanes as braking for it takes, so the
+// computation goes on until no speed changes.
+std::vector<double> entry_speeds_mps(const LaneGraph& graph, std::span<const LanePlan> lanes, double braking_mps2) {
+    std::vector<double> entry_mps;
+    for (const LanePlan& lane : lanes) entry_mps.push_back(lane.limit_mps);
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
+            if (graph.lanes[lane].next.empty()) continue;
+            double next_mps = 0.0;
+            for (const int next : graph.lanes[lane].next) next_mps = std::max(next_mps, entry_mps[at(next)]);
+            const double reached_mps = std::sqrt(square(next_mps) + 2.0 * braking_mps2 * lanes[lane].next_limit_m);
+            if (reached_mps >= entry_mps[lane]) continue;
+            entry_mps[lane] = reached_mps;
+            changed = true;
+        }
+    }
+    return entry_mps;
 }
 
 double longest_vehicle_m(const Model& model) {
@@ -158,6 +179,7 @@ NetworkPlan::NetworkPlan(const Model& model)
         routes_.add(route.lanes);
         turns_.push_back(route.lanes.size() > 1 ? model.graph.lanes[at(route.lanes[1])].turn : Turn::none);
     }
+    entry_speed_mps_ = entry_speeds_mps(model.graph, lanes_, model.driver.deceleration_mps2);
     adjacent_ = plan_adjacent_lanes(model.graph, turns_, next_parallel_route_);
     for (const Approach& approach : model.graph.approaches) {
         std::array<int, kMaxTurns> routes{};

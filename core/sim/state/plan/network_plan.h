@@ -27,6 +27,9 @@ public:
     double max_space_per_vehicle_m() const { return max_space_per_vehicle_m_; }
     // Returns the speed limit of a lane times Model::speed_factor.
     double free_speed_mps(int lane) const { return speed_factor_ * this->lane(lane).limit_mps; }
+    // Returns the highest speed at which a vehicle may enter a lane, so that comfortable braking suffices for all lower
+    // limits further downstream. Where lanes branch, the fastest way counts.
+    double entry_speed_mps(int lane) const { return entry_speed_mps_[static_cast<std::size_t>(lane)]; }
     std::span<const int> route(int route) const { return routes_.of(route); }
     std::span<const int> next(int lane) const { return next_.of(lane); }
     const AdjacentLanes& adjacent(int lane) const { return adjacent_[static_cast<std::size_t>(lane)]; }
@@ -102,6 +105,7 @@ private:
     double max_space_per_vehicle_m_ = 0.0;
     int intersection_count_ = 0;
     std::vector<LanePlan> lanes_;
+    std::vector<double> entry_speed_mps_;  // [lane]
     PackedLists<int> routes_;
     PackedLists<int> next_;
     PackedLists<Conflict> conflicts_;

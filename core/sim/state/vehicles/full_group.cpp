@@ -55,7 +55,8 @@ FullGroup FullGroupArrays::streams() {
                                 &s.gear,
                                 &s.sent_rate,
                                 &s.mean_request,
-                                &s.sent_acceleration});
+                                &s.sent_acceleration,
+                                &s.sent_request});
     divide(ints_, vehicles_, {&s.policy, &s.type});
     return s;
 }

@@ -21,8 +21,8 @@ struct FullGroup {
     float *to_next_limit, *limit, *end_speed, *standstill_gap, *sine;
     float* demand;  // lowest acceleration of all external demands; kUnconstrained_mps2: no demand
     float *is_platoon_leader, *torque, *brake, *gear_time, *gear;
-    float* mean_request;                   // mean request within the step, for the powertrain
-    float *sent_acceleration, *sent_rate;  // V2V message to the follower
+    float* mean_request;                                  // mean request within the step, for the powertrain
+    float *sent_acceleration, *sent_request, *sent_rate;  // V2V message to the follower
     int *policy, *type;
     // Desired gap of the spacing policy, and its slope over speed.
     double *desired_gap, *slope;

@@ -26,7 +26,7 @@ struct VehicleArrays {
     LargeArray<double> speed_mps;
     LargeArray<float> acceleration_mps2;  // acceleration realised in the previous step
     LargeArray<float> length_m;
-    LargeArray<float> end_speed_mps;      // speed limit of the next lane of the route, if lower than the present limit
+    LargeArray<float> end_speed_mps;      // entry speed of the next lane of the route, if lower than the present limit
     LargeArray<float> is_platoon_leader;  // 1: platoon leader; 0: follower
     LargeArray<int> policy;
     LargeArray<int> id;  // vehicle id; mesoscale mode: -1 in a free slot

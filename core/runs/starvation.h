@@ -1,0 +1,21 @@
+// The table of starving movements (Starvation in sim/state/delay_log.h).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/state/delay_log.h"
+
+namespace stopline {
+
+// The starving movements of one population.
+struct PopulationStarvations {
+    std::string population;
+    std::vector<Starvation> starvations;
+};
+
+// Returns starvations.csv as CSV text. `lanes`: [lane] name of the lane.
+std::string starvations_csv(const std::vector<PopulationStarvations>& populations,
+                            const std::vector<std::string>& lanes);
+
+}  // namespace stopline

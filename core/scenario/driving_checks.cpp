@@ -1,0 +1,142 @@
+#include "scenario/driving_checks.h"
+
+#include <algorithm>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "base/units.h"
+#include "driver/krauss.h"
+#include "scenario/schema/quantity.h"
+#include "sumo_import/sumo_graph.h"
+
+namespace stopline {
+namespace {
+
+constexpr double kRounding = 1e-9;
+
+bool is_used(const Scenario& scenario, const GapPolicySettings& policy) {
+    const auto names_policy = [&](const PopulationSettings::Component& c) { return c.policy == policy.name; };
+    return std::any_of(scenario.populations.begin(), scenario.populations.end(), [&](const PopulationSettings& p) {
+        return std::any_of(p.components.begin(), p.components.end(), names_policy);
+    });
+}
+
+// Returns the smallest standstill gap with which the mesoscale model of a policy keeps vehicles apart, m. Equation (1)
+// lets a vehicle come as near as s_0 - s_t. The other model keeps s_0.
+double meso_min_gap_m(const Scenario& scenario, const GapPolicySettings& policy) {
+    const Krauss model = make_krauss_model(scenario.meso, policy);
+    return policy.standstill_gap_m - (model.standstill_gap_m - model.band_m);
+}
+
+void check_policies(const Scenario& scenario, Checker& check) {
+    for (const GapPolicySettings& policy : scenario.policies) {
+        if (!is_used(scenario, policy)) continue;
+        const std::string field = "policies[" + policy.name + "].standstill_gap";
+        const std::string value = "value " + short_text(policy.standstill_gap_m, unit("m")) + " is too small";
+        if (!scenario.is_meso() && policy.standstill_gap_m < kMinStandstillGap_m - kRounding) {
+            check.error(field, value + ": in full dynamics at least " + short_text(kMinStandstillGap_m, unit("m")) +
+                                   ", because followers lose up to 1.3 m in a hard stop");
+        } else if (const double min_m = meso_min_gap_m(scenario, policy);
+                   scenario.is_meso() && policy.standstill_gap_m < min_m - kRounding) {
+            check.error(field, value + ": with the mesoscale parameters '" + scenario.meso.name +
+                                   "' vehicles come nearer by up to " + short_text(min_m, unit("m")));
+        }
+    }
+}
+
+void check_tyres(const Scenario& scenario, Checker& check) {
+    const double tyres_mps2 = scenario.vehicle.brake_friction * kGravity_mps2;
+    const double needed_mps2 = scenario.driver.cacc.deceleration_emergency_mps2;
+    if (tyres_mps2 >= needed_mps2) return;
+    check.error("vehicle.brake_friction", "the tyres give " + short_text(tyres_mps2, unit("m/s2")) +
+                                              ", but drivers count on driver.cacc.deceleration_emergency, " +
+                                              short_text(needed_mps2, unit("m/s2")) +
+                                              ": use a higher friction or more careful drivers");
+}
+
+void check_lags(const Scenario& scenario, Checker& check) {
+    const PowertrainSettings& car = scenario.vehicle;
+    const double longest_s = scenario.driver.cacc.prediction_end_s;
+    const auto compare = [&](const std::string& field, double lag_s) {
+        if (lag_s <= longest_s + kRounding) return;
+        check.error(field, "a lag of " + short_text(lag_s, unit("s")) +
+                               " is longer than the controller foresees: at most driver.cacc.prediction_end, " +
+                               short_text(longest_s, unit("s")));
+    };
+    compare("vehicle.brake_lag", car.brake_lag_s);
+    if (car.lag_drive_s.empty() || car.lag_gear_factor.empty()) return;
+    compare("vehicle.lag_times", *std::max_element(car.lag_drive_s.begin(), car.lag_drive_s.end()) *
+                                     *std::max_element(car.lag_gear_factor.begin(), car.lag_gear_factor.end()));
+}
+
+constexpr double kLimitRounding = 1.001;
+
+std::string kmh(double speed_mps) { return short_text(speed_mps, unit("km/h")); }
+
+double highest_limit_mps(const NetworkSettings& network) {
+    if (network.kind == "approach") return network.approach.speed_limit_mps;
+    if (!network.has_several_intersections() || network.kind == "grid") return network.intersection.speed_limit_mps;
+    double highest_mps = 0.0;
+    for (const StreetIntersection& node : network.streets.intersections) {
+        for (const StreetLeg& leg : node.legs) highest_mps = std::max(highest_mps, leg.speed_limit_mps);
+    }
+    if (network.sumo) {
+        for (const Lane& lane : network.sumo->graph.lanes) highest_mps = std::max(highest_mps, lane.limit_mps);
+    }
+    return highest_mps;
+}
+
+// Returns true if a population uses a policy with another law than constant_time. The mesoscale mode then uses
+// equation (1) of the paper.
+bool keeps_constant_distances(const Scenario& scenario) {
+    return std::any_of(scenario.policies.begin(), scenario.policies.end(), [&](const GapPolicySettings& policy) {
+        return policy.law != "constant_time" && is_used(scenario, policy);
+    });
+}
+
+std::string beyond_text(double limit_mps, double range_mps, const std::string& data, const std::string& field,
+                        double power_share) {
+    return fmt::format(
+        "speed limits up to {} are beyond the data of {}, which hold up to {} ({}): on faster roads vehicles accelerate "
+        "with at least {:g} % of what they can give (driver.free_drive.power_share)",
+        kmh(limit_mps), data, kmh(range_mps), field, 100.0 * power_share);
+}
+
+}  // namespace
+
+void check_gaps(const Scenario& scenario, Checker& check) {
+    check_policies(scenario, check);
+    if (scenario.is_meso()) return;
+    check_tyres(scenario, check);
+    check_lags(scenario, check);
+}
+
+std::vector<std::string> range_warnings(const Scenario& scenario) {
+    std::vector<std::string> lines;
+    const FreeDriveSettings& free = scenario.driver.free_drive;
+    const double limit_mps = highest_limit_mps(scenario.network);
+    const double driver_range_mps = free.profile_limit_mps > 0.0 ? free.profile_limit_mps : free.speed_mps.back();
+    const MesoSettings& meso = scenario.meso;
+    if (!scenario.is_meso()) {
+        if (limit_mps > kLimitRounding * scenario.driver.cacc.catch_up_factor * driver_range_mps) {
+            lines.push_back(beyond_text(limit_mps, driver_range_mps, "driver '" + scenario.driver_name + "'",
+                                        "driver.free_drive.profile_limit", free.power_share));
+        }
+        return lines;
+    }
+    if (limit_mps > kLimitRounding * meso.calibrated_speed_limit_mps) {
+        lines.push_back(beyond_text(limit_mps, meso.calibrated_speed_limit_mps,
+                                    "the mesoscale parameters '" + meso.name + "'", "meso.calibrated_speed_limit",
+                                    free.power_share));
+    }
+    if (meso.step_s > kLimitRounding * meso.calibrated_step_s && keeps_constant_distances(scenario)) {
+        lines.push_back(fmt::format(
+            "meso.step of {} is longer than the step of {} for which '{}' was calibrated (meso.calibrated_step): each "
+            "vehicle starts a step after its leader, so queues of constant-distance policies discharge too slowly",
+            short_text(meso.step_s, unit("ms")), short_text(meso.calibrated_step_s, unit("ms")), meso.name));
+    }
+    return lines;
+}
+
+}  // namespace stopline

@@ -1,0 +1,55 @@
+// A movement starves if the first vehicle of its queue stands for measure.starvation although nothing blocks its way.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "runs/intersection/intersection_run.h"
+#include "runs/network/network.h"
+#include "scenario/scenario_text.h"
+
+namespace stopline {
+namespace {
+
+// In tests/data/never_green the signal of the movement from west to east is always red.
+NetworkResult never_green(const std::vector<std::string>& overrides) {
+    const std::string data = STOPLINE_SOURCE_DIR "/tests/data/never_green";
+    const Scenario scenario = parse_scenario("{duration: 500 s, network: {kind: sumo, net: " + data +
+                                                 ".net.xml, routes: [" + data + ".rou.xml]}, populations: [CTG-Ref]}",
+                                             "test.yaml", overrides);
+    return run_network(scenario, 0);
+}
+
+TEST(Starvation, MovementWithoutGreenMakesTheRunUnstable) {
+    for (const std::string fidelity : {"meso", "full"}) {
+        const NetworkResult result = never_green({"fidelity=" + fidelity});
+        ASSERT_EQ(result.delays.starvations.size(), 1U) << fidelity;
+        const Starvation& starving = result.delays.starvations[0];
+        EXPECT_EQ(starving.cause, DelayCause::signal);
+        EXPECT_LT(starving.from_s, 60.0);
+        EXPECT_GE(starving.to_s, 498.0) << "the vehicle stands until the end";
+        EXPECT_EQ(result.stability, Stability::unstable);
+        EXPECT_EQ(result.unstable_by, InstabilityCause::starvation);
+        EXPECT_EQ(result.collapse_s, starving.from_s);
+        EXPECT_GT(result.exited, 20) << "the other movement has green";
+    }
+}
+
+TEST(Starvation, EndsTheSearchAtTheSetTime) {
+    EXPECT_TRUE(never_green({"fidelity=meso", "measure.starvation=490 s"}).delays.starvations.empty());
+    EXPECT_TRUE(never_green({"fidelity=meso", "measure.starvation=0 s"}).delays.starvations.empty());
+    EXPECT_EQ(never_green({"fidelity=meso", "measure.starvation=200 s"}).delays.starvations.size(), 1U);
+}
+
+// A red that is as long as the cycle demands is no starvation, and neither is the red before the first green.
+TEST(Starvation, LongRedsOfAWorkingSignalDoNotCount) {
+    const Scenario scenario = parse_scenario(
+        "{fidelity: meso, network: {kind: intersection}, signal: {first_green: 400 s, green: 350 s}, populations: [CDG], "
+        "measure: {cycles: 1, warmup_cycles: 0}, duration: 0 s}",
+        "test.yaml");
+    const IntersectionResult result = run_intersection(scenario, 0);
+    EXPECT_TRUE(result.starvations.empty());
+    EXPECT_GT(result.queue_veh, 5.0) << "no queue stood";
+}
+
+}  // namespace
+}  // namespace stopline

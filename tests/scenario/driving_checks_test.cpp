@@ -1,0 +1,99 @@
+// Tests of the checks of vehicles, drivers and policies: vehicles must be able to keep their gaps, and parameters that
+// are used beyond their data give a warning.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "scenario/scenario_text.h"
+
+namespace stopline {
+namespace {
+
+std::string error_with(const std::vector<std::string>& overrides) { return error_of("title: x\n", overrides); }
+
+// Returns the number of warnings that contain the text.
+std::ptrdiff_t warnings_with(const std::vector<std::string>& overrides, const std::string& text) {
+    const Scenario scenario = parse_scenario("title: x\n", "x.yaml", overrides);
+    return std::count_if(scenario.warnings.begin(), scenario.warnings.end(),
+                         [&](const std::string& line) { return contains(line, text); });
+}
+
+std::vector<std::string> population_with_gap(const std::string& law_and_gap) {
+    return {"policies=[{name: P, law: " + law_and_gap + "}]", "populations=[P]"};
+}
+
+TEST(DrivingChecks, StandstillGapCoversAHardStop) {
+    EXPECT_EQ(error_with(population_with_gap("constant_distance, standstill_gap: 2 m")), "");
+    for (const std::string law :
+         {"constant_distance, standstill_gap: 1.9 m", "constant_time, time_gap: 0.3 s, standstill_gap: 1.9 m",
+          "switch_time_gap, time_gap: 1 s, switch_speed: 20 km/h, standstill_gap: 0.2 m"}) {
+        EXPECT_TRUE(contains(error_with(population_with_gap(law)), "field 'policies[P].standstill_gap': value "))
+            << law;
+    }
+    EXPECT_EQ(error_with({"policies=[{name: P, law: constant_distance, standstill_gap: 0.2 m}]"}), "")
+        << "no population uses the policy";
+}
+
+TEST(DrivingChecks, MesoscaleGapCoversTheToleranceBand) {
+    // Equation (1) with Table 2: vehicles come as near as the standstill gap minus 1 m.
+    std::vector<std::string> small = population_with_gap("constant_distance, standstill_gap: 0.9 m");
+    small.emplace_back("fidelity=meso");
+    small.emplace_back("meso=table2");
+    EXPECT_TRUE(
+        contains(error_with(small), "with the mesoscale parameters 'table2' vehicles come nearer by up to 1 m"));
+    small[0] = population_with_gap("constant_distance, standstill_gap: 1 m")[0];
+    EXPECT_EQ(error_with(small), "");
+    small[0] = population_with_gap("constant_time, time_gap: 1 s, standstill_gap: 0.3 m")[0];
+    EXPECT_EQ(error_with(small), "") << "the model for time gaps has no band";
+}
+
+TEST(DrivingChecks, TyresGiveTheDecelerationOfDrivers) {
+    EXPECT_EQ(error_with({"vehicle.brake_friction=0.72"}), "");
+    EXPECT_TRUE(
+        contains(error_with({"vehicle.brake_friction=0.7"}), "field 'vehicle.brake_friction': the tyres give "));
+    EXPECT_EQ(error_with({"vehicle.brake_friction=0.7", "fidelity=meso"}), "") << "the mesoscale mode has no tyres";
+    EXPECT_EQ(error_with({"vehicle.brake_friction=0.5",
+                          "driver={base: startup_kit, cacc: {deceleration_emergency: 4.9 m/s2}}"}),
+              "");
+}
+
+TEST(DrivingChecks, LagsAreShorterThanThePrediction) {
+    EXPECT_EQ(error_with({"vehicle.brake_lag=0.5 s"}), "");
+    EXPECT_TRUE(contains(error_with({"vehicle.brake_lag=0.51 s"}),
+                         "field 'vehicle.brake_lag': a lag of 0.51 s is longer than the controller foresees"));
+    EXPECT_TRUE(contains(error_with({"vehicle.lag_gear_factors=[1, 2, 1, 1, 1]"}),
+                         "field 'vehicle.lag_times': a lag of 0.65 s is longer"));
+    EXPECT_EQ(error_with({"vehicle.lag_gear_factors=[1, 1.5, 1, 1, 1]"}), "");
+}
+
+TEST(DrivingChecks, NoBrakingIsHarderThanAnEmergency) {
+    const auto with = [](const std::string& fields) {
+        return error_with({"driver={base: startup_kit, " + fields + "}"});
+    };
+    EXPECT_EQ(with("stop: {decision_deceleration: 7 m/s2}"), "");
+    EXPECT_TRUE(contains(with("stop: {decision_deceleration: 7.5 m/s2}"), "field 'driver.stop.decision_deceleration'"));
+    EXPECT_TRUE(contains(with("stop: {deceleration: 7.5 m/s2}"), "field 'driver.stop.deceleration'"));
+    EXPECT_TRUE(contains(with("cacc: {emergency_threshold: 4 m/s2}"), "field 'driver.cacc.emergency_threshold'"));
+}
+
+TEST(DrivingChecks, FastRoadsGiveOneWarning) {
+    const std::string full = "are beyond the data of driver 'startup_kit', which hold up to 50 km/h";
+    const std::string meso = "are beyond the data of the mesoscale parameters 'table2', which hold up to 50 km/h";
+    const std::string limit = "network.approach.speed_limit=";
+    EXPECT_EQ(warnings_with({limit + "50 km/h"}, "beyond the data"), 0);
+    EXPECT_EQ(warnings_with({limit + "100 km/h"}, full), 1);
+    EXPECT_EQ(warnings_with({limit + "100 km/h"}, "speed limits up to 100 km/h"), 1);
+    EXPECT_EQ(warnings_with({limit + "100 km/h", "fidelity=meso"}, "beyond the data"), 1);
+    EXPECT_EQ(warnings_with({limit + "100 km/h", "fidelity=meso"}, meso), 1);
+}
+
+TEST(DrivingChecks, LongMesoscaleStepsGiveAWarningWithConstantDistances) {
+    EXPECT_EQ(warnings_with({"fidelity=meso", "meso.step=0.1 s"}, "meso.step"), 0);
+    EXPECT_EQ(warnings_with({"fidelity=meso", "meso.step=0.2 s"}, "meso.step of 200 ms is longer than"), 1);
+    EXPECT_EQ(warnings_with({"fidelity=meso", "meso.step=0.2 s", "populations=[CTG-Ref]"}, "meso.step"), 0);
+}
+
+}  // namespace
+}  // namespace stopline

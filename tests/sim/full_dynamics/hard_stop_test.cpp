@@ -1,0 +1,69 @@
+// The smallest accepted standstill gap must cover a hard stop of a whole chain of vehicles, with the longest accepted
+// lags.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+#include "scenario/driving_checks.h"
+#include "support/track.h"
+
+namespace stopline {
+namespace {
+
+using namespace testing_support;
+
+struct Law {
+    const char* name;
+    const char* fields;
+};
+
+class HardStop : public testing::TestWithParam<Law> {};
+INSTANTIATE_TEST_SUITE_P(
+    EveryLaw, HardStop,
+    testing::Values(Law{"distance", "law: constant_distance"}, Law{"no_time", "law: constant_time, time_gap: 0 s"},
+                    Law{"short_time", "law: constant_time, time_gap: 0.3 s"},
+                    Law{"switch_time", "law: switch_time_gap, time_gap: 0.87 s, switch_speed: 20 km/h"},
+                    Law{"switch_steep",
+                        "law: switch_distance, switch_speed: 30 km/h, reference_speed: 31 km/h, "
+                        "reference_gap: 16 m"}),
+    [](const testing::TestParamInfo<Law>& info) { return std::string(info.param.name); });
+
+// Vehicles start from a queue. The light turns red when the platoon has reached its speed. The first vehicle that can
+// stop brakes as hard as it can.
+TEST_P(HardStop, LeavesAGapToEveryLeader) {
+    for (const std::string vehicle : {"petrol_eu4_72kw", "{base: electric_100kw, length: 18 m, brake_lag: 0.5 s}"}) {
+        TrackPlan plan;
+        plan.vehicle = vehicle;
+        plan.policy = "P";
+        plan.length_m = 800.0;
+        plan.green_s = 16.0;
+        plan.overrides = {std::string("policies=[{name: P, standstill_gap: 2 m, ") + GetParam().fields + "}]",
+                          "populations=[P]"};
+        Scenario scenario = scenario_of(plan);
+        scenario.signal.yellow_s = 0.0;
+        ASSERT_EQ(scenario.policies.back().standstill_gap_m, kMinStandstillGap_m);
+        Track track(build_model(scenario, 0));
+        const double spacing_m = track.model().vehicles[0].length_m + kMinStandstillGap_m;
+        constexpr int kVehicles = 25;
+        for (int k = 0; k < kVehicles; ++k) track.place(0, plan.length_m - 60.0 - spacing_m * k, 0.0);
+        double smallest_m = 1e9;
+        double hardest_mps2 = 0.0;
+        while (track.time_s() < 40.0) {
+            track.step();  // checks that no two vehicles overlap
+            if (HasFatalFailure()) return;
+            for (int k = 1; k < track.count(0); ++k) {
+                smallest_m = std::min(smallest_m, track.vehicle(0, k).gap_m);
+                hardest_mps2 = std::max(hardest_mps2, -track.vehicle(0, k).acceleration_mps2);
+            }
+        }
+        EXPECT_GT(hardest_mps2, 5.0) << vehicle << ": the stop is not hard";
+        EXPECT_GT(smallest_m, 0.1) << vehicle;
+        std::printf("%s, %s: smallest gap %.2f m, hardest braking %.2f m/s2\n", GetParam().name, vehicle.c_str(),
+                    smallest_m, hardest_mps2);
+    }
+}
+
+}  // namespace
+}  // namespace stopline
