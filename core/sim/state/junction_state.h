@@ -54,6 +54,7 @@ struct JunctionState {
     Bitset occupied;      // connections with occupants
     Bitset with_stopped;  // connections with an occupant slower than kCrawlingSpeed_mps
     Bitset to_decide;     // connections on which right of way must be decided in this step
+    std::int64_t next_priority_tick = 0;  // tick at which right of way changes next with the phase of a signal
 };
 
 struct Partition;

@@ -69,6 +69,9 @@ public:
     }
     // Returns the conflict areas of a connection, in the order from its start to its end.
     std::span<const Conflict> conflicts(int lane) const { return conflicts_.of(lane); }
+    // Sets which of two connections yields at their conflict area. This is the only part of the plan that changes during
+    // a run: right of way can change with the phases of a signal.
+    void set_priority(int first, int second, Priority priority);
     // Returns the connections that have a conflict area with a connection, as masks for the bitsets.
     std::span<const BitsetMask> conflicting(int lane) const { return conflicting_.of(lane); }
     // Each connection with conflict areas has a number, which is its bit in the bitsets. The numbers follow
