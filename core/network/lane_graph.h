@@ -21,6 +21,13 @@ namespace stopline {
 enum class Turn : std::uint8_t { none, straight, right, left };
 inline constexpr int kMaxTurns = 12;  // number of values of Turn, including `none`
 
+// What vehicles must do at a stop line without a signal.
+enum class StopRule : std::uint8_t {
+    none,          // nothing
+    stop,          // stop, then go as right of way allows (stop sign)
+    all_way_stop,  // stop, then go in the order in which the vehicles of all approaches have stopped
+};
+
 struct Lane {
     std::string name = {};
     double length_m = 0.0;
@@ -43,6 +50,7 @@ struct Lane {
     int movement_signal_group = -1;  // connection: signal group of its movement; -1: group of the stop line
     bool waits_inside = true;  // connection: yielding vehicles wait before the conflict area; false: at the stop line
     bool keep_clear = true;    // connection: the keep-clear rule (TrafficRules) applies
+    StopRule stop_rule = StopRule::none;  // connection
 };
 
 // A conflict area: the parts of two connections where vehicles on one can touch vehicles on the other. The bounds are
@@ -56,6 +64,7 @@ struct Conflict {
     double other_to_m = 0.0;    // end of the area on the other connection
     bool yields = false;        // this connection gives way to the other
     bool other_yields = false;  // the other connection gives way to this one
+    bool zipper = false;        // both connections lead to one lane, and their vehicles merge in the order of arrival
 };
 
 // A sequence of lanes that a vehicle follows. A route begins on an entry lane or a link lane. It ends at the border of

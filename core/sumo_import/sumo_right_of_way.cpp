@@ -50,6 +50,7 @@ public:
             const std::vector<bool> no_bits;
             const std::vector<bool>& cont = has_link ? network_.net.junctions[at(connection.junction)].cont : no_bits;
             lane(connection).waits_inside = has_link && at(connection.link) < cont.size() && cont[at(connection.link)];
+            if (!has_signal(connection)) lane(connection).stop_rule = stop_rule_of(connection.source->state);
             std::vector<Conflict>& conflicts = network_.graph.conflicts[at(connection.lane)];
             std::stable_sort(conflicts.begin(), conflicts.end(),
                              [](const Conflict& a, const Conflict& b) { return a.from_m < b.from_m; });
@@ -90,14 +91,19 @@ private:
         const std::optional<Conflict> c = conflict_of(a, b, clearance_m_);
         if (!c) return;
         const bool matrix_decides = foes || a.next == b.next;
-        const Priority priority = matrix_decides
-                                      ? priority_of(junction, first, second)
-                                      : Priority{yields_at_u_turn(first, second), yields_at_u_turn(second, first)};
+        const bool zipper = a.next == b.next && is_without_signal(first, 'Z') && is_without_signal(second, 'Z');
+        Priority priority;
+        if (!matrix_decides) {
+            priority = {yields_at_u_turn(first, second), yields_at_u_turn(second, first)};
+        } else if (!zipper && !(is_without_signal(first, 'w') && is_without_signal(second, 'w'))) {
+            priority = priority_of(junction, first, second);
+        }
         network_.graph.conflicts[at(first.lane)].push_back({second.lane, c->from_m, c->to_m, c->other_from_m,
                                                             c->other_to_m, priority.first_yields,
-                                                            priority.second_yields});
+                                                            priority.second_yields, zipper});
         network_.graph.conflicts[at(second.lane)].push_back({first.lane, c->other_from_m, c->other_to_m, c->from_m,
-                                                             c->to_m, priority.second_yields, priority.first_yields});
+                                                             c->to_m, priority.second_yields, priority.first_yields,
+                                                             zipper});
     }
 
     // Warns if a junction without `request` elements has connections that cross. At such a junction, vehicles obey only
@@ -118,6 +124,17 @@ private:
                 return;
             }
         }
+    }
+
+    static bool has_signal(const BuiltConnection& connection) { return connection.source->tl >= 0; }
+
+    // Returns true if the connection has no signal, and SUMO's attribute `state` has this letter.
+    static bool is_without_signal(const BuiltConnection& connection, char state) {
+        return !has_signal(connection) && connection.source->state == state;
+    }
+
+    static StopRule stop_rule_of(char state) {
+        return state == 's' ? StopRule::stop : state == 'w' ? StopRule::all_way_stop : StopRule::none;
     }
 
     static bool is_u_turn(const BuiltConnection& connection) { return connection.source->dir == 't'; }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/containers/bitset.h"
+#include "sim/state/vehicles/vehicle_record.h"
 
 namespace stopline {
 
@@ -24,8 +25,8 @@ struct JunctionOccupant {
 struct YieldStop {
     int slot = -1;
     double position_m = 0.0;  // stop position, from the start of the lane
-    int blocker = -1;  // slot of the vehicle to which this one yields; -1: it waits for a gap in the adjacent lane
-    bool blocker_has_priority = false;  // false: the blocker occupies or is entering the conflict area
+    int blocker = -1;           // slot of the vehicle for which this one waits; -1: none
+    YieldReason reason = YieldReason::lane_change;
 };
 
 // The yield stops of the vehicles on one lane, in the order of slots, that is, from downstream to upstream.

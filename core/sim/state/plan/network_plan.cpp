@@ -145,6 +145,7 @@ NetworkPlan::NetworkPlan(const Model& model)
         intersection_count_ += sets.of(index) == index ? 1 : 0;
         lane_order_.push_back(index);
         may_wait_inside_.push_back(lane.waits_inside ? 1 : 0);
+        stop_rules_.push_back(lane.stop_rule);
         movement_groups_.push_back(lane.movement_signal_group);
         diverges_.push_back({lane.diverge_end_m, lane.origin >= 0 && lane.length_m - lane.diverge_end_m < longest_m});
         next_.add(lane.next);

@@ -53,6 +53,8 @@ public:
     // Returns true if vehicles on this connection may yield inside the intersection. Otherwise they yield at the stop
     // line.
     bool may_wait_inside(int lane) const { return may_wait_inside_[static_cast<std::size_t>(lane)] != 0; }
+    // Returns what vehicles on the way to a connection must do at the stop line.
+    StopRule stop_rule(int lane) const { return stop_rules_[static_cast<std::size_t>(lane)]; }
     // Returns the turn of a trip at the end of one of its edges, or Turn::none if the trip ends on this edge.
     Turn turn_of_trip(int trip, int trip_edge) const { return demand_->turn_of_trip(trip, trip_edge); }
     // Returns the number of lane changes that a trip needs on later edges if the vehicle leaves the edge from `lane`.
@@ -84,7 +86,8 @@ public:
     template <class Visit>
     void for_each_memory_range(int lane, Visit visit) const {
         const auto element = [&](const auto& array) { visit(array.data() + lane, array.data() + lane + 1); };
-        element(lanes_), element(diverges_), element(movement_groups_), element(may_wait_inside_);
+        element(lanes_), element(diverges_), element(movement_groups_), element(may_wait_inside_),
+            element(stop_rules_);
         next_.visit_memory(lane, visit), conflicting_.visit_memory(lane, visit), conflicts_.visit_offsets(lane, visit);
         for (const TurnOption& option : adjacent(lane).turn_options) {
             if (option.route >= 0) routes_.visit_memory(option.route, visit);
@@ -117,6 +120,7 @@ private:
     std::vector<int> next_parallel_route_;                 // [route]
     std::vector<int> movement_groups_;   // [lane] signal group of the movement of a connection; -1: none
     std::vector<char> may_wait_inside_;  // [lane]
+    std::vector<StopRule> stop_rules_;   // [lane]
     struct DivergePlan {
         double end_m = 0.0;
         bool exit_reaches_back = false;
