@@ -15,6 +15,8 @@
 #include "sim/junction/right_of_way.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 #include <cmath>
 
 #include "base/containers/index.h"
@@ -299,6 +301,10 @@ void decide(const Model& model, State& state, Partition& part, int lane) {
     // start of the connection.
     const auto decide_candidate = [&](const Candidate& candidate, int on_lane, double offset_m) {
         const Wait wait = WaitSearch(model, state, part, lane, candidate).find(ahead);
+        if (getenv("JDBG") && v.id[at(candidate.slot)] == atoi(getenv("JDBG"))) {
+            fprintf(stderr, "t %.2f lane %d front %.2f v %.2f place %.2f blocker %d id %d reason %d acc %d\n", model.time_s(state.tick), lane, candidate.front_m, v.speed_mps[at(candidate.slot)], wait.place_m, wait.blocker, wait.blocker < 0 ? -1 : v.id[at(wait.blocker)], (int)wait.reason, v.record[at(candidate.slot)].accepted_gap_on);
+            for (auto& c : state.plan.conflicts(lane)) fprintf(stderr, "   c %d %s %.2f %.2f | %.2f %.2f y %d oy %d\n", c.other, model.graph.lanes[at(c.other)].name.c_str(), c.from_m, c.to_m, c.other_from_m, c.other_to_m, c.yields, c.other_yields);
+        }
         if (!wait.exists()) return;
         if (wait.reason != YieldReason::merging) ahead = candidate.slot;
         drop_gap_if_stopping(model, state, lane, candidate, wait);
