@@ -91,8 +91,8 @@ int yield_cycle_winner(const Model& model, const State& state, int lane, const C
 
 }  // namespace
 
-int near_priority_vehicle(const Model& model, State& state, Partition& part, int lane, const Candidate& v,
-                          double wait_m) {
+GapBlocker find_gap_blocker(const Model& model, State& state, Partition& part, int lane, const Candidate& v,
+                            double wait_m) {
     VehicleArrays& arrays = state.vehicles;
     VehicleRecord& record = arrays.record[at(v.slot)];
     const bool had_accepted_gap = record.accepted_gap_on == lane;
@@ -103,7 +103,7 @@ int near_priority_vehicle(const Model& model, State& state, Partition& part, int
     if (resolution != nullptr) {
         resolution->last_needed_tick = state.tick;
     } else if (const int winner = yield_cycle_winner(model, state, lane, v); winner >= 0) {
-        return winner;
+        return {winner, model.demand.trips.empty() ? YieldReason::priority : YieldReason::intruder};
     }
     Arrival next;
     double next_needed_s = 0.0;
@@ -113,16 +113,16 @@ int near_priority_vehicle(const Model& model, State& state, Partition& part, int
         const Arrival arrival = next_arrival(model, state, conflict, until_s, resolution != nullptr);
         next.keep_earlier(arrival.time_s, arrival.slot);
         next_needed_s = std::max(next_needed_s, until_s);
-        if (arrival.time_s < until_s) return arrival.slot;
+        if (arrival.time_s < until_s) return {arrival.slot, YieldReason::priority};
     }
     record.accepted_gap_on = lane;
     // Clear the yielding state at once, so that the other vehicles of a yield cycle see that this vehicle proceeds.
     if (!model.demand.trips.empty()) record.yield_tick = -2;
-    if (!model.records_all || had_accepted_gap) return -1;
+    if (!model.records_all || had_accepted_gap) return {};
     part.gaps_accepted.push_back({model.time_s(state.tick), arrays.id[at(v.slot)], lane,
                                   static_cast<float>(next.time_s),
                                   static_cast<float>(next_needed_s)});
-    return -1;
+    return {};
 }
 
 int committed_vehicle(const Model& model, const State& state, const Conflict& conflict) {

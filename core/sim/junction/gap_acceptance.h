@@ -9,11 +9,17 @@
 
 namespace stopline {
 
-// Returns the slot of the vehicle to which candidate `v` must yield; -1: none. This is a vehicle with priority that
-// arrives too soon, or the winner of a yield cycle. Stores in the candidate's record whether it accepts the gap.
+// The vehicle to which a candidate must yield.
+struct GapBlocker {
+    int slot = -1;  // -1: none
+    YieldReason reason = YieldReason::priority;
+};
+
+// Returns the vehicle to which candidate `v` must yield. This is a vehicle with priority that arrives too soon, or a
+// vehicle without priority that has accepted a gap. Stores in the candidate's record whether it accepts the gap.
 // `wait_m`: the candidate's waiting position, along the connection.
-int near_priority_vehicle(const Model& model, State& state, Partition& part, int lane, const Candidate& v,
-                          double wait_m);
+GapBlocker find_gap_blocker(const Model& model, State& state, Partition& part, int lane, const Candidate& v,
+                            double wait_m);
 
 // Returns the slot of a vehicle without priority that approaches connection `conflict.other`, has accepted a gap, and
 // can no longer stop before the first conflict area of this connection; -1: none. By now the accepted gap may be too

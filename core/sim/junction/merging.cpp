@@ -20,8 +20,23 @@ double merging_gap_m(const State& state, int lane, const Candidate& v, int other
     return own_m - other_m - static_cast<double>(state.vehicles.length_m[at(other_slot)]);
 }
 
+bool merges_first(const State& state, int lane, const Candidate& v, const Conflict& conflict, int other_slot,
+                  double other_front_m) {
+    const double own_m = state.plan.lane(lane).length_m - v.front_m;
+    const double other_m = state.plan.lane(conflict.other).length_m - other_front_m;
+    const bool is_in_area = v.front_m > conflict.from_m;
+    const bool other_is_in_area = other_front_m > conflict.other_from_m;
+    if (is_in_area != other_is_in_area) {
+        // The candidate may pass in front of a vehicle in the area only if it is wholly ahead of it.
+        return is_in_area || own_m + static_cast<double>(state.vehicles.length_m[at(v.slot)]) <= other_m;
+    }
+    const auto& id = state.vehicles.id;
+    return is_in_area && (own_m < other_m || (own_m == other_m && id[at(v.slot)] < id[at(other_slot)]));
+}
+
 double merging_stop_m(const Model& model, const State& state, int lane, const Candidate& v, const Conflict& conflict,
                       int other_slot, double other_front_m) {
+    constexpr double kMinGap_m = 0.5;  // smallest net gap at which the vehicle enters the conflict area
     const VehicleArrays& arrays = state.vehicles;
     const double gap_m = merging_gap_m(state, lane, v, conflict.other, other_slot, other_front_m);
     // In full dynamics the brakes lag, so the vehicle ahead is expected to brake as hard as it can.
@@ -29,7 +44,9 @@ double merging_stop_m(const Model& model, const State& state, int lane, const Ca
     const double braking_m = model.meso ? comfortable_braking_distance_m(model, speed_mps)
                                         : emergency_braking_distance_m(model, speed_mps);
     const double stop_m = v.front_m + gap_m - static_cast<double>(arrays.standstill_gap_m[at(v.slot)]) + braking_m;
-    return std::max(stop_m, conflict.from_m - model.give_way.margin_m);
+    if (v.front_m > conflict.from_m) return stop_m;
+    const double wait_m = conflict.from_m - model.give_way.margin_m;
+    return gap_m < kMinGap_m ? wait_m : std::max(stop_m, wait_m);
 }
 
 Wait zipper_wait(const Model& model, const State& state, int lane, const Candidate& v, const Conflict& conflict) {

@@ -15,9 +15,8 @@
 #include "sim/junction/right_of_way.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 #include <cmath>
+#include <span>
 
 #include "base/containers/index.h"
 #include "base/simd/arithmetic.h"
@@ -54,7 +53,7 @@ bool may_pass(const Model& model, State& state, Partition& part, int vehicle, in
 }
 
 // Returns true if an occupant of connection `conflict.other` keeps candidate `v` out of the conflict area. The gap to
-// approaching vehicles with priority is checked elsewhere (near_priority_vehicle()).
+// approaching vehicles with priority is checked elsewhere (find_gap_blocker()).
 bool blocks_area(const Model& model, State& state, Partition& part, int lane, const Conflict& conflict,
                  const Candidate& v, const JunctionOccupant& occupant) {
     if (occupant.rear_m >= conflict.other_to_m) return false;
@@ -101,6 +100,13 @@ public:
     // `ahead`: slot of a waiting vehicle further ahead on the same connection, -1: none. Where the candidate must yield,
     // it waits for the vehicle `ahead` without checking gaps.
     Wait find(int ahead) {
+        Wait wait = search(ahead);
+        if (is_imported_ && wait.exists()) wait.place_m = clear_place_m(wait.place_m);
+        return wait;
+    }
+
+private:
+    Wait search(int ahead) {
         // A vehicle behind a stopped leader cannot use its accepted gap. Drop the gap, so that other vehicles do not
         // wait for this vehicle.
         if (v_.stopped && is_blocked_by_leader(state_, v_.slot)) record_.accepted_gap_on = -1;
@@ -122,27 +128,27 @@ public:
         if (!has_others_inside && !checks_committed && (has_decided_ || !plan.yields)) return {};
         Wait behind;  // drive up to a vehicle that is about to leave the conflict area, or follow a merging one
         for (const Conflict& conflict : state_.plan.conflicts(lane_)) {
-            if (v_.front_m > conflict.from_m) continue;
+            const bool merges = is_imported_ && is_merge(model_, state_, lane_, conflict);
+            if (v_.front_m > (merges ? conflict.to_m : conflict.from_m)) continue;
             const bool is_far = wait_m(conflict) - v_.front_m > decision_m_;
-            if (is_far && !waits_at_line()) break;
+            const bool is_beyond_decision = is_far && !waits_at_line();
+            if (is_beyond_decision && !is_imported_) break;
             const bool is_empty = !has_others_inside || state_.junctions.occupants[at(conflict.other)].empty();
-            if (is_imported_ && is_merge(model_, state_, lane_, conflict)) {
-                keep_nearer(merging_wait(conflict, is_empty), behind);
+            if (merges) {
+                if (!is_beyond_decision) keep_nearer(merging_wait(conflict, is_empty), behind);
             } else if (const Wait wait = blocked_wait(conflict, is_empty, checks_committed, is_far); wait.exists()) {
                 if (!clears_area_in_time(conflict, wait.blocker)) return wait;
                 keep_nearer({wait_m(conflict), wait.blocker, YieldReason::merging}, behind);
             }
-            if (conflict.yields && !has_decided_) {
-                const int priority_slot = ahead >= 0 ? ahead : find_priority_vehicle(conflict);
-                if (priority_slot >= 0)
-                    return {std::min(wait_m(conflict), line_m_), priority_slot, YieldReason::priority};
+            if (conflict.yields && !has_decided_ && !is_beyond_decision && v_.front_m <= conflict.from_m) {
+                const GapBlocker blocker = ahead >= 0 ? GapBlocker{ahead} : gap_blocker(conflict);
+                if (blocker.slot >= 0) return {std::min(wait_m(conflict), line_m_), blocker.slot, blocker.reason};
                 has_decided_ = true;
             }
         }
         return behind;
     }
 
-private:
     bool waits_at_line() const { return line_m_ < kNoWait_m; }
     double wait_m(const Conflict& conflict) const { return conflict.from_m - model_.give_way.margin_m; }
 
@@ -190,13 +196,14 @@ private:
         if (blocker < 0) return {};
         const bool blocker_is_slow = arrays_.speed_mps[at(blocker)] < kCrawlingSpeed_mps;
         const bool has_no_signal = state_.plan.signal_group_for(state_.plan.lane(lane_).origin, lane_) == 0;
-        if (is_far && !has_no_signal && !blocker_is_slow) return {};
+        const bool checks_all = has_no_signal && (waits_at_line() || !is_imported_);
+        if (is_far && !checks_all && !blocker_is_slow) return {};
         Wait wait{std::min(wait_m(conflict), line_m_), blocker, YieldReason::occupied};
         if (!is_imported_) return wait;
         if (conflict.other_yields) wait.reason = YieldReason::intruder;
         // The gap behind a vehicle with priority begins when this vehicle reaches the area. So the candidate can accept
         // the gap before it can use it.
-        if (conflict.yields && v_.stopped && !blocker_is_slow) wait.keeps_gap = find_priority_vehicle(conflict) < 0;
+        if (conflict.yields && v_.stopped && !blocker_is_slow) wait.keeps_gap = gap_blocker(conflict).slot < 0;
         return wait;
     }
 
@@ -210,7 +217,9 @@ private:
             const double in_s = earliest_arrival_s(wait_m(conflict) - v_.front_m, speed_mps_,
                                                    model_.give_way.approach_acceleration_mps2,
                                                    state_.plan.lane(lane_).limit_mps);
-            if (speed_mps < kCrawlingSpeed_mps || (conflict.other_to_m - occupant.rear_m) / speed_mps > in_s)
+            const bool may_stop =
+                speed_mps < kCrawlingSpeed_mps || arrays_.record[at(occupant.slot)].yield_tick >= state_.tick - 1;
+            if (may_stop || (conflict.other_to_m - occupant.rear_m) / speed_mps > in_s)
                 return false;
         }
         return true;
@@ -226,6 +235,7 @@ private:
             return goes_first ? Wait{} : nearest;
         }
         const auto follow = [&](int slot, double front_m) {
+            if (merges_first(state_, lane_, v_, conflict, slot, front_m)) return;
             keep_nearer({merging_stop_m(model_, state_, lane_, v_, conflict, slot, front_m), slot,
                          conflict.other_yields ? YieldReason::intruder : YieldReason::merging},
                         nearest);
@@ -243,9 +253,26 @@ private:
         return nearest;
     }
 
-    int find_priority_vehicle(const Conflict& conflict) {
+    // Returns the waiting position nearest to `place_m`, and not beyond it, where the candidate does not block a conflict
+    // area that it has not reached yet. Areas shared with a connection that has no green now do not count.
+    double clear_place_m(double place_m) const {
+        const double length_m = arrays_.length_m[at(v_.slot)];
+        const double stopping_m = v_.stopped ? 0.0 : comfortable_braking_distance_m(model_, speed_mps_);
+        const std::span<const Conflict> conflicts = state_.plan.conflicts(lane_);
+        for (std::size_t k = conflicts.size(); k-- > 0;) {
+            const Conflict& conflict = conflicts[k];
+            const bool would_block = conflict.from_m < place_m && conflict.to_m > place_m - length_m;
+            if (!would_block || v_.front_m > conflict.from_m || wait_m(conflict) - v_.front_m < stopping_m) continue;
+            const int origin = state_.plan.lane(conflict.other).origin;
+            const int group = state_.plan.signal_group_for(origin, conflict.other);
+            if (state_.stop_lines.lights[at(group)] == Light::green) place_m = wait_m(conflict);
+        }
+        return place_m;
+    }
+
+    GapBlocker gap_blocker(const Conflict& conflict) {
         const double place_m = is_imported_ ? std::min(wait_m(conflict), line_m_) : wait_m(conflict);
-        return near_priority_vehicle(model_, state_, part_, lane_, v_, place_m);
+        return find_gap_blocker(model_, state_, part_, lane_, v_, place_m);
     }
 
     const Model& model_;
@@ -301,10 +328,6 @@ void decide(const Model& model, State& state, Partition& part, int lane) {
     // start of the connection.
     const auto decide_candidate = [&](const Candidate& candidate, int on_lane, double offset_m) {
         const Wait wait = WaitSearch(model, state, part, lane, candidate).find(ahead);
-        if (getenv("JDBG") && v.id[at(candidate.slot)] == atoi(getenv("JDBG"))) {
-            fprintf(stderr, "t %.2f lane %d front %.2f v %.2f place %.2f blocker %d id %d reason %d acc %d\n", model.time_s(state.tick), lane, candidate.front_m, v.speed_mps[at(candidate.slot)], wait.place_m, wait.blocker, wait.blocker < 0 ? -1 : v.id[at(wait.blocker)], (int)wait.reason, v.record[at(candidate.slot)].accepted_gap_on);
-            for (auto& c : state.plan.conflicts(lane)) fprintf(stderr, "   c %d %s %.2f %.2f | %.2f %.2f y %d oy %d\n", c.other, model.graph.lanes[at(c.other)].name.c_str(), c.from_m, c.to_m, c.other_from_m, c.other_to_m, c.yields, c.other_yields);
-        }
         if (!wait.exists()) return;
         if (wait.reason != YieldReason::merging) ahead = candidate.slot;
         drop_gap_if_stopping(model, state, lane, candidate, wait);
