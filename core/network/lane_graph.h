@@ -28,6 +28,13 @@ struct LanePart {
     double length_m = 0.0;  // length of the lane in the file
 };
 
+// What vehicles must do at a stop line without a signal.
+enum class StopRule : std::uint8_t {
+    none,          // nothing
+    stop,          // stop, then go as right of way allows (stop sign)
+    all_way_stop,  // stop, then go in the order in which the vehicles of all approaches have stopped
+};
+
 struct Lane {
     std::string name = {};
     double length_m = 0.0;
@@ -52,6 +59,7 @@ struct Lane {
     bool keep_clear = true;    // connection: the keep-clear rule (TrafficRules) applies
     // Imported lane: its parts in driving order, as far as the stop line. Empty: the lane is a single part.
     std::vector<LanePart> parts = {};
+    StopRule stop_rule = StopRule::none;  // connection
 };
 
 // A conflict area: the parts of two connections where vehicles on one can touch vehicles on the other. The bounds are
@@ -65,6 +73,7 @@ struct Conflict {
     double other_to_m = 0.0;    // end of the area on the other connection
     bool yields = false;        // this connection gives way to the other
     bool other_yields = false;  // the other connection gives way to this one
+    bool zipper = false;        // both connections lead to one lane, and their vehicles merge in the order of arrival
 };
 
 // A sequence of lanes that a vehicle follows. A route begins on an entry lane or a link lane. The route ends at the

@@ -193,6 +193,7 @@ void add_network(const Scenario& scenario, Model& model) {
     model.graph = make_network(network);
     if (network.is_sumo()) {
         model.signals = make_sumo_signals(*network.sumo, scenario.tick_s());
+        model.phase_priorities = make_sumo_phase_priorities(*network.sumo, scenario.tick_s());
     } else if (network.is_streets()) {
         model.signals = make_street_signals(network.streets, scenario.tick_s());
     } else if (network.kind == "grid") {

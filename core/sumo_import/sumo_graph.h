@@ -10,8 +10,10 @@
 // - SUMO calls a connection through a junction a link. Conflict areas are computed from the shapes of links. They can
 //   exist between links that are foes in SUMO's matrix, between links to the same lane, and between a U-turn and any
 //   other link.
-// - Right of way follows SUMO's matrix `response`. A link yields to another link of the same signal only if both are
-//   green together. In this case a link with the letter 'g' also yields to a link with the letter 'G'.
+// - Right of way follows SUMO's matrix `response`. Between two links of the same signal it follows the letters of the
+//   present phase: if both are green, a link with the letter 'g' yields to a link with the letter 'G', and the matrix
+//   decides between equal letters. If not both are green, the right of way of the phase before remains. Links that are
+//   never green together do not yield to each other.
 // - If an approach has connections, each of its lanes has a stop line. Stop lines without a signal belong to signal
 //   group 0, which is always green.
 // - If a lane is too short for a vehicle to brake to a stop, the connections to this lane get a lower speed limit v. A
@@ -24,6 +26,7 @@
 #include <vector>
 
 #include "network/lane_graph.h"
+#include "signals/phase_priority.h"
 #include "sumo_import/sumo_net.h"
 
 namespace stopline {
@@ -34,10 +37,19 @@ struct SumoLight {
     int link = 0;     // index of the letter in SumoPhase::state
 };
 
+// The right of way between two connections of one signal, if it changes with the phases.
+struct SumoPhasePriority {
+    int signal = -1;                 // index in SumoNet::signals
+    int first = -1;                  // lane of the graph
+    int second = -1;                 // lane of the graph
+    std::vector<Priority> by_phase;  // [phase]
+};
+
 struct SumoNetwork {
     SumoNet net;
     LaneGraph graph;
     std::vector<SumoLight> lights;          // [signal group]
+    std::vector<SumoPhasePriority> phase_priorities;
     std::vector<std::vector<int>> lane_of;  // [edge][index] lane of the graph; -1: closed to cars, or inside a junction
     std::vector<int> approach_of;           // [edge] approach of the graph; -1: closed to cars, or inside a junction
 

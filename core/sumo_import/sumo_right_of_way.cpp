@@ -50,6 +50,7 @@ public:
             const std::vector<bool> no_bits;
             const std::vector<bool>& cont = has_link ? network_.net.junctions[at(connection.junction)].cont : no_bits;
             lane(connection).waits_inside = has_link && at(connection.link) < cont.size() && cont[at(connection.link)];
+            if (!has_signal(connection)) lane(connection).stop_rule = stop_rule_of(connection.source->state);
             std::vector<Conflict>& conflicts = network_.graph.conflicts[at(connection.lane)];
             std::stable_sort(conflicts.begin(), conflicts.end(),
                              [](const Conflict& a, const Conflict& b) { return a.from_m < b.from_m; });
@@ -90,12 +91,19 @@ private:
         const std::optional<Conflict> c = conflict_of(a, b, clearance_m_);
         if (!c) return;
         const bool matrix_decides = foes || a.next == b.next;
-        const bool first_yields = matrix_decides ? yields(junction, first, second) : yields_at_u_turn(first, second);
-        const bool second_yields = matrix_decides ? yields(junction, second, first) : yields_at_u_turn(second, first);
-        network_.graph.conflicts[at(first.lane)].push_back(
-            {second.lane, c->from_m, c->to_m, c->other_from_m, c->other_to_m, first_yields, second_yields});
-        network_.graph.conflicts[at(second.lane)].push_back(
-            {first.lane, c->other_from_m, c->other_to_m, c->from_m, c->to_m, second_yields, first_yields});
+        const bool zipper = a.next == b.next && is_without_signal(first, 'Z') && is_without_signal(second, 'Z');
+        Priority priority;
+        if (!matrix_decides) {
+            priority = {yields_at_u_turn(first, second), yields_at_u_turn(second, first)};
+        } else if (!zipper && !(is_without_signal(first, 'w') && is_without_signal(second, 'w'))) {
+            priority = priority_of(junction, first, second);
+        }
+        network_.graph.conflicts[at(first.lane)].push_back({second.lane, c->from_m, c->to_m, c->other_from_m,
+                                                            c->other_to_m, priority.first_yields,
+                                                            priority.second_yields, zipper});
+        network_.graph.conflicts[at(second.lane)].push_back({first.lane, c->other_from_m, c->other_to_m, c->from_m,
+                                                             c->to_m, priority.second_yields, priority.first_yields,
+                                                             zipper});
     }
 
     // Warns if a junction without `request` elements has connections that cross. At such a junction, vehicles obey only
@@ -118,6 +126,17 @@ private:
         }
     }
 
+    static bool has_signal(const BuiltConnection& connection) { return connection.source->tl >= 0; }
+
+    // Returns true if the connection has no signal, and SUMO's attribute `state` has this letter.
+    static bool is_without_signal(const BuiltConnection& connection, char state) {
+        return !has_signal(connection) && connection.source->state == state;
+    }
+
+    static StopRule stop_rule_of(char state) {
+        return state == 's' ? StopRule::stop : state == 'w' ? StopRule::all_way_stop : StopRule::none;
+    }
+
     static bool is_u_turn(const BuiltConnection& connection) { return connection.source->dir == 't'; }
 
     // Returns true if `connection` yields to `to`. Call this function only for two connections that have different exit
@@ -127,32 +146,66 @@ private:
         return is_u_turn(connection) && (!is_u_turn(to) || connection.link > to.link);
     }
 
-    // Returns true if `connection` yields to `to`. Links of the same signal yield to each other only if they are green
-    // together in some phase.
-    bool yields(const SumoJunction& junction, const BuiltConnection& connection, const BuiltConnection& to) const {
-        if (connection.source->pass) return false;
-        const bool must_yield = bit(junction.response, connection.link, to.link);
-        const int tl = connection.source->tl;
-        if (tl < 0 || tl != to.source->tl) {
-            // If the matrix makes neither link yield, the link with the higher number yields, and every link yields to
-            // a link with the attribute `pass`. Copies of one connection have the same number, so is_left_of() decides.
-            const bool undecided = !must_yield && !bit(junction.response, to.link, connection.link);
-            return must_yield ||
-                   (undecided && (to.source->pass || connection.link > to.link || is_left_of(connection, to)));
+    // Returns the right of way between two connections. If it changes with the phases of their signal, the function
+    // returns that of the first phase, and adds all phases to SumoNetwork::phase_priorities.
+    Priority priority_of(const SumoJunction& junction, const BuiltConnection& first, const BuiltConnection& second) {
+        const int tl = first.source->tl;
+        if (tl < 0 || tl != second.source->tl) return priority_without_signal(junction, first, second);
+        const std::vector<SumoPhase>& phases = network_.net.signals[at(tl)].phases;
+        std::vector<Priority> by_phase(phases.size());
+        Priority last;
+        // A phase in which not both are green keeps the right of way of the phase before it, because vehicles that
+        // entered in that phase may still be inside. The first cycle finds the right of way at the end of a cycle.
+        for (std::size_t k = 0; k < 2 * phases.size(); ++k) {
+            const SumoPhase& phase = phases[k % phases.size()];
+            if (is_green_for_both(phase, first, second)) last = priority_in(phase, junction, first, second);
+            by_phase[k % phases.size()] = last;
         }
-        bool together = false;
-        bool minor = false;
-        bool major = false;
-        for (const SumoPhase& phase : network_.net.signals[at(tl)].phases) {
-            const char own = phase.state[at(connection.source->tl_link)];
-            const char other = phase.state[at(to.source->tl_link)];
-            if (phase.duration_s <= 0.0 || !sumo_is_green(own) || !sumo_is_green(other)) continue;
-            together = true;
-            minor = minor || (!is_major(own) && is_major(other));
-            major = major || (is_major(own) && !is_major(other));
-        }
-        const bool later = junction.response.empty() && !major && connection.link > to.link;
-        return together && (minor || must_yield || later || is_left_of(connection, to));
+        if (std::count(by_phase.begin(), by_phase.end(), by_phase[0]) < std::ssize(by_phase))
+            network_.phase_priorities.push_back({tl, first.lane, second.lane, by_phase});
+        return by_phase[0];
+    }
+
+    static bool is_green_for_both(const SumoPhase& phase, const BuiltConnection& first, const BuiltConnection& second) {
+        return phase.duration_s > 0.0 && sumo_is_green(phase.state[at(first.source->tl_link)]) &&
+               sumo_is_green(phase.state[at(second.source->tl_link)]);
+    }
+
+    // Returns the right of way in a phase in which both connections are green. A connection with a minor green yields
+    // to one with a major green. If both have the same kind of green, the matrix decides, and if it makes neither yield,
+    // the connection with the higher link number yields.
+    static Priority priority_in(const SumoPhase& phase, const SumoJunction& junction, const BuiltConnection& first,
+                                const BuiltConnection& second) {
+        Priority priority{!first.source->pass && !is_major(phase.state[at(first.source->tl_link)]),
+                          !second.source->pass && !is_major(phase.state[at(second.source->tl_link)])};
+        if (priority.first_yields != priority.second_yields) return priority;
+        priority = {!first.source->pass && must_yield(junction, first, second),
+                    !second.source->pass && must_yield(junction, second, first)};
+        if (priority.first_yields || priority.second_yields) return priority;
+        return {is_later(first, second), is_later(second, first)};
+    }
+
+    // Returns the right of way by the matrix alone. If the matrix makes neither connection yield, the connection with
+    // the higher link number yields, and each connection yields to one with the attribute `pass`.
+    static Priority priority_without_signal(const SumoJunction& junction, const BuiltConnection& first,
+                                            const BuiltConnection& second) {
+        const Priority by_matrix{must_yield(junction, first, second), must_yield(junction, second, first)};
+        const bool undecided = !by_matrix.first_yields && !by_matrix.second_yields;
+        const auto yields = [&](const BuiltConnection& one, const BuiltConnection& other, bool must) {
+            if (one.source->pass) return false;
+            return must || (undecided && (other.source->pass || is_later(one, other)));
+        };
+        return {yields(first, second, by_matrix.first_yields), yields(second, first, by_matrix.second_yields)};
+    }
+
+    static bool must_yield(const SumoJunction& junction, const BuiltConnection& connection, const BuiltConnection& to) {
+        return bit(junction.response, connection.link, to.link);
+    }
+
+    // Returns true if `connection` has the higher link number. Copies of one connection have the same number, so
+    // is_left_of() decides.
+    static bool is_later(const BuiltConnection& connection, const BuiltConnection& to) {
+        return connection.link > to.link || is_left_of(connection, to);
     }
 
     // When a short edge is merged (sumo_short_edges.h), its connection can be copied to several lanes. Returns true if

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace stopline {
@@ -12,6 +13,11 @@ namespace {
 Light light_of(char letter) {
     if (sumo_is_green(letter)) return Light::green;
     return letter == 'y' || letter == 'Y' ? Light::yellow : Light::red;
+}
+
+// Returns the offset of a signal.
+std::int64_t offset_ticks(const SumoSignal& signal, double step_s) {
+    return to_ticks(std::fmod(signal.offset_s, signal.cycle_s()), step_s);
 }
 
 // Returns the programme of one link. The function rounds the end times of phases to ticks, not the durations, so
@@ -32,7 +38,7 @@ GroupProgramme programme_of(const SumoSignal& signal, int link, double step_s) {
         }
         begin = end;
     }
-    std::int64_t offset = to_ticks(std::fmod(signal.offset_s, end_s), step_s);
+    std::int64_t offset = offset_ticks(signal, step_s);
     // If the first and the last stage have the same light, the first stage is merged into the last stage. The programme
     // then begins with the second stage.
     if (stages.size() > 1 && stages.front().light == stages.back().light) {
@@ -57,6 +63,29 @@ std::vector<GroupProgramme> make_sumo_signals(const SumoNetwork& network, double
         }
     }
     return programmes;
+}
+
+std::vector<PhasePriority> make_sumo_phase_priorities(const SumoNetwork& network, double step_s) {
+    std::vector<PhasePriority> priorities;
+    for (const SumoPhasePriority& changing : network.phase_priorities) {
+        const SumoSignal& signal = network.net.signals[static_cast<std::size_t>(changing.signal)];
+        std::vector<PriorityStage> stages;
+        double end_s = 0.0;
+        std::int64_t begin = 0;
+        for (std::size_t k = 0; k < signal.phases.size(); ++k) {
+            end_s += signal.phases[k].duration_s;
+            const std::int64_t end = to_ticks(end_s, step_s);
+            if (end == begin) continue;
+            if (!stages.empty() && stages.back().priority == changing.by_phase[k]) {
+                stages.back().ticks += end - begin;
+            } else {
+                stages.push_back({end - begin, changing.by_phase[k]});
+            }
+            begin = end;
+        }
+        priorities.emplace_back(changing.first, changing.second, std::move(stages), offset_ticks(signal, step_s));
+    }
+    return priorities;
 }
 
 }  // namespace stopline

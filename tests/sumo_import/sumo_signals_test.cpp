@@ -1,6 +1,8 @@
 // Tests of make_sumo_signals(): SUMO's phases become programmes of signal groups.
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "signals/programme.h"
 #include "sumo_import/sumo_graph.h"
 #include "sumo_import/sumo_net.h"
@@ -13,6 +15,7 @@ namespace {
 using testing::replaced;
 using testing::signal_net;
 using testing::SumoFiles;
+using testing::two_phases;
 
 constexpr double kStep_s = 0.1;
 
@@ -55,6 +58,56 @@ TEST(SumoSignals, MergePhasesWithTheSameLight) {
     EXPECT_EQ(signals[1].light(200), Light::green);
     EXPECT_EQ(signals[1].light(201), Light::red);
     EXPECT_EQ(signals[1].light_start_tick(150), 0);
+}
+
+SumoNetwork network_of(const std::string& phases, const std::string& matrix_row_of_link_0) {
+    const SumoFiles files;
+    const std::string text =
+        replaced(signal_net(phases), R"(index="0" response="1110")", R"(index="0" response=")" + matrix_row_of_link_0 + "\"");
+    return make_sumo_network(read_sumo_net(files.write("my.net.xml", text)), 2.0);
+}
+
+int lane_named(const LaneGraph& graph, const std::string& name) {
+    for (std::size_t k = 0; k < graph.lanes.size(); ++k) {
+        if (graph.lanes[k].name == name) return static_cast<int>(k);
+    }
+    return -1;
+}
+
+// Returns which of the links 0 (from s_in) and 1 (from w_in) yields in each second of the cycle: 0, 1, - (none).
+std::string yielding_links(const SumoNetwork& network, int seconds) {
+    const int first = lane_named(network.graph, ":J_0_0");
+    const int second = lane_named(network.graph, ":J_1_0");
+    for (const PhasePriority& changing : make_sumo_phase_priorities(network, kStep_s)) {
+        if (changing.first() != first || changing.second() != second) continue;
+        std::string text;
+        for (int k = 0; k < seconds; ++k) {
+            const Priority priority = changing.at(to_ticks(k + 0.5, kStep_s));
+            EXPECT_FALSE(priority.first_yields && priority.second_yields);
+            text += priority.first_yields ? '0' : priority.second_yields ? '1' : '-';
+        }
+        return text;
+    }
+    return "constant";
+}
+
+TEST(SumoSignals, PriorityFollowsTheLettersOfThePhase) {
+    // Link 0 has the minor green in the first phase and the major green in the third. Neither the red of the second
+    // phase nor the yellow of the fourth changes the right of way.
+    const std::string phases =
+        R"(<phase duration="3" state="gGGG"/><phase duration="2" state="rGGG"/><phase duration="4" state="GgGG"/>)"
+        R"(<phase duration="1" state="yyyy"/>)";
+    EXPECT_EQ(yielding_links(network_of(phases, "1110"), 10), "0000011111");
+    EXPECT_EQ(yielding_links(network_of(phases, "0000"), 10), "0000011111");
+    const std::string same_letters = R"(<phase duration="3" state="GGGG"/><phase duration="4" state="GgGG"/>)";
+    EXPECT_EQ(yielding_links(network_of(same_letters, "1110"), 7), "0001111");
+}
+
+TEST(SumoSignals, PriorityIsConstantIfThePhasesAgree) {
+    EXPECT_EQ(yielding_links(network_of(R"(<phase duration="9" state="gGGG"/><phase duration="3" state="rrrr"/>)", "1110"),
+                             12),
+              "constant");
+    EXPECT_TRUE(make_sumo_phase_priorities(network_of(two_phases(), "1110"), kStep_s).empty());
 }
 
 }  // namespace

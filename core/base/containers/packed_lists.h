@@ -20,6 +20,10 @@ public:
         const std::size_t first = offsets_[static_cast<std::size_t>(list)];
         return {elements_.data() + first, offsets_[static_cast<std::size_t>(list) + 1] - first};
     }
+    std::span<T> of(int list) {
+        const std::size_t first = offsets_[static_cast<std::size_t>(list)];
+        return {elements_.data() + first, offsets_[static_cast<std::size_t>(list) + 1] - first};
+    }
 
     // Calls visit(begin, end) for the two memory ranges that belong to a list: its offsets, then its elements.
     template <class Visit>

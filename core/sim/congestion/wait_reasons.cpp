@@ -45,9 +45,9 @@ private:
     // one exception: if the keep-clear rule holds the vehicle, the blocker may still be moving.
     void find_direct_cause(int slot, int lane) {
         if (const YieldStop* const stop = yield_stop_of(slot, lane); stop != nullptr) {
-            if (stop->blocker < 0) return set(slot, -1, DelayCause::wrong_lane);
-            const bool blocker_stopped = is_stopped(stop->blocker);
-            const bool blocked = !stop->blocker_has_priority && blocker_stopped;
+            if (stop->reason == YieldReason::lane_change) return set(slot, -1, DelayCause::wrong_lane);
+            const bool blocker_stopped = stop->blocker >= 0 && is_stopped(stop->blocker);
+            const bool blocked = stop->reason != YieldReason::priority && blocker_stopped;
             return set(slot, blocker_stopped ? stop->blocker : -1,
                        blocked ? DelayCause::junction_blocking : DelayCause::yielding);
         }

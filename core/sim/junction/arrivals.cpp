@@ -26,6 +26,10 @@ bool is_yielding_before(const State& state, int slot, double area_m) {
     return is_yielding(state, slot) && state.vehicles.record[at(slot)].yield_position_m <= static_cast<float>(area_m);
 }
 
+bool lets_others_go(const State& state, int slot) {
+    return is_yielding(state, slot) && state.vehicles.record[at(slot)].yield_reason != YieldReason::intruder;
+}
+
 double earliest_arrival_s(double distance_m, double speed_mps, double acceleration_mps2, double limit_mps) {
     const double to_limit_mps = std::max(limit_mps - speed_mps, 0.0);
     const double to_limit_m = to_limit_mps * (speed_mps + 0.5 * to_limit_mps) / acceleration_mps2;
@@ -141,17 +145,22 @@ void look_upstream(const Model& model, const State& state, const Upstream& here,
 
 }  // namespace
 
-Arrival next_arrival(const Model& model, const State& state, const Conflict& conflict, double horizon_s) {
+Arrival next_arrival(const Model& model, const State& state, const Conflict& conflict, double horizon_s,
+                     bool ignores_stopped) {
     const VehicleArrays& v = state.vehicles;
     const LanePlan& other = state.plan.lane(conflict.other);
     const LanePlan& origin = state.plan.lane(other.origin);
     const double acceleration_mps2 = model.give_way.approach_acceleration_mps2;
     const int stopping = vehicle_stopping_at_signal(state, other.origin, conflict.other);
+    const auto is_ignored = [&](int slot) {
+        return ignores_stopped && v.speed_mps[at(slot)] < kCrawlingSpeed_mps;
+    };
     Arrival soonest;
     for (const JunctionOccupant& occupant : state.junctions.occupants[at(conflict.other)]) {
         if (occupant.front_m >= conflict.other_from_m) continue;
-        if (is_yielding_before(state, occupant.slot, conflict.other_from_m) || occupant.slot == stopping ||
-            is_behind_yielding_vehicle(state, conflict.other, occupant)) {
+        const bool yields = is_yielding_before(state, occupant.slot, conflict.other_from_m);
+        if ((yields && lets_others_go(state, occupant.slot)) || occupant.slot == stopping ||
+            is_ignored(occupant.slot) || is_behind_yielding_vehicle(state, conflict.other, occupant)) {
             return soonest;
         }
         const double distance_m = conflict.other_from_m - occupant.front_m;
@@ -160,13 +169,14 @@ Arrival next_arrival(const Model& model, const State& state, const Conflict& con
         soonest.keep_earlier(in_s, occupant.slot);
     }
     const LaneBlock& block = state.blocks[at(other.origin)];
-    if (block.count > 0 && (is_blocked_by_leader(state, block.first) || is_yielding(state, block.first)))
+    if (block.count > 0 && (is_blocked_by_leader(state, block.first) || lets_others_go(state, block.first)))
         return soonest;
     for (int slot = block.first; slot < block.past_last(); ++slot) {
         const double distance_m = origin.length_m + conflict.other_from_m - v.position_m[at(slot)];
         if (distance_m > horizon_s * origin.limit_mps) break;
         if (slot == stopping) break;
         if (v.position_m[at(slot)] > origin.stop_line_m || v.next_lane[at(slot)] != conflict.other) continue;
+        if (is_ignored(slot)) break;
         soonest.keep_earlier(earliest_arrival_s(distance_m, v.speed_mps[at(slot)], acceleration_mps2, other.limit_mps),
                              slot);
         return soonest;

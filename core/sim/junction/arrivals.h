@@ -18,6 +18,10 @@ bool is_yielding(const State& state, int slot);
 // area on its connection. A vehicle with a waiting position further downstream still drives into the area.
 bool is_yielding_before(const State& state, int slot, double area_m);
 
+// Returns true if the vehicle yields, and not only because a vehicle that must yield to it is in its way. Vehicles that
+// must yield to such a vehicle may go first.
+bool lets_others_go(const State& state, int slot);
+
 // Returns true if the vehicle and its leader are close together and both slower than kCrawlingSpeed_mps. Neither the
 // vehicle nor its followers are expected to arrive soon.
 bool is_blocked_by_leader(const State& state, int slot);
@@ -42,7 +46,9 @@ struct Arrival {
 };
 // Returns the next arrival of a vehicle at the conflict area on connection `conflict.other`. The search covers the
 // connection, its approach lane, and the lanes further upstream from which a vehicle can arrive within `horizon_s`.
-// Ignores vehicles that yield, stop for the signal or are in a queue, and all vehicles behind them.
-Arrival next_arrival(const Model& model, const State& state, const Conflict& conflict, double horizon_s);
+// Ignores vehicles that yield, stop for the signal or are in a queue, and all vehicles behind them. With
+// `ignores_stopped`, it also ignores all vehicles slower than kCrawlingSpeed_mps and those behind them.
+Arrival next_arrival(const Model& model, const State& state, const Conflict& conflict, double horizon_s,
+                     bool ignores_stopped = false);
 
 }  // namespace stopline

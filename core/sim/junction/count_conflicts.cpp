@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/containers/index.h"
+#include "sim/junction/merging.h"
 #include "sim/state/delay_log.h"
 #include "sim/state/events.h"
 
@@ -32,6 +33,15 @@ bool pass_is_allowed(const Model& model, const State& state, Partition& part, in
     return false;
 }
 
+// Returns true if one of two vehicles that merge into one exit lane is wholly ahead of the other.
+bool are_in_line(const State& state, int lane, const JunctionOccupant& own, int other_lane,
+                 const JunctionOccupant& other) {
+    const double own_end_m = state.plan.lane(lane).length_m;
+    const double other_end_m = state.plan.lane(other_lane).length_m;
+    return own_end_m - own.front_m >= other_end_m - other.rear_m ||
+           other_end_m - other.front_m >= own_end_m - own.rear_m;
+}
+
 // Returns the number of vehicle pairs in conflict area `c` of connection `lane`, and records each pair as a violation.
 // Pairs that the pass-blocker rule allows are left out.
 std::int64_t count_pairs(const Model& model, const State& state, Partition& part, int lane, const Conflict& c) {
@@ -40,6 +50,7 @@ std::int64_t count_pairs(const Model& model, const State& state, Partition& part
         if (own.front_m <= c.from_m || own.rear_m >= c.to_m) continue;
         for (const JunctionOccupant& other_vehicle : state.junctions.occupants[at(c.other)]) {
             if (other_vehicle.front_m <= c.other_from_m || other_vehicle.rear_m >= c.other_to_m) continue;
+            if (is_merge(model, state, lane, c) && are_in_line(state, lane, own, c.other, other_vehicle)) continue;
             if (pass_is_allowed(model, state, part, own.slot, lane, other_vehicle.slot, c.other)) continue;
             const auto& id = state.vehicles.id;
             part.violations.record({model.time_s(state.tick), Violation::Kind::conflict, lane, id[at(own.slot)],

@@ -321,7 +321,7 @@ void list_approaching(const Model& model, State& state, int index) {
         if (!has_trips && !connection_plan.yields && !state.junctions.occupied.has_any(state.plan.conflicting(next)))
             continue;
         double to_area_m = to_end_m + connection_plan.first_conflict_m - model.give_way.margin_m;
-        if (!state.plan.may_wait_inside(next)) {
+        if (!state.plan.may_wait_inside(next) || state.plan.stop_rule(next) != StopRule::none) {
             const double line_m = state.plan.lane(index).stop_line_m - model.driver.stop.margin_m;
             to_area_m = std::min(to_area_m, line_m - v.position_m[at(slot)]);
         }

@@ -48,7 +48,7 @@ private:
     void add_stop(const LaneChangeRequest& me) {
         const double place_m = waiting_position_m(model_, state_, me);
         if (place_m - me.front_m > decision_distance_m(model_, me.speed_mps)) return;
-        add_yield_stop(state_.junctions, part_, lane_, {me.slot, place_m, -1, false});
+        add_yield_stop(state_.junctions, part_, lane_, {me.slot, place_m, -1, YieldReason::lane_change});
     }
 
     // Returns the speed with which a vehicle gradually reaches its target gap behind `ahead`. The speed is at least the

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/containers/bitset.h"
+#include "sim/state/vehicles/vehicle_record.h"
 
 namespace stopline {
 
@@ -25,8 +26,8 @@ struct JunctionOccupant {
 struct YieldStop {
     int slot = -1;
     double position_m = 0.0;  // stop position, from the start of the lane
-    int blocker = -1;  // slot of the vehicle that goes first; -1: the vehicle waits for a gap in the adjacent lane
-    bool blocker_has_priority = false;  // false: the blocker is in the conflict area or is entering it
+    int blocker = -1;         // slot of the vehicle that goes first; -1: none
+    YieldReason reason = YieldReason::lane_change;
 };
 
 // The yield stops of the vehicles on one lane, in the order of slots, that is, from downstream to upstream.
@@ -56,6 +57,7 @@ struct JunctionState {
     Bitset occupied;      // connections with occupants
     Bitset with_stopped;  // connections with an occupant slower than kCrawlingSpeed_mps
     Bitset to_decide;     // connections on which right of way must be decided in this step
+    std::int64_t next_priority_tick = 0;  // tick at which right of way changes next with the phase of a signal
 };
 
 struct Partition;

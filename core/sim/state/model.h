@@ -10,6 +10,7 @@
 #include "driver/krauss.h"
 #include "network/detector.h"
 #include "network/lane_graph.h"
+#include "signals/phase_priority.h"
 #include "signals/programme.h"
 #include "spacing_laws/gap_policy.h"
 #include "vehicle/powertrain_tables.h"
@@ -56,6 +57,7 @@ struct Model {
     LaneGraph graph;
     std::vector<std::vector<int>> connections_to;  // [lane] connections that lead to the lane
     std::vector<GroupProgramme> signals;           // [signal group]
+    std::vector<PhasePriority> phase_priorities;   // right of way that changes with the phases of a signal
     std::vector<PowertrainTables> vehicles;
     std::vector<CompiledPolicy> policies;
     DriverTables driver;

@@ -13,6 +13,7 @@ namespace {
 void pass_stop_line(const Model& model, State& state, Partition& part, int lane, int slot) {
     VehicleRecord& record = state.vehicles.record[at(slot)];
     record.junction_entry_tick = static_cast<int>(state.tick);
+    record.line_stop_tick = -1;
     const int next = state.vehicles.next_lane[at(slot)];
     if (state.stop_lines.lights[at(state.plan.signal_group_for(lane, next))] != Light::red) return;
     if (record.trip >= 0 && next < 0) return;  // the trip ends on this lane, or the lane does not allow the turn

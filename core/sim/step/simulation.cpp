@@ -11,6 +11,7 @@
 #include "sim/insertion/insert_vehicles.h"
 #include "sim/insertion/trips.h"
 #include "sim/junction/occupants.h"
+#include "sim/junction/phase_priority.h"
 #include "sim/junction/right_of_way.h"
 #include "sim/junction/stop_lines.h"
 #include "sim/lane_change/gap_search.h"
@@ -126,6 +127,7 @@ void Simulation::step(bool use_threads) {
     state_.radar = delay_rows_at(model_.radar, state_.tick, state_.vehicles.slots);
     state_.v2v = delay_rows_at(model_.v2v, state_.tick, state_.vehicles.slots);
     update_signals(model_, state_.tick, state_.stop_lines);
+    update_phase_priorities(model_, state_);
     if (!use_threads) {
         decide(0, 1);
         if (delay_watch_is_due(model_, state_)) watch_delays(model_, state_);

@@ -20,7 +20,7 @@ struct alignas(64) LanePlan {
     int origin = -1;                    // connection: its approach lane; -1: not a connection
     int exit = -1;                      // connection: its exit lane
     int bitset_index = -1;              // number of the connection in the bitsets; -1: it has no conflict area
-    bool yields = false;                // connection: must yield in at least one conflict area
+    bool yields = false;                // connection: must yield in at least one conflict area and phase
     bool branches = false;              // true: more than one lane follows
     bool has_movement_signals = false;  // approach lane: movements have signal groups of their own
     bool keep_clear = true;             // connection: the keep-clear rule applies

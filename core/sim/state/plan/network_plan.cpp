@@ -167,6 +167,7 @@ NetworkPlan::NetworkPlan(const Model& model)
         intersection_count_ += sets.of(index) == index ? 1 : 0;
         lane_order_.push_back(index);
         may_wait_inside_.push_back(lane.waits_inside ? 1 : 0);
+        stop_rules_.push_back(lane.stop_rule);
         movement_groups_.push_back(lane.movement_signal_group);
         diverges_.push_back({lane.diverge_end_m, lane.origin >= 0 && lane.length_m - lane.diverge_end_m < longest_m});
         next_.add(lane.next);
@@ -174,6 +175,12 @@ NetworkPlan::NetworkPlan(const Model& model)
     }
     std::stable_sort(lane_order_.begin(), lane_order_.end(),
                      [this](int a, int b) { return intersection_of(a) < intersection_of(b); });
+    for (const PhasePriority& changing : model.phase_priorities) {
+        for (const PriorityStage& stage : changing.stages()) {
+            lanes_[at(changing.first())].yields |= stage.priority.first_yields;
+            lanes_[at(changing.second())].yields |= stage.priority.second_yields;
+        }
+    }
     number_connections(model);
     for (const Route& route : model.graph.routes) {
         routes_.add(route.lanes);
@@ -195,6 +202,18 @@ NetworkPlan::NetworkPlan(const Model& model)
         if (adjacent_[at(lane)].has_neighbours()) lanes_with_neighbours_.push_back(lane);
     }
     if (!model.demand.trips.empty()) trip_lanes_ = TripLanes(model, *this);
+}
+
+void NetworkPlan::set_priority(int first, int second, Priority priority) {
+    const auto set = [&](int lane, int other, bool yields, bool other_yields) {
+        for (Conflict& conflict : conflicts_.of(lane)) {
+            if (conflict.other != other) continue;
+            conflict.yields = yields;
+            conflict.other_yields = other_yields;
+        }
+    };
+    set(first, second, priority.first_yields, priority.second_yields);
+    set(second, first, priority.second_yields, priority.first_yields);
 }
 
 void NetworkPlan::number_connections(const Model& model) {

@@ -56,6 +56,8 @@ public:
     // Returns true if vehicles on this connection may yield inside the intersection. Otherwise they yield at the stop
     // line.
     bool may_wait_inside(int lane) const { return may_wait_inside_[static_cast<std::size_t>(lane)] != 0; }
+    // Returns what vehicles on the way to a connection must do at the stop line.
+    StopRule stop_rule(int lane) const { return stop_rules_[static_cast<std::size_t>(lane)]; }
     // Returns the turn of a trip at the end of one of its edges, or Turn::none if the trip ends on this edge.
     Turn turn_of_trip(int trip, int trip_edge) const { return demand_->turn_of_trip(trip, trip_edge); }
     // Returns the number of lane changes that a trip needs after edge `trip_edge` if the vehicle leaves this edge from
@@ -73,6 +75,9 @@ public:
     }
     // Returns the conflict areas of a connection, in the order from its start to its end.
     std::span<const Conflict> conflicts(int lane) const { return conflicts_.of(lane); }
+    // Sets which of two connections yields at their conflict area. This is the only part of the plan that changes during
+    // a run: right of way can change with the phases of a signal.
+    void set_priority(int first, int second, Priority priority);
     // Returns the connections that share a conflict area with connection `lane`, as masks for the bitsets.
     std::span<const BitsetMask> conflicting(int lane) const { return conflicting_.of(lane); }
     // Each connection with conflict areas has a number, which is its bit in the bitsets. The numbers follow
@@ -86,7 +91,8 @@ public:
     template <class Visit>
     void for_each_memory_range(int lane, Visit visit) const {
         const auto element = [&](const auto& array) { visit(array.data() + lane, array.data() + lane + 1); };
-        element(lanes_), element(diverges_), element(movement_groups_), element(may_wait_inside_);
+        element(lanes_), element(diverges_), element(movement_groups_), element(may_wait_inside_),
+            element(stop_rules_);
         next_.visit_memory(lane, visit), conflicting_.visit_memory(lane, visit), conflicts_.visit_offsets(lane, visit);
         for (const TurnOption& option : adjacent(lane).turn_options) {
             if (option.route >= 0) routes_.visit_memory(option.route, visit);
@@ -120,6 +126,7 @@ private:
     std::vector<int> next_parallel_route_;                 // [route]
     std::vector<int> movement_groups_;   // [lane] signal group of the movement of a connection; -1: none
     std::vector<char> may_wait_inside_;  // [lane]
+    std::vector<StopRule> stop_rules_;   // [lane]
     struct DivergePlan {
         double end_m = 0.0;
         bool exit_reaches_back = false;

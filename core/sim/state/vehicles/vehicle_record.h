@@ -1,9 +1,21 @@
 // The data of a vehicle that are needed only now and then, for example when the vehicle reaches an intersection.
 #pragma once
 
+#include <cstdint>
+
 #include "network/lane_graph.h"
 
 namespace stopline {
+
+// Why a vehicle has to stop at a yield stop.
+enum class YieldReason : std::uint8_t {
+    priority,     // a vehicle with priority arrives too soon, or it is another vehicle's turn
+    occupied,     // another vehicle is in the conflict area or enters it
+    intruder,     // the same, and that vehicle has to yield to this one
+    merging,      // another vehicle merges into the exit lane ahead of this one, which follows it
+    stop_sign,    // every vehicle must stop at the stop line
+    lane_change,  // the vehicle waits for a gap in the adjacent lane
+};
 
 // The struct fills one cache line. A connection is a lane inside an intersection.
 struct alignas(64) VehicleRecord {
@@ -17,10 +29,14 @@ struct alignas(64) VehicleRecord {
     int yield_tick = -2;                // latest tick at which the vehicle had to wait before a conflict area
     float yield_position_m = 0.0F;      // position where the vehicle had to wait, from the start of the connection
     Turn following_turn = Turn::none;   // turn at the second intersection ahead; none: unknown or no turn
+    YieldReason yield_reason = YieldReason::priority;  // reason of the wait at yield_tick
     int lane_change_tick = -1'000'000;  // tick of the most recent lane change
     int lane_before_change = -1;        // lane that the vehicle left in the most recent lane change; -1: none
     int trip = -1;                      // index of the trip in the demand; -1: no trip, the turns are drawn
     int trip_edge = 0;  // index of the present edge in the trip; inside an intersection: index of the edge upstream
+    int wait_since_tick = 0;  // tick at which the wait at yield_tick began
+    int line_stop_tick = -1;  // tick at which the vehicle stopped at the stop line ahead for a stop sign; -1: not yet
 };
+static_assert(sizeof(VehicleRecord) == 64);
 
 }  // namespace stopline

@@ -1,0 +1,50 @@
+// Right of way between two connections of one signal that changes with the phases of the signal.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace stopline {
+
+// Which of two connections yields to the other. Both can yield.
+struct Priority {
+    bool first_yields = false;
+    bool second_yields = false;
+
+    bool operator==(const Priority&) const = default;
+};
+
+struct PriorityStage {
+    std::int64_t ticks = 0;  // duration
+    Priority priority;
+};
+
+// The right of way of two connections over time. The stages repeat. One of them begins at `offset_ticks`, which may be
+// negative.
+class PhasePriority {
+public:
+    // Throws InputError if there is no stage or if a stage lasts less than one tick.
+    PhasePriority(int first, int second, std::vector<PriorityStage> stages, std::int64_t offset_ticks);
+
+    int first() const { return first_; }    // lane index of a connection
+    int second() const { return second_; }  // lane index of the other connection
+    const std::vector<PriorityStage>& stages() const { return stages_; }
+    Priority at(std::int64_t tick) const;
+    // Returns the first tick after `tick` at which a stage begins.
+    std::int64_t next_change_tick(std::int64_t tick) const;
+
+private:
+    struct Place {
+        std::size_t stage;
+        std::int64_t end_tick;
+    };
+    Place place_at(std::int64_t tick) const;
+
+    int first_;
+    int second_;
+    std::vector<PriorityStage> stages_;
+    std::int64_t offset_;
+    std::int64_t cycle_ = 0;
+};
+
+}  // namespace stopline

@@ -1,0 +1,158 @@
+#include "sim/junction/gap_acceptance.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/containers/index.h"
+#include "base/simd/arithmetic.h"
+#include "base/speed_thresholds.h"
+#include "sim/junction/arrivals.h"
+#include "sim/junction/deadlocks.h"
+#include "sim/junction/merging.h"
+#include "sim/state/queries/stopping_distance.h"
+
+namespace stopline {
+
+namespace {
+
+// Returns the travel time over a distance, s. A vehicle faster than `limit_mps`, the speed limit of its connection,
+// brakes to the limit within the distance.
+double travel_time_s(const Model& model, double distance_m, double speed_mps, double limit_mps) {
+    constexpr double kMinSpeed_mps = 2.0;
+    const double b = model.driver.deceleration_mps2;
+    const double slowing_m = 0.5 * (square(speed_mps) - square(limit_mps)) / b;
+    if (slowing_m <= 0.0) return std::max(distance_m, 0.0) / std::max(speed_mps, kMinSpeed_mps);
+    if (distance_m >= slowing_m) return (distance_m - slowing_m) / speed_mps + (speed_mps - limit_mps) / b;
+    return (speed_mps - std::sqrt(square(speed_mps) - 2.0 * b * std::max(distance_m, 0.0))) / b;
+}
+
+// Returns the time since a vehicle of connection `conflict.other` that is still in the conflict area has reached this
+// area, s; 0 if there is no such vehicle. If there are several, the last one counts. The vehicle is assumed to drive at
+// the speed limit, so the result is not too long.
+double time_since_last_arrival_s(const State& state, const Conflict& conflict) {
+    double since_s = 0.0;
+    for (const JunctionOccupant& occupant : state.junctions.occupants[at(conflict.other)]) {
+        if (occupant.front_m > conflict.other_from_m && occupant.rear_m < conflict.other_to_m)
+            since_s = (occupant.front_m - conflict.other_from_m) / state.plan.lane(conflict.other).limit_mps;
+    }
+    return since_s;
+}
+
+// Returns the time in s that a vehicle of length `length_m` needs from `front_m` at `speed_mps` in order not to hinder
+// the next vehicle with priority: until it has left the conflict area, or, if it merges, until it is in the area and can
+// speed up ahead of that vehicle.
+double passing_time_s(const Model& model, const State& state, int lane, const Conflict& conflict, double front_m,
+                      double speed_mps, double length_m) {
+    constexpr double kMergingReserve_s = 1.0;
+    const bool merges = is_merge(model, state, lane, conflict);
+    const double distance_m = (merges ? conflict.from_m : conflict.to_m + length_m) - front_m;
+    const double time_s = earliest_arrival_s(std::max(distance_m, 0.0), speed_mps,
+                                             model.give_way.approach_acceleration_mps2, state.plan.lane(lane).limit_mps);
+    return merges ? time_s + kMergingReserve_s : time_s;
+}
+
+// Returns the earliest time in s at which the next vehicle with priority may reach a conflict area so that candidate
+// `v` accepts the gap. In imported networks the gap begins when the last vehicle with priority has reached the area, as
+// in the Highway Capacity Manual. The critical gap applies to a vehicle that starts at its waiting position `wait_m`. A
+// vehicle that is elsewhere or moves needs as much more or less as it passes later or earlier than that vehicle.
+// `has_begun`: the candidate uses a gap that it has accepted before. It gives up the gap only if it would hinder the
+// next vehicle.
+double needed_time_s(const Model& model, const State& state, int lane, const Conflict& conflict, const Candidate& v,
+                     double wait_m, bool has_begun) {
+    const VehicleArrays& arrays = state.vehicles;
+    const double speed_mps = arrays.speed_mps[at(v.slot)];
+    if (model.demand.trips.empty()) {
+        return model.give_way.critical_gap_s +
+               travel_time_s(model, wait_m - v.front_m, speed_mps, state.plan.lane(lane).limit_mps);
+    }
+    const double length_m = arrays.length_m[at(v.slot)];
+    const double passing_s = passing_time_s(model, state, lane, conflict, v.front_m, speed_mps, length_m);
+    if (has_begun) return passing_s;
+    const double from_rest_s = passing_time_s(model, state, lane, conflict, wait_m, 0.0, length_m);
+    const double gap_s = model.give_way.critical_gap_s - time_since_last_arrival_s(state, conflict);
+    return std::max(gap_s + passing_s - from_rest_s, passing_s);
+}
+
+// Returns the slot of a vehicle that has accepted a gap although it must yield to candidate `v`; -1: none. A stopped
+// candidate lets this vehicle go first. Otherwise several stopped vehicles could give way to each other in a cycle and
+// never start.
+int yield_cycle_winner(const Model& model, const State& state, int lane, const Candidate& v) {
+    if (model.demand.trips.empty() || !v.stopped) return -1;
+    for (const Conflict& conflict : state.plan.conflicts(lane)) {
+        if (!conflict.other_yields) continue;
+        const LaneBlock& block = state.blocks[at(state.plan.lane(conflict.other).origin)];
+        if (block.count == 0 || is_yielding(state, block.first)) continue;
+        const VehicleArrays& arrays = state.vehicles;
+        if (arrays.next_lane[at(block.first)] != conflict.other) continue;
+        if (arrays.record[at(block.first)].accepted_gap_on == conflict.other) return block.first;
+    }
+    return -1;
+}
+
+}  // namespace
+
+GapBlocker find_gap_blocker(const Model& model, State& state, Partition& part, int lane, const Candidate& v,
+                            double wait_m) {
+    VehicleArrays& arrays = state.vehicles;
+    VehicleRecord& record = arrays.record[at(v.slot)];
+    const bool had_accepted_gap = record.accepted_gap_on == lane;
+    const bool has_begun = had_accepted_gap && !v.stopped;
+    record.accepted_gap_on = -1;
+    DeadlockResolution* const resolution =
+        v.stopped && !model.demand.trips.empty() ? find_resolution_for(state, part, v.slot) : nullptr;
+    if (resolution != nullptr) {
+        resolution->last_needed_tick = state.tick;
+    } else if (const int winner = yield_cycle_winner(model, state, lane, v); winner >= 0) {
+        return {winner, model.demand.trips.empty() ? YieldReason::priority : YieldReason::intruder};
+    }
+    Arrival next;
+    double next_needed_s = 0.0;
+    for (const Conflict& conflict : state.plan.conflicts(lane)) {
+        if (!conflict.yields || v.front_m > conflict.from_m) continue;
+        const double until_s = needed_time_s(model, state, lane, conflict, v, wait_m, has_begun);
+        const Arrival arrival = next_arrival(model, state, conflict, until_s, resolution != nullptr);
+        next.keep_earlier(arrival.time_s, arrival.slot);
+        next_needed_s = std::max(next_needed_s, until_s);
+        if (arrival.time_s < until_s) return {arrival.slot, YieldReason::priority};
+    }
+    record.accepted_gap_on = lane;
+    // Clear the yielding state at once, so that the other vehicles of a yield cycle see that this vehicle proceeds.
+    if (!model.demand.trips.empty()) record.yield_tick = -2;
+    if (!model.records_all || had_accepted_gap) return {};
+    part.gaps_accepted.push_back({model.time_s(state.tick), arrays.id[at(v.slot)], lane,
+                                  static_cast<float>(next.time_s),
+                                  static_cast<float>(next_needed_s)});
+    return {};
+}
+
+int committed_vehicle(const Model& model, const State& state, const Conflict& conflict) {
+    const VehicleArrays& v = state.vehicles;
+    const LanePlan& origin = state.plan.lane(state.plan.lane(conflict.other).origin);
+    const LaneBlock& block = state.blocks[at(state.plan.lane(conflict.other).origin)];
+    for (int slot = block.first; slot < block.past_last(); ++slot) {
+        if (v.next_lane[at(slot)] != conflict.other) continue;
+        const double speed_mps = v.speed_mps[at(slot)];
+        const double first_m = state.plan.lane(conflict.other).first_conflict_m - model.give_way.margin_m;
+        const double to_area_m = origin.length_m + first_m - v.position_m[at(slot)];
+        const bool is_moving_through =
+            v.record[at(slot)].accepted_gap_on == conflict.other && speed_mps >= kCrawlingSpeed_mps;
+        return is_moving_through && to_area_m < comfortable_braking_distance_m(model, speed_mps) ? slot : -1;
+    }
+    return -1;
+}
+
+bool occupies_area_on_arrival(const Model& model, const State& state, int lane, const Conflict& conflict,
+                              const Candidate& v, int other) {
+    const VehicleArrays& arrays = state.vehicles;
+    const LanePlan& other_plan = state.plan.lane(conflict.other);
+    const double in_s = earliest_arrival_s(std::max(conflict.from_m - v.front_m, 0.0), arrays.speed_mps[at(v.slot)],
+                                           model.give_way.approach_acceleration_mps2, state.plan.lane(lane).limit_mps);
+    const double speed_mps = arrays.speed_mps[at(other)];
+    const double to_connection_m = state.plan.lane(other_plan.origin).length_m - arrays.position_m[at(other)];
+    const double through_m = conflict.other_to_m + arrays.length_m[at(other)];
+    return travel_time_s(model, to_connection_m, speed_mps, other_plan.limit_mps) +
+               through_m / std::min(speed_mps, other_plan.limit_mps) >
+           in_s;
+}
+
+}  // namespace stopline

@@ -1,0 +1,81 @@
+#include "sim/junction/merging.h"
+
+#include <algorithm>
+
+#include "base/containers/index.h"
+#include "base/simd/arithmetic.h"
+#include "sim/junction/arrivals.h"
+#include "sim/state/queries/stopping_distance.h"
+
+namespace stopline {
+
+bool is_merge(const Model& model, const State& state, int lane, const Conflict& conflict) {
+    return !model.demand.trips.empty() && state.plan.lane(lane).exit == state.plan.lane(conflict.other).exit;
+}
+
+double merging_gap_m(const State& state, int lane, const Candidate& v, int other, int other_slot,
+                     double other_front_m) {
+    const double own_m = state.plan.lane(lane).length_m - v.front_m;
+    const double other_m = state.plan.lane(other).length_m - other_front_m;
+    return own_m - other_m - static_cast<double>(state.vehicles.length_m[at(other_slot)]);
+}
+
+bool merges_first(const State& state, int lane, const Candidate& v, const Conflict& conflict, int other_slot,
+                  double other_front_m) {
+    const double own_m = state.plan.lane(lane).length_m - v.front_m;
+    const double other_m = state.plan.lane(conflict.other).length_m - other_front_m;
+    const bool is_in_area = v.front_m > conflict.from_m;
+    const bool other_is_in_area = other_front_m > conflict.other_from_m;
+    if (is_in_area != other_is_in_area) {
+        // The candidate may pass in front of a vehicle in the area only if it is wholly ahead of it.
+        return is_in_area || own_m + static_cast<double>(state.vehicles.length_m[at(v.slot)]) <= other_m;
+    }
+    const auto& id = state.vehicles.id;
+    return is_in_area && (own_m < other_m || (own_m == other_m && id[at(v.slot)] < id[at(other_slot)]));
+}
+
+double merging_stop_m(const Model& model, const State& state, int lane, const Candidate& v, const Conflict& conflict,
+                      int other_slot, double other_front_m) {
+    constexpr double kMinGap_m = 0.5;  // smallest net gap at which the vehicle enters the conflict area
+    const VehicleArrays& arrays = state.vehicles;
+    const double gap_m = merging_gap_m(state, lane, v, conflict.other, other_slot, other_front_m);
+    // In full dynamics the brakes lag, so the vehicle ahead is expected to brake as hard as it can.
+    const double speed_mps = arrays.speed_mps[at(other_slot)];
+    const double braking_m = model.meso ? comfortable_braking_distance_m(model, speed_mps)
+                                        : emergency_braking_distance_m(model, speed_mps);
+    const double stop_m = v.front_m + gap_m - static_cast<double>(arrays.standstill_gap_m[at(v.slot)]) + braking_m;
+    if (v.front_m > conflict.from_m) return stop_m;
+    const double wait_m = conflict.from_m - model.give_way.margin_m;
+    return gap_m < kMinGap_m ? wait_m : std::max(stop_m, wait_m);
+}
+
+Wait zipper_wait(const Model& model, const State& state, int lane, const Candidate& v, const Conflict& conflict) {
+    const VehicleArrays& arrays = state.vehicles;
+    const double own_m = state.plan.lane(lane).length_m - v.front_m;
+    const double length_m = state.plan.lane(conflict.other).length_m;
+    const int origin = state.plan.lane(conflict.other).origin;
+    int leader = -1;
+    double leader_front_m = -kNoWait_m;
+    // Looks for the vehicle that is ahead of the candidate and nearest to it. Of two vehicles at the same distance, the
+    // one with the lower id is ahead.
+    const auto look = [&](int on_lane, double offset_m) {
+        const LaneBlock& block = state.blocks[at(on_lane)];
+        for (int slot = block.first; slot < block.past_last(); ++slot) {
+            const double front_m = arrays.position_m[at(slot)] + offset_m;
+            const double distance_m = length_m - front_m;
+            const bool is_ahead = distance_m < own_m || (distance_m == own_m && arrays.id[at(slot)] < arrays.id[at(v.slot)]);
+            if (!is_ahead) break;
+            if (on_lane == origin && arrays.next_lane[at(slot)] != conflict.other) continue;
+            // A vehicle that must wait for something else does not hold up the other lane.
+            if (slot == state.stop_lines.stop_slot[at(origin)] || is_yielding(state, slot)) continue;
+            leader = slot;
+            leader_front_m = front_m;
+        }
+    };
+    look(conflict.other, 0.0);
+    look(origin, -state.plan.lane(origin).length_m);
+    if (leader < 0) return {};
+    return {merging_stop_m(model, state, lane, v, conflict, leader, leader_front_m), leader, YieldReason::merging};
+}
+
+}  // namespace stopline

@@ -1,0 +1,54 @@
+#include "sim/junction/phase_priority.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+
+#include "base/containers/index.h"
+#include "sim/state/queries/stopping_distance.h"
+
+namespace stopline {
+
+namespace {
+
+// Lets the vehicles on `lane` that can no longer stop before the conflict area with `other` go on, although `lane`
+// yields to `other` from now on. They had priority until now.
+void keep_priority_of_unstoppable(const Model& model, State& state, int lane, int other) {
+    VehicleArrays& v = state.vehicles;
+    const int origin = state.plan.lane(lane).origin;
+    for (const Conflict& conflict : state.plan.conflicts(lane)) {
+        if (conflict.other != other) continue;
+        const auto check = [&](int on_lane, double offset_m) {
+            const LaneBlock& block = state.blocks[at(on_lane)];
+            for (int slot = block.first; slot < block.past_last(); ++slot) {
+                if (on_lane == origin && v.next_lane[at(slot)] != lane) continue;
+                const double room_m = conflict.from_m - model.give_way.margin_m - (v.position_m[at(slot)] + offset_m);
+                if (reliable_stopping_distance_m(model, v.speed_mps[at(slot)]) > room_m)
+                    v.record[at(slot)].accepted_gap_on = lane;
+            }
+        };
+        check(lane, 0.0);
+        check(origin, -state.plan.lane(origin).length_m);
+    }
+}
+
+}  // namespace
+
+void update_phase_priorities(const Model& model, State& state) {
+    if (state.tick < state.junctions.next_priority_tick) return;
+    std::int64_t next_tick = std::numeric_limits<std::int64_t>::max();
+    for (const PhasePriority& changing : model.phase_priorities) {
+        const Priority now = changing.at(state.tick);
+        next_tick = std::min(next_tick, changing.next_change_tick(state.tick));
+        const Priority before = changing.at(state.tick - 1);
+        if (state.tick > 0 && now == before) continue;
+        state.plan.set_priority(changing.first(), changing.second(), now);
+        if (now.first_yields && !before.first_yields)
+            keep_priority_of_unstoppable(model, state, changing.first(), changing.second());
+        if (now.second_yields && !before.second_yields)
+            keep_priority_of_unstoppable(model, state, changing.second(), changing.first());
+    }
+    state.junctions.next_priority_tick = next_tick;
+}
+
+}  // namespace stopline

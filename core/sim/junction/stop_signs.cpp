@@ -1,0 +1,77 @@
+#include "sim/junction/stop_signs.h"
+
+#include <algorithm>
+#include <span>
+
+#include "base/containers/index.h"
+#include "base/speed_thresholds.h"
+
+namespace stopline {
+
+namespace {
+
+// Returns the slot of the vehicle that stands first at the stop line before a connection, has stopped there and will
+// take the connection; -1: none. A vehicle that the keep-clear rule holds is ignored.
+int stopped_at_line(const State& state, int connection) {
+    const int approach = state.plan.lane(connection).origin;
+    const LaneBlock& block = state.blocks[at(approach)];
+    const VehicleArrays& v = state.vehicles;
+    for (int slot = block.first; slot < block.past_last(); ++slot) {
+        if (v.position_m[at(slot)] > state.plan.lane(approach).stop_line_m) continue;
+        const bool goes = v.next_lane[at(slot)] == connection && v.record[at(slot)].line_stop_tick >= 0 &&
+                          slot != state.stop_lines.stop_slot[at(approach)];
+        return goes ? slot : -1;
+    }
+    return -1;
+}
+
+// Returns true if a vehicle on connection `lane` may go although it is the turn of a vehicle on connection `next`: that
+// vehicle waits for one that has just started, and `lane` does not conflict with the connection of the latter. The
+// vehicle must have stopped at tick `stop_tick`, before the latter started, so that nobody is passed over twice.
+bool may_accompany(const Model& model, const State& state, int lane, int next, int stop_tick) {
+    constexpr double kJustStarted_s = 2.0;
+    const auto has_conflict = [&](int connection) {
+        const std::span<const Conflict> conflicts = state.plan.conflicts(lane);
+        return connection == lane || std::any_of(conflicts.begin(), conflicts.end(),
+                                                 [&](const Conflict& conflict) { return conflict.other == connection; });
+    };
+    for (const Conflict& conflict : state.plan.conflicts(next)) {
+        if (has_conflict(conflict.other)) continue;
+        for (const JunctionOccupant& occupant : state.junctions.occupants[at(conflict.other)]) {
+            if (occupant.since >= stop_tick && model.time_s(state.tick - occupant.since) <= kJustStarted_s) return true;
+        }
+    }
+    return false;
+}
+
+}  // namespace
+
+Wait stop_sign_wait(const Model& model, State& state, int lane, const Candidate& v, double line_m) {
+    constexpr double kAtLine_m = 2.0;  // a vehicle that stops further upstream has not stopped at the line
+    const StopRule rule = state.plan.stop_rule(lane);
+    if (rule == StopRule::none || v.inside) return {};
+    VehicleArrays& arrays = state.vehicles;
+    VehicleRecord& record = arrays.record[at(v.slot)];
+    if (record.line_stop_tick < 0) {
+        const double speed_mps = arrays.speed_mps[at(v.slot)];
+        if (speed_mps < kStoppedSpeed_mps && line_m - v.front_m < kAtLine_m) {
+            record.line_stop_tick = static_cast<int>(state.tick);
+        } else {
+            return {line_m, -1, YieldReason::stop_sign};
+        }
+    }
+    if (rule != StopRule::all_way_stop) return {};
+    for (const Conflict& conflict : state.plan.conflicts(lane)) {
+        if (state.plan.stop_rule(conflict.other) != StopRule::all_way_stop) continue;
+        const int other = stopped_at_line(state, conflict.other);
+        if (other < 0) continue;
+        const int other_tick = arrays.record[at(other)].line_stop_tick;
+        const bool was_earlier = other_tick < record.line_stop_tick ||
+                                 (other_tick == record.line_stop_tick && arrays.id[at(other)] < arrays.id[at(v.slot)]);
+        if (was_earlier && !may_accompany(model, state, lane, conflict.other, record.line_stop_tick))
+            return {line_m, other, YieldReason::priority};
+    }
+    return {};
+}
+
+}  // namespace stopline
