@@ -1,6 +1,8 @@
 // The data of a vehicle that are read mainly at events.
 #pragma once
 
+#include <cstdint>
+
 #include "network/lane_graph.h"
 
 namespace stopline {
@@ -17,6 +19,11 @@ struct alignas(64) VehicleRecord {
     int yield_tick = -2;                // last tick at which the vehicle had to wait before a conflict area
     float yield_position_m = 0.0F;      // where the vehicle had to wait, from the start of the connection
     Turn following_turn = Turn::none;   // turn at the second intersection ahead; none: not known yet
+    Turn third_turn = Turn::none;       // turn at the third intersection ahead; none: not known yet, or a trip
+    std::int8_t preferred_offset = 0;   // offset to the lane that suits the later turns; below 0: to the left
+    bool preferred_for_third = false;   // the preferred lane is for the third turn only, not for the following one
+    float remembered_mps = 0.0F;        // highest recent speed, which fades within seconds (lane changes)
+    float lane_gain_mps = 0.0F;         // expected gain in speed by a lane change, summed up; above 0: to the left
     int lane_change_tick = -1'000'000;  // tick of the last lane change
     int lane_before_change = -1;        // lane that the vehicle left in the last lane change; -1: none
     int trip = -1;                      // index of the trip in the demand; -1: no trip, the turns are drawn
