@@ -62,8 +62,8 @@ struct LeaderView {
 };
 
 // Returns the acceleration of a vehicle without leader. This acceleration follows the calibrated start-up profile,
-// and falls to 0 towards the desired speed. If the desired speed is beyond the range of the profile, the power of the vehicle gives a
-// lower bound.
+// and falls to 0 towards the desired speed. If the desired speed is beyond the range of the profile, the power of the
+// vehicle gives a lower bound.
 template <class R, class Number>
 STOPLINE_INLINE R free_acceleration(const DriverTablesOf<Number>& d, const R& speed_mps,
                                     const std::type_identity_t<R>& desired_mps) {

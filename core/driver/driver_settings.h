@@ -64,20 +64,21 @@ struct GiveWaySettings {
 
 // Lane changes (sim/lane_change/lane_change.cpp).
 struct LaneChangeSettings {
-    // Mandatory changes. A vehicle begins to look for a gap when the distance to the stop line is strategic_m times the
-    // number of changes that it needs. When the distance is urgent_m times this number, the vehicle begins to adapt its
-    // speed to gaps in the target lane.
-    double strategic_m = 300.0;
-    double urgent_m = 200.0;
+    // Mandatory changes. A vehicle begins to look for a gap, and to adapt its speed to it, when the usable distance is
+    // shorter than the distance that it covers in look_ahead_s for each change that it needs. The usable distance is
+    // the distance to the stop line minus the queue on the target lane. Changes to the left need left_factor times as
+    // much. The form and both defaults are those of SUMO's model LC2013 (Erdmann 2015, "SUMO's lane-changing model").
+    double look_ahead_s = 10.0;
+    double left_factor = 2.0;
     // Smallest accepted lead gap and lag gap, as a share of the gap of the spacing policy. The share falls linearly
-    // from gap_share at urgent_m to urgent_gap_share at the stop line.
+    // from gap_share at the begin of the search to urgent_gap_share where no usable distance is left.
     double gap_share = 1.0;
     // The default follows measurements: at equal speeds the median critical gap of mandatory changes is 4 m (Toledo,
     // Koutsopoulos, Ben-Akiva 2003, "Modeling integrated lane-changing behavior", Transportation Research Record 1857).
     // This is 0.3 of a time gap of 0.87 s at 50 km/h.
     double urgent_gap_share = 0.3;
-    std::string look_ahead = "on";    // off | on: vehicles choose lanes also for the turn at the second intersection
-    std::string gap_opening = "off";  // off | on: followers on the target lane open a gap for mandatory changes
+    std::string look_ahead = "on";   // off | on: vehicles choose lanes also for the turn at the second intersection
+    std::string gap_opening = "on";  // off | on: followers on the target lane open a gap for mandatory changes
     // Discretionary changes: MOBIL (Kesting, Treiber, Helbing 2007). MOBIL rates a change by the accelerations that
     // result from the intelligent driver model (IDM) with the desired gap of the spacing policy.
     double threshold_mps2 = 0.1;     // smallest gain in acceleration that justifies a change

@@ -11,7 +11,8 @@ PhasePriority::PhasePriority(int first, int second, std::vector<PriorityStage> s
     : first_(first), second_(second), stages_(std::move(stages)), offset_(offset_ticks) {
     if (stages_.empty()) throw InputError("right of way of a signal: at least one stage is needed");
     for (const PriorityStage& stage : stages_) {
-        if (stage.ticks <= 0) throw InputError("right of way of a signal: every stage must last at least one time step");
+        if (stage.ticks <= 0)
+            throw InputError("right of way of a signal: every stage must last at least one time step");
         cycle_ += stage.ticks;
     }
 }

@@ -48,7 +48,7 @@ struct SumoPhasePriority {
 struct SumoNetwork {
     SumoNet net;
     LaneGraph graph;
-    std::vector<SumoLight> lights;          // [signal group]
+    std::vector<SumoLight> lights;  // [signal group]
     std::vector<SumoPhasePriority> phase_priorities;
     std::vector<std::vector<int>> lane_of;  // [edge][index] lane of the graph; -1: closed to cars, or inside a junction
     std::vector<int> approach_of;           // [edge] approach of the graph; -1: closed to cars, or inside a junction

@@ -172,8 +172,8 @@ private:
     }
 
     // Returns the right of way in a phase in which both connections are green. A connection with a minor green yields
-    // to one with a major green. If both have the same kind of green, the matrix decides, and if it makes neither yield,
-    // the connection with the higher link number yields.
+    // to one with a major green. If both have the same kind of green, the matrix decides, and if it makes neither
+    // yield, the connection with the higher link number yields.
     static Priority priority_in(const SumoPhase& phase, const SumoJunction& junction, const BuiltConnection& first,
                                 const BuiltConnection& second) {
         Priority priority{!first.source->pass && !is_major(phase.state[at(first.source->tl_link)]),

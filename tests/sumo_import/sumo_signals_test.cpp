@@ -62,8 +62,8 @@ TEST(SumoSignals, MergePhasesWithTheSameLight) {
 
 SumoNetwork network_of(const std::string& phases, const std::string& matrix_row_of_link_0) {
     const SumoFiles files;
-    const std::string text =
-        replaced(signal_net(phases), R"(index="0" response="1110")", R"(index="0" response=")" + matrix_row_of_link_0 + "\"");
+    const std::string text = replaced(signal_net(phases), R"(index="0" response="1110")",
+                                      R"(index="0" response=")" + matrix_row_of_link_0 + "\"");
     return make_sumo_network(read_sumo_net(files.write("my.net.xml", text)), 2.0);
 }
 
@@ -104,8 +104,8 @@ TEST(SumoSignals, PriorityFollowsTheLettersOfThePhase) {
 }
 
 TEST(SumoSignals, PriorityIsConstantIfThePhasesAgree) {
-    EXPECT_EQ(yielding_links(network_of(R"(<phase duration="9" state="gGGG"/><phase duration="3" state="rrrr"/>)", "1110"),
-                             12),
+    EXPECT_EQ(yielding_links(
+                  network_of(R"(<phase duration="9" state="gGGG"/><phase duration="3" state="rrrr"/>)", "1110"), 12),
               "constant");
     EXPECT_TRUE(make_sumo_phase_priorities(network_of(two_phases(), "1110"), kStep_s).empty());
 }

@@ -121,19 +121,19 @@ const Table& lane_change_table() {
     static const Table table = make_table<S>(
         "lane changes on the approaches of streets",
         {
-            number<&S::strategic_m>("strategic_distance", "m", {10, 10'000},
-                                    "mandatory changes: distance before the stop line at which the search for a target "
-                                    "lane begins; multiplied by the number of changes needed"),
-            number<&S::urgent_m>("urgent_distance", "m", {10, 1000},
-                                 "mandatory changes: from this distance before the stop line the speed is adapted to "
-                                 "gaps in the target lane"),
+            number<&S::look_ahead_s>("look_ahead_time", "s", {0, 1000},
+                                     "mandatory changes: time for each change that a vehicle needs; the search for a "
+                                     "gap begins when the usable distance before the stop line is shorter than the "
+                                     "distance that the vehicle covers in this time"),
+            number<&S::left_factor>("left_factor", "", {0.1, 10},
+                                    "mandatory changes: factor on look_ahead_time for changes to the left"),
             number<&S::gap_share>(
                 "gap_share", "%", {0, 200},
                 "smallest accepted lead gap and lag gap, as a share of the gap that the policy keeps"),
             number<&S::urgent_gap_share>(
                 "urgent_gap_share", "%", {0, 200},
-                "mandatory changes: value of gap_share at the stop line; from urgent_distance on, gap_share changes "
-                "linearly to this value"),
+                "mandatory changes: value of gap_share where no usable distance is left; gap_share changes linearly to "
+                "this value from the begin of the search"),
             choice<&S::look_ahead>(
                 "look_ahead", {"off", "on"},
                 "on: vehicles choose a lane also for their turn at the intersection after the next one"),

@@ -23,6 +23,7 @@ int insert_vehicle(const Model& model, State& state, const NewVehicle& vehicle) 
     v.type[i] = 0;
     v.id[i] = state.insertion.next_id++;
     v.record[i] = {};
+    v.lane_memory[i] = {};
     v.next_lane[i] = -1;
     v.record[i].route = vehicle.route;
     return slot;

@@ -113,7 +113,7 @@ void insert_at_inlet(const Model& model, State& state, int number, const Entry& 
         copy_longitudinal_state(v, i, i - 1);
     }
     adopt_lane_route(model, state, lane, slot);
-    draw_following_turn(model, state, slot, true);
+    draw_later_turns(model, state, lane, slot, true);
     finish_insertion(model, state, lane, slot);
     ++inlet.entered;
     inlet.last_entry_s = model.time_s(state.tick + 1);

@@ -152,9 +152,7 @@ Arrival next_arrival(const Model& model, const State& state, const Conflict& con
     const LanePlan& origin = state.plan.lane(other.origin);
     const double acceleration_mps2 = model.give_way.approach_acceleration_mps2;
     const int stopping = vehicle_stopping_at_signal(state, other.origin, conflict.other);
-    const auto is_ignored = [&](int slot) {
-        return ignores_stopped && v.speed_mps[at(slot)] < kCrawlingSpeed_mps;
-    };
+    const auto is_ignored = [&](int slot) { return ignores_stopped && v.speed_mps[at(slot)] < kCrawlingSpeed_mps; };
     Arrival soonest;
     for (const JunctionOccupant& occupant : state.junctions.occupants[at(conflict.other)]) {
         if (occupant.front_m >= conflict.other_from_m) continue;

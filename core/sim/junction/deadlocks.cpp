@@ -77,8 +77,8 @@ private:
         return {slot, is_first ? leader_ahead(state_, lane, slot, kQueueLookAhead_m).slot : slot - 1, false};
     }
 
-    // Returns true unless the blocker is on a conflicting connection, or on the way to it, and its front has not reached
-    // the conflict area.
+    // Returns true unless the blocker is on a conflicting connection, or on the way to it, and its front has not
+    // reached the conflict area.
     bool is_in_path(int lane, int slot, int blocker) const {
         const int connection = state_.plan.lane(lane).origin >= 0 ? lane : v_.next_lane[at(slot)];
         if (connection < 0) return true;

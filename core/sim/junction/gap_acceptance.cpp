@@ -39,15 +39,16 @@ double time_since_last_arrival_s(const State& state, const Conflict& conflict) {
 }
 
 // Returns the time in s that a vehicle of length `length_m` needs from `front_m` at `speed_mps` in order not to hinder
-// the next vehicle with priority: until it has left the conflict area, or, if it merges, until it is in the area and can
-// speed up ahead of that vehicle.
+// the next vehicle with priority: until it has left the conflict area, or, if it merges, until it is in the area and
+// can speed up ahead of that vehicle.
 double passing_time_s(const Model& model, const State& state, int lane, const Conflict& conflict, double front_m,
                       double speed_mps, double length_m) {
     constexpr double kMergingReserve_s = 1.0;
     const bool merges = is_merge(model, state, lane, conflict);
     const double distance_m = (merges ? conflict.from_m : conflict.to_m + length_m) - front_m;
-    const double time_s = earliest_arrival_s(std::max(distance_m, 0.0), speed_mps,
-                                             model.give_way.approach_acceleration_mps2, state.plan.lane(lane).limit_mps);
+    const double time_s =
+        earliest_arrival_s(std::max(distance_m, 0.0), speed_mps, model.give_way.approach_acceleration_mps2,
+                           state.plan.lane(lane).limit_mps);
     return merges ? time_s + kMergingReserve_s : time_s;
 }
 
@@ -120,8 +121,7 @@ GapBlocker find_gap_blocker(const Model& model, State& state, Partition& part, i
     if (!model.demand.trips.empty()) record.yield_tick = -2;
     if (!model.records_all || had_accepted_gap) return {};
     part.gaps_accepted.push_back({model.time_s(state.tick), arrays.id[at(v.slot)], lane,
-                                  static_cast<float>(next.time_s),
-                                  static_cast<float>(next_needed_s)});
+                                  static_cast<float>(next.time_s), static_cast<float>(next_needed_s)});
     return {};
 }
 

@@ -41,8 +41,8 @@ double merging_stop_m(const Model& model, const State& state, int lane, const Ca
     const double gap_m = merging_gap_m(state, lane, v, conflict.other, other_slot, other_front_m);
     // In full dynamics the brakes lag, so the vehicle ahead is expected to brake as hard as it can.
     const double speed_mps = arrays.speed_mps[at(other_slot)];
-    const double braking_m = model.meso ? comfortable_braking_distance_m(model, speed_mps)
-                                        : emergency_braking_distance_m(model, speed_mps);
+    const double braking_m =
+        model.meso ? comfortable_braking_distance_m(model, speed_mps) : emergency_braking_distance_m(model, speed_mps);
     const double stop_m = v.front_m + gap_m - static_cast<double>(arrays.standstill_gap_m[at(v.slot)]) + braking_m;
     if (v.front_m > conflict.from_m) return stop_m;
     const double wait_m = conflict.from_m - model.give_way.margin_m;
@@ -63,7 +63,8 @@ Wait zipper_wait(const Model& model, const State& state, int lane, const Candida
         for (int slot = block.first; slot < block.past_last(); ++slot) {
             const double front_m = arrays.position_m[at(slot)] + offset_m;
             const double distance_m = length_m - front_m;
-            const bool is_ahead = distance_m < own_m || (distance_m == own_m && arrays.id[at(slot)] < arrays.id[at(v.slot)]);
+            const bool is_ahead =
+                distance_m < own_m || (distance_m == own_m && arrays.id[at(slot)] < arrays.id[at(v.slot)]);
             if (!is_ahead) break;
             if (on_lane == origin && arrays.next_lane[at(slot)] != conflict.other) continue;
             // A vehicle that must wait for something else does not hold up the other lane.

@@ -76,7 +76,8 @@ bool blocks_area(const Model& model, State& state, Partition& part, int lane, co
         return false;
     }
     // The occupant waits too, so the candidate proceeds.
-    if (v.stopped && (is_yielding(state, occupant.slot) || is_behind_yielding_vehicle(state, conflict.other, occupant))) {
+    if (v.stopped &&
+        (is_yielding(state, occupant.slot) || is_behind_yielding_vehicle(state, conflict.other, occupant))) {
         part.deadlock_resolutions.push_back(
             {state.vehicles.id[at(v.slot)], state.vehicles.id[at(occupant.slot)], state.tick});
         return false;
@@ -100,8 +101,8 @@ public:
           speed_mps_(state.vehicles.speed_mps[at(v.slot)]),
           is_imported_(!model.demand.trips.empty()) {}
 
-    // `ahead`: slot of a waiting vehicle further ahead on the same connection, -1: none. Where the candidate must yield,
-    // it waits for the vehicle `ahead` without checking gaps.
+    // `ahead`: slot of a waiting vehicle further ahead on the same connection, -1: none. Where the candidate must
+    // yield, it waits for the vehicle `ahead` without checking gaps.
     Wait find(int ahead) {
         Wait wait = search(ahead);
         if (is_imported_ && wait.exists()) wait.place_m = clear_place_m(wait.place_m);
@@ -159,8 +160,8 @@ private:
         if (wait.place_m < nearest.place_m) nearest = wait;
     }
 
-    // Returns true if the candidate waits at the stop line and can stop there. Returns false if vehicles may wait inside
-    // the intersection on this connection. `line_m`: waiting position at the line.
+    // Returns true if the candidate waits at the stop line and can stop there. Returns false if vehicles may wait
+    // inside the intersection on this connection. `line_m`: waiting position at the line.
     bool stops_at_line(double line_m) const {
         if (v_.inside || state_.plan.may_wait_inside(lane_)) return false;
         if (v_.stopped || line_m - v_.front_m >= comfortable_braking_distance_m(model_, speed_mps_)) return true;
@@ -210,20 +211,19 @@ private:
         return wait;
     }
 
-    // Returns true if the candidate waits at the stop line, and the blocker is about to leave the conflict area, so that
-    // the candidate may start now. It could still stop before the area.
+    // Returns true if the candidate waits at the stop line, and the blocker is about to leave the conflict area, so
+    // that the candidate may start now. It could still stop before the area.
     bool clears_area_in_time(const Conflict& conflict, int blocker) const {
         if (!waits_at_line() || arrays_.speed_mps[at(blocker)] < kCrawlingSpeed_mps) return false;
         for (const JunctionOccupant& occupant : state_.junctions.occupants[at(conflict.other)]) {
             if (occupant.rear_m >= conflict.other_to_m) continue;
             const double speed_mps = arrays_.speed_mps[at(occupant.slot)];
-            const double in_s = earliest_arrival_s(wait_m(conflict) - v_.front_m, speed_mps_,
-                                                   model_.give_way.approach_acceleration_mps2,
-                                                   state_.plan.lane(lane_).limit_mps);
+            const double in_s =
+                earliest_arrival_s(wait_m(conflict) - v_.front_m, speed_mps_,
+                                   model_.give_way.approach_acceleration_mps2, state_.plan.lane(lane_).limit_mps);
             const bool may_stop =
                 speed_mps < kCrawlingSpeed_mps || arrays_.record[at(occupant.slot)].yield_tick >= state_.tick - 1;
-            if (may_stop || (conflict.other_to_m - occupant.rear_m) / speed_mps > in_s)
-                return false;
+            if (may_stop || (conflict.other_to_m - occupant.rear_m) / speed_mps > in_s) return false;
         }
         return true;
     }
@@ -256,8 +256,8 @@ private:
         return nearest;
     }
 
-    // Returns the waiting position nearest to `place_m`, and not beyond it, where the candidate does not block a conflict
-    // area that it has not reached yet. Areas shared with a connection that has no green now do not count.
+    // Returns the waiting position nearest to `place_m`, and not beyond it, where the candidate does not block a
+    // conflict area that it has not reached yet. Areas shared with a connection that has no green now do not count.
     double clear_place_m(double place_m) const {
         const double length_m = arrays_.length_m[at(v_.slot)];
         const double stopping_m = v_.stopped ? 0.0 : comfortable_braking_distance_m(model_, speed_mps_);

@@ -32,8 +32,9 @@ bool may_accompany(const Model& model, const State& state, int lane, int next, i
     constexpr double kJustStarted_s = 2.0;
     const auto has_conflict = [&](int connection) {
         const std::span<const Conflict> conflicts = state.plan.conflicts(lane);
-        return connection == lane || std::any_of(conflicts.begin(), conflicts.end(),
-                                                 [&](const Conflict& conflict) { return conflict.other == connection; });
+        return connection == lane || std::any_of(conflicts.begin(), conflicts.end(), [&](const Conflict& conflict) {
+                   return conflict.other == connection;
+               });
     };
     for (const Conflict& conflict : state.plan.conflicts(next)) {
         if (has_conflict(conflict.other)) continue;

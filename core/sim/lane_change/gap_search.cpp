@@ -31,16 +31,12 @@ public:
     void search() {
         const LaneBlock& block = state_.blocks[at(lane_)];
         for (int slot = block.first; slot < block.past_last(); ++slot) {
-            if (v_.next_lane[at(slot)] >= 0 && v_.record[at(slot)].following_turn == Turn::none) continue;
+            if (v_.next_lane[at(slot)] >= 0 && v_.lane_memory[at(slot)].preferred_offset == 0) continue;
             const LaneChangeRequest me = lane_change_request(model_, state_, lane_, slot);
             if (me.to_line_m < -model_.driver.stop.margin_m) continue;
-            const double urgent_m = model_.lane_change.urgent_m;
-            if (me.lane_changes != 0 && me.to_line_m < urgent_m * std::abs(me.lane_changes)) {
-                add_stop(me);
-                align_with_gap(me, me.lane_changes, me.to_line_m);
-            } else if (me.preferred_offset != 0 && me.to_next_line_m < urgent_m * std::abs(me.preferred_offset)) {
-                align_with_gap(me, me.preferred_offset, me.to_next_line_m);
-            }
+            if (me.lane_changes != 0) add_stop(me);
+            const MandatoryChange change = mandatory_change(model_, state_, me);
+            if (change.lane_changes != 0) align_with_gap(me, change);
         }
     }
 
@@ -72,9 +68,9 @@ private:
 
     // Returns true if the lag gap to `follower` is too short and does not grow by itself. Returns false if the follower
     // wants to swap lanes with `me`, because the follower then falls back.
-    bool must_let_pass(int other, const Neighbour& follower, const LaneChangeRequest& me, double to_line_m) const {
+    bool must_let_pass(int other, const Neighbour& follower, const LaneChangeRequest& me, double urgency) const {
         if (follower.slot < 0 || follower.speed_mps + kDroppingBack_mps < me.speed_mps) return false;
-        const double share = urgent_share(model_, to_line_m);
+        const double share = urgent_share(model_, urgency);
         const double needed_m = required_gap_m(model_, follower.policy, follower.speed_mps, me.speed_mps, share);
         return follower.gap_m < needed_m && !wants_to_swap(other, follower.slot, me);
     }
@@ -89,12 +85,10 @@ private:
                follower.slot < block.past_last() && std::max(follower.gap_m, 0.0) >= braking_m;
     }
 
-    // Aligns the speed of `me` with a gap in the adjacent lane, or makes the follower in that lane open a gap.
-    // `changes`: required lane changes; below 0: to the left. `to_line_m`: distance to the stop line before which the
-    // lane changes must be done.
-    void align_with_gap(const LaneChangeRequest& me, int changes, double to_line_m) {
+    // Aligns the speed of `me` with a gap in the adjacent lane, or makes the follower there open a gap.
+    void align_with_gap(const LaneChangeRequest& me, const MandatoryChange& change) {
         const AdjacentLanes& adjacent = state_.plan.adjacent(lane_);
-        const int other = changes < 0 ? adjacent.left : adjacent.right;
+        const int other = change.lane_changes < 0 ? adjacent.left : adjacent.right;
         if (other < 0) return;
         const double there_m = adjacent_position_m(state_, lane_, me.front_m, other);
         if (there_m < me.length_m) return;
@@ -106,7 +100,7 @@ private:
             target_mps = gap_reaching_speed_mps(there.leader, me.policy, me.speed_mps);
         }
         const Neighbour& follower = there.follower;
-        if (must_let_pass(other, follower, me, to_line_m)) {
+        if (must_let_pass(other, follower, me, change.urgency())) {
             if (can_open_gap(other, follower, me)) {
                 const Neighbour mine{me.slot, follower.gap_m, me.speed_mps, me.policy};
                 add_alignment(

@@ -5,6 +5,7 @@
 
 #include "base/containers/index.h"
 #include "base/simd/arithmetic.h"
+#include "sim/lane_change/preferred_lane.h"
 #include "sim/lane_change/route_choice.h"
 #include "sim/perception/lane_gaps.h"
 #include "sim/perception/look_ahead.h"
@@ -76,52 +77,31 @@ bool gaps_suffice(const Model& model, const LaneChangeRequest& me, const LaneNei
                     required_gap_m(model, there.follower.policy, there.follower.speed_mps, me.speed_mps, share));
 }
 
-// Returns the number of lane changes that remain downstream of the intersection if the vehicle takes `turn` from
-// `lane`. These are the changes for its following turn, or for the rest of its trip. Returns kMany if `lane` does not
-// allow the turn.
-int changes_after(const State& state, int lane, Turn turn, const VehicleRecord& vehicle) {
-    constexpr int kMany = 100;
-    const int route = state.plan.adjacent(lane).turn_option(turn).route;
-    if (route < 0) return kMany;
-    if (vehicle.trip >= 0) return state.plan.lane_changes_after(vehicle.trip, vehicle.trip_edge, lane);
-    const Turn following = vehicle.following_turn;
-    return following == Turn::none
-               ? 0
-               : std::abs(state.plan.adjacent(state.plan.route(route).back()).turn_option(following).lane_changes);
-}
-
-// Returns the number of lanes to the best lane; below 0: to the left. From the best lane the fewest lane changes remain
-// downstream of the intersection. Among equally good lanes the nearest one is best. All lanes from the current lane to
-// the best lane allow the turn.
-int find_preferred_offset(const State& state, int lane, Turn turn, const VehicleRecord& vehicle) {
-    int fewest = changes_after(state, lane, turn, vehicle);
-    int offset = 0;
-    int distance = 0;
-    for (int other = state.plan.adjacent(lane).right; other >= 0; other = state.plan.adjacent(other).right) {
-        const int changes = changes_after(state, other, turn, vehicle);
-        if (state.plan.adjacent(other).turn_option(turn).route < 0) break;
-        ++distance;
-        if (changes >= fewest) continue;
-        fewest = changes;
-        offset = distance;
-    }
-    distance = 0;
-    for (int other = state.plan.adjacent(lane).left; other >= 0; other = state.plan.adjacent(other).left) {
-        const int changes = changes_after(state, other, turn, vehicle);
-        if (state.plan.adjacent(other).turn_option(turn).route < 0) break;
-        --distance;
-        if (changes > fewest || (changes == fewest && -distance >= offset)) continue;
-        fewest = changes;
-        offset = distance;
-    }
-    return offset;
-}
-
 // Returns true if the whole vehicle is on its lane and fits on the target lane, and if it can still stop before the
 // stop line.
 bool can_move_beside(const Model& model, const LaneChangeRequest& me, double front_there_m) {
     return me.front_m >= me.length_m && front_there_m >= me.length_m &&
            me.to_line_m + model.driver.stop.margin_m >= lane_change_stopping_distance_m(model, me.speed_mps);
+}
+
+// Returns the usable distance below which a vehicle looks for a gap, m. `changes`: lane changes that it needs, signed
+// as TurnOption::lane_changes.
+double look_ahead_m(const Model& model, const LaneChangeRequest& me, double remembered_mps, int changes) {
+    const LaneChangeSettings& c = model.lane_change;
+    const double time_s = c.look_ahead_s * std::abs(changes) * (changes < 0 ? c.left_factor : 1.0);
+    const double room_m = 2.0 * (me.length_m + model.policies[at(me.policy)].settings.standstill_gap_m);
+    return remembered_mps * time_s + room_m;
+}
+
+// Returns the length that the vehicles ahead of `me` on its target lane would have as a standing queue, m.
+double queue_on_target_m(const State& state, const LaneChangeRequest& me, int changes) {
+    int lane = me.lane;
+    for (int k = 0; k < std::abs(changes) && lane >= 0; ++k) {
+        lane = changes < 0 ? state.plan.adjacent(lane).left : state.plan.adjacent(lane).right;
+    }
+    if (lane < 0) return 0.0;
+    const double front_m = adjacent_position_m(state, me.lane, me.front_m, lane);
+    return vehicles_ahead(state, lane, front_m) * state.plan.max_space_per_vehicle_m();
 }
 
 class LaneChangeDecision {
@@ -135,14 +115,11 @@ public:
     // Changes lanes if the vehicle wants to change and the gaps suffice. Returns true if the vehicle has left its lane.
     bool execute() {
         const AdjacentLanes& adjacent = state_.plan.adjacent(me_.lane);
-        if (me_.lane_changes != 0 && me_.to_line_m < model_.lane_change.strategic_m * std::abs(me_.lane_changes)) {
+        remember_speed();
+        const MandatoryChange change = mandatory_change(model_, state_, me_);
+        if (change.lane_changes != 0) {
             return since_change_s_ >= kMinInterval_s &&
-                   change_for_route(me_.lane_changes < 0 ? adjacent.left : adjacent.right, me_.to_line_m);
-        }
-        if (me_.preferred_offset != 0 &&
-            me_.to_next_line_m < model_.lane_change.strategic_m * std::abs(me_.preferred_offset)) {
-            return since_change_s_ >= kMinInterval_s &&
-                   change_for_route(me_.preferred_offset < 0 ? adjacent.left : adjacent.right, me_.to_next_line_m);
+                   change_for_route(change.lane_changes < 0 ? adjacent.left : adjacent.right, change.urgency());
         }
         if (since_change_s_ < model_.lane_change.pause_s) return false;
         return change_for_speed(adjacent.right, adjacent.left);
@@ -150,8 +127,10 @@ public:
 
 private:
     double time_since_change_s(int slot) const {
-        return model_.time_s(state_.tick - state_.vehicles.record[at(slot)].lane_change_tick);
+        return model_.time_s(state_.tick - state_.vehicles.lane_memory[at(slot)].change_tick);
     }
+
+    double remembered_mps() const { return state_.vehicles.lane_memory[at(me_.slot)].remembered_mps; }
 
     int route_on(int lane) const { return state_.plan.adjacent(lane).turn_option(me_.turn).route; }
 
@@ -160,11 +139,19 @@ private:
                              me_.length_m, route_on(other));
     }
 
-    bool change_for_route(int other, double to_line_m) {
+    // The memory of the speed fades, so that a vehicle in a queue looks for a gap later than one that drives.
+    void remember_speed() {
+        constexpr double kMemory_s = 10.0;
+        float& remembered_mps = state_.vehicles.lane_memory[at(me_.slot)].remembered_mps;
+        const double faded_mps = remembered_mps + (me_.speed_mps - remembered_mps) * (kDecisionInterval_s / kMemory_s);
+        remembered_mps = static_cast<float>(std::max(me_.speed_mps, faded_mps));
+    }
+
+    bool change_for_route(int other, double urgency) {
         if (other < 0 || !can_move_beside(model_, me_, adjacent_position_m(state_, me_.lane, me_.front_m, other)))
             return false;
         const LaneNeighbours there = neighbours_on(other);
-        if (!gaps_suffice(model_, me_, there, urgent_share(model_, to_line_m))) return false;
+        if (!gaps_suffice(model_, me_, there, urgent_share(model_, urgency))) return false;
         change_to(other, there, true);
         return true;
     }
@@ -174,12 +161,13 @@ private:
     bool may_change_for_speed(int other) const {
         if (other < 0 || !can_move_beside(model_, me_, adjacent_position_m(state_, me_.lane, me_.front_m, other)))
             return false;
-        const VehicleRecord& vehicle = state_.vehicles.record[at(me_.slot)];
-        if (other == vehicle.lane_before_change && since_change_s_ < kReturnPause_s) return false;
-        if (changes_after(state_, other, me_.turn, vehicle) > changes_after(state_, me_.lane, me_.turn, vehicle))
+        if (other == state_.vehicles.lane_memory[at(me_.slot)].lane_before && since_change_s_ < kReturnPause_s)
+            return false;
+        if (later_changes(model_, state_, other, me_.slot).in_total >
+            later_changes(model_, state_, me_.lane, me_.slot).in_total)
             return false;
         const int changes = std::abs(state_.plan.adjacent(other).turn_option(me_.turn).lane_changes);
-        return route_on(other) >= 0 || me_.to_line_m > model_.lane_change.strategic_m * changes;
+        return route_on(other) >= 0 || me_.to_line_m > look_ahead_m(model_, me_, remembered_mps(), changes);
     }
 
     bool change_for_speed(int right, int left) {
@@ -233,10 +221,9 @@ private:
         const int from = me_.slot - state_.blocks[at(me_.lane)].first;
         const int slot = move_to_lane(model_, state_, me_.lane, from, other, there.index,
                                       adjacent_position_m(state_, me_.lane, me_.front_m, other));
-        VehicleRecord& record = v.record[at(slot)];
-        record.lane_change_tick = static_cast<int>(state_.tick);
-        record.lane_before_change = me_.lane;
-        record.accepted_gap_on = -1;
+        v.lane_memory[at(slot)].change_tick = static_cast<int>(state_.tick);
+        v.lane_memory[at(slot)].lane_before = me_.lane;
+        v.record[at(slot)].accepted_gap_on = -1;
         adopt_lane_route(model_, state_, other, slot);
         reset_leader(state_.vehicles, slot, state_.blocks[at(other)]);
         reset_leader(state_.vehicles, slot + 1, state_.blocks[at(other)]);
@@ -268,18 +255,37 @@ LaneChangeRequest lane_change_request(const Model& model, const State& state, in
     me.turn = state.plan.turn_of(v.record[at(slot)].route);
     me.lane_changes = state.plan.adjacent(lane).turn_option(me.turn).lane_changes;
     me.to_line_m = state.plan.lane(lane).stop_line_m - model.driver.stop.margin_m - me.front_m;
-    const Turn following = v.record[at(slot)].following_turn;
-    if (me.lane_changes != 0 || following == Turn::none) return me;
-    me.preferred_offset = find_preferred_offset(state, lane, me.turn, v.record[at(slot)]);
-    const int exit = state.plan.route(v.record[at(slot)].route).back();
-    me.to_next_line_m = me.to_line_m + state.plan.adjacent(exit).start_offset_m + state.plan.lane(exit).stop_line_m;
+    const VehicleRecord& record = v.record[at(slot)];
+    const LaneChangeMemory& memory = v.lane_memory[at(slot)];
+    if (me.lane_changes != 0 || memory.preferred_offset == 0) return me;
+    me.preferred_offset = memory.preferred_offset;
+    const int exit = state.plan.route(record.route).back();
+    const auto length_to_line_m = [&](int next) {
+        return state.plan.adjacent(next).start_offset_m + state.plan.lane(next).stop_line_m;
+    };
+    me.to_preferred_line_m = me.to_line_m + length_to_line_m(exit);
+    if (memory.preferred_for_third) {
+        const int route = state.plan.route_with(model.graph.lanes[at(exit)].approach, record.following_turn);
+        me.to_preferred_line_m += length_to_line_m(state.plan.route(route).back());
+    }
     return me;
 }
 
-double urgent_share(const Model& model, double to_line_m) {
+MandatoryChange mandatory_change(const Model& model, const State& state, const LaneChangeRequest& me) {
+    MandatoryChange change;
+    change.lane_changes = me.lane_changes != 0 ? me.lane_changes : me.preferred_offset;
+    if (change.lane_changes == 0) return change;
+    change.look_ahead_m =
+        look_ahead_m(model, me, state.vehicles.lane_memory[at(me.slot)].remembered_mps, change.lane_changes);
+    const double distance_m = me.lane_changes != 0 ? me.to_line_m : me.to_preferred_line_m;
+    change.usable_m = distance_m - queue_on_target_m(state, me, change.lane_changes);
+    if (change.usable_m >= change.look_ahead_m) change.lane_changes = 0;
+    return change;
+}
+
+double urgent_share(const Model& model, double urgency) {
     const LaneChangeSettings& c = model.lane_change;
-    const double near = std::clamp(1.0 - to_line_m / c.urgent_m, 0.0, 1.0);
-    return c.gap_share + near * (c.urgent_gap_share - c.gap_share);
+    return c.gap_share + urgency * (c.urgent_gap_share - c.gap_share);
 }
 
 double waiting_position_m(const Model& model, const State& state, const LaneChangeRequest& me) {
@@ -300,7 +306,8 @@ void change_lanes(const Model& model, State& state) {
             const int slot = block.first + place;
             const VehicleRecord& record = state.vehicles.record[at(slot)];
             const bool decides_now = (state.tick + state.vehicles.id[at(slot)]) % interval_ticks == 0 &&
-                                     record.lane_change_tick != state.tick && record.route >= 0;
+                                     state.vehicles.lane_memory[at(slot)].change_tick != state.tick &&
+                                     record.route >= 0;
             if (!decides_now || !LaneChangeDecision(model, state, lane, slot).execute()) ++place;
         }
     }

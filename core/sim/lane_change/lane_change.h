@@ -10,6 +10,8 @@
 // intelligent driver model with the gap of the policy gives the accelerations.
 #pragma once
 
+#include <algorithm>
+
 #include "sim/perception/lane_gaps.h"
 
 namespace stopline {
@@ -24,19 +26,30 @@ struct LaneChangeRequest {
     int policy = 0;
     Turn turn = Turn::none;
     int lane_changes = 0;    // lane changes required before the stop line; below 0: to the left; 0: none
-    double to_line_m = 0.0;  // distance to the position where the vehicle would stop before the line
-    // The two members below are set if no lane change is required before the stop line and the vehicle's turn at the
-    // second intersection ahead is known. preferred_offset is the number of lanes to the best lane, from which the
-    // vehicle needs the fewest lane changes after the first intersection; below 0: to the left.
+    double to_line_m = 0.0;  // distance to the stopping position before the line
+    // The last two members are set if no lane change is required and another lane suits the later turns better
+    // (preferred_lane.h). An offset below 0 means to the left.
     int preferred_offset = 0;
-    double to_next_line_m = 0.0;  // distance to the stop line of the second intersection ahead
+    double to_preferred_line_m = 0.0;  // distance to the stop line of the turn for which the other lane is better
 };
 // Returns the request of the vehicle in `slot` of `lane`.
 LaneChangeRequest lane_change_request(const Model& model, const State& state, int lane, int slot);
 
-// Returns the argument `share` of required_gap_m() for a mandatory change. Near the stop line a change is more urgent,
-// so vehicles accept a smaller part of their policy's gap there.
-double urgent_share(const Model& model, double to_line_m);
+// A mandatory change, or a change for the turn at the second intersection ahead.
+struct MandatoryChange {
+    int lane_changes = 0;       // number of lane changes; below 0: to the left; 0: none is due
+    double usable_m = 0.0;      // distance to the stop line before which they must be done, minus the queue
+    double look_ahead_m = 0.0;  // usable distance below which the vehicle looks for a gap
+
+    // Returns how urgent the change is: 0 where the search for a gap begins, 1 where no usable distance is left.
+    double urgency() const { return std::clamp(1.0 - usable_m / look_ahead_m, 0.0, 1.0); }
+};
+// Returns the change for which a vehicle has to look for a gap now.
+MandatoryChange mandatory_change(const Model& model, const State& state, const LaneChangeRequest& me);
+
+// Returns the argument `share` of required_gap_m() for a mandatory change. Vehicles accept a smaller share of their
+// policy's gap for an urgent change.
+double urgent_share(const Model& model, double urgency);
 
 // Returns the position where a vehicle waits before the stop line to change lanes, m from the start of the lane.
 // Left-bound vehicles wait nearer to the stop line than right-bound ones. Two vehicles that want to swap lanes thus do

@@ -1,5 +1,5 @@
-// Chooses two things for each vehicle: the route that begins on its current lane, and its following turn, the turn at
-// the second intersection ahead.
+// Chooses two things for each vehicle: the route that begins on its current lane, and its turns at the second and third
+// intersection ahead.
 #include "sim/lane_change/route_choice.h"
 
 #include <algorithm>
@@ -8,8 +8,10 @@
 #include <cstdint>
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include "base/containers/index.h"
+#include "sim/lane_change/preferred_lane.h"
 
 namespace stopline {
 
@@ -49,6 +51,16 @@ int best_parallel_route(const Model& model, const State& state, int route, int s
     return route;
 }
 
+// Draws a turn at the intersection to which a route leads. Returns Turn::none if there is no such intersection.
+Turn draw_turn_beyond(const Model& model, State& state, int route, bool chose_lane) {
+    const int exit = state.plan.route(route).back();
+    if (model.graph.lanes[at(exit)].approach < 0) return Turn::none;
+    const int inlet = state.insertion.inlet_of[at(exit)];
+    if (inlet < 0) return Turn::none;
+    const std::int64_t k = state.insertion.inlets[at(inlet)].entered++;
+    return state.plan.turn_of(draw_route(model, state, inlet, k, chose_lane));
+}
+
 }  // namespace
 
 void set_route_index(State& state, int slot, int index) {
@@ -75,16 +87,19 @@ int draw_route(const Model& model, State& state, int inlet, std::int64_t k, bool
     return route;
 }
 
-void draw_following_turn(const Model& model, State& state, int slot, bool chose_lane) {
+void draw_later_turns(const Model& model, State& state, int lane, int slot, bool chose_lane) {
     VehicleRecord& record = state.vehicles.record[at(slot)];
-    record.following_turn = Turn::none;
-    const int exit = state.plan.route(record.route).back();
-    if (model.graph.lanes[at(exit)].approach < 0 || model.lane_change.look_ahead == "off") return;
-    const int inlet = state.insertion.inlet_of[at(exit)];
-    if (inlet < 0) return;
-    const std::int64_t k = state.insertion.inlets[at(inlet)].entered++;
-    const int route = draw_route(model, state, inlet, k, chose_lane);
-    record.following_turn = state.plan.turn_of(route);
+    if (model.lane_change.look_ahead == "off") return;
+    if (record.following_turn == Turn::none) {
+        record.following_turn = draw_turn_beyond(model, state, record.route, chose_lane);
+    }
+    if (record.following_turn != Turn::none) {
+        const int exit = state.plan.route(record.route).back();
+        const int next_route = state.plan.route_with(model.graph.lanes[at(exit)].approach, record.following_turn);
+        state.vehicles.lane_memory[at(slot)].third_turn =
+            next_route < 0 ? Turn::none : draw_turn_beyond(model, state, next_route, false);
+    }
+    update_preferred_lane(model, state, lane, slot);
 }
 
 void enter_trip_edge(const Model& model, State& state, int lane, int slot, int trip_edge) {
@@ -110,12 +125,15 @@ void choose_next_route(const Model& model, State& state, int lane, int slot) {
     record.route = known_route >= 0
                        ? known_route
                        : draw_route(model, state, inlet, state.insertion.inlets[at(inlet)].entered++, false);
+    Turn& third_turn = state.vehicles.lane_memory[at(slot)].third_turn;
+    record.following_turn = std::exchange(third_turn, Turn::none);
     adopt_lane_route(model, state, lane, slot);
-    draw_following_turn(model, state, slot, false);
+    draw_later_turns(model, state, lane, slot, false);
 }
 
 void adopt_lane_route(const Model& model, State& state, int lane, int slot) {
     VehicleRecord& record = state.vehicles.record[at(slot)];
+    update_preferred_lane(model, state, lane, slot);
     const int own = state.plan.adjacent(lane).turn_option(state.plan.turn_of(record.route)).route;
     if (own >= 0) {
         record.route = state.plan.next_parallel_route(own) < 0 ? own : best_parallel_route(model, state, own, slot);

@@ -16,9 +16,10 @@ void set_route_index(State& state, int slot, int route_index);
 // `chose_lane`: true if the vehicle has chosen this lane because of its turn (DemandPlan::Inlet::lane_shares).
 int draw_route(const Model& model, State& state, int inlet, std::int64_t k, bool chose_lane);
 
-// Draws the following turn of a vehicle: the turn at the second intersection ahead. Sets the turn to none if there is
-// no such intersection or if LaneChangeSettings::look_ahead is off. `chose_lane`: see draw_route().
-void draw_following_turn(const Model& model, State& state, int slot, bool chose_lane);
+// Draws the turns of a vehicle at the second and third intersection ahead, as far as they are not known yet. Sets the
+// preferred lane for them. A turn stays Turn::none if there is no such intersection or if the driver does not look
+// ahead. `chose_lane`: see draw_route().
+void draw_later_turns(const Model& model, State& state, int lane, int slot, bool chose_lane);
 
 // Gives a vehicle that has reached the start of `lane` its next route. Does nothing if no route begins on this lane.
 void choose_next_route(const Model& model, State& state, int lane, int slot);

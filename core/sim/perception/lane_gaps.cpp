@@ -67,17 +67,21 @@ Neighbour follower_upstream(const Model& model, const State& state, int lane, do
 
 }  // namespace
 
+int vehicles_ahead(const State& state, int lane, double front_m) {
+    const LaneBlock& block = state.blocks[at(lane)];
+    const double* const first = state.vehicles.position_m.data() + block.first;
+    const double* const behind =
+        std::partition_point(first, first + block.count, [=](double position_m) { return position_m >= front_m; });
+    return static_cast<int>(behind - first);
+}
+
 LaneNeighbours neighbours_at(const Model& model, const State& state, int lane, double front_m, double length_m,
                              int route) {
     const VehicleArrays& v = state.vehicles;
     const LaneBlock& block = state.blocks[at(lane)];
-    const double* const positions = v.position_m.data();
     LaneNeighbours found;
-    const double* const end = positions + block.past_last();
-    const double* const behind =
-        std::partition_point(positions + block.first, end, [=](double position_m) { return position_m >= front_m; });
-    const auto slot = static_cast<int>(behind - positions);
-    found.index = slot - block.first;
+    found.index = vehicles_ahead(state, lane, front_m);
+    const int slot = block.first + found.index;
     found.leader = found.index == 0 ? leader_beyond_lane(state, lane, front_m, route)
                                     : neighbour(v, slot - 1, rear_m(v, slot - 1) - front_m);
     found.follower = found.index == block.count ? follower_upstream(model, state, lane, front_m - length_m)

@@ -27,6 +27,9 @@ struct LaneNeighbours {
 LaneNeighbours neighbours_at(const Model& model, const State& state, int lane, double front_m, double length_m,
                              int route);
 
+// Returns the number of vehicles on a lane whose front is at `front_m` or further downstream.
+int vehicles_ahead(const State& state, int lane, double front_m);
+
 // Returns the position on the adjacent lane `other` that lies beside `front_m` of `lane`.
 inline double adjacent_position_m(const State& state, int lane, double front_m, int other) {
     return front_m + state.plan.adjacent(lane).start_offset_m - state.plan.adjacent(other).start_offset_m;

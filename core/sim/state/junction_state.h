@@ -54,9 +54,9 @@ struct JunctionState {
     std::vector<YieldStops> yield_stops;  // [lane]
     std::vector<char> has_yield_stops;    // [lane] 1: the lane has yield stops
     // Sets of connections. The bit of a connection in these sets is its LanePlan::bitset_index.
-    Bitset occupied;      // connections with occupants
-    Bitset with_stopped;  // connections with an occupant slower than kCrawlingSpeed_mps
-    Bitset to_decide;     // connections on which right of way must be decided in this step
+    Bitset occupied;                      // connections with occupants
+    Bitset with_stopped;                  // connections with an occupant slower than kCrawlingSpeed_mps
+    Bitset to_decide;                     // connections on which right of way must be decided in this step
     std::int64_t next_priority_tick = 0;  // tick at which right of way changes next with the phase of a signal
 };
 

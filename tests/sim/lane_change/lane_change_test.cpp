@@ -161,7 +161,8 @@ TEST_P(LaneChanging, IsSymmetricInLeftAndRight) {
     TrackPlan plan = plan_of(GetParam(), 3);
     // Only mandatory lane changes occur. A discretionary change is not symmetric: it prefers the right of two equal
     // lanes.
-    plan.overrides.emplace_back("driver.lane_change.strategic_distance=1000 m");
+    plan.overrides.emplace_back("driver.lane_change.look_ahead_time=1000 s");
+    plan.overrides.emplace_back("driver.lane_change.left_factor=1");
     Track one(parallel_lanes(plan));
     Track other(parallel_lanes(plan, true));
     for (Track* track : {&one, &other}) {

@@ -75,8 +75,8 @@ public:
     }
     // Returns the conflict areas of a connection, in the order from its start to its end.
     std::span<const Conflict> conflicts(int lane) const { return conflicts_.of(lane); }
-    // Sets which of two connections yields at their conflict area. This is the only part of the plan that changes during
-    // a run: right of way can change with the phases of a signal.
+    // Sets which of two connections yields at their conflict area. This is the only part of the plan that changes
+    // during a run: right of way can change with the phases of a signal.
     void set_priority(int first, int second, Priority priority);
     // Returns the connections that share a conflict area with connection `lane`, as masks for the bitsets.
     std::span<const BitsetMask> conflicting(int lane) const { return conflicting_.of(lane); }
@@ -91,8 +91,7 @@ public:
     template <class Visit>
     void for_each_memory_range(int lane, Visit visit) const {
         const auto element = [&](const auto& array) { visit(array.data() + lane, array.data() + lane + 1); };
-        element(lanes_), element(diverges_), element(movement_groups_), element(may_wait_inside_),
-            element(stop_rules_);
+        element(lanes_), element(diverges_), element(movement_groups_), element(may_wait_inside_), element(stop_rules_);
         next_.visit_memory(lane, visit), conflicting_.visit_memory(lane, visit), conflicts_.visit_offsets(lane, visit);
         for (const TurnOption& option : adjacent(lane).turn_options) {
             if (option.route >= 0) routes_.visit_memory(option.route, visit);

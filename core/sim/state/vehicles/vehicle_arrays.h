@@ -12,6 +12,7 @@
 #include "base/simd/huge_page_allocator.h"
 #include "base/simd/simd.h"
 #include "sim/state/vehicles/lane_block.h"
+#include "sim/state/vehicles/lane_change_memory.h"
 #include "sim/state/vehicles/vehicle_record.h"
 #include "vehicle/powertrain_tables.h"
 
@@ -54,6 +55,7 @@ struct VehicleArrays {
     // Next lane of the route. -1: the vehicle leaves the network from its present lane, or must change lanes.
     LargeArray<int> next_lane;
     LargeArray<VehicleRecord> record;
+    LargeArray<LaneChangeMemory> lane_memory;
     LargeArray<int> stopped_since;  // latest tick at which the vehicle was observed in motion
     LargeArray<float> standstill_gap_m;
     LargeArray<int> type;

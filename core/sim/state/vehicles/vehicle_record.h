@@ -20,19 +20,17 @@ enum class YieldReason : std::uint8_t {
 // The struct fills one cache line. A connection is a lane inside an intersection.
 struct alignas(64) VehicleRecord {
     int route = -1;
-    int route_index = 0;                // index of the current lane in the route
-    int previous_lane = -1;             // lane before the current one; -1: the vehicle was inserted on the current lane
-    int second_previous_lane = -1;      // lane before previous_lane; -1: none
-    int leader_id = -1;                 // id of the vehicle that the radar tracks; -1: none
-    int accepted_gap_on = -1;           // connection on which the vehicle has accepted a gap; -1: none
-    int junction_entry_tick = 0;        // tick at which the vehicle most recently passed a stop line
-    int yield_tick = -2;                // latest tick at which the vehicle had to wait before a conflict area
-    float yield_position_m = 0.0F;      // position where the vehicle had to wait, from the start of the connection
-    Turn following_turn = Turn::none;   // turn at the second intersection ahead; none: unknown or no turn
+    int route_index = 0;               // index of the current lane in the route
+    int previous_lane = -1;            // lane before the current one; -1: the vehicle was inserted on the current lane
+    int second_previous_lane = -1;     // lane before previous_lane; -1: none
+    int leader_id = -1;                // id of the vehicle that the radar tracks; -1: none
+    int accepted_gap_on = -1;          // connection on which the vehicle has accepted a gap; -1: none
+    int junction_entry_tick = 0;       // tick at which the vehicle most recently passed a stop line
+    int yield_tick = -2;               // latest tick at which the vehicle had to wait before a conflict area
+    float yield_position_m = 0.0F;     // position where the vehicle had to wait, from the start of the connection
+    Turn following_turn = Turn::none;  // turn at the second intersection ahead; none: unknown or no turn
     YieldReason yield_reason = YieldReason::priority;  // reason of the wait at yield_tick
-    int lane_change_tick = -1'000'000;  // tick of the most recent lane change
-    int lane_before_change = -1;        // lane that the vehicle left in the most recent lane change; -1: none
-    int trip = -1;                      // index of the trip in the demand; -1: no trip, the turns are drawn
+    int trip = -1;      // index of the trip in the demand; -1: no trip, the turns are drawn
     int trip_edge = 0;  // index of the present edge in the trip; inside an intersection: index of the edge upstream
     int wait_since_tick = 0;  // tick at which the wait at yield_tick began
     int line_stop_tick = -1;  // tick at which the vehicle stopped at the stop line ahead for a stop sign; -1: not yet

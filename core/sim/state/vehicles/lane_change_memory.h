@@ -1,0 +1,19 @@
+// What a vehicle remembers for its next lane changes.
+#pragma once
+
+#include <cstdint>
+
+#include "network/lane_graph.h"
+
+namespace stopline {
+
+struct LaneChangeMemory {
+    int change_tick = -1'000'000;      // tick of the most recent lane change
+    int lane_before = -1;              // lane that the vehicle left in the most recent lane change; -1: none
+    float remembered_mps = 0.0F;       // highest recent speed, which fades within seconds
+    Turn third_turn = Turn::none;      // turn at the third intersection ahead; none: not known yet, or a trip
+    std::int8_t preferred_offset = 0;  // offset to the lane that suits the later turns best; below 0: to the left
+    bool preferred_for_third = false;  // the preferred lane is for the third turn only, not for the following one
+};
+
+}  // namespace stopline
