@@ -141,12 +141,13 @@ private:
             if (merges) {
                 if (!is_beyond_decision) keep_nearer(merging_wait(conflict, is_empty), behind);
             } else if (const Wait wait = blocked_wait(conflict, is_empty, checks_committed, is_far); wait.exists()) {
-                if (!clears_area_in_time(conflict, wait.blocker)) return wait;
+                if (!clears_area_in_time(conflict, wait.blocker)) return nearer(wait, behind);
                 keep_nearer({wait_m(conflict), wait.blocker, YieldReason::merging}, behind);
             }
             if (conflict.yields && !has_decided_ && !is_beyond_decision && v_.front_m <= conflict.from_m) {
                 const GapBlocker blocker = ahead >= 0 ? GapBlocker{ahead} : gap_blocker(conflict);
-                if (blocker.slot >= 0) return {std::min(wait_m(conflict), line_m_), blocker.slot, blocker.reason};
+                if (blocker.slot >= 0)
+                    return nearer({std::min(wait_m(conflict), line_m_), blocker.slot, blocker.reason}, behind);
                 has_decided_ = true;
             }
         }
@@ -156,9 +157,8 @@ private:
     bool waits_at_line() const { return line_m_ < kNoWait_m; }
     double wait_m(const Conflict& conflict) const { return conflict.from_m - model_.give_way.margin_m; }
 
-    static void keep_nearer(const Wait& wait, Wait& nearest) {
-        if (wait.place_m < nearest.place_m) nearest = wait;
-    }
+    static const Wait& nearer(const Wait& a, const Wait& b) { return b.place_m < a.place_m ? b : a; }
+    static void keep_nearer(const Wait& wait, Wait& nearest) { nearest = nearer(nearest, wait); }
 
     // Returns true if the candidate waits at the stop line and can stop there. Returns false if vehicles may wait
     // inside the intersection on this connection. `line_m`: waiting position at the line.
@@ -260,12 +260,14 @@ private:
     // conflict area that it has not reached yet. Areas shared with a connection that has no green now do not count.
     double clear_place_m(double place_m) const {
         const double length_m = arrays_.length_m[at(v_.slot)];
-        const double stopping_m = v_.stopped ? 0.0 : comfortable_braking_distance_m(model_, speed_mps_);
+        // A vehicle that brakes for such a position may deviate slightly from the curve of a comfortable stop.
+        const double stopping_m =
+            v_.stopped ? 0.0 : braking_distance_m(speed_mps_, 0.0, model_.driver.cacc.deceleration_comfort_mps2);
         const std::span<const Conflict> conflicts = state_.plan.conflicts(lane_);
         for (std::size_t k = conflicts.size(); k-- > 0;) {
             const Conflict& conflict = conflicts[k];
             const bool would_block = conflict.from_m < place_m && conflict.to_m > place_m - length_m;
-            if (!would_block || v_.front_m > conflict.from_m || wait_m(conflict) - v_.front_m < stopping_m) continue;
+            if (!would_block || conflict.from_m - v_.front_m < stopping_m) continue;
             const int origin = state_.plan.lane(conflict.other).origin;
             const int group = state_.plan.signal_group_for(origin, conflict.other);
             if (state_.stop_lines.lights[at(group)] == Light::green) place_m = wait_m(conflict);

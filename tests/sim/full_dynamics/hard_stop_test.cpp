@@ -28,7 +28,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Law{"switch_steep",
                         "law: switch_distance, switch_speed: 30 km/h, reference_speed: 31 km/h, "
                         "reference_gap: 16 m"}),
-    [](const testing::TestParamInfo<Law>& info) { return std::string(info.param.name); });
+    [](const testing::TestParamInfo<Law>& law) { return std::string(law.param.name); });
 
 // Vehicles start from a queue. The light turns red when the platoon has reached its speed. The first vehicle that can
 // stop brakes as hard as it can.
