@@ -12,7 +12,8 @@
 //     yield. The gap is checked again while the vehicle can still stop comfortably, because a stopped vehicle with
 //     priority may start.
 //   - If neither connection has priority (movements of different signal groups), the vehicle that was the first to pass
-//     its stop line drives first. If two vehicles wait for each other, one of them proceeds (DeadlockResolution).
+//     its stop line drives first, unless the other one cannot stop before the area. If two vehicles wait for each other,
+//     one of them proceeds (DeadlockResolution).
 // The pass-blocker rule (driver/traffic_rules.h) lets a vehicle pass a vehicle that has been stopped inside the
 // intersection for a long time.
 #include "sim/junction/right_of_way.h"
@@ -55,6 +56,21 @@ bool may_pass(const Model& model, State& state, Partition& part, int vehicle, in
     return true;
 }
 
+// Returns true if the candidate can stop comfortably before the conflict area.
+bool can_wait_before(const Model& model, const State& state, const Conflict& conflict, const Candidate& v) {
+    const double room_m = conflict.from_m - model.give_way.margin_m - v.front_m;
+    return comfortable_braking_distance_m(model, state.vehicles.speed_mps[at(v.slot)]) <= room_m;
+}
+
+// Returns true if a vehicle on connection `conflict.other` can stop before the conflict area with maximum braking.
+bool can_stop_before(const Model& model, const State& state, const JunctionOccupant& occupant,
+                     const Conflict& conflict) {
+    constexpr double kResponse_s = 0.3;  // lag of the brake, and time for the request to change
+    const double speed_mps = state.vehicles.speed_mps[at(occupant.slot)];
+    const double response_m = model.meso ? 0.0 : kResponse_s * speed_mps;
+    return emergency_braking_distance_m(model, speed_mps) + response_m <= conflict.other_from_m - occupant.front_m;
+}
+
 // Returns true if an occupant of connection `conflict.other` keeps candidate `v` out of the conflict area. The gap to
 // approaching vehicles with priority is checked elsewhere (find_gap_blocker()).
 bool blocks_area(const Model& model, State& state, Partition& part, int lane, const Conflict& conflict,
@@ -68,8 +84,9 @@ bool blocks_area(const Model& model, State& state, Partition& part, int lane, co
         return state.vehicles.record[at(occupant.slot)].accepted_gap_on == conflict.other &&
                !is_yielding_before(state, occupant.slot, conflict.other_from_m);
     }
-    // Neither connection has priority. If both vehicles wait for each other, a deadlock resolution decides which one
-    // proceeds.
+    // Neither connection has priority. A vehicle that can wait lets one pass that cannot stop any more.
+    if (can_wait_before(model, state, conflict, v) && !can_stop_before(model, state, occupant, conflict)) return true;
+    // If both vehicles wait for each other, a deadlock resolution decides which one proceeds.
     if (find_resolution(state, part, occupant.slot, v.slot) != nullptr) return true;
     if (DeadlockResolution* const resolution = find_resolution(state, part, v.slot, occupant.slot)) {
         resolution->last_needed_tick = state.tick;  // keeps the resolution from expiring
