@@ -12,8 +12,8 @@
 //     yield. The gap is checked again while the vehicle can still stop comfortably, because a stopped vehicle with
 //     priority may start.
 //   - If neither connection has priority (movements of different signal groups), the vehicle that was the first to pass
-//     its stop line drives first, unless the other one cannot stop before the area. If two vehicles wait for each other,
-//     one of them proceeds (DeadlockResolution).
+//     its stop line drives first, unless the other one cannot stop before the area. If two vehicles wait for each
+//     other, one of them proceeds (DeadlockResolution).
 // The pass-blocker rule (driver/traffic_rules.h) lets a vehicle pass a vehicle that has been stopped inside the
 // intersection for a long time.
 #include "sim/junction/right_of_way.h"
