@@ -63,9 +63,9 @@ STOPLINE_INLINE void gather_at(const FullStreams& s, const DelayRows& radar, con
     if (s.type != nullptr) std::memcpy(g.type + k, s.type + i, kWidthOf<R> * sizeof(int));
 }
 
-// Calls treat(number, i) for each batch of a lane; i is the first slot of the batch. The type of `number` tells treat()
-// the width of the batch. If R has 16 numbers or more and the remaining vehicles fit into half a batch, the last batch
-// has half the width.
+// Divides the vehicles of a lane into batches and calls treat(number, i) for each batch; i is the first slot of the
+// batch. The type of `number` tells treat() the width of the batch. If R has 16 numbers or more and the last vehicles
+// fit into half a batch, the last batch has half the width.
 template <class R, class Treat>
 STOPLINE_INLINE void for_each_batch(const LaneStep& lane, Treat treat) {
     int i = lane.begin;
@@ -184,7 +184,7 @@ STOPLINE_INLINE void plan_at(const DriverTablesOf<float>& d, const FullGroup& g,
     const R follow = follow_acceleration(c, speed, acceleration, lag, rate, last_request, desired_gap, gap_growth_m,
                                          get(g.slope), p, dt);
     const R emergency = min_of(emergency_acceleration(c, speed, p), keep_room_acceleration(c, speed, gap_growth_m, p));
-    // Stopping behind a leader that is about to stop. g.demand holds the demands of stop lines and conflict areas.
+    // Stopping behind a leader that is about to stop. Stops for a stop line or for yielding are already in g.demand.
     const R behind = stop_behind_acceleration(d, speed, standstill_gap, p);
 
     // The lowest acceleration applies. A platoon leader becomes a follower when the acceleration for following no
@@ -202,8 +202,8 @@ STOPLINE_INLINE void plan_at(const DriverTablesOf<float>& d, const FullGroup& g,
     const R held = STOPLINE_FLAG(R, speed <= kBrakeHoldSpeed_mps) * STOPLINE_FLAG(R, request <= kStart_mps2);
     store(g.mean_request + k, choose(held, splat<R>(kHold_mps2), 0.5 * (last_request + request)));
     store(g.is_platoon_leader + k, is_platoon_leader);
-    // The V2V message describes the end of this step, when the request takes effect. `acceleration` is the mean
-    // acceleration over the previous step. The first-order lag extrapolates it to the end of this step.
+    // The V2V message describes the end of this step, when the request takes effect. `acceleration` is the mean over
+    // the previous step, whose middle is 1.5 steps earlier. The first-order lag extrapolates it over these 1.5 steps.
     const R reached = min_of(1.5 * dt * rate, 1.0);
     store(g.sent_acceleration + k, acceleration + (request - acceleration) * reached);
     store(g.sent_rate + k, rate);
