@@ -10,8 +10,8 @@
 // transform. In the time domain, the request u is given by
 //     CTG  (h > 0):  h du/dt = -u + kp e + kd de/dt + a_p + (tau / tau_p) (u_p - a_p)
 //     CDG  (h = 0):        u =      kp e + kd de/dt + predictive_feedforward(...)
-// (Ploeg et al. 2011, reference [31] of the paper.) The factor tau / tau_p inverts the lag of the vehicle and applies
-// the lag of the leader, because (u_p - a_p) / tau_p is the jerk of the leader.
+// (Ploeg et al. 2011, reference [31] of the paper.) The last term of CTG is tau times the jerk of the leader, because
+// this jerk is (u_p - a_p) / tau_p. The term compensates the lag tau of the own powertrain.
 #pragma once
 
 #include <array>
@@ -147,7 +147,8 @@ inline constexpr double kStoppingLeaderBraking_mps2 = 0.2;
 
 // Returns the acceleration for a stop behind a leader that is about to stop, or kUnconstrained_mps2 for any other
 // leader. A leader is about to stop if it is slower than kStoppingLeader_mps and requests a deceleration of at least
-// kStoppingLeaderBraking_mps2. A stopped leader is treated as about to stop until it requests a positive acceleration.
+// kStoppingLeaderBraking_mps2. Below 1 m/s this threshold falls linearly to 0. A stopped leader thus counts as about to
+// stop until it requests a positive acceleration.
 template <class R, class Number>
 STOPLINE_INLINE R stop_behind_acceleration(const DriverTablesOf<Number>& d, const R& speed_mps,
                                            const R& standstill_gap_m, const LeaderView<R>& p) {

@@ -7,7 +7,8 @@
 
 namespace stopline {
 
-// Settings that kernels read are templates over the number type, so that kernels can use float (base/simd/narrowed.h).
+// Settings that the kernels (the loops over vehicles) read are templates over the number type, so that the kernels can
+// use float (base/simd/narrowed.h).
 
 // Cooperative adaptive cruise control (CACC, Fig. 3 and Fig. 4): gains of the gap feedback, prediction horizon of the
 // feedforward, delays of radar and V2V messages, limits of acceleration and jerk, and emergency braking.
@@ -58,7 +59,7 @@ using StopSettings = StopSettingsOf<double>;
 struct GiveWaySettings {
     double critical_gap_s = 5.0;  // shortest accepted time to the next vehicle with priority
     double margin_m = 0.5;        // distance from a waiting vehicle's front to the conflict area
-    // Acceleration that a yielding driver assumes of approaching vehicles with priority, up to the speed limit.
+    // A yielding driver assumes that approaching vehicles with priority accelerate this much, up to the speed limit.
     double approach_acceleration_mps2 = 2.0;
 };
 
@@ -106,7 +107,7 @@ struct KraussSettings {
     double catch_up_factor = 1.0;    // factor on the acceleration of a vehicle close behind its leader
     double gap_tracking = 0.0;       // 1: keep the time gap behind a leader that draws away; 0: v_safe alone applies
     double anticipation_s = 0.0;     // the speed of an accelerating leader is extrapolated over this time
-    double transient_gap_s2 = 0.0;   // extra gap per acceleration of the leader
+    double transient_gap_s2 = 0.0;   // extra gap per m/s2 of the leader's acceleration
     double deceleration_mps2 = 4.7;  // b, expected deceleration of both vehicles
     double reaction_s = 0.9;         // tau, reaction time
     double standstill_gap_m = 2.95;  // s_0 (minGap in SUMO)
@@ -119,11 +120,13 @@ struct MesoSettings {
     double step_s = 0.1;
     // Speed of a vehicle without leader, as a share of the speed limit (Section V.A of the paper).
     double leader_speed_share = 0.95;
-    double speed_factor = 1.0;     // factor on every speed limit
-    double speed_gain_1ps = 1000;  // largest acceleration: gain x (leader_speed_share x limit - speed)
-    // The acceleration before a turn is this gain times (safe speed - own speed), minus the braking for the turn. The
-    // safe speed is the highest speed that still allows braking in time. With 1000, the vehicle takes the safe speed at
-    // once.
+    double speed_factor = 1.0;  // factor on every speed limit
+    // The acceleration is at most this gain x (limit - speed). Without a leader, leader_speed_share x limit replaces
+    // the limit.
+    double speed_gain_1ps = 1000;
+    // Speed control before a turn: the acceleration is at most this gain x (allowed speed - speed), minus the
+    // deceleration for the turn. The allowed speed is the highest speed from which the vehicle can still brake to the
+    // turn speed in time. With 1000, the vehicle takes the allowed speed at once.
     double turn_gain_1ps = 1000;
     // Acceleration of platoon leaders. leader_mps2 applies up to the constant-power speed. If leader_mps2 is 0, platoon
     // leaders accelerate as in the car-following model of their policy. A profile (speeds, and the accelerations at
@@ -132,8 +135,8 @@ struct MesoSettings {
     double leader_constant_power_speed_mps = 500.0 / 3.6;
     std::vector<double> leader_profile_mps;
     std::vector<double> leader_profile_mps2;
-    // When a queue starts, number of additional stopped vehicles that a V2V start message reaches in one step. Only
-    // vehicles with the constant-distance model receive it.
+    // When a queue starts, the next vehicle starts behind its leader. In the same step, a V2V start message reaches
+    // this number of stopped vehicles behind it. Only vehicles with the constant-distance model receive the message.
     int start_relay_vehicles = 0;
     double start_delay_s = 0.0;  // start-up delay of the first vehicle at a stop line, due to its powertrain
     KraussSettings constant_time;

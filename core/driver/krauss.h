@@ -25,9 +25,9 @@
 // The following extensions are off in the models of the paper:
 //   constant power   a(v) = a min(1, v_p / v); in the paper v_p is above all speed limits
 //   anticipation     behind a leader that accelerates with a_l, v_l + T a_l replaces v_l
-//   transient gap    s_0 grows with a_l
-//   gap tracking     see track_time_gap()
-//   catching up      a larger a close behind the leader
+//   transient gap    s_0 grows in proportion to a_l
+//   gap tracking     the vehicle keeps its time gap even behind a faster leader, see track_time_gap()
+//   catching up      the maximum acceleration a is larger close behind the leader
 #pragma once
 
 #include <array>
@@ -46,7 +46,7 @@ namespace stopline {
 struct Krauss {
     double acceleration_mps2 = 0.0;         // a, maximum acceleration
     double constant_power_speed_mps = 1e9;  // v_p, speed from which on the power is constant
-    // Extra gap per acceleration of the leader; not used if the leader brakes.
+    // Extra gap per m/s2 of the leader's acceleration; not used if the leader brakes.
     double transient_gap_s2 = 0.0;
     double catch_up_factor = 1.0;         // factor on the acceleration close behind the leader
     double gap_tracking = 0.0;            // 0 .. 1, see track_time_gap()

@@ -1,6 +1,6 @@
 // SWITCH-2: up to the switch speed, the desired gap is the standstill gap. Above this speed, the gap grows linearly and
-// reaches the reference gap at the reference speed. In the paper, the reference gap is the gap of CTG-Ref (Section
-// III.C.3).
+// reaches the reference gap at the reference speed. In the paper, the reference gap is the gap of the policy CTG-Ref
+// at the reference speed (Section III.C.3).
 #include "spacing_laws/gap_policy.h"
 
 namespace stopline {

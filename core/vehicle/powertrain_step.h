@@ -48,8 +48,8 @@ STOPLINE_INLINE R torque_lag_s(const PowertrainTablesOf<Number>& t, const R& gea
     return (unloaded + share * (loaded - unloaded)) * of_gear(t.lag_factor, gear);
 }
 
-// Returns 1 if the next gear can provide the requested acceleration, else 0. Without this check, a car would shift down
-// right after each upshift.
+// Returns 1 if the next higher gear can provide the requested acceleration with 95 % of its full-load torque, else 0.
+// Without this check, a car could shift up and right after that down again.
 template <class R, class Number>
 STOPLINE_INLINE R next_gear_suffices(const PowertrainTablesOf<Number>& t, const R& gear, const R& speed_mps,
                                      const R& request_mps2, const R& resistance_N) {
@@ -61,8 +61,9 @@ STOPLINE_INLINE R next_gear_suffices(const PowertrainTablesOf<Number>& t, const 
     return STOPLINE_FLAG(R, torque_Nm <= 0.95 * interpolate_on_grid(t.full_load_Nm, cell));
 }
 
-// Conditions of a gear change. `locked_rpm` is the engine speed with a closed clutch. `share` is the share of full
-// load.
+// The quantities that decide on a gear change. `locked_rpm`: engine speed with a closed clutch. `share`: requested
+// torque as a share of the full-load torque. `wanted_Nm`: torque that the requested acceleration needs; the
+// engine may provide less.
 template <class R>
 struct GearDemand {
     R locked_rpm;
@@ -74,8 +75,9 @@ struct GearDemand {
 };
 
 // Sets the gear of `next` and the time since the last gear change. `s` is the state before the step. The engine speed
-// of the upshift rises with the load. A car shifts down to accelerate (kick-down) if it needs more than 1.5 times the
-// full-load torque. For a smaller need, the torque interruption would cost more than the lower gear gains.
+// of the upshift rises with the load. A car shifts down to accelerate (kick-down) if the requested acceleration needs
+// more than 1.5 times the full-load torque. If it needs less, the torque interruption would cost more than the lower
+// gear gains.
 template <class R, class Number>
 STOPLINE_INLINE void change_gear(const PowertrainTablesOf<Number>& t, const PowertrainState<R>& s,
                                  const GearDemand<R>& demand, double dt, PowertrainState<R>& next) {

@@ -9,7 +9,9 @@
 namespace stopline {
 namespace {
 
-// Right turns need no braking at these turn speeds. Their exit lanes are full, because the next signal is 40 m away.
+// The link between the two intersections is only 41 m long (81.27 m minus twice the radius of 20 m). The queue at the
+// second signal fills it. A right-turning leader hides this queue from a follower that goes straight on into the link.
+// At these turn speeds the leader hardly brakes for its turn, so the follower arrives fast.
 TEST(HiddenLeaders, FollowerStopsForAVehicleHiddenByATurningLeader) {
     for (const char* const turn_speed : {"9 m/s", "12 m/s", "50 km/h"}) {
         const std::string text =

@@ -40,8 +40,8 @@ std::string cell_of(const SweepPlane& plane, const PlanePoint& point, std::size_
     return fmt::format("{} {} {} {}/{}\n", point.x, y, worst, counts[worst], seeds);
 }
 
-// Returns one map for each population. If there is no line axis, returns a single map with the populations as rows, the
-// first one at the top.
+// Returns one map for each population, with the values of the sweep's second axis (`line_axis`) as rows. If the sweep
+// has no second axis, returns a single map with the populations as rows, the first population at the top.
 std::vector<StabilityMap> maps_of(const SweepPlanes& all, const SweepPlane& plane) {
     const bool map_per_population = all.line_axis.exists();
     const std::size_t populations = all.populations.size();

@@ -78,8 +78,9 @@ private:
         }
     }
 
-    // Sets the cause of a vehicle from its direct cause and the cause of its blocker. If the blocker is stopped, the
-    // cause of the blocker must have been set before.
+    // Sets the cause to which the delay of a vehicle is attributed. This is the cause that stops the vehicle itself
+    // (DelayWatch::direct_cause). If there is none, or if the blocker is in a gridlock, it is the cause of the blocker.
+    // The cause of a stopped blocker must have been set before.
     void set_cause(int slot) {
         if (w_.cause[at(slot)] == DelayCause::gridlock) return;
         const int blocker = w_.waits_for[at(slot)];
@@ -93,7 +94,7 @@ private:
         if (w_.cause[at(slot)] == DelayCause::none) w_.cause[at(slot)] = DelayCause::queue_discharge;
     }
 
-    // Records the gridlock that contains the vehicle in slot `start`, and sets the cause of all its members.
+    // Records the gridlock that contains the vehicle in slot `start`. Sets the cause of all vehicles in the gridlock.
     void record_gridlock(int start) {
         std::vector<int> slots;
         int slot = start;
@@ -121,9 +122,8 @@ private:
         gridlocks.push_back(std::move(found));
     }
 
-    // Returns the index of an open gridlock that shares a vehicle with `found`; -1: none. A gridlock is open if it was
-    // observed within the duration of one signal cycle before this step. Ignores gridlocks that have already been
-    // observed in this step.
+    // Returns the index of an open gridlock that shares a vehicle with `found`; -1: none. A gridlock stays open for one
+    // signal cycle after its latest observation. Ignores gridlocks that have already been observed in this step.
     int find_open_gridlock(const Gridlock& found) const {
         std::vector<int> members = found.vehicles;
         std::sort(members.begin(), members.end());
@@ -136,8 +136,9 @@ private:
         return -1;
     }
 
-    // Adds the interval between two observations to the total delay, for each stopped vehicle. If something blocks the
-    // vehicle, or if it has been stopped for long, the interval is also added to the episode of its queue.
+    // For each stopped vehicle, adds the interval between two observations to the total delay. The interval is also
+    // added to the episode of the vehicle's queue if the cause is a blockage (is_blocking()) or if the vehicle has been
+    // stopped for long.
     void add_delays() {
         const double interval_s = model_.time_s(model_.rules.watch_ticks);
         std::array<int, kDelayCauses> vehicles{};
@@ -252,7 +253,8 @@ void prepare_delay_watch(const Model& model, const State& state, DelayWatch& w) 
         w.waits_for.resize(slots), w.direct_cause.resize(slots), w.cause.resize(slots), w.queue_head.resize(slots);
         w.lane.resize(slots), w.vehicle.resize(slots), w.traversal.resize(slots);
     }
-    // The following arrays are indexed by lane, so their contents stay valid when vehicles change slots.
+    // The arrays above are indexed by slot and are filled anew in each observation. The arrays below are indexed by
+    // lane, or by lane and cause, and keep their contents.
     w.last_blockers.resize(model.graph.lanes.size());
     w.open_episode.resize(model.graph.lanes.size() * kDelayCauseNames.size(), -1);
 }

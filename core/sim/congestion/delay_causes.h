@@ -26,7 +26,7 @@ void prepare_delay_watch(const Model& model, const State& state, DelayWatch& wat
 // run for all partitions before.
 void attribute_delays(const Model& model, const State& state, CongestionState& congestion);
 
-// Runs all phases of delay attribution on one thread.
+// Attributes the delays on one thread: lists the stopped vehicles, finds their blockers, and calls attribute_delays().
 void watch_delays(const Model& model, State& state);
 
 }  // namespace stopline

@@ -17,7 +17,7 @@ namespace stopline {
 
 namespace {
 
-// Returns the exit lane of the intersection ahead of a vehicle; -1: no intersection is ahead.
+// Returns the exit lane of the intersection that a vehicle approaches or is crossing; -1: there is no intersection.
 int exit_lane_ahead(const Model& model, const State& state, int lane, int slot) {
     const Route& route = model.graph.routes[at(state.vehicles.record[at(slot)].route)];
     if (route.lanes.size() < 2) return -1;  // the trip ends on this lane
@@ -40,7 +40,8 @@ bool remove_for_teleport(const Model& model, State& state, int lane) {
     const int slot = block.first;
     const int target_lane = exit_lane_ahead(model, state, lane, slot);
     if (target_lane < 0 || congestion.teleporting.past_last() == congestion.teleporting.end) return false;
-    // The removed vehicle no longer counts as upstream of a detector, so the detectors on the lane do not record it.
+    // Each detector counts the vehicles upstream of it on the lane. The removed vehicle is taken out of this count, so
+    // that the detector does not record it as a crossing.
     for (const int detector : state.detectors.on_lane[at(lane)]) {
         int& upstream = state.detectors.upstream[at(detector)];
         upstream = std::min(upstream, block.count - 1);
@@ -60,8 +61,8 @@ bool trip_ends_on_next_edge(const State& state, const VehicleRecord& record) {
     return record.trip >= 0 && state.plan.turn_of_trip(record.trip, record.trip_edge + 1) == Turn::none;
 }
 
-// Returns true if a vehicle on a trip can be reinserted on an empty lane: its net gap to the leader downstream of the
-// lane is then at least its standstill gap.
+// Returns true if a vehicle on a trip can be reinserted on an empty lane. The net gap to the leader, which is further
+// downstream than this lane, must be at least the standstill gap of the vehicle.
 bool has_room_beyond_lane(const Model& model, const State& state, int lane, int slot, double front_m) {
     const VehicleArrays& v = state.vehicles;
     const VehicleRecord& record = v.record[at(slot)];
@@ -88,7 +89,8 @@ bool reinsert_teleported(const Model& model, State& state, int k) {
     const double length_m = v.length_m[at(waiting)];
     double front_m = length_m;
     double speed_mps = lane.limit_mps;
-    if (v.record[at(waiting)].trip >= 0) {  // imported network: the edge can be shorter than the vehicle
+    // Only vehicles in imported networks are on trips. There, the target lane can be shorter than the vehicle.
+    if (v.record[at(waiting)].trip >= 0) {
         if (length_m >= lane.stop_line_m && !trip_ends_on_next_edge(state, v.record[at(waiting)])) return false;
         front_m = std::min(length_m, lane.stop_line_m);
         const double to_line_m = lane.stop_line_m - front_m;
@@ -125,8 +127,8 @@ bool reinsert_teleported(const Model& model, State& state, int k) {
     return true;
 }
 
-// Changes the target lane of a vehicle that waits for reinsertion to the exit lane of the next intersection, if the
-// vehicle has waited for at least the travel time along the present target lane.
+// Moves the target lane of a removed vehicle one intersection further downstream. Does this only if the vehicle has
+// already waited for room on its present target lane for at least the travel time along this lane.
 void advance_target(const Model& model, State& state, int waiting, TeleportTarget& target) {
     const Lane& lane = model.graph.lanes[at(target.lane)];
     const double waiting_s = model.time_s(state.tick - target.waiting_since);

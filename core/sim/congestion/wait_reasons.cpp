@@ -41,8 +41,8 @@ public:
 private:
     bool is_stopped(int slot) const { return v_.speed_mps[at(slot)] < kStoppedSpeed_mps; }
 
-    // Finds the blocker of a stopped vehicle and the direct cause of the wait. The blocker must be stopped, too, with
-    // one exception: if the keep-clear rule holds the vehicle, the blocker may still be moving.
+    // Finds the blocker of a stopped vehicle, and the cause that stops this vehicle itself. A moving vehicle does not
+    // count as a blocker, except if the keep-clear rule holds the stopped vehicle because of it.
     void find_direct_cause(int slot, int lane) {
         if (const YieldStop* const stop = yield_stop_of(slot, lane); stop != nullptr) {
             if (stop->reason == YieldReason::lane_change) return set(slot, -1, DelayCause::wrong_lane);
@@ -97,7 +97,7 @@ private:
         return -1;
     }
 
-    // Returns true if `lane` is a connection to the lane `exit`, or the approach lane of a connection to it.
+    // Returns true if `lane` is a connection to the lane `exit`, or the approach lane of such a connection.
     bool is_exit_of(int lane, int exit) const {
         if (lane == exit) return false;
         const std::vector<int>& connections = model_.connections_to[at(exit)];

@@ -10,8 +10,8 @@ namespace stopline {
 // vehicles of the partition.
 void find_stopped_vehicles(State& state, Partition& part);
 
-// Finds the blocker of each stopped vehicle of a partition, and the direct cause of the wait. All partitions must have
-// listed their stopped vehicles before.
+// Finds the blocker of each stopped vehicle of a partition, and the cause that stops the vehicle itself
+// (DelayWatch::direct_cause). find_stopped_vehicles() must have run for all partitions before.
 void find_wait_reasons(const Model& model, const State& state, DelayWatch& watch, const Partition& part);
 
 }  // namespace stopline

@@ -49,10 +49,10 @@ FullStreams streams_of(const Model& model, State& state) {
     return s;
 }
 
-// Evaluates the desired gap of each vehicle for the speed that it will have at the end of the step, when its request
-// takes effect. The radar delay is also counted back from the end of the step (Model::radar). With the speed at the
-// start of the step, results would depend on the step length. The gap law of each policy is evaluated for the whole
-// group, and each vehicle takes the result of its own policy.
+// Evaluates the desired gap of each vehicle at the end of the step, because its request takes effect at that time. The
+// desired gap therefore depends on the speed at the end of the step. With the speed at the start of the step, results
+// would depend on the step length. The gap law of each policy is evaluated for the whole group, and each vehicle takes
+// the result of its own policy.
 void evaluate_gap_laws(const Model& model, int vehicles, const FullGroup& g) {
     const std::size_t n = at(vehicles);
     const std::span<const double> speed_mps(g.coming_speed, n);

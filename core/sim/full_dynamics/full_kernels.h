@@ -35,7 +35,7 @@ struct FullKernels {
 
     const char* name;
     // Fills the group from the arrays of all vehicles: takes the radar measurements, reads the delayed data about the
-    // leaders and adds the external demands (ExternalDemand).
+    // leaders, and sets FullGroup::demand to the lowest external demand of each vehicle (ExternalDemand).
     void (*gather)(const FullStreams&, const DelayRows& radar, const DelayRows& v2v, const LaneGroup&, double dt,
                    const FullGroup&);
     // Driver: computes the requested accelerations of the first `vehicles` vehicles of the group.

@@ -63,9 +63,9 @@ STOPLINE_INLINE void gather_at(const FullStreams& s, const DelayRows& radar, con
     if (s.type != nullptr) std::memcpy(g.type + k, s.type + i, kWidthOf<R> * sizeof(int));
 }
 
-// Calls treat(number, i) for each batch of a lane; i is the first slot of the batch. The type of `number` tells treat()
-// the width of the batch. If R has 16 numbers or more and the remaining vehicles fit into half a batch, the last batch
-// has half the width.
+// Divides the vehicles of a lane into batches and calls treat(number, i) for each batch; i is the first slot of the
+// batch. The type of `number` tells treat() the width of the batch. If R has 16 numbers or more and the last vehicles
+// fit into half a batch, the last batch has half the width.
 template <class R, class Treat>
 STOPLINE_INLINE void for_each_batch(const LaneStep& lane, Treat treat) {
     int i = lane.begin;
@@ -184,7 +184,7 @@ STOPLINE_INLINE void plan_at(const DriverTablesOf<float>& d, const FullGroup& g,
     const R follow = follow_acceleration(c, speed, acceleration, lag, rate, last_request, desired_gap, gap_growth_m,
                                          get(g.slope), p, dt);
     const R emergency = min_of(emergency_acceleration(c, speed, p), keep_room_acceleration(c, speed, gap_growth_m, p));
-    // Stopping behind a leader that is about to stop. g.demand holds the demands of stop lines and conflict areas.
+    // Stopping behind a leader that is about to stop. Stops for a stop line or for yielding are already in g.demand.
     const R behind = stop_behind_acceleration(d, speed, standstill_gap, p);
 
     // The lowest acceleration applies. A platoon leader becomes a follower when the acceleration for following no

@@ -20,7 +20,8 @@ struct NewVehicle {
 // finish_insertion().
 int insert_vehicle(const Model& model, State& state, const NewVehicle& vehicle);
 
-// Initialises the sensors of an inserted vehicle and records its entry. The route of the vehicle must have been set.
+// Initialises the sensors of an inserted vehicle and records its entry. The caller must have set the position of the
+// vehicle on its route before.
 void finish_insertion(const Model& model, State& state, int lane, int slot);
 
 }  // namespace stopline

@@ -18,7 +18,9 @@ namespace stopline {
 namespace {
 
 constexpr double kBeforeStart_s = -1e9;
-constexpr double kBacklogHeadway_s = 2.0;  // assumed headway of vehicles that may have waited for room
+// Entry headway at inlets where vehicles arrive at a constant headway. Vehicles of a backlog can enter at a shorter
+// headway than the one at which they arrived.
+constexpr double kBacklogHeadway_s = 2.0;
 
 // Draws spacing policy and route of the next vehicle of an inlet, unless they have been drawn already.
 void draw_next_vehicle(const Model& model, State& state, int number) {
@@ -41,8 +43,8 @@ bool is_connection_occupied(const Model& model, const State& state, int lane) {
                        [&](int connection) { return state.blocks[at(connection)].count > 0; });
 }
 
-// Returns the entry on an empty link lane, that is, a lane between two intersections. The leader of the new vehicle is
-// then downstream of the link.
+// Does the same as entry_at() for an empty link lane, that is, a lane between two intersections. The new vehicle has no
+// leader on this lane, so the leader is searched further downstream.
 Entry entry_on_empty_link(const Model& model, const State& state, int number, int policy, double max_entry_mps) {
     const int lane = model.demand.inlets[at(number)].lane;
     const double front_m = model.vehicles[0].length_m;
@@ -59,8 +61,8 @@ Entry entry_on_empty_link(const Model& model, const State& state, int number, in
     return {gap_m >= desired_gap_m(model, policy, speed_mps), front_m, speed_mps};
 }
 
-// Returns the entry at an inlet. On a link lane the new vehicle must lie wholly on the lane, so that its rear is not
-// inside the intersection upstream.
+// Returns the position and speed with which the next vehicle of an inlet can enter. On a link lane the new vehicle must
+// lie wholly on the lane, so that its rear is not inside the intersection upstream.
 Entry entry_at(const Model& model, const State& state, int number, int policy) {
     const int lane = model.demand.inlets[at(number)].lane;
     const double max_entry_mps = std::min(model.demand.entry_speed_mps, model.graph.lanes[at(lane)].limit_mps);
@@ -119,8 +121,8 @@ void insert_at_inlet(const Model& model, State& state, int number, const Entry& 
     inlet.last_entry_s = model.time_s(state.tick + 1);
 }
 
-// Marks the vehicles of the initial queues as past all detectors upstream of them, without recording a crossing.
-// Detectors of zones are excluded, so that they record the vehicles as entering the zone.
+// Marks the vehicles of the initial queues as already past the detectors that lie upstream of them, so that these
+// detectors record no crossings. Detectors of zones are excluded: they record the vehicles as entering the zone.
 void mark_detectors_passed(const Model& model, State& state) {
     for (std::size_t k = 0; k < model.detectors.size(); ++k) {
         const Detector& detector = model.detectors[k];
@@ -133,8 +135,8 @@ void mark_detectors_passed(const Model& model, State& state) {
     }
 }
 
-// Reserves memory for the queues of all lanes at once. If the blocks grew one by one, all vehicles would be moved again
-// for every block.
+// Reserves slots for the initial queues of all lanes at once. Otherwise the blocks of slots would grow lane by lane,
+// and the vehicles of other lanes would have to be moved each time.
 void reserve_initial_queues(const Model& model, State& state) {
     std::vector<int> expected(model.graph.lanes.size(), 0);
     for (const DemandPlan::Inlet& inlet : model.demand.inlets) {
@@ -144,8 +146,8 @@ void reserve_initial_queues(const Model& model, State& state) {
     reserve_blocks(state, expected);
 }
 
-// Returns the random entry time of the first vehicle of an inlet, as a share of the headway. Used for inlets whose
-// vehicles enter at equal headways.
+// Returns the random arrival time of the first vehicle of an inlet, as a fraction of the headway. Used for inlets where
+// vehicles arrive at a constant headway.
 double first_entry_offset(const Model& model, int number) {
     return random_uniform(model.seed, static_cast<std::uint64_t>(number), 0, Purpose::insertion);
 }

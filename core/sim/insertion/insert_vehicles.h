@@ -15,8 +15,8 @@ void insert_initial_queues(const Model& model, State& state);
 // Inserts the next vehicle of each inlet if the vehicle is due and has room.
 void insert_vehicles(const Model& model, State& state);
 
-// Returns the number of vehicles that are due but have found no room to enter. Includes only vehicles on trips, and
-// vehicles of inlets with arrivals at a constant headway (DemandPlan::is_evenly_spaced()).
+// Returns the number of vehicles that are due but have found no room to enter. Counts only vehicles on trips, and
+// vehicles of inlets where vehicles arrive at a constant headway (DemandPlan::is_evenly_spaced()).
 std::int64_t insertion_backlog(const Model& model, const State& state);
 
 }  // namespace stopline

@@ -88,8 +88,8 @@ double max_departure_m(const Model& model, const State& state, int lane, int num
     return std::max(std::min(road.stop_line_m, road.length_m + first_conflict_m - model.give_way.margin_m), 0.0);
 }
 
-// Returns the front position of a new vehicle. If the lane is a link (a lane between two intersections), the rear of
-// the vehicle is placed on the lane, too.
+// Returns the front position of a new vehicle. On a link lane (a lane between two intersections), the rear is also
+// placed on the lane if the lane is long enough.
 double departure_front_m(const Model& model, const State& state, int lane, int number) {
     using enum Trip::DepartPosition;
     const Trip& trip = model.demand.trips[at(number)];
@@ -151,8 +151,9 @@ EntryLeader entry_leader(const Model& model, const State& state, const Insertion
     return {rear_m - point.front_m, v.speed_mps[at(leader.slot)]};
 }
 
-// Returns true if the gap of the new vehicle's follower suffices. The gap must be at least the follower's desired gap
-// plus the distance in which the follower brakes comfortably to the speed of the new vehicle.
+// Returns true if the follower keeps a sufficient gap to the new vehicle: at least its desired gap plus the distance in
+// which it brakes comfortably to the speed of the new vehicle. If the new vehicle is the last on its lane, returns true
+// if vehicles that approach the lane can stop behind the new vehicle.
 bool follower_has_room(const Model& model, const State& state, const InsertionPoint& point, double rear_m,
                        double speed_mps) {
     const LaneBlock& block = state.blocks[at(point.lane)];
@@ -266,7 +267,8 @@ bool insert_trip(const Model& model, State& state, int number, const InsertionPo
     finish_insertion(model, state, point.lane, slot);
     const LaneBlock& block = state.blocks[at(point.lane)];
     reset_leader(state.vehicles, slot + 1, block);
-    // Let decide_stop_lines() choose the stopping vehicle anew, because the new vehicle may be the first that can stop.
+    // Let decide_stop_lines() choose again which vehicle stops at the line. The new vehicle can be the first vehicle
+    // that is able to stop.
     if (slot < block.last()) state.stop_lines.lines[at(point.lane)].stopping_vehicle = -1;
     record_trip_crossing(state.records, state.vehicles, model.time_s(state.tick + 1), slot, model.trips_begin);
     return true;

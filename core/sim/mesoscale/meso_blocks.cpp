@@ -25,8 +25,8 @@ void update_queue(const VehicleArrays& v, const LaneBlock& block, std::int64_t t
         return v.speed_mps[i] == 0.0 && v.acceleration_mps2[i] == 0.0F;
     };
     while (queue.first < queue.end && !is_at_rest(queue.first)) ++queue.first;
-    // After a start message (relay_start()) a vehicle may have moved closer to its leader although the leader did not
-    // start. The queue then ends ahead of this vehicle.
+    // The follower of a vehicle that received a start message (relay_start()) may have moved although the receiver did
+    // not start. The queue then ends ahead of this follower.
     for (int place = queue.first + 1; place < std::min(queue.released, queue.end); ++place) {
         if (!is_at_rest(place)) queue.end = place;
     }
@@ -42,11 +42,12 @@ void update_queue(const VehicleArrays& v, const LaneBlock& block, std::int64_t t
 // Tells stopped vehicles of a queue by V2V that the vehicle ahead of the queue has started. Returns the number of
 // vehicles that receive this start message. A vehicle forwards the message before it moves, so the message reaches
 // several vehicles in one step. The relay ends at the first vehicle whose policy has a time gap, because this vehicle
-// starts later. This function only stores the messages, because the decisions for other lanes still read the
-// accelerations. step_meso() applies the messages.
+// starts later. This function only stores the messages, because the decisions for other lanes still read the present
+// accelerations of the receivers. step_meso() applies the messages.
 int relay_start(const Model& model, const VehicleArrays& v, const LaneBlock& block, StandingQueue& queue,
                 std::vector<StartMessage>& messages) {
-    constexpr double kClosedUp_m = 0.5;  // the relay ends at a vehicle whose gap exceeds the desired gap by more
+    // The relay ends at a vehicle whose gap exceeds its desired gap by more than this value.
+    constexpr double kClosedUp_m = 0.5;
     if (queue.first == 0) return 0;
     const std::size_t last_started = at(block.first + queue.first - 1);
     const float relayed_mps2 = v.acceleration_mps2[last_started];
@@ -119,7 +120,7 @@ public:
     }
 
 private:
-    // Returns the slot of the last vehicle that must stop at the stop line or at a yield stop; -1: none.
+    // Returns the slot of the vehicle furthest upstream that must stop at the stop line or at a yield stop; -1: none.
     int last_stopping_slot() const {
         return std::max(stop_slot_, yield_stops_.count == 0 ? -1 : yield_stops_.stops[at(yield_stops_.count - 1)].slot);
     }
@@ -138,8 +139,8 @@ private:
         const double braking_step_mps = GapAlignment::kDeceleration_mps2 * model_.step_s;
         for (const GapAlignment& alignment : state_.gap_alignments[at(lane_)]) {
             const double speed_mps = v_.speed_mps[at(alignment.slot)];
-            // Sets no cap for a vehicle at rest. cap_speed() sets a cap for one step only, and the cap that holds the
-            // first vehicle of a sleeping lane must remain.
+            // Skips vehicles at rest. A cap set by cap_speed() is removed after the step. If this were done for the
+            // first vehicle of a sleeping lane, the vehicle would lose the cap that holds it.
             if (speed_mps > 0.0)
                 cap_speed(alignment.slot, std::max(alignment.target_speed_mps, speed_mps - braking_step_mps));
         }
@@ -149,7 +150,7 @@ private:
         return plan_.stop_line_m - model_.driver.stop.margin_m - v_.position_m[at(slot)];
     }
 
-    // Returns true if the first vehicle of the lane, which is at rest, is held by nothing but its signal.
+    // Returns true if nothing but its signal holds the first vehicle of the lane. This vehicle must be at rest.
     bool waits_only_for_signal() const {
         const int first = block_.first;
         if (stop_slot_ != first || state_.stop_lines.lines[at(lane_)].stopping_vehicle != v_.id[at(first)])
@@ -158,8 +159,8 @@ private:
         return snap_to_standstill(stopping_speed_mps(model_, v_, first, room_to_line_m(first))) == 0.0;
     }
 
-    // Caps the speed of vehicles that wait to change lanes on a sleeping lane. Skips the first vehicle, which already
-    // has a cap.
+    // On a sleeping lane, caps the speed of the vehicles that wait for a gap in the adjacent lane. Skips the first
+    // vehicle of the lane, which already has a cap.
     void cap_behind_first() {
         for (int k = 0; k < yield_stops_.count; ++k) {
             const YieldStop& stop = yield_stops_.stops[at(k)];

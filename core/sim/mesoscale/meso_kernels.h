@@ -25,9 +25,11 @@ struct MesoStep {
     std::uint64_t key;  // key of the random numbers for dawdling, from dawdle_key()
     std::uint64_t tick;
     double slow_down_mps2;  // deceleration before a lower speed limit
-    double approach_share;  // below the speed limit, a vehicle gains this share of (limit - speed) in a step
-    double turn_share;      // before a turn, a vehicle gains this share of (allowed speed - speed) in a step
-    double leader_mps2;     // acceleration of platoon leaders; 0: acceleration of the vehicle's policy
+    double approach_share;  // a vehicle below the speed limit gains at most this share of (limit - speed) in a step
+    // Before a lower speed limit, such as that of a turn, vehicles follow a braking curve: the speed from which they
+    // reach the lower limit with slow_down_mps2. A step reduces the deviation from this curve by this share.
+    double turn_share;
+    double leader_mps2;                      // acceleration of platoon leaders; 0: acceleration of the vehicle's policy
     double leader_constant_power_speed_mps;  // above this speed, leader_mps2 falls as 1 / speed
     // Acceleration of platoon leaders by speed. If it is not nullptr, the kernels ignore leader_mps2 and
     // leader_constant_power_speed_mps.
@@ -39,8 +41,8 @@ struct MesoStep {
     // True: the safe speed of a platoon leader is equal to that of a follower, so it is not computed again. Requires
     // `relays`, and policies without a transient gap (Krauss::transient_gap_s2).
     bool leaders_foresee;
-    double hardest_mps2;    // maximum braking behind a leader
-    double emergency_mps2;  // maximum braking before a lower speed limit
+    double hardest_mps2;    // maximum deceleration behind a leader
+    double emergency_mps2;  // maximum deceleration before a lower speed limit
     bool prefetches;        // true: the kernels prefetch blocks; useful if the vehicle data do not fit into the cache
 };
 

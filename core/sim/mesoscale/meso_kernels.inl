@@ -20,7 +20,7 @@ namespace stopline {
 
 namespace {
 
-// Number of doubles in a vector register, and number of slots in a block.
+// Number of doubles in a vector register. In all versions but the scalar one, a block has as many slots.
 constexpr int kWide = kBatchWidth / 2;
 using Wide = PackedOf<double, kWide>;
 using Words = Vector<std::uint64_t, kWide>;
@@ -128,9 +128,10 @@ STOPLINE_INLINE R approach_limit(const R& speed_mps, const R& limit_mps, double 
     return max_of(min_of(gaining_mps, limit_mps), speed_mps - braked_mps);
 }
 
-// Returns the next speed before a turn. `allowed_mps`: allowed speed, which falls towards the turn. `share`: share of
-// (allowed speed - speed) that a vehicle gains in a step. `braked_mps`: speed that a vehicle loses in a step when it
-// brakes for the turn. Full dynamics uses the same equation in slow_down_acceleration().
+// Returns the next speed of a vehicle that follows a braking curve to a lower speed limit, such as that of a turn.
+// `allowed_mps`: speed on the curve at the position of the vehicle. `braked_mps`: speed that a vehicle on the curve
+// loses in a step. `share`: share of the deviation from the curve that is corrected in a step. Full dynamics uses the
+// same equation in slow_down_acceleration().
 template <class R>
 STOPLINE_INLINE R approach_turn(const R& speed_mps, const R& allowed_mps, double share, double braked_mps) {
     return speed_mps + share * (allowed_mps - speed_mps) - braked_mps * speed_mps / max_of(allowed_mps, R(1.0));
@@ -165,7 +166,7 @@ STOPLINE_INLINE R allowed_mps(const MesoStreams& s, const MesoStep& t, int i, co
     const R here_mps =
         min_of(approach_limit(speed, get<R>(s.limit + i), t.approach_share, braked_mps), get<R>(s.speed_cap + i));
     if (!any_differs<R>(s.end_speed + i, kNoLowerLimit_mps)) return here_mps;
-    // Deceleration b before a lower speed limit v_end at the end of the lane: v^2 = v_end^2 + 2 b distance.
+    // Braking curve with the deceleration b to a lower speed limit v_end after the lane: v^2 = v_end^2 + 2 b distance.
     const R end_mps = get<R>(s.end_speed + i);
     const R to_next_limit_m = max_of(R(get<R>(s.next_limit + i) - position), R(0.0));
     const R allowed_before_turn_mps = square_root(end_mps * end_mps + 2.0 * t.slow_down_mps2 * to_next_limit_m);
@@ -225,8 +226,8 @@ STOPLINE_INLINE R least_acceleration_mps2(const MesoStreams& s, const MesoStep& 
 template <class R>
 STOPLINE_INLINE R platoon_leader_acceleration_mps2(const MesoStep& t, const R& speed_mps) {
     if (t.leader_profile != nullptr) {
-        // The profile is evaluated at the speed in the middle of the step. The speed at the start of the step would
-        // miss gear changes.
+        // The profile is evaluated at the speed in the middle of the step. The acceleration at the start of the step
+        // would be wrong in a step with a gear change.
         const LeaderProfile& profile = *t.leader_profile;
         const R first_mps2 = table_value(profile.acceleration_mps2, R(speed_mps * profile.bins_per_mps));
         const R middle_mps = speed_mps + first_mps2 * (0.5 * t.dt);
@@ -269,7 +270,7 @@ constexpr double kNoExtraGap[kWide] = {};
 struct MesoVariant {
     int policies;           // number of policies: 1 or 2; 0: more than 2
     bool power_limit;       // true: at high speed the acceleration of at least one policy falls (constant power)
-    bool instant_slowdown;  // true: before a turn, vehicles reach the allowed speed in one step (turn_share = 1)
+    bool instant_slowdown;  // true: vehicles reach the braking curve before a turn in one step (turn_share = 1)
 };
 
 // Moves the vehicles of one block. Returns 1 for each vehicle that overlaps its leader, else 0.

@@ -1,6 +1,7 @@
-// Full dynamics: adds braking for hidden leaders. A vehicle follows the nearest vehicle ahead. Where connections
-// diverge or a trip ends, this leader may leave the follower's route and hide a slow vehicle further along the route.
-// The follower also brakes for the hidden vehicle. Otherwise it would see the hidden vehicle too late.
+// Full dynamics: adds braking for hidden leaders. A vehicle follows the nearest vehicle ahead, its leader. Where
+// connections diverge, or where the trip of the leader ends, the leader can leave the follower's route. Until then, the
+// leader can hide a slow vehicle further along this route. The follower also brakes for this hidden leader, because it
+// would otherwise see it too late.
 #include "sim/perception/hidden_leaders.h"
 
 #include <algorithm>
@@ -16,8 +17,8 @@ namespace stopline {
 
 namespace {
 
-// Adds a braking demand on the vehicle in `slot`, whose leader hides the vehicle `hidden`. The hidden vehicle is the
-// nearest one on the route beyond the end of `lane`.
+// Adds a braking demand on the vehicle in `slot`, whose leader hides the vehicle `hidden`. `hidden` is the nearest
+// vehicle beyond the end of `lane` on the route of the vehicle in `slot`.
 void add_demand(const Model& model, const State& state, int lane, int slot, const LeaderAhead& hidden,
                 Partition& part) {
     const VehicleArrays& v = state.vehicles;
@@ -39,10 +40,11 @@ void add_demand(const Model& model, const State& state, int lane, int slot, cons
     if (demand_mps2 < kUnconstrained_mps2) part.extra_demands.push_back({slot, demand_mps2});
 }
 
-// Adds braking demands on followers of the lane's first vehicle. For each connection that the first vehicle does not
-// take, only the first follower that takes this connection gets a demand.
+// Adds braking demands on vehicles behind the first vehicle of the lane. A vehicle can get a demand only if it takes
+// another connection than the first vehicle, and if no vehicle between the two takes this connection.
 void react_to_leaders_hidden_from_followers(const Model& model, const State& state, int lane, Partition& part) {
-    constexpr double kMinLookBack_m = 60.0;  // distance before the lane's end; covers a comfortable stop from 50 km/h
+    // At least the vehicles within this distance of the lane's end are checked. 60 m suffice to stop from 50 km/h.
+    constexpr double kMinLookBack_m = 60.0;
     constexpr std::size_t kMaxConnections = 8;
     const VehicleArrays& v = state.vehicles;
     const LaneBlock& block = state.blocks[at(lane)];

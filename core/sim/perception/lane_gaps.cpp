@@ -90,8 +90,8 @@ LaneNeighbours neighbours_at(const Model& model, const State& state, int lane, d
 }
 
 double required_gap_m(const Model& model, int policy, double speed_mps, double ahead_mps, double share) {
-    // In full dynamics the radar and the brake respond late, so each follower in a platoon brakes harder than its
-    // leader. The required gap therefore assumes that the first follower brakes gently.
+    // In full dynamics the radar and the brake respond late, so each vehicle of a platoon brakes harder than its
+    // leader. The gap must therefore be so long that the vehicle directly behind it needs only gentle braking.
     constexpr double kGentleBraking_mps2 = 2.0;
     constexpr double kDelay_s = 0.3;
     const double b_mps2 = model.meso ? model.krauss[at(policy)].deceleration_mps2 : kGentleBraking_mps2;

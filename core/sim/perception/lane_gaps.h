@@ -22,8 +22,9 @@ struct LaneNeighbours {
 };
 
 // Returns the leader and the follower that a vehicle of length `length_m` would have with its front at `front_m` on
-// `lane`. Beyond the end of the lane, the leader is searched along `route`. If `route` is -1, the leader is the nearest
-// of the last vehicles on all next lanes. Upstream, the follower is searched on all lanes that lead to the lane.
+// `lane`. Beyond the end of the lane, the leader is searched along `route`, which begins on the lane. If `route` is -1,
+// the leader is the nearest of the last vehicles on all next lanes. Upstream of the lane, the follower is searched on
+// all lanes that lead to it.
 LaneNeighbours neighbours_at(const Model& model, const State& state, int lane, double front_m, double length_m,
                              int route);
 

@@ -24,7 +24,7 @@ public:
         : state_(state), v_(state.vehicles), end_m_(state.plan.lane(lane).length_m), front_m_(front_m) {
         for (const int next : state.plan.next(lane)) search_connection(next);
     }
-    // Return the vehicle found, and the position of its rear, m from the start of the lane.
+    // Return the vehicle found (slot -1: none) and the position of its rear, measured from the start of the lane.
     LeaderAhead vehicle() const { return found_; }
     double rear_m() const { return rear_m_; }
 
@@ -43,9 +43,9 @@ private:
         }
     }
 
-    // Keeps the vehicle if its rear is the furthest upstream so far. `start_m`: distance from the upstream end of the
-    // stretch to the start of the vehicle's lane. Returns false if the vehicle is clear of the other connections,
-    // because its rear is past `clear_m`.
+    // Keeps the vehicle if its rear is the furthest upstream so far. `start_m`: start of the vehicle's lane, measured
+    // from the start of the connection. Returns false if the rear is past `clear_m`, a position on the connection: the
+    // vehicle is then clear of the other connections.
     bool consider(int slot, double start_m, double clear_m) {
         const double front_m = start_m + v_.position_m[at(slot)];
         const double beyond_m = front_m - v_.length_m[at(slot)];
@@ -57,7 +57,7 @@ private:
     }
 
     static constexpr double kAll_m = -1.0;
-    // Number of vehicles at the start of an exit lane that are checked, because their rear may be on the connection.
+    // This number of vehicles at the start of an exit lane is checked, because their rears may be on the connection.
     static constexpr int kReachBack = 2;
 
     const State& state_;
@@ -68,8 +68,8 @@ private:
     LeaderAhead found_;
 };
 
-// Returns the leader on the edges of the trip that follow the route, within `range_m`. There must be no vehicle ahead
-// on the route itself.
+// Returns the leader beyond the end of the route, on the later edges of the trip, within `range_m`. Precondition: no
+// vehicle is ahead on the route itself.
 LeaderAhead ahead_on_trip(const State& state, int lane, double position_m, const RoutePosition& position,
                           double range_m) {
     const std::span<const int> route = state.plan.route(position.route);
@@ -96,10 +96,9 @@ LeaderAhead ahead_on_trip(const State& state, int lane, double position_m, const
     }
 }
 
-// Returns the nearest vehicle ahead on a route: the last vehicle of the first occupied lane from lane `index` on.
-// `position_m`: position of the vehicle whose leader is searched, on its present lane. `start_m`: distance from the
-// start of this present lane to the start of lane `index`. Lanes that start more than `range_m` from `position_m` are
-// ignored.
+// Returns the leader of an observer on a route: the last vehicle of the first occupied lane from route[index] on.
+// `position_m`: position of the observer on its own lane. `start_m`: start of route[index], measured from the start of
+// the observer's lane. Ignores lanes that start more than `range_m` ahead of the observer.
 STOPLINE_INLINE LeaderAhead last_vehicle_on(const State& state, std::span<const int> route, std::size_t index,
                                             double start_m, double position_m, double range_m) {
     for (std::size_t k = index; k < route.size(); ++k) {
@@ -111,9 +110,9 @@ STOPLINE_INLINE LeaderAhead last_vehicle_on(const State& state, std::span<const 
     return {};
 }
 
-// Returns true if the previous lane of `own`, the leader on the route, is not on the route. The rear of `own` may then
-// still be off the route, and the vehicle in the diverge area may be the nearer leader. Returns false if there is no
-// vehicle in the diverge area.
+// Returns true if `own`, the leader on the route, came from a lane that is not on the route. Its rear may then still be
+// on that lane, so the position of this rear does not tell which leader is nearer: `own` or `diverging_leader`. Returns
+// false if there is no `diverging_leader`.
 bool rear_may_be_off_route(const State& state, std::span<const int> route, const LeaderAhead& own,
                            const LeaderAhead& diverging_leader) {
     if (diverging_leader.slot < 0) return false;
@@ -121,8 +120,9 @@ bool rear_may_be_off_route(const State& state, std::span<const int> route, const
     return previous_lane >= 0 && std::find(route.begin(), route.end(), previous_lane) == route.end();
 }
 
-// Returns the leader on the route, or a vehicle in the diverge area if this vehicle is nearer. If it is nearer, the
-// function stores the leader on the route in `hidden`. The function is inlined because it runs once per lane and step.
+// Returns the leader on the route, or a vehicle in the diverge area if this vehicle is nearer than the leader on the
+// route. In the second case, stores the leader on the route in `hidden`. Inlined, because it runs once per lane and
+// step.
 STOPLINE_INLINE LeaderAhead ahead_on_route(const State& state, int lane, double position_m, int route_number, int index,
                                            double range_m, LeaderAhead* hidden = nullptr) {
     const VehicleArrays& v = state.vehicles;
@@ -159,8 +159,8 @@ namespace {
 
 STOPLINE_INLINE LeaderAhead ahead_of(const State& state, int lane, int slot, double range_m,
                                      LeaderAhead* hidden = nullptr) {
-    // A vehicle without a next lane leaves the network or waits to change lanes. Its leader can only be in the diverge
-    // area.
+    // A vehicle without a next lane leaves the network at the end of its lane, or must change lanes before. Only a
+    // vehicle in the diverge area can still be in its way.
     if (state.vehicles.next_lane[at(slot)] < 0) {
         return DivergeArea(state, lane).vehicle();
     }
@@ -262,7 +262,7 @@ void find_leaders_beyond_lanes(const Model& model, const State& state, VehicleAr
         }
         const int id = has_leader ? v.id[leader_slot] : -1;
         if (v.record[at(head)].leader_id == id) continue;
-        // The leader is new: its first radar measurement replaces the whole radar history.
+        // The leader is new. The first measurement of its gap and speed replaces the whole radar history.
         v.record[at(head)].leader_id = id;
         v.is_platoon_leader[at(head)] = 1.0F;
         const double gap_m = rear_m - v.position_m[at(head)];

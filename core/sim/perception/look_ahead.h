@@ -12,8 +12,8 @@ struct LeaderAhead {
     double lane_start_m = 0.0;  // start of the leader's lane, from the start of the observer's lane
 };
 
-// The position of a vehicle on its route and on its trip. With a trip, the search for the leader continues on the edges
-// after the route.
+// The position of a vehicle on its route and on its trip. With a trip, the search for the leader continues beyond the
+// end of the route, on the later edges of the trip.
 struct RoutePosition {
     int route = -1;
     int route_index = 0;
@@ -21,8 +21,8 @@ struct RoutePosition {
     int trip_edge = 0;
 };
 
-// Return the nearest vehicle beyond the end of a lane within `range_m`. The observer is the lane's first vehicle in
-// `slot`, or a vehicle with its front at `position_m`.
+// Return the nearest vehicle beyond the end of a lane within `range_m`. The observer is the vehicle in `slot`,
+// which must be the first vehicle of the lane, or any vehicle with its front at `position_m`.
 LeaderAhead leader_ahead(const State& state, int lane, int slot, double range_m);
 LeaderAhead leader_ahead(const State& state, int lane, double position_m, int route, int route_index, double range_m);
 LeaderAhead leader_ahead(const State& state, int lane, double position_m, const RoutePosition& position,
@@ -38,7 +38,7 @@ bool rear_is_on_merging_path(const State& state, int lane, int slot, int ahead);
 
 // Finds the leader of the first vehicle of each lane in Partition::awake. Copies this leader to the lane's sentinel
 // slot, the slot before the first vehicle. If the leader has changed, resets the radar history of the first vehicle. In
-// full dynamics, also adds the braking that hidden leaders (hidden_leaders.h) demand of the vehicles behind them.
+// full dynamics, also adds the braking demands due to hidden leaders (hidden_leaders.h).
 void find_leaders_beyond_lanes(const Model& model, const State& state, VehicleArrays& vehicles, Partition& part);
 
 }  // namespace stopline

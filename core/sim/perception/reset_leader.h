@@ -5,8 +5,8 @@
 
 namespace stopline {
 
-// Stores the new leader of the vehicle in `slot` and resets its radar history. Does nothing if `slot` is past the last
-// vehicle of the lane's block.
+// Stores the new leader of the vehicle in `slot` and resets the radar history of this vehicle. Does nothing if `slot`
+// is past the last vehicle of the lane's block.
 void reset_leader(VehicleArrays& vehicles, int slot, const LaneBlock& block);
 
 // Initialises the leader and the radar and V2V data of a vehicle just inserted. `first`: the vehicle is the first of

@@ -11,7 +11,7 @@ namespace stopline {
 namespace {
 
 constexpr std::uintptr_t kCacheLine = 64;  // bytes
-constexpr std::size_t kLinesPerCall = 4;   // cache lines prefetched per call; the processor drops further requests
+constexpr std::size_t kLinesPerCall = 4;   // cache lines prefetched per call; the processor would drop more requests
 constexpr int kInspectedVehicles = 7;      // vehicles near the stop line that the phases of a step usually read
 
 // These functions must be inlined, because the compiler removes calls of functions that only prefetch.
@@ -124,7 +124,8 @@ void advance_prefetch_step(const State& state, PrefetchProgress& progress) {
     }
     const Partition& next = *progress.next;
     const std::size_t k = progress.lane++;
-    const IndexBuffer& occupied = next.occupied;  // still the list of the previous step
+    // This is the list of the previous step, because the decisions of `next` have not begun.
+    const IndexBuffer& occupied = next.occupied;
     if (k < occupied.size()) {
         prefetch_lane_ends(state, occupied[k]);
     } else if (k - occupied.size() < next.exits.size()) {

@@ -8,11 +8,12 @@
 
 namespace stopline {
 
-// Lists the cache lines of a partition that every step reads. Call it once after make_state().
+// Sets Partition::cache_lines, the list of the cache lines that every step reads for the partition. Call this function
+// once after make_state().
 void list_cache_lines(const Model& model, State& state, Partition& part);
 
-// Starts the prefetching of the two partitions after partition `number`. Partitions from `end` on belong to another
-// thread. Does nothing if the data of all vehicles fit into the cache.
+// Starts the prefetching of the two partitions after partition `number`. Partitions from `end` on are not prefetched,
+// because they belong to another thread. Starts no prefetching if the data of all vehicles fit into the cache.
 void begin_prefetch(State& state, std::size_t number, std::size_t end);
 
 // Prefetches a few cache lines. begin_prefetch() must have started the prefetching.

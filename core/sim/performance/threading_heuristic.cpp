@@ -6,7 +6,7 @@ namespace stopline {
 
 namespace {
 
-constexpr int kTrialSteps = 16;          // number of steps that a trial times with one thread, then with all threads
+constexpr int kTrialSteps = 16;          // a trial times this many steps with one thread, then as many with all threads
 constexpr double kHopelessFactor = 3.0;  // a trial is aborted if all threads take this many times as long as one thread
 constexpr int kMinSteps = 3;             // number of steps with all threads after which a trial may be aborted
 constexpr double kPauseFactor = 100.0;   // ratio of the pause after a trial to the duration of the trial

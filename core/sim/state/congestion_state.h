@@ -9,7 +9,7 @@
 
 namespace stopline {
 
-// A teleported vehicle that waits for room to be reinserted.
+// Where and since when a teleported vehicle waits for room to be reinserted.
 struct TeleportTarget {
     int lane = -1;                   // lane on which the vehicle will be reinserted
     std::int64_t waiting_since = 0;  // tick at which the wait for room on this lane began
@@ -26,18 +26,19 @@ struct LastBlocker {
 // Working memory of delay attribution. The arrays indexed by slot are valid only in the step that attributed the
 // delays, because vehicles change slots. Unless noted otherwise, only the elements of stopped vehicles are valid.
 struct DelayWatch {
-    std::vector<int> waits_for;            // [slot] slot of the blocker, for which the vehicle waits; -1: none
-    std::vector<DelayCause> direct_cause;  // [slot] cause that stops the vehicle itself; none: only its leader stops it
-    std::vector<DelayCause> cause;         // [slot] cause to which the delay of the vehicle is attributed
-    std::vector<int> queue_head;  // [slot] slot of the first vehicle of the queue in which the vehicle is stopped
-    std::vector<int> lane;        // [slot] lane of the vehicle, also for moving vehicles
-    std::vector<int> vehicle;     // [slot] id of the vehicle, also for moving vehicles
-    // [slot] find_causes() follows chains: from a waiting vehicle to its blocker, to the blocker of the blocker, and so
-    // on. The chains are numbered from 1. This is the number of the chain that contains the vehicle; 0: none yet.
+    std::vector<int> waits_for;  // [slot] slot of the vehicle that blocks this vehicle; -1: none
+    // [slot] cause that stops the vehicle itself; none: its leader stops it, or nothing stops it any more
+    std::vector<DelayCause> direct_cause;
+    std::vector<DelayCause> cause;  // [slot] cause to which the delay of the vehicle is attributed
+    std::vector<int> queue_head;    // [slot] slot of the first vehicle of the queue to which the vehicle belongs
+    std::vector<int> lane;          // [slot] lane of the vehicle, also for moving vehicles
+    std::vector<int> vehicle;       // [slot] id of the vehicle, also for moving vehicles
+    // [slot] number of the chain that contains the vehicle; 0: none yet. A chain leads from a waiting vehicle to its
+    // blocker, to the blocker of the blocker, and so on. find_causes() numbers the chains from 1.
     std::vector<int> traversal;
     std::vector<int> path;                   // slots of the vehicles in the chain that find_causes() follows at present
     std::vector<int> stopped_slots;          // slots of all stopped vehicles
-    std::vector<LastBlocker> last_blockers;  // [lane] blocker during the previous green
+    std::vector<LastBlocker> last_blockers;  // [lane] latest blocker of the first vehicle
     // [key] index of the open episode in DelayLog::episodes; -1: none. key = lane * number of causes + cause
     std::vector<int> open_episode;
     std::vector<int> open_episodes;   // keys of all open episodes

@@ -18,7 +18,7 @@ enum class DelayCause : std::uint8_t {
     spillback,          // the vehicle goes straight on, and its exit lane is full
     gridlock,           // situation 3: the vehicle is in a cycle of vehicles that wait for each other, or is behind it
     wrong_lane,         // the vehicle waits for a gap in the adjacent lane, to which it must change
-    queue_discharge     // the leader moves already or is far ahead, so the vehicle can start
+    queue_discharge     // nothing holds the vehicle: its leader has started or is far ahead
 };
 inline constexpr std::array<const char*, 9> kDelayCauseNames{
     "none",      "signal",   "yielding",   "junction_blocking", "turn_blocking",
@@ -70,10 +70,12 @@ struct RuleUse {
     enum class Kind : std::uint8_t { teleported, reinserted, passed_blocker, keep_clear };
     Kind kind = Kind::teleported;
     double time_s = 0.0;
-    int vehicle = -1;        // id of the vehicle that uses the rule
-    int lane = -1;           // lane of the vehicle; passed_blocker: connection on which it passes the blocker
-    int blocker = -1;        // passed_blocker, keep_clear: id of the blocking vehicle; else -1
-    double stopped_s = 0.0;  // duration of the blocker's stop; teleported, reinserted: of the vehicle's own stop
+    int vehicle = -1;  // id of the vehicle that uses the rule
+    int lane = -1;     // lane of the vehicle; passed_blocker: connection on which it passes the blocker
+    int blocker = -1;  // passed_blocker, keep_clear: id of the blocking vehicle; else -1
+    // passed_blocker, keep_clear: time for which the blocker has been stopped. teleported, reinserted: time for which
+    // the vehicle itself has been stopped.
+    double stopped_s = 0.0;
 };
 
 struct DelayLog {

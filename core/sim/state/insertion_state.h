@@ -25,13 +25,15 @@ struct InletState {
 
 struct InsertionState {
     std::vector<InletState> inlets;
-    // Indices of the inlets on entry lanes, and of the inlets on link lanes that still insert vehicles; ascending
+    // Indices of the inlets that insert_vehicles() checks, ascending: all inlets on entry lanes, and those inlets on
+    // link lanes that still have vehicles to insert.
     std::vector<int> open_inlets;
     std::vector<int> inlet_of;  // [lane] index of the inlet; -1: no route begins on the lane
-    std::vector<std::array<std::int64_t, kMaxTurns>>
-        drawn_turns;            // [approach][Turn] number of draws at inlets with DemandPlan::Inlet::approach_shares
-    std::size_t next_trip = 0;  // index of the first trip whose departure time has not come yet
-    std::vector<std::vector<int>> waiting_trips;  // [approach] trips whose vehicles wait for room, oldest first
+    // [approach][Turn] number of vehicles for which the turn was drawn. Counts only the inlets where the draws are
+    // corrected towards the turn shares of the whole approach: DemandPlan::Inlet::approach_shares is not empty.
+    std::vector<std::array<std::int64_t, kMaxTurns>> drawn_turns;
+    std::size_t next_trip = 0;                    // index of the first trip whose departure time has not come yet
+    std::vector<std::vector<int>> waiting_trips;  // [approach] trips whose vehicles wait to be inserted, oldest first
     std::vector<int> approaches_with_backlog;     // approaches with waiting trips, ascending
     int next_id = 0;                              // id of the next vehicle that enters the network
 };

@@ -49,11 +49,11 @@ struct YieldStops {
 
 struct JunctionState {
     std::vector<std::vector<JunctionOccupant>> occupants;  // [connection] occupants, furthest downstream first
-    // [connection] slots of the vehicles on the approach lane that are near the connection and will take it
+    // [connection] slots of the vehicles on the approach lane for which right of way on this connection must be decided
     std::vector<std::vector<int>> approaching;
     std::vector<YieldStops> yield_stops;  // [lane]
     std::vector<char> has_yield_stops;    // [lane] 1: the lane has yield stops
-    // Sets of connections. The bit of a connection in these sets is its LanePlan::bitset_index.
+    // Sets of connections. In each set, LanePlan::bitset_index is the index of a connection's bit.
     Bitset occupied;                      // connections with occupants
     Bitset with_stopped;                  // connections with an occupant slower than kCrawlingSpeed_mps
     Bitset to_decide;                     // connections on which right of way must be decided in this step

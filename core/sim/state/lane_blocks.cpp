@@ -24,9 +24,9 @@ int max_vehicles(const Model& model, const Lane& lane) {
     return static_cast<int>(lane.length_m / shortest_vehicle_m(model)) + 2;
 }
 
-// Full dynamics: if the first vehicle of a lane is in the first slot of the block, the vehicles are aligned to a cache
-// line. Up to kMaxShifted vehicles are therefore shifted to the start of the block whenever a vehicle leaves the lane.
-// A larger number of vehicles is shifted only when these vehicles have reached the end of the block.
+// Full dynamics: the start of a block is aligned to a cache line. When a vehicle leaves the lane, up to kMaxShifted
+// remaining vehicles are therefore shifted to the start of the block. More vehicles are shifted only when they have
+// reached the end of the block.
 constexpr int kMaxShifted = 64;
 
 // Moves the vehicles of a block to the start of the block.
@@ -40,9 +40,9 @@ void shift_to_begin(State& state, LaneBlock& block) {
 int capacity_for(int vehicles) { return vehicles + 2 + vehicles / 4; }
 
 // Returns the number of free slots before the block of a lane. One slot is for the sentinel, the copy of the leader
-// downstream of the lane. The first lane of a partition (a group of whole intersections) has a whole batch of free
-// slots. The kernels of the previous partition, perhaps in another thread, write whole batches beyond their last
-// vehicle. Thanks to the free slots these kernels cannot overwrite vehicles of this partition.
+// downstream of the lane. Before the first lane of a partition (a group of whole intersections) a whole batch of slots
+// is free: the last batch that the kernels of the previous partition write, perhaps in another thread, can reach beyond
+// the last vehicle of that partition.
 int slots_before(const Partition& part, int lane) { return lane == part.lanes.front() ? kSimdWidth : 1; }
 
 // Lays out the blocks of all lanes again and wakes all lanes. `expected`: see reserve_blocks(). If `expected` is empty,
@@ -167,8 +167,8 @@ bool take_from_neighbours(State& state, int lane) {
     return false;
 }
 
-// Returns true if the slot after the last vehicle is free. If the vehicles have reached the end of the block, shifts
-// them to its start first.
+// Returns true if the slot after the last vehicle is free. If the vehicles have reached the end of the block, first
+// shifts them to the start of the block.
 bool has_free_slot(State& state, LaneBlock& block) {
     if (block.past_last() == block.end) shift_to_begin(state, block);
     return block.past_last() < block.end;
@@ -188,7 +188,7 @@ void ensure_teleport_slot(State& state) {
 
 namespace {
 
-// Mesoscale mode: sets the values of a slot that depend on the lane.
+// Mesoscale mode: sets those values of a vehicle that depend on its lane.
 void set_lane_of(State& state, int lane, int slot) {
     VehicleArrays& v = state.vehicles;
     if (v.has_powertrain()) return;

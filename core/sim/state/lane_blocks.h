@@ -1,7 +1,8 @@
 // Adds, moves and removes vehicles in the slots of the lanes.
 //
-// A function that adds a vehicle to a lane can shift the vehicles of any lane to other slots. The state of a sleeping
-// lane (QueueState) refers to slots, so these functions wake every lane whose vehicles they shift.
+// A function that adds a vehicle to a lane can shift the vehicles of other lanes to other slots. A sleeping lane
+// (QueueState) keeps the decisions of an earlier step, and these refer to slots, for example StopLines::stop_slot. The
+// function therefore wakes each lane whose vehicles it shifts, so that the decisions are made again.
 #pragma once
 
 #include <vector>
@@ -21,7 +22,7 @@ void allocate_lane_blocks(const Model& model, State& state);
 // vehicles that the block must hold. Does nothing in full dynamics.
 void reserve_blocks(State& state, const std::vector<int>& expected);
 
-// Ensures that a lane has a free slot after its last vehicle.
+// Ensures that a lane has a free slot after its last vehicle, and wakes the lane.
 void ensure_free_slot(State& state, int lane);
 
 // Makes a free slot in the block of teleported vehicles if it has none. In full dynamics the block cannot grow, so it

@@ -46,7 +46,8 @@ struct RulesPlan {
     std::int64_t gridlock_ticks = 0;
     std::int64_t long_wait_ticks = 0;   // a delay episode includes a vehicle stopped for this long, whatever the cause
     std::int64_t starvation_ticks = 0;  // the first vehicle of a queue starves after this stop time; 0: never
-    std::int64_t memory_ticks = 0;      // a BlockerPass expires when it has not been needed for this time
+    // The permission to pass a blocker (BlockerPass) expires when it has not been needed for this time.
+    std::int64_t memory_ticks = 0;
 
     bool watches() const { return watch_ticks > 0; }
 };
@@ -69,11 +70,15 @@ struct Model {
     GiveWaySettings give_way;
     LaneChangeSettings lane_change;
     RulesPlan rules;
-    DelayLine radar;  // radar delay minus one step, because a request takes effect at the end of the step
+    // Radar delay minus one step. The step itself is the missing part of the delay, because an acceleration requested
+    // in a step takes effect only at the end of the step.
+    DelayLine radar;
     DelayLine v2v;
     // true: the kernels compute one vehicle at a time and do not skip standing queues. The results are the same.
     bool scalar_kernels = false;
-    bool records_all = true;  // true: record passages, accepted gaps and all crossings; false: only crossings of zones
+    // true: record passages, accepted gaps, and the crossings of all detectors; false: only the crossings of zones
+    // (Detector::Kind::zone) and of trip starts and ends
+    bool records_all = true;
     bool records_detectors = false;  // true: record the crossings of all detectors even if records_all is false
     // Indices of the two detectors that stand for the start and the end of a trip. They are on no lane. -1: none.
     int trips_begin = -1;
@@ -83,15 +88,20 @@ struct Model {
     std::vector<Krauss> krauss;       // [policy] car-following model
     double speed_factor = 1.0;        // factor by which all speed limits are multiplied
     double leader_speed_share = 1.0;  // a vehicle without a leader drives at this share of the speed limit
-    double approach_share = 1.0;      // below the speed limit, a vehicle gains this share of (limit - speed) per step
-    double turn_share = 1.0;          // before a turn, a vehicle gains this share of (allowed speed - speed) per step
+    // Below the speed limit, the speed rises in one step by at most this share of (speed limit - speed).
+    double approach_share = 1.0;
+    // Before a lower speed limit, such as that of a turn, the speed of a vehicle follows a braking curve. A step
+    // corrects this share of the deviation from the curve.
+    double turn_share = 1.0;
     double leader_mps2 = 0.0;  // acceleration of platoon leaders; 0: acceleration of the policy's car-following model
-    double leader_constant_power_speed_mps = 0.0;  // speed above which leader_mps2 falls
+    double leader_constant_power_speed_mps = 0.0;  // above this speed, leader_mps2 falls as 1 / speed
     double calibrated_limit_mps = 1e9;  // limit, times speed_factor, up to which the accelerations are calibrated
-    bool has_fast_lanes = false;        // some lanes have a higher limit
+    bool has_fast_lanes = false;        // true: some lanes have a higher limit
     LeaderProfile power_profile;        // lowest accelerations on these lanes
-    LeaderProfile leader_profile;       // replaces leader_mps2 and leader_constant_power_speed_mps if it has bins
-    int start_relay_vehicles = 0;       // number of stopped vehicles that a start message reaches in one step
+    // Acceleration of platoon leaders by speed. If the profile has bins, it replaces the two values above.
+    LeaderProfile leader_profile;
+    // Largest number of stopped vehicles that one V2V start message (StartMessage) reaches in a step. 0: no messages.
+    int start_relay_vehicles = 0;
 
     double time_s(std::int64_t tick) const { return static_cast<double>(tick) * step_s; }
 };

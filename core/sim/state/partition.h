@@ -52,8 +52,8 @@ struct StartMessage {
     float acceleration_mps2;  // acceleration of the vehicle that has just started ahead of the stopped vehicles
 };
 
-// Full dynamics: the acceleration that a hidden leader (sim/perception/hidden_leaders.h) demands of the vehicle in
-// `slot`.
+// Full dynamics: the acceleration with which the vehicle in `slot` must brake for a hidden leader. This is a vehicle on
+// its route that the present leader hides (sim/perception/hidden_leaders.h).
 struct BrakingDemand {
     int slot;
     double acceleration_mps2;
@@ -62,7 +62,7 @@ struct BrakingDemand {
 struct Partition {
     std::vector<int> lanes;        // all lanes of the partition, grouped by intersection
     std::vector<int> connections;  // connections that cross or merge with other connections
-    // The bits of `connections` are in words [first_word, end_word) of JunctionState bitsets.
+    // The bits of `connections` are in the words [first_word, end_word) of the bitsets in JunctionState.
     std::size_t first_word = 0;
     std::size_t end_word = 0;
     std::vector<int> exits;      // exit lanes of `connections`; only one partition lists each exit lane
@@ -81,7 +81,7 @@ struct Partition {
     IndexBuffer awake_approaches;              // awake lanes with a stop line
     IndexBuffer awake_connections;             // awake lanes that are connections
     std::vector<int> occupied_connections;     // connections with at least one JunctionOccupant
-    std::vector<BrakingDemand> extra_demands;  // full dynamics: demands of hidden leaders, in the order of slots
+    std::vector<BrakingDemand> extra_demands;  // full dynamics: braking for hidden leaders, in the order of slots
     std::vector<int> lanes_with_yield_stops;
     std::vector<int> lanes_with_alignments;
     IndexBuffer stopped_slots;           // slots of stopped vehicles; valid in steps that attribute delays
@@ -107,10 +107,13 @@ struct Partition {
     static constexpr int kGroupVehicles = 128;
     std::array<LaneGroup, 2> groups;  // the group that the kernels compute, and the next one
     FullGroupArrays full_group;
-    // Mesoscale mode. A block is a batch of consecutive slots that the kernels move together.
-    IndexBuffer moving_blocks;        // blocks to move in this step
-    std::vector<int> capped_slots;    // slots with a speed cap in this step
-    std::vector<double> extra_gap_m;  // ExtraGap (mesoscale/meso_kernels.h): one value for each slot in moving_blocks
+    // Mesoscale mode. In moving_blocks a block is not the block of a lane, but a batch of consecutive slots that the
+    // kernels move together (MesoKernels::size).
+    IndexBuffer moving_blocks;      // blocks to move in this step
+    std::vector<int> capped_slots;  // slots with a speed cap in this step
+    // [slot in moving_blocks, in the same order] extra standstill gap of a vehicle whose policy is a switching policy
+    // (ExtraGap in mesoscale/meso_kernels.h); empty: 0 for all vehicles
+    std::vector<double> extra_gap_m;
 };
 
 }  // namespace stopline

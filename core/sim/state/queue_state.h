@@ -6,16 +6,18 @@
 
 namespace stopline {
 
-// Consecutive vehicles of one lane that are at rest at the start of a step only because of their leader. The first
-// vehicle of the queue may start in the step. The vehicles behind it stay at rest, because nothing to which they react
-// has changed. Indices are counted from the first vehicle of the lane.
+// Consecutive vehicles of one lane that are at rest at the start of a step. The first vehicle of the queue may start in
+// the step. Each vehicle behind it is held only by its leader and stays at rest in the step. Exception: vehicles that
+// receive a start message (StartMessage in partition.h) may start. Indices count from the first vehicle of the lane.
 struct StandingQueue {
     int first = 0;  // index of the first vehicle of the queue
     int end = 0;    // index after the last vehicle of the queue
-    // The latest tick at which a vehicle was inserted into the lane, or at which a vehicle of the queue other than the
-    // first one had to stop for a reason other than its leader.
+    // Latest tick at which something other than a leader may have acted on the vehicles behind the first one: an
+    // insertion, a lane change, a gap alignment, a stop line or a yield stop.
     std::int64_t last_external_tick = -1;
-    int released = 0;  // vehicles with a lower index may have moved in the previous step after a StartMessage
+    // Vehicles of the queue with an index below this number may have moved in the previous step because of a start
+    // message. 0: there was no message.
+    int released = 0;
 };
 
 struct QueueState {

@@ -10,8 +10,10 @@ namespace stopline {
 
 // The stop line at the end of a lane.
 struct StopLineState {
-    int stopping_vehicle = -1;    // id of the vehicle that stops at the line for the signal; -1: none
-    bool may_overrun = false;     // true: the stop needs over 90 % of the maximum braking; overrunning is no violation
+    int stopping_vehicle = -1;  // id of the vehicle that stops at the line for the signal; -1: none
+    // Full dynamics, true: the stop needs more than 90 % of the maximum braking. If the vehicle overruns the line, this
+    // is no violation.
+    bool may_overrun = false;
     int keep_clear_vehicle = -1;  // id of the vehicle that the keep-clear rule holds at green; -1: none
 };
 
@@ -38,7 +40,7 @@ struct StopLines {
     std::vector<Light> lights;                 // [signal group]
     std::vector<StopLineState> lines;          // [lane]
     std::vector<int> stop_slot;                // [lane] slot of the vehicle that stops at the line; -1: none
-    std::vector<KeepClearHold> held_at_green;  // [lane] reason to hold the vehicle in stop_slot at green
+    std::vector<KeepClearHold> held_at_green;  // [lane] why the keep-clear rule holds the vehicle in stop_slot
     std::vector<ExitRoom> exit_rooms;          // [exit lane]
 };
 

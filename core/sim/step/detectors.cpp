@@ -16,7 +16,8 @@ void pass_stop_line(const Model& model, State& state, Partition& part, int lane,
     record.line_stop_tick = -1;
     const int next = state.vehicles.next_lane[at(slot)];
     if (state.stop_lines.lights[at(state.plan.signal_group_for(lane, next))] != Light::red) return;
-    if (record.trip >= 0 && next < 0) return;  // the trip ends on this lane, or the lane does not allow the turn
+    // A vehicle whose trip ends on this lane, or whose turn the lane does not allow, does not enter the intersection.
+    if (record.trip >= 0 && next < 0) return;
     // A vehicle is chosen to stop for the signal only if it is able to stop (stop_lines.cpp). If the chosen vehicle
     // passes on red, this is a violation, unless stopping needed almost maximum braking (may_overrun).
     const StopLineState& line = state.stop_lines.lines[at(lane)];

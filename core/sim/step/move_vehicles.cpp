@@ -14,8 +14,9 @@ namespace stopline {
 
 namespace {
 
-// Appends a lane to a group, with all external demands on the vehicles of the lane. `hidden_leader_demands`: demands of
-// hidden leaders that have not been added to a group yet. The function removes the demands on this lane from the list.
+// Appends a lane to a group, with the accelerations that stop lines, yield stops, hidden leaders and gap alignment
+// demand of its vehicles. `hidden_leader_demands`: the demands of hidden leaders that no group contains yet, in the
+// order of slots. Removes the demands on the vehicles of this lane from this list.
 void add_lane(const Model& model, const State& state, int lane, std::span<const BrakingDemand>& hidden_leader_demands,
               LaneGroup& group) {
     const VehicleArrays& v = state.vehicles;
@@ -47,7 +48,7 @@ void add_lane(const Model& model, const State& state, int lane, std::span<const 
     }
     group.lanes.push_back(
         {block.first, block.past_last(), plan.next_limit_m, plan.limit_mps, static_cast<double>(plan.sine)});
-    // List one slot for each cache line. A cache line begins at every kSimdWidth-th slot, counted from 0.
+    // For the prefetching, list one slot for each cache line. A cache line begins at each multiple of kSimdWidth.
     const int first_of_line = block.first / kSimdWidth * kSimdWidth;
     for (int slot = first_of_line; slot < block.past_last(); slot += kSimdWidth) group.prefetch_slots.push_back(slot);
     group.vehicles += block.count;

@@ -53,7 +53,7 @@ public:
 
     // Runs all phases of one step.
     void step();
-    // Runs steps up to a time, then counts lost vehicles.
+    // Runs steps up to a time, then counts the lost vehicles (Violations::lost_vehicles).
     void run_until(double time_s);
     double time_s() const { return model_.time_s(state_.tick); }
 

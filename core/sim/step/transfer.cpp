@@ -13,8 +13,9 @@ namespace stopline {
 
 namespace {
 
-// Handles a vehicle on a trip that has reached the end of a lane without a connection for its turn. Teleports the
-// vehicle past the intersection. If teleporting is impossible, stops the vehicle at the end of the lane.
+// Handles a missed turn: the lane's first vehicle has reached the end of the lane, but no connection of the lane makes
+// the next turn of its trip. Teleports the vehicle past the intersection. If teleporting is impossible, stops the
+// vehicle at the end of the lane.
 void miss_turn(const Model& model, State& state, int lane) {
     ++state.congestion.missed_turns;
     if (remove_for_teleport(model, state, lane)) return;

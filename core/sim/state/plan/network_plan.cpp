@@ -122,9 +122,9 @@ void count_lane_changes(const Approach& approach, std::size_t turn, std::vector<
     }
 }
 
-// Returns the neighbours and turn options of all lanes. Fills `next_parallel_route`: for each route, the next
-// route with the same first lane and the same turn; -1: none. TurnOption::route holds the first route of each such
-// list, which is the one with the highest index.
+// Returns the neighbours and turn options of all lanes. Routes with the same first lane and the same turn form a list,
+// in descending order of their indices. TurnOption::route gets the first route of the list. `next_parallel_route` gets
+// for each route the next route of its list; -1: none.
 std::vector<AdjacentLanes> plan_adjacent_lanes(const LaneGraph& graph, const std::vector<Turn>& turns,
                                                std::vector<int>& next_parallel_route) {
     std::vector<AdjacentLanes> adjacent(graph.lanes.size());

@@ -39,7 +39,8 @@ public:
         return routes_with_[static_cast<std::size_t>(approach)][static_cast<std::size_t>(turn)];
     }
     Turn turn_of(int route) const { return turns_[static_cast<std::size_t>(route)]; }
-    // Returns the next route with the same first lane and turn, which leads to another exit lane; -1: none.
+    // Routes with the same first lane and the same turn, but with different exit lanes, form a list. Returns the route
+    // after `route` in its list; -1: none.
     int next_parallel_route(int route) const { return next_parallel_route_[static_cast<std::size_t>(route)]; }
     // Returns the signal group that a vehicle on an approach lane obeys. `next`: connection that the vehicle will take;
     // -1: none.
@@ -48,8 +49,8 @@ public:
         const int own = plan.has_movement_signals && next >= 0 ? movement_groups_[static_cast<std::size_t>(next)] : -1;
         return own >= 0 ? own : plan.signal_group;
     }
-    // Returns the end of the area in which a connection diverges, as a position on the connection. A vehicle whose rear
-    // is past this position is clear of the other connections of the same approach lane.
+    // Returns the position on a connection where it has diverged from the other connections of the same approach lane.
+    // A vehicle whose rear is past this position is clear of these connections.
     double diverge_end_m(int lane) const { return diverges_[static_cast<std::size_t>(lane)].end_m; }
     // Returns true if a vehicle with its front on the exit lane can have its rear upstream of diverge_end_m().
     bool exit_reaches_back(int lane) const { return diverges_[static_cast<std::size_t>(lane)].exit_reaches_back; }
@@ -60,8 +61,8 @@ public:
     StopRule stop_rule(int lane) const { return stop_rules_[static_cast<std::size_t>(lane)]; }
     // Returns the turn of a trip at the end of one of its edges, or Turn::none if the trip ends on this edge.
     Turn turn_of_trip(int trip, int trip_edge) const { return demand_->turn_of_trip(trip, trip_edge); }
-    // Returns the number of lane changes that a trip needs after edge `trip_edge` if the vehicle leaves this edge from
-    // `lane`.
+    // Returns the number of lane changes that a trip needs on the edges after edge `trip_edge` if the vehicle leaves
+    // edge `trip_edge` from `lane`.
     int lane_changes_after(int trip, int trip_edge, int lane) const {
         return trip_lanes_.after(demand_->trips[static_cast<std::size_t>(trip)], trip_edge, adjacent(lane).index);
     }
@@ -78,14 +79,15 @@ public:
     // Sets which of two connections yields at their conflict area. This is the only part of the plan that changes
     // during a run: right of way can change with the phases of a signal.
     void set_priority(int first, int second, Priority priority);
-    // Returns the connections that share a conflict area with connection `lane`, as masks for the bitsets.
+    // Returns the connections that share a conflict area with connection `lane`, as masks for the bitsets of
+    // JunctionState.
     std::span<const BitsetMask> conflicting(int lane) const { return conflicting_.of(lane); }
-    // Each connection with conflict areas has a number, which is its bit in the bitsets. The numbers follow
-    // lane_order(). No two intersections share a word of a bitset, so that no two threads write the same word. Some
-    // numbers are therefore unused.
+    // The bitsets of JunctionState have one bit for each connection with conflict areas, in the order of lane_order().
+    // No two intersections share a word of a bitset, so that no two threads write the same word. Therefore, some bits
+    // are unused.
     std::size_t bitset_size() const { return connections_.size(); }
     int connection_at(std::size_t bitset_index) const {
-        return connections_[bitset_index];  // -1: no connection has this number
+        return connections_[bitset_index];  // -1: the bit is unused
     }
     // Calls visit(begin, end) for each range of memory that a step reads for this lane.
     template <class Visit>

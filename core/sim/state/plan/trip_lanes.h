@@ -7,8 +7,8 @@
 //     from(edge, lane): changes on this edge and later ones if the vehicle begins the edge on `lane`. This is the
 //         minimum of |lane - other| + after(edge, other) over all lanes of the edge.
 //
-// after() does not count lane changes on edges of length kLongEdge_m or more. A vehicle has enough time for these
-// changes.
+// after() does not count lane changes on later edges of length kLongEdge_m or more, because a vehicle has enough time
+// for lane changes there.
 #pragma once
 
 #include <cstdint>

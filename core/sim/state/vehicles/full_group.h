@@ -19,15 +19,15 @@ struct FullGroup {
     float *gap, *closing;  // net gap and closing speed, from the delayed radar measurement
     float *heard_acceleration, *heard_request, *heard_rate;  // delayed V2V message of the leader
     float *to_next_limit, *limit, *end_speed, *standstill_gap, *sine;
-    float* demand;  // lowest acceleration of all external demands; kUnconstrained_mps2: no demand
+    float* demand;  // lowest acceleration of the ExternalDemands of the vehicle; kUnconstrained_mps2: none
     float *is_platoon_leader, *torque, *brake, *gear_time, *gear;
     float* mean_request;                                  // mean request within the step, for the powertrain
     float *sent_acceleration, *sent_request, *sent_rate;  // V2V message to the follower
     int *policy, *type;
     // Desired gap of the spacing policy, and its slope over speed.
     double *desired_gap, *slope;
-    // Scratch memory, used if the model has several policies: results of the spacing law that is being evaluated. The
-    // values of the vehicles with this law are then copied to desired_gap and slope.
+    // Scratch memory for models with several policies. Each further spacing law is evaluated for all vehicles and
+    // writes its results here. Then the values of the vehicles with this law are copied to desired_gap and slope.
     double *law_gap, *law_slope;
 };
 

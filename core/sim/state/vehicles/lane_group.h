@@ -15,8 +15,8 @@ struct LaneStep {
     int count() const { return stop - begin; }
 };
 
-// The acceleration that a stop line, yielding, a gap alignment or a hidden leader (sim/perception/hidden_leaders.h)
-// demands of one vehicle.
+// The acceleration that one vehicle must not exceed. The reason is a stop line, yielding, a gap alignment, or a vehicle
+// that its leader hides (sim/perception/hidden_leaders.h).
 struct ExternalDemand {
     int index = 0;  // index of the vehicle in the group
     double acceleration_mps2 = 0.0;

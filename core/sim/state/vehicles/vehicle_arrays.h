@@ -31,11 +31,12 @@ struct VehicleArrays {
     LargeArray<float> is_platoon_leader;  // 1: platoon leader; 0: follower
     LargeArray<int> policy;
     LargeArray<int> id;  // vehicle id; mesoscale mode: -1 in a free slot
-    // Mesoscale mode only. These values depend on the lane. They are set again, not copied, when a vehicle goes to
-    // another lane.
-    LargeArray<double> limit_mps;      // speed limit of the lane times the speed factor
-    LargeArray<double> next_limit_m;   // position from which end_speed_mps applies
-    LargeArray<double> speed_cap_mps;  // highest speed in this step that stop lines, yielding and free driving allow
+    // Mesoscale mode only. These values depend on the lane. When a vehicle goes to another lane, they are not copied
+    // but set for the new lane.
+    LargeArray<double> limit_mps;     // speed limit of the lane times the speed factor
+    LargeArray<double> next_limit_m;  // position from which end_speed_mps applies
+    // Highest speed in this step that stop lines, yield stops, gap alignments and driving without a leader allow.
+    LargeArray<double> speed_cap_mps;
     // Full dynamics only.
     LargeArray<float> request_mps2;  // acceleration requested in the previous step; u in driver/acceleration_laws.h
     LargeArray<float> torque_Nm;
