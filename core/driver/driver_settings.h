@@ -82,7 +82,10 @@ struct LaneChangeSettings {
     std::string gap_opening = "on";  // off | on: followers on the target lane open a gap for mandatory changes
     // Discretionary changes: MOBIL (Kesting, Treiber, Helbing 2007). MOBIL rates a change by the accelerations that
     // result from the intelligent driver model (IDM) with the desired gap of the spacing policy.
-    double threshold_mps2 = 0.1;     // smallest gain in acceleration that justifies a change
+    double threshold_mps2 = 0.1;  // smallest gain in acceleration that counts
+    // A vehicle sums up, over time, the gains in acceleration beyond threshold_mps2. It changes lanes when the sum
+    // reaches this speed. So a short advantage of the other lane is not enough.
+    double gain_mps = 1.0;
     double politeness = 0.0;         // weight of the gains and losses of other vehicles
     double keep_right_mps2 = 0.0;    // bonus of a change to the right
     double acceleration_mps2 = 1.5;  // maximum acceleration of the IDM

@@ -141,7 +141,10 @@ const Table& lane_change_table() {
                                     "on: a follower in the target lane opens a gap for a mandatory change")
                 .renamed_from("help"),
             number<&S::threshold_mps2>("threshold", "m/s2", {0, 10},
-                                       "discretionary changes (MOBIL): smallest gain in acceleration"),
+                                       "discretionary changes (MOBIL): smallest gain in acceleration that counts"),
+            number<&S::gain_mps>("gain", "km/h", {0, 100},
+                                 "discretionary changes: a vehicle changes when the gains in acceleration beyond "
+                                 "threshold, summed up over time, reach this speed"),
             number<&S::politeness>("politeness", "", {0, 1},
                                    "discretionary changes (MOBIL): weight of the gains and losses of other vehicles"),
             number<&S::keep_right_mps2>("keep_right", "m/s2", {0, 5},

@@ -21,9 +21,11 @@ namespace {
 
 constexpr double kDecisionInterval_s = 0.5;  // time between two lane-change decisions of a vehicle
 constexpr double kMinInterval_s = 2.0;       // shortest time from a lane change to the vehicle's next mandatory change
-// Within this time after a change, a vehicle does not return to its previous lane to gain speed. Otherwise it could
-// change back and forth between adjacent queues that move in turn. The value is our choice.
-constexpr double kReturnPause_s = 30.0;
+// A vehicle forgets the gains of a lane over this time. After a change, the vehicle needs the gain of this factor times
+// LaneChangeSettings::gain_mps to return. Both values are our choice. They keep a vehicle from changing back and forth
+// between adjacent queues that move in turn.
+constexpr double kGainMemory_s = 10.0;
+constexpr double kReturnFactor = 3.0;
 
 // Returns the acceleration of the intelligent driver model (Treiber, Hennecke, Helbing 2000), with the desired gap of
 // the policy in place of the model's own gap s_0 + v T (standstill gap plus speed times time gap).
@@ -161,13 +163,19 @@ private:
     bool may_change_for_speed(int other) const {
         if (other < 0 || !can_move_beside(model_, me_, adjacent_position_m(state_, me_.lane, me_.front_m, other)))
             return false;
-        if (other == state_.vehicles.lane_memory[at(me_.slot)].lane_before && since_change_s_ < kReturnPause_s)
-            return false;
         if (later_changes(model_, state_, other, me_.slot).in_total >
             later_changes(model_, state_, me_.lane, me_.slot).in_total)
             return false;
         const int changes = std::abs(state_.plan.adjacent(other).turn_option(me_.turn).lane_changes);
         return route_on(other) >= 0 || me_.to_line_m > look_ahead_m(model_, me_, remembered_mps(), changes);
+    }
+
+    // Adds the incentive of this decision to the gain of a lane, which is at least 0 unless the vehicle has just left
+    // this lane.
+    void add_gain(double incentive_mps2, float& gain_mps) const {
+        const double faded_mps = gain_mps * (1.0 - kDecisionInterval_s / kGainMemory_s);
+        const double sum_mps = faded_mps + (incentive_mps2 - model_.lane_change.threshold_mps2) * kDecisionInterval_s;
+        gain_mps = static_cast<float>(std::max(sum_mps, std::min(faded_mps, 0.0)));
     }
 
     bool change_for_speed(int right, int left) {
@@ -189,18 +197,22 @@ private:
             here.follower = {me_.slot + 1, me_.front_m - me_.length_m - v.position_m[at(me_.slot + 1)],
                              v.speed_mps[at(me_.slot + 1)], v.policy[at(me_.slot + 1)]};
         }
-        double best_mps2 = model_.lane_change.threshold_mps2;
+        LaneChangeMemory& memory = state_.vehicles.lane_memory[at(me_.slot)];
+        double best_mps = model_.lane_change.gain_mps;
         int chosen = -1;
         LaneNeighbours chosen_neighbours;
-        for (const int other : {may_right ? right : -1, may_left ? left : -1}) {
-            if (other < 0) continue;
+        const auto rate = [&](int other, bool may_change, bool to_the_right, float& gain_mps) {
+            if (!may_change) return;
             const LaneNeighbours there = neighbours_on(other);
-            const double gain = incentive_mps2(model_, state_, me_, here, there, other == right);
-            if (gain <= best_mps2 || !gaps_suffice(model_, me_, there, model_.lane_change.gap_share)) continue;
-            best_mps2 = gain;
+            add_gain(incentive_mps2(model_, state_, me_, here, there, to_the_right), gain_mps);
+            if (static_cast<double>(gain_mps) < best_mps) return;
+            if (!gaps_suffice(model_, me_, there, model_.lane_change.gap_share)) return;
+            best_mps = gain_mps;
             chosen = other;
             chosen_neighbours = there;
-        }
+        };
+        rate(right, may_right, true, memory.right_gain_mps);
+        rate(left, may_left, false, memory.left_gain_mps);
         if (chosen < 0) return false;
         change_to(chosen, chosen_neighbours, false);
         return true;
@@ -222,7 +234,10 @@ private:
         const int slot = move_to_lane(model_, state_, me_.lane, from, other, there.index,
                                       adjacent_position_m(state_, me_.lane, me_.front_m, other));
         v.lane_memory[at(slot)].change_tick = static_cast<int>(state_.tick);
-        v.lane_memory[at(slot)].lane_before = me_.lane;
+        const auto way_back_mps = static_cast<float>((1.0 - kReturnFactor) * model_.lane_change.gain_mps);
+        const bool to_the_right = other == state_.plan.adjacent(me_.lane).right;
+        v.lane_memory[at(slot)].left_gain_mps = to_the_right ? way_back_mps : 0.0F;
+        v.lane_memory[at(slot)].right_gain_mps = to_the_right ? 0.0F : way_back_mps;
         v.record[at(slot)].accepted_gap_on = -1;
         adopt_lane_route(model_, state_, other, slot);
         reset_leader(state_.vehicles, slot, state_.blocks[at(other)]);
