@@ -43,7 +43,9 @@ struct RulesPlan {
     std::int64_t watch_ticks = 0;
     // If a gridlock is observed again within this time, it counts as the same gridlock.
     std::int64_t gridlock_ticks = 0;
-    std::int64_t long_wait_ticks = 0;  // a delay episode includes a vehicle stopped for this long, whatever the cause
+    // Signals, yielding and queue discharge cause many short stops. A delay episode (DelayEpisode) with such a cause
+    // includes only vehicles that have been stopped for this time. Episodes with other causes include all of them.
+    std::int64_t long_wait_ticks = 0;
     // The permission to pass a blocker (BlockerPass) expires when it has not been needed for this time.
     std::int64_t memory_ticks = 0;
 
