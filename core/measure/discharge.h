@@ -1,6 +1,7 @@
 // Queue discharge at stop lines: headways by position in the queue, saturation flow and start-up lost time. By the
 // Highway Capacity Manual (6th edition, chapter 31) the saturation headway is the mean from the fifth vehicle on. The
-// start-up lost time is the sum over the first four vehicles of the headway minus the saturation headway.
+// start-up lost time is the sum over the first four vehicles of the headway minus the saturation headway. The headway
+// of the first vehicle counts from the start of green.
 #pragma once
 
 #include <functional>

@@ -60,8 +60,8 @@ public:
 private:
     Lane& lane(const BuiltConnection& connection) { return network_.graph.lanes[at(connection.lane)]; }
 
-    // Finds junction and link number of the connections in a network without internal lanes. The links of a junction
-    // are numbered by incoming lane; links from the same lane are numbered in the order of the file.
+    // Sets junction and link number of connections without internal lanes. SUMO numbers the links of a junction in the
+    // order of its incoming lanes. Links from the same lane are numbered in the order of the file.
     void number_links_without_via() {
         std::unordered_map<std::string, std::vector<BuiltConnection*>> from;
         for (BuiltConnection& connection : connections_) {
@@ -135,7 +135,7 @@ private:
         const int tl = connection.source->tl;
         if (tl < 0 || tl != to.source->tl) {
             // If the matrix makes neither link yield, the link with the higher number yields, and every link yields to
-            // a link with the attribute `pass`. Copies of one connection have the same number, so is_left_of() decides.
+            // a link with the attribute `pass`. If both links have the same number, is_left_of() decides.
             const bool undecided = !must_yield && !bit(junction.response, to.link, connection.link);
             return must_yield ||
                    (undecided && (to.source->pass || connection.link > to.link || is_left_of(connection, to)));

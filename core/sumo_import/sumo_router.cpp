@@ -41,8 +41,8 @@ Turn SumoRouter::turn(int from, int to) const {
     return Turn::none;
 }
 
-// Extends the shortest-path tree until the travel time of the edge `target` is final, or until the tree contains all
-// edges from which to_ can be reached.
+// Extends the shortest-path tree backwards from to_ until the fastest route from the edge `target` to to_ is known, or
+// until the tree contains all edges from which to_ can be reached.
 void SumoRouter::settle(int target) {
     while (settled_[at(target)] == 0 && !open_.empty()) {
         std::pop_heap(open_.begin(), open_.end(), std::greater<>());

@@ -76,7 +76,7 @@ struct Model {
     // true: the kernels compute one vehicle at a time and do not skip standing queues. The results are the same.
     bool scalar_kernels = false;
     // true: record passages, accepted gaps, and the crossings of all detectors; false: only the crossings of zones
-    // (Detector::Kind::zone) and of trip starts and ends
+    // (Detector::Kind::zone) and of the two detectors that stand for trip starts and ends (trips_begin, trips_end)
     bool records_all = true;
     bool records_detectors = false;  // true: record the crossings of all detectors even if records_all is false
     // Indices of the two detectors that stand for the start and the end of a trip. They are on no lane. -1: none.
