@@ -85,7 +85,8 @@ for attempt in 1 2 3; do
         break
     fi
     if [[ $attempt == 3 ]]; then
-        # The mirror that failed may not hold these packages, so the script tries to install them anyway.
+        # apt-get reports a failure even if it could not fetch one list of several. The lists that it has may suffice to
+        # install the missing packages, so the script tries.
         echo "apt-get could not update the package lists and continues with the old ones. Its message:" >&2
         cat "$log" >&2
     else

@@ -98,7 +98,7 @@ std::string command_of(const ScorecardCliOptions& options) {
     return command;
 }
 
-// Writes the results page. The findings cover all sections, so a page of a single section does not include them.
+// Writes the results page. FINDINGS.md covers all sections, so a page of a single section does not include it.
 void write_results_page(const ScorecardCliOptions& options, const Scorecard& scorecard) {
     const std::filesystem::path findings = data_directory() / "paper" / "FINDINGS.md";
     const bool append = options.section.empty() && std::filesystem::exists(findings);

@@ -247,7 +247,8 @@ bool is_of_reference_intersection(const Sweep& sweep) {
     return std::filesystem::equivalent(sweep.settings().scenario, reference.lexically_normal(), ignored);
 }
 
-// Prints the counts that test two statements of the paper. Leaves out a line if the sweep has nothing to count.
+// Prints how often the sweep confirms two statements of the paper: throughput falls with the share of turns, and it
+// grows more than in proportion to the share of CDG. Leaves out a statement that the sweep cannot test.
 void print_throughput_trends(const ThroughputTrends& trends) {
     const std::string largest =
         trends.rises == 0 ? ""
@@ -262,9 +263,9 @@ void print_throughput_trends(const ThroughputTrends& trends) {
     }
 }
 
-// Writes the means over seeds, the figures, and Table 1 of the paper. An output is left out if the sweep lacks one of
-// its axes. Only sweeps of the paper's intersection get Table 1. Returns the sentences that tell the user which file to
-// open.
+// Writes the means over seeds, the figures, and Table 1 of the paper. Each of them needs certain axes, and is left out
+// if the sweep does not have these axes. Only sweeps of the paper's intersection get Table 1. Returns the sentences
+// that tell the user which file to open.
 std::string draw_results(const Sweep& sweep, const std::string& csv, const std::filesystem::path& file,
                          ColumnNames names) {
     const CsvTable results = parse_csv(csv, file.string());

@@ -84,7 +84,7 @@ step "Thread sanitizer: fast tests"
 # built with the sanitizer, so ignore_noninstrumented_modules leaves it out.
 export OMP_TOOL_LIBRARIES=/usr/lib/llvm-14/lib/libarcher.so
 export TSAN_OPTIONS=ignore_noninstrumented_modules=1
-# The sanitizer of clang 14 does not know the address layout that newer kernels randomise to.
+# The thread sanitizer of clang 14 cannot handle the random memory addresses of newer kernels.
 fixed_addresses=()
 if setarch --addr-no-randomize true 2>/dev/null; then
     fixed_addresses=(setarch --addr-no-randomize)

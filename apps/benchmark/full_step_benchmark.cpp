@@ -38,7 +38,7 @@ Model queue_model(int vehicles) {
     return model;
 }
 
-// A simulation of moving platoons. Each number of vehicles with each kind of kernels has one such simulation.
+// A simulation of moving platoons. There is one for each combination of vehicle count and kernels (batch or scalar).
 struct DrivingPlatoons {
     explicit DrivingPlatoons(int vehicles, bool scalar) : model(queue_model(vehicles)), simulation(model) {
         simulation.run_until(kGreen_s + kDriving_s);

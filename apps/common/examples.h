@@ -1,4 +1,4 @@
-// Example commands in help texts and 'Next' lines. The user can run them as printed.
+// Example commands in help texts and in the 'Next:' hint after a run. The user can run them as printed.
 #pragma once
 
 #include <string>

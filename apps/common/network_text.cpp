@@ -119,8 +119,8 @@ std::string traffic_text(const NetworkReport& report) {
     return table.text();
 }
 
-// Returns the table of delay causes, gridlocks, teleported vehicles, and blocking vehicles that another vehicle was
-// allowed to pass.
+// Returns the table of delay causes, gridlocks, teleported vehicles and passed blockers. A passed blocker is a vehicle
+// stopped inside an intersection that crossing vehicles no longer wait for (rule pass_blocker_greens).
 std::string congestion_text(const NetworkReport& report) {
     TextTable table;
     table.add_row({"", "junction", "turn", "", "", "wrong", "|", "", "", "passed"});

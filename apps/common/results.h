@@ -9,8 +9,8 @@
 
 namespace stopline {
 
-// Returns program_identity(), a hash of this program that is stored with its runs. Throws InputError if the program
-// cannot read its own file.
+// Returns program_identity(), a text with a hash of the program file, which is stored with the results. Throws
+// InputError if the program file cannot be read.
 std::string required_program_identity();
 
 // Draws the figures as SVG and PNG into `folder` and prints their names. If there is nothing to draw, prints the

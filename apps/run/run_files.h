@@ -38,8 +38,8 @@ void add_run_files_options(Options& app, RunFilesOptions& options);
 
 class RunFiles {
 public:
-    // `command` is the command line of the run, which recordings store. Throws InputError that names an option with a
-    // wrong value.
+    // `command` is the command line of the run, which recordings store. If an option has a wrong value, throws an
+    // InputError that names the option.
     RunFiles(const RunFilesOptions& options, const Scenario& scenario, const std::string& command);
 
     // Returns the observer to pass to the runs. It must not outlive this object.

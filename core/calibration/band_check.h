@@ -28,7 +28,8 @@ struct MetricBands {
     double share_inside(Band band) const;
     double mean_relative_difference() const;  // mean of |meso / full - 1|
     double mean_relative_bias() const;        // mean of (meso / full - 1), with its sign
-    // Median over all points of the half width of the paper's band, divided by the mean of full dynamics.
+    // For each point, the relative half width is half the width of the paper's band divided by full_mean. Returns the
+    // median of this ratio over all points.
     double median_relative_half_width() const;
 };
 

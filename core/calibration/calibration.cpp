@@ -26,7 +26,7 @@ bool is_in(const CalibrationCase& c, CaseSubset subset) {
     return subset == CaseSubset::all || c.fit.held_out == (subset == CaseSubset::held_out);
 }
 
-// Returns the axis values of a run as text. The seed is left out if the sweep has only one.
+// Returns the axis values and the seed of a run as text. The text omits the seed if the sweep has only one seed.
 std::string permutation_text(const Sweep& sweep, std::size_t point) {
     const std::string text = sweep.describe(point);
     return sweep.settings().repetitions > 1 ? text : text.substr(0, text.rfind(", seed"));

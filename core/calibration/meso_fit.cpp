@@ -31,7 +31,7 @@ bool is_in(const FitCase& c, LawSubset subset) {
     return subset == LawSubset::all || has_law(c, subset == LawSubset::constant_distance);
 }
 
-// One search of the minimum loss, and its state.
+// A search for the minimum loss, and its state.
 struct Search {
     std::vector<const FitCase*> cases;
     std::vector<std::size_t> free;  // indices of the fitted parameters in fit_parameters()
@@ -58,7 +58,7 @@ struct Search {
 
 MesoSettings with_values(MesoSettings settings, const std::vector<double>& values) {
     for (std::size_t k = 0; k < values.size(); ++k) fit_parameters()[k].value(settings) = values[k];
-    // The gap at rest is s_0 + s_t. A change of s_t therefore changes s_0 by the opposite amount.
+    // The gap at rest, s_0 + s_t, must keep its calibrated value. So s_0 is that value minus s_t.
     settings.constant_distance.standstill_gap_m = settings.calibrated_standstill_gap_m - settings.band_m;
     return settings;
 }
@@ -149,8 +149,8 @@ std::vector<double> start_values(std::vector<double> values, const std::vector<s
 // - Deceleration: at most 7 m/s2, the limit on a dry road. The constant-distance model, whose reaction time is almost
 //   0, gets at most 5 m/s2, so that its vehicles still stop at the line.
 // - Anticipation: at most one step of 100 ms. With more, policies whose gap grows with speed oscillate.
-// - Standstill gap s_0: not fitted. Time-gap models take it from the policy, and equation (1) uses that of the policy
-//   minus s_t.
+// - Standstill gap s_0: not fitted. In the time-gap model it is the standstill gap of the policy. In the
+//   constant-distance model, equation (1) of the paper, it is the standstill gap of the policy minus s_t.
 const std::vector<FitParameter>& fit_parameters() {
     using S = MesoSettings;
     constexpr auto kNoProfile = [](const S& s) { return s.leader_profile_mps.empty(); };

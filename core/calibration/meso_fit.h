@@ -1,11 +1,11 @@
 // Fits the parameters of the mesoscale mode to detector passages of full dynamics (Section V.B, step I). The k-th
-// passages of a detector in both fidelities form a pair. The loss is a robust least-squares sum over all pairs: a
-// difference far beyond one second hardly influences the search.
+// passages of a detector in both fidelities form a pair. The loss is a mean over all pairs (fit_loss). It is robust: a
+// single pair adds at most 1 to the sum, however large its difference is.
 //
-// First, each of the two models of the Krauss family is fitted alone to the permutations in which all vehicles use this
-// model. Each of these searches is repeated from several starting points. Then all parameters are fitted together to
-// all permutations. The search is deterministic. An interrupted search can therefore be repeated: with the stored
-// losses of its finished evaluations, it continues where it was interrupted.
+// First, the time-gap model and the constant-distance model are fitted separately, each to the permutations in which
+// all vehicles use this model. Each of these searches is repeated from several starting points. Then all parameters are
+// fitted together to all permutations. The search is deterministic. After an interruption it can therefore start again:
+// the stored losses replace the evaluations that were finished before.
 #pragma once
 
 #include <functional>
@@ -57,8 +57,8 @@ struct FitEvaluation {
 struct FitOptions {
     int threads = 1;
     int starts = 3;
-    int evaluations_per_start = 250;  // highest number of evaluations from one starting point, one model alone
-    int joint_evaluations = 800;      // highest number of evaluations for all parameters together
+    int evaluations_per_start = 250;  // highest number in a search for one model, from one starting point
+    int joint_evaluations = 800;      // highest number in the search for all parameters together
     double limit_s = 1.0;
     // Returns the loss of evaluation `index` that an earlier session stored, if that evaluation had the same parameter
     // values.

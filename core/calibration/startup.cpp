@@ -181,7 +181,7 @@ StartupFit fit_startup(const Scenario& scenario, const StartupCurve& curve,
         }
     }
     std::vector<double>& parameters = best_parameters;
-    // Rounded to the precision of the driver file.
+    // Round the parameters to the precision of the driver file.
     for (double& value : parameters) value = std::round(value * 1e3) / 1e3;
     set_parameters(parameters, free);
     fit.driver = task.scenario.driver;

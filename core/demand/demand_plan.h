@@ -49,9 +49,9 @@ struct DemandPlan {
         // [index in `routes`] share of the route for a vehicle that chose this lane because of its turn. These shares
         // spread the traffic equally over the lanes of the approach. Empty: `shares` apply.
         std::vector<double> lane_shares = {};
-        // [index in `routes`] share of the turn of the route on all lanes of the approach together. balancing_route()
-        // corrects the draws so that these shares hold even if some lanes discharge more vehicles than other lanes.
-        // Empty: no correction.
+        // [index in `routes`] share of the vehicles on the whole approach that make the turn of this route.
+        // balancing_route() corrects the draws so that these shares hold even if some lanes discharge more vehicles
+        // than other lanes. Empty: no correction.
         std::vector<double> approach_shares = {};
         double headway_s = 0.0;  // > 0: vehicles arrive with this constant headway, even if `saturated` is set
     };
@@ -73,8 +73,9 @@ struct DemandPlan {
     }
     bool starts_queued = false;  // the run begins with a queue from every stop line back to the entry
 
-    // The order in which policies or routes are assigned to successive vehicles. balanced: the order is random, but the
-    // shares hold in each block of 20 successive vehicles of an inlet.
+    // The order in which policies or routes are assigned to successive vehicles. alternating: each vehicle gets the
+    // policy or route that is furthest behind its share. balanced: the order is random, but the shares hold in each
+    // block of 20 successive vehicles of an inlet.
     enum class Pattern { alternating, random, balanced };
     Pattern pattern = Pattern::alternating;  // order of the spacing policies
     std::vector<int> policies;               // [component of the population] index of its spacing policy

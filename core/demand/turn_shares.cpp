@@ -11,8 +11,8 @@ namespace {
 
 double sum_of(const TurnShares& row) { return std::accumulate(row.begin(), row.end(), 0.0); }
 
-// Scales all rows to their target sums, then all columns. Returns the largest deviation between a sum and its target
-// that was found just before scaling.
+// Scales all rows to their target sums, then all columns. Returns the largest deviation of a sum from its target. The
+// sum of a row or column is computed just before this row or column is scaled.
 double fit_once(std::vector<TurnShares>& matrix, const TurnShares& shares) {
     const double row = 1.0 / static_cast<double>(matrix.size());
     double change = 0.0;

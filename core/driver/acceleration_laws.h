@@ -147,8 +147,8 @@ inline constexpr double kStoppingLeaderBraking_mps2 = 0.2;
 
 // Returns the acceleration for a stop behind a leader that is about to stop, or kUnconstrained_mps2 for any other
 // leader. A leader is about to stop if it is slower than kStoppingLeader_mps and requests a deceleration of at least
-// kStoppingLeaderBraking_mps2. Below 1 m/s this threshold falls linearly to 0. A stopped leader thus counts as about to
-// stop until it requests a positive acceleration.
+// kStoppingLeaderBraking_mps2. For a leader slower than 1 m/s, the required deceleration is smaller, in proportion to
+// the speed of the leader. A stopped leader thus counts as about to stop until it requests a positive acceleration.
 template <class R, class Number>
 STOPLINE_INLINE R stop_behind_acceleration(const DriverTablesOf<Number>& d, const R& speed_mps,
                                            const R& standstill_gap_m, const LeaderView<R>& p) {
@@ -200,9 +200,9 @@ inline constexpr double kHardBraking_mps2 = 2.0;
 //
 // The filter delays braking. With a time gap, the vehicle normally has room for this delay. The room is `gap_growth_m`
 // (the desired gap minus the standstill gap). If the gap is shorter than desired, the difference is subtracted from the
-// room. If the vehicle covers the room in less than kMinFilterRoom_s and the leader requests a deceleration above
-// kHardBraking_mps2, the vehicle brakes at least as hard as with a constant distance gap. Both thresholds are our
-// choice. Only a stop makes a leader brake that hard.
+// room. The delay is too long if the vehicle covers the room in less than kMinFilterRoom_s and the leader requests a
+// deceleration above kHardBraking_mps2. The vehicle then brakes at least as hard as with a constant distance gap. Both
+// thresholds are our choice. A leader brakes harder than kHardBraking_mps2 only to stop.
 template <class R, class Number>
 STOPLINE_INLINE R follow_acceleration(const CaccSettingsOf<Number>& c, const R& speed_mps, const R& acceleration_mps2,
                                       const R& lag_s, const R& rate_1ps, const R& request_mps2, const R& desired_gap_m,
@@ -257,11 +257,13 @@ STOPLINE_INLINE R emergency_acceleration(const CaccSettingsOf<Number>& c, const 
     return choose(urgent, 0.0 - braking, unconstrained);
 }
 
-// Reserves of keep_room_acceleration(), which explains them. All three values are our choice. If kReservedGrowthShare
-// were 1, vehicles with SWITCH-2 would brake during every start. A larger kMinReserve_s would slow down the starts of
-// Section III of the paper.
-inline constexpr double kBrakeReserve_s = 0.3;  // lag of the brake (0.2 s), and 0.1 s for the request to change
+// Constants of keep_room_acceleration(), whose comment explains their use. All three values are our choice.
+//
+// The brake lags by 0.2 s. Before that, it takes about 0.1 s until the requested acceleration has changed.
+inline constexpr double kBrakeReserve_s = 0.3;
+// If this share were 1, vehicles with the policy SWITCH-2 would brake during every start.
 inline constexpr double kReservedGrowthShare = 0.5;
+// A larger value would slow down the starts of Section III of the paper.
 inline constexpr double kMinReserve_s = 0.15;
 
 // Returns the braking that keeps room for the case that the leader brakes with the maximum deceleration b at once. Up
@@ -299,10 +301,10 @@ STOPLINE_INLINE R keep_room_acceleration(const CaccSettingsOf<Number>& c, const 
     return choose(is_faster, result, unconstrained);
 }
 
-// Returns the braking for a hidden leader, or at least kUnconstrained_mps2 if no braking is needed. The own leader will
-// leave the route of the own vehicle. Until then it hides the vehicle ahead of it, the hidden leader, which stays on
-// the route. The own vehicle must not hit the hidden leader later. `gap_growth_m` is the desired gap minus the
-// standstill gap.
+// Returns the braking for a hidden leader, or kUnconstrained_mps2 if no braking is needed. The own leader will leave
+// the route of the own vehicle. Until then it hides the vehicle ahead of it, the hidden leader, which stays on the
+// route. The own vehicle must not hit the hidden leader later. `p` is the view of the hidden leader, and `gap_growth_m`
+// is the desired gap minus the standstill gap.
 inline double hidden_leader_acceleration(const DriverTables& d, double speed_mps, double standstill_gap_m,
                                          double gap_growth_m, const LeaderView<double>& p) {
     const double collision_free_mps2 = min_of(emergency_acceleration(d.cacc, speed_mps, p),

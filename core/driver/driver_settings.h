@@ -131,15 +131,16 @@ struct MesoSettings {
     // deceleration for the turn. The allowed speed is the highest speed from which the vehicle can still brake to the
     // turn speed in time. With 1000, the vehicle takes the allowed speed at once.
     double turn_gain_1ps = 1000;
-    // Acceleration of platoon leaders. leader_mps2 applies up to the constant-power speed. If leader_mps2 is 0, platoon
-    // leaders accelerate as in the car-following model of their policy. A profile (speeds, and the accelerations at
-    // these speeds) replaces leader_mps2 and leader_constant_power_speed_mps.
+    // Acceleration of platoon leaders: leader_mps2, which falls as 1 / speed above leader_constant_power_speed_mps. If
+    // leader_mps2 is 0, platoon leaders accelerate as in the car-following model of their policy. A leader profile,
+    // which lists speeds and the accelerations at these speeds, replaces both values.
     double leader_mps2 = 0.0;
     double leader_constant_power_speed_mps = 500.0 / 3.6;
     std::vector<double> leader_profile_mps;
     std::vector<double> leader_profile_mps2;
-    // When a queue starts, the next vehicle starts behind its leader. In the same step, a V2V start message reaches
-    // this number of stopped vehicles behind it. Only vehicles with the constant-distance model receive the message.
+    // Queue discharge: in each step, a V2V start message reaches at most this number of stopped vehicles, in addition
+    // to the next vehicle, which starts because its leader has started. Only vehicles with the constant-distance model
+    // receive the message. 0: no start messages.
     int start_relay_vehicles = 0;
     double start_delay_s = 0.0;  // start-up delay of the first vehicle at a stop line, due to its powertrain
     KraussSettings constant_time;

@@ -94,8 +94,8 @@ STOPLINE_INLINE R safe_speed_mps(const Model& k, const R& gap_m, const R& leader
     return select(k.constant_distance, select(spare_gap_m <= 0.0, close, braking), braking);
 }
 
-// Returns the speed, or 0 if it is below 1 cm/s. Otherwise a follower would close its gap ever more slowly and never
-// come to rest.
+// Returns the speed, or 0 if it is below 1 cm/s. Without this rule, a follower would close its gap ever more slowly and
+// never come to rest.
 template <class R>
 STOPLINE_INLINE R snap_to_standstill(const R& speed_mps) {
     return select(speed_mps < kMesoStopSpeed_mps, R(0.0), speed_mps);
@@ -140,8 +140,9 @@ STOPLINE_INLINE R anticipated_safe_speed_mps(const Model& k, const KraussInputOf
 
 // Returns the speed of the next step. `safe_mps` is the result of anticipated_safe_speed_mps(), `random` is uniform in
 // [0, 1), and `power_limit` is the result of has_power_limit(). With a power limit, the acceleration is at least
-// `least_mps2`. The leader makes the vehicle brake at most down to `lowest_mps`, unless it must brake harder to avoid
-// contact. This limit matters only after lane changes; otherwise the models do not demand such hard braking.
+// `least_mps2`. Because of its leader, the vehicle brakes at most down to `lowest_mps`. To avoid contact with the leader,
+// it brakes harder. The limit `lowest_mps` matters only after lane changes; otherwise the models do not demand such
+// hard braking.
 template <bool power_limit, class R, class Model>
 STOPLINE_INLINE R speed_after_mps(const Model& k, const KraussInputOf<R>& in, const R& safe_mps, const R& random,
                                   double dt, const R& lowest_mps = R(0.0), const R& least_mps2 = R(0.0)) {

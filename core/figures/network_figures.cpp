@@ -81,7 +81,8 @@ std::string window_owner(const NetworkReport& report) {
     return std::any_of(all.begin(), all.end(), other) ? " of " + all.front().population : "";
 }
 
-// Returns the commands that shade the measured window and mark the breakdowns.
+// Returns the commands that shade the measured window and mark the breakdowns, which are the times at which runs become
+// unstable.
 std::string marks_of(const NetworkReport& report) {
     std::string text;
     if (report.populations.empty()) return text;
@@ -104,7 +105,7 @@ std::string marks_of(const NetworkReport& report) {
 }  // namespace
 
 Figure network_series_figure(const NetworkReport& report) {
-    constexpr std::size_t kNamesPerPanel = 9;  // further populations are named beside the next panels
+    constexpr std::size_t kNamesPerPanel = 9;  // legend entries beside one panel; the next panels name the rest
     Figure figure;
     figure.name = "series";
     figure.width_px = 900;

@@ -1,4 +1,4 @@
-// Figures of one run over several intersections.
+// Figures of the runs over a network of several intersections, one run for each population.
 #pragma once
 
 #include "figures/gnuplot.h"
@@ -9,7 +9,7 @@ namespace stopline {
 // Draws throughput, travel time, density and the number of teleported vehicles over time (Fig. 22 of the paper).
 Figure network_series_figure(const NetworkReport& report);
 
-// Draws the causes for which vehicles are stopped. The share of a cause is its part of the total stopped time.
+// Draws for each population the causes that stop its vehicles, as shares of the total stopped time.
 Figure delay_causes_figure(const NetworkReport& report);
 
 }  // namespace stopline

@@ -134,7 +134,7 @@ std::string platoon_data(const SingleLightReport& result, std::size_t population
 
 std::string platoon_panel(const std::string& file, std::size_t curves, int column,
                           const std::vector<std::size_t>& titles) {
-    // The gap panel (column 3) shows no curve of the platoon leader, because it has no gap.
+    // Column 3 is the net gap. The platoon leader has no gap, so the gap panel does not show its curve.
     if (column == 3 && curves < 2) return "plot NaN notitle\n";
     std::string text = "plot";
     for (std::size_t k = column == 3 ? 1 : 0; k < curves; ++k) {

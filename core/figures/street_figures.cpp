@@ -113,7 +113,7 @@ Figure backlog_figure(const NetworkReport& report) {
             body += east ? "set ylabel 'position to the east [m]'\nset format y '%g'\nunset colorbox\n"
                          : "unset ylabel\nset format y ''\nset colorbox\nset cblabel 'mean speed [km/h]'\n";
             body += fmt::format("plot 'backlog_{}_{}.dat' using 1:2:3 with image\n", k, east ? "east" : "west");
-            if (k == 0 && east) body += "unset label\n";  // gnuplot draws all labels with each panel
+            if (k == 0 && east) body += "unset label\n";  // else gnuplot draws the label again in each panel
         }
     }
     figure.body = body + "unset multiplot\n";

@@ -1,4 +1,4 @@
-// Map of streets to scale: lanes with their movements, stop lines by signal group, and the programme of each
+// Map of streets to scale: lanes with their movements, stop lines by signal group, and the signal programme of each
 // intersection.
 #pragma once
 

@@ -1,6 +1,7 @@
 // Queue discharge at stop lines: headways by position in the queue, saturation flow and start-up lost time. By the
 // Highway Capacity Manual (6th edition, chapter 31) the saturation headway is the mean from the fifth vehicle on. The
-// start-up lost time is the sum over the first four vehicles of the headway minus the saturation headway.
+// start-up lost time is the sum over the first four vehicles of the headway minus the saturation headway. The headway
+// of the first vehicle counts from the start of green.
 //
 // Only vehicles that have stood in the queue count. The queue of a green ends before the first vehicle that has not
 // stood, because later vehicles arrive at the rate of the demand. A green is saturated if its queue has five vehicles

@@ -27,8 +27,8 @@ std::vector<LinePassage> line_passages(const LaneGraph& graph, const std::vector
 // Returns the passages within the green time.
 std::vector<LinePassage> within_green(const std::vector<LinePassage>& passages, double green_s);
 
-// The flow at the end of the queue: means over the last vehicles of each lane. last_positions_flow() gets the number of
-// these vehicles per lane as `positions`.
+// The flow at the end of the queue: means over the last `positions` passages of each lane. The first passage of a lane
+// does not count, because it has no headway. `passages` must be ordered by lane and then by time.
 struct LastPositionsFlow {
     int vehicles = 0;        // number of passages in the means
     double headway_s = 0.0;  // NaN if there are no passages

@@ -55,7 +55,8 @@ struct StreetIntersection {
     double radius_m = 20.0;  // from the centre to the stop lines
     std::vector<StreetLeg> legs = {};
     SevenSteps programme;
-    double offset_s = 0.0;  // start of the major street's green within each cycle
+    // Time at which a green of the major street begins. The cycle repeats before and after this time.
+    double offset_s = 0.0;
 };
 
 // If two legs of neighbouring intersections face each other on one line, a road joins the intersections. The exit lanes

@@ -31,13 +31,13 @@ struct Range {
 struct Series {
     std::string name;  // name of the data file
     std::string title;
-    std::size_t style;  // index of the line style
+    std::size_t style;  // index for line_style()
     bool band;          // true: draw the band between worst and best offset; false: draw a line
     std::vector<Range> values;
 };
 
-// Function that returns the throughput of a population, by its name, at a green time and an offset, both in s. The unit
-// of the throughput cancels out in the gain.
+// Returns the throughput of a population (given by its name) at a green time and an offset, both in s. The unit does
+// not matter, because the gain is a ratio of two throughputs.
 using Throughput = std::function<std::optional<double>(const std::string&, int, int)>;
 
 std::vector<Range> improvements(const std::string& population, std::span<const int> greens_s,

@@ -1,5 +1,6 @@
-// The main results of the reproduction in five lines: the gain of CDG by network, the cost of CDG, and the number of
-// scorecard rows inside their tolerance.
+// The main results of the reproduction in five lines. Three lines give the gain of CDG at one signal, at one
+// intersection and in networks. One line gives its losses on the grid with turns, and one the number of scorecard rows
+// inside their tolerance.
 #pragma once
 
 #include <string>
@@ -14,8 +15,8 @@ struct Headline {
     std::string text;
 };
 
-// Returns the five lines with our values from the scorecard. If values of a line were not measured, the line says
-// which.
+// Returns the five lines with our values from the scorecard. If values were not measured, their line names them as
+// missing.
 std::vector<Headline> headlines(const Scorecard& scorecard);
 
 }  // namespace stopline

@@ -28,8 +28,7 @@ struct ScorecardOptions {
     int threads = 1;
     // Receives the finished share of the current experiment, 0..1. The experiment stops if the function returns false.
     std::function<bool(double)> on_progress;
-    // Receives the share of the current experiment that need not be run, because its runs were stored before.
-    // on_progress starts from this share.
+    // Receives the share of the current experiment whose runs are already stored. on_progress starts from this share.
     std::function<void(double)> on_stored;
     // Receives a message for each experiment. The message says whether the experiment is run, or its stored
     // measurements are reused.
@@ -40,7 +39,9 @@ struct ScorecardOptions {
 struct Experiment {
     const char* name;      // also the name of the CSV file with the measurements, without .csv
     const char* scenario;  // name of the scenario file in scenarios/, without .yaml
-    bool is_stored;        // true: store the measurements; false: `measure` only reads files, or stores its runs itself
+    // true: the scorecard stores the measurements in this CSV file; false: `measure` only reads files, or stores its
+    // runs itself.
+    bool is_stored;
     Measurements (*measure)(const Scenario& scenario, const ScorecardOptions& options);
 };
 
@@ -78,7 +79,7 @@ struct Scorecard {
     // Number of violations, summed over all experiments: overlaps of vehicles, entries on red, and lost vehicles. Some
     // experiments count every violation. Other experiments count the runs that have violations.
     double violations = 0.0;
-    std::vector<std::string> warnings;  // one line for each old column name in explanations.csv
+    std::vector<std::string> warnings;  // one line for each column name of the previous release in explanations.csv
     int count(Verdict verdict) const;
 };
 
@@ -101,8 +102,8 @@ struct Explanation {
     std::string measured_as;  // how we measure the quantity
     std::string explanation;  // why our value deviates; used if the verdict is 'miss'
 };
-// Loads the explanations. Returns a map from row id to explanation. Sets `warnings` to one line for each old column
-// name in the file.
+// Loads the explanations. Returns a map from row id to explanation. Sets `warnings` to one line for each column name of
+// the previous release in the file.
 std::map<std::string, Explanation> load_explanations(const std::filesystem::path& file,
                                                      std::vector<std::string>& warnings);
 

@@ -77,8 +77,8 @@ Verdict judge(const Target& target, const std::optional<Answer>& answer) {
         const bool below = answer->high <= paper->high + *tolerance + kRounding * (1.0 + std::abs(paper->high));
         return below ? Verdict::inside : Verdict::miss;
     }
-    // If our answer is a number, it must lie in the range of the paper or near an end of this range. If our answer is a
-    // range, its ends must be near the ends of the paper's range.
+    // If our answer is a number, it must lie in the range of the paper or within the tolerance of one of its ends. If
+    // our answer is a range, each of its ends must be within the tolerance of the same end of the paper's range.
     const bool is_number = answer->low == answer->high;
     const bool in_range = is_number && answer->low >= paper->low && answer->low <= paper->high;
     const bool low_near = near(target, answer->low, paper->low, *tolerance);

@@ -8,8 +8,8 @@
 
 namespace stopline {
 
-// Returns position and direction of the front of the vehicle in `slot` on `lane`. Beyond the stop line of the lane, the
-// vehicle follows the shape of its connection.
+// Returns position and direction of the front of a vehicle on `lane`. `slot` is the index of the vehicle in the arrays
+// of the state. Beyond the stop line of the lane, the vehicle follows the shape of its connection.
 inline Pose front_pose(const Model& model, const State& state, int lane, std::size_t slot) {
     const Lane& graph_lane = model.graph.lanes[static_cast<std::size_t>(lane)];
     const double position_m = state.vehicles.position_m[slot];

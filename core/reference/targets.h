@@ -41,8 +41,8 @@ struct GreenCondition {
 // Parses the condition of a row. Returns std::nullopt if the text has another form.
 std::optional<GreenCondition> parse_green_condition(const std::string& condition);
 
-// A condition such as "CDG green=15 left=0 right=30", with turn shares in percent. The population MIX is renamed to
-// P50.
+// A condition such as "CDG green=15 left=0 right=30", with turn shares in percent. The population MIX becomes P50,
+// which is its name in the scenarios.
 struct TurnCondition {
     std::string population;
     double green_s = 0.0;

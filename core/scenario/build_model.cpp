@@ -247,8 +247,9 @@ Model build_model(const Scenario& scenario, std::size_t population) {
     const auto available_mps2 = [&](double v) { return available_acceleration_mps2(model.vehicles[0], v); };
     extend_by_power(scenario.driver.free_drive, available_mps2, model.driver);
     model.hesitation_ticks = to_ticks(scenario.driver.free_drive.hesitation_s, scenario.tick_s());
-    // A command of the controller takes effect at the end of its step. This delay of one step is a part of
-    // radar_delay_s, so it is subtracted.
+    // radar_delay_s counts from the measurement until the vehicle responds to it. A request of the controller takes
+    // effect only at the end of its step, which is one step of this delay. The data of the radar are delayed by the
+    // rest.
     model.radar = make_delay(std::max(scenario.driver.cacc.radar_delay_s - scenario.tick_s(), 0.0), scenario.tick_s());
     model.v2v = make_delay(scenario.driver.cacc.v2v_delay_s, scenario.tick_s());
     if (scenario.is_meso()) {  // mesoscale car following has no radar delay

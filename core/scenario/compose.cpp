@@ -14,7 +14,7 @@
 namespace stopline {
 namespace {
 
-constexpr int kBasesMax = 8;  // largest number of data files of which each names the next one as its `base`
+constexpr int kBasesMax = 8;  // longest chain of data files in which each file names the next one as its `base`
 
 using Kind = SourceNode::Kind;
 
@@ -123,7 +123,8 @@ void merge_library_list(const Field& field, const std::string& library, SourceNo
     list.items = std::move(known->items);
 }
 
-// Inserts the default, the data file or the library list of one field. Does not complete the fields inside its value.
+// Inserts the default, the data file or the library list of one field. If the value is a map or a list, does not
+// complete the fields inside it.
 void complete_field(const Field& field, SourceNode& map, const std::string& path, Report& report) {
     SourceNode* value = map.find(field.name);
     const auto* const section = std::get_if<SectionField>(&field.kind);
@@ -264,7 +265,8 @@ void complete(const Table& table, SourceNode& map, const std::string& path, Repo
         SourceNode* value = map.find(field.name);
         if (value == nullptr && std::holds_alternative<SectionField>(field.kind) && !field.required &&
             exists(table, field, map)) {
-            SourceNode empty;  // fields inside the section may have a Field::fallback
+            // The file does not give the section. An empty section takes up the defaults of its fields.
+            SourceNode empty;
             empty.kind = Kind::map;
             empty.place = map.place;
             value = &map.add({field.name, map.place}, std::move(empty));

@@ -45,8 +45,8 @@ MesoSettings load_meso(const std::string& name_or_path, const std::filesystem::p
 // Returns the sorted names of the files in a folder of the data directory, such as "vehicles", without extension.
 std::vector<std::string> data_names(const std::string& folder);
 
-// Name of the file in data/meso with the parameters that stopline-calibrate fitted to full dynamics. They are evaluated
-// as in Section V of the paper, and used for the networks of Sections VI and VII.
+// Name of the file in data/meso with the parameters that stopline-calibrate fitted to full dynamics. The fit is
+// assessed as in Section V of the paper. The networks of Sections VI and VII use these parameters.
 inline constexpr const char* kCalibratedMeso = "passages";
 
 // These functions return the text of a data file with the settings. `comment`, which may have several lines, becomes a

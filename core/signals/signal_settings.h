@@ -9,7 +9,7 @@ struct SignalSettings {
     double yellow_s = 3.0;
     double all_red_s = 5.0;
     double cross_green_s = 0.0;  // green of the streets from south to north; 0: the same as green_s
-    double offset_s = 0.0;       // grid: how much later green starts, per column to the east or row to the north
+    double offset_s = 0.0;       // grid: delay of the green, per column to the east and per row to the north
     double cycle_s = 0.0;        // only for the network kind `approach`; 0: one green, then red until the end
 
     // The functions below are for intersections and grids. Even signal groups serve the streets from west to east, and

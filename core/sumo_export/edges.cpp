@@ -146,7 +146,8 @@ private:
         }
     }
 
-    // Returns the lane on `edge` whose next part is nearest to the start of a pocket.
+    // Returns the lane on `edge` that continues nearest to a pocket, counted in lanes. `pocket` is the first part of
+    // the pocket, on the next edge.
     int nearest_lane(int edge, const LanePart& pocket) const {
         int nearest = -1;
         int least = std::numeric_limits<int>::max();

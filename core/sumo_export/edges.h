@@ -40,9 +40,9 @@ struct LanePart {
 
 struct PlainConnection {
     int from = -1;             // lane of the graph where the connection begins
-    int to = -1;               // lane of the graph where the connection ends; equal to `from` inside an approach
-    LanePart begin = {};       // the last metres of this part lead to the connection
-    LanePart end = {};         // the connection leads to the start of this part
+    int to = -1;               // lane of the graph where the connection ends; `from` itself between two of its parts
+    LanePart begin = {};       // the connection begins at the end of this part
+    LanePart end = {};         // the connection ends at the start of this part
     int connection_lane = -1;  // lane of the graph between `from` and `to`; -1: `from` leads directly to `to`
     double length_m = 0.0;
     int node = -1;  // index of the node that the connection crosses
@@ -55,11 +55,11 @@ struct PlainNetwork {
     std::vector<PlainConnection> connections;
     std::vector<std::vector<LanePart>> parts_of;  // [lane of the graph] in driving direction; empty for connections
 
-    // Returns the part of the lane on which a vehicle is whose front is at `position_m`.
+    // Returns the last part of the lane that begins at or before `position_m`.
     const LanePart& part_at(int lane, double position_m) const;
     // Returns the part of the lane that lies on the edge. There must be one.
     const LanePart& part_on(int lane, int edge) const;
-    // Returns the ids that SUMO gives to a part of a lane, and to the last part of a lane of the graph.
+    // Return the id of a lane in SUMO: of the given part, or of the last part of a lane of the graph.
     std::string lane_id(const LanePart& part) const;
     std::string lane_id(int lane) const;
 };

@@ -120,7 +120,8 @@ private:
         const std::vector<int>& route = model_.graph.routes[at(trip.route)].lanes;
         auto k = std::find(route.begin(), route.end(), lane);
         const int approach = model_.graph.lanes[at(lane)].approach;
-        // A vehicle that has not reached the lane of its turn yet is on another lane of the same approach.
+        // On the approach, the vehicle may still have to change to the first lane of its route. So the rest of the
+        // route begins with that lane.
         if (approach >= 0 && model_.graph.lanes[at(route[0])].approach == approach) k = route.begin();
         for (; k != route.end(); ++k) {
             lane = *k;

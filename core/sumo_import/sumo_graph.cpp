@@ -199,7 +199,7 @@ private:
 
     // Connections that begin on the same lane share a first stretch. Beyond it, vehicles on different connections are
     // clear of each other. This function moves the stretch from the connections to the lane. If a connection is too
-    // short, only a part of the stretch is moved, and diverge_end_m is the end of the part that remains.
+    // short, only a part of the stretch is moved. The rest stays at the start of the connections, up to diverge_end_m.
     void assign_shared_stretches() {
         for (int index = 0; index < first_connection_; ++index) {
             const std::vector<int> next = lanes()[at(index)].next;
@@ -229,8 +229,8 @@ private:
         }
     }
 
-    // Returns the distance from the start of the connections in `next` to the point where the selected connections
-    // diverge.
+    // Returns the distance from the start of the connections in `next` to the point beyond which all selected
+    // connections have diverged. Connections to the same lane are not compared with each other.
     template <class IsSelected>
     double last_diverge_m(const std::vector<int>& next, const IsSelected& is_selected) {
         double last_m = 0.0;
@@ -245,8 +245,8 @@ private:
         return last_m;
     }
 
-    // Extends U-turns into the junction until the other connections of the lane have diverged, up to a limit.
-    // netconvert draws a U-turn directly at the end of its lane.
+    // Extends a U-turn into the junction (up to a limit) if it is shorter than the first stretch that the other
+    // connections of its lane share. netconvert draws a U-turn directly at the end of its lane.
     void widen_u_turns(const std::vector<int>& next) {
         constexpr double kMaxExtension_m = 4.0;
         const double diverge_m =
@@ -274,8 +274,8 @@ private:
         return from.cosine * to.cosine + from.sine * to.sine < -0.9;
     }
 
-    // Adds a route that consists of this lane only. Gives the lane a stop line if any lane of its approach leads to a
-    // connection.
+    // Adds a route that consists of this lane only. If any lane of the approach leads to a connection, gives this lane
+    // a stop line, which at first belongs to signal group 0.
     void finish_lane(int lane) {
         network_.graph.routes.push_back({lanes()[at(lane)].name, {lane}});
         network_.graph.links.push_back(lane);
@@ -350,7 +350,7 @@ private:
     double clearance_m_;
     int first_connection_ = 0;
     std::vector<BuiltConnection> connections_;
-    std::map<std::pair<int, int>, const SumoConnection*> next_in_chain_;  // [internal edge, lane] connection from it
+    std::map<std::pair<int, int>, const SumoConnection*> next_in_chain_;  // [internal edge, lane] connection from there
 };
 
 }  // namespace

@@ -5,8 +5,8 @@
 //   lanes, the import joins them.
 // - Connections that begin on the same lane have a common first stretch. This stretch becomes part of the lane, as in
 //   generated networks.
-// - U-turns are extended into the junction until the other movements have diverged. netconvert draws a U-turn directly
-//   at the end of its lane.
+// - netconvert draws a U-turn directly at the end of its lane. The import extends a U-turn into the junction by a few
+//   metres, if the U-turn would otherwise be shorter than the first stretch that the other connections share.
 // - SUMO calls a connection through a junction a link. Conflict areas are computed from the shapes of links. They can
 //   exist between links that are foes in SUMO's matrix, between links to the same lane, and between a U-turn and any
 //   other link.
@@ -31,7 +31,7 @@
 
 namespace stopline {
 
-// The source of the lights of a signal group: the letter of one link in the phases of a SUMO signal.
+// A signal group shows the lights of one link of a SUMO signal. The phases of the signal have a letter for this link.
 struct SumoLight {
     int signal = -1;  // index in SumoNet::signals; -1: always green
     int link = 0;     // index of the letter in SumoPhase::state
@@ -59,8 +59,8 @@ struct SumoNetwork {
     double longest_green_s() const;
 };
 
-// Builds the lane graph. Connections whose centre lines come closer than `clearance_m` conflict. Throws InputError with
-// file and line if the network cannot be converted.
+// Builds the lane graph. Two connections can conflict only where their centre lines come closer than `clearance_m`.
+// Throws InputError with file and line if the network cannot be converted.
 SumoNetwork make_sumo_network(SumoNet net, double clearance_m);
 
 // Returns true for the signal letters at which vehicles may go: G, g, s, o, O.

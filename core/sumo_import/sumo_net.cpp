@@ -119,7 +119,7 @@ private:
         if (index != static_cast<int>(edge.lanes.size()) && !edge.internal) {
             xml_.refuse(node, fmt::format("lanes of edge '{}' must be numbered 0, 1, 2, ... in order", edge.id));
         }
-        // netconvert numbers some internal lanes wrongly in `index`, but not in `id`.
+        // netconvert numbers some internal lanes wrongly in `index`, but not in `id`. So `id` is checked for all lanes.
         const std::string id = xml_.text(node, "id");
         if (id != fmt::format("{}_{}", edge.id, edge.lanes.size())) {
             xml_.refuse(node, fmt::format("lane id=\"{}\" must be '{}_{}': the edge and the index of the lane", id,
@@ -257,7 +257,7 @@ private:
         c.from_lane = known_lane(node, "fromLane", c.from);
         c.to_lane = known_lane(node, "toLane", c.to);
         c.where = xml_.where(node);
-        // Register the signal even if the connection is closed to cars, because an additional file may refer to it.
+        // Register the signal even if the connection is closed to cars: an additional file may have a programme for it.
         if (const std::string tl = node.attribute("tl").value(); !tl.empty()) net_.signal(tl);
         if (!lane(c.from, c.from_lane).allows_cars || !lane(c.to, c.to_lane).allows_cars) return;
         if (!sumo_allows_cars(node.attribute("allow").value(), node.attribute("disallow").value())) return;

@@ -61,8 +61,8 @@ public:
 private:
     Lane& lane(const BuiltConnection& connection) { return network_.graph.lanes[at(connection.lane)]; }
 
-    // Finds junction and link number of the connections in a network without internal lanes. The links of a junction
-    // are numbered by incoming lane; links from the same lane are numbered in the order of the file.
+    // Sets junction and link number of connections without internal lanes. SUMO numbers the links of a junction in the
+    // order of its incoming lanes. Links from the same lane are numbered in the order of the file.
     void number_links_without_via() {
         std::unordered_map<std::string, std::vector<BuiltConnection*>> from;
         for (BuiltConnection& connection : connections_) {

@@ -77,8 +77,8 @@ void SumoRouter::start(int to) {
     open_.assign(1, {0.0, to});
 }
 
-// Extends the shortest-path tree until the travel time of the edge `target` is final, or until the tree contains all
-// edges from which to_ can be reached.
+// Extends the shortest-path tree backwards from to_ until the fastest route from the edge `target` to to_ is known, or
+// until the tree contains all edges from which to_ can be reached.
 void SumoRouter::settle(int target) {
     while (settled_[at(target)] == 0 && !open_.empty()) {
         const int edge = pop(open_).second;

@@ -26,7 +26,7 @@ namespace {
 
 constexpr const char* kStopIgnored = "'stop' is ignored: vehicles make no stops";
 constexpr std::size_t kMaxTrips = 20'000'000;
-constexpr double kRoundingTolerance_m = 0.1;  // tolerance for departure positions, which files contain rounded
+constexpr double kRoundingTolerance_m = 0.1;  // tolerance for departure positions, which are rounded in the files
 
 // The route of one or more trips.
 struct TripRoute {
@@ -111,7 +111,7 @@ private:
         return edge;
     }
 
-    // Reads a complete route and returns its index. Throws InputError unless each edge leads to the next.
+    // Reads a complete route and returns its index. Throws InputError if a route open to cars has a gap.
     std::size_t read_route(pugi::xml_node node) {
         TripRoute route;
         route.where = xml_->where(node);
@@ -187,7 +187,7 @@ private:
         return found->second[0].first;
     }
 
-    // Returns the routes of a vehicle, trip or flow element. The route of each vehicle is drawn from them.
+    // Returns the routes of a vehicle, trip or flow element. Each vehicle later gets one of them at random.
     Shares read_route_choice(pugi::xml_node node) {
         if (const pugi::xml_node child = node.child("route")) return {{read_route(child), 1.0}};
         if (const std::string id = node.attribute("route").value(); !id.empty()) {
@@ -340,8 +340,8 @@ private:
         }
     }
 
-    // Completes partial routes and lists the turns of all routes. A piece is the gap between two given edges. Pieces
-    // with the same last edge are searched one after the other, because they share the router's shortest-path tree.
+    // Completes partial routes and lists the turns of all routes. A piece is the missing part between two given edges.
+    // Pieces to the same edge are searched one after the other, because they share the router's shortest-path tree.
     void complete_routes_and_turns() {
         struct Piece {
             int to;

@@ -23,7 +23,7 @@ struct SumoTraffic {
     std::vector<std::string> notes;                     // choices of the import that the user should know
     std::uint64_t hash = 0;                             // hash of the text of all files
     std::int64_t elements = 0;                          // number of vehicle, trip and flow elements in the files
-    std::optional<double> first_late_departure_s = {};  // earliest departure that is not before the end of the run
+    std::optional<double> first_late_departure_s = {};  // earliest departure at or after the end of the run
 
     // Returns the length of the shortest vehicle.
     double shortest_vehicle_m() const;

@@ -9,8 +9,9 @@
 
 namespace stopline {
 
-// Returns the programmes of all signal groups. At time t, the time since the start of the current cycle is (t - offset)
-// modulo the cycle. The letters G, g, s, o and O mean green, y and Y mean yellow, and all other letters mean red.
+// Returns the programmes of all signal groups. At time t of the run, the time since the start of the current cycle is
+// (t - offset) modulo the cycle time. The letters G, g, s, o and O mean green, y and Y mean yellow, and all other
+// letters mean red.
 std::vector<GroupProgramme> make_sumo_signals(const SumoNetwork& network, double step_s);
 
 // Returns the right of way of all pairs of connections for which it changes with the phases of their signal.

@@ -1,9 +1,10 @@
 // Stores the finished runs of a sweep in an SQLite file, each run in a transaction of its own. If the program is
 // killed, the file still holds every run that was stored before.
 //
-// Only one program at a time can open the file. This way SQLite's write-ahead log works without shared memory, which
-// the network file systems of clusters do not offer. With this log, storing a run does not wait for the disk. A power
-// cut can lose the last runs, but does not damage the file. The sweep then repeats these runs.
+// Only one program at a time can open the file. Several programs would need shared memory to use SQLite's write-ahead
+// log together, and the network file systems of clusters do not offer shared memory. With this log, storing a run does
+// not wait for the disk. A power cut can lose the last runs, but does not damage the file. The sweep then repeats these
+// runs.
 #pragma once
 
 #include <cstddef>
@@ -25,17 +26,17 @@ struct StoreIdentity {
     std::string program;     // result of program_identity()
     std::size_t points = 0;  // number of runs of the whole sweep
     std::string shard;       // shard of the sweep, such as "2/8"; empty: the whole sweep
-    std::string provenance;  // provenance as JSON text, for a file beside the result table
+    std::string provenance;  // text of the file NAME.provenance.json, which lies beside the result table
 };
 
 // A store of runs. The parameter `point` is the number of a run in its sweep, see sweep.h.
 class RunStore {
 public:
-    // Opens the store in `file`, or creates it. Throws InputError if the store belongs to another sweep, to other
-    // parameters or to another build of the program. Throws InputError if the file is not a store, or if another
-    // program has it open.
+    // Opens the store in `file`, or creates it. Throws InputError if the stored identity differs from `identity` in
+    // anything but the provenance. Also throws InputError if the file is not a store, or if another program has it
+    // open.
     static RunStore open_or_make(const std::filesystem::path& file, const StoreIdentity& identity);
-    // Opens an existing store. Throws InputError if the file is missing or is not a store.
+    // Opens an existing store. Throws InputError if the file is missing, is not a store, or is open in another program.
     static RunStore open(const std::filesystem::path& file);
 
     const StoreIdentity& identity() const { return identity_; }

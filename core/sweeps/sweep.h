@@ -27,21 +27,24 @@ using CellTitles = std::map<std::pair<std::string, std::string>, std::string>;
 struct SweepOptions {
     std::vector<std::string> overrides;  // from --set, applied before the axis values
     int threads = 1;
-    std::function<bool(double)> on_progress;  // see RunAllOptions
+    // Receives the loaded share of the combinations, 0..1. Loading stops if the function returns false.
+    std::function<bool(double)> on_progress;
 };
 
 class Sweep {
 public:
-    // Loads the scenario with every combination of axis values, to check it. Throws InputError that names the axis
-    // values of the first bad combination.
+    // Checks every combination of axis values before the first run, by loading the scenario with these values. Throws
+    // InputError that names the axis values of the first invalid combination. Throws Interrupted if on_progress returns
+    // false.
     explicit Sweep(SweepSettings settings, const SweepOptions& options = {});
 
     const SweepSettings& settings() const { return settings_; }
     const Scenario& base() const { return base_; }  // the scenario without axis values
     // Returns the warnings from loading the sweep file and all combinations, one line each, without repetitions.
     const std::vector<std::string>& warnings() const { return warnings_; }
-    std::size_t points() const;                                  // number of runs
-    std::size_t combinations() const { return hashes_.size(); }  // without populations and seeds
+    std::size_t points() const;  // number of runs
+    // Returns the number of combinations of axis values. Populations and seeds are not counted.
+    std::size_t combinations() const { return hashes_.size(); }
 
     // Returns the names of the columns with axis values. A name ends with the unit of the values, such as "green_s".
     std::vector<std::string> columns() const;

@@ -44,9 +44,10 @@ struct SweepTotals {
 struct SweepTable {
     std::string csv;  // one row for each run, in the order of the points
     SweepTotals totals;
-    std::vector<std::string> warnings;  // one line for each old column name in the store
+    std::vector<std::string> warnings;  // one line for each column name of the previous release
 };
-// Returns the result table of a store. Replaces old column names, so that a store of the previous release can be read.
+// Returns the result table of a store. A store of the previous release can have other column names; they are replaced
+// by the current names.
 SweepTable sweep_results(const RunStore& store);
 
 // Returns the provenance as JSON text. `command` is a command line that reproduces the results of the whole sweep.

@@ -46,7 +46,7 @@ struct SweepFailure {
     std::string message;
 };
 
-// The runs that one call of the program has finished.
+// Summary of the runs of one call of run_points().
 struct SweepSession {
     std::size_t runs = 0;                // number of runs added to the store
     std::int64_t updates = 0;            // number of vehicles in the network, summed over all steps of these runs
@@ -86,8 +86,8 @@ struct SweepRunOptions {
 // Returns the points of a shard that the store does not hold yet.
 std::vector<std::size_t> missing_points(const Sweep& sweep, const Shard& shard, const RunStore& store);
 
-// Runs the points at the same time in threads. Throws Interrupted if on_progress returns false. Throws InputError if
-// the store cannot be written or the files of the scenario have changed.
+// Runs the points in options.threads threads and stores their results. Throws Interrupted if on_progress returns false.
+// Throws InputError if the store cannot be written or the files of the scenario have changed.
 SweepSession run_points(const Sweep& sweep, const std::vector<std::size_t>& points, RunStore& store,
                         const SweepRunOptions& options);
 

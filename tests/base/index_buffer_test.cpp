@@ -1,4 +1,5 @@
-// Tests of IndexBuffer: it lists the pushed indices in order. Branchless writes past the end leave no entries.
+// Tests of IndexBuffer: it lists the pushed indices in order. push_if() and push_range() may write past the end of the
+// list, but such a write adds no entry.
 #include "base/containers/index_buffer.h"
 
 #include <gtest/gtest.h>

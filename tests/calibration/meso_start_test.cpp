@@ -50,7 +50,8 @@ TEST(MesoStart, TravelsThroughAConstantDistanceQueueAtTheSpeedOfV2v) {
     EXPECT_NEAR(relayed_s, full_s, 0.5);
 }
 
-// A vehicle with a time gap does not relay the start message. The vehicles behind it react to their leaders.
+// A vehicle with a time gap does not relay the V2V message that starts a queue. The vehicles behind it react to their
+// leaders.
 TEST(MesoStart, RelayEndsAtAVehicleWithATimeGap) {
     constexpr int kQueue = 21;
     const double with_relay_s = last_start_s(queue("CTG-Ref", kQueue, {"fidelity=meso", "meso=passages"}), kQueue);

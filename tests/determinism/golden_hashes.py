@@ -37,7 +37,8 @@ class Run:
     settings: dict = field(default_factory=dict)
     threads: int = 1
     program: str = "stopline-run"
-    situation: tuple = ()  # columns of summary.csv that must have a value above 0, so that the run reaches its situation
+    # Columns of summary.csv that count the situation to be tested, such as gridlocks. They must not be 0 in all rows.
+    situation: tuple = ()
 
 
 def population(policy):

@@ -33,7 +33,8 @@ Problem arbitrary_problem(std::uint64_t k) {
     return problem;
 }
 
-// Sets up w u = b: own and leader's acceleration shall agree at three times. Uses the exact exponential.
+// Sets up three equations w u = b for the own request u: at each of three times, the own acceleration shall equal the
+// leader's. Uses the exact exponential function.
 void equations(const Problem& q, Eigen::Vector3d& w, Eigen::Vector3d& b) {
     for (int k = 0; k < 3; ++k) {
         const double t = q.cacc.prediction_start_s + 0.5 * k * (q.cacc.prediction_end_s - q.cacc.prediction_start_s);
@@ -109,7 +110,7 @@ double largest_error_m(double tau_p, double tau, double kp, double kd) {
         a += (u - a) * lag_share(kStep_s, tau);
         a_p += (u_p - a_p) * lag_share(kStep_s, tau_p);
         closing += 0.5 * (a + a_previous - a_p - a_p_previous) * kStep_s;
-        // ^error = gap - r - h v, with standstill gap r and time gap h
+        // error = gap - r - h v with standstill gap r and time gap h, so it falls at the rate closing + h a.
         error_m -= 0.5 * (closing + closing_previous) * kStep_s + kTimeGap_s * 0.5 * (a + a_previous) * kStep_s;
         largest_m = std::fmax(largest_m, std::fabs(error_m));
     }

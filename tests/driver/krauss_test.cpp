@@ -49,8 +49,7 @@ TEST(Krauss, AddsTheTransientGap) {
     EXPECT_GT(next_speed_mps(k, {8.0, gap_m, 8.0, 0.0, 0.0, 1e3}, 0.0, kStep_s), 8.05);
 }
 
-// Behind a leader that pulls away, the safe speed exceeds the speed that keeps the time gap. Gap tracking prevents
-// this.
+// While the leader is faster, the safe speed allows a gap shorter than the time gap. Gap tracking keeps the time gap.
 TEST(Krauss, TracksItsTimeGap) {
     Krauss k = model();
     const double gap_m = k.standstill_gap_m + 5.0 * k.reaction_s;

@@ -182,7 +182,7 @@ TEST(KeepRoom, StartsWhereEqualBrakingJustSuffices) {
         for (double closing = 0.25; closing < 6.0; closing += 0.25) {
             const double v = v_p + closing;
             const double room_m = (v * v - v_p * v_p) / (2.0 * b);
-            if (room_m < 0.1) continue;  // the law treats less than 0.05 m as 0.05 m
+            if (room_m < 0.1) continue;  // the law assumes a room of at least 0.05 m
             for (const double gap_growth_m : {0.0, 1.0, 12.0}) {
                 const double min_reserve_m = gap_growth_m > 0.0 ? kMinReserve_s * v : 0.0;
                 const double reserve_m =
@@ -215,7 +215,8 @@ TEST(Stop, IsMonotoneInDistanceAndSpeed) {
     }
 }
 
-// The follower is accelerating at the moment when its leader requests maximum braking.
+// The follower is accelerating when its leader begins to brake. If the gap is small and the leader brakes hard, the
+// law must respond at once, without the filter for time gaps.
 TEST(Follow, PassesHardBrakingUnfilteredAtSmallGaps) {
     const CaccSettings cacc = shipped().cacc;
     const auto acceleration = [&](double gap_growth_m, double slope_s, double request_mps2, double room_m = 0.0) {

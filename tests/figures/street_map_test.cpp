@@ -31,8 +31,8 @@ std::size_t block_count(const std::string& text) {
 
 TEST(StreetMap, HasOneLinePerLaneGroupedBySignal) {
     const Figure figure = street_map(berlin());
-    // Ten intersections have three lanes from the west and the east. There are two turn pockets at the first
-    // intersection and one at the fourth.
+    // Signal group 0: ten intersections have three lanes from the west and three from the east, and the fourth also has
+    // a turn pocket. Signal group 1 (protected left turns): the two pockets of the first intersection.
     EXPECT_EQ(block_count(data_of(figure, "network_lines_0.dat")), 10u * 6 + 1);
     EXPECT_EQ(block_count(data_of(figure, "network_lines_1.dat")), 2u);
     EXPECT_EQ(block_count(data_of(figure, "network_pockets.dat")), 3u);

@@ -55,7 +55,7 @@ TEST(TimeSpace, VehiclesPassAGreenWaveWithoutStopping) {
     EXPECT_GT(finished.size(), 20u);
 }
 
-// The trace before the first step, and the text of its figure.
+// The trace of a street before the first step, and the gnuplot text of its diagram, which contains the title.
 struct TracedStreet {
     StreetTrace trace;
     std::string title;

@@ -157,7 +157,8 @@ TEST(Streets, LanesOfAnApproachLinkToTheirNeighbours) {
         EXPECT_EQ(this_lane.approach >= 0, this_lane.signal_group >= 0) << this_lane.name;
 }
 
-// Oncoming straight traffic has priority, also if the left lane has its own signal group. Both can be green together.
+// Oncoming straight traffic has priority, even if the left lane has its own signal group, because both signals can be
+// green at the same time.
 TEST(Streets, LeftTurnsYieldToOncomingTraffic) {
     for (const StreetSettings& streets : {two_streets(), streets_with_pockets()}) {
         const LaneGraph graph = make_streets(streets);
@@ -191,8 +192,8 @@ TEST(Streets, OnlyProtectedLanesHaveTheirOwnSignalGroup) {
     EXPECT_EQ(group("first_west_in_0"), 0);
 }
 
-// If there are more exit lanes than straight lanes, the sum of the lateral shifts is the smallest. The lanes keep their
-// order.
+// If there are more exit lanes than straight lanes, the straight lanes lead to those exit lanes that give the smallest
+// sum of lateral shifts. The lanes keep their order.
 TEST(Streets, StraightLanesLeadToTheNearestExitLanes) {
     StreetSettings streets = two_streets();
     streets.intersections[0].legs[0].lanes = {{"left"}, {"straight"}, {"straight+right"}};

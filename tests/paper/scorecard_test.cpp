@@ -58,8 +58,8 @@ TEST(SectionThree, UsesTheWorstPopulationForRowsAboutAll) {
     EXPECT_EQ(answer_of("P02", measured)->low, 2.9);
 }
 
-// Returns measured counts of vehicles that pass within 15 s. The fractional part shows how near the following vehicle
-// is.
+// Returns measured counts of vehicles that pass the stop line within 15 s. The fractional part of a count shows how
+// near the next vehicle is to the line.
 Measurements counts(double cdg, double switch_1, double switch_2, double mix, double ref, double hbs) {
     Measurements measured;
     const std::vector<std::pair<const char*, double>> all{{"CDG", cdg}, {"SWITCH-1", switch_1}, {"SWITCH-2", switch_2},

@@ -62,7 +62,8 @@ TEST(SumoEntry, FollowsDepartPos) {
     EXPECT_NEAR(front_m(""), 5.0, 0.3);
     EXPECT_NEAR(front_m("departPos=\"base\""), 5.0, 0.3);
     EXPECT_NEAR(front_m("departPos=\"60\""), 60.0, 0.3);
-    EXPECT_NEAR(front_m("departPos=\"2\""), 2.0, 0.3);  // allowed, because no vehicle can come from behind
+    // The rear lies upstream of the start of the edge. This is allowed, because no vehicle can come from behind.
+    EXPECT_NEAR(front_m("departPos=\"2\""), 2.0, 0.3);
     EXPECT_NEAR(front_m("departPos=\"-40.5\""), 149.5, 0.3);
     EXPECT_GT(front_m("departPos=\"last\""), 180.0);
     EXPECT_NE(front_m("departPos=\"random\""), front_m(""));
@@ -117,8 +118,8 @@ TEST(SumoEntry, OnShortEdgesCausesNoViolation) {
     EXPECT_GT(result.exited, 25);
 }
 
-// Edge s is 2 m long. If a conflicting connection comes close to the end of s, vehicles are inserted before the margin
-// for yielding.
+// A vehicle that yields waits with its front the margin give_way.margin_m upstream of the conflict area. Edge s is 2 m
+// long. If a conflict area begins at its end, the vehicle must be inserted no further than its waiting position.
 TEST(SumoEntry, OnShortEdgesLeavesTheMarginForYielding) {
     const auto front_m = [](const std::string& position, const std::string& conflicting_shape) {
         const SumoFiles files;

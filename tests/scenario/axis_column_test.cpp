@@ -1,4 +1,5 @@
-// Tests of the table columns of sweep axes. Two axis values have equal texts only if they mean the same.
+// Tests of the texts that stand for the values of a sweep axis in result tables. Two values have equal texts only if
+// they mean the same, such as 60 s and 1 min.
 #include "scenario/sweep_file/axis_column.h"
 
 #include <gtest/gtest.h>

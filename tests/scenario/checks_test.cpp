@@ -75,7 +75,8 @@ TEST(Checks, TimesAreWholeSteps) {
     EXPECT_EQ(error_with({"step=5 ms"}), "");
     EXPECT_TRUE(contains(error_with({"signal.green=15.005 s"}),
                          "field 'signal.green': 15.005 s is not a whole number of steps of 10 ms"));
-    // If each green time were rounded on its own, the cycles of the two streets would drift apart.
+    // Rounding is no alternative: if the times of the two streets were rounded separately, their cycles would differ
+    // and drift apart.
     const std::string grid = STOPLINE_SOURCE_DIR "/scenarios/grid.yaml";
     for (const std::string field : {"cross_green", "offset"}) {
         try {
@@ -124,7 +125,7 @@ TEST(Checks, SignalFitsItsCycleAndTheRun) {
 }
 
 TEST(Checks, QueueFitsTheApproach) {
-    // 60 vehicles with gaps: 60 x (5.15 m + 6 m) + 1 m
+    // 60 vehicles of 5.15 m with standstill gaps of 6 m, the first one 1 m before the line: 60 x (5.15 m + 6 m) + 1 m.
     EXPECT_TRUE(
         contains(error_with({"network.approach.length=669.9 m"}), "a queue of 60 vehicles a lane is 670 m long"));
     EXPECT_EQ(error_with({"network.approach.length=670 m"}), "");

@@ -262,7 +262,8 @@ TEST_P(EveryField, RequiredFieldsMustBePresent) {
     EXPECT_GT(fields, 20);
 }
 
-// Another good value reaches its own member only. Exactly one line of the canonical text changes, and so does the hash.
+// If a field gets another valid value, only its own member changes: exactly one line of the canonical text differs, and
+// the hash differs.
 TEST_P(EveryField, AcceptsAndWritesAnotherValue) {
     const Scenario original = parse_scenario(text_, "single_light.yaml");
     ASSERT_EQ(canonical_text(original), text_);

@@ -1,4 +1,4 @@
-// Tests of the JSON schema: it has every field, and it accepts and rejects the same examples as the reader.
+// Tests of the JSON schema: it has every field, and it accepts and rejects the same examples as load_scenario().
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

@@ -147,7 +147,7 @@ TEST(Rules, ParametersOfKeepClearNeedTheRule) {
     }
 }
 
-// The parameters of the rule may stay in the file. They apply again when the rule is on again.
+// While the keep-clear rule is off, its parameters may stay in the file. They apply again when the rule is on again.
 TEST(Rules, CanBeSwitchedOffByOneOverride) {
     const std::string all = "{keep_clear: on, sight: 100 m, count_queue_at_red_exit: on}";
     EXPECT_EQ(error_with_rules(all, {"rules.keep_clear=off"}), "");

@@ -1,4 +1,4 @@
-// Tests of what the field tables serve for besides reading files: canonical text, hash and list of fields.
+// Tests of the outputs of the field tables: the canonical text of a scenario, its hash, and the list of fields.
 #include <gtest/gtest.h>
 
 #include <regex>
@@ -66,8 +66,9 @@ TEST(Tables, AreWellFormed) {
             << path;
         EXPECT_FALSE(field.required && !field.fallback.empty()) << path;
         if (field.condition_field.empty()) return;
-        // The choice that a field depends on comes before it.
-        const auto dot = field.condition_field.find('.');  // the choice is in a section
+        // A field can depend on another field, a choice: it applies only to some values of the choice. The choice must
+        // come first in the table. A dot in its name means that it is in a section.
+        const auto dot = field.condition_field.find('.');
         const Field* choice = table.find(field.condition_field.substr(0, dot));
         ASSERT_NE(choice, nullptr) << path;
         EXPECT_LT(choice, &field) << path;

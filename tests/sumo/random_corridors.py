@@ -3,9 +3,10 @@
 
     random_corridors.py --bin FOLDER_OF_STOPLINE_PROGRAMS [--count 20] [--first 1]
 
-Each number is the seed of one corridor: 3 to 6 intersections, 2 to 4 lanes per direction, links of 120 to 500 m, 5 to
-30 % of each turn, some pockets, some additional right-turn lanes, and some intersections with one minor leg only. The
-streets files stay in the output folder; corridor.py --layout FILE compares one of them in detail.
+Each corridor has a number, which is the seed of its random features: 3 to 6 intersections, 2 to 4 lanes per direction,
+links of 120 to 500 m, 5 to 30 % of each turn, some pockets, some additional right-turn lanes, and some intersections
+with one minor leg only. --first is the number of the first corridor. The streets files stay in the output folder;
+corridor.py --layout FILE compares one of them in detail.
 
 Exit codes: 0 the mean of the absolute differences in throughput is at most 5 %, no difference is above 12 %, and our
 runs report no violation; 1 one of these is missed; 77 SUMO is not installed.

@@ -37,7 +37,7 @@ class Streets:
         self.turns = defaultdict(dict)   # next edge by edge and turn
         self.allowed = defaultdict(set)  # turns by edge and lane
         self.next_part = {}              # next edge of the same approach
-        self.previous = {}               # edge and lane before, by edge and lane of the same approach
+        self.previous = {}               # edge and lane upstream in the same approach, by edge and lane
         for c in ElementTree.parse(folder / "connections.con.xml").getroot().iter("connection"):
             begin, end = c.get("from"), c.get("to")
             if EDGE.match(begin)["approach"] == EDGE.match(end)["approach"]:

@@ -70,7 +70,7 @@ def check_trips(trips, folder):
 
 
 def check_loops(loops, fcd):
-    """Compares the counts with the vehicles that the floating car data have past each stop line."""
+    """Compares the counts at each stop line with the number of vehicles that the floating car data show beyond it."""
     counted = defaultdict(int)
     for interval in loops:
         counted[interval.get("id")] += int(interval.get("nVehContrib"))

@@ -160,7 +160,7 @@ TEST(SumoInputs, ProgrammesWithoutRepetitionCoverTheRun) {
     EXPECT_NEAR(green_s, expected_s, 1e-6);
 }
 
-// This also holds for the routes of vehicles that were teleported over several edges.
+// Successive edges of a route are connected, also on routes of vehicles that were teleported over several edges.
 TEST(SumoInputs, RoutesAreConnected) {
     const Model model = model_of(
         "grid.yaml", {"network.grid.columns=3", "network.grid.rows=3", "network.grid.column_spacing=150 m",

@@ -35,7 +35,8 @@ struct ConflictView {
 };
 using ConflictViews = std::map<std::pair<ConnectionName, ConnectionName>, ConflictView>;
 
-// `name_of_end` and `name_of_start` return the SUMO names of the lanes that contain the end and the start of a lane.
+// A lane of the graph can consist of several SUMO lanes, one behind the other. `name_of_end` returns the SUMO name of
+// the last one, `name_of_start` that of the first one.
 template <class NameOfLane>
 ConflictViews conflicts_of_graph(const LaneGraph& graph, const NameOfLane& name_of_end,
                                  const NameOfLane& name_of_start) {

@@ -338,7 +338,7 @@ TEST(SumoNetwork, WithoutRequestsTheLaterOfTwoMergingLinksYields) {
     ASSERT_NE(conflict(graph, ":J_3_0", ":J_0_0"), nullptr);
     EXPECT_TRUE(conflict(graph, ":J_3_0", ":J_0_0")->yields);
     EXPECT_FALSE(conflict(graph, ":J_0_0", ":J_3_0")->yields);
-    EXPECT_EQ(conflict(graph, ":J_0_0", ":J_1_0"), nullptr);  // crossing links without a conflict
+    EXPECT_EQ(conflict(graph, ":J_0_0", ":J_1_0"), nullptr);  // without requests, crossing links have no conflict
 }
 
 TEST(SumoNetwork, ReadsGzippedFiles) {

@@ -24,7 +24,8 @@ TEST_P(Braking, StopsWithinTheExpectedDistance) {
                 s = advance(car, s, -braking, 0.0, kStep_s);
                 distance_m += 0.5 * (previous_mps + s.speed_mps) * kStep_s;
             }
-            // The lag delays the brake force by its time constant. Engine drag and resistance act immediately.
+            // The lag of the brake adds at most the distance driven in its time constant. It adds less if engine drag
+            // and resistance, which act at once, provide part of the deceleration.
             const double distance_without_lag_m = v * v / (2.0 * braking);
             EXPECT_GT(distance_m, 0.99 * distance_without_lag_m) << v << ' ' << braking;
             EXPECT_LT(distance_m, 1.01 * distance_without_lag_m + v * car.settings.brake_lag_s) << v << ' ' << braking;

@@ -90,7 +90,8 @@ TEST_P(Gearbox, ShiftsAtHigherEngineSpeedForHigherRequests) {
     EXPECT_GT(hard.changes.front().rpm, 1.5 * gentle.changes.front().rpm);
 }
 
-// The vehicle coasts exactly as long as gear changes interrupt the torque.
+// A gear change interrupts the torque, and the vehicle coasts meanwhile. The total coasting time must equal the set
+// interruption times the number of gear changes.
 TEST_P(Gearbox, InterruptsTheTorqueForTheSetTime) {
     const Car car(GetParam());
     const Drive start = drive(car, cruising(car, 0.0), 1.5, 100.0 * kMpsPerKmh, 60.0);

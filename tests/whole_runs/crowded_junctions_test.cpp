@@ -19,8 +19,8 @@ void expect_no_violations(const std::string& text) {
     EXPECT_TRUE(result.violations.none());
 }
 
-// The leader brakes with its maximum. The follower's gap is too short when its speed passes the switching speed of its
-// policy.
+// The leader brakes with its maximum. The follower's speed is just above the switching speed of its policy, and its gap
+// is still shorter than the desired gap.
 TEST(CrowdedJunctions, SwitchingPoliciesStopBehindEmergencyBraking) {
     expect_no_violations(R"(
 duration: 460 s
@@ -108,8 +108,8 @@ populations: [S-SHORT]
 )");
 }
 
-// A left-turning vehicle has started into its gap when a vehicle inside the junction would take the gap from it. The
-// left-turning vehicle has barely room to stop, and its brakes lag, so it must keep the gap.
+// A left-turning vehicle has accepted a gap and started. Then another vehicle inside the junction makes the gap too
+// short. The left-turning vehicle has barely room to stop, and its brakes lag, so it must continue nevertheless.
 TEST(CrowdedJunctions, VehicleThatMayStopTooLateKeepsItsGap) {
     expect_no_violations(R"(
 duration: 456 s

@@ -25,8 +25,9 @@ class Bytes {
 
 const unzigzag = (difference) => (difference >>> 1) ^ -(difference & 1);
 
-// A vehicle in the network. The recording gives it a seat, a number that it keeps while it is in the network.
-// `position` and `speed` are whole multiples of the units in the header of the recording.
+// A vehicle in the network. The recording refers to it by its seat, an index that another vehicle can reuse later;
+// `number` always means this vehicle. `position` and `speed` are whole multiples of the units in the header of the
+// recording.
 class Vehicle {
     constructor(number, policy, length_m, lane, next) {
         Object.assign(this, {number, policy, length_m, lane, next, previous: -1, cause: 0, waitedFor: -1});
@@ -159,8 +160,8 @@ class SectionDecoder {
     }
 }
 
-// The recording in the page. A section of up to 128 frames is unpacked when it is needed. The sections used last are
-// kept in memory.
+// The recording in the page. A section of up to 128 frames is unpacked when it is needed. The most recently used
+// sections stay in memory.
 class Recording {
     constructor(payload) {
         this.payload = payload;

@@ -98,8 +98,9 @@ class Network {
         }
     }
 
-    // Returns the distance that a vehicle drives along the lanes from placement k in `a` to placement j in `b`, which
-    // belong to two successive frames. Returns -1 unless the vehicle stays on its lane or moves to the next one.
+    // Returns the distance that a vehicle drives along the lanes between two successive frames. `a` and `b` are the
+    // placements of the frames; the vehicle has index k in `a` and index j in `b`. Returns -1 unless the vehicle stays
+    // on its lane or moves to the next one.
     distance_m(a, k, b, j) {
         if (a.lane[k] === b.lane[j]) return b.front_m[j] - a.front_m[k];
         const lane = this.lanes[a.lane[k]];
@@ -160,8 +161,8 @@ class Network {
 }
 
 // Calls visit(k, points) for each vehicle k of the frame `from`. `points` holds x and y of its front and its rear at a
-// time between two frames. `share` is the elapsed share of this interval, 0 to 1. Vehicles move along their lanes and
-// match the speeds of both frames. A vehicle that changes to an adjacent lane, or passes a whole lane between the
+// time between two frames. `share` is the elapsed share of this interval, 0 to 1. A vehicle moves along its lanes and
+// has the recorded speed at both frames. A vehicle that changes to an adjacent lane, or passes a whole lane between the
 // frames, moves along a straight line.
 function interpolate(network, from, to, share, frame_s, visit) {
     const a = network.placements(from);
@@ -187,7 +188,7 @@ function interpolate(network, from, to, share, frame_s, visit) {
         }
         const done = distance_m < 0.01 ? 0 :
             hermite(share, from.speed_mps[k] * frame_s / distance_m, to.speed_mps[j] * frame_s / distance_m);
-        // Distance of the front along its lane of the later frame.
+        // Distance of the front from the start of the lane of the later frame; negative while upstream of that lane.
         const on_next_m = b.front_m[j] - (1 - done) * distance_m;
         if (straight) {
             for (let i = 0; i < 4; ++i) p[i] += done * (q[i] - p[i]);

@@ -28,7 +28,7 @@ public:
         return std::any_of(masks.begin(), masks.end(),
                            [this](const BitsetMask& mask) { return (words_[mask.word] & mask.bits) != 0; });
     }
-    // Removes `number` and all other numbers that share its 64-bit word.
+    // Sets the 64-bit word of `number` to 0. This removes `number` and all other numbers that share the word.
     void clear_word_of(std::size_t number) { words_[number / kWordBits] = 0; }
     const std::uint64_t* word_of(std::size_t number) const { return &words_[number / kWordBits]; }
 

@@ -1,5 +1,5 @@
-// A list of indices that every simulation step empties and fills again. reset() reserves enough memory, so functions
-// that append indices need not check the capacity.
+// A list of indices that every simulation step empties and fills again. The caller tells reset() the largest number of
+// indices, so the functions that append indices do not check the capacity.
 #pragma once
 
 #include <cstddef>

@@ -25,7 +25,8 @@ public:
         return {elements_.data() + first, offsets_[static_cast<std::size_t>(list) + 1] - first};
     }
 
-    // Calls visit(begin, end) for the two memory ranges that belong to a list: its offsets, then its elements.
+    // Calls visit(begin, end) for the two memory ranges that belong to a list: its offsets, then its elements. The
+    // caller prefetches these ranges.
     template <class Visit>
     void visit_memory(int list, Visit visit) const {
         visit_offsets(list, visit);

@@ -23,7 +23,8 @@ private:
     std::string text_;
 };
 
-// Returns the number as text with the given number of decimals. Negative zero becomes "0.000", and NaN becomes "".
+// Returns the number as text with the given number of decimals. A number that is rounded to 0 has no minus sign, and
+// NaN becomes "".
 std::string fixed(double number, int decimals);
 
 struct CsvTable {

@@ -12,9 +12,9 @@
 // Positions and speeds are stored in double precision, because they accumulate small increments.
 //
 // Each kernel file is compiled once for each instruction set (see sim/CMakeLists.txt), with a batch as wide as a
-// register. sim/full_dynamics/full_kernels.cpp selects one of these compiled files at run time. A target attribute on
-// the kernel functions would not work: g++ splits vector operations for the instruction set of the file before it reads
-// the attribute.
+// register. sim/full_dynamics/full_kernels.cpp selects one of these compiled files at run time. Target attributes on
+// the functions of a single compiled file would not work: g++ splits vector operations for the instruction set of the
+// file before it reads the attribute.
 #pragma once
 
 #include <array>
@@ -39,7 +39,9 @@
 #define STOPLINE_INLINE_LAMBDA __attribute__((always_inline))
 
 #if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wpsabi"  // harmless: all functions with batches as parameters are inlined
+// The warning says that the instruction set determines how a batch is passed to a function. It does not matter here,
+// because all functions with batches as parameters are inlined.
+#pragma GCC diagnostic ignored "-Wpsabi"
 #endif
 
 namespace stopline {

@@ -13,7 +13,8 @@ STOPLINE_INLINE Vector<float, 2 * kHalf> join(const Vector<float, kHalf>& low, c
     return __builtin_shufflevector(low, high, kLane...);
 }
 
-// Converts 2 kHalf numbers from double to single precision. part(k) returns the numbers k .. k + kHalf - 1 as a vector.
+// Converts 2 * kHalf numbers from double to single precision. part(0) returns the first half of the numbers as a
+// vector, and part(kHalf) returns the second half.
 template <int kHalf, class Function>
 STOPLINE_INLINE Packed<2 * kHalf> from_doubles(Function part) {
     const auto low = __builtin_convertvector(part(0), Vector<float, kHalf>);
@@ -95,8 +96,9 @@ STOPLINE_INLINE R counting_from(int first) {
 }
 
 // Returns table[index] for each element of `index`, which must hold whole numbers. The table has 8, 16 or 32 entries,
-// so it fits into a few registers of AVX2 and AVX-512, and a look-up takes a few permutation instructions. Gather
-// instructions would be slower than single loads on processors with the mitigation against Gather Data Sampling.
+// so it fits into a few registers of AVX2 and AVX-512. A few permutation instructions then look up all elements at
+// once. Gather instructions are not used: on processors with the mitigation against Gather Data Sampling, they are
+// slower than single loads.
 template <std::size_t kEntries>
 STOPLINE_INLINE double look_up(const std::array<double, kEntries>& table, double index) {
     return table[static_cast<std::size_t>(index)];

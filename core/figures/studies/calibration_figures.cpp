@@ -16,7 +16,7 @@ namespace stopline {
 
 namespace {
 
-// Quotes text for a legend, which is not in gnuplot's enhanced mode.
+// Quotes text for a legend. It needs no escapes, because the legends here are not in gnuplot's enhanced mode.
 std::string legend_text(const std::string& text) { return "'" + text + "'"; }
 
 // Returns the axis label for a result column. The last part of its name is the unit: "travel_time_94m_s" becomes
@@ -37,7 +37,8 @@ std::string axis_label(std::string column) {
     return fmt::format("{} [{}]", quantity, unit == "percent" ? "%" : unit);
 }
 
-// Highest number of curves in a figure of counters. A reader cannot distinguish more colours.
+// Highest number of detectors in a figure of cumulative vehicle counts. Each detector has its own colour, and a reader
+// cannot distinguish more colours.
 constexpr std::size_t kMaxLines = 8;
 
 // Returns the kMaxLines detectors with the most passages.

@@ -9,9 +9,10 @@
 
 namespace stopline {
 
-// Returns the figures of step I of the calibration: detector counters of both fidelities over time (Fig. 11) for the
-// median and the worst permutation, a histogram of the differences between passage times, and the history of the fit if
-// there is one. A permutation is a combination of axis values.
+// Returns the figures of step I of the calibration. Two figures show the cumulative vehicle counts at the detectors
+// over time, in full dynamics and in the mesoscale mode (Fig. 11), for the median and the worst permutation. A
+// permutation is a combination of axis values. The others are a histogram of the differences between passage times and,
+// if `history` is not empty, the history of the fit.
 std::vector<Figure> timing_figures(const std::vector<TimingResult>& results, const std::vector<CalibrationCase>& cases,
                                    const std::vector<FitEvaluation>& history);
 

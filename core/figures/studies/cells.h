@@ -1,6 +1,6 @@
 // Layout of cell maps: one cell for each pair of axis values. All cells have the same size, whatever the distance
-// between the values, so that each cell has room for its text. All sizes are in pixels, because the numbers of panels
-// and cells depend on the sweep.
+// between the values, so that each cell has room for its text. Sizes are in pixels, because the size of the figure is
+// computed from the numbers of panels and cells.
 #pragma once
 
 #include <cstddef>

@@ -7,8 +7,8 @@
 
 namespace stopline {
 
-// Draws the figure network_`number`. Each population has a colour and each value of the line axis has a dash and a
-// point. With several seeds, whiskers show minimum and maximum.
+// Draws the figure network_`number`. Each population has a colour. Each value of the line axis (see planes.h) has a
+// dash and a point. With several seeds, whiskers show minimum and maximum.
 Figure sweep_lines_figure(const SweepPlanes& all, const SweepPlane& plane, std::size_t number);
 
 }  // namespace stopline

@@ -1,6 +1,6 @@
 // The results of a sweep over several intersections, arranged for its figures. Each figure has an x axis. If two axes
-// vary, it also has a line axis, with one line for each value. All other axes are constant in a figure, so each
-// combination of their values gets figures of its own. The results for one combination are called a plane.
+// vary, it also has a line axis, with one line for each value. All other axes are constant in a figure. The results for
+// one combination of their values are called a plane. Each plane has figures of its own.
 //
 // As in the paper, the x axis is the axis `green` (green time) and the line axis is the axis `offset`, provided that
 // the sweep has both axes and at least one of them varies. Otherwise the first one or two numeric axes that vary are
@@ -30,7 +30,8 @@ struct SweepMetric {
     const char* unit;
     const char* change;  // axis label of the change; {} is replaced by the name of the first population
     double sign;         // 1: the change is positive if the metric rises; -1: it is positive if the metric falls
-    // True if a positive change is an improvement. False for density, because it also falls if there is less traffic.
+    // True if a positive change is an improvement. It is false for density: a lower density is not always better,
+    // because it can also mean less traffic.
     bool improves;
 
     std::string label() const { return std::string(name) + " [" + unit + "]"; }

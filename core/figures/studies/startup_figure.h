@@ -6,7 +6,8 @@
 
 namespace stopline {
 
-// Draws speed and gear over time, with those bands of speed that the measured curve has.
+// Draws speed and gear over time. Also draws the band of single starts and the confidence band of the mean, if the
+// measured curve has them.
 Figure startup_figure(const StartupReport& report);
 
 }  // namespace stopline

@@ -190,7 +190,8 @@ ThroughputTrends throughput_trends(const CsvTable& results) {
     const std::vector<Turns>& turns = means.turns();
     for (const double green_s : means.greens_s) {
         for (const Turns& from : turns) {
-            // Turn ratios with the next larger share of right turns, and with the next larger share of left turns.
+            // `right` has the same left turns as `from` and the next larger share of right turns. `left` has the same
+            // right turns as `from` and the next larger share of left turns.
             const auto right = std::find_if(turns.begin(), turns.end(), [&](const Turns& t) {
                 return t.left == from.left && t.right > from.right;
             });

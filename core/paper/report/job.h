@@ -40,7 +40,7 @@ struct JobContext {
     int threads = 1;
     // Receives the finished share of the job, 0..1. The job stops if the function returns false.
     std::function<bool(double)> on_progress;
-    // Receives the share of the job that need not be run, because an earlier start of the program has stored the runs.
+    // Receives the share of the job whose runs an earlier start of the program has stored.
     std::function<void(double)> on_stored;
 
     bool reduced() const { return !reductions.rows().empty(); }

@@ -6,8 +6,9 @@ namespace stopline {
 
 namespace {
 
-// The pace is the observed time divided by the expected time. After this much work, in expected seconds, the observed
-// pace has the same weight as the expected pace.
+// The pace is the wall time of the finished work divided by the expected time of this work. The estimate mixes the
+// observed pace with a pace assumed before. Both have the same weight after this much finished work, in expected
+// seconds.
 constexpr double kPriorWeight_s = 10.0;
 
 }  // namespace

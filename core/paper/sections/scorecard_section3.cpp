@@ -1,10 +1,10 @@
 // Section III of the paper: inputs (P01..P06) and the single traffic light (L01..L15).
 //
-// A count is the number of vehicles whose front has passed the stop line since the start of green. The improvement at
-// one green time compares the counts of two populations, which are whole numbers. In rows with the condition 'green >=
-// T' (the saturation in Fig. 6), the improvement is the mean of our curve in Fig. 6 from green time T on, so single
-// vehicles have little influence. The mean ends at the end of green, or earlier when all 60 vehicles of one of the two
-// queues have passed.
+// A count is the number of vehicles whose front has passed the stop line since the start of green. In a row with the
+// condition green=T, the improvement compares the counts of two populations at time T. The condition green>=T stands
+// for the flat part of the curve in Fig. 6. There the improvement is the mean of our curve from time T on, so that a
+// single vehicle has little influence. The mean ends at the end of green, or earlier when all 60 vehicles of one of the
+// two queues have passed.
 #include <array>
 #include <cmath>
 #include <string>
@@ -129,8 +129,9 @@ std::optional<Answer> gap_at_limit(const Target& target, const Measurements& mea
     return number_named(measured, "steady_gap " + target.condition);
 }
 
-// Checks an order of populations such as "A > B = C". 'A > B' compares the counts interpolated between two vehicles.
-// 'B = C' holds if the whole counts differ by at most one vehicle, the resolution of the experiment.
+// Checks an order of throughputs such as "A > B = C". 'A > B' holds if the count of A is larger than that of B, both
+// interpolated between passages. 'B = C' holds if the whole counts differ by at most one vehicle, the resolution of the
+// experiment.
 std::optional<Answer> order_of_throughput(const Target& target, const Measurements& measured) {
     const std::optional<double> green_s =
         parse_number(target.condition.starts_with("green=") ? target.condition.substr(6) : "");

@@ -1,8 +1,8 @@
 // Section IV of the paper: the reference intersection (I01..I13) and its Table 1 (T01..T48).
 //
-// Every number is the mean over six seeds. An improvement compares two such means. The population MIX of the paper,
-// half of the vehicles with CDG, has the name P50 in our files. Density is the percentage of the total lane length that
-// vehicles occupy.
+// Every number is the mean over six seeds, or fewer in a quick run. An improvement compares two such means. The
+// population that the paper calls MIX, half of the vehicles with CDG, has the name P50 in scenarios/intersection.yaml.
+// Density is the percentage of the total lane length that vehicles occupy.
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -24,7 +24,7 @@ namespace stopline {
 namespace {
 
 constexpr const char* kRuns = "intersection";
-constexpr int kSeeds = 6;  // seeds of each combination in a full (not reduced) experiment
+constexpr int kSeeds = 6;  // number of seeds of each combination if the experiment is not reduced
 constexpr std::array kGreens_s{5, 10, 15, 20, 25, 30};
 constexpr std::array<const char*, 3> kPopulations{"CTG-Ref", "P50", "CDG"};
 
@@ -75,8 +75,8 @@ IntersectionResult run_point(const Scenario& scenario, const Point& point, int r
     return run_intersection(own, index_of(scenario, point.population), on_step);
 }
 
-// Runs each combination with each seed. The results of one combination are adjacent. Throws Interrupted if
-// options.on_progress returns false.
+// Runs each combination with each seed. The result lists all seeds of the first combination, then all seeds of the
+// second, and so on. Throws Interrupted if options.on_progress returns false.
 std::vector<IntersectionResult> run_points(const Scenario& scenario, const std::vector<Point>& all, int seeds,
                                            const ScorecardOptions& options) {
     constexpr std::int64_t kAskInterval_ticks = 1000;

@@ -77,8 +77,8 @@ Measurements measure_stability(const Scenario& /*scenario*/, const ScorecardOpti
     return measured_sweep(options, "stability.yaml", kStability, true);
 }
 
-// Measures the mean travel time per block on the street, from the first to the last stop line, s. Stores one value for
-// each direction: "NAME east" and "NAME west".
+// Measures the mean travel time from the first to the last stop line of the street, divided by the number of blocks
+// between these stop lines, s. Stores one value for each direction: "NAME east" and "NAME west".
 void measure_block_times(const Scenario& scenario, std::size_t population, const std::string& name,
                          Measurements& measured) {
     constexpr double kUntil_s = 1800.0;

@@ -41,8 +41,8 @@ constexpr std::array<const char*, 15> kColumns{"throughput_early_veh_h",
                                                "congested_from_witzlebenplatz_west_s",
                                                "congested_from_sophie_charlotte_str_west_s",
                                                "congested_from_koenigin_elisabeth_str_west_s"};
-// Columns of successive approaches, ordered upstream: from the place where a backlog may start to the place where
-// vehicles enter the network.
+// Columns with the times from which successive approaches are congested. East and west name the side from which the
+// traffic comes. The order is upstream: from the approach where a queue may start to the entry of the network.
 using Columns = std::span<const char* const>;
 constexpr Columns kFromSuarezEast{kColumns.data() + 4, 7};
 constexpr Columns kFromKrummeEast{kColumns.data() + 7, 4};
@@ -110,8 +110,8 @@ MaybeAnswer mix_gain(const Target&, const Measurements& m) {
     return number_answer(100.0 * (flow(m, "MIX") / flow(m, "CTG-Ref") - 1.0));
 }
 
-// `filled_s` holds, for each seed, the time at which queues filled the approaches, or NaN for never. Returns a text
-// with the median, the earliest and the latest of these times: "minute 12 (3 to 20) in 5 of 6 runs".
+// Returns a text about the times at which queues filled the approaches: median, earliest and latest, such as "minute 12
+// (3 to 20) in 5 of 6 runs". `filled_s` holds one time for each seed, NaN for never.
 std::string filled_text(const std::vector<double>& filled_s) {
     std::vector<double> minutes;
     for (const double s : filled_s) {
@@ -123,9 +123,9 @@ std::string filled_text(const std::vector<double>& filled_s) {
                        minutes.front(), minutes.back(), minutes.size(), filled_s.size());
 }
 
-// Returns for each seed the time from which queues fill all approaches in `columns`, s, or NaN if this never happens. A
-// queue on the approach where vehicles enter the network does not prove a backlog, because the signal of this approach
-// causes a queue, too.
+// Returns for each seed the time from which queues fill all approaches in `columns`, s, or NaN if this never happens.
+// All of them must be full, because the entry approach alone does not prove a backlog: its own signal causes a queue,
+// too.
 std::vector<double> connected_s(const Measurements& m, Columns columns, const char* population) {
     std::vector<double> since_s = values(m, columns.front(), population);
     for (const char* const column : columns) {

@@ -25,7 +25,7 @@ struct RecordedVehicle {
 
 class FrameDecoder {
 public:
-    // The decoder reads both arguments later, so they must outlive the decoder.
+    // The decoder keeps references to both arguments, so they must outlive the decoder.
     FrameDecoder(const RecordedRun& run, std::string_view section);
 
     // Decodes the next frame. Throws InputError if it is invalid.

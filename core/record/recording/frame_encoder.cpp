@@ -127,7 +127,8 @@ void FrameEncoder::encode_placement(const Snapshot::Placement& placement) {
     last_motion_[at(placement.slot)] = kUnknownMotion;
 }
 
-// Writes the next lane of a vehicle if it has changed. A vehicle can still choose its route beyond the stop line.
+// Writes the next lane of a vehicle beyond the stop line if it has changed since it was last written. Such a vehicle
+// can still change its route, even if it stays in the same slot and therefore has no new placement.
 void FrameEncoder::encode_next_lane(const Snapshot::BeyondStopLine& vehicle) {
     const int seat = seat_in_slot_[at(vehicle.slot)];
     if (seats_[at(seat)].next == vehicle.next_lane) return;

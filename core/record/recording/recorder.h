@@ -28,7 +28,7 @@ struct RecordingSize {
 class Recorder {
 public:
     // The recorder keeps no reference to the model. All functions throw InputError if the file cannot be written.
-    // Because the second thread writes, observe() can throw some frames after the failed write.
+    // Because the second thread writes the file, observe() can report a failed write with a delay of some frames.
     Recorder(const std::filesystem::path& file, const RecordingWindow& window, const RunOrigin& origin,
              const Model& model);
 

@@ -10,7 +10,7 @@
 //
 // All numbers are little-endian. A varint has 7 bits per byte, the lowest bits first; the highest bit is set in all
 // bytes but the last. A seat is a number that a vehicle gets when it enters and keeps until it exits the network. The
-// lists of changes in a frame name vehicles by seat. Positions and speeds are columns with one element per seat.
+// lists of changes in a frame name vehicles by seat. Speeds and positions are columns in the order of the seats.
 //
 //     frame     = changed lights: n, then n times group, light (0 red, 1 green, 2 yellow)
 //                 exited vehicles: n, then n times seat; the seat is free from the next frame on
@@ -27,9 +27,9 @@
 // Speeds and positions are 16-bit multiples of the units in the header. The columns contain differences from predicted
 // values. The predicted speed is the speed in the previous frame. The predicted position is the position in the
 // previous frame plus the distance driven at the mean of the previous and the new speed. Differences 0, -1, 1, -2 ...
-// are written as 0, 1, 2, 3 ... modulo 2^16. For a vehicle that entered or changed lanes, the prediction starts at
-// position 0. Seats without a vehicle have position and speed 0. At the start of a FRMS section all seats are empty and
-// all lights are red.
+// are written as 0, 1, 2, 3 ... modulo 2^16. For a vehicle that has entered or has a new lane or next lane, position 0
+// replaces the position in the previous frame. Seats without a vehicle have position and speed 0. At the start of a
+// FRMS section all seats are empty and all lights are red.
 //
 // Why not another format? Floating-point columns would be larger. One row per vehicle would compress less well. Columns
 // with an element for every seat would take longer to write, because many vehicles are stopped.

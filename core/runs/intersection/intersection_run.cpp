@@ -91,8 +91,9 @@ private:
     double longest_m_ = 0.0;
 };
 
-// Returns the coordinates of all vehicles. A vehicle whose front has passed the stop line is placed on its connection
-// through the intersection.
+// Returns the coordinates of all vehicles. An approach lane continues beyond its stop line to the point where its
+// movements diverge. A vehicle with its front on this part of the lane is placed on its connection through the
+// intersection.
 std::vector<DrawnVehicle> snapshot_of(const Model& model, const State& state) {
     const VehicleArrays& v = state.vehicles;
     std::vector<DrawnVehicle> vehicles;
@@ -151,8 +152,8 @@ void measure_zones(const Scenario& scenario, const Model& model, const State& st
     }
 }
 
-// Returns the length of all lanes, m. For each entry lane, this adds the straight way through the intersection and one
-// exit lane.
+// Returns the length of all lanes, m. It is the sum over all entry lanes of the approach length, the straight way
+// through the intersection, and the length of one exit lane.
 double road_m(const Scenario& scenario, const Model& model) {
     const IntersectionSettings& layout = scenario.network.intersection;
     const double lane_m = layout.approach_length_m + 2.0 * layout.radius_m + layout.exit_length_m;

@@ -216,8 +216,9 @@ private:
         return cycles_[first_full_ + collapse->index].window.from_s;
     }
 
-    // Returns the end of the last cycle at which teleported vehicles were less than kSemiStableShare of the vehicles
-    // that had left the area, s. Both numbers count from the start of the run.
+    // Returns the time from which on the number of teleported vehicles is at least kSemiStableShare of the vehicles
+    // that have left the area, s. Both numbers count from the start of the run. The time is the end of the last cycle
+    // with a smaller share.
     double teleport_limit_s() const {
         double since_s = 0.0;
         double exited = 0.0;

@@ -147,8 +147,8 @@ std::string filled(std::string_view pattern, std::string_view text) {
     return name;
 }
 
-// Translates a column name. The members `from` and `to` of ColumnAlias give the direction: from old to current names,
-// or back.
+// Translates a column name. `from` and `to` are members of ColumnAlias: old_name and name to translate into the current
+// name, or name and old_name to translate into the old name.
 std::string renamed_column(std::string_view table, const std::string& name, std::string_view ColumnAlias::*from,
                            std::string_view ColumnAlias::*to) {
     for (const ColumnAlias& alias : kColumns) {
@@ -166,8 +166,8 @@ std::string renamed_value(std::string_view table, std::string_view column, const
     return value;
 }
 
-// Returns the index of the first column that can have an old name. The columns before it in a sweep table hold axis
-// values.
+// Returns the index of the first column that can have an old name. In tables of sweeps, most columns before it
+// are axes, whose names the user chooses. In all other tables the index is 0.
 std::size_t first_result_column(std::string_view table, const std::vector<std::string>& columns) {
     const char* const last_axis = table == kSweepTable ? "seed" : "metric";
     if (table != kSweepTable && table != kMeansTable) return 0;

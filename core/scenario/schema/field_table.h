@@ -127,13 +127,13 @@ struct Field {
     bool required = false;
     std::string fallback = {};  // default as YAML text; empty: the initialiser of the struct member
     // The field exists only if the choice `condition_field` has one of `condition_values`. The choice is a field of the
-    // same table, or of a section before this field, such as network.kind. If `condition_field` is empty, the field
-    // always exists.
+    // same table, or a field of a section that the table lists earlier, such as network.kind. If `condition_field` is
+    // empty, the field always exists.
     std::string condition_field = {};
     std::vector<std::string> condition_values = {};
-    // True for a parameter of a traffic rule that `condition_field` switches on and off. While the rule is off, a file
-    // may still give the parameter the value 'off'. If an override switches the rule off, the file may keep any value
-    // of the parameter.
+    // True for a parameter of a traffic rule that `condition_field` switches on and off. While the rule is off, it is
+    // an error to give a value of the parameter. There are two exceptions: the value 'off', and any value in the file
+    // if an override switches the rule off.
     bool is_rule_parameter = false;
     // Names of the previous release, accepted with a warning (old_names.h).
     std::vector<std::string> old_names = {};

@@ -69,7 +69,7 @@ std::string title_of(const std::vector<std::string>& parts) {
         try {
             words.push_back(words_of(parse_yaml(part, std::make_shared<Source>())));
         } catch (const YamlError&) {
-            words.push_back(part);  // Sweep reports the error when it loads the combinations
+            words.push_back(part);  // the class Sweep reports the error when it loads the combinations
         }
     }
     const bool same =

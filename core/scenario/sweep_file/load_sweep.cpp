@@ -57,7 +57,7 @@ void use_current_choices(SweepAxis& axis, std::size_t value, Report& report) {
 }
 
 // Replaces old field names in the paths of the axes, and old names of choice values. Axis values that are maps keep
-// their text. Sweep warns of old names in such maps when it loads the combinations.
+// their text. The class Sweep (sweeps/sweep.h) warns of old names in such maps when it loads the combinations.
 void use_current_names(SweepSettings& sweep, Report& report) {
     for (SweepAxis& axis : sweep.axes) {
         for (std::size_t k = 0; k < axis.paths.size(); ++k) {
@@ -72,7 +72,7 @@ void use_current_names(SweepSettings& sweep, Report& report) {
 }
 
 // Checks one axis value by reading it into settings that are discarded. Skips sections, lists and list entries, because
-// they need the whole scenario. Sweep checks them when it loads the combinations.
+// they need the whole scenario. The class Sweep (sweeps/sweep.h) checks them when it loads the combinations.
 void check_value(const SweepAxis& axis, const std::string& path, const std::string& value, const Place& place,
                  Report& report) {
     const FieldAtPath at = find_field(scenario_table(), path);

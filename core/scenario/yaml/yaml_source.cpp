@@ -125,7 +125,7 @@ private:
         put(std::move(closed.node), 0);
     }
 
-    // Records that the innermost open container holds a node that has `levels` nesting levels itself.
+    // Records that a node with `levels` nesting levels has been added to the innermost open container.
     void deepen(std::size_t levels) {
         if (!open_.empty()) open_.back().depth = std::max(open_.back().depth, levels + 1);
     }
@@ -141,7 +141,8 @@ private:
         if (parent.node.kind == SourceNode::Kind::list) {
             parent.node.items.push_back(std::move(node));
         } else if (parent.has_key) {
-            // For a missing value the parser gives the position of the next token, which can be some lines below.
+            // For a missing value the parser gives the position of the next token, which can be some lines below. The
+            // position of the key is more useful.
             if (node.kind == SourceNode::Kind::empty) node.place = parent.node.keys.back().place;
             parent.node.items.push_back(std::move(node));
             parent.has_key = false;

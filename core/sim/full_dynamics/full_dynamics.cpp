@@ -49,10 +49,10 @@ FullStreams streams_of(const Model& model, State& state) {
     return s;
 }
 
-// Evaluates the desired gap of each vehicle at the end of the step, because its request takes effect at that time. The
-// desired gap therefore depends on the speed at the end of the step. With the speed at the start of the step, results
-// would depend on the step length. The gap law of each policy is evaluated for the whole group, and each vehicle takes
-// the result of its own policy.
+// Computes the desired gap of each vehicle from the speed that the vehicle will have at the end of the step, because
+// the new request takes effect then. With the speed at the start of the step, results would depend on the step length.
+// The gap law of each policy in the group is evaluated for all vehicles of the group, and each vehicle takes the result
+// of its own policy.
 void evaluate_gap_laws(const Model& model, int vehicles, const FullGroup& g) {
     const std::size_t n = at(vehicles);
     const std::span<const double> speed_mps(g.coming_speed, n);

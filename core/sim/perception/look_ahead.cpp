@@ -262,7 +262,8 @@ void find_leaders_beyond_lanes(const Model& model, const State& state, VehicleAr
         }
         const int id = has_leader ? v.id[leader_slot] : -1;
         if (v.record[at(head)].leader_id == id) continue;
-        // The leader is new. The first measurement of its gap and speed replaces the whole radar history.
+        // The leader has changed or disappeared. The present gap and closing speed replace the whole radar history.
+        // Without a leader, the gap is that to a position far ahead (kFree_m).
         v.record[at(head)].leader_id = id;
         v.is_platoon_leader[at(head)] = 1.0F;
         const double gap_m = rear_m - v.position_m[at(head)];

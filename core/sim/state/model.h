@@ -44,7 +44,9 @@ struct RulesPlan {
     std::int64_t watch_ticks = 0;
     // If a gridlock is observed again within this time, it counts as the same gridlock.
     std::int64_t gridlock_ticks = 0;
-    std::int64_t long_wait_ticks = 0;   // a delay episode includes a vehicle stopped for this long, whatever the cause
+    // Signals, yielding and queue discharge cause many short stops. A delay episode (DelayEpisode) with such a cause
+    // includes only vehicles that have been stopped for this time. Episodes with other causes include all of them.
+    std::int64_t long_wait_ticks = 0;
     std::int64_t starvation_ticks = 0;  // the first vehicle of a queue starves after this stop time; 0: never
     // The permission to pass a blocker (BlockerPass) expires when it has not been needed for this time.
     std::int64_t memory_ticks = 0;
@@ -77,7 +79,7 @@ struct Model {
     // true: the kernels compute one vehicle at a time and do not skip standing queues. The results are the same.
     bool scalar_kernels = false;
     // true: record passages, accepted gaps, and the crossings of all detectors; false: only the crossings of zones
-    // (Detector::Kind::zone) and of trip starts and ends
+    // (Detector::Kind::zone) and of the two detectors that stand for trip starts and ends (trips_begin, trips_end)
     bool records_all = true;
     bool records_detectors = false;  // true: record the crossings of all detectors even if records_all is false
     // Indices of the two detectors that stand for the start and the end of a trip. They are on no lane. -1: none.

@@ -15,7 +15,8 @@ check() {
     [ -s "$1" ] && head -n 1 "$1" | tr ',' '\n' >>"$work/columns_of.${2//\//.}"
 }
 
-# check_complete TABLE: expects every described column without CAPITALS in one of the checked files
+# check_complete TABLE: expects every described column in one of the checked files, except names with CAPITALS, which
+# stand for any word
 check_complete() {
     local column
     while read -r column; do

@@ -70,8 +70,9 @@ for ms in 50 200 400 800 1200 1600; do
     wait $pid 2>/dev/null
 done
 mkdir -p "$work/killed/figures" "$work/killed/runs_reduced/startup"
+# Partial files carry the number of the process that writes them. $! becomes the number of a process that has ended.
 sleep 0 &
-wait $!  # now no process has this number
+wait $!
 touch "$work/killed/figures/.fig05_counters.svg.$!.part" "$work/killed/runs_reduced/startup/.startup.csv.$!.part"
 report "$work/killed" >/dev/null || fail "after kills: exit code $?"
 find "$work/killed" -name '.*.part' | grep -q . && fail "partial files of killed programs are left: $(find "$work/killed" -name '.*.part')"

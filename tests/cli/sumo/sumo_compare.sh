@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Tests stopline-compare and stopline-export without SUMO: refused input leaves no folder behind, and an unused fidelity
-# gives a message.
+# Tests stopline-compare and stopline-export without SUMO. Refused input leaves no folder behind. Both
+# programs ignore the setting `fidelity=full` and say so.
 set -u
 
 . "$STOPLINE_SOURCE/tests/tools/cli.sh"

@@ -58,7 +58,7 @@ TEST(ReportPage, HasTheScorecardBeforeTheFigures) {
     EXPECT_TRUE(has(page, "because a &lt; b"));
 }
 
-// The page starts with five lines derived from the rows, followed by the main pictures.
+// The page starts with five lines derived from the rows of the scorecard, followed by the main pictures.
 TEST(ReportPage, StartsWithTheAnswer) {
     ReportContent content = example_content();
     content.scorecard.rows[0].ours = "17";

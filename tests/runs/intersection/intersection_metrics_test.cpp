@@ -38,7 +38,8 @@ std::map<std::string, double> expected_values(const IntersectionResult& f) {
             {"longest_in_junction_s", f.longest_in_junction_s}};
 }
 
-// Driving 60 m at 10 km/h takes longer than two cycles of 12 s.
+// At a speed limit of 10 km/h, a vehicle is inside the junction of 60 m for more than two cycles of 12 s. A deadlock is
+// a longer stay: two cycles plus the time of an unobstructed crossing.
 TEST(IntersectionMetrics, SlowlyDrivingVehiclesAreNoDeadlock) {
     const Scenario scenario = parse_scenario(
         "network: {kind: intersection, intersection: {lanes: [{movements: straight}], radius: 30 m, speed_limit: 10 km/h}}\n"

@@ -50,8 +50,8 @@ TEST(SlowBerlin, HasNoViolationsInBothFidelitiesWithThreeAndFourLanes) {
     }
 }
 
-// The shares differ from the targets only because some vehicles cannot reach the lane of their turn. The test leaves
-// out entry approaches and Krumme Str., where lanes hold up turning vehicles (data/paper/FINDINGS.md).
+// The test leaves out entry approaches and Krumme Str., whose turn shares can differ more from Table 3 (see
+// data/paper/FINDINGS.md). On the other approaches a few vehicles cannot reach the lane of their turn.
 TEST(Berlin, TurnSharesAgreeWithTableThree) {
     const Scenario scenario = berlin({"duration=3600 s", "measure.window=3000 s"});
     const LaneGraph graph = make_network(scenario.network);

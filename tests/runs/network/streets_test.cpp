@@ -57,7 +57,8 @@ TEST(Streets, MeasuredAreaReachesToTheOuterStopLines) {
             return d.kind == Detector::Kind::zone && d.leaves_zone == leaves;
         });
     };
-    // The turn pocket in the west also needs a detector, because vehicles change onto it upstream of the area.
+    // Vehicles change onto the turn pocket in the west upstream of the area and enter the area on the pocket. So the
+    // pocket needs a detector in addition to those of the entry lanes.
     EXPECT_EQ(zones(false), static_cast<std::ptrdiff_t>(model.graph.entries.size()) + 1);
     for (const Detector& d : model.detectors) {
         if (d.kind != Detector::Kind::zone) continue;

@@ -119,8 +119,8 @@ TEST(SumoRun, VehicleExitsAtTheEndOfItsRouteDespiteRed) {
     EXPECT_TRUE(f.violations.none());
 }
 
-// The rear of a truck on an edge shorter than the truck still occupies the connection to this edge. Yielding vehicles
-// must also see vehicles that approach across this edge.
+// A truck on an edge that is shorter than the truck still occupies the connection to this edge. Vehicles that yield to
+// this connection must wait until the rear of the truck has left it.
 TEST(SumoRun, VehiclesYieldAcrossShortEdges) {
     const std::string traffic =
         R"(<vType id="truck" length="12"/>
@@ -168,8 +168,8 @@ TEST(SumoRun, OpposingLeftTurnsDoNotBlockEachOther) {
 }
 
 // The network fast_random comes from netgenerate --rand --rand.iterations 9 --default.speed 27.8 --tls.guess --seed 11,
-// with random trips. A stopped vehicle with priority starts while a fast yielding vehicle, which found a gap, can no
-// longer stop.
+// with random trips. A fast yielding vehicle has accepted a gap and can no longer stop. A stopped vehicle with priority
+// must not start into its path.
 TEST(SumoRun, VehicleWithPriorityWaitsForOneThatCannotStop) {
     const std::string data = STOPLINE_TEST_DATA_DIR;
     const Scenario scenario = parse_scenario(

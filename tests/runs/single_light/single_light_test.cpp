@@ -137,8 +137,8 @@ TEST(SingleLightCsv, HasTheRightNumberOfRows) {
     for (const PopulationSummary& summary : result.populations) passed += summary.line.size();
     EXPECT_EQ(passages.rows.size(), passed);
     const CsvTable trajectories = parse_csv(trajectories_csv(result, 1.0), "trajectories");
-    // One row per second from 5 s before the 20 s of green until 25 s after it, for twelve vehicles and three
-    // populations.
+    // One row per second, from 5 s before the start of the green of 20 s to 25 s after its end, for twelve vehicles and
+    // three populations.
     EXPECT_EQ(trajectories.rows.size(), 51U * 12U * 3U);
 }
 

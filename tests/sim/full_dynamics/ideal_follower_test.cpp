@@ -93,7 +93,7 @@ void expect_near_ideal(const char* policy, double r_m, double h_s, double allowe
                 count_until(d.passages_s, 15.0), count_until(ideal, 15.0), largest_s);
 }
 
-// Each vehicle starts 20 ms later than its leader, the V2V delay, and catches up while driving.
+// Each vehicle starts 20 ms (the V2V delay) later than its leader, and makes up for this delay while driving.
 TEST(IdealFollower, IsMatchedByConstantDistance) { expect_near_ideal("CDG", 2.95, 0.0, 0.25); }
 TEST(IdealFollower, IsMatchedByConstantTimeGap) { expect_near_ideal("CTG-Ref", 2.95, 0.87, 0.45); }
 TEST(IdealFollower, IsMatchedByALargerTimeGap) { expect_near_ideal("CTG-HBS", 2.95, 1.22, 0.45); }

@@ -149,7 +149,8 @@ TEST_F(ConflictCount, CountsEveryPair) {
 }
 
 TEST_F(ConflictCount, IncludesVehiclesThatReachBackFromTheExitLane) {
-    const Conflict c = conflict("west_1_right", "north_1_straight");  // the connections merge and end with the area
+    // The connections merge, so their conflict area reaches to their ends.
+    const Conflict c = conflict("west_1_right", "north_1_straight");
     place("west_1_right", graph().lanes[at(lane("west_1_right"))].length_m + 1.0);
     ASSERT_EQ(track_.count(lane("west_1_right")), 0);
     place("north_1_straight", c.other_from_m + 0.5);

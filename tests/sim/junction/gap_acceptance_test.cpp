@@ -28,7 +28,8 @@ struct OncomingVehicle {
     double speed_mps;
 };
 
-// Legs with one lane each. Vehicles from the west turn left; vehicles from the east take the movement of the parameter.
+// Legs with one lane each. Vehicles from the west turn left. Vehicles from the east have priority; the parameter of the
+// test names their movement.
 class GapAcceptance : public testing::TestWithParam<const char*> {
 protected:
     GapAcceptance()

@@ -18,8 +18,8 @@ using namespace testing_support;
 constexpr double kYellowFrom_s = 8.0;
 constexpr double kYellow_s = 3.0;
 constexpr double kStopLine_m = 800.0;
-// Tolerance of the stopping distance, which ignores downshifts. Engaging a lower gear takes up to a third of the
-// deceleration until the brakes follow. The largest error is that of a diesel car that shifts down twice.
+// Tolerance of stopping_distance_m(), which ignores downshifts. While a lower gear engages, up to a third of the
+// deceleration is missing until the brakes respond. The error is largest for a diesel car that shifts down twice.
 constexpr double kTolerance_m = 0.2;
 
 // Returns the distance in which a vehicle stops with the accepted deceleration. Braking starts after the brake lag and

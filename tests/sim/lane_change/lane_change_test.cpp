@@ -1,5 +1,5 @@
 // Lane changes on parallel lanes before one signal. Lane k of the approach has index 2 k, and its exit lane has index
-// 2 k + 1. The turn of a vehicle is that of its exit lane.
+// 2 k + 1. The exit lanes stand for the turns left, straight and right, so the target lane of a vehicle sets its turn.
 #include <gtest/gtest.h>
 
 #include <array>

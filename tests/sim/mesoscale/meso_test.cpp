@@ -73,8 +73,8 @@ TEST_P(MesoModel, ReachesTheEquilibriumGap) {
         Track track(this->plan());
         const double v = kmh / 3.6;
         const double expected_m = track.model().krauss[0].equilibrium_gap_m(v) + extra_gap_m(track.model(), v);
-        // The follower starts at twice the equilibrium gap. A shorter gap may lie in the band of equation (1), where
-        // every gap is an equilibrium.
+        // The follower starts at twice the equilibrium gap and closes up. It must not start below the equilibrium gap:
+        // in equation (1) of the paper, every gap in a band below it is an equilibrium too.
         track.place(0, 100.0, v);
         track.place(0, 100.0 - track.model().vehicles[0].length_m - 2.0 * expected_m, v);
         double front_m = 100.0;
@@ -226,8 +226,8 @@ TEST(MesoKernels, VectorisedAndScalarKernelsGiveTheSameBits) {
     }
 }
 
-// Without transient gaps the kernels calculate one safe speed for followers and platoon leaders. A negligible transient
-// gap forces a separate calculation for platoon leaders. Both ways must give the same bits.
+// If transient_gap_s2 is 0, the kernels calculate one safe speed for followers and platoon leaders. A negligible value
+// above 0 forces a separate calculation for platoon leaders. Both ways must give the same bits.
 TEST(MesoKernels, SharedAndSeparateLeaderSpeedGiveTheSameBits) {
     for (const char* const population : {"CDG", "two", "CTG-Ref", "three"}) {
         SCOPED_TRACE(population);

@@ -60,7 +60,8 @@ void expect_same(Simulation& first, Simulation& second, double until_s, double e
 TEST(Partitions, AnyNumberOfThreadsGivesTheSameRun) {
     for (const int population : {1, 2}) {
         const Model model = crowded_grid("meso", population);
-        for (const int threads : {2, 3}) {  // more threads than processors would wait for each other for long
+        // No larger numbers: if there were more threads than processors, they would wait long for each other.
+        for (const int threads : {2, 3}) {
             Simulation alone(model);
             Simulation shared(model, threads);
             expect_same(alone, shared, 400.0, 20.0, std::to_string(threads) + " threads");
@@ -110,7 +111,8 @@ TEST(StandingQueues, LeavingThemOutChangesNothing) {
     }
 }
 
-// Slots without a vehicle have no id. On a lane that sleeps until green, the first vehicle is stopped at its signal.
+// Slots without a vehicle have no id. While a lane sleeps (no decisions are made for it until its signal is green), its
+// first vehicle is stopped before this signal.
 TEST(Slots, HaveNoIdWithoutAVehicle) {
     const Model model = crowded_grid("meso", 2);
     Simulation simulation(model, 2);
