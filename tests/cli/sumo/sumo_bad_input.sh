@@ -11,7 +11,7 @@ net='<net version="1.20">
 <junction id="A" type="dead_end" x="0" y="0"/><junction id="B" type="dead_end" x="200" y="0" incLanes="e_0"/>
 </net>'
 routes='<routes>
-<vehicle id="a" depart="0"><route edges="e"/></vehicle>
+<vehicle id="a" depart="0" departLane="best" departSpeed="max"><route edges="e"/></vehicle>
 </routes>'
 additional='<additional>
 </additional>'
@@ -47,6 +47,13 @@ refused() {
 scenario
 run_expecting "valid files" 0
 [ -s "$work/stderr" ] && fail "valid files: standard error is not empty: $(head -c 300 "$work/stderr")"
+
+# The defaults of departure depend on the version of SUMO, so the run says which ones it uses.
+scenario
+sed -i 's/ departSpeed="max"//' "$work/rou.xml"
+run_expecting "no departSpeed" 0
+message_has "no departSpeed" "note: $work/rou.xml: departLane=\"best_prob\" departSpeed=\"avg\" (the defaults since SUMO 1.27;"
+[ "$(wc -l <"$work/stderr")" -eq 1 ] || fail "no departSpeed: standard error has other lines: $(head -c 300 "$work/stderr")"
 
 for file in net rou add; do
     scenario
