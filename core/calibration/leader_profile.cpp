@@ -17,7 +17,8 @@ constexpr double kSample_s = 0.01;
 constexpr double kLast_s = 120.0;
 
 // Returns the scenario of a single lane with one signal. Its speed limit is so high that it does not limit the
-// acceleration.
+// acceleration. The driver's acceleration curve alone holds up to this limit: on faster roads the mesoscale mode adds
+// the power of the vehicle itself (Model::power_profile).
 Scenario straight_road_scenario(const Scenario& scenario) {
     Scenario road = scenario;
     road.fidelity = "full";
@@ -25,6 +26,7 @@ Scenario straight_road_scenario(const Scenario& scenario) {
     road.network = {};
     road.network.kind = "approach";
     road.network.approach.speed_limit_mps = 2.0 * kBins * kBin_mps;
+    road.driver.free_drive.profile_limit_mps = road.network.approach.speed_limit_mps;
     road.demand = {};
     road.demand.kind = "queue";
     road.signal = {};

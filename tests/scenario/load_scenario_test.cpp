@@ -83,10 +83,10 @@ driver:
   base: startup_kit
   cacc: {feedback_kp: 0.3 1/s2, feedback_kd: 0.8 1/s, radar_delay: 0.11 s, radar_range: 120 m, v2v_delay: 0.03 s,
     prediction_start: 0.2 s, prediction_end: 0.6 s, acceleration_max: 2.1 m/s2, deceleration_comfort: 3.1 m/s2,
-    deceleration_emergency: 8 m/s2, emergency_threshold: 4 m/s2, emergency_gap: 0.7 m, jerk_up: 5 m/s3,
+    deceleration_emergency: 7.5 m/s2, emergency_threshold: 2.9 m/s2, emergency_gap: 0.7 m, jerk_up: 5 m/s3,
     jerk_down: 20 m/s3, catch_up_factor: 1.1}
   free_drive: {acceleration: {0 km/h: 2 m/s2, 36 km/h: 1 m/s2}, speed_gain: 0.4 1/s, deceleration: 1.2 m/s2,
-    hesitation: 0.5 s}
+    hesitation: 0.5 s, profile_limit: 72 km/h, power_share: 65 %}
   stop: {deceleration: 2.2 m/s2, decision_deceleration: 3.3 m/s2, margin: 1.5 m}
 policies:
 - {name: P, law: switch_distance, standstill_gap: 3 m, switch_speed: 18 km/h, reference_speed: 54 km/h, reference_gap: 9 m}
@@ -121,8 +121,8 @@ measure: {green: [5 s, 20 s], baseline: R}
     EXPECT_EQ(c.prediction_end_s, 0.6);
     EXPECT_EQ(c.acceleration_max_mps2, 2.1);
     EXPECT_EQ(c.deceleration_comfort_mps2, 3.1);
-    EXPECT_EQ(c.deceleration_emergency_mps2, 8.0);
-    EXPECT_EQ(c.emergency_threshold_mps2, 4.0);
+    EXPECT_EQ(c.deceleration_emergency_mps2, 7.5);
+    EXPECT_EQ(c.emergency_threshold_mps2, 2.9);
     EXPECT_EQ(c.emergency_gap_m, 0.7);
     EXPECT_EQ(c.jerk_up_mps3, 5.0);
     EXPECT_EQ(c.jerk_down_mps3, 20.0);
@@ -132,6 +132,8 @@ measure: {green: [5 s, 20 s], baseline: R}
     EXPECT_EQ(s.driver.free_drive.speed_gain_1ps, 0.4);
     EXPECT_EQ(s.driver.free_drive.deceleration_mps2, 1.2);
     EXPECT_EQ(s.driver.free_drive.hesitation_s, 0.5);
+    EXPECT_EQ(s.driver.free_drive.profile_limit_mps, 20.0);
+    EXPECT_EQ(s.driver.free_drive.power_share, 0.65);
     EXPECT_EQ(s.driver.stop.deceleration_mps2, 2.2);
     EXPECT_EQ(s.driver.stop.decision_deceleration_mps2, 3.3);
     EXPECT_EQ(s.driver.stop.margin_m, 1.5);

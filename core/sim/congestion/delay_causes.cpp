@@ -162,23 +162,23 @@ private:
     }
 
     // Returns true if the vehicle in `slot` is the first of its queue, nothing blocks its way, and it has been stopped
-    // for rules.starvation_ticks.
+    // for rules.starvation_ticks and for two signal cycles.
     bool starves(int slot, DelayCause cause) const {
         const std::int64_t stopped_ticks = now_ - v_.stopped_since[at(slot)];
         if (model_.rules.starvation_ticks == 0 || stopped_ticks < model_.rules.starvation_ticks) return false;
-        if (w_.queue_head[at(slot)] != slot) return false;
-        if (cause == DelayCause::signal) return signal_has_failed(slot, stopped_ticks);
+        if (w_.queue_head[at(slot)] != slot || !has_stood_two_cycles(slot)) return false;
         return !is_blocking(cause) || cause == DelayCause::wrong_lane;
     }
 
-    // Returns true if a vehicle that waits for its signal has waited for two cycles of the programme. A red before the
-    // programme begins does not count.
-    bool signal_has_failed(int slot, std::int64_t stopped_ticks) const {
+    // Returns true if the vehicle has stood for two cycles of its signal, or has no signal. A red before the programme
+    // begins does not count. The present cause does not matter: a vehicle that starts or yields at green has waited for
+    // a red before.
+    bool has_stood_two_cycles(int slot) const {
         const int group = state_.plan.signal_group_for(w_.lane[at(slot)], v_.next_lane[at(slot)]);
         if (group < 0) return true;
         const GroupProgramme& programme = model_.signals[at(group)];
-        return now_ >= programme.first_tick() + 2 * programme.cycle_ticks() &&
-               stopped_ticks >= 2 * programme.cycle_ticks();
+        return now_ >=
+               std::max<std::int64_t>(v_.stopped_since[at(slot)], programme.first_tick()) + 2 * programme.cycle_ticks();
     }
 
     // Records that the movement of the vehicle starves. A vehicle that was found before keeps its entry.

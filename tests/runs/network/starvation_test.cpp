@@ -40,11 +40,12 @@ TEST(Starvation, EndsTheSearchAtTheSetTime) {
     EXPECT_EQ(never_green({"fidelity=meso", "measure.starvation=200 s"}).delays.starvations.size(), 1U);
 }
 
-// A red that is as long as the cycle demands is no starvation, and neither is the red before the first green.
+// A red that is as long as the cycle demands is no starvation, and neither is the red before the first green. Vehicles
+// that start or yield after such a red have stood for longer than measure.starvation too.
 TEST(Starvation, LongRedsOfAWorkingSignalDoNotCount) {
     const Scenario scenario = parse_scenario(
         "{fidelity: meso, network: {kind: intersection}, signal: {first_green: 400 s, green: 350 s}, populations: [CDG], "
-        "measure: {cycles: 1, warmup_cycles: 0}, duration: 0 s}",
+        "demand: {left: 20 %}, measure: {cycles: 1, warmup_cycles: 0}, duration: 0 s}",
         "test.yaml");
     const IntersectionResult result = run_intersection(scenario, 0);
     EXPECT_TRUE(result.starvations.empty());
