@@ -13,7 +13,7 @@
 namespace stopline {
 namespace {
 
-constexpr double kEnd_s = 400.0;
+constexpr double kEnd_s = 500.0;
 // Headways between entering vehicles with priority, shorter and longer than the critical gap.
 constexpr double kHeadways_s[] = {2.5, 8.0, 3.5, 6.0, 4.5, 10.0, 4.0, 7.0, 5.5, 4.8, 9.0};
 
