@@ -72,17 +72,25 @@ private:
         if (follower.slot < 0 || follower.speed_mps + kDroppingBack_mps < me.speed_mps) return false;
         const double share = urgent_share(model_, urgency);
         const double needed_m = required_gap_m(model_, follower.policy, follower.speed_mps, me.speed_mps, share);
-        return follower.gap_m < needed_m && !wants_to_swap(other, follower.slot, me);
+        const bool waits = me.speed_mps < kMinSpeed_mps;  // keeps a gap open until the leader has moved away
+        return (waits || follower.gap_m < needed_m) && !wants_to_swap(other, follower.slot, me);
     }
 
-    // Returns true if `follower` can open a gap for vehicle `me`. The follower must be on lane `other` already, and its
-    // gap must suffice for comfortable braking to the speed of `me`. Returns false if gap opening is off.
-    bool can_open_gap(int other, const Neighbour& follower, const LaneChangeRequest& me) const {
+    // Returns the vehicle on lane `other` that opens a gap for `me`: the first one behind `me` whose gap suffices for
+    // comfortable braking to the speed of `me`. The slot is -1 if there is no such vehicle or if gap opening is off.
+    Neighbour gap_opener(int other, const Neighbour& follower, const LaneChangeRequest& me) const {
+        constexpr int kMaxSearched = 5;  // vehicles further upstream have not reached the place of the gap yet
         const LaneBlock& block = state_.blocks[at(other)];
-        const double braking_m =
-            braking_distance_m(follower.speed_mps, me.speed_mps, model_.driver.stop.deceleration_mps2);
-        return model_.lane_change.gap_opening == "on" && follower.slot >= block.first &&
-               follower.slot < block.past_last() && std::max(follower.gap_m, 0.0) >= braking_m;
+        if (model_.lane_change.gap_opening != "on" || follower.slot < block.first) return {};
+        const int end = std::min(block.past_last(), follower.slot + kMaxSearched);
+        for (int slot = follower.slot; slot < end; ++slot) {
+            const double gap_m = follower.gap_m + v_.position_m[at(follower.slot)] - v_.position_m[at(slot)];
+            const double braking_m =
+                braking_distance_m(v_.speed_mps[at(slot)], me.speed_mps, GapAlignment::kDeceleration_mps2);
+            if (gap_m >= braking_m + kMinLaneChangeGap_m)
+                return {slot, gap_m, v_.speed_mps[at(slot)], v_.policy[at(slot)]};
+        }
+        return {};
     }
 
     // Aligns the speed of `me` with a gap in the adjacent lane, or makes the follower there open a gap.
@@ -101,11 +109,13 @@ private:
         }
         const Neighbour& follower = there.follower;
         if (must_let_pass(other, follower, me, change.urgency())) {
-            if (can_open_gap(other, follower, me)) {
-                const Neighbour mine{me.slot, follower.gap_m, me.speed_mps, me.policy};
+            if (const Neighbour opener = gap_opener(other, follower, me); opener.slot >= 0) {
+                const Neighbour mine{me.slot, opener.gap_m, me.speed_mps, me.policy};
+                // The vehicle even stops for one that waits for a gap. Otherwise it would creep past.
+                const double lowest_mps = me.speed_mps < kMinSpeed_mps ? 0.0 : kMinSpeed_mps;
                 add_alignment(
-                    other, {follower.slot, std::max(gap_reaching_speed_mps(mine, follower.policy, follower.speed_mps),
-                                                    kMinSpeed_mps)});
+                    other,
+                    {opener.slot, std::max(gap_reaching_speed_mps(mine, opener.policy, opener.speed_mps), lowest_mps)});
             } else {
                 target_mps = std::min(target_mps, std::max(follower.speed_mps - kFallBack_mps, kMinSpeed_mps));
             }

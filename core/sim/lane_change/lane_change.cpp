@@ -70,9 +70,8 @@ double incentive_mps2(const Model& model, const State& state, const LaneChangeRe
 }
 
 bool gaps_suffice(const Model& model, const LaneChangeRequest& me, const LaneNeighbours& there, double share) {
-    constexpr double kMinGap_m = 1.0;
     const auto suffices = [&](const Neighbour& other, double needed_m) {
-        return other.slot < 0 || other.gap_m >= std::max(needed_m, kMinGap_m);
+        return other.slot < 0 || other.gap_m >= needed_m;
     };
     return suffices(there.leader, required_gap_m(model, me.policy, me.speed_mps, there.leader.speed_mps, share)) &&
            suffices(there.follower,

@@ -88,7 +88,7 @@ public:
         StandingQueue& queue = state_.queues.standing[at(lane_)];
         int& sleep_group = state_.queues.sleeps_until_green[at(lane_)];
         if (sleep_group >= 0) {
-            cap_aligning_vehicles();
+            cap_aligning_vehicles(true);
             cap_behind_first();
             if (queue.end == block_.count) return;
             update_queue(v_, block_, state_.tick, queue);
@@ -97,7 +97,7 @@ public:
         if (is_near_end()) part_.lanes_near_end.push(lane_);
         // Removes the cap that held the first vehicle while the lane slept.
         v_.speed_cap_mps[at(first)] = kUnlimitedSpeed_mps;
-        cap_aligning_vehicles();
+        cap_aligning_vehicles(false);
         if (last_stopping_slot() > first + queue.first) queue.last_external_tick = state_.tick;
         update_queue(v_, block_, state_.tick, queue);
         const bool is_restrained = last_stopping_slot() >= first + queue.first;
@@ -106,7 +106,7 @@ public:
             cap_all();
             return add_blocks(first, block_.past_last());
         }
-        if (queue.first == 0 && queue.end > 0 && waits_only_for_signal()) {
+        if (queue.first == 0 && queue.end > 0 && !first_aligns_ && waits_only_for_signal()) {
             sleep_group = state_.plan.signal_group_for(lane_, v_.next_lane[at(first)]);
             // The kernels also compute the first vehicle if another vehicle of its block moves. A cap of 0 keeps it at
             // rest.
@@ -133,16 +133,16 @@ private:
         return v_.position_m[at(block_.first)] + step_m + kRounding_m >= end_m;
     }
 
-    // Caps the speed of vehicles that align with a gap in the adjacent lane.
-    void cap_aligning_vehicles() {
+    // Caps the speed of vehicles that align with a gap in the adjacent lane. If the lane sleeps, skips its first vehicle
+    // at rest: a cap set by cap_speed() is removed after the step, so this vehicle would lose the cap that holds it.
+    void cap_aligning_vehicles(bool sleeps) {
         if (part_.lanes_with_alignments.empty()) return;
         const double braking_step_mps = GapAlignment::kDeceleration_mps2 * model_.step_s;
         for (const GapAlignment& alignment : state_.gap_alignments[at(lane_)]) {
             const double speed_mps = v_.speed_mps[at(alignment.slot)];
-            // Skips vehicles at rest. A cap set by cap_speed() is removed after the step. If this were done for the
-            // first vehicle of a sleeping lane, the vehicle would lose the cap that holds it.
-            if (speed_mps > 0.0)
-                cap_speed(alignment.slot, std::max(alignment.target_speed_mps, speed_mps - braking_step_mps));
+            if (sleeps && alignment.slot == block_.first && speed_mps == 0.0) continue;
+            first_aligns_ = first_aligns_ || alignment.slot == block_.first;
+            cap_speed(alignment.slot, std::max(alignment.target_speed_mps, speed_mps - braking_step_mps));
         }
     }
 
@@ -208,6 +208,7 @@ private:
     const LanePlan& plan_;
     int stop_slot_;
     const YieldStops& yield_stops_;
+    bool first_aligns_ = false;  // the first vehicle aligns with a gap
 };
 
 }  // namespace
