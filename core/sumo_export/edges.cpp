@@ -129,16 +129,16 @@ private:
         }
     }
 
-    const std::vector<LanePart>& parts(int lane) const { return network_.parts_of[at(lane)]; }
+    const std::vector<EdgePart>& parts(int lane) const { return network_.parts_of[at(lane)]; }
 
     // Connects the parts of a lane, and connects the lane to the pockets that begin beside it.
     void connect_parts(int lane) {
         for (std::size_t k = 0; k + 1 < parts(lane).size(); ++k) {
-            const LanePart& here = parts(lane)[k];
-            const LanePart& next = parts(lane)[k + 1];
+            const EdgePart& here = parts(lane)[k];
+            const EdgePart& next = parts(lane)[k + 1];
             network_.connections.push_back({lane, lane, here, next, -1, kSplit_m});
             for (const int pocket : network_.edges[at(next.edge)].lanes) {
-                const LanePart& start = parts(pocket).front();
+                const EdgePart& start = parts(pocket).front();
                 if (start.edge == next.edge && nearest_lane(here.edge, start) == lane) {
                     network_.connections.push_back({lane, pocket, here, start, -1, kSplit_m});
                 }
@@ -148,11 +148,11 @@ private:
 
     // Returns the lane on `edge` that continues nearest to a pocket, counted in lanes. `pocket` is the first part of
     // the pocket, on the next edge.
-    int nearest_lane(int edge, const LanePart& pocket) const {
+    int nearest_lane(int edge, const EdgePart& pocket) const {
         int nearest = -1;
         int least = std::numeric_limits<int>::max();
         for (const int lane : network_.edges[at(edge)].lanes) {
-            for (const LanePart& part : parts(lane)) {
+            for (const EdgePart& part : parts(lane)) {
                 const int lanes_between = std::abs(part.index - pocket.index);
                 if (part.edge != pocket.edge || lanes_between >= least) continue;
                 least = lanes_between;
@@ -227,19 +227,19 @@ private:
 
 }  // namespace
 
-const LanePart& PlainNetwork::part_on(int lane, int edge) const {
-    const std::vector<LanePart>& parts = parts_of[at(lane)];
-    return *std::find_if(parts.begin(), parts.end(), [&](const LanePart& part) { return part.edge == edge; });
+const EdgePart& PlainNetwork::part_on(int lane, int edge) const {
+    const std::vector<EdgePart>& parts = parts_of[at(lane)];
+    return *std::find_if(parts.begin(), parts.end(), [&](const EdgePart& part) { return part.edge == edge; });
 }
 
-const LanePart& PlainNetwork::part_at(int lane, double position_m) const {
-    const std::vector<LanePart>& parts = parts_of[at(lane)];
+const EdgePart& PlainNetwork::part_at(int lane, double position_m) const {
+    const std::vector<EdgePart>& parts = parts_of[at(lane)];
     std::size_t k = 0;
     while (k + 1 < parts.size() && parts[k + 1].from_m <= position_m) ++k;
     return parts[k];
 }
 
-std::string PlainNetwork::lane_id(const LanePart& part) const {
+std::string PlainNetwork::lane_id(const EdgePart& part) const {
     return fmt::format("{}_{}", edges[at(part.edge)].id, part.index);
 }
 

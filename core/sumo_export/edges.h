@@ -32,7 +32,7 @@ struct PlainEdge {
 };
 
 // The part of a lane of the graph that lies on one edge.
-struct LanePart {
+struct EdgePart {
     int edge = -1;
     int index = -1;       // lane index in the edge, from the right
     double from_m = 0.0;  // start of the part, measured on the lane of the graph
@@ -41,8 +41,8 @@ struct LanePart {
 struct PlainConnection {
     int from = -1;             // lane of the graph where the connection begins
     int to = -1;               // lane of the graph where the connection ends; `from` itself between two of its parts
-    LanePart begin = {};       // the connection begins at the end of this part
-    LanePart end = {};         // the connection ends at the start of this part
+    EdgePart begin = {};       // the connection begins at the end of this part
+    EdgePart end = {};         // the connection ends at the start of this part
     int connection_lane = -1;  // lane of the graph between `from` and `to`; -1: `from` leads directly to `to`
     double length_m = 0.0;
     int node = -1;  // index of the node that the connection crosses
@@ -53,14 +53,14 @@ struct PlainNetwork {
     std::vector<PlainNode> nodes;
     std::vector<PlainEdge> edges;
     std::vector<PlainConnection> connections;
-    std::vector<std::vector<LanePart>> parts_of;  // [lane of the graph] in driving direction; empty for connections
+    std::vector<std::vector<EdgePart>> parts_of;  // [lane of the graph] in driving direction; empty for connections
 
     // Returns the last part of the lane that begins at or before `position_m`.
-    const LanePart& part_at(int lane, double position_m) const;
+    const EdgePart& part_at(int lane, double position_m) const;
     // Returns the part of the lane that lies on the edge. There must be one.
-    const LanePart& part_on(int lane, int edge) const;
+    const EdgePart& part_on(int lane, int edge) const;
     // Return the id of a lane in SUMO: of the given part, or of the last part of a lane of the graph.
-    std::string lane_id(const LanePart& part) const;
+    std::string lane_id(const EdgePart& part) const;
     std::string lane_id(int lane) const;
 };
 

@@ -78,10 +78,10 @@ private:
     // Adds the edges of a lane to the route. If the route already ends on an edge of the same approach, adds only the
     // edges after that edge. Does nothing if the lane is a connection.
     void add_edges_of(int lane, std::vector<int>& edges) const {
-        const std::vector<LanePart>& parts = network_.parts_of[at(lane)];
+        const std::vector<EdgePart>& parts = network_.parts_of[at(lane)];
         if (parts.empty() || edges.back() == parts.back().edge) return;
         const auto here =
-            std::find_if(parts.begin(), parts.end(), [&](const LanePart& part) { return part.edge == edges.back(); });
+            std::find_if(parts.begin(), parts.end(), [&](const EdgePart& part) { return part.edge == edges.back(); });
         for (auto part = here == parts.end() ? parts.begin() : here + 1; part != parts.end(); ++part) {
             add_path_to(part->edge, edges);
         }
@@ -146,7 +146,7 @@ private:
     }
 
     void add_trip(XmlFile& xml, int vehicle, const Trip& trip) const {
-        const LanePart& part = network_.part_at(trip.depart_lane, trip.depart_m);
+        const EdgePart& part = network_.part_at(trip.depart_lane, trip.depart_m);
         // If the front is between two edges of an approach, the vehicle departs at the end of the first edge.
         const double depart_m = std::min(trip.depart_m - part.from_m, network_.edges[at(part.edge)].length_m);
         xml.add(

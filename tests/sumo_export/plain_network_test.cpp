@@ -42,7 +42,7 @@ TEST(PlainNetwork, ListsEachEdgeLaneOnceFromTheRight) {
         for (std::size_t i = 0; i < edge.lanes.size(); ++i) {
             EXPECT_TRUE(listed.insert(edge.lanes[i]).second);
             ASSERT_EQ(network.parts_of[at(edge.lanes[i])].size(), 1U);
-            const LanePart& part = network.parts_of[at(edge.lanes[i])][0];
+            const EdgePart& part = network.parts_of[at(edge.lanes[i])][0];
             EXPECT_EQ(part.edge, static_cast<int>(k));
             EXPECT_EQ(part.index, static_cast<int>(i));
             EXPECT_EQ(part.from_m, 0.0);

@@ -61,7 +61,7 @@ TEST_P(ExportedStreets, PartsCoverEachLane) {
         }
         pockets += lane.start_offset_m > 0.0 ? 1 : 0;
         double end_m = -kSplit_m;
-        for (const LanePart& part : network.parts_of[at(k)]) {
+        for (const EdgePart& part : network.parts_of[at(k)]) {
             EXPECT_NEAR(part.from_m, end_m + kSplit_m, 1e-9) << lane.name;
             end_m = part.from_m + network.edges[at(part.edge)].length_m;
             EXPECT_EQ(network.edges[at(part.edge)].lanes.at(at(part.index)), k);
@@ -94,7 +94,7 @@ TEST_P(ExportedStreets, EachPartHasOneConnectionToIt) {
     }
     for (int k = 0; k < static_cast<int>(graph.lanes.size()); ++k) {
         const Lane& lane = graph.lanes[at(k)];
-        const std::vector<LanePart>& parts = network.parts_of[at(k)];
+        const std::vector<EdgePart>& parts = network.parts_of[at(k)];
         for (std::size_t part = 0; part < parts.size(); ++part) {
             const std::vector<int> from = reached_from[{parts[part].edge, parts[part].index}];
             if (part > 0) {
@@ -118,7 +118,7 @@ TEST(ExportedPockets, BeginWhereTheirEdgeBegins) {
     const PlainNetwork network = plain_network(graph);
     // From the start of the approach of 300 m: all three through lanes; from 220 m the long left pocket; from 240 m the
     // right pocket; from 260 m the short left pocket.
-    const std::vector<LanePart>& middle = network.parts_of[at(lane_named(graph, "first_west_in_3"))];
+    const std::vector<EdgePart>& middle = network.parts_of[at(lane_named(graph, "first_west_in_3"))];
     ASSERT_EQ(middle.size(), 4U);
     const std::vector<std::pair<std::size_t, double>> lanes_and_lengths{
         {3, 220.0 - kSplit_m}, {4, 20.0 - kSplit_m}, {5, 20.0 - kSplit_m}, {6, 40.0}};
