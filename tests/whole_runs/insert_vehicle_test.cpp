@@ -47,13 +47,14 @@ TEST(InsertVehicle, TeleportedVehicleCanStopAtTheNextSignal) {
     EXPECT_TRUE(result.violations.none());
 }
 
-// On links as short as this one, vehicles need maximum braking to stop on yellow. A vehicle that overruns the stop line
-// despite maximum braking is counted as a forced red entry, not as a violation.
+// On links as short as this one, vehicles need maximum braking to stop on yellow. A vehicle that shifts down meanwhile
+// loses braking. A vehicle that therefore overruns the stop line is counted as a forced red entry, not as a violation.
 TEST(InsertVehicle, OverrunOnYellowIsNoViolation) {
     const NetworkResult result = result_of(
         "network: {kind: grid, intersection: {radius: 40 m}, grid: {rows: 2, row_spacing: 98.6 m}}\n"
         "signal: {green: 30 s}\n"
         "demand: {kind: saturated}\n"
+        "vehicle: diesel_eu4_103kw\n"
         "driver: {base: startup_kit, stop: {decision_deceleration: 7 m/s2}}\n"
         "populations: [CTG-Ref]\n");
     EXPECT_EQ(result.violations.red_entries, 0);

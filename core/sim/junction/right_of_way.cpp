@@ -56,19 +56,24 @@ bool may_pass(const Model& model, State& state, Partition& part, int vehicle, in
     return true;
 }
 
-// Returns true if the candidate can stop comfortably before the conflict area.
-bool can_wait_before(const Model& model, const State& state, const Conflict& conflict, const Candidate& v) {
-    const double room_m = conflict.from_m - model.give_way.margin_m - v.front_m;
-    return comfortable_braking_distance_m(model, state.vehicles.speed_mps[at(v.slot)]) <= room_m;
+// Returns true if the vehicle can wait before a conflict area that begins `to_area_m` ahead of it. A comfortable stop
+// must suffice. A vehicle that has been waiting is already on the curve of this stop, and may brake harder to stay on
+// it.
+bool can_wait_before(const Model& model, const State& state, int slot, double to_area_m) {
+    const double speed_mps = state.vehicles.speed_mps[at(slot)];
+    const bool was_waiting = state.vehicles.record[at(slot)].yield_tick >= state.tick - 1;
+    const double stop_m = was_waiting ? braking_distance_m(speed_mps, 0.0, model.driver.cacc.deceleration_comfort_mps2)
+                                      : comfortable_braking_distance_m(model, speed_mps);
+    return stop_m <= to_area_m - model.give_way.margin_m;
 }
 
-// Returns true if a vehicle on connection `conflict.other` can stop before the conflict area with maximum braking.
-bool can_stop_before(const Model& model, const State& state, const JunctionOccupant& occupant,
-                     const Conflict& conflict) {
+// Returns true if the vehicle can stop, with maximum braking, before a conflict area that begins `to_area_m` ahead of
+// it.
+bool can_stop_before(const Model& model, const State& state, int slot, double to_area_m) {
     constexpr double kResponse_s = 0.3;  // lag of the brake, and time for the request to change
-    const double speed_mps = state.vehicles.speed_mps[at(occupant.slot)];
+    const double speed_mps = state.vehicles.speed_mps[at(slot)];
     const double response_m = model.meso ? 0.0 : kResponse_s * speed_mps;
-    return emergency_braking_distance_m(model, speed_mps) + response_m <= conflict.other_from_m - occupant.front_m;
+    return emergency_braking_distance_m(model, speed_mps) + response_m <= to_area_m;
 }
 
 // Returns true if an occupant of connection `conflict.other` keeps candidate `v` out of the conflict area. The gap to
@@ -84,8 +89,15 @@ bool blocks_area(const Model& model, State& state, Partition& part, int lane, co
         return state.vehicles.record[at(occupant.slot)].accepted_gap_on == conflict.other &&
                !is_yielding_before(state, occupant.slot, conflict.other_from_m);
     }
-    // Neither connection has priority. A vehicle that can wait lets one pass that cannot stop any more.
-    if (can_wait_before(model, state, conflict, v) && !can_stop_before(model, state, occupant, conflict)) return true;
+    // Neither connection has priority. A vehicle that can wait lets one pass that cannot stop any more. Braking would
+    // only make the latter stop inside the area.
+    const double own_m = conflict.from_m - v.front_m;
+    const double other_m = conflict.other_from_m - occupant.front_m;
+    const auto lets_pass = [&](int waits, double waits_m, int passes, double passes_m) {
+        return can_wait_before(model, state, waits, waits_m) && !can_stop_before(model, state, passes, passes_m);
+    };
+    if (lets_pass(v.slot, own_m, occupant.slot, other_m)) return true;
+    if (lets_pass(occupant.slot, other_m, v.slot, own_m)) return false;
     // If both vehicles wait for each other, a deadlock resolution decides which one proceeds.
     if (find_resolution(state, part, occupant.slot, v.slot) != nullptr) return true;
     if (DeadlockResolution* const resolution = find_resolution(state, part, v.slot, occupant.slot)) {
