@@ -24,7 +24,7 @@ grep -qF -- "$warning" "$work/stderr" && fail "a warning without the option"
 "${run[@]}" --output "$work/old" --old-column-names >"$work/stdout" 2>"$work/stderr" ||
     fail "exit code $?: $(tail -n 3 "$work/stderr")"
 grep -qF -- "$warning" "$work/stderr" || fail "no warning in: $(cat "$work/stderr")"
-header old/summary.csv "first_gridlock_s,moved_on,passed_blockers,lost_signal_h,lost_priority_h,"
+header old/summary.csv "first_gridlock_s,starvations,moved_on,passed_blockers,lost_signal_h,lost_priority_h,"
 header old/summary.csv "lost_start_h,lost_outside_h,longest_stand_s,longest_inside_s,entered,left,"
 header old/hindrance.csv "from_s,to_s,most_vehicles,lost_s"
 header old/ways.csv "population,from,to,throughput_veh_h,travel_time_s"
@@ -46,7 +46,7 @@ sweep=("$STOPLINE_BIN/stopline-sweep" "$work/light.yaml")
 "${sweep[@]}" --output "$work/new_sweep" >"$work/stdout" 2>"$work/stderr" || fail "sweep: exit code $?"
 "${sweep[@]}" --output "$work/old_sweep" --old-column-names >"$work/stdout" 2>"$work/stderr" || fail "sweep: exit code $?"
 grep -qF -- "$warning" "$work/stderr" || fail "sweep: no warning in: $(cat "$work/stderr")"
-header old_sweep/light.csv ",emptied_s,settled_veh,settled_headway_s,settled_net_gap_m,vehicles_entered,vehicles_left,"
+header old_sweep/light.csv ",emptied_s,settled_veh,not_closed_up_vehicles,settled_headway_s,settled_net_gap_m,vehicles_entered,vehicles_left,"
 header old_sweep/light_means.csv ",metric,runs,mean,low,high,difference,difference_low,difference_high"
 grep -q ',settled_headway_s,' "$work/old_sweep/light_means.csv" || fail "light_means.csv has new names of metrics"
 same_numbers new_sweep/light.csv old_sweep/light.csv
