@@ -94,15 +94,26 @@ double look_ahead_m(const Model& model, const LaneChangeRequest& me, double reme
     return remembered_mps * time_s + room_m;
 }
 
-// Returns the length that the vehicles ahead of `me` on its target lane would have as a standing queue, m.
-double queue_on_target_m(const State& state, const LaneChangeRequest& me, int changes) {
+// Returns the length that vehicles ahead of `me` would have as a standing queue, m. The vehicles on the target lane
+// count, and if the change serves a later turn, those on the approaches of the next intersections too.
+double queue_ahead_m(const Model& model, const State& state, const LaneChangeRequest& me, int changes) {
     int lane = me.lane;
     for (int k = 0; k < std::abs(changes) && lane >= 0; ++k) {
         lane = changes < 0 ? state.plan.adjacent(lane).left : state.plan.adjacent(lane).right;
     }
     if (lane < 0) return 0.0;
-    const double front_m = adjacent_position_m(state, me.lane, me.front_m, lane);
-    return vehicles_ahead(state, lane, front_m) * state.plan.max_space_per_vehicle_m();
+    int vehicles = vehicles_ahead(state, lane, adjacent_position_m(state, me.lane, me.front_m, lane));
+    if (me.lane_changes == 0) {
+        const LaneChangeMemory& memory = state.vehicles.lane_memory[at(me.slot)];
+        int route = state.plan.adjacent(lane).turn_option(me.turn).route;
+        for (int k = 0; k < (memory.preferred_for_third ? 2 : 1) && route >= 0; ++k) {
+            const int exit = state.plan.route(route).back();
+            vehicles += state.blocks[at(exit)].count;
+            const Turn following = state.vehicles.record[at(me.slot)].following_turn;
+            route = state.plan.route_with(model.graph.lanes[at(exit)].approach, following);
+        }
+    }
+    return vehicles * state.plan.max_space_per_vehicle_m();
 }
 
 class LaneChangeDecision {
@@ -292,7 +303,7 @@ MandatoryChange mandatory_change(const Model& model, const State& state, const L
     change.look_ahead_m =
         look_ahead_m(model, me, state.vehicles.lane_memory[at(me.slot)].remembered_mps, change.lane_changes);
     const double distance_m = me.lane_changes != 0 ? me.to_line_m : me.to_preferred_line_m;
-    change.usable_m = distance_m - queue_on_target_m(state, me, change.lane_changes);
+    change.usable_m = distance_m - queue_ahead_m(model, state, me, change.lane_changes);
     if (change.usable_m >= change.look_ahead_m) change.lane_changes = 0;
     return change;
 }
@@ -304,7 +315,7 @@ double urgent_share(const Model& model, double urgency) {
 
 double waiting_position_m(const Model& model, const State& state, const LaneChangeRequest& me) {
     const double spacing_m = me.length_m + 2.0 * state.vehicles.standstill_gap_m[at(me.slot)];
-    const int places_behind_line = std::abs(me.lane_changes) - (me.lane_changes < 0 ? 1 : 0);
+    const int places_behind_line = me.lane_changes < 0 ? 0 : 1;
     const int other = me.lane_changes < 0 ? state.plan.adjacent(me.lane).left : state.plan.adjacent(me.lane).right;
     // The waiting position must be beside the target lane. The target lane may start further downstream than this lane.
     const double min_position_m = adjacent_position_m(state, other, 0.0, me.lane) + me.length_m + 1.0;
