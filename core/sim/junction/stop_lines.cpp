@@ -19,15 +19,17 @@ namespace stopline {
 namespace {
 
 // Returns true if the vehicle can stop before the line if it brakes with `deceleration_mps2` after a response time. The
-// response time is the brake lag plus half the time that the acceleration needs, at the jerk limit, to fall from its
-// present value to `-deceleration_mps2`. A vehicle keeps its present acceleration in the response time, so the braking
-// starts at a higher speed. The distance driven in the response time is computed with the present speed; the small
-// additional distance due to the acceleration is neglected. A present acceleration below 0 is taken as 0.
+// response time is the brake lag plus half the time that the requested acceleration needs, at the jerk limit, to fall
+// from its present value to `-deceleration_mps2`. A vehicle keeps its present acceleration in the response time, so the
+// braking starts at a higher speed. The request exceeds the acceleration while gears change, and if the vehicle is too
+// weak for it. A present acceleration below 0 is taken as 0.
 bool can_stop(const Model& model, const VehicleArrays& v, int slot, double line_m, double deceleration_mps2) {
     const double speed = v.speed_mps[at(slot)];
     const double lag_s = model.vehicles[at(v.type[at(slot)])].brake_lag_s;
     const double present_mps2 = std::max(static_cast<double>(v.acceleration_mps2[at(slot)]), 0.0);
-    const double delay_s = lag_s + 0.5 * (present_mps2 + deceleration_mps2) / model.driver.cacc.jerk_down_mps3;
+    const double request_mps2 =
+        v.has_powertrain() ? std::max(present_mps2, static_cast<double>(v.request_mps2[at(slot)])) : present_mps2;
+    const double delay_s = lag_s + 0.5 * (request_mps2 + deceleration_mps2) / model.driver.cacc.jerk_down_mps3;
     const double delay_m = (speed + 0.5 * present_mps2 * delay_s) * delay_s;
     const double room_m = line_m - v.position_m[at(slot)] - delay_m;
     return square(speed + present_mps2 * delay_s) <= 2.0 * deceleration_mps2 * room_m;

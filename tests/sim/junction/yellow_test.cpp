@@ -27,7 +27,8 @@ constexpr double kTolerance_m = 0.2;
 double stopping_distance_m(const Model& model, const VehicleView& car) {
     const double b = model.driver.stop.decision_deceleration_mps2;
     const double a = std::max(car.acceleration_mps2, 0.0);
-    const double delay_s = model.vehicles[0].brake_lag_s + 0.5 * (a + b) / model.driver.cacc.jerk_down_mps3;
+    const double request = std::max(car.request_mps2, a);
+    const double delay_s = model.vehicles[0].brake_lag_s + 0.5 * (request + b) / model.driver.cacc.jerk_down_mps3;
     const double v = car.speed_mps + a * delay_s;
     return v * v / (2.0 * b) + (car.speed_mps + 0.5 * a * delay_s) * delay_s;
 }
