@@ -93,6 +93,14 @@ private:
         return {};
     }
 
+    // Returns the target speed of a vehicle that opens a gap for `me`.
+    double opening_speed_mps(const Neighbour& opener, const LaneChangeRequest& me) const {
+        const Neighbour ahead{me.slot, opener.gap_m, me.speed_mps, me.policy};
+        // The vehicle even stops for one that waits for a gap. Otherwise it would creep past.
+        const double lowest_mps = me.speed_mps < kMinSpeed_mps ? 0.0 : kMinSpeed_mps;
+        return std::max(gap_reaching_speed_mps(ahead, opener.policy, opener.speed_mps), lowest_mps);
+    }
+
     // Aligns the speed of `me` with a gap in the adjacent lane, or makes the follower there open a gap.
     void align_with_gap(const LaneChangeRequest& me, const MandatoryChange& change) {
         const AdjacentLanes& adjacent = state_.plan.adjacent(lane_);
@@ -109,16 +117,11 @@ private:
         }
         const Neighbour& follower = there.follower;
         if (must_let_pass(other, follower, me, change.urgency())) {
-            if (const Neighbour opener = gap_opener(other, follower, me); opener.slot >= 0) {
-                const Neighbour mine{me.slot, opener.gap_m, me.speed_mps, me.policy};
-                // The vehicle even stops for one that waits for a gap. Otherwise it would creep past.
-                const double lowest_mps = me.speed_mps < kMinSpeed_mps ? 0.0 : kMinSpeed_mps;
-                add_alignment(
-                    other,
-                    {opener.slot, std::max(gap_reaching_speed_mps(mine, opener.policy, opener.speed_mps), lowest_mps)});
-            } else {
+            const Neighbour opener = gap_opener(other, follower, me);
+            if (opener.slot >= 0) add_alignment(other, {opener.slot, opening_speed_mps(opener, me)});
+            // A follower that cannot open a gap any more goes first.
+            if (opener.slot != follower.slot)
                 target_mps = std::min(target_mps, std::max(follower.speed_mps - kFallBack_mps, kMinSpeed_mps));
-            }
         }
         if (target_mps < me.speed_mps + 1.0) add_alignment(lane_, {me.slot, target_mps});
     }

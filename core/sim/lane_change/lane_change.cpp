@@ -21,11 +21,12 @@ namespace {
 
 constexpr double kDecisionInterval_s = 0.5;  // time between two lane-change decisions of a vehicle
 constexpr double kMinInterval_s = 2.0;       // shortest time from a lane change to the vehicle's next mandatory change
-// A vehicle forgets the gains of a lane over this time. After a change, the vehicle needs the gain of this factor times
-// LaneChangeSettings::gain_mps to return. Both values are our choice. They keep a vehicle from changing back and forth
-// between adjacent queues that move in turn.
+// A vehicle forgets the gains of a lane over kGainMemory_s. After a change, the vehicle needs the gain of kReturnFactor
+// times LaneChangeSettings::gain_mps to return. It forgets this excess over kReturnMemory_s. The three values are our
+// choice. They keep most vehicles from changing back and forth between adjacent queues that move in turn.
 constexpr double kGainMemory_s = 10.0;
-constexpr double kReturnFactor = 3.0;
+constexpr double kReturnFactor = 5.0;
+constexpr double kReturnMemory_s = 30.0;
 
 // Returns the acceleration of the intelligent driver model (Treiber, Hennecke, Helbing 2000), with the desired gap of
 // the policy in place of the model's own gap s_0 + v T (standstill gap plus speed times time gap).
@@ -183,7 +184,8 @@ private:
     // Adds the incentive of this decision to the gain of a lane, which is at least 0 unless the vehicle has just left
     // this lane.
     void add_gain(double incentive_mps2, float& gain_mps) const {
-        const double faded_mps = gain_mps * (1.0 - kDecisionInterval_s / kGainMemory_s);
+        const double memory_s = gain_mps < 0.0F ? kReturnMemory_s : kGainMemory_s;
+        const double faded_mps = gain_mps * (1.0 - kDecisionInterval_s / memory_s);
         const double sum_mps = faded_mps + (incentive_mps2 - model_.lane_change.threshold_mps2) * kDecisionInterval_s;
         gain_mps = static_cast<float>(std::max(sum_mps, std::min(faded_mps, 0.0)));
     }
