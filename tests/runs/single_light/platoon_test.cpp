@@ -62,6 +62,25 @@ TEST(SteadyVehicles, ExcludeSlowerClosingAndLeadingVehicles) {
     EXPECT_TRUE(steady_vehicles(samples(0, 0, 9.0, at_limit, none), kInterval_s, kLimit_mps, 5.0).empty());
 }
 
+// A vehicle that closes up is faster than one without leader. Until those ahead have closed up, its gap is constant.
+TEST(CruisingVehicles, IncludeThoseFasterThanTheCruiseSpeed) {
+    const auto faster = [](double /*t*/) { return 1.05 * kLimit_mps; };
+    const auto slower = [](double /*t*/) { return kLimit_mps - 0.2; };
+    const auto open_gap = [](double /*t*/) { return 18.0; };
+    const auto cruising = cruising_vehicles(samples(4, 0, 9.0, faster, open_gap), kInterval_s, kLimit_mps, 5.0);
+    ASSERT_EQ(cruising.size(), 1U);
+    EXPECT_DOUBLE_EQ(cruising[0].net_gap_m, 18.0);
+    EXPECT_TRUE(steady_vehicles(samples(4, 0, 9.0, faster, open_gap), kInterval_s, kLimit_mps, 5.0).empty());
+    EXPECT_TRUE(cruising_vehicles(samples(4, 0, 9.0, slower, open_gap), kInterval_s, kLimit_mps, 5.0).empty());
+}
+
+TEST(HasClosedUp, AllowsAQuarterOfTheGapAndHalfAMetre) {
+    EXPECT_TRUE(has_closed_up(2.95, 2.95));
+    EXPECT_TRUE(has_closed_up(5.5, 4.0));
+    EXPECT_FALSE(has_closed_up(5.51, 4.0));
+    EXPECT_FALSE(has_closed_up(17.1, 2.95));
+}
+
 TEST(SteadyVehicles, UseTheLastSteadyTimeOfEachVehicle) {
     const auto brakes_at_20 = [](double t) { return t < 20.0 ? kLimit_mps : 5.0; };
     const auto slowly_growing = [](double t) { return 15.0 + 0.01 * t; };
