@@ -56,8 +56,8 @@ std::vector<ColumnDoc> stability_columns() {
          "seen within the last signal cycle is the same gridlock"},
         {"first_gridlock_s", "s", "run", "first observation of the first gridlock"},
         {"starvations", "", "run",
-         "number of vehicles that stand at the head of a queue for `measure.starvation` or longer although nothing "
-         "blocks their way; stopline-run fails if there are any"},
+         "number of vehicles that stand at the head of a queue for `measure.starvation` or longer, and for two cycles "
+         "of their signal, although nothing blocks their way; stopline-run fails if there are any"},
         {"teleported", "veh", "run",
          "vehicles removed by `rules.teleport_cycles`, including those that are not reinserted yet. Imported networks: "
          "missed turns are included"},

@@ -229,7 +229,8 @@ const Table& measure_table() {
             number<&S::starvation_s>(
                 "starvation", "s", {0, 86'400},
                 "intersections: a movement starves, and the run fails, if the first vehicle of a queue stands for this "
-                "time although nothing blocks its way; the default is the time after which SUMO teleports; 0 s: never"),
+                "time, and for two cycles of its signal, although nothing blocks its way; the default is the time after "
+                "which SUMO teleports; 0 s: never"),
             number<&S::area_margin_m>("area_margin", "m", {0, 10'000},
                                       "grids and streets: distance from the outer intersections to the boundary of the "
                                       "measured area, on their approaches and exit lanes")
