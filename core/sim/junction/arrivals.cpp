@@ -93,6 +93,14 @@ int vehicle_stopping_at_signal(const State& state, int lane, int connection) {
     return state.stop_lines.lights[at(state.plan.signal_group_for(lane, next))] == Light::green ? -1 : stopping;
 }
 
+// Returns the slot of a vehicle that the keep-clear rule holds at rest at the stop line of `lane`; -1: none. Vehicles
+// that must yield to it may go first. Imported networks only.
+int vehicle_held_at_rest(const Model& model, const State& state, int lane) {
+    if (model.demand.trips.empty() || state.stop_lines.held_at_green[at(lane)].blocker < 0) return -1;
+    const int held = state.stop_lines.stop_slot[at(lane)];
+    return held >= 0 && state.vehicles.speed_mps[at(held)] < kCrawlingSpeed_mps ? held : -1;
+}
+
 // The arguments of one call of look_upstream(). The function searches upstream of `lane` for moving vehicles that will
 // drive over `lane` to `connection`. The function does not read decisions of this step about these vehicles, because
 // another thread may be making these decisions at the same time.
@@ -152,6 +160,7 @@ Arrival next_arrival(const Model& model, const State& state, const Conflict& con
     const LanePlan& origin = state.plan.lane(other.origin);
     const double acceleration_mps2 = model.give_way.approach_acceleration_mps2;
     const int stopping = vehicle_stopping_at_signal(state, other.origin, conflict.other);
+    const int held = vehicle_held_at_rest(model, state, other.origin);
     const auto is_ignored = [&](int slot) { return ignores_stopped && v.speed_mps[at(slot)] < kCrawlingSpeed_mps; };
     Arrival soonest;
     for (const JunctionOccupant& occupant : state.junctions.occupants[at(conflict.other)]) {
@@ -173,6 +182,7 @@ Arrival next_arrival(const Model& model, const State& state, const Conflict& con
         const double distance_m = origin.length_m + conflict.other_from_m - v.position_m[at(slot)];
         if (distance_m > horizon_s * origin.limit_mps) break;
         if (slot == stopping) break;
+        if (slot == held) return soonest;
         if (v.position_m[at(slot)] > origin.stop_line_m || v.next_lane[at(slot)] != conflict.other) continue;
         if (is_ignored(slot)) break;
         soonest.keep_earlier(earliest_arrival_s(distance_m, v.speed_mps[at(slot)], acceleration_mps2, other.limit_mps),

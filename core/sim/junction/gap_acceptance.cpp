@@ -81,8 +81,11 @@ int yield_cycle_winner(const Model& model, const State& state, int lane, const C
     if (model.demand.trips.empty() || !v.stopped) return -1;
     for (const Conflict& conflict : state.plan.conflicts(lane)) {
         if (!conflict.other_yields) continue;
-        const LaneBlock& block = state.blocks[at(state.plan.lane(conflict.other).origin)];
+        const int origin = state.plan.lane(conflict.other).origin;
+        const LaneBlock& block = state.blocks[at(origin)];
         if (block.count == 0 || is_yielding(state, block.first)) continue;
+        // A vehicle that stops at its line cannot use its gap.
+        if (block.first == state.stop_lines.stop_slot[at(origin)]) continue;
         const VehicleArrays& arrays = state.vehicles;
         if (arrays.next_lane[at(block.first)] != conflict.other) continue;
         if (arrays.record[at(block.first)].accepted_gap_on == conflict.other) return block.first;

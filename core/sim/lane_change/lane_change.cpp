@@ -25,7 +25,7 @@ constexpr double kMinInterval_s = 2.0;       // shortest time from a lane change
 // times LaneChangeSettings::gain_mps to return. It forgets this excess over kReturnMemory_s. The three values are our
 // choice. They keep most vehicles from changing back and forth between adjacent queues that move in turn.
 constexpr double kGainMemory_s = 10.0;
-constexpr double kReturnFactor = 5.0;
+constexpr double kReturnFactor = 10.0;
 constexpr double kReturnMemory_s = 30.0;
 
 // Returns the acceleration of the intelligent driver model (Treiber, Hennecke, Helbing 2000), with the desired gap of
@@ -182,11 +182,13 @@ private:
     }
 
     // Adds the incentive of this decision to the gain of a lane, which is at least 0 unless the vehicle has just left
-    // this lane.
+    // this lane. The incentive counts up to the acceleration of the vehicle, because no vehicle gains speed faster.
     void add_gain(double incentive_mps2, float& gain_mps) const {
+        const LaneChangeSettings& c = model_.lane_change;
         const double memory_s = gain_mps < 0.0F ? kReturnMemory_s : kGainMemory_s;
         const double faded_mps = gain_mps * (1.0 - kDecisionInterval_s / memory_s);
-        const double sum_mps = faded_mps + (incentive_mps2 - model_.lane_change.threshold_mps2) * kDecisionInterval_s;
+        const double counted_mps2 = std::min(incentive_mps2 - c.threshold_mps2, c.acceleration_mps2);
+        const double sum_mps = faded_mps + counted_mps2 * kDecisionInterval_s;
         gain_mps = static_cast<float>(std::max(sum_mps, std::min(faded_mps, 0.0)));
     }
 

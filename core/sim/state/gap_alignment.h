@@ -9,7 +9,7 @@ struct GapAlignment {
     int slot = -1;
     double target_speed_mps = 0.0;
 
-    static constexpr double kDeceleration_mps2 = 1.0;  // strongest braking towards the target speed
+    static constexpr double kDeceleration_mps2 = 2.0;  // strongest braking towards the target speed
 };
 
 }  // namespace stopline
