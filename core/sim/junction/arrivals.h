@@ -46,9 +46,9 @@ struct Arrival {
 };
 // Returns the next arrival of a vehicle at the conflict area on connection `conflict.other`. The search covers the
 // connection, its approach lane, and the lanes further upstream from which a vehicle can arrive within `horizon_s`.
-// Ignores vehicles that yield, stop for the signal or are in a queue, and all vehicles behind them. In imported networks
-// this includes vehicles that the keep-clear rule holds at rest. With `ignores_stopped`, it also ignores all vehicles
-// slower than kCrawlingSpeed_mps and those behind them.
+// Ignores vehicles that yield, stop for the signal or are in a queue, and all vehicles behind them. In imported
+// networks this includes vehicles that the keep-clear rule holds at rest. With `ignores_stopped`, it also ignores all
+// vehicles slower than kCrawlingSpeed_mps and those behind them.
 Arrival next_arrival(const Model& model, const State& state, const Conflict& conflict, double horizon_s,
                      bool ignores_stopped = false);
 
