@@ -1,5 +1,5 @@
-// Right of way in imported networks: priority by phase, all-way stops, zippers, right before left, minor roads and
-// roundabouts. Each case runs in both fidelities, with a constant distance gap and with a constant time gap.
+// Right of way in imported networks: priority by phase, all-way stops, zippers, right before left, minor roads,
+// roundabouts and full exits. Each case runs in both fidelities, with a constant distance gap and with a constant time gap.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,6 +26,7 @@ struct Input {
     std::string routes;
     std::string additional = {};
     double duration_s = 300.0;
+    std::string keep_clear = "off";
 };
 
 constexpr double kEarly_s = 120.0;
@@ -70,7 +71,7 @@ protected:
             std::string("fidelity: ") + GetParam().fidelity + "\nduration: " + std::to_string(input.duration_s) +
             " s\nnetwork: {kind: sumo, net: ./my.net.xml, routes: [./my.rou.xml], additional: [./my.add.xml]}\n"
             "populations: [" +
-            GetParam().population + "]\nmeasure: {window: 60 s}\n";
+            GetParam().population + "]\nrules: {keep_clear: " + input.keep_clear + "}\nmeasure: {window: 60 s}\n";
         return build_model(parse_scenario(text, "my.yaml", {}, files.folder()), 0);
     }
 
@@ -229,6 +230,19 @@ TEST_P(ImportedRightOfWay, RoundaboutReachesItsCapacity) {
     const Observed seen = run({"one_lane_roundabout", flows});
     const double flow_veh_h = 3600.0 * static_cast<double>(seen.exited - seen.exited_early) / (300.0 - kEarly_s);
     EXPECT_GT(flow_veh_h, 0.9 * 4.0 * 637.0);
+    EXPECT_TRUE(seen.violations.none());
+}
+
+// The exit of the major street is full, because it ends at a red light. The keep-clear rule holds the vehicles of the
+// major street at their line, and those of the minor street cross ahead of them.
+TEST_P(ImportedRightOfWay, HeldVehiclesLetOthersGo) {
+    const Observed seen =
+        run({"full_exit", flow("wc", "me", "vehsPerHour=\"600\"") + flow("sc", "cn", "vehsPerHour=\"200\""),
+             R"(<tlLogic id="m" type="static" programID="p" offset="0"><phase duration="1000" state="r"/></tlLogic>)",
+             300.0, "on"});
+    EXPECT_GE(seen.stopped("cm_0"), 5) << "the exit is not full";
+    EXPECT_LE(seen.passed("wc_0"), 12) << "nobody is held";
+    EXPECT_GE(seen.passed("sc_0"), 14);
     EXPECT_TRUE(seen.violations.none());
 }
 
