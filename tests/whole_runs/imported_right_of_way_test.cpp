@@ -1,5 +1,6 @@
 // Right of way in imported networks: priority by phase, all-way stops, zippers, right before left, minor roads,
-// roundabouts and full exits. Each case runs in both fidelities, with a constant distance gap and with a constant time gap.
+// roundabouts and full exits. Each case runs in both fidelities, with a constant distance gap and with a constant time
+// gap.
 #include <gtest/gtest.h>
 
 #include <algorithm>
