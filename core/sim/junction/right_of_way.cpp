@@ -56,17 +56,6 @@ bool may_pass(const Model& model, State& state, Partition& part, int vehicle, in
     return true;
 }
 
-// Returns true if the vehicle can wait before a conflict area that begins `to_area_m` ahead of it. A comfortable stop
-// must suffice. A vehicle that has been waiting is already on the curve of this stop, and may brake harder to stay on
-// it.
-bool can_wait_before(const Model& model, const State& state, int slot, double to_area_m) {
-    const double speed_mps = state.vehicles.speed_mps[at(slot)];
-    const bool was_waiting = state.vehicles.record[at(slot)].yield_tick >= state.tick - 1;
-    const double stop_m = was_waiting ? braking_distance_m(speed_mps, 0.0, model.driver.cacc.deceleration_comfort_mps2)
-                                      : comfortable_braking_distance_m(model, speed_mps);
-    return stop_m <= to_area_m - model.give_way.margin_m;
-}
-
 // Returns true if the vehicle can stop, with maximum braking, before a conflict area that begins `to_area_m` ahead of
 // it.
 bool can_stop_before(const Model& model, const State& state, int slot, double to_area_m) {
@@ -89,15 +78,11 @@ bool blocks_area(const Model& model, State& state, Partition& part, int lane, co
         return state.vehicles.record[at(occupant.slot)].accepted_gap_on == conflict.other &&
                !is_yielding_before(state, occupant.slot, conflict.other_from_m);
     }
-    // Neither connection has priority. A vehicle that can wait lets one pass that cannot stop any more. Braking would
-    // only make the latter stop inside the area.
-    const double own_m = conflict.from_m - v.front_m;
-    const double other_m = conflict.other_from_m - occupant.front_m;
-    const auto lets_pass = [&](int waits, double waits_m, int passes, double passes_m) {
-        return can_wait_before(model, state, waits, waits_m) && !can_stop_before(model, state, passes, passes_m);
-    };
-    if (lets_pass(v.slot, own_m, occupant.slot, other_m)) return true;
-    if (lets_pass(occupant.slot, other_m, v.slot, own_m)) return false;
+    // Neither connection has priority. A vehicle that can stop lets one pass that cannot. Braking would only make the
+    // latter stop inside the area.
+    const bool can_stop = can_stop_before(model, state, v.slot, conflict.from_m - v.front_m);
+    const bool other_can_stop = can_stop_before(model, state, occupant.slot, conflict.other_from_m - occupant.front_m);
+    if (can_stop != other_can_stop) return can_stop;
     // If both vehicles wait for each other, a deadlock resolution decides which one proceeds.
     if (find_resolution(state, part, occupant.slot, v.slot) != nullptr) return true;
     if (DeadlockResolution* const resolution = find_resolution(state, part, v.slot, occupant.slot)) {
