@@ -133,8 +133,9 @@ private:
         return v_.position_m[at(block_.first)] + step_m + kRounding_m >= end_m;
     }
 
-    // Caps the speed of vehicles that align with a gap in the adjacent lane. If the lane sleeps, skips its first vehicle
-    // at rest: a cap set by cap_speed() is removed after the step, so this vehicle would lose the cap that holds it.
+    // Caps the speed of vehicles that align with a gap in the adjacent lane. If the lane sleeps, skips its first
+    // vehicle at rest: a cap set by cap_speed() is removed after the step, so this vehicle would lose the cap that
+    // holds it.
     void cap_aligning_vehicles(bool sleeps) {
         if (part_.lanes_with_alignments.empty()) return;
         const double braking_step_mps = GapAlignment::kDeceleration_mps2 * model_.step_s;
