@@ -124,8 +124,8 @@ protected:
 
     static std::string flow(const std::string& from, const std::string& to, const std::string& rate,
                             const std::string& more = "") {
-        return "<flow id=\"" + from + to + "\" from=\"" + from + "\" to=\"" + to + "\" begin=\"0\" end=\"1000\" " +
-               rate + " departSpeed=\"max\" " + more + "/>\n";
+        return "<flow id=\"" + from + to + "\" from=\"" + from + "\" to=\"" + to + R"(" begin="0" end="1000" )" + rate +
+               " departSpeed=\"max\" " + more + "/>\n";
     }
 };
 
@@ -189,9 +189,11 @@ TEST_P(ImportedRightOfWay, RightBeforeLeftDoesNotLock) {
     };
     std::size_t most_standing = 0;
     for (int n = 0; n < 16; ++n) {
+        const int west = n / 4;
+        const int south = 1 + n % 4;
         const Observed seen = run({"right_before_left",
-                                   trip("ei", "wo", 0.0) + trip("ni", "so", 0.0) + trip("wi", "eo", 0.5 * (n / 4)) +
-                                       trip("si", "no", 0.5 + 0.5 * (n % 4)),
+                                   trip("ei", "wo", 0.0) + trip("ni", "so", 0.0) + trip("wi", "eo", 0.5 * west) +
+                                       trip("si", "no", 0.5 * south),
                                    "", 60.0});
         most_standing = std::max(most_standing, seen.most_standing);
         EXPECT_EQ(seen.exited, 4) << n;
