@@ -35,7 +35,6 @@ struct Row {
     std::string lane;
     double position_m;
     Point front;
-    bool operator==(const Row&) const = default;
 };
 
 class NamedPlaces : public ::testing::TestWithParam<Case> {
