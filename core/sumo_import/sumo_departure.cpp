@@ -85,8 +85,8 @@ SumoDepartureDefaults sumo_departure_defaults(const SumoXml& routes, const SumoN
 
 std::string text_of(const SumoDepartureDefaults& defaults) {
     const bool is_new = defaults.lane == Trip::DepartLane::best;
-    return fmt::format("departLane=\"{}\" departSpeed=\"{}\" ({})", is_new ? "best_prob" : "first",
-                       is_new ? "avg" : "0", defaults.reason);
+    return fmt::format(R"(departLane="{}" departSpeed="{}" ({}))", is_new ? "best_prob" : "first", is_new ? "avg" : "0",
+                       defaults.reason);
 }
 
 bool read_sumo_departure(const SumoXml& xml, pugi::xml_node node, const SumoDepartureDefaults& defaults,

@@ -67,7 +67,7 @@ private:
         int via = c.via;
         int lane = c.via_lane;
         while (via >= 0 && lanes.size() < kMaxLanes) {
-            lanes.push_back({via, lane});
+            lanes.emplace_back(via, lane);
             const auto next = next_in_chain_.find({via, lane});
             via = next == next_in_chain_.end() ? -1 : connection(next->second).via;
             lane = next == next_in_chain_.end() ? 0 : connection(next->second).via_lane;

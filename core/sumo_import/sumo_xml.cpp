@@ -119,8 +119,9 @@ std::string_view element_before(std::string_view text, std::size_t position) {
 std::optional<SumoVersion> version_of(std::string_view word) {
     if (word.starts_with('v')) word.remove_prefix(1);
     SumoVersion version;
-    const char* const end = word.data() + word.size();
-    const auto [dot, major_error] = std::from_chars(word.data(), end, version.major);
+    const char* const begin = word.data();
+    const char* const end = begin + word.size();
+    const auto [dot, major_error] = std::from_chars(begin, end, version.major);
     if (major_error != std::errc() || dot == end || (*dot != '.' && *dot != '_')) return std::nullopt;
     const auto [rest, minor_error] = std::from_chars(dot + 1, end, version.minor);
     if (minor_error != std::errc()) return std::nullopt;

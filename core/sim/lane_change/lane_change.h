@@ -11,6 +11,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 
 #include "sim/perception/lane_gaps.h"
 
@@ -29,7 +30,7 @@ struct LaneChangeRequest {
     double to_line_m = 0.0;  // distance to the stopping position before the line
     // The last two members are set if no lane change is required and another lane suits the later turns better
     // (preferred_lane.h). An offset below 0 means to the left.
-    int preferred_offset = 0;
+    std::int8_t preferred_offset = 0;
     double to_preferred_line_m = 0.0;  // distance to the stop line of the turn for which the other lane is better
 };
 // Returns the request of the vehicle in `slot` of `lane`.
