@@ -28,7 +28,7 @@ struct LanePart {
     double length_m = 0.0;  // length of the lane in the file
 };
 
-// What vehicles must do at a stop line without a signal.
+// The rule that vehicles follow at a stop line without a signal.
 enum class StopRule : std::uint8_t {
     none,          // nothing
     stop,          // stop, then go as right of way allows (stop sign)

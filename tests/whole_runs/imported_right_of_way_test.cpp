@@ -41,7 +41,7 @@ struct LaneCounts {
     int passed = 0;                    // left the lane
 };
 
-// What happened in one run.
+// The events of one run.
 struct Observed {
     std::map<std::string, LaneCounts> lanes;
     std::size_t most_standing = 0;  // largest number of lanes whose first vehicles stood at the same time

@@ -1,4 +1,4 @@
-// What a vehicle remembers for its next lane changes.
+// This struct holds what a vehicle remembers for its next lane changes.
 #pragma once
 
 #include <cstdint>
