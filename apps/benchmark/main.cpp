@@ -57,8 +57,8 @@ private:
     std::map<std::string, double> min_ns_;
 };
 
-// Returns a text that explains what limits the speed of full dynamics: arithmetic, memory, or the work of each step and
-// lane that does not depend on the number of vehicles.
+// Returns a text that explains what limits the speed of full dynamics: arithmetic, memory, or fixed work. Fixed work is
+// done in each step for each lane, however many vehicles there are.
 // Returns an empty text if one of the benchmarks did not run.
 std::string limits_text(const TableReporter& table) {
     const std::optional<double> small = table.min_ns(kBatch, 16);

@@ -119,8 +119,9 @@ std::string traffic_text(const NetworkReport& report) {
     return table.text();
 }
 
-// Returns the table of delay causes, gridlocks, teleported vehicles and passed blockers. A passed blocker is a vehicle
-// stopped inside an intersection that crossing vehicles no longer wait for (rule pass_blocker_greens).
+// Returns the table of delay causes, gridlocks, teleported vehicles and passed blockers. A vehicle that is
+// stopped inside an intersection is a passed blocker if crossing vehicles no longer wait for it (rule
+// pass_blocker_greens).
 std::string congestion_text(const NetworkReport& report) {
     TextTable table;
     table.add_row({"", "junction", "turn", "", "", "wrong", "|", "", "", "passed"});

@@ -36,8 +36,8 @@ void append_improvements(const SingleLightReport& result, const PopulationSummar
     }
 }
 
-// Returns a text that names the populations with vehicles that keep far larger gaps than those of their policies; ""
-// if there are none.
+// Returns a text that names the populations in which some vehicles keep far larger gaps than their policies demand.
+// Returns "" if there are no such vehicles.
 std::string open_gaps_text(const SingleLightReport& result) {
     std::string names;
     for (const PopulationSummary& summary : result.populations) {

@@ -6,7 +6,7 @@ namespace stopline {
 
 std::string starvation_text(const Scenario& scenario, const std::vector<PopulationStarvations>& populations,
                             const std::vector<std::string>& lanes) {
-    constexpr std::size_t kListed = 3;  // movements listed for each population
+    constexpr std::size_t kListed = 3;  // largest number of movements listed for each population
     if (scenario.measure.starvation_s == 0.0) return "";
     std::string text;
     for (const PopulationStarvations& p : populations) {

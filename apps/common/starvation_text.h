@@ -1,4 +1,5 @@
-// Starving movements as text for the console.
+// Starving movements as text for the terminal. A movement starves if the first vehicle of its queue is stopped for
+// measure.starvation although no queue or vehicle ahead blocks its way.
 #pragma once
 
 #include <string>
@@ -9,8 +10,8 @@
 
 namespace stopline {
 
-// Returns the verdict: the first starving movements of each population, or that there are none. `lanes`: [lane] name of
-// the lane. Returns "" if measure.starvation is 0.
+// Returns a text that lists the first starving movements of each population, or says that there are none. `lanes` holds
+// the name of each lane. Returns "" if measure.starvation is 0.
 std::string starvation_text(const Scenario& scenario, const std::vector<PopulationStarvations>& populations,
                             const std::vector<std::string>& lanes);
 

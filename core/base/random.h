@@ -2,7 +2,7 @@
 // count, the spacing policy and the order of the calls do not change it. So two spacing policies can be compared with
 // the same random numbers.
 //
-// The function is the 64-bit finaliser of SplitMix64 (Steele, Lea, Flood 2014, "Fast splittable pseudorandom number
+// This function is the 64-bit finaliser of SplitMix64 (Steele, Lea, Flood 2014, "Fast splittable pseudorandom number
 // generators"), applied once for each part of the key. It uses integer arithmetic only, so compilers can vectorise it
 // and it gives the same bits on every machine.
 #pragma once

@@ -1,6 +1,6 @@
-// Step II of the calibration (Section V.B). For each permutation (combination of axis values), it checks whether the
-// mean of the mesoscale mode lies in the confidence band of full dynamics. Both fidelities run the same sweep with the
-// same seeds.
+// Step II of the calibration (Section V.B). It checks for each permutation (combination of axis values) whether the
+// mean of the mesoscale mode lies in the confidence band of full dynamics. Both modes run the same sweep with the same
+// seeds.
 #pragma once
 
 #include <string>
@@ -41,9 +41,9 @@ struct BandCheck {
     double share_inside(Band band) const;
 };
 
-// Returns the result columns to check: those in `named`. If `named` is empty, returns throughput, density and travel
-// time of the first zone. Throws InputError if a named column does not exist, or if none is named and the runs have no
-// such results.
+// Returns the result columns to check, which are those in `named`. If `named` is empty, they are the throughput, the
+// first column with a density, and the first column with a travel time. Throws InputError if a named column does not
+// exist, or if none is named and the runs have no such results.
 std::vector<std::string> band_metrics(const RunStore& full, const std::vector<std::string>& named);
 
 // Compares two stores that hold all runs of `sweep`. Throws InputError for fewer than three repetitions.

@@ -1,9 +1,10 @@
-// Step I of the calibration (Section V.B). It compares the times at which vehicles pass detectors in both fidelities,
-// for every permutation of a sweep and any set of mesoscale parameters. The k-th passages of a detector in both
-// fidelities form a pair.
+// Step I of the calibration (Section V.B). It compares the times at which vehicles pass detectors in full dynamics and
+// in the mesoscale mode, for every permutation (combination of axis values) of a sweep and any set of mesoscale
+// parameters. The k-th passages of a detector in both modes form a pair.
 //
-// The criterion is that the two times of each pair differ by at most one second. A user can mark a larger difference as
-// accepted (load_accepted.h) after a review; the pair is then valid. Every third permutation is held out of the fit.
+// The criterion is that the two times of each pair differ by at most one second. A user can review a larger difference
+// and mark it as accepted (scenario/load_accepted.h); the pair is then valid. Every third permutation is held out of
+// the fit.
 #pragma once
 
 #include <functional>
@@ -47,8 +48,8 @@ TimingResult evaluate_timing(const std::string& name, const std::vector<Calibrat
 enum class CaseSubset { fitted, held_out, all };
 Agreement timing_agreement(const TimingResult& result, const std::vector<CalibrationCase>& cases, CaseSubset subset);
 
-// One detector in one permutation. At least one pair of its passages differs by more than the limit, or at least one
-// passage lacks a counterpart in the other fidelity.
+// One detector in one permutation with a difference: at least one pair of its passages differs by more than the limit,
+// or at least one passage in one mode lacks a counterpart in the other mode.
 struct TimingMiss {
     std::size_t permutation;  // index of the case
     int detector;

@@ -17,8 +17,8 @@ constexpr double kSample_s = 0.01;
 constexpr double kLast_s = 120.0;
 
 // Returns the scenario of a single lane with one signal. Its speed limit is so high that it does not limit the
-// acceleration. The driver's acceleration curve alone holds up to this limit: on faster roads the mesoscale mode adds
-// the power of the vehicle itself (Model::power_profile).
+// acceleration. profile_limit_mps has the same value, so that the driver's acceleration curve alone determines the
+// start. On fast roads, the mesoscale mode itself adds the influence of engine power (Model::power_profile).
 Scenario straight_road_scenario(const Scenario& scenario) {
     Scenario road = scenario;
     road.fidelity = "full";

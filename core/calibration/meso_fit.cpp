@@ -19,7 +19,7 @@ namespace {
 
 enum class LawSubset { constant_time, constant_distance, all };
 
-// Returns true if all spacing policies of the case use one model: the constant-distance model if `constant_distance` is
+// Returns true if all vehicles of the case use the same model: the constant-distance model if `constant_distance` is
 // true, else the time-gap model.
 bool has_law(const FitCase& c, bool constant_distance) {
     return std::all_of(c.model.krauss.begin(), c.model.krauss.end(),
@@ -58,7 +58,8 @@ struct Search {
 
 MesoSettings with_values(MesoSettings settings, const std::vector<double>& values) {
     for (std::size_t k = 0; k < values.size(); ++k) fit_parameters()[k].value(settings) = values[k];
-    // The gap at rest, s_0 + s_t, must keep its calibrated value. So s_0 is that value minus s_t.
+    // In the constant-distance model, the gap at rest is the sum of standstill_gap_m and band_m. The fit changes band_m
+    // and must keep the gap at rest, so standstill_gap_m is computed from both.
     settings.constant_distance.standstill_gap_m = settings.calibrated_standstill_gap_m - settings.band_m;
     return settings;
 }
@@ -149,8 +150,8 @@ std::vector<double> start_values(std::vector<double> values, const std::vector<s
 // - Deceleration: at most 7 m/s2, the limit on a dry road. The constant-distance model, whose reaction time is almost
 //   0, gets at most 5 m/s2, so that its vehicles still stop at the line.
 // - Anticipation: at most one step of 100 ms. With more, policies whose gap grows with speed oscillate.
-// - Standstill gap s_0: not fitted. In the time-gap model it is the standstill gap of the policy. In the
-//   constant-distance model, equation (1) of the paper, it is the standstill gap of the policy minus s_t.
+// - Standstill gap (MesoSettings::constant_distance.standstill_gap_m): not fitted, but computed. It is the gap at rest
+//   that the policy prescribes, minus the fitted MesoSettings::band_m.
 const std::vector<FitParameter>& fit_parameters() {
     using S = MesoSettings;
     constexpr auto kNoProfile = [](const S& s) { return s.leader_profile_mps.empty(); };

@@ -1,11 +1,12 @@
 // Fits the parameters of the mesoscale mode to detector passages of full dynamics (Section V.B, step I). The k-th
-// passages of a detector in both fidelities form a pair. The loss is a mean over all pairs (fit_loss). It is robust: a
+// passages of a detector in both modes form a pair. The loss is a mean over all pairs (fit_loss). It is robust: a
 // single pair adds at most 1 to the sum, however large its difference is.
 //
-// First, the time-gap model and the constant-distance model are fitted separately, each to the permutations in which
-// all vehicles use this model. Each of these searches is repeated from several starting points. Then all parameters are
-// fitted together to all permutations. The search is deterministic. After an interruption it can therefore start again:
-// the stored losses replace the evaluations that were finished before.
+// A permutation is a combination of axis values of a sweep. First, the time-gap model and the constant-distance model
+// are fitted separately, each to the permutations in which all vehicles use this model. Each of these searches is
+// repeated from several starting points. Then all parameters are fitted together to all permutations. The search is
+// deterministic. After an interruption it can therefore start again: the stored losses replace the evaluations that
+// were finished before.
 #pragma once
 
 #include <functional>

@@ -12,7 +12,7 @@
 
 namespace stopline {
 
-// Measured starts: speed over the time since the car began to move. A quantity that the file lacks is empty.
+// Measured starts: speed over the time since the car began to move. If the file lacks a quantity, its list is empty.
 struct StartupCurve {
     std::vector<double> time_s;  // rising from 0
     std::vector<double> mean_mps;
@@ -23,12 +23,12 @@ struct StartupCurve {
     std::vector<double> starts;    // [time] number of starts in the mean
 };
 
-// Reads the columns t_s and mean_kmh, and the optional columns ci95_of_mean, p2.5, p97.5 and n. Throws InputError with
-// file and line.
+// Loads measured starts from a CSV file with the columns t_s and mean_kmh. The columns ci95_of_mean, p2.5 with p97.5,
+// and n are optional. If the file is invalid, throws InputError with file and line.
 StartupCurve load_startup_curve(const std::filesystem::path& file);
 
-// Speed from which the car counts as moving. The measured curves use the same threshold. The measured cars reported
-// their speed (OBD) in whole km/h, so the time at which they reach the threshold is interpolated.
+// Speed from which a car counts as moving, also in the measured curves. The measured cars reported their speed in whole
+// km/h (OBD), so the time at which they reached this speed was interpolated.
 inline constexpr double kMoving_mps = kStoppedSpeed_mps;
 
 // A simulated start of one vehicle at a signal, sampled at given times after it begins to move.
@@ -51,7 +51,8 @@ struct StartupFit {
 StartupFit fit_startup(const Scenario& scenario, const StartupCurve& curve,
                        const std::function<bool(int)>& on_progress = {});
 
-// A time interval in which a start is above or below a band. Between measured points the band is interpolated.
+// A time interval in which the speed of a start is above or below a band. Between measured points the band is
+// interpolated.
 struct BandExit {
     double from_s, to_s;
     double largest_deviation_mps;  // largest deviation from the mean; negative if the start is slower

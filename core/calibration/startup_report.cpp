@@ -27,9 +27,10 @@ std::vector<GearChange> gear_changes(const StartupRun& run) {
     return changes;
 }
 
-// Returns explanations of an exit from a band: the definition of time 0, the interpolation between the first two
-// measured points, and gear changes. If the simulated car is faster than the band, a gear change during the exit or
-// right after it ends the exit. If the car is slower, a gear change during the exit or shortly before it is the cause.
+// Returns explanations of an exit, which is a time interval in which the simulated speed is outside a band. Causes are
+// the definition of time 0, the interpolation between the first two measured points, and gear changes. A gear change
+// shortly before an exit or during it makes the car slower than the band. A gear change during an exit or right after
+// it ends a time in which the car is faster than the band.
 std::string remark(const StartupReport& report, const BandExit& exit) {
     constexpr double kBefore_s = 1.0;
     constexpr double kBehind_s = 2.5 * kFine_s;

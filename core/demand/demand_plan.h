@@ -14,8 +14,9 @@
 
 namespace stopline {
 
-// The trip of one vehicle through an imported network, with its departure time and its path. The departure lane, speed
-// and position correspond to SUMO's attributes departLane, departSpeed and departPos.
+// The trip of one vehicle through an imported network, with its departure time and its path. The path is a sequence of
+// edges, the roads between the intersections of the SUMO network. The departure lane, speed and position correspond to
+// SUMO's attributes departLane, departSpeed and departPos.
 struct Trip {
     double depart_s = 0.0;
     int approach = -1;   // the vehicle enters on a lane of this approach
@@ -46,8 +47,8 @@ struct DemandPlan {
         std::int64_t vehicles = 0;
         std::vector<int> routes;     // routes from which the route of a vehicle is drawn
         std::vector<double> shares;  // [index in `routes`] share of the route; the shares sum to 1
-        // [index in `routes`] share of the route for a vehicle that chose this lane because of its turn. These shares
-        // spread the traffic equally over the lanes of the approach. Empty: `shares` apply.
+        // [index in `routes`] share of the route for a vehicle that uses this lane because the lane suits its turn.
+        // With these shares, all lanes of the approach carry equal traffic. Empty: `shares` apply.
         std::vector<double> lane_shares = {};
         // [index in `routes`] share of the vehicles on the whole approach that make the turn of this route.
         // balancing_route() corrects the draws so that these shares hold even if some lanes discharge more vehicles
@@ -74,8 +75,8 @@ struct DemandPlan {
     bool starts_queued = false;  // the run begins with a queue from every stop line back to the entry
 
     // The order in which policies or routes are assigned to successive vehicles. alternating: each vehicle gets the
-    // policy or route that is furthest behind its share. balanced: the order is random, but the shares hold in each
-    // block of 20 successive vehicles of an inlet.
+    // policy or route whose number of vehicles so far is furthest below its share. balanced: the order is random, but
+    // the shares hold in each block of 20 successive vehicles of an inlet.
     enum class Pattern { alternating, random, balanced };
     Pattern pattern = Pattern::alternating;  // order of the spacing policies
     std::vector<int> policies;               // [component of the population] index of its spacing policy

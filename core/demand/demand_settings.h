@@ -19,7 +19,7 @@ struct DemandSettings {
     double inflow_1ps = 600.0 / 3600.0;
     // Only for saturated demand: inflow of each leg in the south and north. 0: these legs are saturated, too.
     double cross_inflow_1ps = 0.0;
-    std::vector<std::string> approaches = {};  // prefixes of lane names where vehicles enter; empty: all entries
+    std::vector<std::string> approaches = {};  // names of the approaches where vehicles enter; empty: all
     double entry_speed_mps = 50.0 / 3.6;
     // Shares of right and left turns, 0 .. 1. A share applies on each lane that allows the turn and another movement.
     double right_share = 0.0;

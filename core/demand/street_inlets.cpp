@@ -1,4 +1,4 @@
-// The inlets of streets, with routes and shares.
+// Makes the inlets of streets (lanes where vehicles get a route, see demand_plan.h), with routes and shares.
 #include <algorithm>
 #include <array>
 #include <cstddef>

@@ -40,7 +40,7 @@ struct DriverTablesOf {
     // Driving at desired speeds beyond the range of the profile. extend_by_power() sets these values.
     Number profile_end_mps = 1e9;  // highest desired speed for which the profile holds
     Number power_nodes_per_mps = 0.0;
-    std::array<Number, kProfileNodes> power_mps2{};  // [node] lowest acceleration beyond, from speed 0
+    std::array<Number, kProfileNodes> power_mps2{};  // [node] lowest acceleration there, from speed 0
 };
 using DriverTables = DriverTablesOf<double>;
 
@@ -76,12 +76,12 @@ STOPLINE_INLINE R free_acceleration(const DriverTablesOf<Number>& d, const R& sp
     return min_of(profile, d.speed_gain_1ps * (desired_mps - speed_mps));
 }
 
-// Returns the speed at which a platoon leader drives. Without a leader this is the speed limit. A platoon leader whose
-// radar sees a leader exceeds the limit slightly, or it would never close up to a leader at the limit. It needs the
-// time
-//     t = (gap - desired gap) / ((catch_up_factor - 1) limit)
-// to reach its gap behind a leader at the limit. In the mesoscale mode the speeds differ by the same share: there a
-// vehicle without leader drives at 95 % of the limit (Section V.A of the paper).
+// Returns the speed at which a platoon leader drives. If its radar sees no vehicle ahead, this is the speed limit.
+// Otherwise the platoon leader exceeds the limit slightly, or it would never close up to a vehicle that drives at the
+// limit. It reaches its desired gap behind this vehicle after the time
+//     t = (gap - desired gap) / ((catch_up_factor - 1) limit).
+// The mesoscale mode has about the same difference of speeds. There a vehicle without leader drives at 95 % of the
+// limit (Section V.A of the paper), and the vehicles behind it may drive at the limit to close up.
 template <class R, class Number>
 STOPLINE_INLINE R closing_up_speed(const CaccSettingsOf<Number>& c, const R& limit_mps, const LeaderView<R>& p) {
     const R sees_leader = STOPLINE_FLAG(R, p.gap_m < splat<R>(static_cast<double>(c.radar_range_m)));

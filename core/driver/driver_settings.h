@@ -10,8 +10,8 @@ namespace stopline {
 // Settings that the kernels (the loops over vehicles) read are templates over the number type, so that the kernels can
 // use float (base/simd/narrowed.h).
 
-// Cooperative adaptive cruise control (CACC, Fig. 3 and Fig. 4): gains of the gap feedback, prediction horizon of the
-// feedforward, delays of radar and V2V messages, limits of acceleration and jerk, and emergency braking.
+// Cooperative adaptive cruise control (CACC, Fig. 3 and Fig. 4 of the paper): gains of the gap feedback, prediction
+// horizon of the feedforward, delays of radar and V2V messages, limits of acceleration and jerk, and emergency braking.
 template <class Number>
 struct CaccSettingsOf {
     Number feedback_kp_1ps2 = 0.2;  // gain on the gap error (Ploeg et al. 2011, reference [31] of the paper)
@@ -36,9 +36,9 @@ using CaccSettings = CaccSettingsOf<double>;
 struct FreeDriveSettings {
     std::vector<double> speed_mps;          // nodes of the profile, rising from 0
     std::vector<double> acceleration_mps2;  // acceleration at each speed; constant above the highest speed
-    // Highest speed limit for which the profile holds; 0: its last speed. Near its end the profile falls, because the
-    // measured drivers approached their limit. On roads with a higher limit, drivers accelerate at least with the share
-    // power_share of the acceleration that the vehicle can give.
+    // Highest speed limit for which the profile holds; 0: the highest speed of the profile. Near this speed the profile
+    // falls, because the measured drivers approached their limit. On roads with a higher limit, drivers accelerate at
+    // least with the share power_share of the acceleration that the vehicle can give.
     double profile_limit_mps = 0.0;
     double power_share = 0.5;
     double speed_gain_1ps = 0.35;    // the acceleration is at most this gain x (desired speed - speed)
@@ -65,10 +65,11 @@ struct GiveWaySettings {
 
 // Lane changes (sim/lane_change/lane_change.cpp).
 struct LaneChangeSettings {
-    // Mandatory changes. A vehicle begins to look for a gap, and to adapt its speed to it, when the usable distance is
-    // shorter than the distance that it covers in look_ahead_s for each change that it needs. The usable distance is
-    // the distance to the stop line minus the queue on the target lane. Changes to the left need left_factor times as
-    // much. The form and both defaults are those of SUMO's model LC2013 (Erdmann 2015, "SUMO's lane-changing model").
+    // Mandatory changes. A vehicle that needs n lane changes begins to look for a gap when its usable distance is
+    // shorter than its speed times n look_ahead_s, plus room for two vehicles. The usable distance is the distance to
+    // the stop line minus the queue on the target lane. For changes to the left, left_factor times look_ahead_s
+    // applies. The form and both defaults are those of SUMO's model LC2013 (Erdmann 2015, "SUMO's lane-changing
+    // model").
     double look_ahead_s = 10.0;
     double left_factor = 2.0;
     // Smallest accepted lead gap and lag gap, as a share of the gap of the spacing policy. The share falls linearly
@@ -78,7 +79,7 @@ struct LaneChangeSettings {
     // Koutsopoulos, Ben-Akiva 2003, "Modeling integrated lane-changing behavior", Transportation Research Record 1857).
     // This is 0.3 of a time gap of 0.87 s at 50 km/h.
     double urgent_gap_share = 0.3;
-    std::string look_ahead = "on";   // off | on: vehicles choose lanes also for the turn at the second intersection
+    std::string look_ahead = "on";   // off | on: vehicles also choose lanes for the turn after the next one
     std::string gap_opening = "on";  // off | on: followers on the target lane open a gap for mandatory changes
     // Discretionary changes: MOBIL (Kesting, Treiber, Helbing 2007). MOBIL rates a change by the accelerations that
     // result from the intelligent driver model (IDM) with the desired gap of the spacing policy.
@@ -145,14 +146,16 @@ struct MesoSettings {
     double start_delay_s = 0.0;  // start-up delay of the first vehicle at a stop line, due to its powertrain
     KraussSettings constant_time;
     KraussSettings constant_distance;
-    double band_m = 0.5;                   // s_t of equation (1) of the paper
-    double below_band_speed_share = 0.95;  // d of equation (1) of the paper
+    // Equation (1) of the paper: a vehicle whose gap is below s_0, but by less than s_t, drives as fast as its leader.
+    // If the gap is even smaller, the vehicle drives at the share d of its leader's speed.
+    double band_m = 0.5;                   // s_t
+    double below_band_speed_share = 0.95;  // d
     // Gaps of the policy for which the models were calibrated. For a policy with another time gap or standstill gap,
     // the parameter tau or s_0 of the model (krauss.h) changes by the difference.
     double calibrated_time_gap_s = 0.87;
     double calibrated_standstill_gap_m = 2.95;
-    // Highest speed limit and longest step for which the models were calibrated. On faster roads the accelerations are
-    // at least those of FreeDriveSettings::power_share.
+    // Highest speed limit and longest step for which the models were calibrated. On roads with a higher limit, the
+    // accelerations are at least the share FreeDriveSettings::power_share of what the vehicle can give.
     double calibrated_speed_limit_mps = 50.0 / 3.6;
     double calibrated_step_s = 0.1;
 };

@@ -39,7 +39,8 @@ void extend_by_power(const FreeDriveSettings& free, const std::function<double(d
     constexpr double kTop_mps = 250.0 / 3.6;
     constexpr double kRounding = 1.001;
     const double profile_limit_mps = free.profile_limit_mps > 0.0 ? free.profile_limit_mps : free.speed_mps.back();
-    // A follower that closes its gap desires a speed above the limit by catch_up_factor.
+    // The desired speed of a follower that closes its gap is catch_up_factor times the limit. On a road with the limit
+    // profile_limit_mps, this speed must not count as beyond the profile.
     t.profile_end_mps = kRounding * t.cacc.catch_up_factor * profile_limit_mps;
     t.power_nodes_per_mps = (DriverTables::kProfileNodes - 1) / kTop_mps;
     for (std::size_t node = 0; node < t.power_mps2.size(); ++node) {

@@ -107,7 +107,7 @@ struct PositionHeadway {
 };
 
 // Returns the mean headways over all lanes with saturated greens, by queue position. The list ends before the first
-// position that not all of these lanes reach. A mean over fewer lanes would show which lanes have long queues.
+// position that some of these lanes do not reach. From there on, the mean would depend on which lanes have long queues.
 std::vector<PositionHeadway> common_positions(const Discharge& discharge) {
     std::vector<PositionHeadway> positions;
     for (std::size_t n = 0;; ++n) {

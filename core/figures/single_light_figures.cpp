@@ -139,8 +139,8 @@ std::string improvement_data(const SingleLightReport& result, const std::vector<
     return text;
 }
 
-// Returns the improvements computed from whole vehicle counts. A value is NaN if the queue of the population is empty
-// before the green time ends.
+// Returns the improvements computed from whole vehicle counts. A value is NaN if the whole queue of the population has
+// passed the stop line before the green time ends.
 std::string whole_count_data(const SingleLightReport& result, const std::vector<std::size_t>& order) {
     std::string text = "# green_s improvement_percent, one block for each population\n";
     for (const std::size_t k : order) {

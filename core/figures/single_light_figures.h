@@ -10,8 +10,8 @@
 
 namespace stopline {
 
-// Returns all figures that the results allow. They also show numbers of the paper: the entries of `targets` that belong
-// to this scenario.
+// Returns all figures that the results allow. `targets` holds numbers of the paper; the figures also show those numbers
+// that belong to this scenario.
 std::vector<Figure> single_light_figures(const SingleLightReport& result, const std::vector<Target>& targets);
 
 Figure counters_figure(const SingleLightReport& result, const std::vector<Target>& targets);

@@ -22,7 +22,7 @@ int heading(const Lane& lane) {
     return y_m >= 0.0 ? 1 : 3;
 }
 
-// [heading()] side that the traffic of a lane comes from.
+// [result of heading()] side that the traffic of a lane comes from.
 constexpr std::array<Side, 4> kOrigin{Side::west, Side::south, Side::east, Side::north};
 
 }  // namespace

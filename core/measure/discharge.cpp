@@ -64,7 +64,8 @@ LaneDischarge lane_discharge(const std::string& name, const std::vector<Green>& 
     return result;
 }
 
-// Computes the values of all lanes from those of the lanes.
+// Sets the values of `result` that describe all lanes together. `all` holds the sums over all lanes, and result.lanes
+// holds the values of each single lane.
 void summarise(const SaturatedSums& all, Discharge& result) {
     result.saturated_greens = all.greens;
     result.saturation_headway_s = all.saturation_headway_s();

@@ -1,12 +1,12 @@
 // Queue discharge at stop lines: headways by position in the queue, saturation flow and start-up lost time. By the
-// Highway Capacity Manual (6th edition, chapter 31) the saturation headway is the mean from the fifth vehicle on. The
-// start-up lost time is the sum over the first four vehicles of the headway minus the saturation headway. The headway
-// of the first vehicle counts from the start of green.
+// Highway Capacity Manual (6th edition, chapter 31) the saturation headway is the mean headway from the fifth vehicle
+// on. The start-up lost time is the sum of (headway - saturation headway) over the first four vehicles. The headway of
+// the first vehicle counts from the start of green.
 //
 // Only vehicles that have stood in the queue count. The queue of a green ends before the first vehicle that has not
 // stood, because later vehicles arrive at the rate of the demand. A green is saturated if its queue has five vehicles
-// or more. Lanes are measured one by one: a mean over lanes with queues of different length would describe fewer and
-// faster lanes at later positions.
+// or more. Each lane is measured separately. In a mean over all lanes, the values at later positions would come only
+// from the lanes with long queues, which can be faster than the other lanes.
 #pragma once
 
 #include <functional>

@@ -10,9 +10,9 @@ namespace stopline {
 // Returns the number of values at the beginning that belong to the warm-up: a multiple of 5, and 0 for short series.
 //
 // The method is the marginal standard error rule with means of five values (MSER-5: White 1997, Simulation 69(6);
-// White, Cobb and Spratt 2000, Winter Simulation Conference). It tries all cuts within the first half of the series.
-// For each cut it divides the sum of squared deviations of the values after the cut by the square of their number. The
-// cut with the smallest ratio wins, because it gives the best estimate of the mean.
+// White, Cobb and Spratt 2000, Winter Simulation Conference). It tries each position in the first half of the series
+// as the end of the warm-up. For each position it divides the sum of squared deviations of the later values by the
+// square of their number. The position with the smallest ratio wins, because it gives the best estimate of the mean.
 std::size_t warm_up(std::span<const double> values);
 
 // Returns the end of the initial rise: the index of the first value that is at least 90 % of the highest value.

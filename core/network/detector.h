@@ -13,7 +13,7 @@ struct Detector {
         middle,  // in the middle of a lane between two intersections
         loop     // induction loop of an imported network; it has a name
     };
-    int lane = -1;  // -1: the detector has no position; it counts the starts or ends of trips
+    int lane = -1;  // -1: no position on a lane; the detector records the starts or ends of trips
     double position_m = 0.0;
     Kind kind = Kind::stop_line;
     int zone = -1;             // index of the zone; -1: the detector belongs to no zone

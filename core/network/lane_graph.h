@@ -21,10 +21,11 @@ namespace stopline {
 enum class Turn : std::uint8_t { none, straight, right, left };
 inline constexpr int kMaxTurns = 12;  // number of values of Turn, including `none`
 
-// A part of an imported lane that is a lane of its own in the file of the network.
+// One lane of a SUMO network file. The import can join consecutive lanes of the file to one lane of the lane graph.
+// They are then the parts of this lane.
 struct LanePart {
     std::string name;       // name of the lane in the file
-    double end_m = 0.0;     // end of the part, from the start of the lane; connection: from the stop line before it
+    double end_m = 0.0;     // end of the part, from the start of the lane; on a connection, from the stop line
     double length_m = 0.0;  // length of the lane in the file
 };
 
@@ -56,7 +57,7 @@ struct Lane {
     int approach = -1;               // index in LaneGraph::approaches; -1: none
     int movement_signal_group = -1;  // connection: signal group of its movement; -1: group of the stop line
     bool waits_inside = true;  // connection: yielding vehicles wait before the conflict area; false: at the stop line
-    bool keep_clear = true;    // connection: the keep-clear rule (TrafficRules) applies
+    bool keep_clear = true;    // connection: vehicles enter only if the exit lane has room (TrafficRules::keep_clear)
     // Imported lane: its parts in driving order, as far as the stop line. Empty: the lane is a single part.
     std::vector<LanePart> parts = {};
     StopRule stop_rule = StopRule::none;  // connection

@@ -21,7 +21,7 @@ std::string short_number(double value) { return std::isnan(value) ? "none" : fmt
     throw InputError(fmt::format("data/paper/targets.csv: row {}: {}", target.id, what));
 }
 
-// Returns the allowed difference from `value` of the paper, in the unit of the row.
+// Returns how far our value may lie from `value`, which is the value in the paper, in the unit of the row.
 double band(const Target& target, double value, double tolerance) {
     if (target.tolerance_kind == "abs") return tolerance;
     if (target.tolerance_kind == "%") return 0.01 * tolerance * std::abs(value);

@@ -10,8 +10,9 @@
 
 namespace stopline {
 
-// Names places as the file of the network does. An imported lane can consist of several lanes of that file
-// (Lane::parts). A vehicle beyond the stop line of its lane is on its connection.
+// Finds the name of a lane and the position on it for result files. An imported network has the names of its file,
+// where one lane of the graph can consist of several lanes (Lane::parts). A vehicle beyond the stop line of its lane
+// counts as being on its connection.
 class LaneNames {
 public:
     // plain: names of the lane graph and of the imported file. sumo: as in SUMO's files, where the name of a connection
@@ -35,7 +36,8 @@ public:
 private:
     struct Part {
         std::string name;
-        double end_m;     // end of the part, from the start of the lane; connection: from the stop line before it
+        // End of the part, from the start of the lane. For a connection: from the stop line before the connection.
+        double end_m;
         double length_m;  // length of the named lane
     };
     struct Entry {

@@ -45,7 +45,7 @@ private:
     static constexpr int kLevel = 6;  // default of gzip
     static constexpr std::size_t kBufferBytes = 1U << 18U;
 
-    // Writes everything that zlib can compress at once.
+    // Compresses the input and writes the output that zlib has ready. With Z_FINISH, zlib also writes the rest.
     void drain(int flush) {
         do {
             stream_.next_out = buffer_.data();

@@ -7,8 +7,8 @@ namespace stopline {
 void Observation::prepare(Model& model) const {
     if (!look) return;
     model.records_detectors = model.records_detectors || all_detectors;
-    // Switches on delay causes: once a second, the model determines why vehicles are delayed. Networks without conflict
-    // areas have no delay causes.
+    // The run also records delay causes: once a second, the model determines why each stopped vehicle is delayed. A
+    // network without conflict areas has no delay causes.
     if (!model.rules.watches() && !model.graph.conflicts.empty()) {
         model.rules.watch_ticks = std::max<std::int64_t>(to_ticks(1.0, model.step_s), 1);
     }

@@ -14,8 +14,7 @@ struct Observation {
     std::function<void(std::size_t population, const Simulation& simulation)> look;
     bool all_detectors = false;  // true: the run records the crossings of all detectors
 
-    // Makes the model record the data that an observer (the function `look`) needs. This does not change the movement
-    // of vehicles.
+    // Switches on those records of the model that `look` needs. They do not change the movement of vehicles.
     void prepare(Model& model) const;
     // Calls `look` if there is one.
     void call(std::size_t population, const Simulation& simulation) const {

@@ -18,7 +18,7 @@ struct Provenance {
     std::vector<std::pair<std::string, std::string>> state_hashes;  // population and hash of its final state
 };
 
-// Returns the provenance as JSON text. It contains all parameters of the scenario as lines of canonical_text().
+// Returns the provenance as JSON text. It contains all parameters of the scenario, one line for each parameter.
 std::string provenance_json(const Scenario& scenario, const Provenance& provenance);
 
 // Returns the provenance of a table with results of several scenarios as JSON text. `scenario_hashes` maps the name of

@@ -57,7 +57,7 @@ struct RunResult {
     std::uint64_t state_hash = 0;
     bool complete = false;  // false: the run was stopped before its end
 
-    // Returns the number of vehicles that passed a stop line up to `green_s` after green_start_s.
+    // Returns the number of vehicles that passed a stop line in the first `green_s` seconds after green_start_s.
     int passed_within(double green_s) const;
 };
 

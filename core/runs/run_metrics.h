@@ -26,8 +26,8 @@ RunMetric number_metric(std::string name, std::string unit, double value, int de
 RunMetric count_metric(std::string name, std::string unit, std::int64_t value);
 
 // Runs scenario.populations[population] and returns the metrics of the run. `keep_going` is called repeatedly during
-// the run. If it returns false, the run is stopped and the result is empty. The metrics overlaps, red_entries,
-// lost_vehicles and updates exist for all kinds of networks.
+// the run. If it returns false, the run is stopped and the result is empty. For every kind of network, the result has
+// the metrics overlaps, red_entries, lost_vehicles and updates.
 std::vector<RunMetric> run_metrics(const Scenario& scenario, std::size_t population,
                                    const std::function<bool()>& keep_going = {});
 

@@ -1,4 +1,5 @@
-// The table of starving movements (Starvation in sim/state/delay_log.h).
+// The table of starving movements. A movement starves if the first vehicle of its queue waits for too long, although no
+// queue or vehicle ahead blocks its way (Starvation in sim/state/delay_log.h).
 #pragma once
 
 #include <string>

@@ -226,7 +226,7 @@ void set_meso(const Scenario& scenario, const MesoSettings& settings, Model& mod
     model.leader_mps2 = settings.leader_mps2;
     model.leader_constant_power_speed_mps = settings.leader_constant_power_speed_mps;
     model.leader_profile = leader_profile(settings);
-    // The rounding keeps lanes at the calibrated limit within the range.
+    // Because of this factor, lanes with exactly the calibrated limit count as calibrated despite rounding errors.
     constexpr double kRounding = 1.001;
     model.calibrated_limit_mps = kRounding * settings.speed_factor * settings.calibrated_speed_limit_mps;
     model.power_profile = power_profile(model.driver);
@@ -247,9 +247,9 @@ Model build_model(const Scenario& scenario, std::size_t population) {
     const auto available_mps2 = [&](double v) { return available_acceleration_mps2(model.vehicles[0], v); };
     extend_by_power(scenario.driver.free_drive, available_mps2, model.driver);
     model.hesitation_ticks = to_ticks(scenario.driver.free_drive.hesitation_s, scenario.tick_s());
-    // radar_delay_s counts from the measurement until the vehicle responds to it. A request of the controller takes
-    // effect only at the end of its step, which is one step of this delay. The data of the radar are delayed by the
-    // rest.
+    // radar_delay_s is the time from a measurement until the vehicle responds to it. It includes one step, because the
+    // controller uses the data at the start of a step and the vehicle responds from the end of the step on. So the data
+    // that the controller uses are older by radar_delay_s minus one step.
     model.radar = make_delay(std::max(scenario.driver.cacc.radar_delay_s - scenario.tick_s(), 0.0), scenario.tick_s());
     model.v2v = make_delay(scenario.driver.cacc.v2v_delay_s, scenario.tick_s());
     if (scenario.is_meso()) {  // mesoscale car following has no radar delay

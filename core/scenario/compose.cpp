@@ -145,8 +145,8 @@ void complete_field(const Field& field, SourceNode& map, const std::string& path
     }
 }
 
-// Returns the value of the choice field at `path`, which is field names joined by dots. If `map` has no value for it,
-// returns its default.
+// Returns the value of the choice field at `path`, which consists of field names joined by dots. If `map` has no value
+// for the field, returns the default of the field.
 std::string choice_at(const Table& table, const SourceNode* map, const std::string& path) {
     const auto dot = path.find('.');
     const std::string name = path.substr(0, dot);
@@ -265,7 +265,7 @@ void complete(const Table& table, SourceNode& map, const std::string& path, Repo
         SourceNode* value = map.find(field.name);
         if (value == nullptr && std::holds_alternative<SectionField>(field.kind) && !field.required &&
             exists(table, field, map)) {
-            // The file does not give the section. An empty section takes up the defaults of its fields.
+            // The file does not give the section. An empty section is added; complete() below inserts its defaults.
             SourceNode empty;
             empty.kind = Kind::map;
             empty.place = map.place;

@@ -22,8 +22,9 @@ bool is_used(const Scenario& scenario, const GapPolicySettings& policy) {
     });
 }
 
-// Returns the smallest standstill gap with which the mesoscale model of a policy keeps vehicles apart, m. Equation (1)
-// lets a vehicle come as near as s_0 - s_t. The other model keeps s_0.
+// Returns the smallest standstill gap of a policy with which vehicles do not touch in the mesoscale mode, m. There a
+// vehicle may come as near to a stopped leader as the standstill gap of the car-following model minus the width of the
+// model's tolerance band (krauss.h). The result is the difference between this gap and the policy's standstill gap.
 double meso_min_gap_m(const Scenario& scenario, const GapPolicySettings& policy) {
     const Krauss model = make_krauss_model(scenario.meso, policy);
     return policy.standstill_gap_m - (model.standstill_gap_m - model.band_m);
@@ -87,8 +88,8 @@ double highest_limit_mps(const NetworkSettings& network) {
     return highest_mps;
 }
 
-// Returns true if a population uses a policy with another law than constant_time. The mesoscale mode then uses
-// equation (1) of the paper.
+// Returns true if a population uses a policy with another law than constant_time. For such a policy, the mesoscale mode
+// uses the constant-distance model (krauss.h).
 bool keeps_constant_distances(const Scenario& scenario) {
     return std::any_of(scenario.policies.begin(), scenario.policies.end(), [&](const GapPolicySettings& policy) {
         return policy.law != "constant_time" && is_used(scenario, policy);

@@ -11,15 +11,18 @@
 namespace stopline {
 
 // The smallest standstill gap in full dynamics, m. In a chain of vehicles that stop as hard as they can, a follower
-// uses up to 1.3 m of its gap, because its brakes respond later than its leader's. Emergency braking keeps
-// driver.cacc.emergency_gap (0.5 m by default). tests/sim/full_dynamics/hard_stop_test.cpp measures the loss.
+// uses up to 1.3 m of its gap, because its brakes respond later than its leader's (measured in
+// tests/sim/full_dynamics/hard_stop_test.cpp). Emergency braking keeps another 0.5 m (default of
+// driver.cacc.emergency_gap). Both together are less than 2 m.
 inline constexpr double kMinStandstillGap_m = 2.0;
 
-// Checks the policies that the populations use, the tyres, and the lags of brake and drive torque.
+// Checks the policies that the populations use. In full dynamics, also checks the tyres and the lags of brake and drive
+// torque.
 void check_gaps(const Scenario& scenario, Checker& check);
 
-// Returns one line for each parameter set that is used beyond its range: speed limits of the driver or of the mesoscale
-// models, and the step of the mesoscale models.
+// Returns one line for each parameter set that the scenario uses beyond its range. Full dynamics: the speed limits of
+// the network exceed the range of the driver's acceleration profile. Mesoscale mode: the speed limits or the time step
+// exceed those for which the car-following models were calibrated.
 std::vector<std::string> range_warnings(const Scenario& scenario);
 
 }  // namespace stopline

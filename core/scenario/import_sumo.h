@@ -24,8 +24,8 @@ std::vector<FieldProblem> sumo_file_problems(const Scenario& scenario, const std
 // `sumo`. Throws InputError with file and line.
 void import_sumo(Scenario& scenario, const std::filesystem::path& directory);
 
-// Adds the imported trips to the demand plan. Draws the spacing policy of each trip at random, with the policy shares
-// in the plan as probabilities.
+// Adds the imported trips to the demand plan. Assigns a spacing policy to each trip, by the policy shares of the plan
+// and in the order that its `pattern` gives (alternating, random or balanced).
 void add_sumo_trips(const Scenario& scenario, DemandPlan& plan);
 
 // An imported induction loop.
@@ -40,7 +40,8 @@ std::vector<SumoLoopPlace> sumo_loops(const Scenario& scenario);
 // files that the import ignores.
 std::vector<std::string> sumo_warnings(const Scenario& scenario);
 
-// Returns choices of the import that the user should know, one line each, such as the defaults of departure.
+// Returns notes about choices of the import, one line each. An example is the default departure lane and speed for
+// vehicles without these attributes.
 std::vector<std::string> sumo_notes(const Scenario& scenario);
 
 // Returns an error if the SUMO files have no vehicle, trip or flow.

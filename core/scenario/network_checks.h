@@ -7,7 +7,8 @@
 
 namespace stopline {
 
-// Checks that the queue of a single light (demand.vehicles in each lane) fits between the entry and the stop line.
+// Checks that the queue before a single stop line (network.kind `approach`, demand.vehicles in each lane) fits between
+// the entry and the stop line.
 void check_queue(const Scenario& scenario, Checker& check);
 // Checks that the road between two intersections of a grid has room for a vehicle and is long enough for a vehicle to
 // stop.

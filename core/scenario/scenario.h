@@ -15,19 +15,21 @@
 namespace stopline {
 
 struct MeasureSettings {
-    std::vector<double> green_s;  // single light: green times for which the passed vehicles are counted
-    std::string baseline;         // name of the reference population for improvements; empty: none
+    // For network.kind `approach` only: times after the start of green at which the passed vehicles are counted.
+    std::vector<double> green_s;
+    std::string baseline;  // name of the population with which the others are compared; empty: none
     // For single intersections only:
     int warmup_cycles = 1;                   // signal cycles before the measurement
     int cycles = 5;                          // measured signal cycles
     std::vector<double> zone_radius_m = {};  // radii of the zones for travel time and density (measure.zones)
-    // For all networks with intersections:
-    double starvation_s = 300.0;  // a movement starves if its first vehicle stands for this time; 0: never
+    // For all networks with intersections: a movement starves if the first vehicle of its queue stands for this time
+    // and for two cycles of its signal, although nothing blocks its way. 0: never.
+    double starvation_s = 300.0;
     // For networks of several intersections only:
     double area_margin_m = 20.0;           // distance from the outer intersections to the boundary of the measured area
     double interval_s = 60.0;              // interval of the time series
     double window_s = 18000.0;             // length of the measuring window at the end of the run
-    double time_space_s = 0.0;             // length of the time-space diagram at the end of the run; 0: none
+    double time_space_s = 0.0;             // the time-space diagram shows this last part of the run; 0: no diagram
     std::string time_space_side = "west";  // side where the street of this diagram begins: west | east | south | north
 };
 

@@ -1,4 +1,4 @@
-// Right of way between two connections of one signal that changes with the phases of the signal.
+// Right of way between two connections that one signal controls. It changes with the phases of this signal.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace stopline {
 
-// Which of two connections yields to the other. Both can yield.
+// Says which of two connections yields to the other. Both can yield.
 struct Priority {
     bool first_yields = false;
     bool second_yields = false;
@@ -19,8 +19,8 @@ struct PriorityStage {
     Priority priority;
 };
 
-// The right of way of two connections over time. The stages repeat. One of them begins at `offset_ticks`, which may be
-// negative.
+// The right of way of two connections over time. The stages repeat without end. The first stage begins at the tick
+// `offset_ticks`, which may be negative.
 class PhasePriority {
 public:
     // Throws InputError if there is no stage or if a stage lasts less than one tick.

@@ -193,8 +193,8 @@ std::vector<ComparedMetric> Comparison::metrics() const {
         {"departure_delay_s", &RunSummary::departure_delay_s}};
     std::vector<ComparedMetric> metrics;
     for (const auto& [name, field] : fields) {
-        // On a generated network, SUMO gets the times at which the vehicles entered our run as planned departures. So
-        // only SUMO's runs can have departure delays.
+        // On a generated network, SUMO's planned departures are the times at which vehicles entered the network in our
+        // run. So our run has no departure delays; only SUMO's runs can have them.
         const bool sumo_only = field == &RunSummary::departure_delay_s && !imported;
         metrics.push_back({name, column(*this, true, field), column(*this, false, field), sumo_only});
         if (field != &RunSummary::passages_veh_h || has_stop_lines) continue;

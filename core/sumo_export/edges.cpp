@@ -146,8 +146,8 @@ private:
         }
     }
 
-    // Returns the lane on `edge` that continues nearest to a pocket, counted in lanes. `pocket` is the first part of
-    // the pocket, on the next edge.
+    // Returns the lane on `edge` from which vehicles enter a pocket. It is the lane whose part on the next edge is
+    // nearest to the pocket, counted in lanes. `pocket` is the first part of the pocket, which lies on the next edge.
     int nearest_lane(int edge, const EdgePart& pocket) const {
         int nearest = -1;
         int least = std::numeric_limits<int>::max();

@@ -40,7 +40,7 @@ struct EdgePart {
 
 struct PlainConnection {
     int from = -1;             // lane of the graph where the connection begins
-    int to = -1;               // lane of the graph where the connection ends; `from` itself between two of its parts
+    int to = -1;               // lane of the graph where it ends; equal to `from` if it joins two parts of this lane
     EdgePart begin = {};       // the connection begins at the end of this part
     EdgePart end = {};         // the connection ends at the start of this part
     int connection_lane = -1;  // lane of the graph between `from` and `to`; -1: `from` leads directly to `to`

@@ -52,8 +52,8 @@ private:
         }
     }
 
-    // Returns the time from the planned departure to the insertion, s. A vehicle without delay appears at the end of
-    // the step in which it departs, so one step is subtracted.
+    // Returns the time from the planned departure to the insertion, s. Even a vehicle without delay appears only at the
+    // end of the step in which it departs. So one step is subtracted.
     double departure_delay_s(const State& state, const Passage& passage) const {
         const LaneBlock& block = state.blocks[at(passage.to_lane)];
         for (int slot = block.first; slot < block.past_last(); ++slot) {

@@ -19,8 +19,8 @@ bool has_signal(const LaneGraph& graph, const Lane& lane) {
            });
 }
 
-// Writes the signal programmes that Stopline uses, as fixed-time programmes. SUMO adds a programme with a new programID
-// to the programmes of the signal, and applies the programme that it has read last.
+// Writes the signal programmes that Stopline uses, as fixed-time programmes with the programID 'stopline'. SUMO applies
+// them instead of the programmes in the network file, because it reads them last.
 void write_lights(const std::filesystem::path& file, const SumoNetwork& network) {
     XmlFile xml(file, "additional", "additional_file.xsd");
     std::set<int> used_signals;

@@ -75,8 +75,8 @@ private:
         add_edges_of(lane, trip.edges);
     }
 
-    // Adds the edges of a lane to the route. If the route already ends on an edge of the same approach, adds only the
-    // edges after that edge. Does nothing if the lane is a connection.
+    // Adds the edges of a lane to the route. If the route already ends on one of these edges, adds only the edges after
+    // it. Does nothing if the lane is a connection.
     void add_edges_of(int lane, std::vector<int>& edges) const {
         const std::vector<EdgePart>& parts = network_.parts_of[at(lane)];
         if (parts.empty() || edges.back() == parts.back().edge) return;
@@ -87,8 +87,8 @@ private:
         }
     }
 
-    // Adds `edge` to the route. If a teleported vehicle has skipped edges, adds the path with the fewest edges to
-    // `edge`.
+    // Adds `edge` to the route. If a teleported vehicle has skipped the edges before it, first adds the edges that lead
+    // there. Of several possible paths, it uses the one with the fewest edges.
     void add_path_to(int edge, std::vector<int>& edges) const {
         const int start = edges.back();
         const std::vector<int>& next_edges = next_edges_[at(start)];

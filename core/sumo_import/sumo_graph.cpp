@@ -62,7 +62,7 @@ private:
         });
     }
 
-    // Adds the lanes of all edges. The lanes of each edge are added from left to right.
+    // Adds the lanes that are open to cars, edge by edge and from left to right. Edges inside junctions are skipped.
     void add_edges() {
         for (const SumoEdge& edge : net().edges) {
             std::vector<int>& numbers = network_.lane_of.emplace_back(edge.lanes.size(), -1);
@@ -95,8 +95,8 @@ private:
         first_connection_ = static_cast<int>(lanes().size());
     }
 
-    // Returns the parts of a lane that consists of the given lanes of the file. The lane has the length `length_m`. The
-    // first `fixed_m` metres keep their lengths, and the rest is stretched evenly.
+    // Joins consecutive lanes of the file, given by name and length, to the parts of one lane of the graph. The first
+    // `fixed_m` metres keep their length. The rest is stretched evenly, so that the whole lane is `length_m` long.
     static std::vector<LanePart> parts_of(const std::vector<std::pair<std::string, double>>& lanes, double fixed_m,
                                           double length_m) {
         std::vector<LanePart> parts;
@@ -218,8 +218,8 @@ private:
         }
     }
 
-    // Sets the parts of all connections. A connection without internal lanes has the name of the lane that it leads to,
-    // and no length.
+    // Sets Lane::parts of all connections. A connection without internal lanes gets a single part, which has the length
+    // 0 and the name of the lane that the connection leads to.
     void name_internal_lanes() {
         for (const BuiltConnection& connection : connections_) {
             Lane& lane = lanes()[at(connection.lane)];
@@ -274,8 +274,8 @@ private:
         return from.cosine * to.cosine + from.sine * to.sine < -0.9;
     }
 
-    // Adds a route that consists of this lane only. If any lane of the approach leads to a connection, gives this lane
-    // a stop line, which at first belongs to signal group 0.
+    // Adds a route that consists of this lane only. If any lane of its approach leads to a connection, gives the lane a
+    // stop line. The stop line at first belongs to signal group 0, which is always green.
     void finish_lane(int lane) {
         network_.graph.routes.push_back({lanes()[at(lane)].name, {lane}});
         network_.graph.links.push_back(lane);
@@ -285,9 +285,9 @@ private:
         if (continues) lanes()[at(lane)].signal_group = 0;
     }
 
-    // Makes one signal group for all links of a signal that have the same lights in all phases. If all connections of a
-    // lane have the same group, the group belongs to the stop line of the lane. Otherwise each connection has its own
-    // movement_signal_group.
+    // Makes the signal groups. Links of a signal that have the same lights in all phases share one group. If all
+    // connections of a lane have the same group, this group belongs to the stop line of the lane. Otherwise each
+    // connection stores its group in Lane::movement_signal_group.
     void assign_signal_groups() {
         std::map<std::pair<int, std::string>, int> groups;
         const auto group_of = [&](const SumoConnection& c) {

@@ -76,8 +76,9 @@ public:
     }
 
 private:
-    // Returns the version of SUMO that wrote the file. Without a comment, the version of the format tells it as long as
-    // each release of SUMO had a format of its own: versions since 1.20 write "1.20".
+    // Returns the version of SUMO that wrote the file. If no comment in the file names it, the function uses the
+    // version of the file format, provided that it is below 1.20. All later versions of SUMO write the format version
+    // 1.20.
     std::optional<SumoVersion> version() const {
         constexpr SumoVersion kLastFormat{1, 20};
         if (xml_.version()) return xml_.version();

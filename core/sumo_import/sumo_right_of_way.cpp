@@ -61,7 +61,7 @@ public:
 private:
     Lane& lane(const BuiltConnection& connection) { return network_.graph.lanes[at(connection.lane)]; }
 
-    // Sets junction and link number of connections without internal lanes. SUMO numbers the links of a junction in the
+    // Sets junction and link number of connections without internal lanes. A junction of SUMO numbers its links in the
     // order of its incoming lanes. Links from the same lane are numbered in the order of the file.
     void number_links_without_via() {
         std::unordered_map<std::string, std::vector<BuiltConnection*>> from;
@@ -106,8 +106,8 @@ private:
                                                              zipper});
     }
 
-    // Warns if a junction without `request` elements has connections that cross. At such a junction, vehicles obey only
-    // signals.
+    // Call this function for a junction without right-of-way matrices (`request` elements in the file), where vehicles
+    // obey only signals. It warns if connections of the junction cross.
     void warn_of_missing_requests(const SumoJunction& junction, const std::vector<int>& connections) {
         for (const int first : connections) {
             for (const int second : connections) {
@@ -139,23 +139,25 @@ private:
 
     static bool is_u_turn(const BuiltConnection& connection) { return connection.source->dir == 't'; }
 
-    // Returns true if `connection` yields to `to`. Call this function only for two connections that have different exit
-    // lanes and are no foes in the matrix. They conflict only because the import extends U-turns (sumo_graph.cpp). A
-    // U-turn yields to every other movement. Of two U-turns, the one with the higher link number yields.
+    // Returns true if `connection` yields to `to`. Call this function only for a conflict that the matrix does not
+    // contain, between connections with different exit lanes. Such conflicts exist only with U-turns, because the
+    // import extends them (sumo_graph.cpp). A U-turn yields to every other movement. Of two U-turns, the one with the
+    // higher link number yields.
     static bool yields_at_u_turn(const BuiltConnection& connection, const BuiltConnection& to) {
         return is_u_turn(connection) && (!is_u_turn(to) || connection.link > to.link);
     }
 
-    // Returns the right of way between two connections. If it changes with the phases of their signal, the function
-    // returns that of the first phase, and adds all phases to SumoNetwork::phase_priorities.
+    // Returns the right of way between two connections. If it changes with the phases of their signal, returns that of
+    // the first phase, and adds the right of way of every phase to SumoNetwork::phase_priorities.
     Priority priority_of(const SumoJunction& junction, const BuiltConnection& first, const BuiltConnection& second) {
         const int tl = first.source->tl;
         if (tl < 0 || tl != second.source->tl) return priority_without_signal(junction, first, second);
         const std::vector<SumoPhase>& phases = network_.net.signals[at(tl)].phases;
         std::vector<Priority> by_phase(phases.size());
         Priority last;
-        // A phase in which not both are green keeps the right of way of the phase before it, because vehicles that
-        // entered in that phase may still be inside. The first cycle finds the right of way at the end of a cycle.
+        // A phase in which not both connections are green keeps the right of way of the phase before it, because
+        // vehicles that entered in that phase may still be inside. The loop runs through two cycles. After the first
+        // cycle, `last` is the right of way at the end of a cycle, which the first phases of the second cycle may need.
         for (std::size_t k = 0; k < 2 * phases.size(); ++k) {
             const SumoPhase& phase = phases[k % phases.size()];
             if (is_green_for_both(phase, first, second)) last = priority_in(phase, junction, first, second);
@@ -172,8 +174,8 @@ private:
     }
 
     // Returns the right of way in a phase in which both connections are green. A connection with a minor green yields
-    // to one with a major green. If both have the same kind of green, the matrix decides, and if it makes neither
-    // yield, the connection with the higher link number yields.
+    // to one with a major green. If both have the same kind of green, the matrix decides. By these two rules, a
+    // connection with the attribute `pass` never yields. If neither yields, the one with the higher link number yields.
     static Priority priority_in(const SumoPhase& phase, const SumoJunction& junction, const BuiltConnection& first,
                                 const BuiltConnection& second) {
         Priority priority{!first.source->pass && !is_major(phase.state[at(first.source->tl_link)]),
@@ -202,15 +204,14 @@ private:
         return bit(junction.response, connection.link, to.link);
     }
 
-    // Returns true if `connection` has the higher link number. Copies of one connection have the same number, so
-    // is_left_of() decides.
+    // Returns true if `connection` has a higher link number than `to`. Copies of one connection (is_left_of) have the
+    // same number; of these, the function returns true for the left copy.
     static bool is_later(const BuiltConnection& connection, const BuiltConnection& to) {
         return connection.link > to.link || is_left_of(connection, to);
     }
 
-    // When a short edge is merged (sumo_short_edges.h), its connection can be copied to several lanes. Returns true if
-    // `connection` and `other` are such copies of one connection, and `connection` begins on a lane further left. Of
-    // two copies, the left copy yields.
+    // When a short edge is merged (sumo_short_edges.h), a connection that leaves it can be copied to several lanes.
+    // Returns true if `connection` and `other` are two copies of one connection, and `connection` begins further left.
     static bool is_left_of(const BuiltConnection& connection, const BuiltConnection& other) {
         const SumoConnection& own = *connection.source;
         const SumoConnection& others = *other.source;

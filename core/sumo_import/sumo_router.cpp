@@ -13,9 +13,10 @@ namespace stopline {
 namespace {
 
 constexpr double kUnreachable_s = std::numeric_limits<double>::infinity();
-// Landmarks cost as much as 32 searches of the whole network, so a few routes do not need them.
+// Landmarks are edges whose travel times to and from all other edges are known; they make searches faster. To compute
+// them costs as much as 32 searches of the whole network, which is not worthwhile for a few routes.
 constexpr int kSearchesBeforeLandmarks = 32;
-// From this number of successive calls on, a shortest-path tree is faster than single searches.
+// After this number of successive calls with the same destination, a shortest-path tree is faster than single searches.
 constexpr int kCallsBeforeTree = 8;
 
 void push(std::vector<std::pair<double, int>>& heap, double key, int edge) {
@@ -94,8 +95,9 @@ void SumoRouter::settle(int target) {
     }
 }
 
-// Finds the travel times of all edges on fastest routes from the edge `from` to to_. It goes on until no route of the
-// same travel time remains. An edge whose travel time falls is looked at again, so rounded lower bounds do no harm.
+// Finds the remaining travel times to to_ of all edges on fastest routes from the edge `from` to to_. The search ends
+// when no other route of the same travel time can exist. If the travel time of an edge falls, the search visits the
+// edge again, so that rounding errors of the lower bounds do no harm.
 void SumoRouter::search(int from) {
     constexpr double kRounding = 1e-9;
     choose_active(from);
@@ -117,8 +119,8 @@ void SumoRouter::search(int from) {
     }
 }
 
-// Returns the edge that follows on the fastest route. Of several such edges, the one with the least remaining travel
-// time counts, then the one with the lowest index.
+// Returns the edge that follows `edge` on the fastest route. Of several such edges, returns the one with the least
+// remaining travel time. If this time is equal too, returns the one with the lowest index.
 int SumoRouter::next_edge(int edge) const {
     int best = -1;
     double best_s = kUnreachable_s;
@@ -161,8 +163,8 @@ std::optional<std::vector<int>> SumoRouter::fastest_route(int from, int to) {
     return route(from);
 }
 
-// Returns a lower bound of a travel time: the difference of two travel times from or to a landmark, by the triangle
-// inequality. The result is not a number if both are infinite.
+// Returns a lower bound of a travel time. By the triangle inequality, this is the difference of two travel times from a
+// landmark, or to a landmark. The result is NaN if both are infinite.
 double SumoRouter::difference_s(float longer_s, float shorter_s) {
     constexpr double kRounding = 4.0 * static_cast<double>(std::numeric_limits<float>::epsilon());
     return static_cast<double>(longer_s) * (1.0 - kRounding) - static_cast<double>(shorter_s);
@@ -179,7 +181,7 @@ void SumoRouter::choose_active(int from) {
         bounds[k] = {difference_s(end.from_s[k], origin.from_s[k]), k};
         bounds[k + kLandmarks] = {difference_s(origin.to_s[k], end.to_s[k]), k + kLandmarks};
     }
-    for (auto& [bound_s, k] : bounds) bound_s = bound_s > 0.0 ? bound_s : 0.0;  // also replaces what is no number
+    for (auto& [bound_s, k] : bounds) bound_s = bound_s > 0.0 ? bound_s : 0.0;  // also replaces NaN
     std::partial_sort(bounds.begin(), bounds.begin() + kActive, bounds.end(), std::greater<>());
     for (std::size_t k = 0; k < kActive; ++k) active_[k] = bounds[k].second;
     active_count_ = kActive;
@@ -194,12 +196,13 @@ double SumoRouter::lower_bound_s(int from, int edge) const {
         const std::size_t number = active_[k] % kLandmarks;
         const double bound_s = active_[k] < kLandmarks ? difference_s(own.from_s[number], origin.from_s[number])
                                                        : difference_s(origin.to_s[number], own.to_s[number]);
-        if (bound_s > best_s) best_s = bound_s;  // false if it is not a number
+        if (bound_s > best_s) best_s = bound_s;  // false for NaN
     }
     return best_s;
 }
 
-// Returns the travel times from the end of `edge` to the ends of all edges, or the other way round.
+// Returns the travel times from the end of `edge` to the ends of all edges. If `backwards` is true, returns the travel
+// times from the ends of all edges to the end of `edge`.
 std::vector<float> SumoRouter::travel_times_s(int edge, bool backwards) {
     std::vector<double> times_s(time_s_.size(), kUnreachable_s);
     times_s[at(edge)] = 0.0;

@@ -34,7 +34,8 @@ private:
         Turn turn;
         double time_s;  // free-flow travel time in the junction
     };
-    // A candidate of a search: a bound or travel time, and an edge.
+    // A candidate of a search: the key by which candidates are sorted (a travel time, or a lower bound of it), and an
+    // edge.
     using Candidate = std::pair<double, int>;
     static constexpr std::size_t kLandmarks = 16;
     // Travel times between one edge and the landmarks. Single precision halves the memory.
@@ -60,11 +61,12 @@ private:
     std::vector<double> time_s_;            // [edge] free-flow travel time
     std::vector<LandmarkTimes> landmarks_;  // [edge]; empty until there have been some searches
     static constexpr std::size_t kActive = 4;
-    // Landmarks that the present search uses: k for travel times from landmark k, k + kLandmarks for those to it.
+    // Landmarks that the present search uses. The number k stands for travel times from landmark k, and the number k +
+    // kLandmarks for travel times to landmark k.
     std::array<std::size_t, kActive> active_{};
     std::size_t active_count_ = 0;
     int searches_ = 0;  // searches without landmarks so far
-    // The next members are the present search.
+    // The next members are the state of the present search. It ends at the edge to_.
     int to_ = -1;
     int requests_ = 0;                 // successive calls with this to_
     bool is_tree_ = false;             // the search builds the shortest-path tree of to_

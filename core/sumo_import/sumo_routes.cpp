@@ -210,8 +210,8 @@ private:
         return {{routes_.size() - 1, 1.0}};
     }
 
-    // Throws InputError if an origin or destination is a zone, a junction or a point. Edges in 'from' and 'to' take
-    // precedence over them, as in the output of od2trips.
+    // Throws InputError if a zone, a junction or a point is given as origin or destination without an edge. If 'from'
+    // or 'to' names an edge, as in the output of od2trips, the edge counts and the zone is ignored.
     void refuse_places_without_edges(pugi::xml_node node) const {
         for (const std::string end : {"from", "to"}) {
             if (node.attribute(end.c_str())) continue;
@@ -223,7 +223,8 @@ private:
         }
     }
 
-    // Reads the attributes of departure. A vehicle that lacks some of them gets the defaults of the file.
+    // Reads departLane, departPos and departSpeed, or takes the defaults of the file. Warns if the vehicle has
+    // attributes of arrival or stops, which the import ignores.
     void read_departure(pugi::xml_node node, Trip& trip) {
         if (read_sumo_departure(*xml_, node, defaults_, traffic_.warnings, trip)) uses_defaults_ = true;
         if (node.attribute("arrivalPos") || node.attribute("arrivalLane") || node.attribute("arrivalSpeed")) {
@@ -341,7 +342,8 @@ private:
     }
 
     // Completes partial routes and lists the turns of all routes. A piece is the missing part between two given edges.
-    // Pieces to the same edge are searched one after the other, because they share the router's shortest-path tree.
+    // The pieces are sorted by their last edge, because the router is faster if successive calls have the same
+    // destination.
     void complete_routes_and_turns() {
         struct Piece {
             int to;
@@ -394,7 +396,7 @@ private:
     const SumoXml* xml_ = nullptr;  // the file that is being read
     bool additional_ = false;       // the file that is being read is an additional file
     SumoDepartureDefaults defaults_;
-    bool uses_defaults_ = false;  // a vehicle of the file that is being read lacks an attribute of departure
+    bool uses_defaults_ = false;  // a vehicle of the present file lacks departLane or departSpeed
     SumoTypes types_;
     std::vector<TripRoute> routes_;
     std::unordered_map<std::string, Shares> named_routes_;

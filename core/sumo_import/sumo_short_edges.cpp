@@ -127,8 +127,8 @@ private:
         net_.edges[at(first.first)].lanes[at(first.second)].merged_lanes = std::move(lanes);
     }
 
-    // Records that, after the merge, `lane` ends where the lane `index` of the merged edge ends. If `replace` is set,
-    // removes the ends that were recorded before.
+    // Records that, after the merge, `lane` ends where lane number `index` of the edge `merged` ends. If `replace` is
+    // true, removes the ends of `lane` that were recorded before.
     static void add_end_lane(SumoLane& lane, const SumoEdge& merged, int index, bool replace) {
         if (replace) lane.end_lanes.clear();
         const SumoLane& last = merged.lanes[at(index)];

@@ -81,10 +81,10 @@ private:
     std::vector<std::size_t> value_indices(std::size_t point) const;  // [column] index of the axis value
     std::vector<std::string> overrides(std::size_t combination) const;
     std::string describe_combination(std::size_t combination) const;
-    // Returns the index of the value of each column in a combination. The column of populations has the index 0.
+    // Returns, for each column, the index of its value in a combination. For the column of populations the index is 0.
     std::vector<std::size_t> values_of(std::size_t combination) const;
-    // Returns the position in the sweep file to name in an error message: that of the axis value which the message
-    // quotes, or that of the value of the first axis.
+    // Returns file and line for an error message. If the message quotes an axis value, they are the place of this value
+    // in the sweep file. Otherwise they are the place of the value of the first axis.
     std::string place_of_problem(std::size_t combination, const std::string& problem) const;
     void add_columns();
     void check_column_names(std::set<std::string> taken) const;
@@ -100,9 +100,9 @@ private:
     std::vector<std::uint64_t> hashes_;  // [combination] Scenario::hash
 };
 
-// One of `count` parts of a sweep; `index` counts from 1. Each group of `count` successive points gives one point to
-// each shard, in an order that shifts from group to group. In a fixed order, a shard could get the same axis value
-// every time, and thus more work than the other shards.
+// One of `count` parts of a sweep; `index` counts from 1. Of every `count` successive points, each shard gets one. The
+// order of the shards shifts from one such group of points to the next. In a fixed order, a shard could get the same
+// axis value every time, and thus more work than the other shards.
 struct Shard {
     std::size_t index = 1;
     std::size_t count = 1;

@@ -46,8 +46,8 @@ struct SweepTable {
     SweepTotals totals;
     std::vector<std::string> warnings;  // one line for each column name of the previous release
 };
-// Returns the result table of a store. A store of the previous release can have other column names; they are replaced
-// by the current names.
+// Returns the result table of a store. If the store has column names of the previous release, the table has the current
+// names instead.
 SweepTable sweep_results(const RunStore& store);
 
 // Returns the provenance as JSON text. `command` is a command line that reproduces the results of the whole sweep.

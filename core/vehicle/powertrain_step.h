@@ -29,7 +29,7 @@ struct PowertrainState {
     R gear_time_s;        // time since the last gear change
     R lag_s;              // time constant of the brake if a brake force is requested, otherwise of the torque
     R gear;               // 0: first gear
-    R available_mps2;     // highest acceleration that the engine can hold in this gear, after the lag; 0 at first
+    R available_mps2;     // acceleration that the full engine torque gives in this gear; 0 before the first step
 };
 
 // Returns the value of a table for this gear.

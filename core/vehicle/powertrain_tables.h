@@ -9,7 +9,8 @@
 
 namespace stopline {
 
-// `Number` is double for set-up and closed-form results, and float for the kernels (base/simd/narrowed.h).
+// `Number` is double for making the tables and for calculations with single vehicles. It is float for the kernels, the
+// loops over vehicles (base/simd/narrowed.h).
 template <class Number>
 struct PowertrainTablesOf {
     static constexpr int kMaxGears = 8;
@@ -64,8 +65,8 @@ PowertrainTables compile_powertrain(const PowertrainSettings& settings);
 // above the downshift speed. 0 is the first gear.
 int cruising_gear(const PowertrainTables& tables, double speed_mps);
 
-// Returns the highest acceleration at a speed on a level road, m/s2: that of the gear which gives most, with a closed
-// clutch. It is below 0 above the highest speed of the vehicle.
+// Returns the highest acceleration at a speed on a level road, m/s2: that of the gear which gives most, outside of gear
+// changes. It is below 0 above the highest speed of the vehicle.
 double available_acceleration_mps2(const PowertrainTables& tables, double speed_mps);
 
 // Returns the linear interpolation of a sampled curve, constant beyond its ends.

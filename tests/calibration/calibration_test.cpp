@@ -1,4 +1,5 @@
-// Step I of the calibration: pairs of detector times, their agreement, and the fit.
+// Tests of step I of the calibration. It pairs the times at which vehicles pass detectors in two fidelities, measures
+// how well the times agree, and fits the parameters of the mesoscale mode.
 #include "calibration/calibration.h"
 
 #include <gtest/gtest.h>
@@ -41,7 +42,8 @@ TEST(FitLoss, IsZeroForEqualTimesAndNearOneForDistantTimes) {
     EXPECT_GT(fit_loss(pair_up({{1.0}}, {{40.0}}), 1.0), 0.99);
 }
 
-// Returns cases whose reference comes from the mesoscale mode with known parameters instead of full dynamics.
+// Returns cases for the fit. Their reference times come from the mesoscale mode with the parameters `truth`, not from
+// full dynamics, so a fit should find these parameters again.
 std::vector<FitCase> cases_with_known_parameters(const MesoSettings& truth) {
     std::vector<FitCase> cases;
     const Scenario scenario =

@@ -50,8 +50,8 @@ TEST(MesoStart, TravelsThroughAConstantDistanceQueueAtTheSpeedOfV2v) {
     EXPECT_NEAR(relayed_s, full_s, 0.5);
 }
 
-// A vehicle with a time gap does not relay the V2V message that starts a queue. The vehicles behind it react to their
-// leaders.
+// A vehicle whose policy is a time gap does not relay the V2V message that starts a queue. Each vehicle behind it
+// starts only after its leader has moved.
 TEST(MesoStart, RelayEndsAtAVehicleWithATimeGap) {
     constexpr int kQueue = 21;
     const double with_relay_s = last_start_s(queue("CTG-Ref", kQueue, {"fidelity=meso", "meso=passages"}), kQueue);
@@ -60,8 +60,8 @@ TEST(MesoStart, RelayEndsAtAVehicleWithATimeGap) {
     EXPECT_DOUBLE_EQ(with_relay_s, without_relay_s);
 }
 
-// Beyond the first metre a single vehicle needs the same time as in full dynamics. The start itself depends on
-// start_delay, which is fitted.
+// A single vehicle starts from rest. The times after its first metre are the same as in full dynamics. The first metre
+// is left out, because it depends on the fitted parameter start_delay.
 TEST(MesoStart, PlatoonLeaderAcceleratesAsInFullDynamics) {
     const auto times_s = [](Track track) {
         std::vector<double> times;
@@ -89,7 +89,7 @@ TEST(LeaderProfile, DependsOnTheVehicle) {
     MesoSettings petrol;
     measure_leader_profile(single_light("petrol_eu4_72kw", "CDG"), petrol);
     ASSERT_EQ(petrol.leader_profile_mps.size(), 48U);
-    // The first 40 bins reach up to 50 km/h.
+    // The profile has one acceleration for each 1.25 km/h of speed, so the first 40 of them reach up to 50 km/h.
     double time_s = 0.0;
     for (std::size_t k = 0; k < 40; ++k) time_s += 1.25 / 3.6 / petrol.leader_profile_mps2[k];
     EXPECT_GT(time_s, 12.0);

@@ -10,7 +10,8 @@
 namespace stopline {
 namespace {
 
-// Returns a start with 2 m/s2 and one point a second. The band widens by 0.1 m/s on each side per second.
+// Returns a measured start with 2 m/s2 and one point per second. In each second, the band of measured starts becomes
+// wider by 0.1 m/s on each side.
 StartupCurve curve() {
     StartupCurve curve;
     curve.time_s = {0.0, 1.0, 2.0, 3.0};

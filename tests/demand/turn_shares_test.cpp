@@ -27,8 +27,8 @@ TEST(TurnsByLane, FillLanesEvenly) {
     expect_row(lanes[2], {0.64, 0.36, 0.0});
 }
 
-// The iterative fit multiplies all shares of a lane, or of a turn, by one factor. Two lanes with the same movements
-// therefore keep equal shares.
+// turns_by_lane() fits the shares iteratively. In each step it multiplies all shares of a lane, or of a turn, by one
+// factor, so two lanes with the same movements keep equal shares.
 TEST(TurnsByLane, AreEqualForEqualLanes) {
     const auto lanes = turns_by_lane({{true, true, true}, {true, true, true}}, {0.5, 0.3, 0.2});
     expect_row(lanes[0], {0.5, 0.3, 0.2});
@@ -74,8 +74,8 @@ TEST(StreetInlets, PutPocketTrafficOnTheNeighbouringLane) {
     EXPECT_EQ(graph.lanes[static_cast<std::size_t>(route[0])].name, "first_west_in_0");
 }
 
-// Vehicles that enter on a link between two intersections turn with the shares of the whole approach, on every lane. If
-// the lane serves the turn, the route begins on this lane.
+// Vehicles can enter on a link between two intersections. On each lane of the link, their turns have the shares of the
+// whole approach. If their lane serves the turn, the route begins on this lane.
 TEST(StreetInlets, UseTheApproachSharesOnLinks) {
     const LaneGraph graph = make_streets(two_streets());
     const std::vector<DemandPlan::Inlet> inlets = street_inlets(graph);

@@ -6,7 +6,8 @@
 BIN is the folder of the programs. Each run in RUNS is executed once. Its row in golden_hashes.csv holds
 
   state_hash    a hash of the final states of all populations, as the program reports them
-  tables_hash   a hash of the numbers in all result tables. Text is left out, so that a column or a cause can be renamed.
+  tables_hash   a hash of the numbers in all result tables. The hash ignores text, so that a column or a delay cause can
+                be renamed.
 
 A run with threads > 1 shares the row of the same run on one thread: both must give the same hashes. --update rewrites the
 file. Use it only for an intended change of behaviour, and say in the commit message which rows changed and why.
@@ -37,7 +38,7 @@ class Run:
     settings: dict = field(default_factory=dict)
     threads: int = 1
     program: str = "stopline-run"
-    # Columns of summary.csv that count the situation to be tested, such as gridlocks. They must not be 0 in all rows.
+    # Columns of summary.csv that count the situation to be tested, such as gridlocks. Each must be above 0 in some row.
     situation: tuple = ()
 
 

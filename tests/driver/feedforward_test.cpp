@@ -1,5 +1,5 @@
-// Tests of the feedforwards of Fig. 3 and 4 in the paper. The predictive one solves a least-squares problem. The one
-// for time gaps inverts the vehicle's own lag and applies the leader's lag.
+// Tests of the two feedforwards of Fig. 3 and 4 in the paper. The predictive feedforward solves a least-squares
+// problem. The feedforward for time gaps inverts the vehicle's own lag and applies the leader's lag.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -33,8 +33,8 @@ Problem arbitrary_problem(std::uint64_t k) {
     return problem;
 }
 
-// Sets up three equations w u = b for the own request u: at each of three times, the own acceleration shall equal the
-// leader's. Uses the exact exponential function.
+// Sets up three equations w u = b. The unknown u is the acceleration that the follower requests. At each of three later
+// times, the follower's acceleration shall equal the leader's. Uses std::exp, not the approximation of the tested code.
 void equations(const Problem& q, Eigen::Vector3d& w, Eigen::Vector3d& b) {
     for (int k = 0; k < 3; ++k) {
         const double t = q.cacc.prediction_start_s + 0.5 * k * (q.cacc.prediction_end_s - q.cacc.prediction_start_s);

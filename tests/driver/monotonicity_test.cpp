@@ -116,8 +116,8 @@ TEST(Emergency, BrakesEnoughOrNotAtAll) {
     }
 }
 
-// Returns the smallest distance between a follower that brakes with b from speed v and a leader that brakes with b_p
-// from speed v_p. The distance at the start is `room_m`.
+// Returns the smallest distance between a follower and its leader while both brake to a stop. The follower brakes from
+// speed v with deceleration b, the leader from v_p with b_p. The distance at the start is `room_m`.
 double smallest_room_m(double v, double b, double v_p, double b_p, double room_m) {
     constexpr double kStep_s = 1e-3;
     const double until_s = std::fmax(v / b, v_p / b_p);
@@ -174,7 +174,8 @@ TEST(KeepRoom, IsMonotone) {
     }
 }
 
-// The law starts to brake at the gap at which the follower just touches a leader that brakes equally hard.
+// keep_room_acceleration() starts to brake at the gap at which the follower would just touch a leader if both braked
+// equally hard.
 TEST(KeepRoom, StartsWhereEqualBrakingJustSuffices) {
     const CaccSettings c = shipped().cacc;
     const double b = c.deceleration_emergency_mps2;
@@ -215,8 +216,8 @@ TEST(Stop, IsMonotoneInDistanceAndSpeed) {
     }
 }
 
-// The follower is accelerating when its leader begins to brake. If the gap is small and the leader brakes hard, the
-// law must respond at once, without the filter for time gaps.
+// The follower is accelerating when its leader begins to brake. The law normally smooths its request with a filter,
+// which delays braking. If the leader brakes hard and the gap is too short for this delay, the law must brake at once.
 TEST(Follow, PassesHardBrakingUnfilteredAtSmallGaps) {
     const CaccSettings cacc = shipped().cacc;
     const auto acceleration = [&](double gap_growth_m, double slope_s, double request_mps2, double room_m = 0.0) {

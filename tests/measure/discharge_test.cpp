@@ -122,7 +122,7 @@ TEST(Discharge, HasNoSaturationFlowWithoutAFifthVehicle) {
     EXPECT_DOUBLE_EQ(d.vehicles_per_green, 2.0);
 }
 
-// The sixth vehicle has not stopped, so the queue ends before it. The seventh vehicle is not of the queue either.
+// The sixth vehicle has not stopped, so the queue ends before it. The seventh vehicle does not belong to it either.
 TEST(Discharge, CountsOnlyVehiclesOfTheQueue) {
     const Model model = two_lanes();
     std::vector<Crossing> crossings;

@@ -58,7 +58,8 @@ TEST(Intersection, ConnectionsRunFromTheStopLineToTheExitLane) {
             std::hypot(lane.shape.back().x_m - exit.shape.front().x_m, lane.shape.back().y_m - exit.shape.front().y_m),
             0.0, 1e-9)
             << lane.name;
-        // The shape covers the stretch that all movements of the approach lane share, and the connection itself.
+        // The shape of a connection begins at the stop line. It covers the stretch that all movements of the approach
+        // lane share, and then the connection itself.
         EXPECT_NEAR(origin.length_m - origin.stop_line_m, lane.shape_start_m, 1e-9) << lane.name;
         EXPECT_NEAR(lane.shape_start_m + lane.length_m, length_m(lane.shape), 1e-9) << lane.name;
     }

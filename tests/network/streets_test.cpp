@@ -120,7 +120,8 @@ TEST(Streets, PocketsLieInTheMedianAndEndAtTheCommonStopLine) {
     EXPECT_NEAR(pocket_lane.start_offset_m, 160.0 - 60.0, 1e-9);
     EXPECT_NEAR(pocket_lane.shape.front().x_m, 80.0, 1e-9);
     EXPECT_NEAR(pocket_lane.shape.back().x_m, 20.0, 1e-9);
-    EXPECT_NEAR(pocket_lane.shape.back().y_m, 2.0 - 1.75, 1e-9);  // heading west, right is north
+    // Half the median minus half a lane width. The lane leads west, so it lies on the north side of the street.
+    EXPECT_NEAR(pocket_lane.shape.back().y_m, 2.0 - 1.75, 1e-9);
     const auto listed = [&](const std::vector<int>& lanes) {
         return std::find(lanes.begin(), lanes.end(), pocket) != lanes.end();
     };

@@ -88,7 +88,8 @@ std::vector<Row> rows_of(const std::filesystem::path& file) {
 
 TEST_P(NamedPlaces, HoldPositionsInFcd) {
     constexpr double kRounding_m = 0.011;
-    // The joined shapes of an imported lane can be longer or shorter than its length. U-turns are drawn wider.
+    // The import joins several shapes of the file into one, so the length of the shape can differ from the length of
+    // the lane. The import also draws U-turns wider than the file does.
     constexpr double kStretch_m = 1.2;
     std::vector<std::string> seen;
     for (const Row& row : rows_of(run_fcd("fcd.xml"))) {

@@ -142,7 +142,7 @@ TEST(Recording, ReadsBackEveryStep) { expect_round_trip("meso", {0.1, 30.0, 150.
 TEST(Recording, ReadsBackRareFrames) { expect_round_trip("meso", {7.0, 0.0, 238.0}); }
 TEST(Recording, SlowReadsBackAFullDynamicsRun) { expect_round_trip("full", {0.5, 60.0, 120.0}); }
 
-// Returns the slot of a vehicle past the stop line of its lane, or -1.
+// Returns the slot (index in the vehicle arrays) of a vehicle past the stop line of its lane; -1 if there is none.
 int slot_past_line(const Model& model, const State& state) {
     for (std::size_t lane = 0; lane < state.blocks.size(); ++lane) {
         const int first = state.blocks[lane].first;

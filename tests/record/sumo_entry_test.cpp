@@ -102,7 +102,8 @@ TEST(SumoEntry, InDenseTrafficCausesNoViolation) {
     }
 }
 
-// The rears of inserted vehicles reach back into the junction, where other vehicles are slow.
+// Edge s is only 0.2 m long, so the rear of a vehicle inserted there reaches back into the junction. Vehicles from edge
+// b drive through this junction at no more than 0.5 m/s.
 TEST(SumoEntry, OnShortEdgesCausesNoViolation) {
     const SumoFiles files;
     files.write("my.net.xml", testing::replaced(testing::merge_net("0.2"), R"(:J_1_0" index="0" speed="13.89")",
@@ -118,8 +119,9 @@ TEST(SumoEntry, OnShortEdgesCausesNoViolation) {
     EXPECT_GT(result.exited, 25);
 }
 
-// A vehicle that yields waits with its front the margin give_way.margin_m upstream of the conflict area. Edge s is 2 m
-// long. If a conflict area begins at its end, the vehicle must be inserted no further than its waiting position.
+// A yielding vehicle waits with its front give_way.margin_m upstream of the conflict area. The vehicle of this test
+// enters on edge s, which is 2 m long. If a conflict area begins at the end of s, the vehicle must not be inserted
+// beyond its waiting position.
 TEST(SumoEntry, OnShortEdgesLeavesTheMarginForYielding) {
     const auto front_m = [](const std::string& position, const std::string& conflicting_shape) {
         const SumoFiles files;

@@ -55,7 +55,8 @@ def intersections():
 
 
 def name(node):
-    return f"{node[0] + 1}_{node[1] + 1}"  # without minus signs
+    # Nodes outside the grid can have the number -1. Adding 1 avoids a minus sign in the name.
+    return f"{node[0] + 1}_{node[1] + 1}"
 
 
 def step(node, direction):

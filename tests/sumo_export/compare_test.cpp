@@ -75,7 +75,7 @@ TEST(ComparisonFigures, ShowMeanAndBandOverSeeds) {
     comparison.runs[1].sumo.trips = {{40.0, 1.0, 0.0}, {10.0, 1.0, 0.0}};
     comparison.runs[1].ours.trips = {{30.0, 1.0, 0.0}};
     const std::vector<Figure> two_seeds = comparison_figures(comparison, "t");
-    ASSERT_EQ(two_seeds.size(), 2U);  // no stop lines
+    ASSERT_EQ(two_seeds.size(), 2U);  // no figure of stop-line passages, because there are no stop lines
     EXPECT_EQ(two_seeds[0].name, "arrivals");
     const std::string& rows = two_seeds[0].data.at(0).second;
     EXPECT_NE(rows.find("\n9,0.000,0.000,0.000,0.000\n"), std::string::npos) << rows;

@@ -164,7 +164,7 @@ TEST(SumoNetwork, LinksThatAreNeverGreenTogetherDoNotYield) {
     EXPECT_FALSE(conflict(apart, ":J_1_0", ":J_0_0")->yields);
     const LaneGraph together = network_of(signal_net("<phase duration=\"30\" state=\"gGGG\"/>")).graph;
     EXPECT_TRUE(conflict(together, ":J_0_0", ":J_1_0")->yields);
-    // The signal letters G and g override the request matrix.
+    // The signal letters G (priority) and g (yields) override SUMO's request matrix, the `response` attributes.
     const std::string text = replaced(signal_net("<phase duration=\"30\" state=\"GggG\"/>"),
                                       "index=\"0\" response=\"1110\"", "index=\"0\" response=\"0000\"");
     const LaneGraph letters = network_of(text).graph;
@@ -230,7 +230,7 @@ TEST(SumoNetwork, ProgrammesMayComeFromAdditionalFilesOnly) {
     EXPECT_DOUBLE_EQ(network.net.signals[0].offset_s, 3.0);
     EXPECT_EQ(network.lights.size(), usual.lights.size());
     EXPECT_EQ(lane(network.graph, "s_in_0").signal_group, lane(usual.graph, "s_in_0").signal_group);
-    EXPECT_FALSE(conflict(network.graph, ":J_0_0", ":J_1_0")->yields);  // they are never green together
+    EXPECT_FALSE(conflict(network.graph, ":J_0_0", ":J_1_0")->yields);  // the two are never green together
     EXPECT_DOUBLE_EQ(
         network_of(without_programme(), "<additional>" + programme + offset + "</additional>").net.signals[0].offset_s,
         7.0);
@@ -338,7 +338,7 @@ TEST(SumoNetwork, WithoutRequestsTheLaterOfTwoMergingLinksYields) {
     ASSERT_NE(conflict(graph, ":J_3_0", ":J_0_0"), nullptr);
     EXPECT_TRUE(conflict(graph, ":J_3_0", ":J_0_0")->yields);
     EXPECT_FALSE(conflict(graph, ":J_0_0", ":J_3_0")->yields);
-    EXPECT_EQ(conflict(graph, ":J_0_0", ":J_1_0"), nullptr);  // without requests, crossing links have no conflict
+    EXPECT_EQ(conflict(graph, ":J_0_0", ":J_1_0"), nullptr);  // only <request> elements say that two links cross
 }
 
 TEST(SumoNetwork, ReadsGzippedFiles) {

@@ -127,7 +127,8 @@ TEST_F(SumoRouterOnGrid, FindsFastestRoutes) {
     EXPECT_GT(unreachable, 0);
 }
 
-// A new router searches without landmarks, a used one with landmarks. Many calls with the same destination use a tree.
+// After some searches, the router precomputes travel times from and to a few edges (landmarks) to search faster. After
+// many calls with the same destination, it builds a tree of fastest routes to it. The routes must not depend on this.
 TEST_F(SumoRouterOnGrid, GivesTheSameRoutesWhateverWasSearchedBefore) {
     SumoRouter used(network_);
     for (int k = 0; k < 100; ++k) used.fastest_route(k, 200 - k);

@@ -27,8 +27,10 @@ TEST(SeedMeans, HaveStudentIntervalsAndPairedDifferences) {
     const CsvTable results = parse_csv(kTable, "table");
     ASSERT_TRUE(has_seeds(results));
     const CsvTable means = parse_csv(seed_means_csv(results, "population"), "means");
-    ASSERT_EQ(means.rows.size(), 4u);  // one metric per combination; texts and updates are no metrics
-    constexpr double kT = 4.302653;    // Student's quantile for 95 %, two degrees of freedom
+    // One row for each of the four combinations of green_s and population. Throughput is the only metric, because
+    // `stability` is a text and `updates` describes the computation.
+    ASSERT_EQ(means.rows.size(), 4u);
+    constexpr double kT = 4.302653;  // Student's quantile for 95 %, two degrees of freedom
     EXPECT_EQ(means.rows[0][means.column("metric")], "throughput_veh_h");
     EXPECT_NEAR(number(means, 0, "mean"), 104.0, 1e-9);
     EXPECT_NEAR(number(means, 0, "ci95_high"), 104.0 + kT * 4.0 / std::sqrt(3.0), 1e-3);

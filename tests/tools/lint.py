@@ -4,7 +4,7 @@
     lint.py BUILD [FILE...]
 
 Most of the time goes into the headers of libraries. Up to BATCH files with equal compile commands are therefore checked as
-one file that includes them. If such a batch has findings, its files are checked one by one.
+one file that includes them. If such a batch has findings, its halves are checked in the same way.
 
 BUILD is a configured build directory with compile_commands.json. With FILEs, only these are checked. A clean file is
 checked again only after a change of its text, of a project header that it includes, of its compile command, of
@@ -18,6 +18,7 @@ import hashlib
 import json
 import os
 import re
+import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -28,7 +29,7 @@ CLANG_TIDY = str(OWN_CLANG_TIDY) if OWN_CLANG_TIDY.is_file() else "clang-tidy-14
 GCC_HEADERS = Path(subprocess.run(["g++", "-print-file-name=include/omp.h"], capture_output=True, text=True, check=True).stdout).parent
 FOLDERS = ["core", "apps"]
 INCLUDE_ROOTS = [PROJECT / "core", PROJECT / "apps"]
-BATCH = 8
+BATCH = 16
 # Names at the start of a line: functions, types and constants that must not occur twice in a batch.
 LOCAL_NAME = re.compile(
     r"^(?:(?:struct|class|enum(?: class)?|using)\s+(\w+)"
@@ -66,8 +67,8 @@ def without_precompiled_header(entry):
 
 
 def flags_of(entry):
-    """Returns the compile command of an entry without the names of its files."""
-    return re.sub(r" -o \S+ -c \S+$", "", entry["command"])
+    """Returns the arguments of the compiler, without files and optimisation level."""
+    return re.sub(r" -o \S+ -c \S+$| -O[0-3]\b", "", entry["command"]).split(" ", 1)[1]
 
 
 def batches(paths, entries):
@@ -89,29 +90,40 @@ def batches(paths, entries):
     return lists
 
 
-def batch_entry(number, files, entries, cache):
-    """Writes a source file that includes the given ones, and returns its entry for compile_commands.json."""
-    source = cache / f"batch_{number}.cpp"
-    source.write_text("".join(f'#include "{path}"\n' for path in files))
-    command = f"{flags_of(entries[files[0]])} -o {source}.o -c {source}"
-    return {"directory": entries[files[0]]["directory"], "command": command, "file": str(source)}
-
-
-def lint(entry, build):
+def lint(source, flags, directory):
+    """Runs clang-tidy on a source file. Returns true if the file is clean, and the output."""
     command = [
         CLANG_TIDY,
         "--quiet",
         f"--config-file={PROJECT / '.clang-tidy'}",
-        f"-p={build / 'lint'}",
         f"--header-filter=^{re.escape(str(PROJECT))}/({'|'.join(FOLDERS)})/",
         "--extra-arg=-Wno-unknown-warning-option",  # the compile commands are for gcc
         f"--extra-arg=-idirafter{GCC_HEADERS}",  # for omp.h
         "--extra-arg=-Wno-deprecated-declarations",  # for code of the standard library; gcc gives these warnings for our code
         "--checks=-bugprone-suspicious-include",  # a batch includes source files on purpose
-        entry["file"],
+        source,
+        "--",
+        *shlex.split(flags),
     ]
-    result = subprocess.run(command, capture_output=True, text=True, check=False)
+    result = subprocess.run(command, capture_output=True, text=True, check=False, cwd=directory)
     return result.returncode == 0, result.stdout + (result.stderr if result.returncode != 0 else "")
+
+
+def findings(files, entries, cache):
+    """Checks files with equal flags. Returns the files that have findings, with the output of clang-tidy."""
+    entry = entries[files[0]]
+    flags, directory = flags_of(entry), entry["directory"]
+    if len(files) == 1:
+        clean, output = lint(files[0], flags, directory)
+        return {} if clean else {files[0]: output}
+    batch = cache / f"batch_{hashlib.sha256(str(files).encode()).hexdigest()[:16]}.cpp"
+    batch.write_text("".join(f'#include "{path}"\n' for path in files))
+    clean, _ = lint(batch, flags, directory)
+    batch.unlink()
+    if clean:
+        return {}
+    half = len(files) // 2
+    return findings(files[:half], entries, cache) | findings(files[half:], entries, cache)
 
 
 def main():
@@ -138,27 +150,14 @@ def main():
     keys = {path: key(entries[path], tool) for path in sources if path in entries}
     to_do = [path for path in keys if not (cache / keys[path]).exists()]
     lists = batches(to_do, entries)
-    joined = {
-        number: batch_entry(number, files, entries, cache)
-        for number, files in enumerate(lists) if len(files) > 1
-    }
-    (cache / "compile_commands.json").write_text(json.dumps([*all_entries, *joined.values()]))
-
-    def check(number):
-        """Returns the files of a batch that have findings, with the output of clang-tidy."""
-        if number in joined and lint(joined[number], build)[0]:
-            return {}
-        results = {path: lint(entries[path], build) for path in lists[number]}
-        return {path: output for path, (clean, output) in results.items() if not clean}
-
     failed = 0
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        for files, findings in zip(lists, pool.map(check, range(len(lists)))):
-            failed += len(findings)
+        for files, found in zip(lists, pool.map(lambda files: findings(files, entries, cache), lists)):
+            failed += len(found)
             for path in files:
-                if path not in findings:
+                if path not in found:
                     (cache / keys[path]).touch()
-            for output in findings.values():
+            for output in found.values():
                 print(output.strip(), flush=True)
     print(f"{len(sources)} files, {len(sources) - len(to_do) - len(missing)} clean from earlier runs, {failed} with findings")
     return 1 if failed or missing else 0

@@ -66,9 +66,9 @@ populations: [STEEP]
 )");
 }
 
-// A vehicle with priority yields at a position inside the conflict area that it shares with a left-turning vehicle.
-// Both vehicles start at the same time. The left-turning vehicle must expect the vehicle with priority to enter the
-// area.
+// A vehicle has priority over a left-turning vehicle, but yields to a third vehicle. It yields at a position inside the
+// conflict area that it shares with the left-turning vehicle. Both vehicles start at the same time, so the left-turning
+// vehicle must expect the other one to enter the area.
 TEST(CrowdedJunctions, VehicleYieldingInsideAnAreaStillEntersIt) {
     expect_no_violations(R"(
 duration: 397 s

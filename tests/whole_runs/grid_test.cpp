@@ -113,7 +113,7 @@ TEST(Inflow, LightTrafficHasNoConflicts) {
 }
 
 // Regression test: two vehicles were in the same conflict area at 3,908 s. A vehicle has accepted a gap and must then
-// wait for traffic beyond the conflict area. It must keep the gap until it has passed the conflict area.
+// wait for traffic beyond the conflict area. Its acceptance must stay valid until it has passed the conflict area.
 TEST(Saturated, SlowTrafficHasNoConflicts) {
     const Scenario scenario = load_scenario(
         STOPLINE_SOURCE_DIR "/scenarios/grid.yaml",

@@ -42,10 +42,10 @@ std::string routes_of(const std::string& body, const std::string& comment = "") 
     return comment + "<routes>\n" + body + "</routes>\n";
 }
 
-// A vehicle enters each second on three lanes. The defaults of SUMO since 1.27 let all of them enter at once. The old
-// defaults let all of them enter on the right lane, from rest. A vehicle there enters when the last one has gone its
-// length and its standstill gap. 7.95 m take 3.06 s at 1.7 m/s2, so 39 vehicles can enter in 120 s. SUMO with the same
-// driver (stopline-compare): 37.
+// One vehicle a second wants to enter an edge with three lanes. With SUMO's defaults since version 1.27, all of them
+// enter without delay. With the older defaults, all of them start from rest on the right lane. Each enters when its
+// leader has moved by its length and the standstill gap. These 7.95 m take 3.06 s at 1.7 m/s2, so 39 vehicles can enter
+// in 120 s. In SUMO, 37 vehicles with the same driver enter (stopline-compare).
 TEST_P(ImportedEntry, DefaultsOfDepartureDecideTheInflow) {
     const std::string flow = R"(<flow id="f" from="ab" to="bc" begin="0" end="120" vehsPerHour="3600"/>)";
     const NetworkResult present = run(read_data("three_lanes"), routes_of(flow), 120);

@@ -37,7 +37,7 @@ struct LaneCounts {
     std::set<int> present;
     std::set<int> stopped;             // stood on the lane
     std::set<int> yielded;             // had to wait for right of way on the lane
-    std::map<int, double> stopped_at;  // for each vehicle that stands, the time since when
+    std::map<int, double> stopped_at;  // [vehicle] start of its present stop, s
     int passed = 0;                    // left the lane
 };
 
@@ -137,8 +137,9 @@ INSTANTIATE_TEST_SUITE_P(Settings, ImportedRightOfWay,
                                     (std::string(setting.param.population) == "CDG" ? "_CDG" : "_CTG");
                          });
 
-// Two streets merge. For 30 s the first one has G and the second one g, for the next 30 s the reverse. All 43 vehicles
-// of each street pass in turn, but for those that are still on their way (SUMO: 39).
+// Two streets merge at a signal. For 30 s the first street has priority (letter G) and the second street yields (letter
+// g). Then they swap for 30 s, and so on. All 43 vehicles of each street pass, except those that are still on their way
+// at the end of the run. In SUMO, 39 vehicles pass.
 TEST_P(ImportedRightOfWay, PriorityFollowsThePhase) {
     const std::string rate = "period=\"7\"";
     const Observed seen = run({"merge_signal", flow("ac", "cd", rate) + flow("bc", "cd", rate),
@@ -152,8 +153,8 @@ TEST_P(ImportedRightOfWay, PriorityFollowsThePhase) {
     EXPECT_TRUE(seen.violations.none());
 }
 
-// Four streets with 300 veh/h each meet at an all-way stop. Every vehicle stops at its line, and no first vehicle waits
-// for more than a few others.
+// Four streets with 300 veh/h each meet at an all-way stop. Every vehicle stops at its line, and the first vehicle
+// of each lane waits for a few other vehicles at most.
 TEST_P(ImportedRightOfWay, AllWayStopServesVehiclesInTheirOrder) {
     std::string flows;
     for (const std::string trip : {"nieo", "eiso", "siwo", "wino", "niso", "eiwo", "sino", "wieo"})
@@ -167,8 +168,8 @@ TEST_P(ImportedRightOfWay, AllWayStopServesVehiclesInTheirOrder) {
     EXPECT_TRUE(seen.violations.none());
 }
 
-// Two lanes become one. At 1200 veh/h nobody stops. Above capacity the first vehicles of both lanes go in turn, so that
-// none of them stands for long. SUMO: 57 of them arrive in 200 s.
+// Two lanes become one. At 1200 veh/h no vehicle stops. Above capacity the first vehicles of both lanes go in turn, so
+// none of them is stopped for long. In SUMO, 57 vehicles of this dense traffic arrive in 200 s.
 TEST_P(ImportedRightOfWay, ZipperMergesInTurn) {
     const Observed light =
         run({"zipper", flow("ab", "bc", "vehsPerHour=\"1200\"", "departLane=\"random\""), "", 200.0});
@@ -203,8 +204,9 @@ TEST_P(ImportedRightOfWay, RightBeforeLeftDoesNotLock) {
     EXPECT_GE(most_standing, 3u);
 }
 
-// Vehicles from a minor road enter between vehicles that follow each other at equal times. Gaps below the critical gap
-// of 5 s admit nobody. A gap of 8 s admits one vehicle, and a second one if their follow-up time is at most 3 s.
+// The vehicles of the major road have equal headways, and vehicles of the minor road enter between them. Headways below
+// the critical gap of 5 s admit no vehicle. A headway of 8 s admits one vehicle, and a second one if the follow-up time
+// is at most 3 s.
 TEST_P(ImportedRightOfWay, MinorRoadUsesGapsAboveTheCriticalGap) {
     const auto entered_per_gap = [](const std::string& period_s) {
         const Observed seen =
@@ -219,9 +221,10 @@ TEST_P(ImportedRightOfWay, MinorRoadUsesGapsAboveTheCriticalGap) {
     EXPECT_LT(of_eight_s, 3.0);
 }
 
-// Four saturated entries with one lane. Each vehicle meets as many vehicles on the circle as enter beside it. With the
-// critical gap t_c and the follow-up time t_f, an entry carries c = v e^(-v t_c) / (1 - e^(-v t_f)) beside the flow v
-// (Highway Capacity Manual, two-way stops). With v = c, t_c = 5 s and t_f = 3 s, each entry carries 637 veh/h.
+// All four entries of the roundabout have one lane and are saturated. With these turn shares, the flow v on the circle
+// in front of an entry equals the flow c of the entry. With the critical gap t_c and the follow-up time t_f, an entry
+// carries c = v e^(-v t_c) / (1 - e^(-v t_f)) (Highway Capacity Manual, two-way stops). With v = c, t_c = 5 s and t_f =
+// 3 s, each entry carries 637 veh/h.
 TEST_P(ImportedRightOfWay, RoundaboutReachesItsCapacity) {
     std::string flows;
     for (int k = 0; k < 4; ++k) {

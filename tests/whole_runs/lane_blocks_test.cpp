@@ -9,8 +9,8 @@
 namespace stopline {
 namespace {
 
-// Checks that the blocks of the lanes are in order and disjoint, and that exactly the slots of vehicles have a vehicle
-// id.
+// Each lane owns a block of slots, the places for its vehicles in memory. Checks that the blocks are in order and
+// disjoint, and that a slot has a vehicle id exactly if it holds a vehicle.
 void check_blocks(const State& state) {
     int first_free = 1;
     for (const Partition& part : state.partitions) {

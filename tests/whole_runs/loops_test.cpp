@@ -32,7 +32,8 @@ std::string loops_everywhere() {
     return text + "</additional>";
 }
 
-// Vehicles enter on both lanes at random. Left-turning vehicles need the left lane; slow entries make others overtake.
+// Each vehicle enters on a random lane. Left-turning vehicles must change to the left lane. Some vehicles enter slowly,
+// so that others overtake them.
 constexpr const char* kFlows = R"(<routes>
 <flow id="s" begin="0" end="100" period="2.3" from="w_in" to="e_out" departLane="random" departSpeed="random"/>
 <flow id="l" begin="0" end="100" period="3.1" from="w_in" to="n_out" departLane="random" departSpeed="max"/>
@@ -72,7 +73,7 @@ TEST_P(Loops, CountLaneChangersOnce) {
     for (const auto& [position_m, vehicles] : count) {
         EXPECT_EQ(vehicles, records.entered) << position_m << " m";
     }
-    // The situation came up: vehicles changed lanes in the step in which they passed a loop, and in the step before.
+    // The run must contain the situation to be tested: some vehicles change lanes within 1.4 m of a loop.
     int at_loop = 0;
     for (const LaneChange& change : records.lane_changes) {
         const double beyond_m = std::fmod(change.position_m, kSpacing_m);

@@ -92,7 +92,8 @@ TEST(RightOfWay, LeftTurnsUseGapsAboveTheCriticalGap) {
     scenario.measure.cycles = 8;
     const Model model = build_model(scenario, 0);
     Simulation simulation(model);
-    // [connection * 1000 + yielding connection] times at which fronts reach the conflict area
+    // [1000 * connection with priority + yielding connection] times at which vehicles with priority reach the conflict
+    // area
     std::map<int, std::vector<double>> arrivals_s;
     std::map<int, double> last_front_m;  // [vehicle]
     while (simulation.time_s() < measured_window(scenario).to_s) {

@@ -1,5 +1,6 @@
-// Regression tests: runs that ended with vehicles in one conflict area or with avoidable entries on red. Their signals
-// are shorter than the vehicles need, so vehicles that cannot stop pass on yellow or red. A random search found them.
+// Regression tests: in an earlier version two vehicles were in one conflict area in these runs, or vehicles entered on
+// red although they could have stopped. The phases of the signals are shorter than the vehicles need, so vehicles that
+// cannot stop pass on yellow or red. A random search found these runs.
 #include <gtest/gtest.h>
 
 #include <string>

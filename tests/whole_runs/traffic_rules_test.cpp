@@ -116,7 +116,7 @@ TEST(SlowKeepClear, ReducesGridlockAndPassedBlockers) {
     EXPECT_LT(blocked_s[1], 0.5 * blocked_s[0]);
 }
 
-// With signal offsets vehicles in the exit lane drive toward a signal that is already red.
+// Because of the signal offsets, vehicles in the exit lane drive toward a signal that is already red.
 TEST(SlowKeepClear, CountingTheQueueAtARedExitReducesBlocking) {
     std::vector<double> blocked_s;
     for (const char* rule : {"rules.count_queue_at_red_exit=off", "rules.count_queue_at_red_exit=on"}) {
@@ -134,7 +134,7 @@ TEST(SlowKeepClear, CountingTheQueueAtARedExitReducesBlocking) {
     EXPECT_LT(blocked_s[1], 0.2 * blocked_s[0]);
 }
 
-// Drivers who brake late for stop lines obey the rule too.
+// Drivers who brake late for stop lines obey the keep-clear rule too.
 TEST(SlowKeepClear, HoldsDriversWhoBrakeLate) {
     for (const char* fidelity : {"fidelity=meso", "fidelity=full"}) {
         for (const char* stop : {"driver.stop.deceleration=2.5 m/s2", "driver.stop.deceleration=4.7 m/s2"}) {

@@ -1,7 +1,7 @@
 // Memory for large arrays on huge pages of 2 MiB. For every lane, a simulation step accesses a few cache lines in each
-// of about forty arrays. With the usual pages of 4 KiB, each array needs another page for each lane. With several
-// thousand vehicles, these are more pages than the processor's address cache (TLB) can hold. Far fewer huge pages cover
-// the same arrays.
+// of about forty arrays. With the usual pages of 4 KiB, these cache lines lie on about forty pages per lane. With
+// several thousand vehicles, there are more pages than the processor's address cache (TLB) can hold. Far fewer huge
+// pages cover the same arrays.
 #pragma once
 
 #include <sys/mman.h>

@@ -21,9 +21,9 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// Returns advice if the results have a column `name` without a unit, such as "green" instead of "green_s". An axis has
-// such a column if it sets several fields, and two of its values give the first field the same value. The figures do
-// not recognise this column as the axis `green` or `offset`.
+// Returns advice if the results have a column `name` without a unit, such as "green" instead of "green_s". The figures
+// do not recognise such a column. A sweep writes it for an axis that sets several fields, if two values of the axis
+// agree in the first field.
 std::string advice_for(const CsvTable& results, const std::vector<std::string>& axes, const std::string& name) {
     if (!contains(axes, name)) return "";
     return fmt::format(

@@ -16,9 +16,9 @@ namespace stopline {
 bool is_network_sweep(const CsvTable& results);
 
 // Returns the figures of a results table: network_N (lines), surfaces_N (maps) and stability_N. planes.h says how their
-// axes are chosen. N numbers the combinations of the other axes, which the titles name. Values are means over seeds,
-// with minimum and maximum. If only one axis varies, there are no maps. Returns an empty list if the results are not
-// those of several intersections.
+// axes are chosen. Each combination of the other axes has a number N, and the titles show its values. Results are means
+// over seeds, with minimum and maximum. If only one axis varies, there are no maps. Returns an empty list if the
+// results are not those of several intersections.
 std::vector<Figure> network_sweep_figures(const CsvTable& results, const CellTitles& titles,
                                           const std::string& population_column = "population");
 

@@ -1,6 +1,6 @@
 // Results of a sweep over the green time and the turn ratios of an intersection: throughput, travel time and density
-// over the turn ratios (Fig. 9 of the paper, for every green time), and the improvement compared with Table 1. The
-// figures need only the results table.
+// over the turn ratios (Fig. 9 of the paper, for every green time). A table lists the improvements of Table 1 of the
+// paper beside our improvements. The figures need only the results table.
 #pragma once
 
 #include <string>

@@ -65,7 +65,8 @@ private:
         }
     }
 
-    // Adds the name of the intersection to the names of those before it.
+    // Checks the name of intersection n and the sides of its legs. `names` holds the names of the intersections before
+    // n, and the function adds the name of n.
     void check_name_and_sides(int n, std::unordered_set<std::string>& names) {
         const StreetIntersection& node = layout_.node(n);
         if (!names.insert(node.name).second) {
@@ -108,8 +109,9 @@ private:
         }
     }
 
-    // Compares each intersection with those in its own and the adjacent squares. Intersections that are not in adjacent
-    // squares are far enough apart.
+    // Checks the distances between intersections. The plane is divided into squares as wide as the largest distance
+    // that two intersections need. So each intersection is compared only with those in its own and the adjacent
+    // squares.
     void check_distances() {
         double square_m = kMinLink_m;
         for (int n = 0; n < layout_.nodes(); ++n) {

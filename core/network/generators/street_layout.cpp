@@ -58,8 +58,8 @@ void StreetLayout::find_nearest() {
     for (const bool eastward : {true, false}) {
         const auto along_m = [&](int n) { return eastward ? node(n).x_m : node(n).y_m; };
         const auto across_m = [&](int n) { return eastward ? node(n).y_m : node(n).x_m; };
-        // Strips of the plane, as wide as the largest offset of intersections on one road. Each holds positions along
-        // the strip and indices of intersections, sorted.
+        // The plane is divided into strips of the width kSameLine_m. Intersections on one line are in the same strip or
+        // in adjacent strips. For each intersection, its strip holds the position along the strip and the index.
         std::map<double, std::vector<std::pair<double, int>>> strips;
         for (int n = 0; n < nodes(); ++n) strips[std::floor(across_m(n) / kSameLine_m)].emplace_back(along_m(n), n);
         for (auto& [strip, places] : strips) std::sort(places.begin(), places.end());

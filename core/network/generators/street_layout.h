@@ -1,4 +1,5 @@
-// Positions and connections of the lanes of streets, for the checks and for the builder of the lane graph.
+// Positions and connections of the lanes of streets. street_checks.cpp checks the settings with them, and streets.cpp
+// builds the lane graph from them.
 //
 // Sides are numbered 0 west, 1 south, 2 east, 3 north. A vehicle from side s leaves the intersection at side s + 2 if
 // it goes straight on, at s + 1 after a right turn, and at s + 3 after a left turn (modulo 4). Lanes are counted from

@@ -6,9 +6,9 @@ namespace stopline {
 
 namespace {
 
-// The pace is the wall time of the finished work divided by the expected time of this work. The estimate mixes the
-// observed pace with a pace assumed before. Both have the same weight after this much finished work, in expected
-// seconds.
+// The pace is the wall time of finished work divided by the expected time of this work. At first, there is no observed
+// pace, so the estimate assumes one. After this much finished work (in expected seconds), the assumed pace and the
+// observed pace have the same weight.
 constexpr double kPriorWeight_s = 10.0;
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Section III of the paper: inputs (P01..P06) and the single traffic light (L01..L15).
+// Section III of the paper: inputs (rows P01 to P06 of data/paper/targets.csv) and the single traffic light (L01 to
+// L15).
 //
 // A count is the number of vehicles whose front has passed the stop line since the start of green. In a row with the
 // condition green=T, the improvement compares the counts of two populations at time T. The condition green>=T stands

@@ -1,4 +1,5 @@
-// Section IV of the paper: the reference intersection (I01..I13) and its Table 1 (T01..T48).
+// Section IV of the paper: the reference intersection (rows I01 to I13 of data/paper/targets.csv) and Table 1 of the
+// paper (T01 to T48).
 //
 // Every number is the mean over six seeds, or fewer in a quick run. An improvement compares two such means. The
 // population that the paper calls MIX, half of the vehicles with CDG, has the name P50 in scenarios/intersection.yaml.

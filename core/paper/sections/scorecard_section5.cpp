@@ -1,5 +1,5 @@
-// Section V of the paper: the parameters of the mesoscale mode compared with Table 2 (C01..C10), and the two criteria
-// of the calibration (C11, C12). The program stopline-calibrate shows the details.
+// Section V of the paper: the parameters of the mesoscale mode compared with Table 2 (rows C01 to C10 of
+// data/paper/targets.csv), and the two criteria of the calibration (C11, C12). stopline-calibrate shows the details.
 #include <array>
 #include <optional>
 #include <string>

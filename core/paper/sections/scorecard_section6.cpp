@@ -1,6 +1,6 @@
-// Section VI of the paper: arterial (A01..A17), grid (G01..G12) and stability (S01..S04). Most values come from three
-// sweeps in the mesoscale mode with the calibrated parameters. The other values come from separate runs, mostly of the
-// arterial without turns (measure_platoons).
+// Section VI of the paper: arterial (rows A01 to A17 of data/paper/targets.csv), grid (G01 to G12) and stability (S01
+// to S04). Most values come from three sweeps in the mesoscale mode with the calibrated parameters. The other values
+// come from separate runs, mostly of the arterial without turns (measure_platoons).
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,5 +1,5 @@
-// Section VII of the paper: Berlin (B01..B09). The values come from one sweep with six seeds. Only those runs of the
-// sweep are used in which the major road has three lanes per direction.
+// Section VII of the paper: Berlin (rows B01 to B09 of data/paper/targets.csv). The values come from one sweep with six
+// seeds. Only those runs of the sweep are used in which the major road has three lanes per direction.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -123,9 +123,9 @@ std::string filled_text(const std::vector<double>& filled_s) {
                        minutes.front(), minutes.back(), minutes.size(), filled_s.size());
 }
 
-// Returns for each seed the time from which queues fill all approaches in `columns`, s, or NaN if this never happens.
-// All of them must be full, because the entry approach alone does not prove a backlog: its own signal causes a queue,
-// too.
+// Returns for each seed the time from which queues fill all approaches in `columns`, s, or NaN if this never happens. A
+// queue on the last of these approaches, at the entry of the network, is not enough: the signal there causes a queue of
+// its own.
 std::vector<double> connected_s(const Measurements& m, Columns columns, const char* population) {
     std::vector<double> since_s = values(m, columns.front(), population);
     for (const char* const column : columns) {

@@ -92,8 +92,8 @@ void FrameEncoder::encode_lights(std::int64_t tick) {
     }
 }
 
-// Updates the slots of all lanes. Empties the slots that a lane no longer uses. This must happen before vehicles of
-// other lanes are placed in these slots.
+// Updates the slots of all lanes (a slot is the index of a vehicle in the arrays of the simulation). Empties the slots
+// that a lane no longer uses. Call this function before vehicles of other lanes are placed in these slots.
 void FrameEncoder::vacate_slots(const Snapshot& snapshot) {
     for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
         const Snapshot::Slots now = snapshot.lanes[lane];
@@ -127,8 +127,8 @@ void FrameEncoder::encode_placement(const Snapshot::Placement& placement) {
     last_motion_[at(placement.slot)] = kUnknownMotion;
 }
 
-// Writes the next lane of a vehicle beyond the stop line if it has changed since it was last written. Such a vehicle
-// can still change its route, even if it stays in the same slot and therefore has no new placement.
+// A vehicle beyond the stop line can still change its next lane. Writes the next lane if it differs from the one that
+// was written last. Such a vehicle can stay in its slot, and then the snapshot has no new Placement for it.
 void FrameEncoder::encode_next_lane(const Snapshot::BeyondStopLine& vehicle) {
     const int seat = seat_in_slot_[at(vehicle.slot)];
     if (seats_[at(seat)].next == vehicle.next_lane) return;
@@ -136,8 +136,8 @@ void FrameEncoder::encode_next_lane(const Snapshot::BeyondStopLine& vehicle) {
     last_motion_[at(vehicle.slot)] = kUnknownMotion;
 }
 
-// Marks the seats whose position and speed must be written. For a vehicle that stays at rest, nothing is written. This
-// saves much space, because many vehicles are at rest.
+// Finds the vehicles whose position and speed this frame must contain, and sets the bits of their seats (a seat is the
+// number of a vehicle in the recording). A vehicle that stays at rest is left out. This saves much space.
 void FrameEncoder::compare_motion(const Snapshot& snapshot) {
     const std::uint32_t* motion = snapshot.motion.data();
     for (const Snapshot::Slots& slots : lanes_) {

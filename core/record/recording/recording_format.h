@@ -9,8 +9,8 @@
 //     ENDS      = number of frames (u64), number of vehicle states (u64); a file without this section is incomplete
 //
 // All numbers are little-endian. A varint has 7 bits per byte, the lowest bits first; the highest bit is set in all
-// bytes but the last. A seat is a number that a vehicle gets when it enters and keeps until it exits the network. The
-// lists of changes in a frame name vehicles by seat. Speeds and positions are columns in the order of the seats.
+// bytes but the last. A seat is a number that a vehicle gets when it enters and keeps until it exits the network. In
+// a frame, the lists of changes refer to vehicles by seat. Speeds and positions are columns in the order of the seats.
 //
 //     frame     = changed lights: n, then n times group, light (0 red, 1 green, 2 yellow)
 //                 exited vehicles: n, then n times seat; the seat is free from the next frame on

@@ -79,8 +79,9 @@ void SnapshotTaker::take(const State& state, bool with_stopped, Snapshot& snapsh
     if (with_stopped) copy_stopped(state.congestion.watch, snapshot.stopped);
 }
 
-// Copies the slots of all lanes and returns the number of vehicles. Empties the slots that a lane no longer uses. This
-// must happen before vehicles of other lanes are placed in these slots.
+// Copies the slots of all lanes (a slot is the index of a vehicle in the arrays of the simulation) and returns the
+// number of vehicles. Empties the slots that a lane no longer uses. Call this function before the vehicles of other
+// lanes are placed in these slots.
 std::size_t SnapshotTaker::update_lanes(const State& state, Snapshot& snapshot) {
     std::size_t vehicles = 0;
     for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {

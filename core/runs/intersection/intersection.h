@@ -14,10 +14,11 @@ namespace stopline {
 struct IntersectionReport {
     Scenario scenario;
     std::vector<IntersectionResult> populations;             // in the order of scenario.populations
-    std::vector<std::vector<TrajectoryPoint>> trajectories;  // [population] first measured cycle; empty: not sampled
+    std::vector<std::vector<TrajectoryPoint>> trajectories;  // [population] in the first measured cycle; or empty
     std::vector<std::string> lanes;                          // [lane] name of the lane
 
-    // Returns the gain in throughput over the population that measure.baseline names, %; NaN without a baseline.
+    // Returns by how many percent the throughput exceeds that of the baseline, the population that measure.baseline
+    // names. Returns NaN without a baseline.
     double improvement_percent(const IntersectionResult& result) const;
     bool no_violations() const;
     bool no_starvation() const;

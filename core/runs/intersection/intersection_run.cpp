@@ -152,8 +152,8 @@ void measure_zones(const Scenario& scenario, const Model& model, const State& st
     }
 }
 
-// Returns the length of all lanes, m. It is the sum over all entry lanes of the approach length, the straight way
-// through the intersection, and the length of one exit lane.
+// Returns the length of all lanes, m. For each entry lane, the function counts the approach, the straight way through
+// the intersection, and one exit lane.
 double road_m(const Scenario& scenario, const Model& model) {
     const IntersectionSettings& layout = scenario.network.intersection;
     const double lane_m = layout.approach_length_m + 2.0 * layout.radius_m + layout.exit_length_m;

@@ -37,7 +37,8 @@ struct IntersectionResult {
     std::int64_t gaps_accepted = 0;
     double longest_in_junction_s = 0.0;  // longest time of a vehicle from the stop line (front) to the exit lane (rear)
     std::vector<Starvation> starvations;  // movements that starve
-    double snapshot_s = 0.0;  // time of the snapshot: middle of the first measured green of the second stage
+    // Time of the snapshot: the middle of the green time of signal stage 2, in the first measured cycle.
+    double snapshot_s = 0.0;
     std::vector<DrawnVehicle> snapshot;
     std::vector<Light> snapshot_lights;  // [signal group] at the time of the snapshot
     Violations violations;

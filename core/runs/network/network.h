@@ -15,7 +15,8 @@ struct NetworkReport {
     std::vector<NetworkResult> populations;  // in the order of scenario.populations
     std::vector<std::string> lanes;          // [lane] name of the lane
 
-    // Returns the gain in throughput over the population that measure.baseline names, %; NaN without a baseline.
+    // Returns by how many percent the throughput exceeds that of the baseline, the population that measure.baseline
+    // names. Returns NaN without a baseline.
     double improvement_percent(const NetworkResult& result) const;
     // Returns the reduction of travel time against the baseline, %. Returns NaN without a baseline. Also returns NaN if
     // is_travel_time_biased() is true for the result or for the baseline.

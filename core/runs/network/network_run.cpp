@@ -24,8 +24,8 @@ bool is_fed_from_outside(const LaneGraph& graph, int lane) {
     });
 }
 
-// Adds two detectors. One records the starts of all trips, the other one their ends. In an imported network, the
-// measured area is the whole network.
+// Adds two detectors for an imported network, whose measured area is the whole network. A vehicle passes one detector
+// when its trip starts, and the other one when its trip ends.
 void add_trip_detectors(Model& model) {
     model.trips_begin = static_cast<int>(model.detectors.size());
     model.detectors.push_back({-1, 0.0, Detector::Kind::zone, 0, false});
@@ -33,8 +33,8 @@ void add_trip_detectors(Model& model) {
     model.detectors.push_back({-1, 0.0, Detector::Kind::zone, 0, true});
 }
 
-// Adds a detector at the start of each lane inside the measured area on which vehicles can enter the network. Other
-// vehicles reach such a lane from upstream. They are in the area already, so measure/area.h ignores this second entry.
+// Adds a detector at the start of each lane inside the measured area on which vehicles can enter the network. The
+// detector also counts vehicles that come from upstream. measure/area.h ignores them, because they entered before.
 void add_inner_inlet_detectors(Model& model) {
     for (const DemandPlan::Inlet& inlet : model.demand.inlets) {
         if (inlet.vehicles == 0 || is_fed_from_outside(model.graph, inlet.lane)) continue;
@@ -128,8 +128,8 @@ private:
     std::vector<int> present_;  // [second] number of vehicles in the network
 };
 
-// Returns the result over all intervals that begin at `from_s` or later. The number of exits is a sum, all other values
-// are means. Values without data are NaN.
+// Returns the result over all intervals that begin at `from_s` or later: the total number of exits, and the means of
+// all other values. Values without data are NaN.
 AreaResult mean_from(const std::vector<NetworkInterval>& series, double from_s) {
     AreaResult mean;
     double travel_s = 0.0;
@@ -158,8 +158,8 @@ bool is_permanent(const Gridlock& gridlock, double end_s, double cycle_s) {
     return end_s - gridlock.to_s <= cycle_s && gridlock.to_s - gridlock.from_s >= kLasting_cycles * cycle_s;
 }
 
-// Judges the stability of a run by the number of exits in each signal cycle. It does not use the time series of
-// measure.interval, so the interval has no influence on the verdict.
+// Judges the stability of a run by its gridlocks, teleported vehicles, starving movements, and the number of exits in
+// each signal cycle. measure.interval has no influence on the verdict, because exits are counted by signal cycle.
 class StabilityJudge {
 public:
     StabilityJudge(NetworkResult& result, const std::vector<AreaResult>& cycles, double cycle_s)
@@ -216,9 +216,9 @@ private:
         return cycles_[first_full_ + collapse->index].window.from_s;
     }
 
-    // Returns the time from which on the number of teleported vehicles is at least kSemiStableShare of the vehicles
-    // that have left the area, s. Both numbers count from the start of the run. The time is the end of the last cycle
-    // with a smaller share.
+    // Returns the time from which on the number of teleported vehicles makes the run unstable, s. This is the end of
+    // the last cycle after which it was still below kSemiStableShare of the number of vehicles that had left the area.
+    // Both numbers count from the start of the run.
     double teleport_limit_s() const {
         double since_s = 0.0;
         double exited = 0.0;

@@ -78,9 +78,9 @@ StraightPath straight_path_from(const LaneGraph& graph, int first) {
     return path;
 }
 
-// Returns the longest straight path from the side measure.time_space_side; an empty path if no street begins there. A
-// path to an exit counts as longer than any other path. Of equally long paths, the last path is taken. This path is on
-// the rightmost lane, because lanes are numbered from the left.
+// Returns the longest straight path from the side measure.time_space_side (in a grid, along the middle row or column).
+// Returns an empty path if no street begins there. A path to an exit counts as longer than any other path. Of equally
+// long paths, the rightmost one is taken: it comes last, because lanes are numbered from the left.
 StraightPath find_path(const Scenario& scenario, const LaneGraph& graph) {
     const std::string& from = scenario.measure.time_space_side;
     const bool streets = scenario.network.is_streets();

@@ -21,8 +21,8 @@ struct SpeedRange {
     bool contains(double speed_mps) const { return speed_mps >= low_mps && speed_mps <= high_mps; }
 };
 
-// Returns the last sample at which a vehicle has kept its speed in the range, and its net gap, for kSteadyTime_s; null
-// if there is none. `points` are its samples.
+// Returns the last steady sample of a vehicle, or null if there is none. A sample is steady if the speed was in the
+// range for kSteadyTime_s, and the net gap at both ends of this time differs by at most kSteadyGapChange_m.
 const TrajectoryPoint* last_steady_point(std::span<const TrajectoryPoint> points, double interval_s,
                                          const SpeedRange& range) {
     const auto window = static_cast<std::size_t>(std::lround(kSteadyTime_s / interval_s));
@@ -37,7 +37,7 @@ const TrajectoryPoint* last_steady_point(std::span<const TrajectoryPoint> points
     return last;
 }
 
-// Returns the vehicles with such a sample, and their values at it.
+// Returns the vehicles that have a steady sample, with their values at the last steady sample.
 std::vector<SteadyVehicle> vehicles_in_range(const std::vector<TrajectoryPoint>& trajectory, double interval_s,
                                              const SpeedRange& range, double length_m) {
     std::vector<TrajectoryPoint> points = trajectory;

@@ -34,14 +34,14 @@ struct SteadyVehicle {
 // or less. `cruise_mps` is the speed of a vehicle without leader. The samples must be `interval_s` apart.
 std::vector<SteadyVehicle> steady_vehicles(const std::vector<TrajectoryPoint>& trajectory, double interval_s,
                                            double cruise_mps, double length_m);
-// Returns the vehicles that kept their net gap for five seconds at the speed `cruise_mps` or a higher one. Vehicles
-// that close up one after the other are faster than `cruise_mps`. They keep their gaps until the vehicles ahead have
-// closed up.
+// Returns the vehicles that kept their net gap for five seconds at a speed of at least `cruise_mps` - kAtLimit_mps. The
+// speed can be higher than `cruise_mps`: a vehicle that closes up drives faster, and the vehicles behind it keep their
+// larger gaps until it has closed up.
 std::vector<SteadyVehicle> cruising_vehicles(const std::vector<TrajectoryPoint>& trajectory, double interval_s,
                                              double cruise_mps, double length_m);
 
-// Returns true if a vehicle has reached the gap of its policy. A gap that exceeds it by more than a quarter and half a
-// metre is far beyond all errors of the controllers, and the vehicle has not closed up.
+// Returns true if a vehicle has reached the gap of its policy. The limit of 1.25 times this gap plus 0.5 m is far above
+// all errors of the controllers, so a vehicle with a larger gap has not closed up yet.
 inline bool has_closed_up(double net_gap_m, double policy_gap_m) { return net_gap_m <= 1.25 * policy_gap_m + 0.5; }
 
 }  // namespace stopline

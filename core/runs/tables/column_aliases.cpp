@@ -147,8 +147,8 @@ std::string filled(std::string_view pattern, std::string_view text) {
     return name;
 }
 
-// Translates a column name. `from` and `to` are members of ColumnAlias: old_name and name to translate into the current
-// name, or name and old_name to translate into the old name.
+// Translates a column name. Returns the current name if `from` is old_name and `to` is name. Returns the old name if
+// `from` is name and `to` is old_name.
 std::string renamed_column(std::string_view table, const std::string& name, std::string_view ColumnAlias::*from,
                            std::string_view ColumnAlias::*to) {
     for (const ColumnAlias& alias : kColumns) {
@@ -175,7 +175,8 @@ std::size_t first_result_column(std::string_view table, const std::vector<std::s
 }
 
 std::string old_value(std::string_view table, const std::string& column, const std::string& value) {
-    // In these tables, the column 'metric' holds names of columns of the sweep's table.
+    // In these two tables, a cell of the column 'metric' contains the name of a column of the sweep table. This name is
+    // translated like the name of that column.
     if ((table == kMeansTable || table == kBandsTable) && column == "metric") {
         return renamed_column(kSweepTable, value, &ColumnAlias::name, &ColumnAlias::old_name);
     }

@@ -147,7 +147,8 @@ struct Table {
     std::function<void(const void* settings, Checker&)> check;  // checks that compare several fields; may be empty
     SourceNode (*expand)(const SourceNode& scalar) = nullptr;   // makes a map from a list entry that is a single word
 
-    // Return the field with this current name or this old name; null if there is no such field.
+    // find() returns the field with this current name. find_old_name() returns the field that had this name in the
+    // previous release. The result is null if there is no such field.
     const Field* find(std::string_view name) const;
     const Field* find_old_name(std::string_view name) const;
     std::vector<std::string> names() const;

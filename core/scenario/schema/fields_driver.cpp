@@ -203,7 +203,8 @@ SourceNode population_of_one_policy(const SourceNode& policy) {
     return population;
 }
 
-// Checks that no kind of braking is harder than the one that must be able to correct it.
+// Checks that normal car following can brake as hard as the threshold at which emergency braking begins. Checks that
+// stopping and slowing down never need more than the maximum deceleration of emergency braking.
 void check_driver(const DriverSettings& driver, Checker& check) {
     const CaccSettings& cacc = driver.cacc;
     const auto compare = [&](const std::string& field, double value, const std::string& other, double most) {

@@ -28,8 +28,8 @@ void check_street_steps(const Scenario& scenario, const StepCheck& require_whole
 
 bool is_whole(double number) { return std::abs(number - std::round(number)) <= 1e-6; }
 
-// Checks that a second is a whole number of steps, because vehicles in networks of several intersections are counted
-// once per second.
+// Checks that a second is a whole number of steps, and measure.interval a whole number of seconds. In networks of
+// several intersections, vehicles are counted once per second.
 void check_seconds(const Scenario& scenario, Checker& check) {
     if (!is_whole(1.0 / scenario.tick_s())) {
         check.error(scenario.is_meso() ? "meso.step" : "step",

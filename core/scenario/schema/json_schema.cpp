@@ -27,7 +27,7 @@ void set_size(Json& schema, const Count& size, const char* minimum, const char* 
     if (size.max != std::numeric_limits<std::uint64_t>::max()) schema[maximum] = size.max;
 }
 
-// A YAML editor takes an unquoted name that consists of digits for a number, so the schema allows numbers as names.
+// A YAML editor treats an unquoted name of digits as a number, so the schema allows numbers as names.
 Json text_schema(TextField::Rule rule) {
     if (rule == TextField::Rule::title) return Json{{"type", "string"}, {"maxLength", 200}};
     return Json{{"type", {"string", "number"}}, {"pattern", "^[-A-Za-z0-9_.+]{1,64}$"}};

@@ -35,7 +35,8 @@ std::vector<std::string> split(const std::string& text, char at) {
     return parts;
 }
 
-// Replaces old names of choice values in axis.values[value]. Warns of each old name.
+// Replaces old names in axis.values[value] if the value belongs to a choice field (a field with a list of allowed
+// words). Warns of each old name.
 void use_current_choices(SweepAxis& axis, std::size_t value, Report& report) {
     const std::vector<std::string> overrides = axis_overrides(axis, value);
     std::vector<std::string> parts;

@@ -79,8 +79,9 @@ private:
     }
 
     // Sets the cause to which the delay of a vehicle is attributed. This is the cause that stops the vehicle itself
-    // (DelayWatch::direct_cause). If there is none, or if the blocker is in a gridlock, it is the cause of the blocker.
-    // The cause of a stopped blocker must have been set before.
+    // (DelayWatch::direct_cause), unless there is none or the cause of the blocker is a gridlock. In these two cases
+    // the vehicle gets the cause of its blocker, or queue_discharge if the blocker has no cause. The cause of a stopped
+    // blocker must have been set before.
     void set_cause(int slot) {
         if (w_.cause[at(slot)] == DelayCause::gridlock) return;
         const int blocker = w_.waits_for[at(slot)];
@@ -138,7 +139,7 @@ private:
 
     // For each stopped vehicle, adds the interval between two observations to the total delay. The interval is also
     // added to the episode of the vehicle's queue if the cause is a blockage (is_blocking()) or if the vehicle has been
-    // stopped for long.
+    // stopped for RulesPlan::long_wait_ticks.
     void add_delays() {
         const double interval_s = model_.time_s(model_.rules.watch_ticks);
         std::array<int, kDelayCauses> vehicles{};
@@ -161,8 +162,9 @@ private:
         }
     }
 
-    // Returns true if the vehicle in `slot` is the first of its queue, nothing blocks its way, and it has been stopped
-    // for rules.starvation_ticks and for two signal cycles.
+    // Returns true if the vehicle in `slot` is the first of its queue and has been stopped for
+    // RulesPlan::starvation_ticks and for two signal cycles, although no vehicle ahead blocks its way. A vehicle that
+    // waits for a lane change can starve, too.
     bool starves(int slot, DelayCause cause) const {
         const std::int64_t stopped_ticks = now_ - v_.stopped_since[at(slot)];
         if (model_.rules.starvation_ticks == 0 || stopped_ticks < model_.rules.starvation_ticks) return false;
@@ -171,8 +173,8 @@ private:
     }
 
     // Returns true if the vehicle has stood for two cycles of its signal, or has no signal. A red before the programme
-    // begins does not count. The present cause does not matter: a vehicle that starts or yields at green has waited for
-    // a red before.
+    // begins does not count. The test does not depend on the present cause, because a vehicle that starts or yields at
+    // green may have waited at red before.
     bool has_stood_two_cycles(int slot) const {
         const int group = state_.plan.signal_group_for(w_.lane[at(slot)], v_.next_lane[at(slot)]);
         if (group < 0) return true;
@@ -181,7 +183,8 @@ private:
                std::max<std::int64_t>(v_.stopped_since[at(slot)], programme.first_tick()) + 2 * programme.cycle_ticks();
     }
 
-    // Records that the movement of the vehicle starves. A vehicle that was found before keeps its entry.
+    // Records that the movement of the vehicle starves. If an entry for the same stop of the vehicle exists, updates
+    // it.
     void record_starvation(int slot, DelayCause cause) {
         const double from_s = model_.time_s(v_.stopped_since[at(slot)]);
         const int vehicle = v_.id[at(slot)];

@@ -89,7 +89,7 @@ bool reinsert_teleported(const Model& model, State& state, int k) {
     const double length_m = v.length_m[at(waiting)];
     double front_m = length_m;
     double speed_mps = lane.limit_mps;
-    // Only vehicles in imported networks are on trips. There, the target lane can be shorter than the vehicle.
+    // A vehicle with a trip is in an imported network, where the target lane can be shorter than the vehicle.
     if (v.record[at(waiting)].trip >= 0) {
         if (length_m >= lane.stop_line_m && !trip_ends_on_next_edge(state, v.record[at(waiting)])) return false;
         front_m = std::min(length_m, lane.stop_line_m);
@@ -127,8 +127,9 @@ bool reinsert_teleported(const Model& model, State& state, int k) {
     return true;
 }
 
-// Moves the target lane of a removed vehicle one intersection further downstream. Does this only if the vehicle has
-// already waited for room on its present target lane for at least the travel time along this lane.
+// Moves the target lane of a removed vehicle one intersection further downstream. Does nothing if no intersection
+// follows or if the trip of the vehicle ends on the present target lane. Also does nothing until the vehicle has waited
+// for room on this lane as long as it would take to drive along it.
 void advance_target(const Model& model, State& state, int waiting, TeleportTarget& target) {
     const Lane& lane = model.graph.lanes[at(target.lane)];
     const double waiting_s = model.time_s(state.tick - target.waiting_since);

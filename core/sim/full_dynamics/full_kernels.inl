@@ -230,10 +230,10 @@ STOPLINE_INLINE void drive_at(const PowertrainTablesOf<float>& t, const FullGrou
     write(g.gear_time, next.gear_time_s, now.gear_time_s);
     write(g.lag, next.lag_s, now.lag_s);
     write(g.gear, next.gear, now.gear);
-    // The V2V message describes the end of this step, when the request takes effect. The message contains no more
-    // acceleration than the engine can give: a follower adds the announced acceleration to its own request, so it would
-    // run into a leader that cannot keep its announcement. `acceleration` is the mean over the last step. It is
-    // extrapolated to the end of this step by the first-order lag.
+    // The V2V message describes the end of this step, when the request takes effect. The follower adds the announced
+    // request to its own. The message therefore announces no more acceleration than the engine can give; otherwise the
+    // follower could run into this vehicle. `now.acceleration_mps2` is the mean over the previous step. The
+    // first-order lag extrapolates it to the end of this step.
     const R announced = min_of(get(g.request), next.available_mps2);
     const R reached = min_of(1.5 * dt * get(g.sent_rate), 1.0);
     const R acceleration = now.acceleration_mps2 + (announced - now.acceleration_mps2) * reached;

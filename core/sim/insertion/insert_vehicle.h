@@ -13,7 +13,7 @@ struct NewVehicle {
     double length_m = 0.0;
     int policy = 0;
     int route = -1;
-    bool behind_last = true;  // true: the vehicle is the last on its lane; false: its place depends on position_m
+    bool behind_last = true;  // true: it becomes the last vehicle on the lane; false: position_m determines its place
 };
 
 // Inserts a vehicle and returns its slot. The caller must then set the position of the vehicle on its route, and call

@@ -18,8 +18,8 @@ namespace stopline {
 namespace {
 
 constexpr double kBeforeStart_s = -1e9;
-// Entry headway at inlets where vehicles arrive at a constant headway. Vehicles of a backlog can enter at a shorter
-// headway than the one at which they arrived.
+// Headway that determines the entry gap at inlets where vehicles arrive at a constant headway. It replaces the headway
+// of the arrivals, so that vehicles of a backlog can enter faster than they arrived.
 constexpr double kBacklogHeadway_s = 2.0;
 
 // Draws spacing policy and route of the next vehicle of an inlet, unless they have been drawn already.

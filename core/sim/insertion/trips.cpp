@@ -78,8 +78,8 @@ double random_position(const Model& model, const State& state, int number) {
     return random_uniform(model.seed, static_cast<std::uint64_t>(number), draw, Purpose::insertion);
 }
 
-// Returns the front position furthest downstream at which a vehicle may enter. This position is at the stop line or
-// further upstream, and far enough upstream of the first conflict area for the vehicle to yield.
+// Returns the front position furthest downstream at which a vehicle may enter. This position is not beyond the stop
+// line and not beyond the waiting position before the first conflict area.
 double max_departure_m(const Model& model, const State& state, int lane, int number) {
     const Lane& road = model.graph.lanes[at(lane)];
     const int route = state.plan.adjacent(lane).turn_option(model.demand.turn_of_trip(number, 0)).route;
@@ -88,8 +88,8 @@ double max_departure_m(const Model& model, const State& state, int lane, int num
     return std::max(std::min(road.stop_line_m, road.length_m + first_conflict_m - model.give_way.margin_m), 0.0);
 }
 
-// Returns the front position of a new vehicle. On a link lane (a lane between two intersections), the rear is also
-// placed on the lane if the lane is long enough.
+// Returns the front position at which a new vehicle enters. On a link lane (a lane between two intersections) that is
+// long enough, the whole vehicle is on the lane, so that its rear is not inside the intersection upstream.
 double departure_front_m(const Model& model, const State& state, int lane, int number) {
     using enum Trip::DepartPosition;
     const Trip& trip = model.demand.trips[at(number)];
@@ -195,9 +195,10 @@ double wanted_speed_mps(const Model& model, const State& state, int number, int 
 }
 
 // Returns the highest speed from the leader's speed to `wanted_mps` with which a new vehicle can enter behind its
-// leader. A result below 0 means that the gap is too small. The vehicle never enters slower than its leader drives: it
-// stands for a vehicle that followed the leader upstream of the network. Entering as soon as a crawling vehicle fits
-// would keep the flow low forever after a blockage. A trip with a given speed enters only with this speed.
+// leader. A result below 0 means that the gap is too small. A slower entry is not tried, because the new vehicle
+// represents a vehicle that has followed its leader from upstream of the network. Vehicles that entered at a crawl into
+// smaller gaps would keep the flow low for the rest of the run after a blockage. A trip with a given speed enters only
+// with this speed.
 double departure_speed_mps(const Model& model, const Trip& trip, int policy, double wanted_mps,
                            const EntryLeader& leader) {
     if (!leader.exists()) return wanted_mps;

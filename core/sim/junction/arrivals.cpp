@@ -12,7 +12,7 @@ namespace stopline {
 
 namespace {
 
-constexpr double kCloseBehind_m = 6.0;      // a slow vehicle with a shorter net gap is blocked by its leader
+constexpr double kCloseBehind_m = 6.0;      // a slow vehicle with a shorter net gap to a slow leader is blocked
 constexpr double kQueueLookAhead_m = 20.0;  // range of the search for a leader beyond the end of the lane
 
 }  // namespace
@@ -82,9 +82,9 @@ bool is_behind_yielding_vehicle(const State& state, int lane, const JunctionOccu
 
 namespace {
 
-// Returns the slot of a vehicle that stops at the stop line of `lane` and blocks the traffic from there to
-// `connection`; -1: none. While the signal of `connection` is green, a stopping vehicle blocks this traffic only if the
-// signal of its own movement is not green.
+// Returns the slot of a vehicle that stops at the stop line of `lane`, so that the vehicles behind it cannot reach
+// `connection`; -1: none. If the signal of `connection` is green, a stopping vehicle counts only if it takes another
+// connection and the signal of that movement is not green.
 int vehicle_stopping_at_signal(const State& state, int lane, int connection) {
     const int stopping = state.stop_lines.stop_slot[at(lane)];
     if (state.stop_lines.lights[at(state.plan.signal_group_for(lane, connection))] != Light::green) return stopping;
@@ -119,9 +119,10 @@ void look_upstream(const Model& model, const State& state, const Upstream& here,
     const auto consider = [&](int slot, double distance_m, double limit_mps) {
         if (v.speed_mps[at(slot)] < kCrawlingSpeed_mps || distance_m > horizon_s * limit_mps) return;
         const VehicleRecord& record = v.record[at(slot)];
-        // The following turn is the turn at the second intersection ahead. The turns of a vehicle without a trip are
-        // drawn, and its following turn may not be drawn yet. The search then assumes that it takes `here.connection`.
-        // A vehicle with a trip but without a following turn ends its trip on `here.lane`, so the search ignores it.
+        // In the first call (depth 0), the following turn of a vehicle is its turn at the end of `here.lane`. If a
+        // vehicle with a trip has no following turn, its trip ends on `here.lane`, so the search ignores it. If a
+        // vehicle without a trip has no following turn, the turn may not be drawn yet. The search then assumes that it
+        // takes `here.connection`.
         const bool unknown = record.trip < 0 && record.following_turn == Turn::none;
         if (here.depth == 0 && !unknown && record.following_turn != turn) return;
         const double acceleration_mps2 = model.give_way.approach_acceleration_mps2;

@@ -18,8 +18,8 @@ bool is_yielding(const State& state, int slot);
 // area on its connection. A vehicle with a waiting position further downstream still drives into the area.
 bool is_yielding_before(const State& state, int slot, double area_m);
 
-// Returns true if the vehicle yields, and not only because a vehicle that must yield to it is in its way. Vehicles that
-// must yield to such a vehicle may go first.
+// Returns true if the vehicle yields, unless it waits for a vehicle without priority that is in its way
+// (YieldReason::intruder). If the result is true, vehicles that must yield to this vehicle may go first.
 bool lets_others_go(const State& state, int slot);
 
 // Returns true if the vehicle and its leader are close together and both slower than kCrawlingSpeed_mps. Neither the
@@ -46,9 +46,9 @@ struct Arrival {
 };
 // Returns the next arrival of a vehicle at the conflict area on connection `conflict.other`. The search covers the
 // connection, its approach lane, and the lanes further upstream from which a vehicle can arrive within `horizon_s`.
-// Ignores vehicles that yield, stop for the signal or are in a queue, and all vehicles behind them. In imported
-// networks this includes vehicles that the keep-clear rule holds at rest. With `ignores_stopped`, it also ignores all
-// vehicles slower than kCrawlingSpeed_mps and those behind them.
+// Ignores vehicles that let others go (lets_others_go()), stop for the signal or are in a queue. In imported networks
+// it also ignores vehicles that the keep-clear rule holds at rest, and with `ignores_stopped` all vehicles slower than
+// kCrawlingSpeed_mps. Vehicles behind an ignored vehicle, on the same connection or approach lane, are ignored, too.
 Arrival next_arrival(const Model& model, const State& state, const Conflict& conflict, double horizon_s,
                      bool ignores_stopped = false);
 

@@ -19,7 +19,9 @@ struct Wait {
     double place_m = kNoWait_m;  // waiting position along the connection; kNoWait_m: no wait
     int blocker = -1;            // slot of the vehicle for which the candidate waits; -1: none
     YieldReason reason = YieldReason::priority;
-    bool keeps_gap = false;  // the candidate has accepted a gap that begins when the blocker has left the area
+    // true: the candidate has accepted the gap behind the blocker, and keeps this gap while it waits until the blocker
+    // has left the conflict area
+    bool keeps_gap = false;
 
     bool exists() const { return place_m < kNoWait_m; }
 };

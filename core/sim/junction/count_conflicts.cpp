@@ -43,7 +43,7 @@ bool are_in_line(const State& state, int lane, const JunctionOccupant& own, int 
 }
 
 // Returns the number of vehicle pairs in conflict area `c` of connection `lane`, and records each pair as a violation.
-// Pairs that the pass-blocker rule allows are left out.
+// Leaves out pairs that the pass-blocker rule allows, and merging vehicles of which one is wholly ahead of the other.
 std::int64_t count_pairs(const Model& model, const State& state, Partition& part, int lane, const Conflict& c) {
     std::int64_t pairs = 0;
     for (const JunctionOccupant& own : state.junctions.occupants[at(lane)]) {

@@ -42,7 +42,8 @@ public:
             if (!cycle[k].needs_only_right_of_way) continue;
             if (first == nullptr || rank(cycle[k].slot) < rank(first->slot)) first = &cycle[k];
         }
-        // Each vehicle of the cycle leads to the same result, so only the first one records it.
+        // resolve() is called for several vehicles of the cycle, and each call finds the same `first`. Only the call
+        // for this vehicle records the resolution.
         if (first == nullptr || first->slot != slot) return;
         if (DeadlockResolution* const known = find_resolution(state_, part_, slot, first->blocker)) {
             known->last_needed_tick = state_.tick;
@@ -59,8 +60,9 @@ private:
         return state_.plan.route(record.route)[at(record.route_index)];
     }
 
-    // Returns for which vehicle a vehicle waits. The result has no blocker if the vehicle moves, waits for nothing that
-    // is known here, or is at another intersection, where the decisions may not be complete yet.
+    // Returns the vehicle in `slot` and its blocker: the blocker of its yield stop, else a stopped leader close ahead.
+    // The result has no blocker if neither exists, if the vehicle moves, or if it is at another intersection, where the
+    // decisions of this step may not be complete yet.
     WaitingVehicle waiting(int slot) const {
         const int lane = lane_of(slot);
         if (v_.speed_mps[at(slot)] >= kCrawlingSpeed_mps || state_.plan.intersection_of(lane) != intersection_)
@@ -77,8 +79,8 @@ private:
         return {slot, is_first ? leader_ahead(state_, lane, slot, kQueueLookAhead_m).slot : slot - 1, false};
     }
 
-    // Returns true unless the blocker is on a conflicting connection, or on the way to it, and its front has not
-    // reached the conflict area.
+    // Returns false if the connections of the vehicle and the blocker conflict and the front of the blocker has not
+    // reached the conflict area yet. Returns true in all other cases.
     bool is_in_path(int lane, int slot, int blocker) const {
         const int connection = state_.plan.lane(lane).origin >= 0 ? lane : v_.next_lane[at(slot)];
         if (connection < 0) return true;

@@ -1,5 +1,5 @@
-// Deadlocks inside an intersection: stopped vehicles that wait for each other in a cycle. One of them goes first.
-// Imported networks only.
+// Deadlocks inside an intersection: stopped vehicles that wait for each other in a cycle. A deadlock resolution lets
+// one of them go first.
 #pragma once
 
 #include "sim/state/model.h"
@@ -12,12 +12,13 @@ namespace stopline {
 // nullptr: none.
 DeadlockResolution* find_resolution(const State& state, Partition& part, int first_slot, int second_slot);
 
-// Returns a deadlock resolution that lets the vehicle in `slot` proceed before any other vehicle; nullptr: none.
+// Returns a deadlock resolution that lets the vehicle in `slot` proceed, whichever vehicle yields; nullptr: none.
 DeadlockResolution* find_resolution_for(const State& state, Partition& part, int slot);
 
-// Finds the cycles of stopped vehicles of a partition that wait for each other. In each cycle one vehicle gets a
-// deadlock resolution: among those that wait only for right of way, not for a vehicle in their path, the one that has
-// waited longest, then the one with the lowest id. Call it when all yield stops of the step are known.
+// Finds cycles of stopped vehicles in a partition, in which each vehicle waits for the next one. In each cycle, adds a
+// deadlock resolution for one vehicle that waits only for right of way, that is, whose blocker is not in its path. Of
+// several such vehicles, the one that has waited longest proceeds; if several have waited equally long, the one with
+// the lowest id. Call it when all yield stops of the step are known. Does nothing unless the network is imported.
 void resolve_deadlocks(const Model& model, const State& state, Partition& part);
 
 }  // namespace stopline

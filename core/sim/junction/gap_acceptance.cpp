@@ -26,9 +26,9 @@ double travel_time_s(const Model& model, double distance_m, double speed_mps, do
     return (speed_mps - std::sqrt(square(speed_mps) - 2.0 * b * std::max(distance_m, 0.0))) / b;
 }
 
-// Returns the time since a vehicle of connection `conflict.other` that is still in the conflict area has reached this
-// area, s; 0 if there is no such vehicle. If there are several, the last one counts. The vehicle is assumed to drive at
-// the speed limit, so the result is not too long.
+// Returns the time in s since the latest arrival of a vehicle of connection `conflict.other` in the conflict area.
+// Returns 0 if no such vehicle is in the area any more. The time is computed as if the vehicle had driven at the speed
+// limit, so it is rather too short than too long.
 double time_since_last_arrival_s(const State& state, const Conflict& conflict) {
     double since_s = 0.0;
     for (const JunctionOccupant& occupant : state.junctions.occupants[at(conflict.other)]) {
@@ -38,9 +38,9 @@ double time_since_last_arrival_s(const State& state, const Conflict& conflict) {
     return since_s;
 }
 
-// Returns the time in s that a vehicle of length `length_m` needs from `front_m` at `speed_mps` in order not to hinder
-// the next vehicle with priority: until it has left the conflict area, or, if it merges, until it is in the area and
-// can speed up ahead of that vehicle.
+// Returns the time in s after which a vehicle of length `length_m`, now at `front_m` with `speed_mps`, no longer
+// hinders the next vehicle with priority. A crossing vehicle must have left the conflict area by then. A merging
+// vehicle must have reached the area and needs a reserve of time to speed up ahead of that vehicle.
 double passing_time_s(const Model& model, const State& state, int lane, const Conflict& conflict, double front_m,
                       double speed_mps, double length_m) {
     constexpr double kMergingReserve_s = 1.0;
@@ -52,12 +52,12 @@ double passing_time_s(const Model& model, const State& state, int lane, const Co
     return merges ? time_s + kMergingReserve_s : time_s;
 }
 
-// Returns the earliest time in s at which the next vehicle with priority may reach a conflict area so that candidate
-// `v` accepts the gap. In imported networks the gap begins when the last vehicle with priority has reached the area, as
-// in the Highway Capacity Manual. The critical gap applies to a vehicle that starts at its waiting position `wait_m`. A
-// vehicle that is elsewhere or moves needs as much more or less as it passes later or earlier than that vehicle.
-// `has_begun`: the candidate uses a gap that it has accepted before. It gives up the gap only if it would hinder the
-// next vehicle.
+// Returns the earliest arrival time of the next vehicle with priority, in s from now, at which candidate `v` still
+// accepts the gap. In imported networks the gap begins when the last vehicle with priority has reached the area, as in
+// the Highway Capacity Manual. A vehicle that starts from rest at the waiting position `wait_m` needs the critical gap.
+// If the candidate passes the area later or earlier than such a vehicle would, the difference is added or subtracted.
+// In other networks the critical gap begins when the candidate reaches `wait_m`. `has_begun`: the candidate is moving
+// and uses a gap that it has accepted before. It gives up this gap only if it would hinder the next vehicle.
 double needed_time_s(const Model& model, const State& state, int lane, const Conflict& conflict, const Candidate& v,
                      double wait_m, bool has_begun) {
     const VehicleArrays& arrays = state.vehicles;

@@ -16,14 +16,14 @@ struct GapBlocker {
 };
 
 // Returns the vehicle to which candidate `v` must yield. This is a vehicle with priority that arrives too soon, or a
-// vehicle without priority that has accepted a gap. Stores in the candidate's record whether it accepts the gap.
-// `wait_m`: the candidate's waiting position, along the connection.
+// vehicle without priority that has accepted a gap. Stores in VehicleRecord::accepted_gap_on whether the candidate
+// accepts its gap. `wait_m`: the candidate's waiting position, along the connection.
 GapBlocker find_gap_blocker(const Model& model, State& state, Partition& part, int lane, const Candidate& v,
                             double wait_m);
 
 // Returns the slot of a vehicle without priority that approaches connection `conflict.other`, has accepted a gap, and
-// can no longer stop before the first conflict area of this connection; -1: none. By now the accepted gap may be too
-// short, because a stopped vehicle with priority may have started since.
+// can no longer stop comfortably before the first conflict area of this connection; -1: none. By now the accepted gap
+// may be too short, because a stopped vehicle with priority may have started since.
 int committed_vehicle(const Model& model, const State& state, const Conflict& conflict);
 
 // Returns true if the committed vehicle in slot `other` will still be in the conflict area when candidate `v`, which

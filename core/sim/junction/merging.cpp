@@ -27,7 +27,8 @@ bool merges_first(const State& state, int lane, const Candidate& v, const Confli
     const bool is_in_area = v.front_m > conflict.from_m;
     const bool other_is_in_area = other_front_m > conflict.other_from_m;
     if (is_in_area != other_is_in_area) {
-        // The candidate may pass in front of a vehicle in the area only if it is wholly ahead of it.
+        // The candidate goes before a vehicle that is already in the area only if the candidate is wholly ahead of that
+        // vehicle.
         return is_in_area || own_m + static_cast<double>(state.vehicles.length_m[at(v.slot)]) <= other_m;
     }
     const auto& id = state.vehicles.id;
@@ -36,10 +37,11 @@ bool merges_first(const State& state, int lane, const Candidate& v, const Confli
 
 double merging_stop_m(const Model& model, const State& state, int lane, const Candidate& v, const Conflict& conflict,
                       int other_slot, double other_front_m) {
-    constexpr double kMinGap_m = 0.5;  // smallest net gap at which the vehicle enters the conflict area
+    constexpr double kMinGap_m = 0.5;  // smallest net gap at which the candidate enters the conflict area
     const VehicleArrays& arrays = state.vehicles;
     const double gap_m = merging_gap_m(state, lane, v, conflict.other, other_slot, other_front_m);
-    // In full dynamics the brakes lag, so the vehicle ahead is expected to brake as hard as it can.
+    // In full dynamics the brake of the candidate lags. As a reserve for this lag, the vehicle ahead is assumed to
+    // brake as hard as it can.
     const double speed_mps = arrays.speed_mps[at(other_slot)];
     const double braking_m =
         model.meso ? comfortable_braking_distance_m(model, speed_mps) : emergency_braking_distance_m(model, speed_mps);
@@ -56,8 +58,8 @@ Wait zipper_wait(const Model& model, const State& state, int lane, const Candida
     const int origin = state.plan.lane(conflict.other).origin;
     int leader = -1;
     double leader_front_m = -kNoWait_m;
-    // Looks for the vehicle that is ahead of the candidate and nearest to it. Of two vehicles at the same distance, the
-    // one with the lower id is ahead.
+    // Looks for the vehicle that is next nearer to the exit lane than the candidate. At equal distances, the vehicle
+    // with the lower id counts as nearer.
     const auto look = [&](int on_lane, double offset_m) {
         const LaneBlock& block = state.blocks[at(on_lane)];
         for (int slot = block.first; slot < block.past_last(); ++slot) {
@@ -67,7 +69,8 @@ Wait zipper_wait(const Model& model, const State& state, int lane, const Candida
                 distance_m < own_m || (distance_m == own_m && arrays.id[at(slot)] < arrays.id[at(v.slot)]);
             if (!is_ahead) break;
             if (on_lane == origin && arrays.next_lane[at(slot)] != conflict.other) continue;
-            // A vehicle that must wait for something else does not hold up the other lane.
+            // Skips vehicles that stop at their line or yield, so that they do not hold up the candidate's connection,
+            // too.
             if (slot == state.stop_lines.stop_slot[at(origin)] || is_yielding(state, slot)) continue;
             leader = slot;
             leader_front_m = front_m;

@@ -1,6 +1,6 @@
 // Lists the vehicles inside intersections. A vehicle enters an intersection when its front passes the stop line, and
 // leaves it when its rear reaches the exit lane. A vehicle that will pass the stop line without green is listed before
-// it enters, so that crossing vehicles do not start into its way.
+// it enters, so that crossing vehicles do not start into its path.
 #include "sim/junction/occupants.h"
 
 #include <algorithm>
@@ -55,7 +55,8 @@ public:
         state_.plan.prefetch_conflicts(lane);
     }
 
-    // Adds vehicles on an approach lane whose front has passed the stop line, or that can no longer stop before it.
+    // Adds the vehicles on an approach lane that have passed the stop line with their front, or that will pass it
+    // although their signal is not green.
     void add_from_approach(const Model& model, int lane) {
         const LaneBlock& block = state_.blocks[at(lane)];
         const LanePlan& plan = state_.plan.lane(lane);
@@ -85,9 +86,9 @@ public:
     }
 
 private:
-    // Returns true if the signal of the vehicle's movement is not green, but the vehicle is too near to stop at the
-    // line. All vehicles ahead of the one that was chosen to stop are too near. In the step in which the light changes,
-    // no vehicle has been chosen yet.
+    // Returns true if the vehicle will pass the line although the signal of its movement is not green. All vehicles
+    // ahead of the one that was chosen to stop (StopLineState::stopping_vehicle) do so, because they are too near to
+    // stop. In the step in which the light changes, no vehicle has been chosen yet, so the result is false.
     bool passes_without_green(const Model& model, int lane, int slot) const {
         if (state_.stop_lines.lines[at(lane)].stopping_vehicle == v_.id[at(slot)]) return false;
         const int group = state_.plan.signal_group_for(lane, v_.next_lane[at(slot)]);

@@ -11,8 +11,9 @@ namespace stopline {
 
 namespace {
 
-// Lets the vehicles on `lane` that can no longer stop before the conflict area with `other` go on, although `lane`
-// yields to `other` from now on. They had priority until now.
+// Marks vehicles on connection `lane` and its approach lane as having accepted a gap if they can no longer stop before
+// the conflict area with connection `other`. These vehicles thus still go first, although `lane`, which had priority
+// over `other`, begins to yield to it.
 void keep_priority_of_unstoppable(const Model& model, State& state, int lane, int other) {
     VehicleArrays& v = state.vehicles;
     const int origin = state.plan.lane(lane).origin;

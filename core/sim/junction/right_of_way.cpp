@@ -1,7 +1,7 @@
 // Right of way inside intersections: decides which vehicles must wait, and before which conflict area. All decisions
-// use the positions and speeds at the beginning of the step. On each connection only the first waiting vehicle checks
-// gaps. The vehicles behind the first waiting vehicle wait for it where they must yield. They also keep out of occupied
-// conflict areas.
+// use the positions and speeds at the beginning of the step. All vehicles keep out of occupied conflict areas. On each
+// connection only the vehicles up to the first waiting vehicle check gaps. A vehicle behind a waiting vehicle waits for
+// that vehicle before each conflict area where it must yield.
 //
 // In a conflict area the connection of a vehicle meets another connection. The vehicle may enter the area under these
 // conditions:
@@ -10,10 +10,10 @@
 //   - If the vehicle must yield, it needs a gap: the next vehicle with priority must arrive at least one critical gap
 //     after the yielding vehicle reaches its waiting position. The gap must suffice in all areas where the vehicle must
 //     yield. The gap is checked again while the vehicle can still stop comfortably, because a stopped vehicle with
-//     priority may start.
+//     priority may start. In imported networks the needed gap is another one (needed_time_s() in gap_acceptance.cpp).
 //   - If neither connection has priority (movements of different signal groups), the vehicle that was the first to pass
-//     its stop line drives first, unless the other one cannot stop before the area. If two vehicles wait for each
-//     other, one of them proceeds (DeadlockResolution).
+//     its stop line drives first. Exception: if only one of the two vehicles can stop before the area, the other one
+//     drives first. If two vehicles wait for each other, one of them proceeds (DeadlockResolution).
 // The pass-blocker rule (driver/traffic_rules.h) lets a vehicle pass a vehicle that has been stopped inside the
 // intersection for a long time.
 #include "sim/junction/right_of_way.h"
@@ -39,8 +39,9 @@ namespace stopline {
 namespace {
 
 // Returns true if the pass-blocker rule lets `vehicle` on connection `lane` pass `blocker` on connection `other`. The
-// blocker must have been stopped for a long time, and the connections must lead to different exit lanes. A permission
-// stays valid when the blocker starts, because the passing vehicle may then be unable to stop.
+// blocker must have been stopped for a long time, and the connections must lead to different exit lanes. The permission
+// is stored in Partition::blocker_passes. It stays valid when the blocker starts, because the passing vehicle may then
+// be unable to stop.
 bool may_pass(const Model& model, State& state, Partition& part, int vehicle, int lane, int blocker, int other) {
     const VehicleArrays& v = state.vehicles;
     if (model.rules.pass_blocker_ticks == 0) return false;
@@ -59,7 +60,7 @@ bool may_pass(const Model& model, State& state, Partition& part, int vehicle, in
 // Returns true if the vehicle can stop, with maximum braking, before a conflict area that begins `to_area_m` ahead of
 // it.
 bool can_stop_before(const Model& model, const State& state, int slot, double to_area_m) {
-    constexpr double kResponse_s = 0.3;  // lag of the brake, and time for the request to change
+    constexpr double kResponse_s = 0.3;  // lag of the brake, and time in which the requested acceleration changes
     const double speed_mps = state.vehicles.speed_mps[at(slot)];
     const double response_m = model.meso ? 0.0 : kResponse_s * speed_mps;
     return emergency_braking_distance_m(model, speed_mps) + response_m <= to_area_m;
@@ -78,8 +79,8 @@ bool blocks_area(const Model& model, State& state, Partition& part, int lane, co
         return state.vehicles.record[at(occupant.slot)].accepted_gap_on == conflict.other &&
                !is_yielding_before(state, occupant.slot, conflict.other_from_m);
     }
-    // Neither connection has priority. A vehicle that can stop lets one pass that cannot. Braking would only make the
-    // latter stop inside the area.
+    // Neither connection has priority. If only one of the two vehicles can stop before the area, this vehicle waits.
+    // The other vehicle would come to rest inside the area if it braked.
     const bool can_stop = can_stop_before(model, state, v.slot, conflict.from_m - v.front_m);
     const bool other_can_stop = can_stop_before(model, state, occupant.slot, conflict.other_from_m - occupant.front_m);
     if (can_stop != other_can_stop) return can_stop;
@@ -89,7 +90,7 @@ bool blocks_area(const Model& model, State& state, Partition& part, int lane, co
         resolution->last_needed_tick = state.tick;  // keeps the resolution from expiring
         return false;
     }
-    // The occupant waits too, so the candidate proceeds.
+    // Both vehicles wait. A new resolution lets the candidate proceed.
     if (v.stopped &&
         (is_yielding(state, occupant.slot) || is_behind_yielding_vehicle(state, conflict.other, occupant))) {
         part.deadlock_resolutions.push_back(
@@ -115,8 +116,9 @@ public:
           speed_mps_(state.vehicles.speed_mps[at(v.slot)]),
           is_imported_(!model.demand.trips.empty()) {}
 
-    // `ahead`: slot of a waiting vehicle further ahead on the same connection, -1: none. Where the candidate must
-    // yield, it waits for the vehicle `ahead` without checking gaps.
+    // Returns where and for which vehicle the candidate must wait. `ahead`: slot of the nearest waiting vehicle ahead
+    // of the candidate that takes the same connection; -1: none. Before a conflict area where the candidate must yield,
+    // it waits for the vehicle `ahead` without checking gaps.
     Wait find(int ahead) {
         Wait wait = search(ahead);
         if (is_imported_ && wait.exists()) wait.place_m = clear_place_m(wait.place_m);
@@ -144,7 +146,9 @@ private:
         was_waiting_ = v_.stopped || record_.yield_tick >= state_.tick - 1;
         const bool checks_committed = was_waiting_ || is_imported_;
         if (!has_others_inside && !checks_committed && (has_decided_ || !plan.yields)) return {};
-        Wait behind;  // drive up to a vehicle that is about to leave the conflict area, or follow a merging one
+        // Wait behind a vehicle that the candidate may follow: a vehicle that is about to leave a conflict area, or a
+        // merging vehicle.
+        Wait behind;
         for (const Conflict& conflict : state_.plan.conflicts(lane_)) {
             const bool merges = is_imported_ && is_merge(model_, state_, lane_, conflict);
             if (v_.front_m > (merges ? conflict.to_m : conflict.from_m)) continue;
@@ -174,12 +178,13 @@ private:
     static const Wait& nearer(const Wait& a, const Wait& b) { return b.place_m < a.place_m ? b : a; }
     static void keep_nearer(const Wait& wait, Wait& nearest) { nearest = nearer(nearest, wait); }
 
-    // Returns true if the candidate waits at the stop line and can stop there. Returns false if vehicles may wait
-    // inside the intersection on this connection. `line_m`: waiting position at the line.
+    // Returns true if the candidate would have to wait at the stop line and can stop there. Returns false if vehicles
+    // on this connection may wait inside the intersection. `line_m`: waiting position at the line.
     bool stops_at_line(double line_m) const {
         if (v_.inside || state_.plan.may_wait_inside(lane_)) return false;
         if (v_.stopped || line_m - v_.front_m >= comfortable_braking_distance_m(model_, speed_mps_)) return true;
-        // A vehicle that brakes for the line follows the curve of a comfortable stop, from which it deviates slightly.
+        // A vehicle that already brakes for the line can deviate slightly from the curve of a comfortable stop. It goes
+        // on braking for the line as long as maximum braking suffices.
         const bool brakes_for_line =
             record_.yield_tick >= state_.tick - 1 && record_.yield_position_m <= static_cast<float>(line_m);
         const double to_line_m = line_m + model_.driver.stop.margin_m - v_.front_m;
@@ -195,8 +200,8 @@ private:
         return -1;
     }
 
-    // Returns the slot of a vehicle that cannot stop any more and for which the candidate waits although it has
-    // priority; -1: none.
+    // Returns the slot of a vehicle without priority that can no longer stop (committed_vehicle()) and for which the
+    // candidate must therefore wait; -1: none.
     int committed_blocker(const Conflict& conflict) const {
         const double braking_m = emergency_braking_distance_m(model_, speed_mps_);
         if (!conflict.other_yields || conflict.from_m - v_.front_m < braking_m) return -1;
@@ -219,14 +224,15 @@ private:
         Wait wait{std::min(wait_m(conflict), line_m_), blocker, YieldReason::occupied};
         if (!is_imported_) return wait;
         if (conflict.other_yields) wait.reason = YieldReason::intruder;
-        // The gap behind a vehicle with priority begins when this vehicle reaches the area. So the candidate can accept
-        // the gap before it can use it.
+        // The gap behind a vehicle with priority begins when this vehicle reaches the area. So the candidate can
+        // already accept the gap while that vehicle is still in the area.
         if (conflict.yields && v_.stopped && !blocker_is_slow) wait.keeps_gap = gap_blocker(conflict).slot < 0;
         return wait;
     }
 
-    // Returns true if the candidate waits at the stop line, and the blocker is about to leave the conflict area, so
-    // that the candidate may start now. It could still stop before the area.
+    // Returns true if a candidate that would wait at the stop line may start now: all vehicles of the other connection
+    // will have left the conflict area before the candidate reaches the waiting position just before this area. The
+    // candidate could still stop at that position.
     bool clears_area_in_time(const Conflict& conflict, int blocker) const {
         if (!waits_at_line() || arrays_.speed_mps[at(blocker)] < kCrawlingSpeed_mps) return false;
         for (const JunctionOccupant& occupant : state_.junctions.occupants[at(conflict.other)]) {
@@ -270,11 +276,14 @@ private:
         return nearest;
     }
 
-    // Returns the waiting position nearest to `place_m`, and not beyond it, where the candidate does not block a
-    // conflict area that it has not reached yet. Areas shared with a connection that has no green now do not count.
+    // Returns the waiting position furthest downstream, but not beyond `place_m`, where the candidate blocks no
+    // conflict area. Two kinds of areas do not count: areas before which the candidate can no longer stop, and areas
+    // shared with a connection that has no green now.
     double clear_place_m(double place_m) const {
         const double length_m = arrays_.length_m[at(v_.slot)];
-        // A vehicle that brakes for such a position may deviate slightly from the curve of a comfortable stop.
+        // The candidate may brake with deceleration_comfort, which is usually higher than stop.deceleration. The reason
+        // is that a vehicle that brakes for such a position can deviate slightly from the curve of a stop with
+        // stop.deceleration.
         const double stopping_m =
             v_.stopped ? 0.0 : braking_distance_m(speed_mps_, 0.0, model_.driver.cacc.deceleration_comfort_mps2);
         const std::span<const Conflict> conflicts = state_.plan.conflicts(lane_);
@@ -309,8 +318,9 @@ private:
     bool was_waiting_ = false;
 };
 
-// Adds a yield stop at `place_m` on `lane`. Unless the vehicle only follows a merging one, stores in its record that it
-// waits. A lane keeps only the stops of its first few waiting vehicles.
+// Adds a yield stop at `place_m` on `lane`. Unless the vehicle only follows a merging vehicle, also stores in its
+// VehicleRecord where, why and since when it waits. A lane keeps only the stops of its first YieldStops::kCapacity
+// waiting vehicles.
 void record_wait(State& state, Partition& part, int lane, int slot, double place_m, const Wait& wait) {
     add_yield_stop(state.junctions, part, lane, {slot, place_m, wait.blocker, wait.reason});
     if (wait.reason == YieldReason::merging) return;
@@ -323,8 +333,8 @@ void record_wait(State& state, Partition& part, int lane, int slot, double place
     record.yield_reason = wait.reason;
 }
 
-// Drops the accepted gap of a candidate that will stop, because vehicles with priority may arrive before it starts
-// again.
+// Drops the accepted gap of a candidate that will stop, because vehicles with priority may arrive before the candidate
+// starts again.
 void drop_gap_if_stopping(const Model& model, State& state, int lane, const Candidate& candidate, const Wait& wait) {
     if (wait.keeps_gap || wait.reason == YieldReason::merging) return;
     double room_m = wait.place_m - candidate.front_m;
@@ -343,8 +353,8 @@ void decide(const Model& model, State& state, Partition& part, int lane) {
     const VehicleArrays& v = state.vehicles;
     const LaneBlock& block = state.blocks[at(lane)];
     int ahead = -1;
-    // `on_lane`: lane of the candidate, which is the connection or its approach lane and begins `offset_m` after the
-    // start of the connection.
+    // `on_lane`: lane of the candidate, that is, the connection or its approach lane. `offset_m`: start of this lane,
+    // measured from the start of the connection; negative for the approach lane.
     const auto decide_candidate = [&](const Candidate& candidate, int on_lane, double offset_m) {
         const Wait wait = WaitSearch(model, state, part, lane, candidate).find(ahead);
         if (!wait.exists()) return;
@@ -369,7 +379,8 @@ void decide(const Model& model, State& state, Partition& part, int lane) {
 }  // namespace
 
 void decide_right_of_way(const Model& model, State& state, Partition& part) {
-    // A resolution is kept for some steps, because the same two vehicles may meet again in a second conflict area.
+    // A resolution is kept for some steps after its last use, because the same two vehicles may meet again in a second
+    // conflict area.
     constexpr std::int64_t kResolutionMemory_steps = 5;
     std::erase_if(part.deadlock_resolutions, [&](const DeadlockResolution& resolution) {
         return state.tick - resolution.last_needed_tick > kResolutionMemory_steps;

@@ -21,8 +21,8 @@ namespace {
 // Returns true if the vehicle can stop before the line if it brakes with `deceleration_mps2` after a response time. The
 // response time is the brake lag plus half the time that the requested acceleration needs, at the jerk limit, to fall
 // from its present value to `-deceleration_mps2`. A vehicle keeps its present acceleration in the response time, so the
-// braking starts at a higher speed. The request exceeds the acceleration while gears change, and if the vehicle is too
-// weak for it. A present acceleration below 0 is taken as 0.
+// braking starts at a higher speed. The requested acceleration is higher than the present one while gears change, and
+// if the vehicle is too weak for the request. A present acceleration below 0 is taken as 0.
 bool can_stop(const Model& model, const VehicleArrays& v, int slot, double line_m, double deceleration_mps2) {
     const double speed = v.speed_mps[at(slot)];
     const double lag_s = model.vehicles[at(v.type[at(slot)])].brake_lag_s;
@@ -61,6 +61,7 @@ int slot_of(const VehicleArrays& v, const LaneBlock& block, int id) {
 }
 
 // Returns the slot of the first vehicle that can stop before the line for a signal that shows `light`; -1: none.
+// Ignores vehicles whose trip ends on this lane.
 int choose_stopper(const Model& model, const State& state, const LaneBlock& block, double line_m, Light light) {
     const double deceleration_mps2 = stopping_deceleration_mps2(model, light);
     for (int slot = block.first; slot < block.past_last(); ++slot) {
@@ -155,8 +156,8 @@ const ExitRoom& exit_room(const Model& model, State& state, int exit) {
     return room;
 }
 
-// Returns the slot of a stopped vehicle from a crossing street that blocks `connection`; -1: none. A vehicle that may
-// be passed under the pass-blocker rule does not block.
+// Returns the slot of a stopped vehicle from a crossing street that blocks `connection`; -1: none. Ignores connections
+// that yield to `connection` or have priority over it, and vehicles that may be passed under the pass-blocker rule.
 int crossing_blocker(const Model& model, const State& state, int connection) {
     if (!state.junctions.with_stopped.has_any(state.plan.conflicting(connection))) return -1;
     const VehicleArrays& v = state.vehicles;
@@ -191,7 +192,8 @@ public:
     ConnectionStates(const Model& model, State& state, int vehicles)
         : model_(model), state_(state), ample_room_m_(vehicles * state.plan.max_space_per_vehicle_m() + kRounding_m) {}
 
-    // Returns nullptr if the keep-clear rule does not apply to the connection, or if there is no memory for its state.
+    // Returns nullptr if the keep-clear rule does not apply to the connection, or if all elements of states_ are in
+    // use.
     ConnectionState* state_of(int connection) {
         if (last_ != nullptr && last_->connection == connection) return last_;
         return last_ = find(connection);
@@ -224,9 +226,9 @@ private:
 };
 
 // Returns true if the vehicle can still stop before the line for the keep-clear rule. It may brake with the highest
-// deceleration of a normal stop, or with the comfortable deceleration if this is higher. A normal stop reaches its
-// highest deceleration only near the end, because the brake lags. The mesoscale mode has no brake lag, so a normal stop
-// needs no response time there.
+// deceleration of a normal stop, or with the comfortable deceleration if this is higher. Because the brake lags, the
+// highest deceleration of a normal stop is kLagFactor times `stop.deceleration`. The mesoscale mode has no brake lag,
+// so a normal stop needs no response time there.
 bool can_hold_for_keep_clear(const Model& model, const VehicleArrays& v, int slot, double line_m) {
     constexpr double kLagFactor = 1.4;  // ratio of the highest deceleration of a normal stop to `stop.deceleration`
     const CaccSettings& cacc = model.driver.cacc;
@@ -290,9 +292,10 @@ void set_stopper(const Model& model, const State& state, int index, int slot, St
 }
 
 // Marks the vehicle in `slot`, which stops for the signal, as the leader of the platoon that starts at the next green.
-// If the vehicle stops past the line, each step sets its entry tick to the present tick. The vehicle thus counts as
-// entering the intersection only when the stop ends. If the vehicle is upstream of the line, its entry tick must not
-// change: its rear may still be in the previous intersection, where another thread reads the tick.
+// If the vehicle has stopped past the line, its VehicleRecord::junction_entry_tick is set to the present tick in each
+// step. The vehicle thus counts as entering the intersection only when the stop ends. If the vehicle is upstream of the
+// line, its entry tick must not change: its rear may still be in the previous intersection, where another thread reads
+// the tick.
 void make_platoon_leader(State& state, const LanePlan& lane, int slot) {
     state.vehicles.is_platoon_leader[at(slot)] = 1.0F;
     if (state.vehicles.position_m[at(slot)] > lane.stop_line_m) {
@@ -300,11 +303,13 @@ void make_platoon_leader(State& state, const LanePlan& lane, int slot) {
     }
 }
 
-// Lists the vehicles of an approach lane that will not stop at the line and are near a conflict area.
+// Lists the vehicles of an approach lane for which right of way must be decided (JunctionState::approaching). Leaves
+// out the vehicle that stops at the line and all vehicles behind it. Also leaves out vehicles that are still further
+// away than decision_distance_m(), unless they must yield and have already accepted a gap.
 void list_approaching(const Model& model, State& state, int index) {
-    // Vehicles within this distance before the lane's end are listed. 60 m suffice for a comfortable stop from 50 km/h.
+    // Vehicles further upstream of the lane's end are not listed. 60 m suffice for a comfortable stop from 50 km/h.
     constexpr double kLookBack_m = 60.0;
-    // This value replaces kLookBack_m on all lanes of imported networks, because some of their speed limits are higher.
+    // This value replaces kLookBack_m in imported networks, because speed limits above 50 km/h occur there.
     constexpr double kFastRoadLookBack_m = 160.0;
     const bool has_trips = !model.demand.trips.empty();
     const double look_back_m = has_trips ? kFastRoadLookBack_m : kLookBack_m;

@@ -10,8 +10,8 @@ namespace stopline {
 
 namespace {
 
-// Returns the slot of the vehicle that stands first at the stop line before a connection, has stopped there and will
-// take the connection; -1: none. A vehicle that the keep-clear rule holds is ignored.
+// Returns the slot of the first vehicle upstream of the stop line before a connection, if this vehicle has stopped at
+// the line and will take the connection; else -1. Also returns -1 if the keep-clear rule holds the vehicle.
 int stopped_at_line(const State& state, int connection) {
     const int approach = state.plan.lane(connection).origin;
     const LaneBlock& block = state.blocks[at(approach)];
@@ -25,9 +25,10 @@ int stopped_at_line(const State& state, int connection) {
     return -1;
 }
 
-// Returns true if a vehicle on connection `lane` may go although it is the turn of a vehicle on connection `next`: that
-// vehicle waits for one that has just started, and `lane` does not conflict with the connection of the latter. The
-// vehicle must have stopped at tick `stop_tick`, before the latter started, so that nobody is passed over twice.
+// Returns true if the candidate, which will take connection `lane`, may go although it is the turn of the next vehicle,
+// which will take connection `next`. This is so if a third vehicle has just started that conflicts with the next
+// vehicle but not with the candidate: the candidate then goes together with the third vehicle. The candidate must have
+// stopped (at tick `stop_tick`) before the third vehicle started, so that no vehicle is passed over twice.
 bool may_accompany(const Model& model, const State& state, int lane, int next, int stop_tick) {
     constexpr double kJustStarted_s = 2.0;
     const auto has_conflict = [&](int connection) {

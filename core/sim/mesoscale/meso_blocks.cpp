@@ -25,8 +25,8 @@ void update_queue(const VehicleArrays& v, const LaneBlock& block, std::int64_t t
         return v.speed_mps[i] == 0.0 && v.acceleration_mps2[i] == 0.0F;
     };
     while (queue.first < queue.end && !is_at_rest(queue.first)) ++queue.first;
-    // The follower of a vehicle that received a start message (relay_start()) may have moved although the receiver did
-    // not start. The queue then ends ahead of this follower.
+    // After a start message (relay_start()), a vehicle may have moved although the vehicle ahead of it is still at
+    // rest. The queue then ends ahead of the vehicle that moved.
     for (int place = queue.first + 1; place < std::min(queue.released, queue.end); ++place) {
         if (!is_at_rest(place)) queue.end = place;
     }
@@ -134,8 +134,8 @@ private:
     }
 
     // Caps the speed of vehicles that align with a gap in the adjacent lane. If the lane sleeps, skips its first
-    // vehicle at rest: a cap set by cap_speed() is removed after the step, so this vehicle would lose the cap that
-    // holds it.
+    // vehicle if this vehicle is at rest. A cap set by cap_speed() is removed after the step, so the vehicle would lose
+    // the cap that holds it while the lane sleeps.
     void cap_aligning_vehicles(bool sleeps) {
         if (part_.lanes_with_alignments.empty()) return;
         const double braking_step_mps = GapAlignment::kDeceleration_mps2 * model_.step_s;
@@ -160,8 +160,8 @@ private:
         return snap_to_standstill(stopping_speed_mps(model_, v_, first, room_to_line_m(first))) == 0.0;
     }
 
-    // On a sleeping lane, caps the speed of the vehicles that wait for a gap in the adjacent lane. Skips the first
-    // vehicle of the lane, which already has a cap.
+    // Caps the speed of the vehicles of a sleeping lane that have a yield stop. These vehicles wait for a gap in the
+    // adjacent lane. Skips the first vehicle of the lane, which already has a cap.
     void cap_behind_first() {
         for (int k = 0; k < yield_stops_.count; ++k) {
             const YieldStop& stop = yield_stops_.stops[at(k)];
@@ -214,7 +214,7 @@ private:
 
 }  // namespace
 
-// Called right after the right-of-way decisions of a partition, while its data are still in the cache.
+// Called at the end of the decisions of a partition, while the data of the partition are still in the cache.
 void collect_moving_blocks(const Model& model, State& state, Partition& part) {
     // Upper bound of the number of moving blocks: one for each vehicle, and a reserve for each lane.
     constexpr std::size_t kReservePerLane = 4;

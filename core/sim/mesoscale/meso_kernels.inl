@@ -214,7 +214,8 @@ STOPLINE_INLINE R table_value(const std::array<double, bins>& table, const R& bi
     }
 }
 
-// Returns the lowest acceleration of each vehicle. It is 0 on lanes with a limit for which the models were calibrated.
+// Returns the lowest acceleration of each vehicle. It is 0 on lanes whose speed limit does not exceed
+// calibrated_limit_mps, because the models are calibrated for these lanes.
 template <class R>
 STOPLINE_INLINE R least_acceleration_mps2(const MesoStreams& s, const MesoStep& t, int i, const R& speed_mps) {
     if (t.power_profile == nullptr) return R(0.0);

@@ -1,7 +1,7 @@
 // Full dynamics: adds braking for hidden leaders. A vehicle follows the nearest vehicle ahead, its leader. Where
 // connections diverge, or where the trip of the leader ends, the leader can leave the follower's route. Until then, the
-// leader can hide a slow vehicle further along this route. The follower also brakes for this hidden leader, because it
-// would otherwise see it too late.
+// leader can hide a slow vehicle further along this route. The follower also brakes for this slow vehicle, the hidden
+// leader. Without this rule the follower would see the hidden leader too late.
 #include "sim/perception/hidden_leaders.h"
 
 #include <algorithm>

@@ -16,7 +16,7 @@ namespace {
 constexpr double kFar_m = 1e9;
 
 // The stretch just downstream of a lane's end, where the connections from the lane still overlap. Finds the vehicle on
-// this stretch whose rear is furthest upstream. Ignores vehicles whose front is less than `front_m` downstream of the
+// this stretch whose rear is furthest upstream. Ignores vehicles whose front is at most `front_m` downstream of the
 // lane's end.
 class DivergeArea {
 public:

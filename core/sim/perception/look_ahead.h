@@ -21,10 +21,15 @@ struct RoutePosition {
     int trip_edge = 0;
 };
 
-// Return the nearest vehicle beyond the end of a lane within `range_m`. The observer is the vehicle in `slot`,
-// which must be the first vehicle of the lane, or any vehicle with its front at `position_m`.
+// Returns the nearest vehicle beyond the end of `lane`, within `range_m` of the vehicle in `slot`. The vehicle in
+// `slot` must be the first vehicle of the lane.
 LeaderAhead leader_ahead(const State& state, int lane, int slot, double range_m);
+
+// Does the same for any observer with its front at `position_m` on `lane`, for example a vehicle that is not inserted
+// yet. Ignores the vehicles on `lane` itself. `route_index`: index of `lane` in `route`.
 LeaderAhead leader_ahead(const State& state, int lane, double position_m, int route, int route_index, double range_m);
+
+// Does the same, and continues the search beyond the end of the route, on the later edges of the observer's trip.
 LeaderAhead leader_ahead(const State& state, int lane, double position_m, const RoutePosition& position,
                          double range_m);
 

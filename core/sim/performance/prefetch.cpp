@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uintptr_t kCacheLine = 64;  // bytes
 constexpr std::size_t kLinesPerCall = 4;   // cache lines prefetched per call; the processor would drop more requests
-constexpr int kInspectedVehicles = 7;      // vehicles near the stop line that the phases of a step usually read
+constexpr int kInspectedVehicles = 7;      // number of vehicles near the stop line that a step usually reads
 
 // These functions must be inlined, because the compiler removes calls of functions that only prefetch.
 template <class Array>
@@ -124,7 +124,7 @@ void advance_prefetch_step(const State& state, PrefetchProgress& progress) {
     }
     const Partition& next = *progress.next;
     const std::size_t k = progress.lane++;
-    // This is the list of the previous step, because the decisions of `next` have not begun.
+    // The list is still that of the previous step, because the decisions for the partition `next` have not begun.
     const IndexBuffer& occupied = next.occupied;
     if (k < occupied.size()) {
         prefetch_lane_ends(state, occupied[k]);

@@ -9,7 +9,7 @@
 
 namespace stopline {
 
-// Where and since when a teleported vehicle waits for room to be reinserted.
+// The lane on which a teleported vehicle will be reinserted, and the start of its wait for room there.
 struct TeleportTarget {
     int lane = -1;                   // lane on which the vehicle will be reinserted
     std::int64_t waiting_since = 0;  // tick at which the wait for room on this lane began
@@ -27,7 +27,7 @@ struct LastBlocker {
 // delays, because vehicles change slots. Unless noted otherwise, only the elements of stopped vehicles are valid.
 struct DelayWatch {
     std::vector<int> waits_for;  // [slot] slot of the vehicle that blocks this vehicle; -1: none
-    // [slot] cause that stops the vehicle itself; none: its leader stops it, or nothing stops it any more
+    // [slot] cause that stops the vehicle itself; none: it only waits behind a stopped leader, or nothing stops it
     std::vector<DelayCause> direct_cause;
     std::vector<DelayCause> cause;  // [slot] cause to which the delay of the vehicle is attributed
     std::vector<int> queue_head;    // [slot] slot of the first vehicle of the queue to which the vehicle belongs

@@ -46,8 +46,8 @@ struct DelayEpisode {
     double delay_s = 0.0;  // total delay, vehicle seconds
 };
 
-// A cycle of vehicles in which each vehicle waits for the next one. If a cycle with at least one of the same vehicles
-// is observed again within the duration of a signal cycle, it counts as the same gridlock.
+// A cycle of vehicles in which each vehicle waits for the next one. A cycle that is observed at most one signal cycle
+// later counts as the same gridlock if the two cycles have a vehicle in common.
 struct Gridlock {
     double from_s = 0.0;        // time of the first observation
     double to_s = 0.0;          // time of the latest observation
@@ -55,8 +55,9 @@ struct Gridlock {
     std::vector<int> lanes;     // lane of each vehicle
 };
 
-// The first vehicle of a queue that stands for RulesPlan::starvation_ticks or longer although no queue or vehicle ahead
-// blocks its way. It waits for right of way, for its signal or for a gap in the adjacent lane. Its movement starves.
+// A starving vehicle. It is the first vehicle of its queue and has been stopped for at least
+// RulesPlan::starvation_ticks and two signal cycles. No queue and no vehicle ahead blocks its way: it waits for right
+// of way, for its signal or for a gap in the adjacent lane.
 struct Starvation {
     DelayCause cause = DelayCause::none;  // at the last observation
     int lane = -1;
@@ -86,7 +87,7 @@ struct DelayLog {
     std::array<double, kDelayCauseNames.size()> delay_s{};  // [cause] delay in the whole network, vehicle seconds
     double delay_upstream_s = 0.0;     // part of the delay that occurs upstream of the measured area
     std::int64_t teleported = 0;       // number of teleports
-    std::int64_t passed_blockers = 0;  // number of blockers that a vehicle has passed
+    std::int64_t passed_blockers = 0;  // number of times that a vehicle has passed its blocker
     double longest_stop_s = 0.0;       // duration of the longest single stop of any vehicle
 };
 

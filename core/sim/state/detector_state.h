@@ -1,5 +1,5 @@
-// The detectors on each lane, and the number of vehicles that have not passed each detector yet. Owner:
-// sim/step/detectors.cpp. sim/state/lane_blocks.cpp updates the numbers when vehicles enter or leave a lane.
+// The detectors on each lane and, for each detector, the number of vehicles on its lane that have not passed it yet.
+// Owner: sim/step/detectors.cpp. sim/state/lane_blocks.cpp updates these numbers when vehicles enter or leave a lane.
 #pragma once
 
 #include <vector>

@@ -33,7 +33,7 @@ struct GapAccepted {
     int vehicle;
     int lane;  // connection that the vehicle takes
     float gap_s;
-    float needed_s;  // gap that the vehicle needs: critical gap plus travel time to its waiting position
+    float needed_s;  // smallest gap that the vehicle accepts (needed_time_s() in sim/junction/gap_acceptance.cpp)
 };
 
 // A vehicle changes to an adjacent lane.

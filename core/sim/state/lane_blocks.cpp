@@ -24,9 +24,9 @@ int max_vehicles(const Model& model, const Lane& lane) {
     return static_cast<int>(lane.length_m / shortest_vehicle_m(model)) + 2;
 }
 
-// Full dynamics: the start of a block is aligned to a cache line. When a vehicle leaves the lane, up to kMaxShifted
-// remaining vehicles are therefore shifted to the start of the block. More vehicles are shifted only when they have
-// reached the end of the block.
+// Full dynamics: the start of a block is aligned to a cache line, so the first vehicle of a lane is best placed there.
+// When a vehicle leaves a lane on which at most kMaxShifted vehicles remain, these are shifted to the start. A larger
+// number of vehicles is shifted only when the vehicles have reached the end of the block.
 constexpr int kMaxShifted = 64;
 
 // Moves the vehicles of a block to the start of the block.
@@ -41,12 +41,12 @@ int capacity_for(int vehicles) { return vehicles + 2 + vehicles / 4; }
 
 // Returns the number of free slots before the block of a lane. One slot is for the sentinel, the copy of the leader
 // downstream of the lane. Before the first lane of a partition (a group of whole intersections) a whole batch of slots
-// is free: the last batch that the kernels of the previous partition write, perhaps in another thread, can reach beyond
-// the last vehicle of that partition.
+// is free. The kernels of the previous partition may run in another thread, and the last batch that they write can
+// reach beyond the last vehicle of that partition.
 int slots_before(const Partition& part, int lane) { return lane == part.lanes.front() ? kSimdWidth : 1; }
 
 // Lays out the blocks of all lanes again and wakes all lanes. `expected`: see reserve_blocks(). If `expected` is empty,
-// the blocks must hold only the present vehicles.
+// the size of each block depends only on the number of its present vehicles.
 void repack(State& state, const std::vector<int>& expected) {
     const auto capacity_of = [&](int lane) {
         return capacity_for(std::max(state.blocks[at(lane)].count, expected.empty() ? 0 : expected[at(lane)]));
@@ -207,8 +207,8 @@ void mark_occupied(State& state, int lane) {
     }
 }
 
-// Wakes a lane and dissolves its standing queue (QueueState). Must be called after the order of its vehicles has
-// changed.
+// Wakes a lane and dissolves its standing queue (QueueState). Must be called after the order of the vehicles on the
+// lane has changed.
 void wake(State& state, int lane) {
     state.queues.sleeps_until_green[at(lane)] = -1;
     state.queues.standing[at(lane)] = {0, 0, state.tick};

@@ -25,8 +25,8 @@ void reserve_blocks(State& state, const std::vector<int>& expected);
 // Ensures that a lane has a free slot after its last vehicle, and wakes the lane.
 void ensure_free_slot(State& state, int lane);
 
-// Makes a free slot in the block of teleported vehicles if it has none. In full dynamics the block cannot grow, so it
-// can still be full after the call.
+// Makes a free slot in the block of teleported vehicles if the block has none. In full dynamics the block cannot grow,
+// so it can still be full after the call.
 void ensure_teleport_slot(State& state);
 
 // Adds a slot for a new last vehicle of a lane and returns the slot.

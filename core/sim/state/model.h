@@ -45,9 +45,12 @@ struct RulesPlan {
     // If a gridlock is observed again within this time, it counts as the same gridlock.
     std::int64_t gridlock_ticks = 0;
     // Signals, yielding and queue discharge cause many short stops. A delay episode (DelayEpisode) with such a cause
-    // includes only vehicles that have been stopped for this time. Episodes with other causes include all of them.
+    // includes only vehicles that have been stopped for this time. Episodes with other causes include all stopped
+    // vehicles.
     std::int64_t long_wait_ticks = 0;
-    std::int64_t starvation_ticks = 0;  // the first vehicle of a queue starves after this stop time; 0: never
+    // Stop duration after which the first vehicle of an unblocked queue counts as starving (Starvation in delay_log.h).
+    // 0: never.
+    std::int64_t starvation_ticks = 0;
     // The permission to pass a blocker (BlockerPass) expires when it has not been needed for this time.
     std::int64_t memory_ticks = 0;
 
@@ -72,8 +75,8 @@ struct Model {
     GiveWaySettings give_way;
     LaneChangeSettings lane_change;
     RulesPlan rules;
-    // Radar delay minus one step. The step itself is the missing part of the delay, because an acceleration requested
-    // in a step takes effect only at the end of the step.
+    // Age of the radar data from which the driver requests an acceleration. The radar delay of the settings ends when
+    // the request takes effect. This is one step later, so the age is this delay minus one step.
     DelayLine radar;
     DelayLine v2v;
     // true: the kernels compute one vehicle at a time and do not skip standing queues. The results are the same.
@@ -93,16 +96,19 @@ struct Model {
     // Below the speed limit, the speed rises in one step by at most this share of (speed limit - speed).
     double approach_share = 1.0;
     // Before a lower speed limit, such as that of a turn, the speed of a vehicle follows a braking curve. A step
-    // corrects this share of the deviation from the curve.
+    // corrects this share of the deviation from the curve (MesoStep in mesoscale/meso_kernels.h).
     double turn_share = 1.0;
     double leader_mps2 = 0.0;  // acceleration of platoon leaders; 0: acceleration of the policy's car-following model
     double leader_constant_power_speed_mps = 0.0;  // above this speed, leader_mps2 falls as 1 / speed
-    double calibrated_limit_mps = 1e9;  // limit, times speed_factor, up to which the accelerations are calibrated
-    bool has_fast_lanes = false;        // true: some lanes have a higher limit
-    LeaderProfile power_profile;        // lowest accelerations on these lanes
-    // Acceleration of platoon leaders by speed. If the profile has bins, it replaces the two values above.
+    // The accelerations are calibrated for lanes on which the speed limit times speed_factor is at most this value.
+    double calibrated_limit_mps = 1e9;
+    bool has_fast_lanes = false;  // true: on some lanes, the speed limit times speed_factor exceeds this value
+    LeaderProfile power_profile;  // lowest acceleration by speed on these lanes
+    // Acceleration of platoon leaders by speed. If the profile has bins, it replaces leader_mps2 and
+    // leader_constant_power_speed_mps.
     LeaderProfile leader_profile;
-    // Largest number of stopped vehicles that one V2V start message (StartMessage) reaches in a step. 0: no messages.
+    // Largest number of stopped vehicles that one V2V start message (StartMessage in partition.h) reaches in a step. 0:
+    // no messages.
     int start_relay_vehicles = 0;
 
     double time_s(std::int64_t tick) const { return static_cast<double>(tick) * step_s; }

@@ -52,8 +52,9 @@ struct StartMessage {
     float acceleration_mps2;  // acceleration of the vehicle that has just started ahead of the stopped vehicles
 };
 
-// Full dynamics: the acceleration with which the vehicle in `slot` must brake for a hidden leader. This is a vehicle on
-// its route that the present leader hides (sim/perception/hidden_leaders.h).
+// Full dynamics: the acceleration with which the vehicle in `slot` must brake for a hidden leader. A hidden leader is a
+// vehicle further ahead on the same route. The present leader hides it, but will leave the route
+// (sim/perception/hidden_leaders.h).
 struct BrakingDemand {
     int slot;
     double acceleration_mps2;
@@ -65,7 +66,7 @@ struct Partition {
     // The bits of `connections` are in the words [first_word, end_word) of the bitsets in JunctionState.
     std::size_t first_word = 0;
     std::size_t end_word = 0;
-    std::vector<int> exits;      // exit lanes of `connections`; only one partition lists each exit lane
+    std::vector<int> exits;      // exit lanes of `connections`; no exit lane is in the lists of two partitions
     std::vector<int> detectors;  // indices of the detectors on `lanes`
     // Lanes that may be occupied: a vehicle has entered the lane, and no step has found the lane empty since then.
     Bitset occupied_candidates;  // [index in `lanes`]
@@ -95,7 +96,7 @@ struct Partition {
 
     // These members are reports. They are merged into the records of the run after each step.
     std::int64_t present = 0;              // number of vehicles on the lanes at the start of the step
-    std::int64_t updates = 0;              // number of vehicles that the step moved
+    std::int64_t updates = 0;              // number of vehicles in the step, including vehicles at rest
     std::int64_t longest_in_junction = 0;  // longest time of a vehicle inside a junction, ticks
     std::int64_t passed_blockers = 0;
     Violations violations;
@@ -111,8 +112,8 @@ struct Partition {
     // kernels move together (MesoKernels::size).
     IndexBuffer moving_blocks;      // blocks to move in this step
     std::vector<int> capped_slots;  // slots with a speed cap in this step
-    // [slot in moving_blocks, in the same order] extra standstill gap of a vehicle whose policy is a switching policy
-    // (ExtraGap in mesoscale/meso_kernels.h); empty: 0 for all vehicles
+    // Extra standstill gaps of the vehicles with a switching policy (ExtraGap in mesoscale/meso_kernels.h): one value
+    // for each slot of moving_blocks, in the same order. Empty: 0 for all vehicles.
     std::vector<double> extra_gap_m;
 };
 

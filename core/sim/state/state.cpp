@@ -111,7 +111,7 @@ void size_junctions(const Model& model, JunctionState& junctions, const State& s
     const double shortest_m = shortest_vehicle_m(model);
     for (const Partition& part : state.partitions) {
         for (const int lane : part.connections) {
-            constexpr std::size_t kPartlyInside = 8;  // occupants whose front or rear is not on the connection
+            constexpr std::size_t kPartlyInside = 8;  // reserve for vehicles that are only partly on the connection
             const double fitting = state.plan.lane(lane).length_m / shortest_m;
             junctions.occupants[at(lane)].reserve(static_cast<std::size_t>(fitting) + kPartlyInside);
             junctions.approaching[at(lane)].reserve(16);

@@ -26,10 +26,11 @@ struct KeepClearHold {
 // The free length of an exit lane, as the keep-clear rule computes it.
 struct ExitRoom {
     std::int64_t tick = -1;  // tick of the step for which the values are valid
-    // Only vehicles within RulesPlan::sight_m of the start of the lane are considered. The free length ends at the
-    // stopped vehicle furthest upstream. The space that the moving vehicles upstream of this vehicle need is
-    // subtracted. If the signal at the end of the lane is red, moving vehicles can count as already stopped there
-    // (RulesPlan::count_queue_at_red_exit). 1e9: no considered vehicle is stopped or counts as stopped.
+    // Distance from the start of the lane to the rear of the stopped vehicle furthest upstream (stopped: slower than
+    // kCrawlingSpeed_mps). The space for the moving vehicles upstream of it and for all vehicles on the connections to
+    // the lane is subtracted. If the signal at the end of the lane is not green, moving vehicles can count as already
+    // stopped there (RulesPlan::count_queue_at_red_exit). 1e9: no vehicle within RulesPlan::sight_m of the start of the
+    // lane is stopped or counts as stopped.
     double room_m = 1e9;
     // Slot of the stopped vehicle at which the free length ends. If all vehicles move but count as stopped at a red
     // signal: slot of the vehicle furthest upstream on the lane. -1: none.

@@ -16,7 +16,7 @@ namespace {
 
 // Appends a lane to a group, with the accelerations that stop lines, yield stops, hidden leaders and gap alignment
 // demand of its vehicles. `hidden_leader_demands`: the demands of hidden leaders that no group contains yet, in the
-// order of slots. Removes the demands on the vehicles of this lane from this list.
+// order of slots. Moves the demands on the vehicles of this lane from this list to the group.
 void add_lane(const Model& model, const State& state, int lane, std::span<const BrakingDemand>& hidden_leader_demands,
               LaneGroup& group) {
     const VehicleArrays& v = state.vehicles;

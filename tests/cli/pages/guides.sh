@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # ctest-labels: slow
 # ctest-timeout: 900
-# The commands of the guides work as they are printed. tests/tools/guide_blocks.py says which blocks are run.
+# Tests that the commands of the guides work as they are printed. A guide marks the blocks to run by comments, which
+# tests/tools/guide_blocks.py describes.
 set -u
 
 . "$STOPLINE_SOURCE/tests/tools/cli.sh"

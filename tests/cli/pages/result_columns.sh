@@ -9,14 +9,15 @@ set -u
 cmp "$work/page" "$STOPLINE_SOURCE/scenarios/COLUMNS.md" ||
     fail "scenarios/COLUMNS.md is out of date; write it with: stopline-run --describe-columns >scenarios/COLUMNS.md"
 
-# check FILE TABLE [AXIS...]: calls expect_documented and stores the columns for check_complete
+# check FILE TABLE [AXIS...]: expects the page to describe each column of FILE under the heading TABLE, except each AXIS
+# (a column of a sweep axis). Stores the columns of FILE for check_complete.
 check() {
     expect_documented "$@"
     [ -s "$1" ] && head -n 1 "$1" | tr ',' '\n' >>"$work/columns_of.${2//\//.}"
 }
 
-# check_complete TABLE: expects every described column in one of the checked files, except names with CAPITALS, which
-# stand for any word
+# check_complete TABLE: expects that each column described under the heading TABLE occurs in a file that was given to
+# check. Skips described names with CAPITALS, because CAPITALS stand for any word.
 check_complete() {
     local column
     while read -r column; do
@@ -24,7 +25,8 @@ check_complete() {
     done < <(columns_of "$1" | grep -v '[A-Z]')
 }
 
-# check_all FOLDER GROUP COUNT: checks each table in FOLDER, and expects at least COUNT tables
+# check_all FOLDER GROUP COUNT: checks each table in FOLDER under the heading GROUP/FILE, and expects at least COUNT
+# tables
 check_all() {
     local file tables=0
     for file in "$work/$1"/*.csv; do
@@ -89,7 +91,7 @@ check_complete sweep/NAME_means.csv
 "$STOPLINE_BIN/stopline-startup" --no-figures --output "$work/startup" >"$work/stdout" || fail "stopline-startup: exit code $?"
 check_all startup startup 2
 
-# The check finds a column without a description.
+# Tests the check itself: a column without a description must be reported.
 head -n 1 "$work/grid/delays.csv" | sed 's/$/,new_column/' >"$work/extra.csv"
 before=$failures
 expect_documented "$work/extra.csv" network/delays.csv >"$work/stdout"

@@ -24,7 +24,8 @@ run_with() {
 run_with plain ""
 run_with compressed ".gz"
 
-# without_names FILE: prints FILE without the comments, which have the command line
+# without_names FILE: prints FILE without the lines that name the output folder, which differs between the two runs, and
+# without comments, which hold the command line
 without_names() { grep -v -e '<!--' -e "$work" "$1"; }
 
 for name in {fcd,trips,loops}.{CTG-Ref,CDG}.xml trajectories.{CTG-Ref,CDG}.csv; do

@@ -53,8 +53,9 @@ fi
 grep -qF "gnuplot is not installed" "$work/table" || fail "without gnuplot: the report does not say so"
 [ -e "$work/plain/counters.svg" ] && fail "without gnuplot: there is a figure"
 
-# briefly OPTION...: runs the intersection with a short green and neither yellow nor all red. In eight cycles vehicles
-# collide in the junction, and violations give exit code 1. A single cycle is too short for one of the figures.
+# briefly OPTION...: runs the intersection with a short green, without yellow and without all red. The first run below
+# lasts eight cycles: vehicles collide in the junction, so its exit code is 1. The second run lasts a single cycle, too
+# short for one of the figures.
 briefly() {
     code=0
     "$run" "$STOPLINE_SOURCE/scenarios/intersection.yaml" --set demand.left="30 %" --set signal.green="5 s" \

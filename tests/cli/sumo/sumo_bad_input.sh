@@ -48,7 +48,7 @@ scenario
 run_expecting "valid files" 0
 [ -s "$work/stderr" ] && fail "valid files: standard error is not empty: $(head -c 300 "$work/stderr")"
 
-# The defaults of departure depend on the version of SUMO, so the run says which ones it uses.
+# The defaults of departLane and departSpeed depend on the version of SUMO, so the run says which ones it uses.
 scenario
 sed -i 's/ departSpeed="max"//' "$work/rou.xml"
 run_expecting "no departSpeed" 0

@@ -44,7 +44,7 @@ grep -qF fidelity "$work/stderr" && fail "the message appears without need"
     --set 'measure.window=1 s' >"$work/stdout" 2>"$work/stderr" || fail "export of streets: $(head -c 300 "$work/stderr")"
 grep -qF '<edge id="suarezstr_east_in.1"' "$work/streets/edges.edg.xml" || fail "the approach with a pocket is not split"
 
-# A program in place of SUMO that never ends: the time limit stops it, and the message says how far it came.
+# A program that never ends takes the place of SUMO. The time limit stops it, and the message says how far it came.
 mkdir "$work/bin"
 printf '#!/bin/sh\nexit 0\n' >"$work/bin/netconvert"
 cat >"$work/bin/sumo" <<'END'

@@ -6,7 +6,8 @@ set -u
 . "$STOPLINE_SOURCE/tests/tools/cli.sh"
 tools="$STOPLINE_SOURCE/tests/sumo"
 
-# Of three lanes with equal traffic, the left one carries all left turns of an approach with 8 %: 24 % of its vehicles.
+# The three lanes of an approach carry equal traffic. 8 % of all vehicles turn left, all of them from the left lane. So
+# 24 % of the vehicles on the left lane turn left.
 (cd "$tools" && python3 - <<'END') || fail "turn shares by lane"
 import street_inputs
 rows = street_inputs.shares_by_lane([{"straight", "left"}, {"straight"}, {"straight", "right"}],

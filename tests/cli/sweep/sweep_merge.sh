@@ -4,7 +4,7 @@ set -u
 
 . "$STOPLINE_SOURCE/tests/tools/cli.sh"
 program="$STOPLINE_BIN/stopline-sweep"
-# The shipped sweep with one instead of two vehicles, one instead of three hesitations, and six seeds.
+# The shipped sweep, reduced to the first vehicle type and the first hesitation of the driver, and run with six seeds.
 sweep="$work/single_light.yaml"
 sed -e "s#^scenario: \.\./#scenario: $STOPLINE_SOURCE/scenarios/#" \
     -e "s/, electric_100kw//" -e "s/, 0.5 s, 1 s//" -e "s/^repetitions: 1/repetitions: 6/" \

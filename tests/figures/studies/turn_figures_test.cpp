@@ -57,10 +57,11 @@ TEST(ThroughputTrends, CountRisesAndPointsAboveTheStraightLine) {
     const ThroughputTrends trends = throughput_trends(parse_csv(
         "green_s,left_percent,right_percent,population,seed,throughput_veh_h,travel_time_94m_s,density_network_percent\n"
         "15,0,0,CTG-Ref,1,5000,55,31\n"
-        "15,0,0,P40,1,7100,55,31\n"  // 40 % CDG: the straight line gives 7,000
+        // The line from CTG-Ref (0 % CDG) to CDG (100 %) gives 7,000 at 40 % CDG.
+        "15,0,0,P40,1,7100,55,31\n"
         "15,0,0,CDG,1,10000,31,42\n"
         "15,0,10,CTG-Ref,1,4000,55,31\n"
-        "15,0,10,P40,1,5000,55,31\n"  // 40 % CDG: the straight line gives 5,600
+        "15,0,10,P40,1,5000,55,31\n"  // below the line, which gives 5,600
         "15,0,10,CDG,1,8000,31,42\n"
         "15,5,0,CTG-Ref,1,4900,55,31\n"
         "15,5,0,CDG,1,10200,31,42\n",

@@ -58,7 +58,8 @@ TEST_F(IntersectionRun, ThroughputAndTurnSharesCountExitedVehicles) {
     for (const auto& [id, trip] : watch_->trips) {
         if (!is_measured(trip.exit_s)) continue;
         ++exited;
-        // Both texts list the legs counter-clockwise. The first one starts with the leg opposite to west.
+        // Both strings list the legs counter-clockwise. Each leg in "enws" is opposite to the leg at the same place in
+        // "wsen", so 0 means straight on.
         ++turned[static_cast<int>(std::string("enws").find(trip.to) - std::string("wsen").find(trip.from) + 4) % 4];
     }
     ASSERT_GT(turned[1], turned[3]) << "left and right can be told apart";

@@ -95,8 +95,8 @@ struct IntersectionWatch {
         ++present;
     }
 
-    // Counts the vehicles on the approach lanes of two legs that queue at less than 5 km/h, from the stop line
-    // upstream.
+    // Measures the queues on the approach lanes of two legs. A queue begins at the stop line and ends before the first
+    // vehicle that is faster than 5 km/h.
     void observe_queues(const State& state, const std::string& legs) {
         for (const int lane : model.graph.entries) {
             if (legs.find(model.graph.lanes[at(lane)].name[0]) == std::string::npos) continue;

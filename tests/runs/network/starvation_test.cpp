@@ -1,4 +1,5 @@
-// A movement starves if the first vehicle of its queue stands for measure.starvation although nothing blocks its way.
+// A movement starves if the first vehicle of its queue is stopped for measure.starvation although no queue or vehicle
+// ahead blocks its way.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -40,8 +41,9 @@ TEST(Starvation, EndsTheSearchAtTheSetTime) {
     EXPECT_EQ(never_green({"fidelity=meso", "measure.starvation=200 s"}).delays.starvations.size(), 1U);
 }
 
-// A red that is as long as the cycle demands is no starvation, and neither is the red before the first green. Vehicles
-// that start or yield after such a red have stood for longer than measure.starvation too.
+// A long red that belongs to the signal programme is no starvation, and neither is the red before the first green.
+// After such a red, vehicles that start or yield do not count either, although they were stopped for longer than
+// measure.starvation.
 TEST(Starvation, LongRedsOfAWorkingSignalDoNotCount) {
     const Scenario scenario = parse_scenario(
         "{fidelity: meso, network: {kind: intersection}, signal: {first_green: 400 s, green: 350 s}, populations: [CDG], "

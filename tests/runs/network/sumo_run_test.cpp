@@ -89,7 +89,8 @@ TEST(SumoRun, RightOfWayFollowsTheRequestMatrix) {
     const double alone_s = first_arrival_s(scenario_of(crossing_net(), minor), "n_out_1", 150.0);
     EXPECT_NEAR(alone_s, 20.0 + 205.0 / 13.89, 3.0);
     EXPECT_GT(first_arrival_s(scenario_of(crossing_net(), stream + minor), "n_out_1", 150.0), 95.0);
-    // With the reversed request matrix the major stream must yield.
+    // SUMO's request matrix (the `response` attributes) says which link yields to which. Reversed, it makes the major
+    // stream yield.
     std::string reversed =
         testing::replaced(crossing_net(), "index=\"0\" response=\"1110\"", "index=\"0\" response=\"0000\"");
     reversed = testing::replaced(reversed, "index=\"1\" response=\"0000\"", "index=\"1\" response=\"0001\"");

@@ -33,7 +33,8 @@ TEST(ArrivingPlatoon, ClosesUpToThePolicyGap) {
     }
 }
 
-// The vehicles at the end keep their gap for longer than a steady vehicle must, because those ahead close up first.
+// Vehicles ahead close up first. Meanwhile the vehicles at the end of the platoon keep a constant, far too large gap.
+// They keep it long enough to look steady, but must not count as steady.
 TEST(ArrivingPlatoon, VehiclesWithOpenGapsAreCountedApart) {
     for (const std::string fidelity : {"full", "meso"}) {
         const SteadyFlow steady = arriving_platoon(fidelity).populations[0].steady;

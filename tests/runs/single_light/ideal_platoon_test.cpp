@@ -22,7 +22,8 @@ GapPolicySettings policy(const std::string& law, double time_gap_s) {
 }
 
 // The leader drives at speed v from the start. With standstill gap s0 and time gap h, its follower drives at the speed
-// v (1 - exp(-t / h)). The k-th follower passes through k such lags. Later the headway is (length + s0 + h v) / v.
+// v (1 - exp(-t / h)). The k-th follower passes through k such lags. When all drive at v, their headway is
+// (length + s0 + h v) / v.
 TEST(IdealPlatoon, TimeGapActsAsAChainOfLags) {
     const GapPolicySettings time_gap = policy("constant_time", 0.87);
     const double v = 12.0;
@@ -33,7 +34,8 @@ TEST(IdealPlatoon, TimeGapActsAsAChainOfLags) {
         ideal_passages_s(leader, {&time_gap, &time_gap, &time_gap}, kLength_m, line_m, 60.0);
     ASSERT_EQ(times_s.size(), 3U);
     EXPECT_NEAR(times_s[0], line_m / v, 1e-9);
-    // Each lag costs a follower the distance v h until it has reached v. Later fronts are length + s0 + h v apart.
+    // At the stop line all vehicles have reached v. Each lag has cost the distance h v, so successive fronts are
+    // length + s0 + h v apart.
     const double headway_s = (kLength_m + time_gap.standstill_gap_m + h * v) / v;
     EXPECT_NEAR(times_s[1] - times_s[0], headway_s, 2e-3);
     EXPECT_NEAR(times_s[2] - times_s[1], headway_s, 2e-3);
@@ -64,9 +66,9 @@ TEST(IdealPlatoon, NeverPassesBehindAStoppedLeader) {
     EXPECT_TRUE(ideal_passages_s({}, {}, kLength_m, 0.5, 60.0).empty());
 }
 
-// Controller and powertrain change the count by less than one vehicle up to 30 s of green. At its switching speed an
-// ideal follower stops accelerating at once. The controller switches smoothly, so gaps grow later and more vehicles
-// pass.
+// The simulated platoon differs from the ideal one by its controllers and powertrains. With the SWITCH policies more
+// simulated vehicles pass: an ideal follower stops accelerating at once at the switching speed to enlarge its gap, but
+// the controller switches smoothly, so gaps grow later.
 TEST(IdealPlatoon, IsCloseToTheSimulatedPlatoon) {
     const SingleLightReport result = run_single_light(load_scenario(scenario_directory() / "single_light.yaml"));
     for (const PopulationSummary& summary : result.populations) {

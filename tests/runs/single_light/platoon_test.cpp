@@ -62,7 +62,8 @@ TEST(SteadyVehicles, ExcludeSlowerClosingAndLeadingVehicles) {
     EXPECT_TRUE(steady_vehicles(samples(0, 0, 9.0, at_limit, none), kInterval_s, kLimit_mps, 5.0).empty());
 }
 
-// A vehicle that closes up is faster than one without leader. Until those ahead have closed up, its gap is constant.
+// A vehicle that closes up is faster than a vehicle without leader. Until the vehicles ahead have closed up, its gap
+// stays constant.
 TEST(CruisingVehicles, IncludeThoseFasterThanTheCruiseSpeed) {
     const auto faster = [](double /*t*/) { return 1.05 * kLimit_mps; };
     const auto slower = [](double /*t*/) { return kLimit_mps - 0.2; };

@@ -19,8 +19,8 @@ INSTANTIATE_TEST_SUITE_P(TwoPairings, ClosingUp,
                          testing::Values(Pairing{"CDG", "petrol_eu4_72kw"}, Pairing{"CTG-Ref", "electric_100kw"}),
                          as_pairing_name);
 
-// The follower drives (catch_up_factor - 1) limit faster, so it needs excess / (catch_up_factor - 1) / limit seconds.
-// The controller then takes some seconds to remove the last metres.
+// The gap is kExcess_m too large. The follower may be faster than its leader by (catch_up_factor - 1) x limit, so it
+// needs kExcess_m / ((catch_up_factor - 1) x limit). The controller then takes some seconds to remove the last metres.
 TEST_P(ClosingUp, TakesTheTimeThatTheSpeedDifferenceGives) {
     constexpr double kExcess_m = 20.0;
     constexpr double kControl_s = 15.0;
@@ -41,7 +41,7 @@ TEST_P(ClosingUp, TakesTheTimeThatTheSpeedDifferenceGives) {
     EXPECT_NEAR(track.vehicle(0, 0).speed_mps, kLimit_mps, 0.1) << "the leader keeps the limit";
 }
 
-// A leader beyond the range of the radar is no reason to exceed the limit.
+// A vehicle may exceed the limit only to close up to a leader within the range of its radar.
 TEST(ClosingUpRange, VehicleWithoutLeaderKeepsTheLimit) {
     TrackPlan plan;
     plan.limit_mps = kLimit_mps;

@@ -14,8 +14,9 @@ using namespace testing_support;
 class FastRoad : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(EveryVehicle, FastRoad, testing::ValuesIn(data_names("vehicles")), as_name);
 
-// Integrates the start with the larger one of profile and power_share x available acceleration. Returns the time until
-// `to_mps`, s.
+// Returns the time that a start from rest to `to_mps` takes, s. At each speed the vehicle accelerates as in the
+// driver's profile, or with power_share times its available acceleration if this is more. Near the speed limit it
+// accelerates less.
 double start_time_s(const Model& model, const DriverSettings& driver, double to_mps, double limit_mps) {
     constexpr double kStep_s = 0.01;
     const SampledCurve profile{driver.free_drive.speed_mps, driver.free_drive.acceleration_mps2};
@@ -47,7 +48,7 @@ TEST_P(FastRoad, TheStartContinuesWithTheShareOfThePower) {
     }
 }
 
-// On roads with a limit within the range, only the profile counts.
+// If the speed limit is within the speed range of the profile, only the profile counts, and power_share has no effect.
 TEST_P(FastRoad, TheProfileAloneCountsUpToItsLimit) {
     const auto speed_after_10_s = [&](const std::string& power_share) {
         TrackPlan plan;

@@ -64,7 +64,8 @@ Stop stop_at_end_of_green(const std::string& vehicle, const Law& law, double gre
 }
 
 // The first vehicle that can stop needs its full braking only if the light changes at the right time. The test
-// therefore tries several greens. They cover the time between two vehicles.
+// therefore tries several green times. They differ by up to the headway of two vehicles, so one of them is near the
+// right time.
 TEST_P(HardStop, LeavesAGapToEveryLeader) {
     for (const std::string vehicle : {"petrol_eu4_72kw", "{base: electric_100kw, length: 18 m, brake_lag: 0.5 s}"}) {
         double hardest_mps2 = 0.0;

@@ -56,7 +56,8 @@ std::vector<double> ideal_passages_s(const Discharge& d, double r_m, double h_s)
             double x = leader_m.front() - d.length_m - r_m;
             for (const double front_m : leader_m) {
                 const double limit_m = front_m - d.length_m - r_m;
-                // Exact if the leader is at rest during the step. With h = 0 the position x equals limit_m.
+                // At limit_m the gap is r. The solution of the gap law is exact if the leader does not move during the
+                // step.
                 x = h_s > 0.0 ? limit_m + (x - limit_m) * std::exp(-d.step_s / h_s) : limit_m;
                 own_m.push_back(x);
             }

@@ -13,7 +13,8 @@ namespace {
 
 using namespace testing_support;
 
-// The approach of the base scenario is too short for its queue of lorries. The tests place their own vehicles.
+// A queue of lorries would be too long for the approach of the base scenario, so the demand is a single vehicle. The
+// tests place their own vehicles.
 const std::vector<std::string> kLorry = {
     "vehicle={base: petrol_eu4_72kw, name: lorry, length: 16 m, mass: 30000 kg, load: 5000 kg}", "demand.vehicles=1"};
 

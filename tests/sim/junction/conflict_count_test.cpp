@@ -1,5 +1,5 @@
 // Counts of conflicts and overlaps, and the longest time inside a junction. The tests place vehicles by hand and run
-// the phases of one step.
+// those phases of a step that count conflicts.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -45,8 +45,8 @@ protected:
         return {};
     }
 
-    // Places a stopped vehicle with its front at `front_m` along a connection. A negative position is on the approach,
-    // a position beyond the end on the exit lane. The vehicle passed the stop line `ticks_inside` ago.
+    // Places a stopped vehicle with its front at `front_m` along a connection. A negative position is on the approach.
+    // A position beyond the end is on the exit lane. The vehicle passed the stop line `ticks_inside` ticks ago.
     void place(const std::string& connection, double front_m, int ticks_inside = 0) {
         const int number = lane(connection);
         const Lane& road = graph().lanes[at(number)];
@@ -61,7 +61,7 @@ protected:
         state.vehicles.record[slot].junction_entry_tick = static_cast<int>(state.tick) - ticks_inside;
     }
 
-    // Runs the phases of one step. Returns the number of new conflicts.
+    // Runs those phases of a step that count conflicts. Returns the number of new conflicts.
     std::int64_t new_conflicts() {
         const std::int64_t before = track_.state().records.violations.conflicts;
         State& state = track_.mutable_state();

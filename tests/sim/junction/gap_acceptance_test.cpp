@@ -138,9 +138,9 @@ TEST_P(GapAcceptance, AcceptsLongGapsAndRejectsShortOnes) {
         const auto next = std::find_if(arrivals.begin(), arrivals.end(), [&](auto& a) { return a.time_s > start_s; });
         EXPECT_TRUE(next == arrivals.end() || next->time_s - start_s >= critical_s) << "at " << start_s << " s";
     }
-    // A vehicle may reject an interval between two arrivals that is slightly longer than the critical gap. The first
-    // vehicle with priority needs about one second to clear the area, and the gap begins only then. A second vehicle
-    // that turns right brakes, so it arrives later than the waiting vehicle predicted.
+    // If the interval between two arrivals is only slightly longer than the critical gap, a vehicle may reject it. The
+    // first vehicle with priority needs about one second to clear the area, and the gap begins only then. If the second
+    // vehicle with priority turns right, it brakes and arrives later than the waiting vehicle predicted.
     const double margin_s = GetParam() == std::string("right") ? 3.0 : 1.5;
     int rejected = 0;
     for (std::size_t k = 1; k < arrivals.size(); ++k) {

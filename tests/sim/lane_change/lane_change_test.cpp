@@ -61,7 +61,7 @@ TrackPlan plan_of(const Case& c, int lanes) {
     return plan;
 }
 
-// Places a vehicle on lane k that must leave on lane `target`. Returns its id.
+// Places a vehicle on lane k. It must change to lane `target` before the stop line. Returns its id.
 int place(Track& track, int k, double position_m, double speed_mps, int target) {
     const int id = track.place(2 * k, position_m, speed_mps);
     State& state = track.mutable_state();
@@ -94,8 +94,8 @@ void fill(Track& track, std::uint64_t seed, int lanes, double min_gap_m, double 
 class LaneChanging : public testing::TestWithParam<Case> {};
 class DenseLaneChanging : public testing::TestWithParam<Case> {};
 
-// Numbers of discretionary lane changes, and of those among them that return within half a minute to the lane that the
-// vehicle left.
+// Numbers of discretionary lane changes (`all`) and of returns among them. A return leads back to the lane that the
+// vehicle left less than half a minute ago.
 struct DiscretionaryChanges {
     int all = 0;
     int returns = 0;

@@ -226,8 +226,9 @@ TEST(MesoKernels, VectorisedAndScalarKernelsGiveTheSameBits) {
     }
 }
 
-// If transient_gap_s2 is 0, the kernels calculate one safe speed for followers and platoon leaders. A negligible value
-// above 0 forces a separate calculation for platoon leaders. Both ways must give the same bits.
+// transient_gap_s2 is the extra gap per m/s2 of the leader's acceleration. If it is 0, the same safe speed holds for
+// followers and platoon leaders, and the kernels compute it once. A negligible value above 0 makes them compute it
+// twice. Both ways must give the same bits.
 TEST(MesoKernels, SharedAndSeparateLeaderSpeedGiveTheSameBits) {
     for (const char* const population : {"CDG", "two", "CTG-Ref", "three"}) {
         SCOPED_TRACE(population);

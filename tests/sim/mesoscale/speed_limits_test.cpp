@@ -44,8 +44,8 @@ double hardest_braking_mps2(const std::string& name, double& lowest_mps, double&
     return hardest_mps2;
 }
 
-// A vehicle enters at the limit of 27.78 m/s. A vehicle without leader drives at 95 % of the limit, and the limit falls
-// to 13.89 m/s.
+// A vehicle enters at the limit of 27.78 m/s. Then the limit falls to 13.89 m/s. The vehicle has no leader, so it must
+// brake to 95 % of the lower limit.
 TEST(SpeedLimits, VehicleWithoutLeaderBrakesComfortably) {
     double lowest_mps = 0.0, highest_mps = 0.0;
     EXPECT_LT(hardest_braking_mps2("speed_drop", lowest_mps, highest_mps), 2.5);
@@ -61,7 +61,8 @@ TEST(SpeedLimits, AreForeseenOverShortEdges) {
     EXPECT_LT(lowest_mps, 2.8);
 }
 
-// Behind a leader at 95 % of the limit, a vehicle at the limit reaches its gap in excess / (5 % of the limit).
+// The leader drives at 95 % of the limit, and its follower may drive at the limit. So the follower closes up by
+// kExcess_m in the time kExcess_m / (5 % of the limit).
 TEST(SpeedLimits, FollowersCloseUpToLeadersAtTheirSpeed) {
     constexpr double kExcess_m = 14.0;
     for (const std::string parameters : {"table2", "fitted", "passages"}) {
@@ -87,7 +88,8 @@ TEST(SpeedLimits, FollowersCloseUpToLeadersAtTheirSpeed) {
     }
 }
 
-// The fitted models were made for 50 km/h. On faster roads the acceleration is that of the driver's share of the power.
+// The parameters are fitted for speeds up to 50 km/h. On faster roads vehicles accelerate with the share of the power
+// that the driver uses, which is one half.
 TEST(SpeedLimits, FastRoadsAreReachedWithTheShareOfThePower) {
     for (const std::string parameters : {"fitted", "passages"}) {
         TrackPlan plan;

@@ -99,7 +99,8 @@ TEST(Partitions, ThreadsGiveTheSameRunInFullDynamics) {
 // The vectorised kernels leave out standing queues. The scalar kernels evaluate all vehicles and must give the same
 // result.
 TEST(StandingQueues, LeavingThemOutChangesNothing) {
-    for (const char* const meso : {"fitted", "passages"}) {  // with passages, vehicles send start messages by V2V
+    // With the parameters `passages`, a V2V message passes the start of a queue on from vehicle to vehicle.
+    for (const char* const meso : {"fitted", "passages"}) {
         for (const int population : {0, 1, 2}) {
             const Model model = crowded_grid("meso", population, meso);
             Model scalar = model;
@@ -111,8 +112,9 @@ TEST(StandingQueues, LeavingThemOutChangesNothing) {
     }
 }
 
-// Slots without a vehicle have no id. While a lane sleeps (no decisions are made for it until its signal is green), its
-// first vehicle is stopped before this signal.
+// A slot is a place in the arrays of vehicle data. A slot without a vehicle has no id. The test also looks at sleeping
+// lanes, for which no decisions are made until their signal is green: their first vehicle is stopped before this
+// signal.
 TEST(Slots, HaveNoIdWithoutAVehicle) {
     const Model model = crowded_grid("meso", 2);
     Simulation simulation(model, 2);

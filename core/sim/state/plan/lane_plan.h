@@ -20,14 +20,14 @@ struct alignas(64) LanePlan {
     int origin = -1;                    // connection: its approach lane; -1: not a connection
     int exit = -1;                      // connection: its exit lane
     int bitset_index = -1;              // connection: index of its bit in the bitsets; -1: no conflict area
-    bool yields = false;                // connection: must yield in at least one conflict area and phase
+    bool yields = false;                // connection: must yield in some conflict area, always or in some signal phase
     bool branches = false;              // true: more than one lane follows
     bool has_movement_signals = false;  // approach lane: movements have signal groups of their own
     bool keep_clear = true;             // connection: the keep-clear rule applies
 };
 
-// How a vehicle on a lane can make a certain turn: on a route that begins on this lane, or after changing to another
-// lane of the approach on which a route with this turn begins.
+// How a vehicle on a lane can make a certain turn. Either a route with this turn begins on the lane, or the vehicle
+// must first change to another lane of the approach where such a route begins.
 struct TurnOption {
     int route = -1;  // one of the routes with this turn that begin on this lane; -1: none
     // If `route` is -1: number of lane changes to the nearest lane where such a route begins; below 0: to the left; 0:

@@ -58,8 +58,8 @@ LanePlan plan_of(const Model& model, int index) {
     return plan;
 }
 
-// Returns the entry speed of each lane. A lower limit reaches back over as many lanes as braking for it takes, so the
-// computation goes on until no speed changes.
+// Returns the entry speed of each lane (NetworkPlan::entry_speed_mps()). Braking for a lower limit can begin several
+// lanes upstream, so the computation is repeated until no speed changes.
 std::vector<double> entry_speeds_mps(const LaneGraph& graph, std::span<const LanePlan> lanes, double braking_mps2) {
     std::vector<double> entry_mps;
     for (const LanePlan& lane : lanes) entry_mps.push_back(lane.limit_mps);
@@ -92,8 +92,8 @@ double max_space_per_vehicle(const Model& model) {
 }
 
 // Joins the lanes of each intersection to one set. A connection depends on its approach lane and on the connections
-// that it meets. An exit lane without a stop line joins the set of its connections, so that the data of these lanes are
-// close together in memory.
+// with which it shares a conflict area. An exit lane without a stop line joins the set of its connections, so that the
+// data of these lanes are close together in memory.
 void join_intersections(const Model& model, LaneSets& sets) {
     for (int index = 0; index < static_cast<int>(model.graph.lanes.size()); ++index) {
         const Lane& lane = model.graph.lanes[at(index)];

@@ -27,8 +27,9 @@ public:
     double max_space_per_vehicle_m() const { return max_space_per_vehicle_m_; }
     // Returns the speed limit of a lane times Model::speed_factor.
     double free_speed_mps(int lane) const { return speed_factor_ * this->lane(lane).limit_mps; }
-    // Returns the highest speed at which a vehicle may enter a lane, so that comfortable braking suffices for all lower
-    // limits further downstream. Where lanes branch, the fastest way counts.
+    // Returns the highest speed at which a vehicle may enter a lane. From this speed, braking with
+    // DriverTables::deceleration_mps2 suffices for all lower limits further downstream. Where a lane branches, the
+    // following lane with the highest entry speed counts.
     double entry_speed_mps(int lane) const { return entry_speed_mps_[static_cast<std::size_t>(lane)]; }
     std::span<const int> route(int route) const { return routes_.of(route); }
     std::span<const int> next(int lane) const { return next_.of(lane); }
@@ -52,7 +53,8 @@ public:
     // Returns the position on a connection where it has diverged from the other connections of the same approach lane.
     // A vehicle whose rear is past this position is clear of these connections.
     double diverge_end_m(int lane) const { return diverges_[static_cast<std::size_t>(lane)].end_m; }
-    // Returns true if a vehicle with its front on the exit lane can have its rear upstream of diverge_end_m().
+    // Returns true if a vehicle with its front on the exit lane of a connection can still have its rear upstream of
+    // diverge_end_m() of this connection.
     bool exit_reaches_back(int lane) const { return diverges_[static_cast<std::size_t>(lane)].exit_reaches_back; }
     // Returns true if vehicles on this connection may yield inside the intersection. Otherwise they yield at the stop
     // line.

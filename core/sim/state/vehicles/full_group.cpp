@@ -9,7 +9,7 @@ namespace stopline {
 
 namespace {
 
-// Resizes an array and divides it into streams of n elements, all of value 1.
+// Divides an array into streams of n elements. Resizes the array if necessary. New elements have the value 1.
 template <class Number>
 void divide(LargeArray<Number>& array, std::size_t n, std::initializer_list<Number**> streams) {
     array.resize(n * streams.size(), Number{1});
@@ -28,8 +28,7 @@ void FullGroupArrays::resize(int vehicles) {
     streams();
 }
 
-// The kernels also compute elements without a vehicle. divide() therefore sets all elements to 1, so that no divisor is
-// 0.
+// The kernels also compute elements without a vehicle. New elements are therefore set to 1, so that no divisor is 0.
 FullGroup FullGroupArrays::streams() {
     FullGroup s{};
     divide(doubles_, vehicles_, {&s.coming_speed, &s.desired_gap, &s.slope, &s.law_gap, &s.law_slope});

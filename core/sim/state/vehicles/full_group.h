@@ -19,15 +19,16 @@ struct FullGroup {
     float *gap, *closing;  // net gap and closing speed, from the delayed radar measurement
     float *heard_acceleration, *heard_request, *heard_rate;  // delayed V2V message of the leader
     float *to_next_limit, *limit, *end_speed, *standstill_gap, *sine;
-    float* demand;  // lowest acceleration of the ExternalDemands of the vehicle; kUnconstrained_mps2: none
+    float* demand;  // lowest external demand of the vehicle (ExternalDemand in lane_group.h); kUnconstrained_mps2: none
     float *is_platoon_leader, *torque, *brake, *gear_time, *gear;
     float* mean_request;                                  // mean request within the step, for the powertrain
     float *sent_acceleration, *sent_request, *sent_rate;  // V2V message to the follower
     int *policy, *type;
     // Desired gap of the spacing policy, and its slope over speed.
     double *desired_gap, *slope;
-    // Scratch memory for models with several policies. Each further spacing law is evaluated for all vehicles and
-    // writes its results here. Then the values of the vehicles with this law are copied to desired_gap and slope.
+    // Scratch memory for groups with several policies. The spacing law of the first vehicle's policy writes directly to
+    // desired_gap and slope. The law of each other policy writes its results for all vehicles here. Then the values of
+    // the vehicles with this policy are copied to desired_gap and slope.
     double *law_gap, *law_slope;
 };
 

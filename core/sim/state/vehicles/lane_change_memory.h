@@ -9,13 +9,17 @@ namespace stopline {
 
 struct LaneChangeMemory {
     int change_tick = -1'000'000;  // tick of the most recent lane change
-    float remembered_mps = 0.0F;   // highest recent speed, which fades within seconds
-    // Speed that changes to the left and to the right lane would have gained up to now (LaneChangeSettings::gain_mps).
+    float remembered_mps = 0.0F;   // highest recent speed; falls to a lower present speed within some seconds
+    // Sum over time of the accelerations that a change to the left or right lane would have gained
+    // (LaneChangeSettings::gain_mps). Below 0: the vehicle has just left that lane.
     float left_gain_mps = 0.0F;
     float right_gain_mps = 0.0F;
-    Turn third_turn = Turn::none;      // turn at the third intersection ahead; none: not known yet, or a trip
-    std::int8_t preferred_offset = 0;  // offset to the lane that suits the later turns best; below 0: to the left
-    bool preferred_for_third = false;  // the preferred lane is for the third turn only, not for the following one
+    Turn third_turn = Turn::none;  // turn at the third intersection ahead; none: not known, or vehicle on a trip
+    // Number of lanes from the present lane to the lane that suits the later turns best; below 0: to the left.
+    std::int8_t preferred_offset = 0;
+    // True: for the turn at the second intersection ahead, the present lane suits as well as the preferred lane. Only
+    // the turn at the third intersection is the reason for the preference.
+    bool preferred_for_third = false;
 };
 
 }  // namespace stopline

@@ -16,7 +16,7 @@ struct LaneStep {
 };
 
 // The acceleration that one vehicle must not exceed. The reason is a stop line, yielding, a gap alignment, or a vehicle
-// that its leader hides (sim/perception/hidden_leaders.h).
+// that the leader hides (sim/perception/hidden_leaders.h).
 struct ExternalDemand {
     int index = 0;  // index of the vehicle in the group
     double acceleration_mps2 = 0.0;

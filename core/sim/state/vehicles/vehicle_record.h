@@ -9,10 +9,10 @@ namespace stopline {
 
 // Why a vehicle has to stop at a yield stop.
 enum class YieldReason : std::uint8_t {
-    priority,     // a vehicle with priority arrives too soon, or it is another vehicle's turn
+    priority,     // a vehicle with priority arrives too soon, or another vehicle has stopped earlier at an all-way stop
     occupied,     // another vehicle is in the conflict area or enters it
-    intruder,     // the same, and that vehicle has to yield to this one
-    merging,      // another vehicle merges into the exit lane ahead of this one, which follows it
+    intruder,     // another vehicle goes first although it must yield, for example because it can no longer stop
+    merging,      // the vehicle follows another vehicle that merges ahead of it or is about to leave the conflict area
     stop_sign,    // every vehicle must stop at the stop line
     lane_change,  // the vehicle waits for a gap in the adjacent lane
 };
