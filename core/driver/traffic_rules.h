@@ -1,5 +1,5 @@
 // Rules against junction blocking and gridlock, for queues that spill back into intersections (Section VI.A of the
-// paper). By default no rule is active. SI units.
+// paper). By default only the keep-clear rule is active. SI units.
 #pragma once
 
 #include <string>
@@ -11,8 +11,8 @@ struct TrafficRules {
     // between it and the exit lane. The room ends at the rearmost vehicle within sight_m that is slower than 1 m/s. The
     // vehicle also waits while such a slow vehicle from a crossing street blocks its path. The rule can fail, because a
     // moving vehicle in the exit lane may still stop.
-    std::string keep_clear = "off";  // off | on
-    double sight_m = 300.0;          // distance into the exit lane that drivers see; SUMO considers the whole lane
+    std::string keep_clear = "on";  // off | on
+    double sight_m = 300.0;         // distance into the exit lane that drivers see; SUMO considers the whole lane
     // on: while the signal at the end of the exit lane is not green, moving vehicles on the exit lane count as already
     // stopped at that signal. SUMO has a similar rule: a lane counts as occupied if its rearmost vehicle must wait at
     // the end of the lane.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/containers/index.h"
 #include "base/simd/arithmetic.h"
@@ -27,6 +28,8 @@ constexpr double kMinInterval_s = 2.0;       // shortest time from a lane change
 constexpr double kGainMemory_s = 10.0;
 constexpr double kReturnFactor = 10.0;
 constexpr double kReturnMemory_s = 30.0;
+// Distance from the start of a pocket to the rear of a vehicle that waits beside it to change lanes.
+constexpr double kBesidePocket_m = 1.0;
 
 // Returns the acceleration of the intelligent driver model (Treiber, Hennecke, Helbing 2000), with the desired gap of
 // the policy in place of the model's own gap s_0 + v T (standstill gap plus speed times time gap).
@@ -95,13 +98,27 @@ double look_ahead_m(const Model& model, const LaneChangeRequest& me, double reme
     return remembered_mps * time_s + room_m;
 }
 
-// Returns the length that vehicles ahead of `me` would have as a standing queue, m. The vehicles on the target lane
-// count, and if the change serves a later turn, those on the approaches of the next intersections too.
-double queue_ahead_m(const Model& model, const State& state, const LaneChangeRequest& me, int changes) {
-    int lane = me.lane;
+// Returns the lane that a vehicle on `lane` reaches with `changes` lane changes, signed as TurnOption::lane_changes.
+// Returns -1 if there is no such lane.
+int lane_after_changes(const State& state, int lane, int changes) {
     for (int k = 0; k < std::abs(changes) && lane >= 0; ++k) {
         lane = changes < 0 ? state.plan.adjacent(lane).left : state.plan.adjacent(lane).right;
     }
+    return lane;
+}
+
+// Returns LaneChangeRequest::pocket_entry_m.
+double pocket_entry_m(const State& state, const LaneChangeRequest& me) {
+    const int target = lane_after_changes(state, me.lane, me.lane_changes);
+    if (target < 0) return kNoPocket_m;
+    const double start_m = adjacent_position_m(state, target, 0.0, me.lane);
+    return start_m > 0.0 ? start_m + me.length_m + kBesidePocket_m : kNoPocket_m;
+}
+
+// Returns the length that vehicles ahead of `me` would have as a standing queue, m. The vehicles on the target lane
+// count, and if the change serves a later turn, those on the approaches of the next intersections too.
+double queue_ahead_m(const Model& model, const State& state, const LaneChangeRequest& me, int changes) {
+    const int lane = lane_after_changes(state, me.lane, changes);
     if (lane < 0) return 0.0;
     int vehicles = vehicles_ahead(state, lane, adjacent_position_m(state, me.lane, me.front_m, lane));
     if (me.lane_changes == 0) {
@@ -115,6 +132,21 @@ double queue_ahead_m(const Model& model, const State& state, const LaneChangeReq
         }
     }
     return vehicles * state.plan.max_space_per_vehicle_m();
+}
+
+// Returns the position behind the last vehicle of pocket `other`, m from the start of the lane of `me`. The last vehicle
+// is assumed to stop comfortably. Returns infinity if the pocket is empty or if the front of `me` is already beside the
+// last vehicle.
+double behind_pocket_queue_m(const Model& model, const State& state, const LaneChangeRequest& me, int other) {
+    constexpr double kNoQueue_m = std::numeric_limits<double>::infinity();
+    const LaneBlock& block = state.blocks[at(other)];
+    if (block.count == 0) return kNoQueue_m;
+    const VehicleArrays& v = state.vehicles;
+    const int last = block.last();
+    const double front_at_rest_m =
+        v.position_m[at(last)] + comfortable_braking_distance_m(model, v.speed_mps[at(last)]);
+    const double rear_m = adjacent_position_m(state, other, front_at_rest_m, me.lane) - v.length_m[at(last)];
+    return me.front_m < rear_m ? std::max(rear_m - v.standstill_gap_m[at(me.slot)], me.front_m) : kNoQueue_m;
 }
 
 class LaneChangeDecision {
@@ -177,8 +209,21 @@ private:
         if (later_changes(model_, state_, other, me_.slot).in_total >
             later_changes(model_, state_, me_.lane, me_.slot).in_total)
             return false;
-        const int changes = std::abs(state_.plan.adjacent(other).turn_option(me_.turn).lane_changes);
-        return route_on(other) >= 0 || me_.to_line_m > look_ahead_m(model_, me_, remembered_mps(), changes);
+        return route_on(other) >= 0 || has_room_to_return(other);
+    }
+
+    // Returns true if the vehicle has enough usable distance for the lane changes that it would need from lane `other`.
+    // The longer queue of both lanes is not usable, because a vehicle at the end of a queue finds no gap in it.
+    bool has_room_to_return(int other) const {
+        const double end_m = std::min(me_.front_m + me_.to_line_m, me_.pocket_entry_m);
+        const auto vehicles_before_end = [&](int lane) {
+            return vehicles_ahead(state_, lane, adjacent_position_m(state_, me_.lane, me_.front_m, lane)) -
+                   vehicles_ahead(state_, lane, adjacent_position_m(state_, me_.lane, end_m, lane));
+        };
+        const int vehicles = std::max(vehicles_before_end(me_.lane), vehicles_before_end(other));
+        const double usable_m = end_m - me_.front_m - vehicles * state_.plan.max_space_per_vehicle_m();
+        const int changes = state_.plan.adjacent(other).turn_option(me_.turn).lane_changes;
+        return usable_m > look_ahead_m(model_, me_, remembered_mps(), changes);
     }
 
     // Adds the incentive of this decision to the gain of a lane, which is at least 0 unless the vehicle has just left
@@ -284,6 +329,7 @@ LaneChangeRequest lane_change_request(const Model& model, const State& state, in
     me.turn = state.plan.turn_of(v.record[at(slot)].route);
     me.lane_changes = state.plan.adjacent(lane).turn_option(me.turn).lane_changes;
     me.to_line_m = state.plan.lane(lane).stop_line_m - model.driver.stop.margin_m - me.front_m;
+    if (me.lane_changes != 0) me.pocket_entry_m = pocket_entry_m(state, me);
     const VehicleRecord& record = v.record[at(slot)];
     const LaneChangeMemory& memory = v.lane_memory[at(slot)];
     if (me.lane_changes != 0 || memory.preferred_offset == 0) return me;
@@ -307,7 +353,8 @@ MandatoryChange mandatory_change(const Model& model, const State& state, const L
     change.look_ahead_m =
         look_ahead_m(model, me, state.vehicles.lane_memory[at(me.slot)].remembered_mps, change.lane_changes);
     const double distance_m = me.lane_changes != 0 ? me.to_line_m : me.to_preferred_line_m;
-    change.usable_m = distance_m - queue_ahead_m(model, state, me, change.lane_changes);
+    change.usable_m = std::min(distance_m - queue_ahead_m(model, state, me, change.lane_changes),
+                               me.pocket_entry_m - me.front_m);
     if (change.usable_m >= change.look_ahead_m) change.lane_changes = 0;
     return change;
 }
@@ -322,9 +369,12 @@ double waiting_position_m(const Model& model, const State& state, const LaneChan
     const int places_behind_line = me.lane_changes < 0 ? 0 : 1;
     const int other = me.lane_changes < 0 ? state.plan.adjacent(me.lane).left : state.plan.adjacent(me.lane).right;
     // The waiting position must be beside the target lane. The target lane may start further downstream than this lane.
-    const double min_position_m = adjacent_position_m(state, other, 0.0, me.lane) + me.length_m + 1.0;
+    const double min_position_m = adjacent_position_m(state, other, 0.0, me.lane) + me.length_m + kBesidePocket_m;
     const double line_m = state.plan.lane(me.lane).stop_line_m - model.driver.stop.margin_m;
-    return std::min(std::max(line_m - places_behind_line * spacing_m, min_position_m), line_m);
+    const double beside_m = std::min(std::max(line_m - places_behind_line * spacing_m, min_position_m), line_m);
+    if (me.pocket_entry_m == kNoPocket_m) return beside_m;
+    if (std::abs(me.lane_changes) == 1) return std::min(beside_m, behind_pocket_queue_m(model, state, me, other));
+    return me.front_m <= me.pocket_entry_m ? std::min(beside_m, me.pocket_entry_m) : beside_m;
 }
 
 void change_lanes(const Model& model, State& state) {

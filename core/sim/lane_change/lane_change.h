@@ -12,10 +12,13 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 
 #include "sim/perception/lane_gaps.h"
 
 namespace stopline {
+
+inline constexpr double kNoPocket_m = std::numeric_limits<double>::infinity();
 
 // A vehicle that may change lanes, and the lane changes that it wants.
 struct LaneChangeRequest {
@@ -28,6 +31,9 @@ struct LaneChangeRequest {
     Turn turn = Turn::none;
     int lane_changes = 0;    // lane changes required before the stop line; below 0: to the left; 0: none
     double to_line_m = 0.0;  // distance to the stopping position before the line
+    // A pocket is a lane that begins downstream of the start of the approach. If the turn needs a pocket: the position
+    // of the vehicle's front from which on the whole vehicle is beside the pocket, m; else kNoPocket_m.
+    double pocket_entry_m = kNoPocket_m;
     // The last two members are set if no lane change is required and another lane suits the later turns better
     // (preferred_lane.h). An offset below 0 means to the left.
     std::int8_t preferred_offset = 0;
@@ -39,7 +45,9 @@ LaneChangeRequest lane_change_request(const Model& model, const State& state, in
 // A mandatory change, or a change for the turn at the second intersection ahead.
 struct MandatoryChange {
     int lane_changes = 0;       // number of lane changes; below 0: to the left; 0: none is due
-    double usable_m = 0.0;      // distance to the stop line before which they must be done, minus the queue
+    // distance to the stop line before which the lane changes must be done, minus the queue; at most the distance to the
+    // pocket, if they lead into a pocket
+    double usable_m = 0.0;
     double look_ahead_m = 0.0;  // usable distance below which the vehicle looks for a gap
 
     // Returns how urgent the change is: 0 where the search for a gap begins, 1 where no usable distance is left.
@@ -54,7 +62,8 @@ double urgent_share(const Model& model, double urgency);
 
 // Returns the position where a vehicle waits before the stop line to change lanes, m from the start of the lane.
 // Left-bound vehicles wait nearer to the stop line than right-bound ones. Two vehicles that want to swap lanes thus do
-// not block each other.
+// not block each other. A vehicle that needs a pocket waits behind the queue in the pocket. If it needs several lane
+// changes for it, it waits beside the start of the pocket.
 double waiting_position_m(const Model& model, const State& state, const LaneChangeRequest& me);
 
 // Carries out lane changes. Each vehicle considers a lane change only in some steps, so the function treats only the

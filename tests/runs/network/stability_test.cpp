@@ -39,7 +39,7 @@ TEST(Stability, GridlockAroundABlockIsFoundDuringAnyGreen) {
 // although there is no steady level from which throughput drops.
 TEST(Stability, NetworkAtRestIsUnstable) {
     const NetworkResult result =
-        small_grid({"rules={}", "duration=1500 s", "measure={area_margin: 20 m, window: 300 s}"});
+        small_grid({"rules={keep_clear: off}", "duration=1500 s", "measure={area_margin: 20 m, window: 300 s}"});
     EXPECT_EQ(result.measured.exited, 0);
     EXPECT_EQ(result.stability, Stability::unstable);
     EXPECT_TRUE(result.collapse_s.has_value());
@@ -80,7 +80,7 @@ TEST(KeepClearRule, RecordsEachHoldOnce) {
         }
         previous = &use;
     }
-    settings.back() = "rules={}";
+    settings.back() = "rules={keep_clear: off}";
     EXPECT_TRUE(small_grid(settings).delays.rule_uses.empty());
 }
 

@@ -214,6 +214,60 @@ TEST_P(LaneChanging, WaitsBeforeTheStopLineWithoutAGap) {
     EXPECT_TRUE(track.state().records.lane_changes.empty());
 }
 
+constexpr double kPocket_m = 60.0;
+
+// Returns a road with `lanes` lanes before a red signal. Lane 0 is a pocket, which begins kPocket_m before the line.
+Model road_with_pocket(const Case& c, int lanes) {
+    TrackPlan plan = plan_of(c, lanes);
+    plan.green_from_s = testing_support::kForever_s;
+    Model model = parallel_lanes(plan);
+    Lane& pocket = model.graph.lanes[0];
+    pocket.start_offset_m = pocket.stop_line_m - kPocket_m;
+    pocket.length_m -= pocket.start_offset_m;
+    pocket.stop_line_m = kPocket_m;
+    return model;
+}
+
+// Returns the number of vehicles at rest that fit into the pocket.
+int pocket_capacity(const Track& track) {
+    const double space_m = track.model().vehicles[0].length_m + track.model().policies[0].settings.standstill_gap_m;
+    return static_cast<int>(kPocket_m / space_m);
+}
+
+TEST_P(LaneChanging, WaitsBehindTheQueueOfAFullPocket) {
+    Track track(road_with_pocket(GetParam(), 2));
+    const int capacity = pocket_capacity(track);
+    for (int k = 0; k < capacity + 2; ++k) place(track, 1, 900.0 - 30.0 * k, 10.0, 0);
+    track.run(90.0);
+    const State& state = track.state();
+    ASSERT_GE(state.blocks[0].count, capacity - 1) << "the pocket fills";
+    ASSERT_GE(state.blocks[2].count, 2) << "the pocket is too small for all vehicles";
+    const auto first = track.vehicle(2, 0);
+    EXPECT_LT(first.speed_mps, 0.1);
+    EXPECT_LT(first.position_m, 1000.0 - kPocket_m + track.model().vehicles[0].length_m + 1.0)
+        << "the vehicle waits at the start of the pocket, not at the stop line";
+}
+
+// A queue stands on the lane beside the pocket, and the third lane is empty. `target`: the lane that all vehicles need.
+// Returns the number of vehicles that change to the third lane.
+int changes_to_third_lane(const Case& c, int target) {
+    Model model = road_with_pocket(c, 3);
+    model.graph.lanes[5].turn = Turn::straight;  // the second and the third lane allow straight on
+    Track track(std::move(model));
+    const double space_m =
+        track.model().vehicles[0].length_m + track.model().policies[0].settings.standstill_gap_m + 0.1;
+    for (int k = 0; k < 20; ++k) place(track, 1, 995.0 - space_m * k, 0.0, target);
+    track.run(30.0);
+    int changes = 0;
+    for (const LaneChange& change : track.state().records.lane_changes) changes += change.to_lane == 4 ? 1 : 0;
+    return changes;
+}
+
+TEST_P(LaneChanging, KeepsTheLaneBesideItsPocketInAQueue) {
+    EXPECT_EQ(changes_to_third_lane(GetParam(), 0), 0);
+    EXPECT_GT(changes_to_third_lane(GetParam(), 1), 0) << "the third lane attracts vehicles that need no pocket";
+}
+
 TEST_P(LaneChanging, OvertakesASlowerVehicleWithOneChange) {
     Track track([&] {
         Model model = parallel_lanes(plan_of(GetParam(), 2));

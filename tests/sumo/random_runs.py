@@ -1,0 +1,161 @@
+#!/usr/bin/env python3
+"""Runs random scenarios and checks for violations.
+
+    random_runs.py --bin FOLDER_OF_STOPLINE_PROGRAMS --kind junction|streets [--count 100] [--first 1] [--keep FOLDER]
+
+Each scenario has a number, which is the seed of its random features: policies and their mixture, vehicle, signal and
+demand. A scenario of the kind `junction` is one intersection. A scenario of the kind `streets` is a corridor of
+random_corridors.py. Each scenario runs in both fidelities. With --keep, the files of the scenarios stay in a folder.
+
+A run fails if the program reports a violation or a deadlock, if a movement starves, or if the program rejects the
+scenario although it should accept it. Exit codes: 0 no run failed, 1 some runs failed.
+"""
+
+import argparse
+import csv
+import json
+import random
+import subprocess
+import sys
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import random_corridors
+
+VIOLATIONS = ("overlaps", "conflicts", "red_entries", "lost_vehicles", "deadlocks", "starvations")
+PAPER_POLICIES = ["CDG", "CDG-6m", "CTG-Ref", "CTG-HCM", "CTG-HBS", "SWITCH-1", "SWITCH-2"]
+VEHICLES = ["petrol_eu4_72kw", "petrol_eu4_84kw", "diesel_eu4_103kw", "electric_100kw"]
+LANES = {
+    1: ["straight", "straight+left+right", "straight+left", "straight+right"],
+    2: ["straight+left,straight+right", "left,straight+right", "straight,straight+right", "straight+left,straight"],
+    3: ["straight+left,straight,straight+right", "left,straight,straight+right", "left,straight+left,straight+right"],
+    4: ["left,straight,straight,straight+right", "straight+left,straight,straight,straight+right"],
+}
+
+
+def own_policy(rng, name):
+    """Returns a random policy that no file contains."""
+    gap_m = round(rng.uniform(1.0, 6.0), 2)
+    law = rng.choice(["constant_distance", "constant_time", "switch_time_gap", "switch_distance"])
+    policy = {"name": name, "law": law, "standstill_gap": f"{gap_m} m"}
+    if law in ("constant_time", "switch_time_gap"):
+        policy["time_gap"] = f"{rng.uniform(0.3, 2.0):.2f} s"
+    if law.startswith("switch"):
+        policy["switch_speed"] = f"{rng.randint(10, 40)} km/h"
+    if law == "switch_distance":
+        policy["reference_speed"] = "50 km/h"
+        policy["reference_gap"] = f"{gap_m + rng.uniform(1.0, 20.0):.2f} m"
+    return policy
+
+
+def population(rng):
+    """Returns a population, and the policies that it needs."""
+    own = [own_policy(rng, f"own_{k}") for k in range(rng.choice([0, 0, 1, 2]))]
+    names = rng.sample(PAPER_POLICIES, rng.randint(1, 3)) + [policy["name"] for policy in own]
+    rng.shuffle(names)
+    names = names[: rng.randint(1, 3)]
+    own = [policy for policy in own if policy["name"] in names]
+    shares = [100 // len(names)] * len(names)
+    shares[0] += 100 - sum(shares)
+    pattern = rng.choice(["random", "balanced"])
+    components = [{"policy": name, "share": f"{share} %"} for name, share in zip(names, shares)]
+    return {"name": "X", "pattern": pattern, "components": components}, own
+
+
+def junction(rng):
+    """Returns the fields of a scenario with one intersection."""
+    lanes = rng.choice(LANES[rng.randint(1, 4)]).split(",")
+    movements = set("+".join(lanes).split("+"))
+    turn = {side: f"{rng.choice([0, 10, 20, 40])} %" for side in ("left", "right") if side in movements}
+    saturated = rng.random() < 0.7
+    demand = {"kind": "saturated", "start": rng.choice(["queued", "empty"])} if saturated else {
+        "kind": "rate", "inflow": f"{rng.randint(100, 4000)} veh/h"}
+    return {
+        "duration": "400 s",
+        "network": {"kind": "intersection", "intersection": {
+            "lanes": [{"movements": lane} for lane in lanes], "radius": f"{rng.randint(20, 30)} m",
+            "approach_length": f"{rng.randint(80, 300)} m", "exit_length": f"{rng.randint(50, 200)} m",
+            "speed_limit": f"{rng.choice([30, 50, 70])} km/h", "turn_speed": f"{rng.randint(5, 10)} m/s"}},
+        "signal": {"green": f"{rng.randint(8, 40)} s", "yellow": f"{rng.randint(3, 5)} s",
+                   "all_red": f"{rng.randint(1, 6)} s"},
+        "demand": {**demand, **turn},
+    }  # fmt: skip
+
+
+def streets(rng, number, folder):
+    """Returns the fields of a scenario with a random corridor."""
+    file, _ = random_corridors.write_streets(number, folder)
+    return {
+        "duration": "600 s",
+        "network": {"kind": "streets", "streets": f"./{file.name}"},
+        "demand": {"kind": "saturated", "start": "empty"},
+        "rules": {"teleport_cycles": rng.choice([0, 3]), "pass_blocker_greens": rng.choice([0, 2])},
+        "measure": {"area_margin": "20 m", "window": "300 s"},
+    }
+
+
+def scenario(kind, number, folder):
+    rng = random.Random(f"{kind} {number}")
+    fields = junction(rng) if kind == "junction" else streets(rng, number, folder)
+    mixture, policies = population(rng)
+    driver = {"base": "startup_kit", "free_drive": {"hesitation": f"{rng.choice([0, 0.5, 1.0])} s"}}
+    return {"title": f"Random {kind} {number}", "seed": number, "step": "20 ms", **fields, "policies": policies,
+            "populations": [mixture], "vehicle": rng.choice(VEHICLES), "driver": driver}  # fmt: skip
+
+
+def problem(binary, file, fidelity, output):
+    """Runs a scenario. Returns what is wrong with the run, or an empty text."""
+    command = [binary / "stopline-run", file, "--no-figures", "--threads", "1", "--output", output, "--set", f"fidelity={fidelity}"]
+    result = subprocess.run(command, capture_output=True, text=True, check=False)
+    summary = output / "summary.csv"
+    if not summary.is_file():
+        return f"exit code {result.returncode}: {result.stderr.strip()[:300]}"
+    with open(summary, encoding="utf-8") as table:
+        row = next(csv.DictReader(table))
+    found = {key: row[key] for key in VIOLATIONS if row.get(key, "0") not in ("0", "")}
+    if result.returncode not in (0, 1) or (result.returncode == 1 and not found):
+        return f"exit code {result.returncode}: {result.stderr.strip()[:300]}"
+    return ", ".join(f"{key} {value}" for key, value in found.items())
+
+
+def run(options, folder, number):
+    """Runs one scenario in both fidelities. Returns the lines about failed runs."""
+    file = folder / f"{options.kind}_{number}.yaml"
+    file.write_text(json.dumps(scenario(options.kind, number, folder), indent=1))
+    failed = []
+    for fidelity in options.fidelity or ["meso", "full"]:
+        text = problem(options.bin, file, fidelity, folder / f"{options.kind}_{number}_{fidelity}")
+        if text:
+            failed.append(f"{options.kind} {number}, {fidelity}: {text}")
+    return failed
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--bin", type=Path, required=True, help="folder of the Stopline programs")
+    parser.add_argument("--kind", choices=["junction", "streets"], required=True, help="kind of network")
+    parser.add_argument("--fidelity", choices=["meso", "full"], action="append", help="default: both")
+    parser.add_argument("--count", type=int, default=100, help="number of scenarios (default: 100)")
+    parser.add_argument("--first", type=int, default=1, help="number of the first scenario (default: 1)")
+    parser.add_argument("--jobs", type=int, default=2, help="runs at the same time (default: 2)")
+    parser.add_argument("--keep", type=Path, help="folder for the scenarios and their results (default: a temporary one)")
+    options = parser.parse_args()
+    options.bin = options.bin.resolve()
+    failed = []
+    with tempfile.TemporaryDirectory() as temporary, ThreadPoolExecutor(options.jobs) as pool:
+        folder = (options.keep or Path(temporary)).resolve()
+        folder.mkdir(parents=True, exist_ok=True)
+        numbers = range(options.first, options.first + options.count)
+        for done, lines in enumerate(pool.map(lambda number: run(options, folder, number), numbers), 1):
+            failed += lines
+            for line in lines:
+                print(line, flush=True)
+            if done % 50 == 0:
+                print(f"{done} of {options.count} scenarios, {len(failed)} failed runs", flush=True)
+    print(f"{options.count} scenarios, {len(failed)} failed runs")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
