@@ -196,7 +196,7 @@ std::vector<Row> rows_of(const StreetSettings& streets) {
     const double first_m = centres_m.front() - kMajorLeg_m - 10.0;
     const double whole_m = centres_m.back() + kMajorLeg_m + 10.0 - first_m;
     if (whole_m <= kRow_m) return {{first_m, first_m + whole_m}};
-    constexpr double kFree_m = 60.0;  // length that a row needs on each side of an intersection's centre
+    constexpr double kFree_m = 60.0;  // a row must continue this far beyond the centres of its intersections
     std::vector<Row> rows{{first_m, first_m + kRow_m}};
     for (std::size_t k = 0; k < centres_m.size(); ++k) {
         if (centres_m[k] + kFree_m <= rows.back().to_m) continue;

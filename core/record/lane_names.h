@@ -10,9 +10,9 @@
 
 namespace stopline {
 
-// Finds the name of a lane and the position on it for result files. An imported network has the names of its file,
-// where one lane of the graph can consist of several lanes (Lane::parts). A vehicle beyond the stop line of its lane
-// counts as being on its connection.
+// Finds the name of a lane and the position on it for result files. In an imported network, the names are those of the
+// lanes in the SUMO file. One lane of the lane graph can consist of several of these lanes (Lane::parts). A vehicle
+// beyond the stop line of its lane counts as being on its connection.
 class LaneNames {
 public:
     // plain: names of the lane graph and of the imported file. sumo: as in SUMO's files, where the name of a connection

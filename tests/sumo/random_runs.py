@@ -36,7 +36,7 @@ LANES = {
 
 def own_policy(rng, name):
     """Returns a random policy that no file contains."""
-    gap_m = round(rng.uniform(1.0, 6.0), 2)
+    gap_m = round(rng.uniform(2.0, 6.0), 2)  # full dynamics needs 2 m
     law = rng.choice(["constant_distance", "constant_time", "switch_time_gap", "switch_distance"])
     policy = {"name": name, "law": law, "standstill_gap": f"{gap_m} m"}
     if law in ("constant_time", "switch_time_gap"):
@@ -66,8 +66,8 @@ def population(rng):
 def junction(rng):
     """Returns the fields of a scenario with one intersection."""
     lanes = rng.choice(LANES[rng.randint(1, 4)]).split(",")
-    movements = set("+".join(lanes).split("+"))
-    turn = {side: f"{rng.choice([0, 10, 20, 40])} %" for side in ("left", "right") if side in movements}
+    turn = {side: f"{rng.choice([0, 10, 20, 40])} %"
+            for side in ("left", "right") if any(side in lane and "+" in lane for lane in lanes)}  # fmt: skip
     saturated = rng.random() < 0.7
     demand = {"kind": "saturated", "start": rng.choice(["queued", "empty"])} if saturated else {
         "kind": "rate", "inflow": f"{rng.randint(100, 4000)} veh/h"}

@@ -1,6 +1,7 @@
 // Traffic rules in whole runs: teleporting, passing of blockers and the keep-clear rule.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 #include <string>
 #include <vector>
@@ -100,6 +101,48 @@ TEST_P(SlowRules, ApplyOnlyUnderTheirConditions) {
     // No vehicle waits forever: the first vehicle of a lane is teleported after a stop of three cycles, and its
     // followers move up.
     EXPECT_LT(state.congestion.delays.longest_stop_s, 10.0 * cycle_s);
+}
+
+// Returns the longest time for which a vehicle inside the intersection has been stopped at the end of the run, s.
+double longest_stop_inside_s(const std::string& scenario, const std::string& keep_clear) {
+    const Model model = network_model(parse_scenario(scenario, "test.yaml", {"rules.keep_clear=" + keep_clear}), 0);
+    Simulation simulation(model);
+    simulation.run_until(400.0);
+    const State& state = simulation.state();
+    EXPECT_TRUE(state.records.violations.none());
+    double longest_s = 0.0;
+    for (std::size_t lane = 0; lane < state.blocks.size(); ++lane) {
+        if (state.plan.lane(static_cast<int>(lane)).origin < 0) continue;
+        for (int slot = state.blocks[lane].first; slot < state.blocks[lane].past_last(); ++slot) {
+            const auto i = static_cast<std::size_t>(slot);
+            if (state.vehicles.speed_mps[i] > 0.1) continue;
+            longest_s = std::max(longest_s, model.time_s(state.tick - state.vehicles.stopped_since[i]));
+        }
+    }
+    return longest_s;
+}
+
+// Many vehicles turn left, and the red of 1 s does not suffice for those that still wait inside the intersection. A
+// random search found this run.
+TEST(KeepClear, VehiclesThatWaitInsideLeaveBeforeCrossingOnesEnter) {
+    const std::string scenario = R"(
+fidelity: meso
+step: 20 ms
+duration: 400 s
+seed: 4
+network:
+  kind: intersection
+  intersection: {radius: 25 m, approach_length: 113 m, exit_length: 185 m, speed_limit: 30 km/h, turn_speed: 9 m/s}
+signal: {green: 28 s, yellow: 3 s, all_red: 1 s}
+demand: {kind: saturated, left: 40 %, right: 10 %}
+policies: []
+populations: [CDG]
+vehicle: electric_100kw
+driver: {base: startup_kit, free_drive: {hesitation: 1 s}}
+)";
+    const double cycle_s = 2.0 * (28.0 + 3.0 + 1.0);
+    EXPECT_GT(longest_stop_inside_s(scenario, "off"), 2.0 * cycle_s) << "without the rule the intersection locks";
+    EXPECT_LT(longest_stop_inside_s(scenario, "on"), cycle_s);
 }
 
 TEST(SlowKeepClear, ReducesGridlockAndPassedBlockers) {

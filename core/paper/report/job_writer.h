@@ -18,7 +18,8 @@ public:
     JobOutput output;
 
     void table(const std::string& name, const std::string& csv);
-    // Draws a figure and, if the job is reduced, adds the mark "REDUCED". Figures of the same name need different
+    // Draws a figure. If the job is reduced (it runs less than the paper does, reductions.h), adds the mark "REDUCED"
+    // to the figure. Figures of the same name need different
     // subfolders. Throws InputError if drawing fails. Throws Interrupted if on_progress returns false.
     void figure(Figure figure, const std::string& subfolder = "");
     void figures(std::vector<Figure> figures, const std::string& subfolder = "");

@@ -17,7 +17,8 @@ namespace {
 struct WaitingVehicle {
     int slot = -1;
     int blocker = -1;
-    bool needs_only_right_of_way = false;  // the blocker is not in the path of the vehicle
+    // true: the vehicle could go if it had right of way, because its blocker has not reached their conflict area yet
+    bool needs_only_right_of_way = false;
 };
 
 class WaitChains {
@@ -119,8 +120,7 @@ DeadlockResolution* find_resolution_for(const State& state, Partition& part, int
     return found == part.deadlock_resolutions.end() ? nullptr : &*found;
 }
 
-void resolve_deadlocks(const Model& model, const State& state, Partition& part) {
-    if (model.demand.trips.empty()) return;
+void resolve_deadlocks(const State& state, Partition& part) {
     WaitChains chains(state, part);
     for (const int lane : part.lanes_with_yield_stops) {
         const YieldStops& stops = state.junctions.yield_stops[at(lane)];

@@ -2,7 +2,6 @@
 // one of them go first.
 #pragma once
 
-#include "sim/state/model.h"
 #include "sim/state/partition.h"
 #include "sim/state/state.h"
 
@@ -18,7 +17,7 @@ DeadlockResolution* find_resolution_for(const State& state, Partition& part, int
 // Finds cycles of stopped vehicles in a partition, in which each vehicle waits for the next one. In each cycle, adds a
 // deadlock resolution for one vehicle that waits only for right of way, that is, whose blocker is not in its path. Of
 // several such vehicles, the one that has waited longest proceeds; if several have waited equally long, the one with
-// the lowest id. Call it when all yield stops of the step are known. Does nothing unless the network is imported.
-void resolve_deadlocks(const Model& model, const State& state, Partition& part);
+// the lowest id. Call it when all yield stops of the step are known.
+void resolve_deadlocks(const State& state, Partition& part);
 
 }  // namespace stopline

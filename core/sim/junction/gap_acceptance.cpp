@@ -102,8 +102,7 @@ GapBlocker find_gap_blocker(const Model& model, State& state, Partition& part, i
     const bool had_accepted_gap = record.accepted_gap_on == lane;
     const bool has_begun = had_accepted_gap && !v.stopped;
     record.accepted_gap_on = -1;
-    DeadlockResolution* const resolution =
-        v.stopped && !model.demand.trips.empty() ? find_resolution_for(state, part, v.slot) : nullptr;
+    DeadlockResolution* const resolution = v.stopped ? find_resolution_for(state, part, v.slot) : nullptr;
     if (resolution != nullptr) {
         resolution->last_needed_tick = state.tick;
     } else if (const int winner = yield_cycle_winner(model, state, lane, v); winner >= 0) {

@@ -178,8 +178,9 @@ private:
     static const Wait& nearer(const Wait& a, const Wait& b) { return b.place_m < a.place_m ? b : a; }
     static void keep_nearer(const Wait& wait, Wait& nearest) { nearest = nearer(nearest, wait); }
 
-    // Returns true if the candidate would have to wait at the stop line and can stop there. Returns false if vehicles
-    // on this connection may wait inside the intersection. `line_m`: waiting position at the line.
+    // Returns true if the stop line is the place where the candidate waits, should it have to wait. This requires that
+    // the candidate can still stop at the line, and that vehicles on its connection may not wait inside the
+    // intersection. `line_m`: waiting position at the line.
     bool stops_at_line(double line_m) const {
         if (v_.inside || state_.plan.may_wait_inside(lane_)) return false;
         if (v_.stopped || line_m - v_.front_m >= comfortable_braking_distance_m(model_, speed_mps_)) return true;
@@ -397,7 +398,7 @@ void decide_right_of_way(const Model& model, State& state, Partition& part) {
         decide(model, state, part, state.plan.connection_at(bit));
         return false;
     });
-    resolve_deadlocks(model, state, part);
+    resolve_deadlocks(state, part);
     count_conflicts(model, state, part);
 }
 

@@ -156,8 +156,20 @@ const ExitRoom& exit_room(const Model& model, State& state, int exit) {
     return room;
 }
 
-// Returns the slot of a stopped vehicle from a crossing street that blocks `connection`; -1: none. Ignores connections
-// that yield to `connection` or have priority over it, and vehicles that may be passed under the pass-blocker rule.
+// Returns true if a vehicle inside the intersection has yet to leave the conflict area, and a vehicle on the other
+// connection must let it go first. That is the case if it is in the area, or if its own signal is red, so that it has
+// waited inside since an earlier green.
+bool must_clear_first(const State& state, const Conflict& conflict, const JunctionOccupant& occupant) {
+    if (occupant.rear_m >= conflict.other_to_m) return false;
+    if (occupant.front_m > conflict.other_from_m) return true;
+    const int origin = state.plan.lane(conflict.other).origin;
+    const int group = state.plan.signal_group_for(origin, conflict.other);
+    return state.stop_lines.lights[at(group)] == Light::red && occupant.slot != state.stop_lines.stop_slot[at(origin)];
+}
+
+// Returns the slot of a stopped vehicle from a crossing street that must clear `connection` first; -1: none. Ignores
+// connections that yield to `connection` or have priority over it, and vehicles that may be passed under the
+// pass-blocker rule.
 int crossing_blocker(const Model& model, const State& state, int connection) {
     if (!state.junctions.with_stopped.has_any(state.plan.conflicting(connection))) return -1;
     const VehicleArrays& v = state.vehicles;
@@ -165,9 +177,7 @@ int crossing_blocker(const Model& model, const State& state, int connection) {
     for (const Conflict& c : state.plan.conflicts(connection)) {
         if (c.yields || c.other_yields) continue;
         for (const JunctionOccupant& occupant : state.junctions.occupants[at(c.other)]) {
-            if (occupant.front_m <= c.other_from_m || occupant.rear_m >= c.other_to_m ||
-                v.speed_mps[at(occupant.slot)] >= kCrawlingSpeed_mps)
-                continue;
+            if (v.speed_mps[at(occupant.slot)] >= kCrawlingSpeed_mps || !must_clear_first(state, c, occupant)) continue;
             if (pass_after_ticks > 0 && state.tick - v.stopped_since[at(occupant.slot)] >= pass_after_ticks) continue;
             return occupant.slot;
         }

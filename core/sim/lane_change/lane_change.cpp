@@ -134,9 +134,9 @@ double queue_ahead_m(const Model& model, const State& state, const LaneChangeReq
     return vehicles * state.plan.max_space_per_vehicle_m();
 }
 
-// Returns the position behind the last vehicle of pocket `other`, m from the start of the lane of `me`. The last vehicle
-// is assumed to stop comfortably. Returns infinity if the pocket is empty or if the front of `me` is already beside the
-// last vehicle.
+// Returns the position behind the last vehicle of pocket `other`, m from the start of the lane of `me`. The last
+// vehicle is assumed to stop comfortably. Returns infinity if the pocket is empty or if the front of `me` is already
+// beside the last vehicle.
 double behind_pocket_queue_m(const Model& model, const State& state, const LaneChangeRequest& me, int other) {
     constexpr double kNoQueue_m = std::numeric_limits<double>::infinity();
     const LaneBlock& block = state.blocks[at(other)];
@@ -353,8 +353,8 @@ MandatoryChange mandatory_change(const Model& model, const State& state, const L
     change.look_ahead_m =
         look_ahead_m(model, me, state.vehicles.lane_memory[at(me.slot)].remembered_mps, change.lane_changes);
     const double distance_m = me.lane_changes != 0 ? me.to_line_m : me.to_preferred_line_m;
-    change.usable_m = std::min(distance_m - queue_ahead_m(model, state, me, change.lane_changes),
-                               me.pocket_entry_m - me.front_m);
+    change.usable_m =
+        std::min(distance_m - queue_ahead_m(model, state, me, change.lane_changes), me.pocket_entry_m - me.front_m);
     if (change.usable_m >= change.look_ahead_m) change.lane_changes = 0;
     return change;
 }

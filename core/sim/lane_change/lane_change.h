@@ -44,9 +44,9 @@ LaneChangeRequest lane_change_request(const Model& model, const State& state, in
 
 // A mandatory change, or a change for the turn at the second intersection ahead.
 struct MandatoryChange {
-    int lane_changes = 0;       // number of lane changes; below 0: to the left; 0: none is due
-    // distance to the stop line before which the lane changes must be done, minus the queue; at most the distance to the
-    // pocket, if they lead into a pocket
+    int lane_changes = 0;  // number of lane changes; below 0: to the left; 0: none is due
+    // distance to the stop line before which the lane changes must be done, minus the queue; at most the distance to
+    // the pocket, if they lead into a pocket
     double usable_m = 0.0;
     double look_ahead_m = 0.0;  // usable distance below which the vehicle looks for a gap
 

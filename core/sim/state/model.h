@@ -75,8 +75,8 @@ struct Model {
     GiveWaySettings give_way;
     LaneChangeSettings lane_change;
     RulesPlan rules;
-    // Age of the radar data from which the driver requests an acceleration. The radar delay of the settings ends when
-    // the request takes effect. This is one step later, so the age is this delay minus one step.
+    // Age of the radar data when the driver computes a request. The request takes effect one step later. The radar
+    // delay of the settings includes this step, so the age is the radar delay minus one step.
     DelayLine radar;
     DelayLine v2v;
     // true: the kernels compute one vehicle at a time and do not skip standing queues. The results are the same.
@@ -100,7 +100,8 @@ struct Model {
     double turn_share = 1.0;
     double leader_mps2 = 0.0;  // acceleration of platoon leaders; 0: acceleration of the policy's car-following model
     double leader_constant_power_speed_mps = 0.0;  // above this speed, leader_mps2 falls as 1 / speed
-    // The accelerations are calibrated for lanes on which the speed limit times speed_factor is at most this value.
+    // The accelerations of `krauss` and of platoon leaders are calibrated for lanes on which the speed limit times
+    // speed_factor is at most this value.
     double calibrated_limit_mps = 1e9;
     bool has_fast_lanes = false;  // true: on some lanes, the speed limit times speed_factor exceeds this value
     LeaderProfile power_profile;  // lowest acceleration by speed on these lanes

@@ -23,7 +23,9 @@ void divide(LargeArray<Number>& array, std::size_t n, std::initializer_list<Numb
 }  // namespace
 
 void FullGroupArrays::resize(int vehicles) {
-    constexpr std::size_t kUnit = kSimdWidth;  // every stream begins on a cache line
+    // The number of elements in a stream is a multiple of kUnit. kSimdWidth floats fill whole cache lines, so every
+    // stream begins on a cache line.
+    constexpr std::size_t kUnit = kSimdWidth;
     vehicles_ = (static_cast<std::size_t>(vehicles) + kUnit - 1) / kUnit * kUnit;
     streams();
 }
