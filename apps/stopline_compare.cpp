@@ -71,8 +71,6 @@ std::size_t chosen_population(const CompareCliOptions& options, const Scenario& 
     return 0;
 }
 
-std::string number(double value) { return std::isnan(value) ? "-" : fmt::format("{:.2f}", value); }
-
 // Returns the confidence band of SUMO's mean as text. Sets `inside` to "yes" if our mean lies in the band, to "no" if
 // it does not, and to "-" if there is no band.
 std::string band_text(const ComparedMetric& metric, Band band, std::string& inside) {
@@ -97,7 +95,8 @@ void print(const Comparison& comparison) {
         const std::string student = band_text(metric, Band::student, in_student);
         const std::string paper = band_text(metric, Band::paper, in_paper);
         const double percent = metric.difference_percent();
-        table.add_row({metric.name, metric.sumo_only ? "-" : number(mean_of(metric.ours)), number(mean_of(metric.sumo)),
+        table.add_row({metric.name, metric.sumo_only ? "-" : number_cell(mean_of(metric.ours), 2),
+                       number_cell(mean_of(metric.sumo), 2),
                        std::isfinite(percent) ? fmt::format("{:+.1f} %", percent) : "-", student, in_student, paper,
                        in_paper});
     }

@@ -1,7 +1,6 @@
 #include "common/network_text.h"
 
 #include <fmt/format.h>
-#include <cmath>
 
 #include "common/starvation_text.h"
 #include "common/text_table.h"
@@ -11,16 +10,12 @@ namespace stopline {
 
 namespace {
 
-std::string number(double value, int decimals) {
-    return std::isnan(value) ? "-" : fmt::format("{:.{}f}", value, decimals);
-}
-
 // Returns the share of one cause in the delay of all causes, in percent.
 std::string share_text(const DelayLog& log, DelayCause cause) {
     double total_s = 0.0;
     for (std::size_t k = 1; k < kDelayCauseNames.size(); ++k) total_s += log.delay_s[k];  // cause 0 is DelayCause::none
     const double delay_s = log.delay_s[static_cast<std::size_t>(cause)];
-    return number(total_s > 0.0 ? 100.0 * delay_s / total_s : 0.0, 1);
+    return number_cell(total_s > 0.0 ? 100.0 * delay_s / total_s : 0.0, 1);
 }
 
 std::string trips_text(const NetworkReport& report) {
@@ -110,10 +105,11 @@ std::string traffic_text(const NetworkReport& report) {
     table.add_row({"population", "veh/h", "%", "s", "%", "%", "veh", ""});
     for (const NetworkResult& f : report.populations) {
         const bool measured = f.measured.window.length_s() > 0.0;
-        table.add_row({f.population, number(f.measured.throughput_veh_h(), 0), number(report.improvement_percent(f), 1),
-                       number(f.measured.travel_time_s, 1), number(report.time_saved_percent(f), 1),
-                       measured ? number(100.0 * f.measured.occupied, 1) : "-",
-                       measured ? number(f.vehicles_present, 0) : "-",
+        table.add_row({f.population, number_cell(f.measured.throughput_veh_h(), 0),
+                       number_cell(report.improvement_percent(f), 1), number_cell(f.measured.travel_time_s, 1),
+                       number_cell(report.time_saved_percent(f), 1),
+                       measured ? number_cell(100.0 * f.measured.occupied, 1) : "-",
+                       measured ? number_cell(f.vehicles_present, 0) : "-",
                        kStabilityNames[static_cast<std::size_t>(f.stability)] + breakdown_text(f)});
     }
     return table.text();

@@ -13,11 +13,8 @@ namespace stopline {
 
 namespace {
 
-std::string number(double value, int decimals) {
-    return std::isnan(value) ? "-" : fmt::format("{:.{}f}", value, decimals);
-}
-
-std::string signed_number(double value, int decimals) {
+// Returns a table cell like number_cell(), but with a sign before positive numbers too.
+std::string signed_number_cell(double value, int decimals) {
     return std::isnan(value) ? "-" : fmt::format("{:+.{}f}", value, decimals);
 }
 
@@ -32,7 +29,7 @@ void append_improvements(const SingleLightReport& result, const PopulationSummar
     for (std::size_t k = 0; k < summary.improvement_percent.size(); ++k) {
         const double green_s = result.scenario.measure.green_s[k];
         const bool limited = queue_empties_within(summary, green_s) || queue_empties_within(baseline, green_s);
-        cells.push_back(signed_number(summary.improvement_percent[k], 0) + (limited ? "*" : ""));
+        cells.push_back(signed_number_cell(summary.improvement_percent[k], 0) + (limited ? "*" : ""));
     }
 }
 
@@ -98,8 +95,8 @@ std::string ideal_text(const SingleLightReport& result) {
         for (const double green : green_s) cells.push_back(std::to_string(summary.ideal.passed(green)));
         if (compares) {
             cells.emplace_back("|");
-            cells.push_back(signed_number(result.mean_improvement_percent(summary, kSaturated_s), 1));
-            cells.push_back(signed_number(result.ideal_improvement_percent(summary, kSaturated_s), 1));
+            cells.push_back(signed_number_cell(result.mean_improvement_percent(summary, kSaturated_s), 1));
+            cells.push_back(signed_number_cell(result.ideal_improvement_percent(summary, kSaturated_s), 1));
         }
         table.add_row(cells);
     }
@@ -119,16 +116,16 @@ std::string headways_text(const SingleLightReport& result) {
         const SteadyFlow& steady = summary.steady;
         std::vector<std::string> cells{summary.name,
                                        std::to_string(steady.vehicles),
-                                       number(steady.net_gap_m, 2),
-                                       number(steady.policy_gap_m, 2),
-                                       number(steady.headway_s, 3),
-                                       number(steady.policy_headway_s, 3),
-                                       signed_number(steady.deviation_percent, 2),
+                                       number_cell(steady.net_gap_m, 2),
+                                       number_cell(steady.policy_gap_m, 2),
+                                       number_cell(steady.headway_s, 3),
+                                       number_cell(steady.policy_headway_s, 3),
+                                       signed_number_cell(steady.deviation_percent, 2),
                                        "|",
-                                       number(summary.last_positions.headway_s, 3),
-                                       number(summary.last_positions.speed_mps * kKmhPerMps, 1)};
+                                       number_cell(summary.last_positions.headway_s, 3),
+                                       number_cell(summary.last_positions.speed_mps * kKmhPerMps, 1)};
         if (result.baseline) {
-            cells.insert(cells.begin() + 7, signed_number(summary.asymptotic_improvement_percent, 0));
+            cells.insert(cells.begin() + 7, signed_number_cell(summary.asymptotic_improvement_percent, 0));
         }
         table.add_row(cells);
     }

@@ -1,7 +1,10 @@
 #include "common/text_table.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace stopline {
 
@@ -25,6 +28,10 @@ std::string TextTable::text(const std::string& indent) const {
         text += line + '\n';
     }
     return text;
+}
+
+std::string number_cell(double value, int decimals) {
+    return std::isnan(value) ? "-" : fmt::format("{:.{}f}", value, decimals);
 }
 
 std::string wrap_text(const std::string& text, std::size_t width, std::size_t indent) {

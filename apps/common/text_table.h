@@ -21,6 +21,9 @@ private:
     std::vector<std::vector<std::string>> rows_;
 };
 
+// Returns a table cell with a number; "-" for NaN.
+std::string number_cell(double value, int decimals);
+
 // Returns `text` broken at spaces into lines of at most `width` characters. Each line except the first begins with
 // `indent` spaces.
 std::string wrap_text(const std::string& text, std::size_t width, std::size_t indent);

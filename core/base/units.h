@@ -6,6 +6,7 @@ namespace stopline {
 
 inline constexpr double kMpsPerKmh = 1.0 / 3.6;
 inline constexpr double kKmhPerMps = 3.6;
+inline constexpr double kSecondsPerHour = 3600.0;
 inline constexpr double kPi = 3.14159265358979323846;
 inline constexpr double kRadpsPerRpm = kPi / 30.0;
 inline constexpr double kGravity_mps2 = 9.80665;     // standard gravity, ISO 80000-3

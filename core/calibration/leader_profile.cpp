@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kBins = 48;
 constexpr double kBin_mps = 1.25 * kMpsPerKmh;  // width of a bin; the bins reach up to 60 km/h
-constexpr double kSample_s = 0.01;
+constexpr double kStep_s = 0.01;                // step of the simulation and interval between samples
 constexpr double kLast_s = 120.0;
 
 // Returns the scenario of a single lane with one signal. Its speed limit is so high that it does not limit the
@@ -22,7 +22,7 @@ constexpr double kLast_s = 120.0;
 Scenario straight_road_scenario(const Scenario& scenario) {
     Scenario road = scenario;
     road.fidelity = "full";
-    road.step_s = kSample_s;
+    road.step_s = kStep_s;
     road.network = {};
     road.network.kind = "approach";
     road.network.approach.speed_limit_mps = 2.0 * kBins * kBin_mps;
@@ -39,7 +39,7 @@ Scenario straight_road_scenario(const Scenario& scenario) {
 
 void measure_leader_profile(const Scenario& scenario, MesoSettings& settings) {
     std::vector<double> times_s;
-    for (int k = 0; k * kSample_s <= kLast_s; ++k) times_s.push_back(k * kSample_s);
+    for (int k = 0; k * kStep_s <= kLast_s; ++k) times_s.push_back(k * kStep_s);
     const StartupRun start = simulate_start(straight_road_scenario(scenario), times_s);
     settings.leader_profile_mps.clear();
     settings.leader_profile_mps2.clear();

@@ -16,7 +16,7 @@ namespace stopline {
 namespace {
 
 constexpr double kGreenStart_s = 60.0;
-constexpr double kSample_s = 0.01;
+constexpr double kTrajectoryInterval_s = 0.01;
 constexpr double kLowerBound = 0.02;  // lower bound of all fitted parameters, m/s2 or 1/s
 
 // Returns a scenario with one vehicle at one signal. The green lasts longer than the start.
@@ -124,7 +124,7 @@ double search_from(std::vector<double>& parameters, FitTask& task) {
 StartupRun simulate_start(const Scenario& scenario, const std::vector<double>& times_s) {
     const Scenario lone = single_start_scenario(scenario, times_s.back());
     RunOptions options;
-    options.trajectory_interval_s = std::max(kSample_s, lone.tick_s());
+    options.trajectory_interval_s = std::max(kTrajectoryInterval_s, lone.tick_s());
     options.trajectory_from_s = kGreenStart_s;
     const RunResult result = run_population(lone, 0, options);
     const std::vector<TrajectoryPoint>& points = result.trajectory;

@@ -23,7 +23,8 @@ std::vector<std::size_t> shown_populations(const SingleLightReport& result) {
     return {*result.baseline == 0 ? std::size_t{1} : std::size_t{0}, *result.baseline};
 }
 
-double last_shown_s(const SingleLightReport& result) {
+// Returns the end of the time axis.
+double trajectories_end_s(const SingleLightReport& result) {
     constexpr double kShown_s = 40.0;
     const double run_s = result.scenario.duration_s - result.scenario.signal.first_green_s;
     return std::min({kShown_s, run_s, result.scenario.signal.green_s + kTrajectoryAfter_s});
@@ -38,7 +39,7 @@ std::vector<std::pair<int, std::vector<TrajectoryPoint>>> by_vehicle(const Singl
     for (TrajectoryPoint point : thin_out(run.trajectory, interval_s, result.scenario.tick_s())) {
         if (point.lane != kApproachLane && point.lane != kExitLane) continue;
         point.time_s -= run.green_start_s;
-        if (point.time_s > last_shown_s(result)) continue;
+        if (point.time_s > trajectories_end_s(result)) continue;
         point.distance_m -= result.scenario.network.approach.length_m;
         vehicles[point.vehicle].push_back(point);
     }
@@ -67,7 +68,7 @@ std::string light_line(const std::string& light, double from_s, double to_s) {
 // Returns the commands that draw the signal over time: red, then green, yellow and red, once or in every cycle.
 std::string signal_lines(const SingleLightReport& result) {
     const SignalSettings& signal = result.scenario.signal;
-    const double end_s = last_shown_s(result);
+    const double end_s = trajectories_end_s(result);
     const double cycle_s = signal.cycle_s > 0.0 ? signal.cycle_s : end_s + signal.green_s + signal.yellow_s;
     std::string text = light_line("red", -kTrajectoryBefore_s, 0.0);
     for (int cycle = 0; cycle * cycle_s < end_s; ++cycle) {
@@ -171,7 +172,7 @@ Figure time_space_figure(const SingleLightReport& result) {
     figure.body = fmt::format("set multiplot layout {},1 title {} font ',15'\n", populations.size(),
                               gnuplot_text("Trajectories of the vehicle fronts (every tenth vehicle bold)")) +
                   fmt::format("set xrange [-{:.6g}:{:.6g}]\nset yrange [-{}:{}]\n", kTrajectoryBefore_s,
-                              last_shown_s(result), kBefore_m, kBehind_m) +
+                              trajectories_end_s(result), kBefore_m, kBehind_m) +
                   "set xlabel 'time since the start of green [s]'\nset ylabel 'distance from the stop line [m]'\n" +
                   "set xtics 5\nset ytics 50\nset rmargin 14\n" + signal_lines(result);
     for (std::size_t k = 0; k < populations.size(); ++k) {
@@ -194,7 +195,7 @@ Figure platoon_figure(const SingleLightReport& result) {
                       "set multiplot layout 2,{} columnsfirst margins 0.08,0.87,0.09,0.88 spacing 0.1,0.1 "
                       "title 'Speed and gap of some vehicles of the queue' font ',15'\n",
                       populations.size()) +
-                  fmt::format("set xrange [0:{:.6g}]\nset xtics 10\n", last_shown_s(result));
+                  fmt::format("set xrange [0:{:.6g}]\nset xtics 10\n", trajectories_end_s(result));
     for (std::size_t k = 0; k < populations.size(); ++k) {
         const std::string file = fmt::format("platoon_{}.dat", k + 1);
         const std::vector<std::size_t> positions =

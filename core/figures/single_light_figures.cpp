@@ -15,7 +15,7 @@ namespace stopline {
 namespace {
 
 // Returns the time at which the curves end: shortly after the last reported green time.
-double last_shown_s(const SingleLightReport& result) {
+double curves_end_s(const SingleLightReport& result) {
     const std::vector<double>& green_s = result.scenario.measure.green_s;
     const double signal_s = result.scenario.signal.green_s;
     if (green_s.empty()) return signal_s;
@@ -39,7 +39,7 @@ std::string green_lines(const SingleLightReport& result) {
 std::vector<std::size_t> by_count(const SingleLightReport& result) {
     std::vector<std::size_t> order(result.populations.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    const double end_s = last_shown_s(result);
+    const double end_s = curves_end_s(result);
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
         return result.populations[a].counter.interpolated(end_s) > result.populations[b].counter.interpolated(end_s);
     });
@@ -109,7 +109,7 @@ double first_ratio_s(const SingleLightReport& result) {
 }
 
 double last_ratio_s(const SingleLightReport& result, const PopulationSummary& summary) {
-    const double end_s = last_shown_s(result);
+    const double end_s = curves_end_s(result);
     return std::isnan(summary.emptied_s) ? end_s : std::min(end_s, summary.emptied_s);
 }
 
@@ -183,7 +183,7 @@ std::string plot_curves(const SingleLightReport& result, const std::vector<std::
 }  // namespace
 
 Figure counters_figure(const SingleLightReport& result, const std::vector<Target>& targets) {
-    const double end_s = last_shown_s(result);
+    const double end_s = curves_end_s(result);
     const std::vector<std::size_t> order = by_count(result);
     const std::vector<PaperPoint> paper = paper_points(result, targets, "vehicles_passed");
     Figure figure;
@@ -199,7 +199,7 @@ Figure counters_figure(const SingleLightReport& result, const std::vector<Target
 }
 
 Figure improvement_figure(const SingleLightReport& result, const std::vector<Target>& targets) {
-    const double end_s = last_shown_s(result);
+    const double end_s = curves_end_s(result);
     const std::vector<std::size_t> order = by_count(result);
     const std::vector<PaperPoint> paper = paper_points(result, targets, "improvement_over_ctg_ref");
     const std::string& baseline = result.populations[*result.baseline].name;

@@ -2,16 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "base/nan.h"
+
 namespace stopline {
-
-namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
 
 Counter::Counter(std::vector<double> times_s) : times_s_(std::move(times_s)) {
     std::sort(times_s_.begin(), times_s_.end());

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+
+#include "base/nan.h"
 
 namespace stopline {
 
@@ -11,7 +12,6 @@ namespace {
 
 // Number of vehicles at the front of the queue whose headways determine the lost time.
 constexpr std::size_t kLostPositions = 4;
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 // The headways of the queue of one green.
 struct Green {
@@ -38,7 +38,7 @@ struct SaturatedSums {
             later += k < kLostPositions ? 0 : 1;
         }
     }
-    double saturation_headway_s() const { return later > 0 ? later_s / later : kNone; }
+    double saturation_headway_s() const { return later > 0 ? later_s / later : kNan; }
     double lost_time_s() const { return first_s / greens - kLostPositions * saturation_headway_s(); }
 };
 
@@ -60,7 +60,7 @@ LaneDischarge lane_discharge(const std::string& name, const std::vector<Green>& 
     for (std::size_t k = 0; k < result.headway_s.size(); ++k) result.headway_s[k] /= result.samples[k];
     result.saturated_greens = sums.greens;
     result.saturation_headway_s = sums.saturation_headway_s();
-    result.startup_lost_time_s = sums.greens > 0 ? sums.lost_time_s() : kNone;
+    result.startup_lost_time_s = sums.greens > 0 ? sums.lost_time_s() : kNan;
     return result;
 }
 
@@ -70,7 +70,7 @@ void summarise(const SaturatedSums& all, Discharge& result) {
     result.saturated_greens = all.greens;
     result.saturation_headway_s = all.saturation_headway_s();
     result.saturation_flow_veh_h = 3600.0 / result.saturation_headway_s;
-    result.startup_lost_time_s = all.greens > 0 ? 0.0 : kNone;
+    result.startup_lost_time_s = all.greens > 0 ? 0.0 : kNan;
     for (const LaneDischarge& lane : result.lanes) {
         if (lane.saturated_greens == 0) continue;
         result.startup_lost_time_s += lane.startup_lost_time_s * lane.saturated_greens / all.greens;

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
+
+#include "base/nan.h"
 
 namespace stopline {
 
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 bool is_stop_line(const LaneGraph& graph, int lane) {
     return lane >= 0 && graph.lanes[static_cast<std::size_t>(lane)].signal_group >= 0;

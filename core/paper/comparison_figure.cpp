@@ -16,10 +16,6 @@ namespace stopline {
 namespace {
 
 constexpr std::array<int, 6> kSingleGreens_s{5, 10, 15, 20, 25, 30};
-constexpr std::array<int, 4> kGridGreens_s{5, 10, 15, 20};
-constexpr std::array<int, 4> kGridOffsets_s{0, 5, 10, 15};
-constexpr std::array<int, 3> kArterialGreens_s{25, 30, 35};
-constexpr std::array<int, 2> kArterialOffsets_s{0, 15};
 
 // Throughput gain over CTG-Ref at one green time, for the worst and for the best offset, percent.
 struct Range {
@@ -78,8 +74,9 @@ std::vector<Series> series_of(const std::map<std::string, Measurements>& measure
                 return find(experiment, "throughput " + section6::point_name(traffic, green_s, offset_s, name));
             };
         };
-        add("grid", colour, true, population, kGridGreens_s, kGridOffsets_s, throughput_in(section6::kGrid));
-        add("arterial", colour + 1, true, population, kArterialGreens_s, kArterialOffsets_s,
+        add("grid", colour, true, population, section6::kGridGreens_s, section6::kGridOffsets_s,
+            throughput_in(section6::kGrid));
+        add("arterial", colour + 1, true, population, section6::kArterialGreens_s, section6::kArterialOffsets_s,
             throughput_in(section6::kArterial));
         if (traffic == "free") {
             add("single intersection", colour, false, population, kSingleGreens_s, std::array{0},

@@ -1,14 +1,13 @@
 #include <algorithm>
 
 #include "base/io/escape.h"
+#include "base/units.h"
 #include "record/sumo_files.h"
 #include "record/xml_file.h"
 
 namespace stopline {
 
 namespace {
-
-constexpr double kHour_s = 3600.0;
 
 const char* name_of(Detector::Kind kind) {
     switch (kind) {
@@ -117,7 +116,7 @@ private:
                 "    <interval begin=\"{:.2f}\" end=\"{:.2f}\" id=\"{}\" nVehContrib=\"{}\" flow=\"{:.2f}\" "
                 "occupancy=\"{:.2f}\" speed=\"{:.2f}\" harmonicMeanSpeed=\"{:.2f}\" length=\"{:.2f}\" "
                 "nVehEntered=\"{}\"/>\n",
-                from_s, to_s, names_[k], loop.passages, passages * kHour_s / (to_s - from_s),
+                from_s, to_s, names_[k], loop.passages, passages * kSecondsPerHour / (to_s - from_s),
                 100.0 * static_cast<double>(loop.occupied_steps) / steps,
                 has_passages ? loop.sum_of_speeds_mps / passages : -1.0,
                 has_passages ? passages / loop.sum_of_inverse_speeds_spm : -1.0,

@@ -10,7 +10,7 @@
 namespace stopline {
 namespace {
 
-using Lane = IntersectionSettings::LaneMovements;
+using LaneMovements = IntersectionSettings::LaneMovements;
 
 // Shares of left and right turns, with the names of the demand fields that set them.
 struct Shares {
@@ -20,19 +20,19 @@ struct Shares {
     double right = 0.0;
 };
 
-bool allows_several(const Lane& lane) { return lane.movements.find('+') != std::string::npos; }
+bool allows_several(const LaneMovements& lane) { return lane.movements.find('+') != std::string::npos; }
 
 // Reports an error for a turn share above 0 if no lane allows this turn together with another movement.
-void check_served(const std::vector<Lane>& lanes, const std::string& turn, const std::string& field, double share,
-                  Checker& check) {
-    const auto serves = [&](const Lane& lane) { return allows_several(lane) && lane.allows(turn); };
+void check_served(const std::vector<LaneMovements>& lanes, const std::string& turn, const std::string& field,
+                  double share, Checker& check) {
+    const auto serves = [&](const LaneMovements& lane) { return allows_several(lane) && lane.allows(turn); };
     if (share == 0.0 || std::any_of(lanes.begin(), lanes.end(), serves)) return;
     check.error("demand." + field, "value " + short_text(share, unit("%")) +
                                        " has no effect: network.intersection.lanes has no lane that allows " + turn +
                                        " and another movement");
 }
 
-void check_lane(const Lane& lane, const Shares& shares, Checker& check) {
+void check_lane(const LaneMovements& lane, const Shares& shares, Checker& check) {
     if (!lane.allows("left") || !lane.allows("right")) return;
     const std::string both = shares.left_field + " and " + shares.right_field;
     const double sum = shares.left + shares.right;
@@ -68,11 +68,11 @@ void check_turns(const Scenario& scenario, Checker& check) {
     if (demand.cross_turns == "separate") {
         all.push_back({"cross_left", demand.cross_left_share, "cross_right", demand.cross_right_share});
     }
-    const std::vector<Lane>& lanes = network.intersection.lanes;
+    const std::vector<LaneMovements>& lanes = network.intersection.lanes;
     for (const Shares& shares : all) {
         check_served(lanes, "left", shares.left_field, shares.left, check);
         check_served(lanes, "right", shares.right_field, shares.right, check);
-        for (const Lane& lane : lanes) check_lane(lane, shares, check);
+        for (const LaneMovements& lane : lanes) check_lane(lane, shares, check);
     }
 }
 

@@ -7,13 +7,12 @@
 
 #include "base/containers/index.h"
 #include "base/speed_thresholds.h"
+#include "base/units.h"
 #include "sumo_import/sumo_xml.h"
 
 namespace stopline {
 
 namespace {
-
-constexpr double kHour_s = 3600.0;
 
 class FactsWriter : public RunWriter {
 public:
@@ -114,7 +113,7 @@ std::unique_ptr<RunWriter> make_facts_writer(const Model& model, std::vector<std
 
 RunSummary summary_of(const RunFacts& facts, double from_s, double to_s) {
     const auto within = [&](double time_s) { return time_s > from_s && time_s <= to_s; };
-    const double hours = (to_s - from_s) / kHour_s;
+    const double hours = (to_s - from_s) / kSecondsPerHour;
     RunSummary summary;
     int trips = 0;
     for (const RunFacts::Trip& trip : facts.trips) {

@@ -34,6 +34,7 @@ BATCH = 16
 LOCAL_NAME = re.compile(
     r"^(?:(?:struct|class|enum(?: class)?|using)\s+(\w+)"
     r"|(?:[A-Za-z_][\w:<>,&*\s]*?[\s&*])(\w+)\s*[({=\[;])", re.MULTILINE)
+UNITY_SOURCE = re.compile(r"unity_\d+_cxx\.cxx")
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
 
 
@@ -64,6 +65,15 @@ def without_precompiled_header(entry):
     """Returns the entry without gcc's precompiled header. Each file must name the headers that it needs."""
     command = re.sub(r"-Winvalid-pch ", "", entry["command"])
     return {**entry, "command": re.sub(r"-include \S*cmake_pch\.hxx ", "", command)}
+
+
+def entries_of_sources(entry):
+    """Returns the entry in a list. For a unity source of CMake, returns one entry for each project source that it includes."""
+    path = Path(entry["file"])
+    if not UNITY_SOURCE.fullmatch(path.name):
+        return [entry]
+    return [{**entry, "file": source, "command": re.sub(r" -o \S+ -c \S+$", f" -o {source}.o -c {source}", entry["command"])}
+            for source in INCLUDE.findall(path.read_text(encoding="utf-8"))]
 
 
 def flags_of(entry):
@@ -133,8 +143,11 @@ def main():
     database = build / "compile_commands.json"
     if not database.is_file():
         sys.exit(f"lint: {database} is missing; configure the build first")
-    all_entries = [without_precompiled_header(entry) for entry in json.loads(database.read_text())]
-    entries = {Path(entry["file"]).resolve(): entry for entry in all_entries}
+    entries = {
+        Path(entry["file"]).resolve(): entry
+        for listed in json.loads(database.read_text())
+        for entry in entries_of_sources(without_precompiled_header(listed))
+    }
 
     sources = sorted(path for folder in FOLDERS for path in (PROJECT / folder).rglob("*.cpp"))
     if len(sys.argv) > 2:

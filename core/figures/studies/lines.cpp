@@ -13,7 +13,7 @@ namespace stopline {
 
 namespace {
 
-constexpr std::size_t kMetrics = kSweepMetrics.size();
+constexpr std::size_t kMetricCount = kSweepMetrics.size();
 constexpr std::size_t kMaxNamedLines = 12;  // largest number of lines that the legend names one by one
 
 // 8 dashes and 11 points: these numbers have no common factor, so 88 lines have different combinations.
@@ -72,8 +72,10 @@ std::string data_of(const SweepPlanes& all, const SweepPlane& plane) {
             for (std::size_t x = 0; x < all.x_axis.values.size(); ++x) {
                 const PlanePoint point{x, line, population};
                 data += fmt::format("{:g}", all.x_axis.values[x]);
-                for (std::size_t metric = 0; metric < kMetrics; ++metric) data += cells_of(plane.value(metric, point));
-                for (std::size_t metric = 0; metric < kMetrics; ++metric) data += cells_of(plane.change(metric, point));
+                for (std::size_t metric = 0; metric < kMetricCount; ++metric)
+                    data += cells_of(plane.value(metric, point));
+                for (std::size_t metric = 0; metric < kMetricCount; ++metric)
+                    data += cells_of(plane.change(metric, point));
                 data += "\n";
             }
             data += "\n\n";
@@ -124,7 +126,7 @@ double key_width_px(const std::vector<KeyEntry>& entries) {
 
 std::string panel_of(const SweepPlanes& all, const std::string& file, std::size_t metric, bool change) {
     std::string plots;
-    const std::size_t column = 2 + 3 * (metric + (change ? kMetrics : 0));
+    const std::size_t column = 2 + 3 * (metric + (change ? kMetricCount : 0));
     for (std::size_t p = change ? 1 : 0; p < all.populations.size(); ++p) {
         for (std::size_t line = 0; line < all.line_axis.values.size(); ++line) {
             const CurveStyle style = curve_style(all, p, line);
@@ -165,14 +167,14 @@ Figure sweep_lines_figure(const SweepPlanes& all, const SweepPlane& plane, std::
         : compares    ? "0.94"
                       : "0.89",
         gnuplot_text(all.x_axis.label()), values.front() - margin, values.back() + margin, ticks_of(values));
-    for (std::size_t panel = 0; panel < (compares ? 2 : 1) * kMetrics; ++panel) {
-        const bool change = panel >= kMetrics;
-        const std::size_t metric = panel % kMetrics;
+    for (std::size_t panel = 0; panel < (compares ? 2 : 1) * kMetricCount; ++panel) {
+        const bool change = panel >= kMetricCount;
+        const std::size_t metric = panel % kMetricCount;
         const SweepMetric& shown = kSweepMetrics[metric];
         body += fmt::format("set ylabel {}\n", gnuplot_text(change ? all.change_label(shown) : shown.label()));
         // gnuplot needs an explicit range if no value is a number.
         body += change ? "set yrange [*:*]\n" : plane.has(metric) ? "set yrange [0:*]\n" : "set yrange [0:1]\n";
-        const bool with_key = panel + 1 == kMetrics;
+        const bool with_key = panel + 1 == kMetricCount;
         body += with_key ? fmt::format("set key at screen {:.4f},graph 1 left top\nplot ", right + kKeyMargin)
                          : "unset key\nplot ";
         body += panel_of(all, file, metric, change);

@@ -31,8 +31,6 @@ using namespace section6;
 
 namespace {
 
-constexpr std::array<int, 2> kArterialOffsets_s{0, 15};
-
 std::string traffic_of(const Scenario& scenario, bool stability) {
     const int left = static_cast<int>(std::lround(100.0 * scenario.demand.left_share));
     if (stability) return fmt::format("{}_{}", scenario.demand.kind, left);

@@ -18,11 +18,6 @@ using namespace section6;
 
 namespace {
 
-constexpr std::array<int, 3> kMajorGreens_s{25, 30, 35};
-constexpr std::array<int, 2> kArterialOffsets_s{0, 15};
-constexpr std::array<int, 4> kGridGreens_s{5, 10, 15, 20};
-constexpr std::array<int, 4> kGridOffsets_s{0, 5, 10, 15};
-
 // Reads the measurements of a sweep. Returns NaN for a value that was not measured.
 struct Reader {
     const Measurements& measured;
@@ -83,7 +78,7 @@ MaybeAnswer no_turns_35(const Target&, const Measurements& m) { return no_turns(
 
 // Row functions that read the sweep of the arterial.
 double arterial_gain(const Reader& r, const char* population) {
-    return mean_over(kMajorGreens_s, kArterialOffsets_s,
+    return mean_over(kArterialGreens_s, kArterialOffsets_s,
                      [&](int g, int o) { return r.gain("free", g, o, population); });
 }
 MaybeAnswer free_cdg(const Target&, const Measurements& m) { return number_answer(arterial_gain({m}, "CDG")); }
@@ -92,8 +87,8 @@ MaybeAnswer free_mix(const Target&, const Measurements& m) { return number_answe
 MaybeAnswer saved_at(const Measurements& m, int offset_s) {
     const Reader r{m};
     const std::array<int, 1> offset{offset_s};
-    const double cdg = mean_over(kMajorGreens_s, offset, [&](int g, int o) { return r.saved("free", g, o, "CDG"); });
-    const double mix = mean_over(kMajorGreens_s, offset, [&](int g, int o) { return r.saved("free", g, o, "MIX"); });
+    const double cdg = mean_over(kArterialGreens_s, offset, [&](int g, int o) { return r.saved("free", g, o, "CDG"); });
+    const double mix = mean_over(kArterialGreens_s, offset, [&](int g, int o) { return r.saved("free", g, o, "MIX"); });
     return range_answer(std::min(cdg, mix), std::max(cdg, mix));
 }
 MaybeAnswer saved_0(const Target&, const Measurements& m) { return saved_at(m, 0); }
@@ -108,7 +103,7 @@ MaybeAnswer saved_range(const Target&, const Measurements& m) {
     const Reader r{m};
     double low = std::numeric_limits<double>::infinity();
     double high = -low;
-    for (const int g : kMajorGreens_s) {
+    for (const int g : kArterialGreens_s) {
         for (const int o : kArterialOffsets_s) {
             low = std::min(low, r.saved("turns", g, o, "CDG"));
             high = std::max(high, r.saved("turns", g, o, "CDG"));
@@ -126,7 +121,7 @@ MaybeAnswer minimum_at_30_15(const Target&, const Measurements& m) {
     const Reader r{m};
     double lowest = std::numeric_limits<double>::infinity();
     std::string where;
-    for (const int g : kMajorGreens_s) {
+    for (const int g : kArterialGreens_s) {
         for (const int o : kArterialOffsets_s) {
             const double value = r.value("throughput", "free", g, o, "CDG");
             if (value >= lowest) continue;
@@ -159,7 +154,7 @@ MaybeAnswer density_halves(const Target&, const Measurements& m) {
     std::string text;
     for (const char* const population : {"CTG-Ref", "MIX", "CDG"}) {
         const auto mean = [&](const char* traffic) {
-            return mean_over(kMajorGreens_s, kArterialOffsets_s,
+            return mean_over(kArterialGreens_s, kArterialOffsets_s,
                              [&](int g, int o) { return r.value("density", traffic, g, o, population); });
         };
         const double share = mean("turns") / mean("free");
@@ -173,7 +168,7 @@ MaybeAnswer slowest_at_25_0(const Target&, const Measurements& m) {
     const Reader r{m};
     double highest = 0.0;
     std::string where;
-    for (const int g : kMajorGreens_s) {
+    for (const int g : kArterialGreens_s) {
         for (const int o : kArterialOffsets_s) {
             const double value = r.value("time", "free", g, o, "CDG");
             if (value <= highest) continue;

@@ -1,19 +1,18 @@
 #include "runs/network/network.h"
 
 #include <algorithm>
-#include <limits>
 
 #include <fmt/format.h>
 
 #include "base/io/csv.h"
+#include "base/nan.h"
+#include "base/units.h"
 #include "runs/parallel_runs.h"
 #include "scenario/make_network.h"
 
 namespace stopline {
 
 namespace {
-
-constexpr double kHour_s = 3600.0;
 
 const NetworkResult* baseline_of(const NetworkReport& report) {
     for (const NetworkResult& result : report.populations) {
@@ -23,8 +22,8 @@ const NetworkResult* baseline_of(const NetworkReport& report) {
 }
 
 const std::string& lane_name(const NetworkReport& report, int lane) {
-    static const std::string kNone;
-    return lane < 0 ? kNone : report.lanes.at(static_cast<std::size_t>(lane));
+    static const std::string kNoName;
+    return lane < 0 ? kNoName : report.lanes.at(static_cast<std::size_t>(lane));
 }
 
 // Returns `time_s`, the start or the end of the measured window, as a table cell; an empty cell if the window is empty.
@@ -40,19 +39,19 @@ std::string id_cell(int number) { return number < 0 ? "" : std::to_string(number
 bool is_travel_time_biased(const NetworkResult& result) {
     constexpr double kMaxRatio = 1.5;
     const AreaResult& measured = result.measured;
-    return measured.vehicles * kHour_s > kMaxRatio * measured.throughput_veh_h() * measured.travel_time_s;
+    return measured.vehicles * kSecondsPerHour > kMaxRatio * measured.throughput_veh_h() * measured.travel_time_s;
 }
 
 double NetworkReport::improvement_percent(const NetworkResult& result) const {
     const NetworkResult* const base = baseline_of(*this);
-    if (base == nullptr) return std::numeric_limits<double>::quiet_NaN();
+    if (base == nullptr) return kNan;
     return 100.0 * (result.measured.throughput_veh_h() / base->measured.throughput_veh_h() - 1.0);
 }
 
 double NetworkReport::time_saved_percent(const NetworkResult& result) const {
     const NetworkResult* const base = baseline_of(*this);
-    if (base == nullptr) return std::numeric_limits<double>::quiet_NaN();
-    if (is_travel_time_biased(result) || is_travel_time_biased(*base)) return std::numeric_limits<double>::quiet_NaN();
+    if (base == nullptr) return kNan;
+    if (is_travel_time_biased(result) || is_travel_time_biased(*base)) return kNan;
     return 100.0 * (1.0 - result.measured.travel_time_s / base->measured.travel_time_s);
 }
 
@@ -165,11 +164,11 @@ std::string network_csv(const NetworkReport& report) {
                                      std::to_string(delays.teleported),
                                      std::to_string(delays.passed_blockers)};
         for (std::size_t cause = 1; cause < kDelayCauseNames.size(); ++cause) {
-            row.push_back(fixed(delays.delay_s[cause] / kHour_s, 3));
+            row.push_back(fixed(delays.delay_s[cause] / kSecondsPerHour, 3));
         }
         const Violations& v = f.violations;
         for (const std::string& cell :
-             {fixed(delays.delay_upstream_s / kHour_s, 3), fixed(delays.longest_stop_s, 0),
+             {fixed(delays.delay_upstream_s / kSecondsPerHour, 3), fixed(delays.longest_stop_s, 0),
               fixed(f.longest_in_junction_s, 1), std::to_string(f.entered), std::to_string(f.exited),
               std::to_string(v.overlaps), std::to_string(v.conflicts), std::to_string(v.red_entries),
               std::to_string(v.forced_red_entries), std::to_string(v.lost_vehicles)}) {
@@ -199,7 +198,7 @@ std::string network_series_csv(const NetworkReport& report) {
                                          fixed(interval.area.vehicles, 2),
                                          std::to_string(interval.teleported)};
             for (std::size_t cause = 1; cause < kDelayCauseNames.size(); ++cause) {
-                row.push_back(fixed(interval.delay_s[cause] / kHour_s, 4));
+                row.push_back(fixed(interval.delay_s[cause] / kSecondsPerHour, 4));
             }
             csv.row(row);
         }
@@ -214,7 +213,8 @@ std::string origin_destination_csv(const NetworkReport& report) {
             if (pair.exited == 0) continue;
             csv.row({f.population, kSideNames[static_cast<std::size_t>(pair.from)],
                      kSideNames[static_cast<std::size_t>(pair.to)],
-                     fixed(pair.exited * kHour_s / f.measured.window.length_s(), 2), fixed(pair.travel_time_s, 3)});
+                     fixed(pair.exited * kSecondsPerHour / f.measured.window.length_s(), 2),
+                     fixed(pair.travel_time_s, 3)});
         }
     }
     return csv.text();

@@ -1,20 +1,17 @@
 #include "runs/network/street_results.h"
 
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
 #include "base/io/csv.h"
+#include "base/nan.h"
+#include "base/units.h"
 #include "scenario/make_network.h"
 
 namespace stopline {
 
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kHour_s = 3600.0;
-constexpr double kKmh = 3.6;  // km/h per m/s
 
 std::size_t index_of(Side side) { return static_cast<std::size_t>(side); }
 std::size_t index_of(Turn turn) { return static_cast<std::size_t>(turn); }
@@ -23,15 +20,15 @@ std::size_t index_of(Turn turn) { return static_cast<std::size_t>(turn); }
 double share_percent(const std::array<std::int64_t, kMaxTurns>& turned, Turn turn) {
     const std::int64_t all =
         turned[index_of(Turn::straight)] + turned[index_of(Turn::right)] + turned[index_of(Turn::left)];
-    return all == 0 ? kNone : 100.0 * static_cast<double>(turned[index_of(turn)]) / static_cast<double>(all);
+    return all == 0 ? kNan : 100.0 * static_cast<double>(turned[index_of(turn)]) / static_cast<double>(all);
 }
 
 // Means over a period of the run. They are NaN if the run ends before the period ends.
 struct PeriodMeans {
-    double throughput_veh_h = kNone;
-    double travel_time_s = kNone;
-    double density_percent = kNone;
-    std::array<double, 4> inflow_veh_h{kNone, kNone, kNone, kNone};
+    double throughput_veh_h = kNan;
+    double travel_time_s = kNan;
+    double density_percent = kNan;
+    std::array<double, 4> inflow_veh_h{kNan, kNan, kNan, kNan};
 };
 
 // Returns the means over all intervals that lie wholly between `from_s` and `to_s`.
@@ -52,9 +49,9 @@ PeriodMeans means_of(const NetworkResult& f, double interval_s, double from_s, d
         occupied += area.occupied;
         for (std::size_t side = 0; side < inflow.size(); ++side) inflow[side] += f.inflow[k][side];
     }
-    const double hours = intervals * interval_s / kHour_s;
+    const double hours = intervals * interval_s / kSecondsPerHour;
     means.throughput_veh_h = exited / hours;
-    means.travel_time_s = exited > 0.0 ? travel_s / exited : kNone;
+    means.travel_time_s = exited > 0.0 ? travel_s / exited : kNan;
     means.density_percent = 100.0 * occupied / intervals;
     for (std::size_t side = 0; side < inflow.size(); ++side) means.inflow_veh_h[side] = inflow[side] / hours;
     return means;
@@ -64,10 +61,10 @@ PeriodMeans means_of(const NetworkResult& f, double interval_s, double from_s, d
 
 std::string inflow_csv(const NetworkReport& report) {
     CsvWriter csv({"population", "from_s", "west_veh_h", "south_veh_h", "east_veh_h", "north_veh_h"});
-    const double hours = report.scenario.measure.interval_s / kHour_s;
+    const double hours = report.scenario.measure.interval_s / kSecondsPerHour;
     for (const NetworkResult& f : report.populations) {
         for (std::size_t k = 0; k < f.inflow.size(); ++k) {
-            std::vector<std::string> row{f.population, fixed(static_cast<double>(k) * hours * kHour_s, 0)};
+            std::vector<std::string> row{f.population, fixed(static_cast<double>(k) * hours * kSecondsPerHour, 0)};
             for (const int vehicles : f.inflow[k]) row.push_back(fixed(vehicles / hours, 1));
             csv.row(row);
         }
@@ -82,8 +79,8 @@ std::string approaches_csv(const NetworkReport& report) {
             for (std::size_t k = 0; k < approach.intervals.size(); ++k) {
                 const ApproachInterval& interval = approach.intervals[k];
                 csv.row({f.population, approach.name, fixed(static_cast<double>(k) * f.congestion.interval_s, 0),
-                         fixed(interval.vehicles, 2), fixed(kKmh * interval.speed_mps, 2),
-                         fixed(kKmh * interval.upstream_speed_mps, 2)});
+                         fixed(interval.vehicles, 2), fixed(kKmhPerMps * interval.speed_mps, 2),
+                         fixed(kKmhPerMps * interval.upstream_speed_mps, 2)});
             }
         }
     }
@@ -103,7 +100,7 @@ std::string turns_csv(const NetworkReport& report) {
                                     turned[index_of(Turn::left)]),
                      fixed(share_percent(turned, Turn::right), 2), fixed(100.0 * approach.right_share, 2),
                      fixed(share_percent(turned, Turn::left), 2), fixed(100.0 * approach.left_share, 2),
-                     fixed(f.congestion.congested_from_s(k).value_or(kNone), 0)});
+                     fixed(f.congestion.congested_from_s(k).value_or(kNan), 0)});
         }
     }
     return csv.text();
@@ -131,7 +128,7 @@ std::vector<RunMetric> street_metrics(const Scenario& scenario, const NetworkRes
     }
     for (std::size_t k = 0; k < result.congestion.approaches.size(); ++k) {
         metrics.push_back(number_metric("congested_from_" + result.congestion.approaches[k].name, "s",
-                                        result.congestion.congested_from_s(k).value_or(kNone), 0));
+                                        result.congestion.congested_from_s(k).value_or(kNan), 0));
     }
     metrics.push_back(count_metric("mandatory_lane_changes", "", result.mandatory_lane_changes));
     metrics.push_back(count_metric("discretionary_lane_changes", "", result.discretionary_lane_changes));

@@ -6,11 +6,12 @@
 #include <limits>
 #include <span>
 
+#include "base/nan.h"
+
 namespace stopline {
 
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kSteadyTime_s = 5.0;
 constexpr double kSteadyGapChange_m = 0.1;
 
@@ -65,7 +66,7 @@ std::vector<TrajectoryPoint> points_of(const std::vector<TrajectoryPoint>& traje
 
 LeaderStart leader_start(const std::vector<TrajectoryPoint>& points, double limit_mps) {
     constexpr double kAtRest_mps = 0.01;
-    LeaderStart start{kNone, kNone};
+    LeaderStart start{kNan, kNan};
     for (const TrajectoryPoint& point : points) {
         if (point.speed_mps < kAtRest_mps) {
             start.start_s = point.time_s;

@@ -3,19 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <numeric>
 
 #include "base/containers/index.h"
+#include "base/nan.h"
 #include "runs/single_light/ideal_platoon.h"
 #include "sim/state/model.h"
 
 namespace stopline {
 
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 std::int64_t ticks_of(double interval_s, double step_s) {
     return std::max<std::int64_t>(1, to_ticks(interval_s, step_s));
@@ -62,7 +60,7 @@ SteadyFlow steady_flow(const Scenario& scenario, const PopulationSettings& popul
 }
 
 QueueGaps queue_gaps(const std::vector<double>& gaps_m) {
-    if (gaps_m.empty()) return {kNone, kNone, kNone};
+    if (gaps_m.empty()) return {kNan, kNan, kNan};
     const auto [smallest, largest] = std::minmax_element(gaps_m.begin(), gaps_m.end());
     return {mean(gaps_m), *smallest, *largest};
 }
@@ -80,7 +78,7 @@ std::vector<TrajectoryPoint> downstream_points(const std::vector<TrajectoryPoint
 // count from the start of green.
 LeaderStart leader_of(const Scenario& scenario, const std::vector<LinePassage>& line,
                       const std::vector<TrajectoryPoint>& points, double green_start_s) {
-    if (line.empty()) return {kNone, kNone};
+    if (line.empty()) return {kNan, kNan};
     LeaderStart start =
         leader_start(points_of(points, line.front().vehicle), scenario.network.approach.speed_limit_mps);
     start.start_s -= green_start_s;
@@ -127,8 +125,8 @@ Counter ideal_counter(const Scenario& scenario, const PopulationSettings& popula
 
 void compare_with_baseline(SingleLightReport& result) {
     for (PopulationSummary& summary : result.populations) {
-        summary.asymptotic_improvement_percent = kNone;
-        summary.improvement_percent.assign(summary.passed.size(), kNone);
+        summary.asymptotic_improvement_percent = kNan;
+        summary.improvement_percent.assign(summary.passed.size(), kNan);
         if (!result.baseline) continue;
         const PopulationSummary& baseline = result.populations[*result.baseline];
         summary.asymptotic_improvement_percent =
@@ -154,7 +152,7 @@ PopulationSummary summary_of(const Scenario& scenario, std::size_t index, const 
     summary.counter = Counter(times_s);
     for (const double green_s : scenario.measure.green_s) summary.passed.push_back(summary.counter.passed(green_s));
     const int queued = scenario.demand.vehicles * scenario.network.approach.lanes;
-    summary.emptied_s = summary.counter.total() >= queued ? summary.counter.times_s().back() : kNone;
+    summary.emptied_s = summary.counter.total() >= queued ? summary.counter.times_s().back() : kNan;
     summary.last_positions = last_positions_flow(summary.line, kLastPositions);
     const ApproachSettings& road = scenario.network.approach;
     summary.steady = steady_flow(scenario, population, downstream_points(points, road.length_m), interval_s);
@@ -185,7 +183,7 @@ const PopulationSummary* SingleLightReport::find(const std::string& population) 
 }
 
 double SingleLightReport::mean_improvement_percent(const PopulationSummary& population, double from_s) const {
-    if (!baseline) return kNone;
+    if (!baseline) return kNan;
     const PopulationSummary& base = populations[*baseline];
     double to_s = scenario.signal.green_s;
     for (const double emptied_s : {population.emptied_s, base.emptied_s}) {
@@ -195,7 +193,7 @@ double SingleLightReport::mean_improvement_percent(const PopulationSummary& popu
 }
 
 double SingleLightReport::ideal_improvement_percent(const PopulationSummary& population, double from_s) const {
-    if (!baseline) return kNone;
+    if (!baseline) return kNan;
     const Counter& base = populations[*baseline].ideal;
     const int queued = scenario.demand.vehicles * scenario.network.approach.lanes;
     double to_s = scenario.signal.green_s;

@@ -25,6 +25,9 @@ struct TableDoc {
     std::vector<ColumnDoc> columns;
 };
 
+// The first column of most tables.
+inline constexpr ColumnDoc kPopulationColumn{"population", "", "", "name of the population"};
+
 // Returns the descriptions of all tables, in the order of scenarios/COLUMNS.md.
 const std::vector<TableDoc>& table_docs();
 

@@ -7,11 +7,9 @@ namespace stopline {
 
 namespace {
 
-const ColumnDoc kPopulation{"population", "", "", "name of the population"};
-
 std::vector<ColumnDoc> window_columns() {
     return {
-        kPopulation,
+        kPopulationColumn,
         {"throughput_veh_h", "veh/h", "window", "vehicles that leave the area; imported networks: trips that end"},
         {"improvement_percent", "%", "window", "gain in throughput over `measure.baseline`; empty without a baseline"},
         {"travel_time_s", "s", "window",
@@ -119,7 +117,7 @@ std::vector<ColumnDoc> summary_columns() {
 }
 
 std::vector<ColumnDoc> series_columns(const std::vector<ColumnDoc>& summary) {
-    std::vector<ColumnDoc> columns{kPopulation, {"from_s", "s", "", "start of the interval"}};
+    std::vector<ColumnDoc> columns{kPopulationColumn, {"from_s", "s", "", "start of the interval"}};
     for (const ColumnDoc& column : summary) {
         const bool is_measured = column.name == "throughput_veh_h" || column.name == "travel_time_s" ||
                                  column.name == "density_percent" || column.name == "vehicles_in_area";
@@ -143,7 +141,7 @@ std::vector<TableDoc> result_tables() {
         {"network/series.csv", "One row for each population and interval of the whole run.", series_columns(summary)},
         {"network/origin_destination.csv",
          "One row for each population and pair of sides with traffic. Imported networks have no rows.",
-         {kPopulation,
+         {kPopulationColumn,
           {"from", "", "", "side on which vehicles enter the area: west, south, east or north"},
           {"to", "", "", "side on which these vehicles leave it: west, south, east or north"},
           {"throughput_veh_h", "veh/h", "window", "vehicles of this pair that leave the area"},
@@ -151,7 +149,7 @@ std::vector<TableDoc> result_tables() {
         {"network/delays.csv",
          "One row for each episode: a period in which one cause delays the traffic of one lane without interruption.\n"
          "For `signal`, `yielding` and `queue_discharge`, a vehicle counts only after a stop of two signal cycles.",
-         {kPopulation,
+         {kPopulationColumn,
           {"cause", "", "",
            "`signal`, `yielding`, `junction_blocking`, `turn_blocking`, `spillback`, `gridlock`, `wrong_lane` or "
            "`queue_discharge`; see the columns `delay_CAUSE_h` of `network/summary.csv`"},
@@ -166,7 +164,7 @@ std::vector<TableDoc> result_tables() {
         {"network/starvations.csv",
          "One row for each vehicle that stands at the head of a queue for `measure.starvation` or longer although "
          "nothing blocks\nits way. Its movement starves.",
-         {kPopulation,
+         {kPopulationColumn,
           {"lane", "", "", "lane of the vehicle"},
           {"vehicle", "", "", "number of the vehicle"},
           {"cause", "", "",
@@ -176,7 +174,7 @@ std::vector<TableDoc> result_tables() {
         {"network/gridlocks.csv",
          "One row for each vehicle of a gridlock. Each vehicle waits for the one in the next row, and the last for "
          "the first.",
-         {kPopulation,
+         {kPopulationColumn,
           {"gridlock", "", "", "number of the gridlock, from 1"},
           {"from_s", "s", "run", "first observation"},
           {"to_s", "s", "run", "last observation"},
@@ -189,7 +187,7 @@ std::vector<TableDoc> rule_and_vehicle_tables() {
     return {
         {"network/rules.csv",
          "One row for each use of a traffic rule (`rules`), in the order of time. A teleport has two rows.",
-         {kPopulation,
+         {kPopulationColumn,
           {"time_s", "s", "run", "time of the use"},
           {"rule", "", "",
            "`teleported`: the vehicle is removed (`teleport_cycles`, or a missed turn). `reinserted`: it is put on "
@@ -204,7 +202,7 @@ std::vector<TableDoc> rule_and_vehicle_tables() {
            "allowed"}}},
         {"network/inflow.csv",
          "Streets only. One row for each population and interval.",
-         {kPopulation,
+         {kPopulationColumn,
           {"from_s", "s", "", "start of the interval"},
           {"west_veh_h", "veh/h", "interval, area", "vehicles that enter the area from the west"},
           {"south_veh_h", "veh/h", "interval, area", "vehicles that enter the area from the south"},
@@ -212,7 +210,7 @@ std::vector<TableDoc> rule_and_vehicle_tables() {
           {"north_veh_h", "veh/h", "interval, area", "vehicles that enter the area from the north"}}},
         {"network/approaches.csv",
          "Streets only. One row for each population, approach and interval. Vehicles are sampled every second.",
-         {kPopulation,
+         {kPopulationColumn,
           {"approach", "", "", "name of the approach: the name of its lanes without their number"},
           {"from_s", "s", "", "start of the interval"},
           {"vehicles", "veh", "interval", "mean number of vehicles on the approach"},
@@ -221,7 +219,7 @@ std::vector<TableDoc> rule_and_vehicle_tables() {
            "mean speed in the upstream third of the approach; empty: no vehicle"}}},
         {"network/turns.csv",
          "Streets only. One row for each population and approach.",
-         {kPopulation,
+         {kPopulationColumn,
           {"approach", "", "", "name of the approach: the name of its lanes without their number"},
           {"vehicles", "veh", "run", "vehicles that entered the intersection from the approach"},
           {"right_percent", "%", "run", "share of these vehicles that turned right"},
@@ -234,14 +232,14 @@ std::vector<TableDoc> rule_and_vehicle_tables() {
         {"network/time_space.csv",
          "Written if `measure.time_space` is set, for the last `measure.time_space` of the run.\n"
          "One row for each second and vehicle on one street, which begins on the side `measure.time_space_side`.",
-         {kPopulation,
+         {kPopulationColumn,
           {"time_s", "s", "run", "time of the sample"},
           {"vehicle", "", "", "number of the vehicle"},
           {"policy", "", "", "spacing policy of the vehicle"},
           {"position_m", "m", "", "distance of its front from the start of the first lane of the street"}}},
         {"network/trajectories.csv",
          "Written with `--trajectories`. One row for each vehicle in the network and each `--interval`.",
-         {kPopulation,
+         {kPopulationColumn,
           {"time_s", "s", "run", "time of the sample"},
           {"vehicle", "", "", "number of the vehicle"},
           {"policy", "", "", "spacing policy of the vehicle"},

@@ -5,7 +5,6 @@ namespace stopline {
 
 namespace {
 
-const ColumnDoc kPopulation{"population", "", "", "name of the population"};
 const ColumnDoc kVehicle{"vehicle", "", "", "number of the vehicle"};
 const ColumnDoc kPolicy{"policy", "", "", "spacing policy of the vehicle"};
 
@@ -33,7 +32,7 @@ std::vector<TableDoc> intersection_table_docs() {
     return {
         {"intersection/summary.csv",
          "One row for each population. The window is `measure.cycles` whole cycles after `measure.warmup_cycles`.",
-         {kPopulation,
+         {kPopulationColumn,
           {"throughput_veh_h", "veh/h", "window", "vehicles that leave the intersection"},
           {"improvement_percent", "%", "window",
            "gain in throughput over `measure.baseline`; empty without a baseline"},
@@ -71,18 +70,18 @@ std::vector<TableDoc> intersection_table_docs() {
            "takes, else 0; a violation"}}},
         {"intersection/headways.csv",
          "One row for each population, lane and queue position. Only vehicles that stood in the queue count.",
-         {kPopulation,
+         {kPopulationColumn,
           {"lane", "", "", "approach lane"},
           {"position", "", "", "position in the queue, from 1"},
           {"headway_s", "s", "window", "mean headway over greens; first position: time since the start of green"},
           {"samples", "", "window", "number of headways in the mean"}}},
         {"intersection/starvations.csv",
          "One row for each starving vehicle, as in `network/starvations.csv`.",
-         {kPopulation, as_starving("lane"), as_starving("vehicle"), as_starving("cause"), as_starving("from_s"),
+         {kPopulationColumn, as_starving("lane"), as_starving("vehicle"), as_starving("cause"), as_starving("from_s"),
           as_starving("to_s")}},
         {"intersection/trajectories.csv",
          "Written with `--trajectories`, for the first measured cycle. One row for each vehicle and each `--interval`.",
-         joined({kPopulation,
+         joined({kPopulationColumn,
                  {"time_s", "s", "run", "time of the sample"},
                  kVehicle,
                  kPolicy,
@@ -100,7 +99,7 @@ std::vector<TableDoc> single_light_table_docs() {
     return {
         {"single_light/summary.csv",
          "One row for each population.",
-         {kPopulation,
+         {kPopulationColumn,
           {"passed_in_green_veh", "veh", "green", "vehicles that pass the stop line"},
           {"queue_emptied_s", "s", "green",
            "time from the start of green until the last queued vehicle passes the stop line; empty: it does not pass "
@@ -138,7 +137,7 @@ std::vector<TableDoc> single_light_table_docs() {
           {"state_hash", "", "end of the run", "hash of the final state; equal runs give equal hashes"}}},
         {"single_light/improvement.csv",
          "One row for each population and each green time of `measure.green`.",
-         {kPopulation,
+         {kPopulationColumn,
           {"green_s", "s", "", "green time"},
           {"passed_veh", "veh", "green", "vehicles that pass the stop line within this time"},
           {"baseline", "", "", "name of the baseline population; empty without one"},
@@ -146,7 +145,7 @@ std::vector<TableDoc> single_light_table_docs() {
           {"improvement_percent", "%", "green", "gain of `passed_veh` over `baseline_passed_veh`"}}},
         {"single_light/passages.csv",
          "One row for each vehicle that passes the stop line in the green.",
-         {kPopulation,
+         {kPopulationColumn,
           {"lane", "", "", "lane, from 0"},
           {"position", "", "", "position in the queue of the lane, from 1"},
           kVehicle,
@@ -157,7 +156,7 @@ std::vector<TableDoc> single_light_table_docs() {
         {"single_light/trajectories.csv",
          "Written with `--trajectories`, from 5 s before the green to 25 s after its end.\n"
          "One row for each vehicle and each `--interval`.",
-         joined({kPopulation,
+         joined({kPopulationColumn,
                  {"time_s", "s", "", "time of the sample, from the start of green"},
                  kVehicle,
                  kPolicy,

@@ -106,7 +106,7 @@ std::vector<TableDoc> sweep_table_docs() {
          "Written for sweeps of `scenarios/intersection.yaml` over greens and turn shares.\n"
          "One row for each value in Table 1 of the paper.",
          {{"id", "", "", "row of `data/paper/targets.csv`"},
-          {"population", "", "", "name of the population"},
+          kPopulationColumn,
           {"green_s", "s", "", "green time"},
           {"left_percent", "%", "", "share of left turns"},
           {"right_percent", "%", "", "share of right turns"},
