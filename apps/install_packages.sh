@@ -85,8 +85,8 @@ for attempt in 1 2 3; do
         break
     fi
     if [[ $attempt == 3 ]]; then
-        # apt-get reports a failure even if it could not fetch one list of several. The lists that it has may suffice to
-        # install the missing packages, so the script tries.
+        # A single list that apt-get could not fetch counts as a failure. The other lists may suffice to install the
+        # missing packages, so the script continues.
         echo "apt-get could not update the package lists and continues with the old ones. Its message:" >&2
         cat "$log" >&2
     else

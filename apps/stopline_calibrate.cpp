@@ -158,8 +158,8 @@ CompletedSweep run_sweep(const CalibrateCliOptions& options, const std::string& 
     return {std::move(sweep), std::move(store), totals};
 }
 
-// Reads the evaluations of earlier sessions from the store. The index in the returned list is the number of the
-// evaluation. The store holds each evaluation as a text: first the loss, then all parameter values.
+// Returns the evaluations of earlier sessions: [number of the evaluation]. An evaluation is a set of parameter values
+// and its loss. The store holds it as a text: first the loss, then the values.
 std::vector<std::optional<FitEvaluation>> stored_evaluations(const RunStore& store) {
     std::vector<std::optional<FitEvaluation>> stored(store.identity().points);
     store.for_each_run([&](std::size_t index, const std::string& text) {
@@ -348,8 +348,8 @@ void step_two(const CalibrateCliOptions& options, const std::filesystem::path& f
     no_violations = no_violations && full.totals.runs_with_violations == 0;
 }
 
-// Returns a path as an absolute path, and any other name unchanged. A relative path in --set would refer to the folder
-// of the scenario.
+// Makes `text` an absolute path if it is a path, because a relative path in --set would refer to the folder of the
+// scenario. Returns the name of shipped parameters, such as table2, unchanged.
 std::string name_or_absolute_path(const std::string& text) {
     const bool is_path = text.find('/') != std::string::npos || text.ends_with(".yaml");
     return is_path ? std::filesystem::absolute(text).lexically_normal().string() : text;

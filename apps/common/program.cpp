@@ -15,7 +15,7 @@ namespace stopline {
 
 namespace {
 
-// These variables are global, because a signal handler can access nothing else.
+// These variables are global, because a signal handler gets no other access to data of the program.
 volatile std::sig_atomic_t interrupt_received = 0;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 volatile std::sig_atomic_t interrupt_time_s = 0;    // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 

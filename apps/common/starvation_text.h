@@ -1,5 +1,5 @@
-// Starving movements as text for the terminal. A movement starves if the first vehicle of its queue is stopped for
-// measure.starvation although no queue or vehicle ahead blocks its way.
+// Starving movements as text for the terminal. A movement starves if the first vehicle of its queue is stopped for the
+// time `measure.starvation` of the scenario, although no queue or vehicle ahead blocks this vehicle.
 #pragma once
 
 #include <string>

@@ -26,9 +26,9 @@ struct ReplayPage {
 };
 
 // Reads the whole recording and checks every frame. A recording consists of sections of up to 128 frames. The page gets
-// all sections that have a frame within the window. `on_frames` gets the number of frames read. If it returns false,
-// the function throws Interrupted. Throws InputError if the recording is damaged or the page would be too large for a
-// browser.
+// all sections that have a frame within the window. Calls `on_frames` with the number of frames read so far. Throws
+// Interrupted if `on_frames` returns false. Throws InputError if the recording is damaged or the page would be too
+// large for a browser.
 ReplayPage make_replay_page(RecordingReader& reader, const ReplayWindow& window,
                             const std::function<bool(std::int64_t)>& on_frames);
 

@@ -69,7 +69,7 @@ std::filesystem::path population_file(const std::filesystem::path& file, const S
     return file.parent_path() / name;
 }
 
-// Creates the folder of `file`. It is called before the runs, so that a wrong path is reported before any run starts.
+// Creates the folder of `file`. Called before the runs, so that a wrong path is reported before any run starts.
 void prepare_folder_of(const std::string& file) {
     const std::filesystem::path path(file);
     if (path.filename().empty()) throw InputError(fmt::format("'{}' is a folder; add the name of a file to it", file));

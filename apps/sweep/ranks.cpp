@@ -68,7 +68,7 @@ bool has_message(int from, int tag) {
 }
 
 // Returns true if mpirun or srun started this program; both set environment variables. Otherwise the program must not
-// start MPI: this takes time, and it aborts the program on machines where MPI is not set up.
+// start MPI: starting MPI takes time, and it aborts the program on machines where MPI is not set up.
 bool started_by_launcher() {
     constexpr std::array kVariables{"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "PMI_SIZE"};
     return std::any_of(kVariables.begin(), kVariables.end(), [](const char* name) {

@@ -34,8 +34,8 @@ public:
     // is empty.
     bool agree_on(const std::string& key) const;
 
-    // Must be called on rank 0. Lets the workers run the points and stores their results, as run_points() does without
-    // ranks. A worker counts as dead after `silence_max_s` without a message.
+    // Must be called on rank 0. Lets the workers run the points, and stores the results. (Without MPI, run_points()
+    // does the same with threads.) A worker counts as dead after `silence_max_s` without a message.
     SweepSession serve(const std::vector<std::size_t>& points, RunStore& store,
                        const std::function<bool(double)>& on_progress, double silence_max_s);
     // Must be called on a worker. Runs the points that rank 0 assigns, until rank 0 sends the stop message.

@@ -1,10 +1,10 @@
-// Counter-based random numbers. A number is a function of its key (seed, vehicle, tick, purpose) alone. The thread
-// count, the spacing policy and the order of the calls do not change it. So two spacing policies can be compared with
-// the same random numbers.
+// Counter-based random numbers. A number is a function of its key (seed, vehicle, tick, purpose) alone. The number of
+// threads, the spacing policies (car-following rules) of the vehicles and the order of the calls do not change the
+// number. So two runs with different spacing policies can use the same random numbers.
 //
-// This function is the 64-bit finaliser of SplitMix64 (Steele, Lea, Flood 2014, "Fast splittable pseudorandom number
-// generators"), applied once for each part of the key. It uses integer arithmetic only, so compilers can vectorise it
-// and it gives the same bits on every machine.
+// The function that maps a key to its random bits is the 64-bit finaliser of SplitMix64 (Steele, Lea, Flood 2014, "Fast
+// splittable pseudorandom number generators"), applied once for each part of the key. The function uses integer
+// arithmetic only, so compilers can vectorise it and its results have the same bits on every machine.
 #pragma once
 
 #include <bit>
@@ -12,7 +12,8 @@
 
 namespace stopline {
 
-// The purpose of a random number. Its value is part of the key, so append new purposes and never renumber old ones.
+// The purpose of a random number. The value of the enumerator is part of the key, so append new purposes and never
+// renumber old ones.
 enum class Purpose : std::uint64_t { policy = 1, turn = 2, dawdle = 3, insertion = 4, vehicle_type = 5, fit_start = 6 };
 
 // Returns the SplitMix64 finaliser of z. `Words` is std::uint64_t or a vector of std::uint64_t.

@@ -41,9 +41,9 @@ struct BandCheck {
     double share_inside(Band band) const;
 };
 
-// Returns the result columns to check, which are those in `named`. If `named` is empty, they are the throughput, the
-// first column with a density, and the first column with a travel time. Throws InputError if a named column does not
-// exist, or if none is named and the runs have no such results.
+// Returns the result columns to check: the columns in `named` or, if `named` is empty, the throughput, the first
+// density and the first travel time that the results have. Throws InputError if a named column does not exist, or if
+// `named` is empty and the results lack all three.
 std::vector<std::string> band_metrics(const RunStore& full, const std::vector<std::string>& named);
 
 // Compares two stores that hold all runs of `sweep`. Throws InputError for fewer than three repetitions.

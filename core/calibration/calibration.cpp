@@ -36,8 +36,9 @@ double cycle_of(const Scenario& scenario) {
     return scenario.network.has_intersections() ? scenario.intersection_cycle_s() : scenario.signal.cycle_s;
 }
 
-// Returns the cause of the difference at a detector as text. A difference of half a cycle or more means that the
-// vehicle used another green. With a smaller difference, the vehicle passes at another time of the same green.
+// Returns the cause of a miss as text. Without pairs beyond the limit, the miss consists of unpaired passages. A
+// largest difference of half a cycle or more means that the vehicle used another green. Otherwise the vehicle passes at
+// another time of the same green.
 std::string cause_of(const TimingMiss& miss, double cycle_s) {
     if (miss.pairs_beyond_limit == 0) return "one mode has more passages than the other";
     if (cycle_s > 0.0 && std::abs(miss.largest_s) >= 0.5 * cycle_s) {

@@ -31,8 +31,8 @@ struct DetectorRun {
 DetectorRun run_detectors(const Scenario& scenario, const Model& model, const std::function<bool()>& keep_going = {});
 
 // Runs the scenario and returns the results that a sweep stores. Each detector with passages has one result: the text
-// of its passage times, separated by spaces. The other results are the numbers of violations of each kind and of
-// vehicle updates. Returns an empty list if `keep_going` stopped the run.
+// of its passage times, separated by spaces. The other results are the numbers of overlaps (conflicts included),
+// entries on red, lost vehicles, and vehicle updates. Returns an empty list if `keep_going` stopped the run.
 std::vector<RunMetric> detector_metrics(const Scenario& scenario, std::size_t population,
                                         const std::function<bool()>& keep_going);
 // Reads the passage times from a stored result of detector_metrics().

@@ -16,9 +16,10 @@ constexpr double kBin_mps = 1.25 * kMpsPerKmh;  // width of a bin; the bins reac
 constexpr double kStep_s = 0.01;                // step of the simulation and interval between samples
 constexpr double kLast_s = 120.0;
 
-// Returns the scenario of a single lane with one signal. Its speed limit is so high that it does not limit the
-// acceleration. profile_limit_mps has the same value, so that the driver's acceleration curve alone determines the
-// start. On fast roads, the mesoscale mode itself adds the influence of engine power (Model::power_profile).
+// Returns the scenario of a single lane with one signal, and with a speed limit so high that it does not limit the
+// acceleration. profile_limit_mps has the same value: on a road with a higher limit, a driver would also use a share of
+// the engine power, but here the driver's acceleration curve alone must determine the start. On fast roads, the
+// mesoscale mode adds the influence of engine power itself (Model::power_profile).
 Scenario straight_road_scenario(const Scenario& scenario) {
     Scenario road = scenario;
     road.fidelity = "full";

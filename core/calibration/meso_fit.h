@@ -1,12 +1,13 @@
 // Fits the parameters of the mesoscale mode to detector passages of full dynamics (Section V.B, step I). The k-th
-// passages of a detector in both modes form a pair. The loss is a mean over all pairs (fit_loss). It is robust: a
-// single pair adds at most 1 to the sum, however large its difference is.
+// passages of a detector in both modes form a pair. The loss of a run is a mean over its pairs (fit_loss), or 1 if
+// vehicles overlap or collide in a conflict area. The loss of a set of parameters is the mean over all runs. A single
+// pair adds at most 1 to the sum of its run, however large its difference is.
 //
 // A permutation is a combination of axis values of a sweep. First, the time-gap model and the constant-distance model
 // are fitted separately, each to the permutations in which all vehicles use this model. Each of these searches is
 // repeated from several starting points. Then all parameters are fitted together to all permutations. The search is
-// deterministic. After an interruption it can therefore start again: the stored losses replace the evaluations that
-// were finished before.
+// deterministic. After an interruption, the search therefore starts again with the same evaluations, and stored losses
+// replace the evaluations that were finished before.
 #pragma once
 
 #include <functional>
@@ -58,8 +59,8 @@ struct FitEvaluation {
 struct FitOptions {
     int threads = 1;
     int starts = 3;
-    int evaluations_per_start = 250;  // highest number in a search for one model, from one starting point
-    int joint_evaluations = 800;      // highest number in the search for all parameters together
+    int evaluations_per_start = 250;  // limit for each search that fits one model
+    int joint_evaluations = 800;      // limit for the search that fits all parameters
     double limit_s = 1.0;
     // Returns the loss of evaluation `index` that an earlier session stored, if that evaluation had the same parameter
     // values.

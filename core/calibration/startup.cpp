@@ -204,7 +204,8 @@ std::vector<BandExit> band_exits(const StartupCurve& curve, const StartupRun& ru
         const bool outside = of_mean ? std::fabs(deviation_mps) > measured_mps(curve.mean_ci_mps, time_s)
                                      : speed_mps < measured_mps(curve.low_mps, time_s) ||
                                            speed_mps > measured_mps(curve.high_mps, time_s);
-        // If the deviation changes sign between two samples, the speed has crossed the band: a new exit begins.
+        // If two successive samples are outside the band on opposite sides, the speed has crossed the band: a new exit
+        // begins.
         const bool crossed = outside_before && deviation_mps * exits.back().largest_deviation_mps < 0.0;
         if (outside && (!outside_before || crossed)) exits.push_back({time_s, time_s, deviation_mps});
         if (outside) {

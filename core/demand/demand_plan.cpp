@@ -24,8 +24,9 @@ std::size_t pick(std::span<const double> shares, double number) {
 }
 
 // Returns the component that is furthest behind: its number of draws is furthest below the number that its share
-// demands. `drawn` holds the number of draws of each component, n in total; the new draw is added to it. So the shares
-// hold in every part of the sequence. Components with equal shares alternate, beginning with the first component.
+// demands. `drawn` holds the number of draws of each component, n in total; the function adds the new draw. With this
+// choice, the shares hold in every part of the sequence. Components with equal shares alternate, beginning with the
+// first component.
 std::size_t draw_most_behind(std::span<const double> shares, std::int64_t n, std::vector<double>& drawn) {
     std::size_t chosen = 0;
     for (std::size_t c = 1; c < shares.size(); ++c) {

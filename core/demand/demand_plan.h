@@ -104,10 +104,10 @@ struct DemandPlan {
     int route_of(int inlet, std::int64_t k) const;
     // Returns the route of the k-th vehicle of an inlet, drawn from `lane_shares`.
     int route_for_chosen_lane(int inlet, std::int64_t k) const;
-    // Draws the route of the k-th vehicle of an inlet so that Inlet::approach_shares hold. They must not be empty. The
-    // weights of the routes are lane_shares if the vehicle chose its lane because of its turn, else `shares`. If a turn
-    // was drawn d times too rarely on the whole approach, the weight of its route is multiplied by 1 + d /
-    // kBalanceVehicles. If the turn was drawn d times too often, the weight is divided by this factor.
+    // Draws the route of the k-th vehicle of an inlet so that the shares in Inlet::approach_shares hold. This list must
+    // not be empty. The weights of the routes are lane_shares if the vehicle chose its lane because of its turn, else
+    // `shares`. If a turn was drawn d times too rarely on the whole approach, the weight of its route is multiplied by
+    // 1 + d / kBalanceVehicles. If the turn was drawn d times too often, the weight is divided by this factor.
     // `drawn_per_route` counts the earlier draws of each route's turn on all lanes of the approach. `total_drawn` is
     // the number of earlier draws of all turns.
     static constexpr double kBalanceVehicles = 4.0;

@@ -40,7 +40,7 @@ struct DriverTablesOf {
     // Driving at desired speeds beyond the range of the profile. extend_by_power() sets these values.
     Number profile_end_mps = 1e9;  // highest desired speed for which the profile holds
     Number power_nodes_per_mps = 0.0;
-    std::array<Number, kProfileNodes> power_mps2{};  // [node] lowest acceleration there, from speed 0
+    std::array<Number, kProfileNodes> power_mps2{};  // [node] lowest acceleration at such desired speeds, from speed 0
 };
 using DriverTables = DriverTablesOf<double>;
 
@@ -76,12 +76,12 @@ STOPLINE_INLINE R free_acceleration(const DriverTablesOf<Number>& d, const R& sp
     return min_of(profile, d.speed_gain_1ps * (desired_mps - speed_mps));
 }
 
-// Returns the speed at which a platoon leader drives. If its radar sees no vehicle ahead, this is the speed limit.
-// Otherwise the platoon leader exceeds the limit slightly, or it would never close up to a vehicle that drives at the
-// limit. It reaches its desired gap behind this vehicle after the time
+// Returns the desired speed of a platoon leader. If its radar sees no vehicle ahead, the result is the speed limit.
+// Otherwise the result is slightly above the limit, so that the platoon leader can close up to a vehicle that drives at
+// the limit. The platoon leader reaches the desired gap behind such a vehicle after the time
 //     t = (gap - desired gap) / ((catch_up_factor - 1) limit).
-// The mesoscale mode has about the same difference of speeds. There a vehicle without leader drives at 95 % of the
-// limit (Section V.A of the paper), and the vehicles behind it may drive at the limit to close up.
+// In the mesoscale mode, vehicles close up with about the same difference of speeds: a vehicle without leader drives at
+// 95 % of the limit (Section V.A of the paper), and the vehicles behind it may drive at the limit.
 template <class R, class Number>
 STOPLINE_INLINE R closing_up_speed(const CaccSettingsOf<Number>& c, const R& limit_mps, const LeaderView<R>& p) {
     const R sees_leader = STOPLINE_FLAG(R, p.gap_m < splat<R>(static_cast<double>(c.radar_range_m)));
@@ -115,9 +115,9 @@ inline constexpr double kLandingTime_s = 0.5;  // tau of stop_acceleration()
 // overshoot. v_s is the safe speed of Krauss 1998 behind a stopped obstacle. On the curve, the vehicle decelerates with
 // b v / (v_s + b tau).
 //
-// Our choices: tau covers the lag of the brake (0.2 s) and the time that the request needs to change. The gain returns
-// the vehicle to the curve with the time constant 1 / gain = 0.7 s. The brake responds faster than this, so the speed
-// does not oscillate.
+// Our choices: tau covers the lag of the brake (0.2 s) and the time that the request needs to change. The gain
+// kSpeedGain_1ps returns the vehicle to the curve with the time constant 1 / gain = 0.7 s. The brake responds faster
+// than 0.7 s, so the speed does not oscillate.
 template <class R, class Number>
 STOPLINE_INLINE R stop_acceleration(const DriverTablesOf<Number>& d, const R& speed_mps, const R& distance_m) {
     constexpr double kSpeedGain_1ps = 1.5;

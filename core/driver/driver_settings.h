@@ -73,7 +73,7 @@ struct LaneChangeSettings {
     double look_ahead_s = 10.0;
     double left_factor = 2.0;
     // Smallest accepted lead gap and lag gap, as a share of the gap of the spacing policy. The share falls linearly
-    // from gap_share at the begin of the search to urgent_gap_share where no usable distance is left.
+    // from gap_share at the beginning of the search to urgent_gap_share where no usable distance is left.
     double gap_share = 1.0;
     // The default follows measurements: at equal speeds the median critical gap of mandatory changes is 4 m (Toledo,
     // Koutsopoulos, Ben-Akiva 2003, "Modeling integrated lane-changing behavior", Transportation Research Record 1857).

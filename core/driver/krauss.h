@@ -1,8 +1,8 @@
 // Car following of the mesoscale mode: computes the speed of the next step from the state at the start of the step.
 //
-// For policies with the law constant_time this is the model of Krauss (1998, "Microscopic modeling of traffic flow",
-// chapter 5). Its condition for safe driving is solved for the speed, as in SUMO. At a net gap s behind a leader with
-// the speed v_l, the safe speed is (struct Krauss explains the other symbols):
+// Policies with the law constant_time use the model of Krauss (1998, "Microscopic modeling of traffic flow", chapter
+// 5), with its condition for safe driving solved for the speed, as in SUMO. At a net gap s behind a leader with the
+// speed v_l, the safe speed is (struct Krauss explains the other symbols):
 //
 //   v_safe = -b tau + sqrt(b^2 tau^2 + v_l^2 + 2 b (s - s_0))
 //
@@ -139,10 +139,10 @@ STOPLINE_INLINE R anticipated_safe_speed_mps(const Model& k, const KraussInputOf
 }
 
 // Returns the speed of the next step. `safe_mps` is the result of anticipated_safe_speed_mps(), `random` is uniform in
-// [0, 1), and `power_limit` is the result of has_power_limit(). If it is true, the acceleration is at least
-// `least_mps2`. v_safe reduces the speed at most to `lowest_mps`. The vehicle brakes harder only to avoid contact with
-// the leader, or if in.speed_cap_mps is lower. The limit `lowest_mps` matters only after lane changes; otherwise the
-// models do not demand such hard braking.
+// [0, 1), and `power_limit` is the result of has_power_limit(). If `power_limit` is true, constant power can lower the
+// maximum acceleration, but not below `least_mps2`. v_safe reduces the speed at most to `lowest_mps`. The vehicle
+// brakes harder only to avoid contact with the leader, or if in.speed_cap_mps is lower. The limit `lowest_mps` matters
+// only after lane changes; otherwise the models do not demand such hard braking.
 template <bool power_limit, class R, class Model>
 STOPLINE_INLINE R speed_after_mps(const Model& k, const KraussInputOf<R>& in, const R& safe_mps, const R& random,
                                   double dt, const R& lowest_mps = R(0.0), const R& least_mps2 = R(0.0)) {
@@ -175,8 +175,8 @@ struct LeaderProfile {
 // listed speed that is nearest to the middle of the bin. If the settings list no speeds, bins_per_mps is 0.
 LeaderProfile leader_profile(const MesoSettings& settings);
 
-// Returns the lowest accelerations, by speed, on lanes with a higher limit than the calibrated one. They come from
-// DriverTables::power_mps2.
+// Returns, by speed, the lowest accelerations on lanes whose speed limit is above the limit for which the models were
+// calibrated. The values come from DriverTables::power_mps2.
 LeaderProfile power_profile(const DriverTables& driver);
 
 // Returns the next speed of one vehicle.

@@ -9,9 +9,9 @@ namespace stopline {
 struct TrafficRules {
     // The keep-clear rule. A vehicle passes the stop line only if its exit lane has room for it and for the vehicles
     // between it and the exit lane. The room ends at the rearmost vehicle within sight_m that is slower than 1 m/s. The
-    // vehicle also waits while such a slow vehicle from a crossing street blocks its path, or has waited inside the
-    // intersection since an earlier green and still has to cross its path. The rule can fail, because a moving vehicle
-    // in the exit lane may still stop.
+    // vehicle also waits while such a slow vehicle from a crossing street blocks the path ahead, or has waited inside
+    // the intersection since an earlier green and still has to cross the path ahead. The rule can fail, because a
+    // moving vehicle in the exit lane may still stop.
     std::string keep_clear = "on";  // off | on
     double sight_m = 300.0;         // distance into the exit lane that drivers see; SUMO considers the whole lane
     // on: while the signal at the end of the exit lane is not green, moving vehicles on the exit lane count as already

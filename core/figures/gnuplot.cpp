@@ -60,8 +60,8 @@ std::string script_of(const Figure& figure) {
                                  (folder / (figure.name + ".gp")).string()));
 }
 
-// Returns true if the file ends with the end mark of an SVG or PNG picture. gnuplot reports no error if the disk is
-// full.
+// Returns true if the file is a complete picture, with the end mark of SVG or PNG near its end. This check is needed
+// because gnuplot reports no error if the disk is full.
 bool complete(const fs::path& file) {
     std::error_code error;
     if (!fs::is_regular_file(file, error)) return false;

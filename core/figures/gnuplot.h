@@ -22,8 +22,8 @@ struct Figure {
 };
 
 // Colour, dash and point of a line. The eight colours are those of Okabe and Ito (2008), which colour-blind readers can
-// distinguish. Grey replaces the yellow of this set, which is too light on white. Beyond eight lines, the colours
-// repeat with other dashes.
+// distinguish. Grey replaces their yellow, because yellow is too light on white. Beyond eight lines, the colours repeat
+// with other dashes.
 struct LineStyle {
     std::string colour;    // #rrggbb
     int dash = 1;          // gnuplot dash type

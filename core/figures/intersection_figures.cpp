@@ -106,8 +106,9 @@ struct PositionHeadway {
     int samples = 0;
 };
 
-// Returns the mean headways over all lanes with saturated greens, by queue position. The list ends before the first
-// position that some of these lanes do not reach. From there on, the mean would depend on which lanes have long queues.
+// Returns the mean headways by queue position, over all lanes with saturated greens (greens that start with a queue of
+// at least five vehicles). The list ends before the first position that one of these lanes never reaches. At this
+// position, the mean would cover only the lanes with long queues.
 std::vector<PositionHeadway> common_positions(const Discharge& discharge) {
     std::vector<PositionHeadway> positions;
     for (std::size_t n = 0;; ++n) {

@@ -105,7 +105,8 @@ std::string marks_of(const NetworkReport& report) {
 }  // namespace
 
 Figure network_series_figure(const NetworkReport& report) {
-    constexpr std::size_t kNamesPerPanel = 9;  // legend entries beside one panel; the next panels name the rest
+    // Number of populations that the legend beside one panel names. The legends of the next panels name the others.
+    constexpr std::size_t kNamesPerPanel = 9;
     Figure figure;
     figure.name = "series";
     figure.width_px = 900;

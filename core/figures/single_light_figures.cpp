@@ -101,8 +101,8 @@ std::string counter_data(const SingleLightReport& result, const std::vector<std:
     return text;
 }
 
-// Returns the time from which on the improvement is shown: the passage of the second vehicle of the baseline. Before
-// this passage, the counts are too small for a meaningful ratio.
+// Returns the time at which the improvement curves begin: when the second vehicle of the baseline passes the stop line,
+// or the end of green if fewer than two vehicles pass. Earlier counts are too small for a meaningful ratio.
 double first_ratio_s(const SingleLightReport& result) {
     const Counter& baseline = result.populations[*result.baseline].counter;
     return baseline.total() < 2 ? result.scenario.signal.green_s : baseline.times_s()[1];
@@ -139,8 +139,8 @@ std::string improvement_data(const SingleLightReport& result, const std::vector<
     return text;
 }
 
-// Returns the improvements computed from whole vehicle counts. A value is NaN if the whole queue of the population has
-// passed the stop line before the green time ends.
+// Returns the improvements computed from whole vehicle counts. There is one value for each reported green time. A value
+// is NaN if the whole queue of the population passes the stop line within a shorter time.
 std::string whole_count_data(const SingleLightReport& result, const std::vector<std::size_t>& order) {
     std::string text = "# green_s improvement_percent, one block for each population\n";
     for (const std::size_t k : order) {

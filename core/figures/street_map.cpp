@@ -91,7 +91,8 @@ struct MapData {
     std::array<std::string, 3> lines{"# x_m y_m, stop lines\n", "# x_m y_m, stop lines\n", "# x_m y_m, stop lines\n"};
 };
 
-// Adds the direction arrows of a lane. They are long and as wide as the lane, because a lane is only a few pixels wide.
+// Adds the direction arrows of a lane. The arrows are long and as wide as the lane. Smaller arrows would be illegible,
+// because a lane is only a few pixels wide.
 void add_arrow(const LaneGraph& graph, const Lane& lane, MapData& drawn) {
     constexpr double kBegin_m = -29.0;
     constexpr double kBend_m = -19.0;

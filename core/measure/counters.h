@@ -15,8 +15,8 @@ public:
     int passed(double time_s) const;
 
     // Returns the interpolated count. It is k at the time of the k-th passage, grows linearly between passages (from 0
-    // at time 0), and is constant after the final passage. It can distinguish two policies whose whole counts are
-    // equal.
+    // at time 0), and is constant after the final passage. The interpolated count can distinguish two policies whose
+    // whole counts are equal.
     double interpolated(double time_s) const;
 
     int total() const { return static_cast<int>(times_s_.size()); }
@@ -30,8 +30,8 @@ private:
 double improvement_percent(double passed, double baseline);
 
 // Returns the improvement of a counter over the baseline in percent, averaged over the time from `from_s` to `to_s`
-// (Fig. 6). It uses interpolated counts, because rounding both counts down to whole vehicles would increase the ratio.
-// Returns NaN if the interval is empty or the count of the baseline is 0 at the start of the interval.
+// (Fig. 6). The function uses interpolated counts, because rounding both counts down to whole vehicles would increase
+// the ratio. Returns NaN if the interval is empty or the count of the baseline is 0 at the start of the interval.
 double mean_improvement_percent(const Counter& counter, const Counter& baseline, double from_s, double to_s);
 
 }  // namespace stopline

@@ -23,7 +23,7 @@ struct Green {
     bool is_saturated() const { return headways_s.size() > kLostPositions; }
 };
 
-// Sums over saturated greens.
+// Sums over saturated greens, which are greens with a queue of five vehicles or more.
 struct SaturatedSums {
     double later_s = 0.0;  // headways from the fifth vehicle on
     int later = 0;         // number of these headways

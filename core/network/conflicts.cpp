@@ -63,8 +63,8 @@ bool apart(const Box& a, const Box& b, double clearance_m) {
     return beyond(a, b) || beyond(b, a);
 }
 
-// Returns the conflict area of two connections, with positions measured from the starts of the lanes. The members
-// `other`, `yields` and `other_yields` are not set.
+// Returns the conflict area of two connections, or nothing if there is none. Sets only the four positions, which are
+// measured from the starts of the lanes.
 std::optional<Conflict> areas_of(const Lane& one, const Lane& two, double clearance_m) {
     const auto on_one = near_part(one.shape, two.shape, clearance_m);
     const auto on_two = on_one ? near_part(two.shape, one.shape, clearance_m) : std::nullopt;

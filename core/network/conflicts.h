@@ -19,7 +19,7 @@ std::optional<Conflict> conflict_of(const Lane& one, const Lane& two, double cle
 // graph.conflicts, which must have one list per lane. Two connections conflict if their centre lines come closer than
 // `clearance_m`. Connections of the same approach lane do not conflict, because their vehicles follow each other. If
 // both movements have green in the same stage, a left turn yields to right turns and to straight traffic, and a right
-// turn yields to straight traffic.
+// turn yields to straight traffic. In all other cases, neither movement yields.
 void find_conflicts(LaneGraph& graph, double clearance_m, int first, int stop);
 
 }  // namespace stopline

@@ -63,9 +63,10 @@ struct Lane {
     StopRule stop_rule = StopRule::none;  // connection
 };
 
-// A conflict area: the parts of two connections where vehicles on one can touch vehicles on the other. Its bounds are
-// distances from the start of the connection. A vehicle occupies the area while its front is beyond `from_m` and its
-// rear is not beyond `to_m`.
+// A conflict area: the parts of two connections where vehicles on one can touch vehicles on the other.
+// LaneGraph::conflicts lists the area for each of the two, which is then called "this connection". The bounds of the
+// area are distances from the start of the connection. A vehicle occupies the area while its front is beyond `from_m`
+// and its rear is not beyond `to_m`.
 struct Conflict {
     int other = -1;             // lane index of the other connection
     double from_m = 0.0;        // start of the area on this connection; < 0: on the approach lane, beyond its stop line

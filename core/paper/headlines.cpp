@@ -21,7 +21,7 @@ struct Statement {
     const char* topic;  // name of the statement if its values are missing
 };
 
-// Returns our value of a row, or std::nullopt if the row was not measured or our answer is not a number.
+// Returns our value of a row of the scorecard, or std::nullopt if the row is missing or our answer is not a number.
 std::optional<double> value_of_row(const Scorecard& scorecard, const std::string& id) {
     const auto found = std::find_if(scorecard.rows.begin(), scorecard.rows.end(),
                                     [&](const ScoredRow& row) { return row.target.id == id; });

@@ -15,8 +15,7 @@ struct Headline {
     std::string text;
 };
 
-// Returns the five lines with our values from the scorecard. If values were not measured, their line names them as
-// missing.
+// Returns the five lines with our values from the scorecard. If a value was not measured, its line says so.
 std::vector<Headline> headlines(const Scorecard& scorecard);
 
 }  // namespace stopline

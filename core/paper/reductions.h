@@ -27,7 +27,7 @@ public:
     static Reductions load(const std::filesystem::path& file);
 
     const std::vector<Row>& rows() const { return rows_; }
-    // Returns one line for each column name of the previous release in the file.
+    // Returns one warning for each column of the file that still has its name of the previous release.
     const std::vector<std::string>& warnings() const { return warnings_; }
 
     // Returns the scenario fields that the reductions change, each as "PATH=VALUE", for load_scenario().

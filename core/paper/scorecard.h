@@ -79,7 +79,8 @@ struct Scorecard {
     // Number of violations, summed over all experiments: overlaps of vehicles, entries on red, and lost vehicles. Some
     // experiments count every violation. Other experiments count the runs that have violations.
     double violations = 0.0;
-    std::vector<std::string> warnings;  // one line for each column name of the previous release in explanations.csv
+    // One warning for each column of explanations.csv that still has its name of the previous release.
+    std::vector<std::string> warnings;
     int count(Verdict verdict) const;
 };
 
@@ -102,8 +103,8 @@ struct Explanation {
     std::string measured_as;  // how we measure the quantity
     std::string explanation;  // why our value deviates; used if the verdict is 'miss'
 };
-// Loads the explanations. Returns a map from row id to explanation. Sets `warnings` to one line for each column name of
-// the previous release in the file.
+// Loads the explanations. Returns a map from row id to explanation. Sets `warnings` to one warning for each column of
+// the file that still has its name of the previous release.
 std::map<std::string, Explanation> load_explanations(const std::filesystem::path& file,
                                                      std::vector<std::string>& warnings);
 

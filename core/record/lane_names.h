@@ -28,7 +28,7 @@ public:
     // Returns the place of the front of the vehicle in `slot` on `lane`.
     Place front(const State& state, int lane, std::size_t slot) const;
     // Returns the place where trips that end on `lane` end: the stop line, or the end of a lane without one. For a
-    // connection, returns the end of its exit lane.
+    // connection, returns the stop line or the end of its exit lane.
     Place end(int lane) const;
     // Returns the distance from a position on `lane` to the place that end() returns, m.
     double to_end_m(int lane, double position_m) const;

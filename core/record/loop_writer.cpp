@@ -81,8 +81,8 @@ private:
         loop.sum_of_lengths_m += static_cast<double>(crossing.length_m);
     }
 
-    // Returns true if a vehicle covers the detector: its front is beyond the detector, on the same lane or on a
-    // connection that begins on this lane, and its rear is before the detector.
+    // Returns true if a vehicle covers the detector: its front is at or beyond the detector, on the same lane or on a
+    // connection that follows this lane, and its rear is before the detector.
     bool is_covered(const State& state, std::size_t detector) const {
         const VehicleArrays& v = state.vehicles;
         const double line_m = model_.detectors[detector].position_m;

@@ -29,7 +29,8 @@ public:
 
     void write(std::string_view bytes) {
         while (!bytes.empty()) {
-            // zlib reads from a buffer without const, but does not change it, and counts in 32 bits.
+            // The input is copied in parts, because zlib needs a buffer that is not const and counts its bytes in 32
+            // bits.
             constexpr std::size_t kMaxBytes = std::numeric_limits<uInt>::max();
             const std::size_t count = std::min(bytes.size(), kMaxBytes);
             input_.assign(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(count));
@@ -45,7 +46,8 @@ private:
     static constexpr int kLevel = 6;  // default of gzip
     static constexpr std::size_t kBufferBytes = 1U << 18U;
 
-    // Compresses the input and writes the output that zlib has ready. With Z_FINISH, zlib also writes the rest.
+    // Compresses the input and writes the output that zlib has ready. With Z_FINISH, also writes the rest of the output
+    // and the end of the gzip data.
     void drain(int flush) {
         do {
             stream_.next_out = buffer_.data();

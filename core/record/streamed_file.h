@@ -11,7 +11,8 @@ namespace stopline {
 
 class StreamedFile {
 public:
-    // Opens the file as ReplacedFile does, and throws the same errors.
+    // Opens a temporary file; commit() lets it replace `file`. A device or a pipe is written directly. On failure the
+    // constructor, write() and commit() throw InputError.
     explicit StreamedFile(const std::filesystem::path& file);
     StreamedFile(const StreamedFile&) = delete;
     StreamedFile& operator=(const StreamedFile&) = delete;

@@ -14,7 +14,8 @@ struct Observation {
     std::function<void(std::size_t population, const Simulation& simulation)> look;
     bool all_detectors = false;  // true: the run records the crossings of all detectors
 
-    // Switches on those records of the model that `look` needs. They do not change the movement of vehicles.
+    // Makes the run record delay causes (in networks with conflict areas) and, if all_detectors is true, the crossings
+    // of all detectors. These records do not change the movement of vehicles.
     void prepare(Model& model) const;
     // Calls `look` if there is one.
     void call(std::size_t population, const Simulation& simulation) const {

@@ -78,7 +78,7 @@ DemandPlan::Inlet inlet_of(const Scenario& scenario, const Model& model, int lan
     return inlet;
 }
 
-// Returns true if demand.approaches allows vehicles to enter the network on the lane. `lane` is its name.
+// Returns true if demand.approaches allows vehicles to enter the network on the lane with the name `lane`.
 bool has_demand(const DemandSettings& demand, const std::string& lane) {
     const auto matches = [&](const std::string& approach) { return lane.starts_with(approach + "_"); };
     return demand.approaches.empty() || std::any_of(demand.approaches.begin(), demand.approaches.end(), matches);
@@ -133,8 +133,8 @@ void add_zones(const Scenario& scenario, int lane, Model& model) {
     }
 }
 
-// Adds a detector to an exit lane of an intersection, one vehicle length after the start of the lane. If the lane leads
-// to another intersection, adds a second detector in the middle of the lane.
+// If the lane begins at an intersection (if it is neither an entry lane nor a turn pocket), adds a detector one vehicle
+// length after the start of the lane. If this lane also leads to another intersection, adds a detector in its middle.
 void add_counters(const Scenario& scenario, int lane, Model& model) {
     const Lane& road = model.graph.lanes[at(lane)];
     const std::vector<int>& entries = model.graph.entries;
@@ -226,7 +226,7 @@ void set_meso(const Scenario& scenario, const MesoSettings& settings, Model& mod
     model.leader_mps2 = settings.leader_mps2;
     model.leader_constant_power_speed_mps = settings.leader_constant_power_speed_mps;
     model.leader_profile = leader_profile(settings);
-    // Because of this factor, lanes with exactly the calibrated limit count as calibrated despite rounding errors.
+    // With this factor, a rounding error cannot put a lane with exactly the calibrated speed limit above the limit.
     constexpr double kRounding = 1.001;
     model.calibrated_limit_mps = kRounding * settings.speed_factor * settings.calibrated_speed_limit_mps;
     model.power_profile = power_profile(model.driver);

@@ -20,8 +20,8 @@ void apply_override(const Table& table, SourceNode& root, const std::string& tex
 void complete(const Table& table, SourceNode& map, const std::string& path, Report& report);
 
 // Resolves a reference to a data file in `folder`, a folder of the data directory. If `node` is a file name, replaces
-// it by the content of the file. If `node` is a map with the key `base`, reads the file that `base` names, and
-// overwrites its fields with the other fields of the map.
+// it by the content of the file. If `node` is a map with the key `base`, reads the file that `base` names. The other
+// fields of the map then overwrite fields of the file.
 void resolve_base(const Table& table, const std::string& folder, SourceNode& node, const std::string& path,
                   Report& report);
 

@@ -24,8 +24,8 @@ std::vector<FieldProblem> sumo_file_problems(const Scenario& scenario, const std
 // `sumo`. Throws InputError with file and line.
 void import_sumo(Scenario& scenario, const std::filesystem::path& directory);
 
-// Adds the imported trips to the demand plan. Assigns a spacing policy to each trip, by the policy shares of the plan
-// and in the order that its `pattern` gives (alternating, random or balanced).
+// Adds the imported trips to the demand plan. Assigns a spacing policy to each trip, by the plan's policy shares and in
+// the order that the plan's `pattern` gives (alternating, random or balanced).
 void add_sumo_trips(const Scenario& scenario, DemandPlan& plan);
 
 // An imported induction loop.

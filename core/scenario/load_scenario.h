@@ -22,7 +22,8 @@ namespace stopline {
 // written as in a scenario file. Examples:
 //     signal.green=20 s    vehicle=diesel_eu4_103kw    vehicle.mass=1.4 t    measure.green=[5 s, 10 s]
 //     populations[0].components[1].share=25 %    policies[CTG-Ref].time_gap=0.6 s
-// Scenario::warnings lists names of fields from the previous release that the files or the overrides still use.
+// Scenario::warnings lists the outdated field names (those of the previous release) that the files or the overrides
+// use.
 Scenario load_scenario(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
 // Loads a scenario from text. `label` stands for the file in messages. Relative paths in the text start at `directory`.
@@ -30,8 +31,8 @@ Scenario parse_scenario(std::string_view text, const std::string& label, const s
                         const std::filesystem::path& directory = ".");
 
 // These functions load one data file. A text with a '/' or with the ending .yaml is a path, relative to `directory`.
-// Any other text is the name of a file in the data directory, such as vehicles/NAME.yaml. If the file uses a name of a
-// field from the previous release, `warnings` gets one line for it.
+// Any other text is the name of a file in the data directory, such as vehicles/NAME.yaml. For each outdated field name
+// (of the previous release) in the file, `warnings` gets one line.
 PowertrainSettings load_vehicle(const std::string& name_or_path, const std::filesystem::path& directory = ".",
                                 std::vector<std::string>* warnings = nullptr);
 DriverSettings load_driver(const std::string& name_or_path, const std::filesystem::path& directory = ".",

@@ -45,8 +45,8 @@ void check_lane(const LaneMovements& lane, const Shares& shares, Checker& check)
     }
 }
 
-// Reports an error for each turn share that the demand sets. It is called for networks in which these shares have no
-// effect. `network` describes the network in the message.
+// Reports an error for each turn share that the demand sets. Call this function for a network in which turn shares have
+// no effect. `network` describes the network in the message.
 void refuse_all(const DemandSettings& demand, const std::string& network, Checker& check) {
     const auto refuse = [&](const std::string& field, bool used) {
         if (used) check.error("demand." + field, "has no effect on " + network);

@@ -1,4 +1,5 @@
-// Right of way between two connections that one signal controls. It changes with the phases of this signal.
+// Right of way between two connections that one signal controls, if the right of way changes with the phases of this
+// signal.
 #pragma once
 
 #include <cstdint>

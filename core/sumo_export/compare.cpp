@@ -138,7 +138,7 @@ void rename_stop_lines(const std::map<std::string, std::string>& names, RunFacts
 ComparedRun compare_seed(const Scenario& scenario, std::size_t population, const std::filesystem::path& folder,
                          double sumo_limit_s, const std::function<bool(double)>& on_progress) {
     ComparedRun run{scenario.seed};
-    // Our run is the first half of the work, and SUMO's run the second half.
+    // The run of Stopline is the first half of the work, and the run of SUMO the second half.
     const std::function<bool(double)> on_own_progress = [&](double share) { return on_progress(0.5 * share); };
     const std::function<bool(double)> on_sumo_progress = [&](double share) { return on_progress(0.5 + 0.5 * share); };
     Model model = build_model(scenario, population);
@@ -193,8 +193,8 @@ std::vector<ComparedMetric> Comparison::metrics() const {
         {"departure_delay_s", &RunSummary::departure_delay_s}};
     std::vector<ComparedMetric> metrics;
     for (const auto& [name, field] : fields) {
-        // On a generated network, SUMO's planned departures are the times at which vehicles entered the network in our
-        // run. So our run has no departure delays; only SUMO's runs can have them.
+        // On a generated network, SUMO's planned departures are the times at which vehicles entered the network in the
+        // run of Stopline. So only SUMO's runs can have departure delays.
         const bool sumo_only = field == &RunSummary::departure_delay_s && !imported;
         metrics.push_back({name, column(*this, true, field), column(*this, false, field), sumo_only});
         if (field != &RunSummary::passages_veh_h || has_stop_lines) continue;

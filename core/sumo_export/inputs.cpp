@@ -104,8 +104,8 @@ struct Phase {
     std::string state;  // one letter (see link_state) for each link
 };
 
-// Returns the length of the programme to write, in ticks: one cycle if all signal groups repeat it during the whole
-// run, else the whole run.
+// Returns the length of the programme to write, in ticks: one cycle if all signal groups repeat the same cycle during
+// the whole run, else the length of the run.
 std::int64_t programme_ticks(const Model& model, const std::vector<int>& groups, std::int64_t run_ticks) {
     const std::int64_t cycle = groups.empty() ? 0 : model.signals[at(groups[0])].cycle_ticks();
     if (cycle <= 0 || cycle > run_ticks) return run_ticks;

@@ -87,8 +87,8 @@ private:
         }
     }
 
-    // Adds `edge` to the route. If a teleported vehicle has skipped the edges before it, first adds the edges that lead
-    // there. Of several possible paths, it uses the one with the fewest edges.
+    // Adds `edge` to the route. If a teleported vehicle has skipped edges, first adds the edges between the end of the
+    // route and `edge`, on the path with the fewest edges.
     void add_path_to(int edge, std::vector<int>& edges) const {
         const int start = edges.back();
         const std::vector<int>& next_edges = next_edges_[at(start)];
@@ -162,7 +162,7 @@ private:
     std::filesystem::path file_;
     const Model& model_;
     const PlainNetwork& network_;
-    std::vector<std::vector<int>> next_edges_;  // [edge] edges to which it leads
+    std::vector<std::vector<int>> next_edges_;  // [edge] edges to which the edge leads
     std::map<int, Trip> trips_;                 // [vehicle]
 };
 

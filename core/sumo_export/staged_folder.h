@@ -36,8 +36,8 @@ public:
     // Returns the folder into which the caller writes the files. It is a hidden folder inside the target folder.
     const std::filesystem::path& path() const { return stage_; }
     // Moves the files into the target folder, where they replace files of the same names. `derived_file` names a file
-    // that is built from the other files. If the caller has not written it, an old version in the target folder is
-    // removed. Throws InputError with path and reason if a file cannot be moved.
+    // that is built from the other files. If the caller has not written this file, an old version of the file in the
+    // target folder is removed. Throws InputError with path and reason if a file cannot be moved.
     void commit(const std::string& derived_file);
 
 private:

@@ -8,7 +8,7 @@ namespace stopline {
 
 namespace {
 
-constexpr SumoVersion kNewDefaults{1, 27};  // first version with the present defaults
+constexpr SumoVersion kNewDefaults{1, 27};  // first version of SUMO with the defaults best_prob and avg
 
 // Reads departLane. Returns false if the element does not have the attribute.
 bool read_lane(const SumoXml& xml, pugi::xml_node node, Trip& trip) {

@@ -20,7 +20,7 @@ struct SumoDepartureDefaults {
 };
 
 // Returns the defaults of the version of SUMO that wrote the route file. If the route file names no version, the
-// version that wrote the network counts. If that file names none either, returns the present defaults.
+// version that wrote the network counts. If neither file names a version, returns the defaults of SUMO 1.27.0.
 SumoDepartureDefaults sumo_departure_defaults(const SumoXml& routes, const SumoNet& net);
 // Describes the defaults for the user: "departLane="best_prob" departSpeed="avg" (...)".
 std::string text_of(const SumoDepartureDefaults& defaults);

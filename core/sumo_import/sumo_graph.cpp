@@ -314,9 +314,9 @@ private:
         }
     }
 
-    // Lowers the speed limits of connections to lanes that are too short for a vehicle to brake to a stop. The safe
-    // speed at the start of a lane depends on the safe speed at its end. So for successive short lanes the computation
-    // needs several rounds.
+    // Lowers the speed limit of each connection to a lane that is too short to brake from the limit to the safe speed
+    // at the end of the lane. This safe speed is 0 before a signal or a conflict area. Elsewhere it depends on the next
+    // lane, so a chain of short lanes needs several rounds.
     void limit_entry_speeds() {
         constexpr double kBraking_mps2 = 3.0;
         constexpr double kMargin_m = 2.0;

@@ -76,9 +76,9 @@ public:
     }
 
 private:
-    // Returns the version of SUMO that wrote the file. If no comment in the file names it, the function uses the
-    // version of the file format, provided that it is below 1.20. All later versions of SUMO write the format version
-    // 1.20.
+    // Returns the version of SUMO that wrote the file. If no comment in the file names this version, returns the
+    // version of the file format, but only if the format version is below 1.20: all later versions of SUMO write 1.20,
+    // too.
     std::optional<SumoVersion> version() const {
         constexpr SumoVersion kLastFormat{1, 20};
         if (xml_.version()) return xml_.version();
@@ -258,7 +258,8 @@ private:
         c.from_lane = known_lane(node, "fromLane", c.from);
         c.to_lane = known_lane(node, "toLane", c.to);
         c.where = xml_.where(node);
-        // Register the signal even if the connection is closed to cars: an additional file may have a programme for it.
+        // Register the signal even if the connection is closed to cars: an additional file may have a programme for the
+        // signal.
         if (const std::string tl = node.attribute("tl").value(); !tl.empty()) net_.signal(tl);
         if (!lane(c.from, c.from_lane).allows_cars || !lane(c.to, c.to_lane).allows_cars) return;
         if (!sumo_allows_cars(node.attribute("allow").value(), node.attribute("disallow").value())) return;

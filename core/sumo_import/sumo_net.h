@@ -45,8 +45,8 @@ struct SumoLane {
     // If short edges were merged into the edge of this lane, the lane ends where one or more lanes of the short edges
     // ended. This list holds the ids of those lanes. Otherwise the list is empty.
     std::vector<std::string> end_lanes = {};
-    // If short edges were merged into the edge of this lane: ids and lengths of the lanes of which it consists, in
-    // driving order. Otherwise the list is empty.
+    // If short edges were merged into the edge of this lane: ids and lengths of the lanes of which this lane consists,
+    // in driving order. Otherwise the list is empty.
     std::vector<std::pair<std::string, double>> merged_lanes = {};
 };
 

@@ -106,8 +106,8 @@ private:
                                                              zipper});
     }
 
-    // Call this function for a junction without right-of-way matrices (`request` elements in the file), where vehicles
-    // obey only signals. It warns if connections of the junction cross.
+    // Warns if connections from different lanes to different lanes cross in the junction. Call this function for a
+    // junction without right-of-way matrices (`request` elements in the file), where vehicles obey only signals.
     void warn_of_missing_requests(const SumoJunction& junction, const std::vector<int>& connections) {
         for (const int first : connections) {
             for (const int second : connections) {
@@ -140,9 +140,9 @@ private:
     static bool is_u_turn(const BuiltConnection& connection) { return connection.source->dir == 't'; }
 
     // Returns true if `connection` yields to `to`. Call this function only for a conflict that the matrix does not
-    // contain, between connections with different exit lanes. Such conflicts exist only with U-turns, because the
-    // import extends them (sumo_graph.cpp). A U-turn yields to every other movement. Of two U-turns, the one with the
-    // higher link number yields.
+    // contain, between connections with different exit lanes. Only U-turns have such conflicts, because the import
+    // extends U-turns into the junction (sumo_graph.cpp). A U-turn yields to every other movement. Of two U-turns, the
+    // one with the higher link number yields.
     static bool yields_at_u_turn(const BuiltConnection& connection, const BuiltConnection& to) {
         return is_u_turn(connection) && (!is_u_turn(to) || connection.link > to.link);
     }
@@ -174,8 +174,9 @@ private:
     }
 
     // Returns the right of way in a phase in which both connections are green. A connection with a minor green yields
-    // to one with a major green. If both have the same kind of green, the matrix decides. By these two rules, a
-    // connection with the attribute `pass` never yields. If neither yields, the one with the higher link number yields.
+    // to one with a major green. If both have the same kind of green, the matrix decides. Neither rule makes a
+    // connection with the attribute `pass` yield. If no connection yields by these rules, the one with the higher link
+    // number yields.
     static Priority priority_in(const SumoPhase& phase, const SumoJunction& junction, const BuiltConnection& first,
                                 const BuiltConnection& second) {
         Priority priority{!first.source->pass && !is_major(phase.state[at(first.source->tl_link)]),
@@ -210,8 +211,9 @@ private:
         return connection.link > to.link || is_left_of(connection, to);
     }
 
-    // When a short edge is merged (sumo_short_edges.h), a connection that leaves it can be copied to several lanes.
-    // Returns true if `connection` and `other` are two copies of one connection, and `connection` begins further left.
+    // When a short edge is merged (sumo_short_edges.h), a connection that leaves the short edge can be copied to
+    // several lanes. Returns true if `connection` and `other` are two copies of one connection, and `connection` begins
+    // further left.
     static bool is_left_of(const BuiltConnection& connection, const BuiltConnection& other) {
         const SumoConnection& own = *connection.source;
         const SumoConnection& others = *other.source;

@@ -119,8 +119,8 @@ void SumoRouter::search(int from) {
     }
 }
 
-// Returns the edge that follows `edge` on the fastest route. Of several such edges, returns the one with the least
-// remaining travel time. If this time is equal too, returns the one with the lowest index.
+// Returns the edge that follows `edge` on the fastest route. If several routes are equally fast, returns the edge with
+// the least remaining travel time. If these times are equal too, returns the edge with the lowest index.
 int SumoRouter::next_edge(int edge) const {
     int best = -1;
     double best_s = kUnreachable_s;
@@ -163,8 +163,9 @@ std::optional<std::vector<int>> SumoRouter::fastest_route(int from, int to) {
     return route(from);
 }
 
-// Returns a lower bound of a travel time. By the triangle inequality, this is the difference of two travel times from a
-// landmark, or to a landmark. The result is NaN if both are infinite.
+// Returns a lower bound of the travel time between two edges. By the triangle inequality, the difference of the travel
+// times from one landmark to both edges is such a bound, and so is the difference of the travel times from both edges
+// to one landmark. The result is NaN if both times are infinite.
 double SumoRouter::difference_s(float longer_s, float shorter_s) {
     constexpr double kRounding = 4.0 * static_cast<double>(std::numeric_limits<float>::epsilon());
     return static_cast<double>(longer_s) * (1.0 - kRounding) - static_cast<double>(shorter_s);

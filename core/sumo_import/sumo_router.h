@@ -22,8 +22,8 @@ public:
     // if there is no route. Of several fastest routes the result is always the same, whatever was searched before.
     //
     // The search is A* backwards from `to`, with lower bounds from landmarks (Goldberg, Harrelson 2005: "Computing the
-    // shortest path: A* search meets graph theory"). It looks at little more than the edges on fastest routes. Many
-    // successive calls with the same `to` share one shortest-path tree instead (Dijkstra 1959).
+    // shortest path: A* search meets graph theory"). This search looks at little more than the edges on fastest routes.
+    // Many successive calls with the same `to` share one shortest-path tree instead (Dijkstra 1959).
     std::optional<std::vector<int>> fastest_route(int from, int to);
     // Returns true if the edge is open to passenger cars.
     bool allows_cars(int edge) const { return network_.approach_of[static_cast<std::size_t>(edge)] >= 0; }
@@ -66,7 +66,7 @@ private:
     std::array<std::size_t, kActive> active_{};
     std::size_t active_count_ = 0;
     int searches_ = 0;  // searches without landmarks so far
-    // The next members are the state of the present search. It ends at the edge to_.
+    // The next members are the state of the present search, which looks for routes to the edge to_.
     int to_ = -1;
     int requests_ = 0;                 // successive calls with this to_
     bool is_tree_ = false;             // the search builds the shortest-path tree of to_

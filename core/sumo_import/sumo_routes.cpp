@@ -100,7 +100,7 @@ private:
         if (!additional_) traffic_.warnings.note(xml_->where(node), fmt::format("the element '{}' is ignored", name));
     }
 
-    // Returns the edge with this id, or the edge into which the import has merged it.
+    // Returns the edge with this id. If the import has merged this edge into another edge, returns the other edge.
     int edge_of(pugi::xml_node node, const char* attribute, std::string_view id) const {
         const auto found = network_.net.edge_by_id.find(std::string(id));
         if (found == network_.net.edge_by_id.end()) {
@@ -187,7 +187,7 @@ private:
         return found->second[0].first;
     }
 
-    // Returns the routes of a vehicle, trip or flow element. Each vehicle later gets one of them at random.
+    // Returns the routes of a vehicle, trip or flow element. Each vehicle later gets one of these routes at random.
     Shares read_route_choice(pugi::xml_node node) {
         if (const pugi::xml_node child = node.child("route")) return {{read_route(child), 1.0}};
         if (const std::string id = node.attribute("route").value(); !id.empty()) {

@@ -15,7 +15,7 @@ Light light_of(char letter) {
     return letter == 'y' || letter == 'Y' ? Light::yellow : Light::red;
 }
 
-// Returns the offset of a signal.
+// Returns the offset of a signal, reduced to less than one cycle, in ticks.
 std::int64_t offset_ticks(const SumoSignal& signal, double step_s) {
     return to_ticks(std::fmod(signal.offset_s, signal.cycle_s()), step_s);
 }

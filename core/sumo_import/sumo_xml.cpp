@@ -165,7 +165,8 @@ std::vector<std::string_view> sumo_words(std::string_view text) {
 
 std::string text_of(const SumoVersion& version) { return fmt::format("{}.{}", version.major, version.minor); }
 
-// Releases write "netconvert 1.28.0" or "netconvert Version 1.4.0", other builds "netconvert Version v1_8_0+2135-a1b2".
+// In the comment at the start of a file, releases of SUMO write "SUMO netconvert 1.28.0" or "SUMO netconvert Version
+// 1.4.0". Other builds of SUMO write "SUMO netconvert Version v1_8_0+2135-a1b2".
 std::optional<SumoVersion> sumo_version(std::string_view text) {
     constexpr std::string_view kProgram = "SUMO ";
     for (std::size_t k = text.find('<'); k != std::string_view::npos;) {

@@ -29,7 +29,8 @@ public:
 
     void bind(int index, const std::string& text) {
         if (code_ != SQLITE_OK) return;
-        // The null destructor tells SQLite not to copy the text. The caller keeps the text until the statement has run.
+        // The null pointer tells SQLite not to copy the text, because the caller keeps the text until the statement has
+        // run.
         code_ = sqlite3_bind_text64(statement_, index, text.data(), text.size(), nullptr, SQLITE_UTF8);
     }
     void bind(int index, std::size_t number) {

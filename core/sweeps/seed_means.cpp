@@ -59,8 +59,8 @@ void add_cells(const Interval95& interval, std::vector<std::string>& row) {
     for (const double value : {interval.mean, interval.low, interval.high}) row.push_back(fixed(value, 4));
 }
 
-// Returns the combination with which `one` is compared. It is the first combination whose axis values are those of
-// `one`, except for the population. `population` is the index of the population in Combination::axes.
+// Returns the combination with which `one` is compared: the first combination in the table whose axis values, except
+// the population, equal those of `one`. `population` is the index of the population in Combination::axes.
 const Combination& baseline_of(const std::vector<Combination>& all, const Combination& one, std::size_t population) {
     const auto has_same_axes = [&](const Combination& other) {
         for (std::size_t k = 0; k < one.axes.size(); ++k) {

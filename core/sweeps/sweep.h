@@ -1,9 +1,9 @@
 // The runs of a sweep. Each run has a number from 0, called its point. The axis values and the seed of a run follow
 // from its point alone. So shards, threads and machines need no communication, and no list of runs is kept in memory.
 //
-// There is one point for each combination of axis values and seed. In their order the seed varies fastest, then the
-// last axis of the sweep file, and the first axis varies slowest. If no axis selects populations, the populations are
-// an additional last axis.
+// There is one point for each combination of axis values and seed. In the order of the points, the seed varies fastest,
+// then the last axis of the sweep file. The first axis varies slowest. If no axis selects populations, the populations
+// are an additional last axis.
 #pragma once
 
 #include <cstdint>
@@ -83,8 +83,8 @@ private:
     std::string describe_combination(std::size_t combination) const;
     // Returns, for each column, the index of its value in a combination. For the column of populations the index is 0.
     std::vector<std::size_t> values_of(std::size_t combination) const;
-    // Returns file and line for an error message. If the message quotes an axis value, they are the place of this value
-    // in the sweep file. Otherwise they are the place of the value of the first axis.
+    // Returns file and line for an error message. The place in the sweep file is that of the axis value that the
+    // message quotes, or that of the value of the first axis if the message quotes none.
     std::string place_of_problem(std::size_t combination, const std::string& problem) const;
     void add_columns();
     void check_column_names(std::set<std::string> taken) const;

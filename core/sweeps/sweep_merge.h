@@ -14,9 +14,9 @@ struct MergedSweep {
     SweepTable table;
 };
 
-// Writes NAME.csv, NAME.provenance.json and the merged store NAME.sqlite into the folder. A sweep that runs without
-// shards writes the same files. Throws InputError and writes nothing if the stores belong to different sweeps or
-// programs, if two of them hold the same run, if runs are missing, or if NAME.sqlite exists.
+// Writes NAME.csv, NAME.provenance.json and the merged store NAME.sqlite into the folder, as a sweep without shards
+// does. Throws InputError and writes nothing if the stores belong to different sweeps or programs, if two of them hold
+// the same run, if runs are missing, or if NAME.sqlite exists.
 MergedSweep merge_stores(const std::vector<std::filesystem::path>& files, const std::filesystem::path& folder,
                          ColumnNames names = ColumnNames::current);
 

@@ -44,7 +44,8 @@ struct SweepTotals {
 struct SweepTable {
     std::string csv;  // one row for each run, in the order of the points
     SweepTotals totals;
-    std::vector<std::string> warnings;  // one line for each column name of the previous release
+    // One warning for each column of the store that still has its name of the previous release.
+    std::vector<std::string> warnings;
 };
 // Returns the result table of a store. If the store has column names of the previous release, the table has the current
 // names instead.

@@ -20,7 +20,8 @@ namespace {
 std::size_t index_of_population(const Scenario& scenario, const std::string& name) {
     const auto named = [&](const PopulationSettings& population) { return population.name == name; };
     const auto found = std::find_if(scenario.populations.begin(), scenario.populations.end(), named);
-    return static_cast<std::size_t>(found - scenario.populations.begin());  // Sweep has checked the name
+    // The constructor of Sweep has checked that the population exists.
+    return static_cast<std::size_t>(found - scenario.populations.begin());
 }
 
 // Passes the results of several threads to one recorder. Stops all threads after an error, or if the user wants to

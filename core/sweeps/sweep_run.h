@@ -79,7 +79,7 @@ private:
 
 struct SweepRunOptions {
     int threads = 1;
-    std::function<bool(double)> on_progress;  // see SweepRecorder
+    std::function<bool(double)> on_progress;  // gets the completed share, 0 .. 1; returns false to stop
     RunFunction run = run_metrics;
 };
 

@@ -38,8 +38,8 @@ STOPLINE_INLINE R of_gear(const std::array<Number, PowertrainTables::kMaxGears>&
     return look_up(table, gear);
 }
 
-// Returns the time constant of the torque from the lag map. It is linear over engine speed, and linear over the share
-// of full load.
+// Returns the time constant of the torque from the lag map, by linear interpolation over the engine speed and over the
+// share of full load.
 template <class R, class Number>
 STOPLINE_INLINE R torque_lag_s(const PowertrainTablesOf<Number>& t, const R& gear, const R& rpm, const R& share) {
     const R cell = rpm * t.lag_nodes_per_rpm;
@@ -76,8 +76,8 @@ struct GearDemand {
 
 // Sets the gear of `next` and the time since the last gear change. `s` is the state before the step. The engine speed
 // of the upshift rises with the load. A car shifts down to accelerate (kick-down) if the requested acceleration needs
-// more than 1.5 times the full-load torque. If it needs less, the torque interruption would cost more than the lower
-// gear gains.
+// more than 1.5 times the full-load torque. For a smaller request, the torque interruption would cost more speed than
+// the lower gear gains.
 template <class R, class Number>
 STOPLINE_INLINE void change_gear(const PowertrainTablesOf<Number>& t, const PowertrainState<R>& s,
                                  const GearDemand<R>& demand, double dt, PowertrainState<R>& next) {
@@ -168,7 +168,8 @@ STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTablesOf<Numb
     next.speed_mps = choose(stops_in_step, splat<R>(0.0), speed + moving_mps2 * dt);
     next.acceleration_mps2 = choose(stops_in_step, (0.0 - speed) * (1.0 / dt), moving_mps2);
 
-    // A closed clutch is assumed even during the torque interruption of a gear change, because it is short.
+    // A closed clutch is assumed even during the torque interruption of a gear change, because the interruption is
+    // short.
     const auto highest_Nm = select(locked_rpm < t.limiter_rpm, full_Nm, drag_Nm);
     const auto highest_N = highest_Nm * gain * t.efficiency - resistance_N;
     next.available_mps2 = min_of<R>(highest_N / inertia_kg, t.friction_mps2 - resistance_mps2);

@@ -32,7 +32,8 @@ void check(const PowertrainSettings& s) {
     require(s.limiter_rpm > s.idle_rpm, s, "the limiter speed must be above the idle speed");
 }
 
-// Returns the time constant from the lag map by bilinear interpolation, constant beyond its edges.
+// Returns the time constant from the lag map by bilinear interpolation. Beyond the edges of the map, the values at the
+// edges apply.
 double lag_at(const PowertrainSettings& s, double rpm, double share) {
     const auto columns = s.lag_torque_share.size();
     SampledCurve over_rpm{s.lag_rpm, {}};

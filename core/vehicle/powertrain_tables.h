@@ -65,8 +65,8 @@ PowertrainTables compile_powertrain(const PowertrainSettings& settings);
 // above the downshift speed. 0 is the first gear.
 int cruising_gear(const PowertrainTables& tables, double speed_mps);
 
-// Returns the highest acceleration at a speed on a level road, m/s2: that of the gear which gives most, outside of gear
-// changes. It is below 0 above the highest speed of the vehicle.
+// Returns the highest acceleration at a speed on a level road, m/s2, in the gear in which this acceleration is largest,
+// and outside of gear changes. The result is below 0 above the highest speed of the vehicle.
 double available_acceleration_mps2(const PowertrainTables& tables, double speed_mps);
 
 // Returns the linear interpolation of a sampled curve, constant beyond its ends.

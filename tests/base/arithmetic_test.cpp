@@ -20,8 +20,8 @@ TEST(ExpNegative, KeepsItsErrorBounds) {
     EXPECT_EQ(exp_negative(0.0), 1.0);
 }
 
-// x is a time divided by a time constant. It has no upper limit, because time constants come from files and may be as
-// short as a millisecond.
+// x stands for a time divided by a time constant. The test covers large x too, because time constants come from files
+// and may be as short as a millisecond.
 TEST(ExpNegative, NeverIncreases) {
     double previous = 1.0;
     for (double x = 0.01; x < 60.0; x += 0.01) {

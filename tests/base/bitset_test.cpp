@@ -35,7 +35,7 @@ TEST(Bitset, FindsClearsAndVisitsByWord) {
     bits.resize(192);
     bits.set(3), bits.set(70), bits.set(71), bits.set(191);
     EXPECT_TRUE(bits.has(70));
-    EXPECT_FALSE(bits.has(6));  // bit 70 has the same place in the next word
+    EXPECT_FALSE(bits.has(6));  // although bit 70, which has the same place in the next word, is set
     const std::vector<BitsetMask> numbers{{0, 1U << 4U}, {1, 1U << 6U}};
     EXPECT_TRUE(bits.has_any(numbers));  // contains 70
     EXPECT_FALSE(bits.has_any(std::span(numbers).first(1)));

@@ -89,7 +89,7 @@ TEST(LeaderProfile, DependsOnTheVehicle) {
     MesoSettings petrol;
     measure_leader_profile(single_light("petrol_eu4_72kw", "CDG"), petrol);
     ASSERT_EQ(petrol.leader_profile_mps.size(), 48U);
-    // The profile has one acceleration for each 1.25 km/h of speed, so the first 40 of them reach up to 50 km/h.
+    // The profile has one acceleration for each 1.25 km/h of speed, so its first 40 values cover 0 to 50 km/h.
     double time_s = 0.0;
     for (std::size_t k = 0; k < 40; ++k) time_s += 1.25 / 3.6 / petrol.leader_profile_mps2[k];
     EXPECT_GT(time_s, 12.0);

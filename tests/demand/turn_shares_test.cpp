@@ -74,8 +74,8 @@ TEST(StreetInlets, PutPocketTrafficOnTheNeighbouringLane) {
     EXPECT_EQ(graph.lanes[static_cast<std::size_t>(route[0])].name, "first_west_in_0");
 }
 
-// Vehicles can enter on a link between two intersections. On each lane of the link, their turns have the shares of the
-// whole approach. If their lane serves the turn, the route begins on this lane.
+// Vehicles can also enter on a link between two intersections. On every lane of the link the turns have the shares of
+// the whole approach. A route begins on the lane where the vehicle enters if this lane serves the turn.
 TEST(StreetInlets, UseTheApproachSharesOnLinks) {
     const LaneGraph graph = make_streets(two_streets());
     const std::vector<DemandPlan::Inlet> inlets = street_inlets(graph);

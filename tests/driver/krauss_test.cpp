@@ -49,7 +49,8 @@ TEST(Krauss, AddsTheTransientGap) {
     EXPECT_GT(next_speed_mps(k, {8.0, gap_m, 8.0, 0.0, 0.0, 1e3}, 0.0, kStep_s), 8.05);
 }
 
-// While the leader is faster, the safe speed allows a gap shorter than the time gap. Gap tracking keeps the time gap.
+// The leader is faster, and the gap equals the time gap. The safe speed alone lets the follower accelerate, so the gap
+// becomes shorter than the time gap. With gap tracking the follower keeps its speed.
 TEST(Krauss, TracksItsTimeGap) {
     Krauss k = model();
     const double gap_m = k.standstill_gap_m + 5.0 * k.reaction_s;

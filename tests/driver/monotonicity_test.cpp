@@ -183,7 +183,7 @@ TEST(KeepRoom, StartsWhereEqualBrakingJustSuffices) {
         for (double closing = 0.25; closing < 6.0; closing += 0.25) {
             const double v = v_p + closing;
             const double room_m = (v * v - v_p * v_p) / (2.0 * b);
-            if (room_m < 0.1) continue;  // the law assumes a room of at least 0.05 m
+            if (room_m < 0.1) continue;  // for less than 0.05 m the law computes with 0.05 m
             for (const double gap_growth_m : {0.0, 1.0, 12.0}) {
                 const double min_reserve_m = gap_growth_m > 0.0 ? kMinReserve_s * v : 0.0;
                 const double reserve_m =

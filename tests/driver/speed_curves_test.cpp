@@ -56,7 +56,8 @@ TEST(Stop, BrakesHarderIfItStartsLate) {
         const Arrival arrival = approach(v, distance, [&](double speed, double distance_left_m) {
             return std::fmax(-7.0, stop_acceleration(d, speed, distance_left_m));
         });
-        EXPECT_GE(arrival.distance_m, -0.05) << "from " << v << " m/s";  // well within the margin to the stop line
+        // An overrun of 5 cm does no harm: in a run the target lies 1 m (stop.margin) before the stop line.
+        EXPECT_GE(arrival.distance_m, -0.05) << "from " << v << " m/s";
     }
 }
 

@@ -26,7 +26,7 @@ TEST(TimeSpace, ShowsStopLinesAndRedPhasesOfEachIntersection) {
     ASSERT_EQ(red_s.size(), 5u);
     double line_m = 155.0;
     for (const auto& [position_m, sum_s] : red_s) {
-        EXPECT_NEAR(position_m, line_m, 5.0);  // a connection is slightly longer than the straight line
+        EXPECT_NEAR(position_m, line_m, 5.0);  // connections can make the path longer than a straight line
         EXPECT_NEAR(sum_s, 4 * 23.0, 4.0);
         line_m = position_m + 192.5;
     }

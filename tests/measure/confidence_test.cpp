@@ -23,7 +23,8 @@ TEST(Confidence, MatchesStudentsInterval) {
 
 TEST(Confidence, MatchesEquation2OfThePaper) {
     const Interval band = confidence_interval(kSix, Band::paper);
-    EXPECT_NEAR(band.high, 11.0 + 1.9432 * std::sqrt(2.0) / std::sqrt(2.0), 1e-4);  // t(0.95, n), n / 2 - 1 = 2
+    // For n = 6 values: the quantile t(0.95, n), and the root of n / 2 - 1 = 2 as divisor.
+    EXPECT_NEAR(band.high, 11.0 + 1.9432 * std::sqrt(2.0) / std::sqrt(2.0), 1e-4);
 }
 
 // 95 % of the intervals from samples of six values contain the true mean.

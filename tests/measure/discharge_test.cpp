@@ -81,7 +81,8 @@ TEST(Discharge, MatchesHandCalculation) {
     // From the fifth vehicle on, all headways have equal weight: (2.0 + 2.0 + 1.7 + 1.8 + 1.9 + 2.0) / 6.
     EXPECT_NEAR(d.saturation_headway_s, 1.9, 1e-9);
     EXPECT_NEAR(d.saturation_flow_veh_h, 3600.0 / 1.9, 1e-6);
-    // The lost time of a lane refers to its own saturation headway. The first lane has two greens, the second one.
+    // The lost time of a lane refers to the saturation headway of the same lane. The first lane discharges in two
+    // greens, the second lane in one green.
     const double first_lost_s = 3.1 + 2.55 + 2.35 + 2.15 - 4.0 * (2.0 + 2.0 + 1.7 + 1.9 + 2.0) / 5.0;
     const double second_lost_s = 3.4 + 2.7 + 2.5 + 2.0 - 4.0 * 1.8;
     EXPECT_NEAR(d.lanes[0].startup_lost_time_s, first_lost_s, 1e-9);
@@ -122,7 +123,8 @@ TEST(Discharge, HasNoSaturationFlowWithoutAFifthVehicle) {
     EXPECT_DOUBLE_EQ(d.vehicles_per_green, 2.0);
 }
 
-// The sixth vehicle has not stopped, so the queue ends before it. The seventh vehicle does not belong to it either.
+// The sixth vehicle has not stopped, so the queue consists of the five vehicles ahead. The seventh vehicle has stopped,
+// but does not belong to the queue either.
 TEST(Discharge, CountsOnlyVehiclesOfTheQueue) {
     const Model model = two_lanes();
     std::vector<Crossing> crossings;

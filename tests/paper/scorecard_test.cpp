@@ -1,4 +1,4 @@
-// The scorecard: answers from measurements, verdicts by section, stored measurements and commands.
+// The scorecard: our results for the rows of the paper (answers), verdicts by section, stored measurements, commands.
 #include "paper/scorecard.h"
 
 #include <gtest/gtest.h>

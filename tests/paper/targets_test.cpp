@@ -1,4 +1,4 @@
-// Rows of the paper: sections, conditions, numbers, judges and explanations.
+// Rows with statements of the paper: sections, conditions, numbers, explanations, and the function that judges a row.
 #include "reference/targets.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Verdicts on answers: tolerances, ranges, claims and invalid rows.
+// Verdicts on our results for the rows of the paper (answers): tolerances, ranges, claims and invalid rows.
 #include "paper/verdict.h"
 
 #include <gtest/gtest.h>

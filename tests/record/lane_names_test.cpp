@@ -157,8 +157,8 @@ std::string flow(const std::string& from, const std::string& to) {
            "\" begin=\"0\" end=\"30\" period=\"7\" departSpeed=\"max\" departLane=\"random\"/>";
 }
 
-// A turn whose connection has two internal lanes; joined edges with one lane, and with two lanes of which only one
-// leads on; an approach whose connections share a stretch; a U-turn.
+// Networks in which the lanes of the import differ from the lanes of the file: a turn over two internal lanes, short
+// edges that the import joins to the edges before them, a U-turn, and connections that share a stretch.
 INSTANTIATE_TEST_SUITE_P(
     Networks, NamedPlaces,
     ::testing::Values(

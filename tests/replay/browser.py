@@ -19,7 +19,8 @@ def find_browser():
 
 
 def move_above_shell_descriptors(descriptor):
-    """Returns a duplicate of a pipe with a number that the shell in Browser does not use, and closes the original."""
+    """Duplicates a pipe, closes the original and returns the duplicate. The duplicate has a number from 20 up, because
+    the shell in Browser redirects the pipes to the numbers 3 and 4."""
     copy = fcntl.fcntl(descriptor, fcntl.F_DUPFD, 20)
     os.close(descriptor)
     return copy

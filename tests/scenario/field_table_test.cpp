@@ -59,7 +59,7 @@ protected:
         return at + static_cast<std::size_t>(place.column) - 1;
     }
 
-    // Returns the text in which `value` replaces the rest of the line from a place on.
+    // Returns the text of the scenario, with `value` instead of everything from `place` to the end of the line.
     std::string replaced(const Place& place, const std::string& value) const {
         const std::size_t begin = offset(place);
         return text_.substr(0, begin) + value + text_.substr(text_.find('\n', begin));

@@ -97,7 +97,7 @@ TEST(Turns, OfALaneSumToAtMost100Percent) {
             error_with_lanes(kind, all,
                              {"demand.cross_turns=separate", "demand.cross_left=60 %", "demand.cross_right=60 %"}),
             "field 'demand.cross_left': cross_left and cross_right sum to 120 %"));
-        // The shares are per lane, and in this network no lane has both turns.
+        // In the default network no lane has both turns. The limit applies to each lane, so 60 % and 60 % are accepted.
         EXPECT_EQ(error_for_kind(kind, {"demand.left=60 %", "demand.right=60 %"}), "");
     }
 }

@@ -66,8 +66,8 @@ TEST(Tables, AreWellFormed) {
             << path;
         EXPECT_FALSE(field.required && !field.fallback.empty()) << path;
         if (field.condition_field.empty()) return;
-        // A field can depend on another field, a choice: it applies only to some values of the choice. The choice must
-        // come first in the table. A dot in its name means that it is in a section.
+        // This field applies only if another field, the choice, has certain values. The choice must come before this
+        // field in the table. If the choice is in a section, condition_field is SECTION.CHOICE.
         const auto dot = field.condition_field.find('.');
         const Field* choice = table.find(field.condition_field.substr(0, dot));
         ASSERT_NE(choice, nullptr) << path;

@@ -4,7 +4,7 @@
     bodies.py FCD [--length M] [--width M] [--list N]
 
 FCD is a file of stopline-run --fcd, preferably with --record-interval '0.2 s'. A body covers the last 4 m of the path
-of a vehicle's front and is 1 m wide. Both are less than the size of a vehicle, so rounding cannot cause a finding.
+of a vehicle's front and is 1 m wide. It is smaller than the vehicle, so rounding cannot cause a finding.
 Prints the number of pairs that meet, and the first ones. Exit codes: 0 no bodies meet, 1 bodies meet.
 """
 

@@ -36,7 +36,7 @@ LANES = {
 
 def own_policy(rng, name):
     """Returns a random policy that no file contains."""
-    gap_m = round(rng.uniform(2.0, 6.0), 2)  # full dynamics needs 2 m
+    gap_m = round(rng.uniform(2.0, 6.0), 2)  # full dynamics accepts no gap below 2 m
     law = rng.choice(["constant_distance", "constant_time", "switch_time_gap", "switch_distance"])
     policy = {"name": name, "law": law, "standstill_gap": f"{gap_m} m"}
     if law in ("constant_time", "switch_time_gap"):

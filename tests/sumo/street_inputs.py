@@ -69,7 +69,7 @@ class Streets:
         return sorted(edge for edge in self.lanes if edge not in reached and EDGE.match(edge)["kind"] == "in")
 
     def sumo_lane(self, lane):
-        """Returns SUMO's name of a lane, at its stop line or exit."""
+        """Returns SUMO's name of a lane. If its approach has several edges, this is the lane of the last edge."""
         edge, number = lane.rsplit("_", 1)
         return f"{edge}_{self.lanes[edge] - 1 - int(number)}"
 

@@ -19,11 +19,11 @@ import street_inputs
 POPULATIONS = {"CTG": "CTG-Ref", "dense": "CDG"}
 DENSE = {"tau": "0.1"}  # SUMO's step; SUMO does not allow a shorter reaction time
 MARGIN_M = 20
-# Our drivers as SUMO's: no hesitation at the start of green, and SUMO's deceleration at stop lines.
+# Makes our drivers behave like SUMO's: no hesitation at the start of green, and SUMO's deceleration at stop lines.
 LIKE_SUMO = ["driver.free_drive.hesitation=0 s", "driver.stop.deceleration=4.7 m/s2",
              "driver.stop.decision_deceleration=5.3 m/s2"]
 EXPORT_S = 300  # run of stopline-export; longer than a signal cycle
-KEY_S = 60      # seconds of the demand that are enough to identify it
+KEY_S = 60      # sumo_key() hashes the demand of the first 60 s only; this part identifies the whole demand
 VIOLATIONS = ["overlaps", "conflicts", "red_entries", "lost_vehicles"]
 
 
@@ -54,7 +54,7 @@ def settings_of(options, policy, duration_s):
 
 
 def check_call(command, folder=None):
-    """Runs a program. Returns its output. Ends this program if it fails."""
+    """Runs a program. Returns its output. If the program fails, ends this script with a message."""
     ended = subprocess.run([str(word) for word in command], cwd=folder, capture_output=True, text=True, check=False)
     if ended.returncode != 0:
         raise SystemExit(f"{' '.join(str(word) for word in command)}\nfailed:\n{(ended.stdout + ended.stderr)[-3000:]}")

@@ -14,14 +14,14 @@ def mean(values):
 
 
 class Totals:
-    """Means over the runs of one program, in a window of signal cycles."""
+    """Totals of the counts of one program, from the given signal cycle on."""
 
     def __init__(self, runs, first_cycle, cycle_s):
         self.first, self.minutes_a_cycle, self.runs = first_cycle, cycle_s / 60, runs
         self.teleported = mean(run.teleported for run in runs)
 
     def of(self, matches, first=None, last=None):
-        """Returns the vehicles per minute, summed over all detectors with a matching name, by run."""
+        """Returns one value for each run: vehicles per minute, summed over the detectors whose name matches."""
         by_run = []
         for run in self.runs:
             counted = [cycles[self.first if first is None else first:last] for name, cycles in run.counts.items()

@@ -84,7 +84,7 @@ protected:
         }
         return 0.0;
     }
-    // Returns the least times from the end of an edge to the ends of all edges (Bellman, Ford).
+    // Returns the least times from the end of an edge to the ends of all edges, by the algorithm of Bellman and Ford.
     std::vector<double> least_times_s(int from) const {
         std::vector<double> times_s(static_cast<std::size_t>(edges()), std::numeric_limits<double>::infinity());
         times_s[static_cast<std::size_t>(from)] = 0.0;

@@ -19,7 +19,7 @@ SumoEdge edge(const std::string& id, double from_m, double length_m) {
 }
 
 // Returns a network in which edge a (100 m) leads over an internal edge of 3 m to s (5 m), and s over a junction to b.
-// All have two lanes, connected lane by lane.
+// All these edges have two lanes, connected lane by lane.
 SumoNet chain() {
     SumoNet net;
     net.edges = {edge("a", 0.0, 100.0), edge(":v", 100.0, 3.0), edge("s", 103.0, 5.0), edge(":x", 108.0, 10.0),

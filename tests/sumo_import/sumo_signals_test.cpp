@@ -92,8 +92,8 @@ std::string yielding_links(const SumoNetwork& network, int seconds) {
 }
 
 TEST(SumoSignals, PriorityFollowsTheLettersOfThePhase) {
-    // Link 0 has the minor green in the first phase and the major green in the third. Neither the red of the second
-    // phase nor the yellow of the fourth changes the right of way.
+    // Link 0 yields in the first phase (letter g) and has priority in the third phase (letter G). The red of the second
+    // phase and the yellow of the fourth phase do not change the right of way.
     const std::string phases =
         R"(<phase duration="3" state="gGGG"/><phase duration="2" state="rGGG"/><phase duration="4" state="GgGG"/>)"
         R"(<phase duration="1" state="yyyy"/>)";

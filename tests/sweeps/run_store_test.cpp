@@ -1,4 +1,4 @@
-// The store keeps finished runs. Only its own sweep and program can use it.
+// The store keeps finished runs. It can be used only with the sweep and the program that created it.
 #include "sweeps/run_store.h"
 
 #include <gtest/gtest.h>

@@ -7,7 +7,8 @@ A comment on the line before a fenced block marks it. Both can be indented alike
     <!-- file: NAME -->          the block is written to FOLDER/NAME
     <!-- tested -->              the shell block is a test
     <!-- tested: PROGRAM -->     the same, only where PROGRAM is installed
-Each shell block is written to a file in BLOCKS. The output has one line for each: this file, the line in the guide, and PROGRAM.
+Each shell block is written to a file in BLOCKS. The output has one line for each shell block: the name of this file,
+the line of the block in the guide, and PROGRAM.
 """
 
 import re

@@ -66,9 +66,8 @@ populations: [STEEP]
 )");
 }
 
-// A vehicle has priority over a left-turning vehicle, but yields to a third vehicle. It yields at a position inside the
-// conflict area that it shares with the left-turning vehicle. Both vehicles start at the same time, so the left-turning
-// vehicle must expect the other one to enter the area.
+// Vehicle A has priority over the left-turning vehicle L, but yields to vehicle B. The position where A waits for B is
+// inside the conflict area of A and L. A and L start at the same time, so L must expect that A enters this area.
 TEST(CrowdedJunctions, VehicleYieldingInsideAnAreaStillEntersIt) {
     expect_no_violations(R"(
 duration: 397 s

@@ -182,7 +182,7 @@ TEST_F(DelayCauses, VehicleAtARedLightAlsoWaitsForALeaderInTheJunction) {
     EXPECT_EQ(delay_s(DelayCause::signal), 1.0);
 }
 
-// A stop at a red signal has no blocking vehicle, but a stop of two cycles is reported as for any other cause.
+// A stop of two cycles is reported for every cause, also for a red signal, where no vehicle blocks the stopped one.
 TEST_F(DelayCauses, EveryCauseIsReportedAfterAStopOfTwoCycles) {
     const int waiting_vehicle = place_stopped("c0r0_south_in_0", 154.0, "c0r0_south_0_straight");
     state().tick += track_.model().rules.long_wait_ticks - 1;

@@ -90,7 +90,7 @@ TEST_P(ImportedEntry, FlowRecoversAfterABlockage) {
 )";
         const int demand = 2800 * 420 / 3600 + 1;
         const NetworkResult blocked = run(testing::signal_net(phases), routes_of(flow), 160);
-        EXPECT_GT(blocked.backlog, 20) << speed;  // the situation came up
+        EXPECT_GT(blocked.backlog, 20) << speed;  // the queue has kept vehicles from entering
         const NetworkResult result = run(testing::signal_net(phases), routes_of(flow), 430);
         EXPECT_EQ(result.backlog, 0) << speed;
         EXPECT_EQ(result.entered, demand) << speed;
@@ -118,8 +118,8 @@ TEST_P(ImportedEntry, ShortExitsLetAllVehiclesPass) {
     }
 }
 
-// The queue behind a junction crawls at 1.5 m/s, so it never counts as standing. Vehicles that enter the junction
-// behind it must not keep the crossing street closed.
+// The queue in the exit of a junction crawls at 1.5 m/s, so its vehicles never count as stopped. Vehicles that enter
+// the junction behind this queue must not keep the crossing street closed.
 TEST_P(ImportedEntry, CrawlingQueueLeavesTheJunctionToOthers) {
     const NetworkResult result = run(read_data("crawling_exit"), routes_of(R"(
 <flow id="we" from="wc" to="me" begin="0" end="360" vehsPerHour="900" departSpeed="max"/>
@@ -128,7 +128,7 @@ TEST_P(ImportedEntry, CrawlingQueueLeavesTheJunctionToOthers) {
 )"),
                                      450);
     const std::int64_t crossing = 2 * 30;
-    EXPECT_GT(result.entered - result.exited, 30);  // the queue came up
+    EXPECT_GT(result.entered - result.exited, 30);  // there is a queue at the end of the run
     EXPECT_GT(result.exited, crossing + 15);
     EXPECT_EQ(result.delays.teleported, 0);
     EXPECT_LT(result.longest_in_junction_s, 20.0);

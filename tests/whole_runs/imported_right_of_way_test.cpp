@@ -35,18 +35,18 @@ constexpr double kEarly_s = 120.0;
 // The vehicles of one approach lane.
 struct LaneCounts {
     std::set<int> present;
-    std::set<int> stopped;             // stood on the lane
-    std::set<int> yielded;             // had to wait for right of way on the lane
+    std::set<int> stopped;             // vehicles that have been slower than kCrawlingSpeed_mps on the lane
+    std::set<int> yielded;             // vehicles that have yielded on the lane
     std::map<int, double> stopped_at;  // [vehicle] start of its present stop, s
-    int passed = 0;                    // left the lane
+    int passed = 0;                    // number of vehicles that have left the lane
 };
 
 // The events of one run.
 struct Observed {
     std::map<std::string, LaneCounts> lanes;
-    std::size_t most_standing = 0;  // largest number of lanes whose first vehicles stood at the same time
-    double longest_stop_s = 0.0;    // of a first vehicle of a lane
-    std::int64_t exited_early = 0;  // in the first 120 s
+    std::size_t most_standing = 0;  // largest number of lanes whose first vehicles were stopped at the same time
+    double longest_stop_s = 0.0;    // longest stop of any vehicle while it was the first vehicle of its lane
+    std::int64_t exited_early = 0;  // number of vehicles that exited in the first 120 s
     std::int64_t exited = 0;
     Violations violations;
 

@@ -30,7 +30,8 @@ TEST(InsertVehicle, KeepsAGapToAVehicleStoppedBeyondTheLink) {
     EXPECT_LT(result.violations.forced_red_entries, result.entered / 20);
 }
 
-// On these short links a vehicle at the speed limit could not stop before the next signal.
+// The links are too short to stop from the speed limit before the next signal, so teleported vehicles must be inserted
+// at a lower speed.
 TEST(InsertVehicle, TeleportedVehicleCanStopAtTheNextSignal) {
     const NetworkResult result = result_of(
         "duration: 900 s\n"

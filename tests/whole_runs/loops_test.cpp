@@ -17,7 +17,7 @@ namespace {
 using testing::SumoFiles;
 
 constexpr double kSpacing_m = 5.0;  // between cross-sections
-constexpr double kFirst_m = 10.0;   // vehicles enter with their fronts at 5 m
+constexpr double kFirst_m = 10.0;   // first cross-section; vehicles enter upstream of it, with their fronts at 5 m
 constexpr double kLast_m = 185.0;
 
 // Loops on both lanes at each cross-section. The id is the position.

@@ -86,7 +86,8 @@ TEST(RightOfWay, TurnsKeepTheirSpeedLimit) {
     EXPECT_LT(fastest_mps, 7.0 * 1.1) << "a follower may exceed the limit by 5 %";
 }
 
-// The next vehicle with priority arrives at the conflict area no sooner than the left-turning vehicle expected.
+// After a left-turning vehicle has accepted a gap, the next vehicle with priority reaches the conflict area only after
+// the critical gap (less a tolerance of 0.3 s).
 TEST(RightOfWay, LeftTurnsUseGapsAboveTheCriticalGap) {
     Scenario scenario = reference(turn_shares(15, 10));
     scenario.measure.cycles = 8;
@@ -157,7 +158,7 @@ TEST_P(SlowIntersection, HasNoConflictsAndNoDeadlocks) {
     EXPECT_LT(result.longest_in_junction_s, 2.0 * 2.0 * (GetParam().green_s + 8.0)) << "a deadlock";
     // Each lane discharges at least one vehicle per green.
     EXPECT_GE(result.discharge.vehicles_per_green, 1.0);
-    // A queue of 25 vehicles needs about 12 cycles with two vehicles per green.
+    // The travel time is below 12 cycles. With two vehicles per green, a queue of 25 vehicles takes about this time.
     EXPECT_LT(result.zones[0].travel_time_s, 12.0 * 2.0 * (GetParam().green_s + 8.0));
 }
 

@@ -11,7 +11,8 @@
 namespace stopline {
 namespace {
 
-// Expects no violation, traffic, and at least `forced` vehicles that could not stop and passed on red.
+// Expects no violation, at least 40 vehicles that exit, and at least `forced` vehicles that pass on red because they
+// cannot stop.
 void expect_clean_run(const std::string& text, std::int64_t forced) {
     const NetworkResult result = run_network(parse_scenario(text, "test.yaml"), 0);
     EXPECT_GE(result.exited, 40);

@@ -122,8 +122,8 @@ double longest_stop_inside_s(const std::string& scenario, const std::string& kee
     return longest_s;
 }
 
-// Many vehicles turn left, and the red of 1 s does not suffice for those that still wait inside the intersection. A
-// random search found this run.
+// Many left-turning vehicles wait inside the intersection, and they cannot all leave it during the all-red time of 1 s.
+// A random search found this run.
 TEST(KeepClear, VehiclesThatWaitInsideLeaveBeforeCrossingOnesEnter) {
     const std::string scenario = R"(
 fidelity: meso
@@ -159,7 +159,8 @@ TEST(SlowKeepClear, ReducesGridlockAndPassedBlockers) {
     EXPECT_LT(blocked_s[1], 0.5 * blocked_s[0]);
 }
 
-// Because of the signal offsets, vehicles in the exit lane drive toward a signal that is already red.
+// Because of the signal offsets, vehicles in the exit lane drive toward a signal that is already red. The rule counts
+// these vehicles as stopped, so drivers behind them do not enter the junction without room in the exit lane.
 TEST(SlowKeepClear, CountingTheQueueAtARedExitReducesBlocking) {
     std::vector<double> blocked_s;
     for (const char* rule : {"rules.count_queue_at_red_exit=off", "rules.count_queue_at_red_exit=on"}) {

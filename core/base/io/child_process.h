@@ -17,12 +17,13 @@ struct ProcessResult {
     bool failed() const { return start_error != 0 || wait_status != 0; }
 };
 
-// Gets the output of the program so far, several times a second. If it returns false, the program is killed.
+// A function that gets the output of the program so far, several times a second. If the function returns false, the
+// program is killed.
 using ProcessWatch = std::function<bool(const std::string& output)>;
 
 // Runs `command` in `folder` with empty standard input. The first word is the name of the program, which is searched in
-// PATH. A failure is reported in the result. `watch` may be empty. If it throws an exception, the program is killed and
-// the caller gets the exception.
+// PATH. A failure is reported in the result. `watch` may be empty. If `watch` throws an exception, the program is
+// killed and the caller gets the exception.
 ProcessResult run_process(std::vector<std::string> command, const std::filesystem::path& folder,
                           const ProcessWatch& watch = {});
 

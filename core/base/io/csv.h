@@ -41,7 +41,7 @@ struct CsvTable {
 // if the text is empty, a quote is not closed, or a row has the wrong number of fields.
 CsvTable parse_csv(std::string_view text, const std::string& label);
 
-// Converts the whole text to a number. Returns nothing if it is not a finite number.
+// Converts the whole text to a number. Returns nothing if the text is not a finite number.
 std::optional<double> parse_number(const std::string& text);
 
 }  // namespace stopline

@@ -40,9 +40,10 @@ STOPLINE_INLINE R flush_tiny(const R& value) {
 
 // Returns exp(-x) for x >= 0. The absolute error is below 3e-7; the relative error is below 1e-7 up to x = 2.
 //
-// The method is a Taylor polynomial of degree 5 for exp(-x / 16), raised to the 16th power. For x > 32 it returns the
-// value at 32, about 1e-14, because the polynomial changes its sign near x = 35. The exp of the C library is not used,
-// because its versions for vectors are not correctly rounded: Single and Batch could give different results.
+// The method is a Taylor polynomial of degree 5 for exp(-x / 16), raised to the 16th power. For x > 32 the function
+// returns the value at x = 32, about 1e-14, because the polynomial changes its sign near x = 35. The exp of the C
+// library is not used, because its versions for vectors are not correctly rounded: Single and Batch could give
+// different results.
 template <class R>
 STOPLINE_INLINE R exp_negative(const R& x) {
     const R y = min_of(x, 32.0) * (-1.0 / 16.0);

@@ -7,8 +7,8 @@
 //
 // Single and Batch give the same results to the bit: every operation is correctly rounded (IEEE 754), and the compiler
 // neither fuses multiplications with additions nor reorders operations (see the flags in the top CMakeLists.txt).
-// Batches are explicit vectors, because compilers silently fail to vectorise loops with so long a body. With single
-// precision, a register holds twice as many vehicles as with double precision, and arrays need half the memory.
+// Batches are explicit vectors, because compilers silently fail to vectorise a loop that contains a whole model. With
+// single precision, a register holds twice as many vehicles as with double precision, and arrays need half the memory.
 // Positions and speeds are stored in double precision, because they accumulate small increments.
 //
 // Each kernel file is compiled once for each instruction set (see sim/CMakeLists.txt), with a batch as wide as a
@@ -39,8 +39,8 @@
 #define STOPLINE_INLINE_LAMBDA __attribute__((always_inline))
 
 #if defined(__GNUC__) && !defined(__clang__)
-// The warning says that the instruction set determines how a batch is passed to a function. It does not matter here,
-// because all functions with batches as parameters are inlined.
+// The warning says that the instruction set determines how a batch is passed to a function. The warning does not matter
+// here, because all functions with batches as parameters are inlined.
 #pragma GCC diagnostic ignored "-Wpsabi"
 #endif
 

@@ -81,8 +81,8 @@ Figure counters(const std::string& name, const std::string& what, const PairedTi
     return figure;
 }
 
-// Draws a histogram of the differences between passage times, in bins of 0.1 s. The first and the last bin also contain
-// all differences beyond them.
+// Draws a histogram of the differences between passage times, in bins of 0.1 s. The first bin also contains all smaller
+// differences, and the last bin all larger differences.
 Figure histogram(const std::vector<TimingResult>& results) {
     constexpr int kZeroBin = 20;
     constexpr int kBins = 2 * kZeroBin + 1;

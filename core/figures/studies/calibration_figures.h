@@ -10,9 +10,10 @@
 namespace stopline {
 
 // Returns the figures of step I of the calibration. Two figures show the cumulative vehicle counts at the detectors
-// over time, in full dynamics and in the mesoscale mode (Fig. 11), for the median and the worst permutation. A
-// permutation is a combination of axis values. The others are a histogram of the differences between passage times and,
-// if `history` is not empty, the history of the fit.
+// over time, in full dynamics and in the mesoscale mode (Fig. 11). The first shows the permutation (combination of axis
+// values) with the median share of passages within the time limit, the second the permutation with the lowest share.
+// The third figure is a histogram of the differences between passage times. If `history` is not empty, the fourth
+// figure is the history of the fit.
 std::vector<Figure> timing_figures(const std::vector<TimingResult>& results, const std::vector<CalibrationCase>& cases,
                                    const std::vector<FitEvaluation>& history);
 

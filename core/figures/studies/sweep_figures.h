@@ -15,10 +15,10 @@ namespace stopline {
 // Returns true if the table has the axes `green`, `offset` and `population` and the metrics of several intersections.
 bool is_network_sweep(const CsvTable& results);
 
-// Returns the figures of a results table: network_N (lines), surfaces_N (maps) and stability_N. planes.h says how their
-// axes are chosen. Each combination of the other axes has a number N, and the titles show its values. Results are means
-// over seeds, with minimum and maximum. If only one axis varies, there are no maps. Returns an empty list if the
-// results are not those of several intersections.
+// Returns the figures of a results table: network_N (lines), surfaces_N (maps) and stability_N. planes.h says which
+// axes of the sweep are drawn. N numbers the combinations of values of all other axes, and the titles show these
+// values. Results are means over seeds, with minimum and maximum. If only one axis varies, there are no maps. Returns
+// an empty list if the results are not those of several intersections.
 std::vector<Figure> network_sweep_figures(const CsvTable& results, const CellTitles& titles,
                                           const std::string& population_column = "population");
 

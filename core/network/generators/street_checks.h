@@ -15,7 +15,7 @@ struct StreetProblem {
 };
 
 // Returns the problems that prevent building a lane graph. The checks run in groups. If a group finds a problem, the
-// groups after it are skipped, because they rely on its success.
+// later groups are skipped, because they rely on the success of the earlier ones.
 std::vector<StreetProblem> street_problems(const StreetSettings& streets);
 
 // Returns a message if the clearance is too large for the lane width, else "". Vehicles on two lanes can touch where

@@ -36,11 +36,11 @@ struct JobContext {
     std::filesystem::path folder;  // folder of this job
     std::filesystem::path stores;  // folder of the files that store finished runs, shared by all jobs
     Reductions reductions;         // empty for a full job
-    std::string key;               // identifies the program, its input files, and whether the job is reduced
+    std::string key;               // identifies the program, its input files, and whether there are reductions
     int threads = 1;
     // Receives the finished share of the job, 0..1. The job stops if the function returns false.
     std::function<bool(double)> on_progress;
-    // Receives the share of the job whose runs an earlier start of the program has stored.
+    // Receives the share of the job that is already done, because the stores hold its runs from an earlier session.
     std::function<void(double)> on_stored;
 
     bool reduced() const { return !reductions.rows().empty(); }
@@ -53,7 +53,7 @@ struct Job {
     const char* section;  // main section of the paper, such as III
     const char* title;
     double expected_s;        // expected duration of the full job on one thread (see WorkEstimate)
-    double quick_expected_s;  // expected duration of the reduced job on one thread
+    double quick_expected_s;  // expected duration with the reductions of a quick run, on one thread
     bool (*is_needed_by)(const std::string& section);
     JobOutput (*run)(const JobContext& context);
 };

@@ -18,9 +18,9 @@ public:
     JobOutput output;
 
     void table(const std::string& name, const std::string& csv);
-    // Draws a figure. If the job is reduced (it runs less than the paper does, reductions.h), adds the mark "REDUCED"
-    // to the figure. Figures of the same name need different
-    // subfolders. Throws InputError if drawing fails. Throws Interrupted if on_progress returns false.
+    // Draws a figure into the subfolder, where no other figure may have the same name. If the job is reduced (it runs
+    // less than the paper does, reductions.h), adds the mark "REDUCED" to the figure. Throws InputError if drawing
+    // fails. Throws Interrupted if on_progress returns false.
     void figure(Figure figure, const std::string& subfolder = "");
     void figures(std::vector<Figure> figures, const std::string& subfolder = "");
     // Runs an experiment of the scorecard and stores its measurements in the folder of the job.

@@ -6,9 +6,9 @@ namespace stopline {
 
 namespace {
 
-// The pace is the wall time of finished work divided by the expected time of this work. At first, there is no observed
-// pace, so the estimate assumes one. After this much finished work (in expected seconds), the assumed pace and the
-// observed pace have the same weight.
+// The pace of finished work is its wall time divided by its expected time. The estimate uses a weighted mean of an
+// assumed pace and the observed pace. The weights are equal when the expected time of the finished work is this
+// constant.
 constexpr double kPriorWeight_s = 10.0;
 
 }  // namespace

@@ -130,9 +130,9 @@ std::optional<Answer> gap_at_limit(const Target& target, const Measurements& mea
     return number_named(measured, "steady_gap " + target.condition);
 }
 
-// Checks an order of throughputs such as "A > B = C". 'A > B' holds if the count of A is larger than that of B, both
-// interpolated between passages. 'B = C' holds if the whole counts differ by at most one vehicle, the resolution of the
-// experiment.
+// Checks an order of throughputs such as "A > B = C". 'A > B' holds if the count of A, interpolated between passages,
+// is larger than that of B. 'B = C' holds if the whole counts of B and C differ by at most one vehicle, the resolution
+// of the experiment.
 std::optional<Answer> order_of_throughput(const Target& target, const Measurements& measured) {
     const std::optional<double> green_s =
         parse_number(target.condition.starts_with("green=") ? target.condition.substr(6) : "");

@@ -76,7 +76,8 @@ Measurements measure_stability(const Scenario& /*scenario*/, const ScorecardOpti
 }
 
 // Measures the mean travel time from the first to the last stop line of the street, divided by the number of blocks
-// between these stop lines, s. Stores one value for each direction: "NAME east" and "NAME west".
+// between these stop lines, s. Stores one value for each driving direction: "NAME east" and "NAME west". Also counts
+// the run if it has violations.
 void measure_block_times(const Scenario& scenario, std::size_t population, const std::string& name,
                          Measurements& measured) {
     constexpr double kUntil_s = 1800.0;

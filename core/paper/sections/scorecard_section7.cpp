@@ -124,8 +124,8 @@ std::string filled_text(const std::vector<double>& filled_s) {
 }
 
 // Returns for each seed the time from which queues fill all approaches in `columns`, s, or NaN if this never happens. A
-// queue on the last of these approaches, at the entry of the network, is not enough: the signal there causes a queue of
-// its own.
+// queue on the last of these approaches alone does not show a backlog, because the signal there causes a queue of its
+// own.
 std::vector<double> connected_s(const Measurements& m, Columns columns, const char* population) {
     std::vector<double> since_s = values(m, columns.front(), population);
     for (const char* const column : columns) {

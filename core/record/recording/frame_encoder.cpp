@@ -127,8 +127,8 @@ void FrameEncoder::encode_placement(const Snapshot::Placement& placement) {
     last_motion_[at(placement.slot)] = kUnknownMotion;
 }
 
-// A vehicle beyond the stop line can still change its next lane. Writes the next lane if it differs from the one that
-// was written last. Such a vehicle can stay in its slot, and then the snapshot has no new Placement for it.
+// Writes the next lane of a vehicle beyond the stop line if it differs from the next lane that was written last. The
+// vehicle can change its next lane without leaving its slot, and then the snapshot has no new Placement for it.
 void FrameEncoder::encode_next_lane(const Snapshot::BeyondStopLine& vehicle) {
     const int seat = seat_in_slot_[at(vehicle.slot)];
     if (seats_[at(seat)].next == vehicle.next_lane) return;
@@ -137,7 +137,8 @@ void FrameEncoder::encode_next_lane(const Snapshot::BeyondStopLine& vehicle) {
 }
 
 // Finds the vehicles whose position and speed this frame must contain, and sets the bits of their seats (a seat is the
-// number of a vehicle in the recording). A vehicle that stays at rest is left out. This saves much space.
+// number of a vehicle in the recording). A vehicle is left out if it is at rest and its position and speed are those of
+// the previous frame. This saves much space.
 void FrameEncoder::compare_motion(const Snapshot& snapshot) {
     const std::uint32_t* motion = snapshot.motion.data();
     for (const Snapshot::Slots& slots : lanes_) {

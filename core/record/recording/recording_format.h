@@ -41,7 +41,8 @@
 
 namespace stopline {
 
-// The first bytes of the file. A transfer in text mode changes them, so a reader notices the damage (as in PNG files).
+// The first bytes of the file. A transfer in text mode changes these bytes, so a reader notices the damage. PNG files
+// begin in the same way.
 inline constexpr std::string_view kRecordingMagic{"\x89SLR\r\n\x1a\n", 8};
 inline constexpr std::uint16_t kRecordingVersion = 1;
 inline constexpr std::uint16_t kByteOrderMark = 0x0102;

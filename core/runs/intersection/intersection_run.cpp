@@ -196,7 +196,8 @@ IntersectionResult run_intersection(const Scenario& scenario, std::size_t popula
                                     const Observation& observation) {
     Model model = build_model(scenario, population);
     observation.prepare(model);
-    model.rules.watch_ticks = std::max<std::int64_t>(to_ticks(1.0, model.step_s), 1);  // finds starving movements
+    // Once a second, the model checks for starving movements.
+    model.rules.watch_ticks = std::max<std::int64_t>(to_ticks(1.0, model.step_s), 1);
     Simulation simulation(model);
     IntersectionResult result;
     result.population = scenario.populations.at(population).name;

@@ -1,4 +1,5 @@
-// Samples speeds by approach, place and time. They show which queues do not clear and how far upstream they reach.
+// Samples speeds by approach, place and time. The speeds show which queues do not clear and how far upstream these
+// queues reach.
 #pragma once
 
 #include <cstdint>

@@ -41,8 +41,8 @@ struct NetworkOptions {
 // Throws Interrupted if on_progress returns false.
 NetworkReport run_networks(const Scenario& scenario, const NetworkOptions& options);
 
-// Returns a text for the user with the start and the end of the measured window. The window should be the last part of
-// the run and have the length measure.window. If it does not, the text gives the reason.
+// Returns a text for the user with the start and the end of the measured window. If this window is shorter than
+// measure.window or does not end with the run, the text gives the reason.
 std::string window_text(const NetworkReport& report);
 
 // These functions return the result tables as CSV text. scenarios/COLUMNS.md explains the columns.

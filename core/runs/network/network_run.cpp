@@ -34,7 +34,8 @@ void add_trip_detectors(Model& model) {
 }
 
 // Adds a detector at the start of each lane inside the measured area on which vehicles can enter the network. The
-// detector also counts vehicles that come from upstream. measure/area.h ignores them, because they entered before.
+// detector also counts vehicles that come from upstream. The functions in measure/area.h ignore such a passage, because
+// the vehicle has entered the area before.
 void add_inner_inlet_detectors(Model& model) {
     for (const DemandPlan::Inlet& inlet : model.demand.inlets) {
         if (inlet.vehicles == 0 || is_fed_from_outside(model.graph, inlet.lane)) continue;
@@ -42,8 +43,10 @@ void add_inner_inlet_detectors(Model& model) {
     }
 }
 
-// Adds detectors at the boundary of the measured area, on the entry and exit lanes of the network. Turn pockets wholly
-// inside the area get no detector, because vehicles reach them from the adjacent lane.
+// Replaces all detectors, except those at stop lines, by detectors at the boundary of the measured area and at inlets
+// inside it. The boundary lies on the entry approaches and exit lanes of the network. Turn pockets wholly inside the
+// area get no detector, because vehicles reach them from the adjacent lane. An imported network gets trip detectors
+// instead.
 void add_area_detectors(const Scenario& scenario, Model& model) {
     if (scenario.network.is_sumo()) return add_trip_detectors(model);
     std::erase_if(model.detectors, [](const Detector& d) { return d.kind != Detector::Kind::stop_line; });
@@ -152,7 +155,8 @@ AreaResult mean_from(const std::vector<NetworkInterval>& series, double from_s) 
     return mean;
 }
 
-// Returns true if the gridlock still exists at the end of the run and has lasted for six signal cycles or more.
+// Returns true if the gridlock has lasted for six signal cycles or more and still existed during the last cycle of the
+// run.
 bool is_permanent(const Gridlock& gridlock, double end_s, double cycle_s) {
     constexpr double kLasting_cycles = 6.0;  // twice rules.teleport_cycles, which is 3 in the shipped scenarios
     return end_s - gridlock.to_s <= cycle_s && gridlock.to_s - gridlock.from_s >= kLasting_cycles * cycle_s;
@@ -216,9 +220,9 @@ private:
         return cycles_[first_full_ + collapse->index].window.from_s;
     }
 
-    // Returns the time from which on the number of teleported vehicles makes the run unstable, s. This is the end of
-    // the last cycle after which it was still below kSemiStableShare of the number of vehicles that had left the area.
-    // Both numbers count from the start of the run.
+    // Returns the time from which on the number of teleported vehicles makes the run unstable, s. At the end of each
+    // cycle, the function compares two numbers since the start of the run: teleported vehicles, and vehicles that have
+    // left the area. It returns the last cycle end at which their ratio is below kSemiStableShare.
     double teleport_limit_s() const {
         double since_s = 0.0;
         double exited = 0.0;

@@ -24,12 +24,12 @@ struct SteadyFlow {
     double policy_gap_m = 0.0;       // net gap that the policy prescribes at the cruise speed
     double policy_headway_s = 0.0;   // headway of the policy at the cruise speed: (length + net gap) / speed
     double deviation_percent = 0.0;  // deviation of headway_s from policy_headway_s
-    int not_closed_up = 0;           // number of vehicles that keep a gap at which they have not closed up
-    double open_gap_m = 0.0;         // mean net gap of these vehicles; NaN if there are none
+    int not_closed_up = 0;           // number of vehicles with a steady gap that have not closed up
+    double open_gap_m = 0.0;         // mean net gap of the vehicles in not_closed_up; NaN if there are none
 };
 
-// Returns the cruise speed: the speed of a vehicle without leader on the road of a single light. It is the speed limit
-// in full dynamics, and a share of it in the mesoscale mode.
+// Returns the cruise speed: the speed of a vehicle without leader on the road of a single light. In full dynamics, this
+// is the speed limit. In the mesoscale mode, it is the speed limit times calibrated factors.
 double cruise_speed_mps(const Scenario& scenario);
 
 struct QueueGaps {
@@ -73,7 +73,7 @@ struct SingleLightReport {
 struct SingleLightOptions {
     int threads = 1;
     double trajectory_interval_s = 0.0;       // sampling interval for a trajectory table; 0: no table
-    std::function<bool(double)> on_progress;  // see RunAllOptions
+    std::function<bool(double)> on_progress;  // gets the completed share, 0 .. 1; returns false to stop
     Observation observation = {};
 };
 
@@ -84,8 +84,8 @@ inline constexpr double kSampleInterval_s = 0.1;
 inline constexpr double kTrajectoryBefore_s = 5.0;
 inline constexpr double kTrajectoryAfter_s = 25.0;
 
-// Returns the points whose time is a multiple of `interval_s`. This interval is first rounded to a whole number of
-// steps, at least one.
+// Rounds `interval_s` to a whole number of steps, at least one. Returns the points whose time is a multiple of the
+// rounded interval.
 std::vector<TrajectoryPoint> thin_out(const std::vector<TrajectoryPoint>& points, double interval_s, double step_s);
 
 // Returns the summary of the run of scenario.populations[index]. `points` are the trajectories around the green,

@@ -147,8 +147,8 @@ std::string filled(std::string_view pattern, std::string_view text) {
     return name;
 }
 
-// Translates a column name. Returns the current name if `from` is old_name and `to` is name. Returns the old name if
-// `from` is name and `to` is old_name.
+// Translates a column name from the old to the current name (`from` is old_name, `to` is name) or back (`from` is name,
+// `to` is old_name). Returns a name without an entry in kColumns unchanged.
 std::string renamed_column(std::string_view table, const std::string& name, std::string_view ColumnAlias::*from,
                            std::string_view ColumnAlias::*to) {
     for (const ColumnAlias& alias : kColumns) {

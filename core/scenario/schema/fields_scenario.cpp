@@ -165,7 +165,8 @@ void check_times(const Scenario& scenario, Checker& check) {
     }
 }
 
-// Checks that signal.cycle is not set for intersections, because their cycle is the sum of their two stages.
+// Checks that signal.cycle is not set for a single intersection or a grid, where the cycle is the sum of the two
+// stages.
 void check_cycle(const Scenario& scenario, Checker& check) {
     const std::string& kind = scenario.network.kind;
     if (scenario.signal.cycle_s == 0.0 || (kind != "intersection" && kind != "grid")) return;

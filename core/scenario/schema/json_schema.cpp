@@ -33,7 +33,7 @@ Json text_schema(TextField::Rule rule) {
     return Json{{"type", {"string", "number"}}, {"pattern", "^[-A-Za-z0-9_.+]{1,64}$"}};
 }
 
-// Returns the schema of a field. The kind of the field selects the operator().
+// Returns the schema of a field. There is one operator() for each kind of field.
 struct KindSchema {
     const void* settings;
 
@@ -112,7 +112,7 @@ Json table_schema(const Table& table, const void* settings) {
         }
         properties[field.name] = std::move(schema);
         // The schema does not require a field with a condition, because the field does not exist if the condition is
-        // false. It does not require a field with an old name either, because the file may use the old name.
+        // false. The schema does not require a field with an old name either, because the file may use the old name.
         const bool always = field.condition_field.empty() && field.old_names.empty();
         if (field.required && always) required.push_back(field.name);
     }

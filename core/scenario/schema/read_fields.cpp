@@ -29,7 +29,7 @@ bool is_title(const std::string& text) {
                                               [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; });
 }
 
-// Reads the value of one field into `settings`. The kind of the field selects the operator().
+// Reads the value of one field into `settings`. There is one operator() for each kind of field.
 class ValueReader {
 public:
     ValueReader(const Field& field, const SourceNode& node, std::string path, void* settings, Report& report)

@@ -16,7 +16,8 @@ class Report {
 public:
     void error(const Place& place, const std::string& message);
     std::size_t error_count() const { return errors_.size(); }
-    // Throws an InputError if there is an error. Its text has one line per error in file order, for at most 20 errors.
+    // Throws an InputError if an error was reported. The text of the InputError has one line per error in file order,
+    // for at most 20 errors.
     void throw_if_any() const;
 
     // A warning does not stop loading.

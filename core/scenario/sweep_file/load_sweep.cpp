@@ -120,8 +120,8 @@ void check_values_differ(const SweepSettings& sweep, Report& report) {
     }
 }
 
-// Checks that the scenario file exists. This check is separate from loading the scenario, because its message must name
-// a line of the sweep file.
+// Checks that the scenario file exists. This check is separate from loading the scenario, because the message about a
+// missing file must name a line of the sweep file.
 void check_scenario_file(const SweepSettings& sweep, const std::filesystem::path& file, Report& report) {
     std::error_code error;
     const std::filesystem::file_type type = std::filesystem::status(file, error).type();

@@ -11,7 +11,7 @@ namespace stopline {
 struct SweepAxis {
     std::string name;
     std::vector<std::string> paths;              // paths of the scenario fields that change together
-    std::vector<std::string> values;             // written as for --set; "a | b" gives each of two paths its own value
+    std::vector<std::string> values;             // as in an override PATH=VALUE; "a | b": one value for each of 2 paths
     std::vector<std::string> populations;        // names of populations, or "all" for all populations of the scenario
     std::string place;                           // position of the axis name, "file:line:column"
     std::vector<std::string> value_places = {};  // [value] positions of the values

@@ -77,8 +77,9 @@ bool has_room_beyond_lane(const Model& model, const State& state, int lane, int 
     return rear_m - front_m >= static_cast<double>(v.standstill_gap_m[at(slot)]);
 }
 
-// Reinserts the k-th teleported vehicle at the start of its target lane, with its rear just past the intersection.
-// Returns false if there is no room.
+// Reinserts the k-th teleported vehicle at the start of its target lane, with the rear of the vehicle just past the
+// intersection. Returns false if there is no room, or if a vehicle that approaches the lane could not stop behind the
+// reinserted vehicle.
 bool reinsert_teleported(const Model& model, State& state, int k) {
     VehicleArrays& v = state.vehicles;
     const int target_lane = state.congestion.teleport_targets[at(k)].lane;
@@ -89,7 +90,8 @@ bool reinsert_teleported(const Model& model, State& state, int k) {
     const double length_m = v.length_m[at(waiting)];
     double front_m = length_m;
     double speed_mps = lane.limit_mps;
-    // A vehicle with a trip is in an imported network, where the target lane can be shorter than the vehicle.
+    // Only vehicles in imported networks have a trip. There the target lane can be shorter than the vehicle. Such a
+    // vehicle is reinserted only if its trip ends on the target lane. Its front is then placed at the stop line.
     if (v.record[at(waiting)].trip >= 0) {
         if (length_m >= lane.stop_line_m && !trip_ends_on_next_edge(state, v.record[at(waiting)])) return false;
         front_m = std::min(length_m, lane.stop_line_m);

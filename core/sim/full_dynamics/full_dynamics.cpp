@@ -49,8 +49,9 @@ FullStreams streams_of(const Model& model, State& state) {
     return s;
 }
 
-// Computes the desired gap of each vehicle from the speed that the vehicle will have at the end of the step, because
-// the new request takes effect then. With the speed at the start of the step, results would depend on the step length.
+// Computes the desired gap of each vehicle, and the slope of this gap over speed. Both belong to the speed that the
+// vehicle will have at the end of the step, because the requested acceleration takes effect then. With the speed at the
+// start of the step, results would depend on the step length.
 // The gap law of each policy in the group is evaluated for all vehicles of the group, and each vehicle takes the result
 // of its own policy.
 void evaluate_gap_laws(const Model& model, int vehicles, const FullGroup& g) {

@@ -34,8 +34,9 @@ struct FullKernels {
     using NextSlots = std::span<const int>;
 
     const char* name;
-    // Fills the group from the arrays of all vehicles: takes the radar measurements, reads the delayed data about the
-    // leaders, and sets FullGroup::demand to the lowest external demand of each vehicle (ExternalDemand).
+    // Fills the group from the arrays of all vehicles: takes the radar measurements, and reads the delayed data about
+    // the leaders. FullGroup::demand becomes the lowest of the accelerations that stop lines, yielding, gap alignments
+    // and hidden leaders demand of the vehicle (LaneGroup::demands).
     void (*gather)(const FullStreams&, const DelayRows& radar, const DelayRows& v2v, const LaneGroup&, double dt,
                    const FullGroup&);
     // Driver: computes the requested accelerations of the first `vehicles` vehicles of the group.

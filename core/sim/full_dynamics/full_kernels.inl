@@ -232,8 +232,8 @@ STOPLINE_INLINE void drive_at(const PowertrainTablesOf<float>& t, const FullGrou
     write(g.gear, next.gear, now.gear);
     // The V2V message describes the end of this step, when the request takes effect. The follower adds the announced
     // request to its own. The message therefore announces no more acceleration than the engine can give; otherwise the
-    // follower could run into this vehicle. `now.acceleration_mps2` is the mean over the previous step. The
-    // first-order lag extrapolates it to the end of this step.
+    // follower could run into this vehicle. `now.acceleration_mps2` is the mean over the previous step, so it belongs
+    // to a time 1.5 steps before the end of this step. A first-order lag extrapolates it over these 1.5 steps.
     const R announced = min_of(get(g.request), next.available_mps2);
     const R reached = min_of(1.5 * dt * get(g.sent_rate), 1.0);
     const R acceleration = now.acceleration_mps2 + (announced - now.acceleration_mps2) * reached;

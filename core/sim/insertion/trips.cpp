@@ -22,8 +22,8 @@ namespace stopline {
 
 namespace {
 
-// Within this distance of the stop line, a vehicle is not inserted while a vehicle without priority is crossing its
-// route or has decided to cross it. The crossing vehicle could not consider the new vehicle in its decision.
+// Within this distance of the stop line, no new vehicle is inserted while a vehicle without priority is crossing the
+// route of the new vehicle or has decided to do so. The crossing vehicle decided before the new vehicle was there.
 constexpr double kNearLine_m = 40.0;
 // Positions in route files are rounded, so the gaps in a queue from a file can be a little too small. This tolerance
 // allows such gaps.
@@ -194,8 +194,8 @@ double wanted_speed_mps(const Model& model, const State& state, int number, int 
     return limit_mps * random_uniform(model.seed, static_cast<std::uint64_t>(number), 1, Purpose::insertion);
 }
 
-// Returns the highest speed from the leader's speed to `wanted_mps` with which a new vehicle can enter behind its
-// leader. A result below 0 means that the gap is too small. A slower entry is not tried, because the new vehicle
+// Returns the highest safe speed of a new vehicle behind its leader, at most `wanted_mps`. A result below 0 means that
+// the gap is too small. A speed below both `wanted_mps` and the leader's speed is not tried, because the new vehicle
 // represents a vehicle that has followed its leader from upstream of the network. Vehicles that entered at a crawl into
 // smaller gaps would keep the flow low for the rest of the run after a blockage. A trip with a given speed enters only
 // with this speed.
@@ -218,8 +218,8 @@ double departure_speed_mps(const Model& model, const Trip& trip, int policy, dou
     return safe_mps;
 }
 
-// Returns true if a vehicle without priority is crossing the route of the new vehicle, or has accepted a gap to cross
-// it.
+// Returns true if a vehicle without priority that crosses the route of the new vehicle is inside the intersection and
+// not yet past the conflict area, or has accepted a gap to enter.
 bool crossing_vehicle_is_committed(const State& state, int route) {
     const std::span<const int> lanes = state.plan.route(route);
     if (lanes.size() < 2) return false;

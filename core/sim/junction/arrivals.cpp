@@ -94,7 +94,7 @@ int vehicle_stopping_at_signal(const State& state, int lane, int connection) {
 }
 
 // Returns the slot of a vehicle that the keep-clear rule holds at rest at the stop line of `lane`; -1: none. Vehicles
-// that must yield to it may go first. Imported networks only.
+// that must yield to the held vehicle may go first. Imported networks only.
 int vehicle_held_at_rest(const Model& model, const State& state, int lane) {
     if (model.demand.trips.empty() || state.stop_lines.held_at_green[at(lane)].blocker < 0) return -1;
     const int held = state.stop_lines.stop_slot[at(lane)];
@@ -119,10 +119,10 @@ void look_upstream(const Model& model, const State& state, const Upstream& here,
     const auto consider = [&](int slot, double distance_m, double limit_mps) {
         if (v.speed_mps[at(slot)] < kCrawlingSpeed_mps || distance_m > horizon_s * limit_mps) return;
         const VehicleRecord& record = v.record[at(slot)];
-        // In the first call (depth 0), the following turn of a vehicle is its turn at the end of `here.lane`. If a
-        // vehicle with a trip has no following turn, its trip ends on `here.lane`, so the search ignores it. If a
-        // vehicle without a trip has no following turn, the turn may not be drawn yet. The search then assumes that it
-        // takes `here.connection`.
+        // In the first call (depth 0), following_turn is the vehicle's turn at the end of `here.lane`. The search
+        // ignores vehicles with another turn than that of `here.connection`, and vehicles whose trip ends on
+        // `here.lane` (Turn::none). The turn of a vehicle without a trip may not be drawn yet (Turn::none, too). The
+        // search assumes that this vehicle takes `here.connection`.
         const bool unknown = record.trip < 0 && record.following_turn == Turn::none;
         if (here.depth == 0 && !unknown && record.following_turn != turn) return;
         const double acceleration_mps2 = model.give_way.approach_acceleration_mps2;

@@ -18,17 +18,18 @@ bool is_yielding(const State& state, int slot);
 // area on its connection. A vehicle with a waiting position further downstream still drives into the area.
 bool is_yielding_before(const State& state, int slot, double area_m);
 
-// Returns true if the vehicle yields, unless it waits for a vehicle without priority that is in its way
-// (YieldReason::intruder). If the result is true, vehicles that must yield to this vehicle may go first.
+// Returns true if the vehicle yields, except to an intruder: a vehicle without priority that goes first, for example
+// because it can no longer stop (YieldReason::intruder). If the result is true, vehicles that must yield to this
+// vehicle may go first.
 bool lets_others_go(const State& state, int slot);
 
 // Returns true if the vehicle and its leader are close together and both slower than kCrawlingSpeed_mps. Neither the
 // vehicle nor its followers are expected to arrive soon.
 bool is_blocked_by_leader(const State& state, int slot);
 
-// Returns true if `occupant`, a vehicle on connection `lane`, is in a queue of slow vehicles whose first vehicle
-// yields. The yielding vehicle may be on another connection from the same approach lane, at a place where the two
-// connections still overlap.
+// Returns true if `occupant`, a vehicle on connection `lane`, is in a queue of slow vehicles, and a vehicle further
+// ahead in this queue yields. The yielding vehicle may be on another connection from the same approach lane, at a place
+// where the two connections still overlap.
 bool is_behind_yielding_vehicle(const State& state, int lane, const JunctionOccupant& occupant);
 
 // Returns the time in s that a vehicle needs for a distance if it accelerates up to the speed limit. A vehicle above
@@ -45,10 +46,11 @@ struct Arrival {
     }
 };
 // Returns the next arrival of a vehicle at the conflict area on connection `conflict.other`. The search covers the
-// connection, its approach lane, and the lanes further upstream from which a vehicle can arrive within `horizon_s`.
-// Ignores vehicles that let others go (lets_others_go()), stop for the signal or are in a queue. In imported networks
-// it also ignores vehicles that the keep-clear rule holds at rest, and with `ignores_stopped` all vehicles slower than
-// kCrawlingSpeed_mps. Vehicles behind an ignored vehicle, on the same connection or approach lane, are ignored, too.
+// connection, its approach lane, and the lanes further upstream from which a vehicle can arrive within `horizon_s`. The
+// search ignores vehicles that let others go (lets_others_go()), stop for the signal or are in a queue. In imported
+// networks the search also ignores vehicles that the keep-clear rule holds at rest. `ignores_stopped`: the search also
+// ignores all vehicles slower than kCrawlingSpeed_mps. Vehicles behind an ignored vehicle, on the same connection or
+// approach lane, are ignored, too.
 Arrival next_arrival(const Model& model, const State& state, const Conflict& conflict, double horizon_s,
                      bool ignores_stopped = false);
 

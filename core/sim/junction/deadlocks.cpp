@@ -44,7 +44,7 @@ public:
             if (first == nullptr || rank(cycle[k].slot) < rank(first->slot)) first = &cycle[k];
         }
         // resolve() is called for several vehicles of the cycle, and each call finds the same `first`. Only the call
-        // for this vehicle records the resolution.
+        // for the vehicle `first` records the resolution.
         if (first == nullptr || first->slot != slot) return;
         if (DeadlockResolution* const known = find_resolution(state_, part_, slot, first->blocker)) {
             known->last_needed_tick = state_.tick;

@@ -16,7 +16,7 @@ namespace stopline {
 namespace {
 
 // Returns the travel time over a distance, s. A vehicle faster than `limit_mps`, the speed limit of its connection,
-// brakes to the limit within the distance.
+// brakes towards the limit. A slower vehicle keeps its speed, but drives at kMinSpeed_mps at least.
 double travel_time_s(const Model& model, double distance_m, double speed_mps, double limit_mps) {
     constexpr double kMinSpeed_mps = 2.0;
     const double b = model.driver.deceleration_mps2;
@@ -39,8 +39,8 @@ double time_since_last_arrival_s(const State& state, const Conflict& conflict) {
 }
 
 // Returns the time in s after which a vehicle of length `length_m`, now at `front_m` with `speed_mps`, no longer
-// hinders the next vehicle with priority. A crossing vehicle must have left the conflict area by then. A merging
-// vehicle must have reached the area and needs a reserve of time to speed up ahead of that vehicle.
+// hinders the next vehicle with priority. For a crossing vehicle, this is the time until it has left the conflict area.
+// For a merging vehicle, it is the time until this vehicle reaches the area, plus a reserve in which it speeds up.
 double passing_time_s(const Model& model, const State& state, int lane, const Conflict& conflict, double front_m,
                       double speed_mps, double length_m) {
     constexpr double kMergingReserve_s = 1.0;
@@ -55,9 +55,10 @@ double passing_time_s(const Model& model, const State& state, int lane, const Co
 // Returns the earliest arrival time of the next vehicle with priority, in s from now, at which candidate `v` still
 // accepts the gap. In imported networks the gap begins when the last vehicle with priority has reached the area, as in
 // the Highway Capacity Manual. A vehicle that starts from rest at the waiting position `wait_m` needs the critical gap.
-// If the candidate passes the area later or earlier than such a vehicle would, the difference is added or subtracted.
-// In other networks the critical gap begins when the candidate reaches `wait_m`. `has_begun`: the candidate is moving
-// and uses a gap that it has accepted before. It gives up this gap only if it would hinder the next vehicle.
+// If the candidate passes the area later or earlier than a vehicle from rest, the difference is added or subtracted.
+// `has_begun`: the candidate is moving and uses a gap that it has accepted before. In imported networks the candidate
+// then gives up this gap only if it would hinder the next vehicle. In other networks `has_begun` has no effect, and the
+// critical gap begins when the candidate reaches `wait_m`.
 double needed_time_s(const Model& model, const State& state, int lane, const Conflict& conflict, const Candidate& v,
                      double wait_m, bool has_begun) {
     const VehicleArrays& arrays = state.vehicles;
@@ -74,9 +75,9 @@ double needed_time_s(const Model& model, const State& state, int lane, const Con
     return std::max(gap_s + passing_s - from_rest_s, passing_s);
 }
 
-// Returns the slot of a vehicle that has accepted a gap although it must yield to candidate `v`; -1: none. A stopped
-// candidate lets this vehicle go first. Otherwise several stopped vehicles could give way to each other in a cycle and
-// never start.
+// Returns the slot of a vehicle that must yield to candidate `v` but has already accepted a gap; -1: none, or the
+// candidate is moving. A stopped candidate lets this vehicle go first. Otherwise several stopped vehicles could give
+// way to each other in a cycle and never start. Imported networks only.
 int yield_cycle_winner(const Model& model, const State& state, int lane, const Candidate& v) {
     if (model.demand.trips.empty() || !v.stopped) return -1;
     for (const Conflict& conflict : state.plan.conflicts(lane)) {

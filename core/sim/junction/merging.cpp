@@ -58,8 +58,8 @@ Wait zipper_wait(const Model& model, const State& state, int lane, const Candida
     const int origin = state.plan.lane(conflict.other).origin;
     int leader = -1;
     double leader_front_m = -kNoWait_m;
-    // Looks for the vehicle that is next nearer to the exit lane than the candidate. At equal distances, the vehicle
-    // with the lower id counts as nearer.
+    // Among the vehicles that are nearer to the exit lane than the candidate, finds the one furthest upstream. At equal
+    // distances, the vehicle with the lower id counts as nearer.
     const auto look = [&](int on_lane, double offset_m) {
         const LaneBlock& block = state.blocks[at(on_lane)];
         for (int slot = block.first; slot < block.past_last(); ++slot) {
@@ -69,8 +69,7 @@ Wait zipper_wait(const Model& model, const State& state, int lane, const Candida
                 distance_m < own_m || (distance_m == own_m && arrays.id[at(slot)] < arrays.id[at(v.slot)]);
             if (!is_ahead) break;
             if (on_lane == origin && arrays.next_lane[at(slot)] != conflict.other) continue;
-            // Skips vehicles that stop at their line or yield, so that they do not hold up the candidate's connection,
-            // too.
+            // Skip vehicles that stop at their line or yield. The candidate need not wait for them.
             if (slot == state.stop_lines.stop_slot[at(origin)] || is_yielding(state, slot)) continue;
             leader = slot;
             leader_front_m = front_m;

@@ -1,5 +1,6 @@
-// Merging of vehicles from different connections into one exit lane. A vehicle follows the vehicle that is next nearer
-// to the exit lane, as if both were on one lane. Imported networks only.
+// Merging of vehicles from different connections into one exit lane. The distances to the exit lane give the order of
+// the vehicles, and each vehicle follows the one ahead of it in this order, as if all were on one lane. Imported
+// networks only.
 #pragma once
 
 #include "sim/junction/candidate.h"
@@ -18,22 +19,23 @@ bool is_merge(const Model& model, const State& state, int lane, const Conflict& 
 // the other vehicle is further from the exit lane than the candidate.
 double merging_gap_m(const State& state, int lane, const Candidate& v, int other, int other_slot, double other_front_m);
 
-// Returns true if candidate `v` on connection `lane` goes before a vehicle on connection `conflict.other`, whose front
-// is at `other_front_m`, because of their positions. This is so in three cases: Only the candidate is in the conflict
-// area. Both vehicles are in the area, and the candidate is nearer to the exit lane. Only the other vehicle is in the
-// area, but the candidate is wholly ahead of it.
+// Returns true if the positions of two vehicles let candidate `v` on connection `lane` go first. The other vehicle is
+// on connection `conflict.other`, with its front at `other_front_m`. The candidate goes first in three cases: Only the
+// candidate is in the conflict area. Both vehicles are in the area, and the candidate is nearer to the exit lane (at
+// equal distances: has the lower id). Only the other vehicle is in the area, but the candidate is wholly ahead of it.
 bool merges_first(const State& state, int lane, const Candidate& v, const Conflict& conflict, int other_slot,
                   double other_front_m);
 
 // Returns the position, in m along its connection, where candidate `v` must be able to stop in order to follow the
 // vehicle in `other_slot`. The position is one standstill gap upstream of the place where the rear of that vehicle
-// would come to rest if it braked now. Before the candidate is in the conflict area, the position is not upstream of
-// the waiting position before the area. While the net gap is too short to enter the area, it is this waiting position.
+// would come to rest if it braked now. Before the candidate has entered the conflict area, the result is not upstream
+// of the waiting position before the area. While the net gap is too short to enter, the result is the waiting position.
 double merging_stop_m(const Model& model, const State& state, int lane, const Candidate& v, const Conflict& conflict,
                       int other_slot, double other_front_m);
 
-// Zipper merging (Conflict::zipper): returns where candidate `v` must be able to stop behind the vehicle on its way
-// over the other connection that is next nearer to the exit lane. Returns no wait if there is no such vehicle.
+// Zipper merging (Conflict::zipper): candidate `v` follows a vehicle that takes the other connection and is nearer to
+// the exit lane; of several such vehicles, the one furthest upstream. Returns where the candidate must be able to stop
+// behind this vehicle; no wait if there is no such vehicle. Ignores vehicles that stop at their line or yield.
 Wait zipper_wait(const Model& model, const State& state, int lane, const Candidate& v, const Conflict& conflict);
 
 }  // namespace stopline

@@ -31,9 +31,9 @@ public:
         part_.occupied_connections.clear();
     }
 
-    // Adds each vehicle that has its front on an exit lane and its rear still inside the intersection. Returns false if
-    // the exit lane is empty, or if its vehicle furthest upstream is wholly on the lane. All other vehicles are then
-    // wholly on the lane, too.
+    // Adds the vehicles that have their front on an exit lane and their rear still inside the intersection. Checks only
+    // the last two vehicles on the exit lane. Returns false if the exit lane is empty, or if the last vehicle is wholly
+    // on the lane. All other vehicles are then wholly on the lane, too.
     bool add_from_exit(int exit) {
         const LaneBlock& block = state_.blocks[at(exit)];
         const auto reaches_back = [&](int slot) { return v_.position_m[at(slot)] < v_.length_m[at(slot)]; };
@@ -86,9 +86,10 @@ public:
     }
 
 private:
-    // Returns true if the vehicle will pass the line although the signal of its movement is not green. All vehicles
-    // ahead of the one that was chosen to stop (StopLineState::stopping_vehicle) do so, because they are too near to
-    // stop. In the step in which the light changes, no vehicle has been chosen yet, so the result is false.
+    // Returns true if the vehicle will pass the line although the signal of its movement is not green. The caller asks
+    // only for vehicles up to the one that was chosen to stop (StopLineState::stopping_vehicle). All vehicles ahead of
+    // the chosen one pass the line, because they are too near to stop. In the step in which the light changes, no
+    // vehicle has been chosen yet, so the result is false.
     bool passes_without_green(const Model& model, int lane, int slot) const {
         if (state_.stop_lines.lines[at(lane)].stopping_vehicle == v_.id[at(slot)]) return false;
         const int group = state_.plan.signal_group_for(lane, v_.next_lane[at(slot)]);

@@ -12,8 +12,8 @@ namespace stopline {
 namespace {
 
 // Marks vehicles on connection `lane` and its approach lane as having accepted a gap if they can no longer stop before
-// the conflict area with connection `other`. These vehicles thus still go first, although `lane`, which had priority
-// over `other`, begins to yield to it.
+// the conflict area with connection `other`. The function is called when `lane` begins to yield to `other`. The marked
+// vehicles thus still go first.
 void keep_priority_of_unstoppable(const Model& model, State& state, int lane, int other) {
     VehicleArrays& v = state.vehicles;
     const int origin = state.plan.lane(lane).origin;

@@ -90,7 +90,8 @@ bool blocks_area(const Model& model, State& state, Partition& part, int lane, co
         resolution->last_needed_tick = state.tick;  // keeps the resolution from expiring
         return false;
     }
-    // Both vehicles wait. A new resolution lets the candidate proceed.
+    // If the candidate is stopped, and the occupant yields or is in a queue behind a yielding vehicle, a new resolution
+    // lets the candidate proceed.
     if (v.stopped &&
         (is_yielding(state, occupant.slot) || is_behind_yielding_vehicle(state, conflict.other, occupant))) {
         part.deadlock_resolutions.push_back(
@@ -146,8 +147,8 @@ private:
         was_waiting_ = v_.stopped || record_.yield_tick >= state_.tick - 1;
         const bool checks_committed = was_waiting_ || is_imported_;
         if (!has_others_inside && !checks_committed && (has_decided_ || !plan.yields)) return {};
-        // Wait behind a vehicle that the candidate may follow: a vehicle that is about to leave a conflict area, or a
-        // merging vehicle.
+        // `behind`: the nearest place where the candidate must be able to stop behind a vehicle that it may follow.
+        // This is a vehicle that is about to leave a conflict area, or a merging vehicle.
         Wait behind;
         for (const Conflict& conflict : state_.plan.conflicts(lane_)) {
             const bool merges = is_imported_ && is_merge(model_, state_, lane_, conflict);
@@ -178,9 +179,9 @@ private:
     static const Wait& nearer(const Wait& a, const Wait& b) { return b.place_m < a.place_m ? b : a; }
     static void keep_nearer(const Wait& wait, Wait& nearest) { nearest = nearer(nearest, wait); }
 
-    // Returns true if the stop line is the place where the candidate waits, should it have to wait. This requires that
-    // the candidate can still stop at the line, and that vehicles on its connection may not wait inside the
-    // intersection. `line_m`: waiting position at the line.
+    // Returns true if the stop line is the only place where the candidate may wait. This requires that the candidate
+    // can still stop at the line, and that vehicles on its connection may not wait inside the intersection. `line_m`:
+    // waiting position at the line.
     bool stops_at_line(double line_m) const {
         if (v_.inside || state_.plan.may_wait_inside(lane_)) return false;
         if (v_.stopped || line_m - v_.front_m >= comfortable_braking_distance_m(model_, speed_mps_)) return true;
@@ -202,7 +203,7 @@ private:
     }
 
     // Returns the slot of a vehicle without priority that can no longer stop (committed_vehicle()) and for which the
-    // candidate must therefore wait; -1: none.
+    // candidate must therefore wait; -1: none, or the candidate can no longer stop either.
     int committed_blocker(const Conflict& conflict) const {
         const double braking_m = emergency_braking_distance_m(model_, speed_mps_);
         if (!conflict.other_yields || conflict.from_m - v_.front_m < braking_m) return -1;
@@ -213,7 +214,8 @@ private:
         return is_in_the_way ? committed : -1;
     }
 
-    // Returns how the candidate waits for a vehicle that is in the conflict area or enters it.
+    // Returns how the candidate waits for a vehicle that is in the conflict area or enters it. Returns no wait if there
+    // is no such vehicle, or if the area is so far away (`is_far`) that the decision can be made later.
     Wait blocked_wait(const Conflict& conflict, bool is_empty, bool checks_committed, bool is_far) {
         int blocker = is_empty ? -1 : area_blocker(conflict);
         if (blocker < 0 && checks_committed) blocker = committed_blocker(conflict);
@@ -231,9 +233,10 @@ private:
         return wait;
     }
 
-    // Returns true if a candidate that would wait at the stop line may start now: all vehicles of the other connection
-    // will have left the conflict area before the candidate reaches the waiting position just before this area. The
-    // candidate could still stop at that position.
+    // Returns true if the waiting place of the candidate is the stop line, but it need not wait there: all vehicles of
+    // the other connection will have left the conflict area before the candidate reaches the position just before this
+    // area. Returns false if one of these vehicles is slow or had to wait, because it may stop before it has left the
+    // area.
     bool clears_area_in_time(const Conflict& conflict, int blocker) const {
         if (!waits_at_line() || arrays_.speed_mps[at(blocker)] < kCrawlingSpeed_mps) return false;
         for (const JunctionOccupant& occupant : state_.junctions.occupants[at(conflict.other)]) {
@@ -282,9 +285,9 @@ private:
     // shared with a connection that has no green now.
     double clear_place_m(double place_m) const {
         const double length_m = arrays_.length_m[at(v_.slot)];
-        // The candidate may brake with deceleration_comfort, which is usually higher than stop.deceleration. The reason
-        // is that a vehicle that brakes for such a position can deviate slightly from the curve of a stop with
-        // stop.deceleration.
+        // The stopping distance assumes deceleration_comfort, which is usually higher than stop.deceleration. A
+        // candidate that already brakes with stop.deceleration for a waiting position can thus keep this position, even
+        // if it deviates slightly from the braking curve.
         const double stopping_m =
             v_.stopped ? 0.0 : braking_distance_m(speed_mps_, 0.0, model_.driver.cacc.deceleration_comfort_mps2);
         const std::span<const Conflict> conflicts = state_.plan.conflicts(lane_);
@@ -319,9 +322,9 @@ private:
     bool was_waiting_ = false;
 };
 
-// Adds a yield stop at `place_m` on `lane`. Unless the vehicle only follows a merging vehicle, also stores in its
-// VehicleRecord where, why and since when it waits. A lane keeps only the stops of its first YieldStops::kCapacity
-// waiting vehicles.
+// Adds a yield stop of the vehicle in `slot` at `place_m` on `lane`. Also stores in the vehicle's record where, why and
+// since when the vehicle waits, unless it only follows another vehicle (YieldReason::merging). A lane keeps only the
+// stops of its first YieldStops::kCapacity waiting vehicles.
 void record_wait(State& state, Partition& part, int lane, int slot, double place_m, const Wait& wait) {
     add_yield_stop(state.junctions, part, lane, {slot, place_m, wait.blocker, wait.reason});
     if (wait.reason == YieldReason::merging) return;
@@ -334,8 +337,9 @@ void record_wait(State& state, Partition& part, int lane, int slot, double place
     record.yield_reason = wait.reason;
 }
 
-// Drops the accepted gap of a candidate that will stop, because vehicles with priority may arrive before the candidate
-// starts again.
+// Drops the accepted gap of a candidate that has a wait and is stopped or can still stop, because vehicles with
+// priority may arrive before the candidate starts again. The gap is kept if Wait::keeps_gap is set, or if the candidate
+// only follows another vehicle (YieldReason::merging).
 void drop_gap_if_stopping(const Model& model, State& state, int lane, const Candidate& candidate, const Wait& wait) {
     if (wait.keeps_gap || wait.reason == YieldReason::merging) return;
     double room_m = wait.place_m - candidate.front_m;

@@ -156,9 +156,10 @@ const ExitRoom& exit_room(const Model& model, State& state, int exit) {
     return room;
 }
 
-// Returns true if a vehicle inside the intersection has yet to leave the conflict area, and a vehicle on the other
-// connection must let it go first. That is the case if it is in the area, or if its own signal is red, so that it has
-// waited inside since an earlier green.
+// Returns true if `occupant`, a vehicle on connection `conflict.other`, must leave the conflict area before vehicles of
+// the conflicting connection may start. This is the case if the occupant is in the area. It is also the case if the
+// occupant is still before the area and its own signal is red: the occupant has then waited inside the intersection
+// since an earlier green, or it passes the stop line at red.
 bool must_clear_first(const State& state, const Conflict& conflict, const JunctionOccupant& occupant) {
     if (occupant.rear_m >= conflict.other_to_m) return false;
     if (occupant.front_m > conflict.other_from_m) return true;
@@ -314,8 +315,9 @@ void make_platoon_leader(State& state, const LanePlan& lane, int slot) {
 }
 
 // Lists the vehicles of an approach lane for which right of way must be decided (JunctionState::approaching). Leaves
-// out the vehicle that stops at the line and all vehicles behind it. Also leaves out vehicles that are still further
-// away than decision_distance_m(), unless they must yield and have already accepted a gap.
+// out the vehicle that stops at the line and all vehicles behind it. Also leaves out vehicles that are further than
+// decision_distance_m() from their first conflict area, or from the stop line if they may wait only there. Exception:
+// vehicles that must yield and have already accepted a gap are listed at any distance within the look-back.
 void list_approaching(const Model& model, State& state, int index) {
     // Vehicles further upstream of the lane's end are not listed. 60 m suffice for a comfortable stop from 50 km/h.
     constexpr double kLookBack_m = 60.0;

@@ -25,10 +25,11 @@ int stopped_at_line(const State& state, int connection) {
     return -1;
 }
 
-// Returns true if the candidate, which will take connection `lane`, may go although it is the turn of the next vehicle,
-// which will take connection `next`. This is so if a third vehicle has just started that conflicts with the next
-// vehicle but not with the candidate: the candidate then goes together with the third vehicle. The candidate must have
-// stopped (at tick `stop_tick`) before the third vehicle started, so that no vehicle is passed over twice.
+// Returns true if the candidate, which will take connection `lane`, may go before a vehicle that stopped earlier and
+// will take connection `next`. The condition is that a third vehicle has just started that conflicts with the earlier
+// vehicle but not with the candidate. The candidate then goes together with the third vehicle. The candidate must have
+// stopped (at tick `stop_tick`) before the third vehicle started. Otherwise ever new vehicles could go before the
+// earlier vehicle.
 bool may_accompany(const Model& model, const State& state, int lane, int next, int stop_tick) {
     constexpr double kJustStarted_s = 2.0;
     const auto has_conflict = [&](int connection) {

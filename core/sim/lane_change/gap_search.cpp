@@ -66,20 +66,23 @@ private:
         return me.lane_changes * lane_change_request(model_, state_, other, slot).lane_changes < 0;
     }
 
-    // Returns true if the lag gap to `follower` is too short and does not grow by itself. Returns false if the follower
-    // wants to swap lanes with `me`, because the follower then falls back.
+    // Returns true if the lag gap to `follower` is too short and does not grow by itself. While `me` is almost at rest,
+    // any lag gap counts as too short, so that the follower keeps the gap open until the leader on that lane has moved
+    // away. Returns false if the follower wants to swap lanes with `me`, because the follower then falls back.
     bool must_let_pass(int other, const Neighbour& follower, const LaneChangeRequest& me, double urgency) const {
         if (follower.slot < 0 || follower.speed_mps + kDroppingBack_mps < me.speed_mps) return false;
         const double share = urgent_share(model_, urgency);
         const double needed_m = required_gap_m(model_, follower.policy, follower.speed_mps, me.speed_mps, share);
-        const bool waits = me.speed_mps < kMinSpeed_mps;  // keeps a gap open until the leader has moved away
+        const bool waits = me.speed_mps < kMinSpeed_mps;  // `me` is almost at rest
         return (waits || follower.gap_m < needed_m) && !wants_to_swap(other, follower.slot, me);
     }
 
-    // Returns the vehicle on lane `other` that opens a gap for `me`: the first one behind `me` whose gap suffices for
-    // comfortable braking to the speed of `me`. The slot is -1 if there is no such vehicle or if gap opening is off.
+    // Returns the vehicle on lane `other` that opens a gap for `me`: the first one behind `me` whose gap suffices to
+    // brake to the speed of `me` with GapAlignment::kDeceleration_mps2. The slot is -1 if there is no such vehicle or
+    // if gap opening is off.
     Neighbour gap_opener(int other, const Neighbour& follower, const LaneChangeRequest& me) const {
-        constexpr int kMaxSearched = 5;  // vehicles further upstream have not reached the place of the gap yet
+        // Number of vehicles checked. Vehicles further upstream are still too far from the place of the gap.
+        constexpr int kMaxSearched = 5;
         const LaneBlock& block = state_.blocks[at(other)];
         if (model_.lane_change.gap_opening != "on" || follower.slot < block.first) return {};
         const int end = std::min(block.past_last(), follower.slot + kMaxSearched);
@@ -96,12 +99,13 @@ private:
     // Returns the target speed of a vehicle that opens a gap for `me`.
     double opening_speed_mps(const Neighbour& opener, const LaneChangeRequest& me) const {
         const Neighbour ahead{me.slot, opener.gap_m, me.speed_mps, me.policy};
-        // The vehicle even stops for one that waits for a gap. Otherwise it would creep past.
+        // The opener even stops if `me` waits for a gap almost at rest. Otherwise the opener would creep past `me`.
         const double lowest_mps = me.speed_mps < kMinSpeed_mps ? 0.0 : kMinSpeed_mps;
         return std::max(gap_reaching_speed_mps(ahead, opener.policy, opener.speed_mps), lowest_mps);
     }
 
-    // Aligns the speed of `me` with a gap in the adjacent lane, or makes the follower there open a gap.
+    // Aligns the speed of `me` with a gap in the adjacent lane. If the lag gap is too short, makes a vehicle in the
+    // adjacent lane open a gap.
     void align_with_gap(const LaneChangeRequest& me, const MandatoryChange& change) {
         const AdjacentLanes& adjacent = state_.plan.adjacent(lane_);
         const int other = change.lane_changes < 0 ? adjacent.left : adjacent.right;
@@ -119,7 +123,7 @@ private:
         if (must_let_pass(other, follower, me, change.urgency())) {
             const Neighbour opener = gap_opener(other, follower, me);
             if (opener.slot >= 0) add_alignment(other, {opener.slot, opening_speed_mps(opener, me)});
-            // A follower that cannot open a gap any more goes first.
+            // If the follower itself does not open the gap, it goes first, and `me` falls back behind it.
             if (opener.slot != follower.slot)
                 target_mps = std::min(target_mps, std::max(follower.speed_mps - kFallBack_mps, kMinSpeed_mps));
         }

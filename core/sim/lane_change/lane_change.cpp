@@ -22,8 +22,10 @@ namespace {
 
 constexpr double kDecisionInterval_s = 0.5;  // time between two lane-change decisions of a vehicle
 constexpr double kMinInterval_s = 2.0;       // shortest time from a lane change to the vehicle's next mandatory change
-// A vehicle forgets the gains of a lane over kGainMemory_s. After a change, the vehicle needs the gain of kReturnFactor
-// times LaneChangeSettings::gain_mps to return. It forgets this excess over kReturnMemory_s. The three values are our
+// The gain of a lane is a speed: the sum over time of the incentives (accelerations, incentive_mps2()) to change to
+// this lane. The gain fades with the time constant kGainMemory_s. A vehicle changes when the gain reaches
+// LaneChangeSettings::gain_mps. To return to the lane that it has just left, the vehicle at first needs kReturnFactor
+// times this gain. This need falls to the normal gain with the time constant kReturnMemory_s. The three values are our
 // choice. They keep most vehicles from changing back and forth between adjacent queues that move in turn.
 constexpr double kGainMemory_s = 10.0;
 constexpr double kReturnFactor = 10.0;
@@ -89,8 +91,8 @@ bool can_move_beside(const Model& model, const LaneChangeRequest& me, double fro
            me.to_line_m + model.driver.stop.margin_m >= lane_change_stopping_distance_m(model, me.speed_mps);
 }
 
-// Returns the usable distance below which a vehicle looks for a gap, m. `changes`: lane changes that it needs, signed
-// as TurnOption::lane_changes.
+// Returns the usable distance (MandatoryChange::usable_m) below which a vehicle looks for a gap, m. `changes`: number
+// of lane changes that the vehicle needs; below 0: to the left.
 double look_ahead_m(const Model& model, const LaneChangeRequest& me, double remembered_mps, int changes) {
     const LaneChangeSettings& c = model.lane_change;
     const double time_s = c.look_ahead_s * std::abs(changes) * (changes < 0 ? c.left_factor : 1.0);
@@ -98,8 +100,8 @@ double look_ahead_m(const Model& model, const LaneChangeRequest& me, double reme
     return remembered_mps * time_s + room_m;
 }
 
-// Returns the lane that a vehicle on `lane` reaches with `changes` lane changes, signed as TurnOption::lane_changes.
-// Returns -1 if there is no such lane.
+// Returns the lane that a vehicle on `lane` reaches with `changes` lane changes (below 0: to the left). Returns -1 if
+// there is no such lane.
 int lane_after_changes(const State& state, int lane, int changes) {
     for (int k = 0; k < std::abs(changes) && lane >= 0; ++k) {
         lane = changes < 0 ? state.plan.adjacent(lane).left : state.plan.adjacent(lane).right;
@@ -115,8 +117,9 @@ double pocket_entry_m(const State& state, const LaneChangeRequest& me) {
     return start_m > 0.0 ? start_m + me.length_m + kBesidePocket_m : kNoPocket_m;
 }
 
-// Returns the length that vehicles ahead of `me` would have as a standing queue, m. The vehicles on the target lane
-// count, and if the change serves a later turn, those on the approaches of the next intersections too.
+// Returns the length that the vehicles ahead of `me` would have as a standing queue, m. Counts the vehicles ahead on
+// the target lane. If the change serves a later turn, also counts the vehicles on the lanes of the route from the next
+// intersection to the intersection of this turn.
 double queue_ahead_m(const Model& model, const State& state, const LaneChangeRequest& me, int changes) {
     const int lane = lane_after_changes(state, me.lane, changes);
     if (lane < 0) return 0.0;
@@ -134,9 +137,9 @@ double queue_ahead_m(const Model& model, const State& state, const LaneChangeReq
     return vehicles * state.plan.max_space_per_vehicle_m();
 }
 
-// Returns the position behind the last vehicle of pocket `other`, m from the start of the lane of `me`. The last
-// vehicle is assumed to stop comfortably. Returns infinity if the pocket is empty or if the front of `me` is already
-// beside the last vehicle.
+// Returns the position one standstill gap behind the last vehicle of pocket `other`, m from the start of the lane of
+// `me`. The last vehicle is assumed to stop comfortably. Returns infinity if the pocket is empty or if the front of
+// `me` is already beside this vehicle or further downstream.
 double behind_pocket_queue_m(const Model& model, const State& state, const LaneChangeRequest& me, int other) {
     constexpr double kNoQueue_m = std::numeric_limits<double>::infinity();
     const LaneBlock& block = state.blocks[at(other)];
@@ -184,7 +187,8 @@ private:
                              me_.length_m, route_on(other));
     }
 
-    // The memory of the speed fades, so that a vehicle in a queue looks for a gap later than one that drives.
+    // Updates the remembered speed: the highest recent speed, which fades. The lower the remembered speed, the nearer
+    // to the stop line a vehicle begins to look for a gap. A vehicle in a queue thus begins later than a fast vehicle.
     void remember_speed() {
         constexpr double kMemory_s = 10.0;
         float& remembered_mps = state_.vehicles.lane_memory[at(me_.slot)].remembered_mps;
@@ -202,7 +206,8 @@ private:
     }
 
     // Returns true if the vehicle may change to lane `other` to gain speed. This lane must serve the route at least as
-    // well as the current lane.
+    // well as the current lane. If neither lane allows the next turn, enough distance for the required lane changes
+    // must remain.
     bool may_change_for_speed(int other) const {
         if (other < 0 || !can_move_beside(model_, me_, adjacent_position_m(state_, me_.lane, me_.front_m, other)))
             return false;
@@ -213,7 +218,8 @@ private:
     }
 
     // Returns true if the vehicle has enough usable distance for the lane changes that it would need from lane `other`.
-    // The longer queue of both lanes is not usable, because a vehicle at the end of a queue finds no gap in it.
+    // The usable distance excludes the longer of the queues on the two lanes, because a vehicle finds no gap in a
+    // queue.
     bool has_room_to_return(int other) const {
         const double end_m = std::min(me_.front_m + me_.to_line_m, me_.pocket_entry_m);
         const auto vehicles_before_end = [&](int lane) {
@@ -226,8 +232,10 @@ private:
         return usable_m > look_ahead_m(model_, me_, remembered_mps(), changes);
     }
 
-    // Adds the incentive of this decision to the gain of a lane, which is at least 0 unless the vehicle has just left
-    // this lane. The incentive counts up to the acceleration of the vehicle, because no vehicle gains speed faster.
+    // Lets the gain of a lane fade, and adds the part of this decision's incentive above the threshold. This part is
+    // limited to the maximum acceleration of the intelligent driver model, because no vehicle gains speed faster.
+    // Negative incentives do not reduce a gain below 0. Only the gain of the lane that the vehicle has just left is
+    // negative.
     void add_gain(double incentive_mps2, float& gain_mps) const {
         const LaneChangeSettings& c = model_.lane_change;
         const double memory_s = gain_mps < 0.0F ? kReturnMemory_s : kGainMemory_s;

@@ -7,7 +7,8 @@
 //
 // Discretionary changes serve the speed. They follow MOBIL (Kesting, Treiber, Helbing 2007, "General lane-changing
 // model MOBIL for car-following models"). A vehicle changes if the other lane allows a higher acceleration. The
-// intelligent driver model with the gap of the policy gives the accelerations.
+// intelligent driver model gives the accelerations on both lanes. Its desired gap is that of the vehicle's spacing
+// policy.
 #pragma once
 
 #include <algorithm>
@@ -42,11 +43,11 @@ struct LaneChangeRequest {
 // Returns the request of the vehicle in `slot` of `lane`.
 LaneChangeRequest lane_change_request(const Model& model, const State& state, int lane, int slot);
 
-// A mandatory change, or a change for the turn at the second intersection ahead.
+// A mandatory change, or a change to the lane that suits the later turns better (LaneChangeRequest::preferred_offset).
 struct MandatoryChange {
     int lane_changes = 0;  // number of lane changes; below 0: to the left; 0: none is due
-    // distance to the stop line before which the lane changes must be done, minus the queue; at most the distance to
-    // the pocket, if they lead into a pocket
+    // distance to the stop line before which the lane changes must be done, minus the length of the queue ahead. If the
+    // lane changes lead into a pocket: at most the distance until the vehicle is beside the pocket
     double usable_m = 0.0;
     double look_ahead_m = 0.0;  // usable distance below which the vehicle looks for a gap
 
@@ -56,14 +57,15 @@ struct MandatoryChange {
 // Returns the change for which a vehicle has to look for a gap now.
 MandatoryChange mandatory_change(const Model& model, const State& state, const LaneChangeRequest& me);
 
-// Returns the argument `share` of required_gap_m() for a mandatory change. Vehicles accept a smaller share of their
-// policy's gap for an urgent change.
+// Returns which share of its policy's gap a vehicle requires for a mandatory change (argument of required_gap_m() in
+// lane_gaps.h). The more urgent the change, the smaller the share. `urgency`: 0 to 1, see MandatoryChange.
 double urgent_share(const Model& model, double urgency);
 
 // Returns the position where a vehicle waits before the stop line to change lanes, m from the start of the lane.
 // Left-bound vehicles wait nearer to the stop line than right-bound ones. Two vehicles that want to swap lanes thus do
-// not block each other. A vehicle that needs a pocket waits behind the queue in the pocket. If it needs several lane
-// changes for it, it waits beside the start of the pocket.
+// not block each other. A vehicle that is one lane change away from a pocket waits upstream of the queue in the pocket.
+// A vehicle that needs several lane changes to reach a pocket waits beside the start of the pocket, unless it has
+// already passed this start.
 double waiting_position_m(const Model& model, const State& state, const LaneChangeRequest& me);
 
 // Carries out lane changes. Each vehicle considers a lane change only in some steps, so the function treats only the

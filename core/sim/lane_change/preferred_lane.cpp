@@ -11,8 +11,8 @@ namespace stopline {
 
 namespace {
 
-// Returns the lane changes that a vehicle needs from `lane` for `turn`. Of all lanes with this turn, it takes the one
-// that needs the fewest lane changes including those for `turn_after`, the turn at the following intersection.
+// Returns the fewest lane changes that a vehicle needs from `lane`: at_second counts those for `turn`, in_total those
+// for `turn` and for `turn_after`, the turn at the following intersection.
 LaterChanges changes_for(const State& state, int lane, Turn turn, Turn turn_after) {
     LaterChanges best{std::abs(state.plan.adjacent(lane).turn_option(turn).lane_changes), kNoTurn};
     const auto rate = [&](int other, int distance) {
@@ -35,7 +35,9 @@ LaterChanges changes_for(const State& state, int lane, Turn turn, Turn turn_afte
     return best;
 }
 
-// Finds the nearest lane with a lower cost than the current lane among the lanes on one side.
+// Finds the lane from which a vehicle needs the fewest later lane changes; of equally good lanes, the nearest one. The
+// current lane is the start value. search() checks the lanes on one side, up to the first lane that does not allow the
+// next turn.
 class LaneSearch {
 public:
     LaneSearch(const Model& model, const State& state, int lane, int slot)

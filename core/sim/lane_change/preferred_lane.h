@@ -9,7 +9,7 @@ namespace stopline {
 // The lane changes that a vehicle needs downstream of the next intersection if it leaves the approach from some lane.
 // A drawn route is known up to the third intersection ahead, a trip up to its end.
 struct LaterChanges {
-    int at_second = 0;  // before the second intersection ahead
+    int at_second = 0;  // before the second intersection ahead; for a trip: on all later edges
     int in_total = 0;   // before the second and the third intersection ahead; for a trip: on all later edges
 };
 // Returns the lane changes that remain if the vehicle in `slot` takes its next turn from `lane`. Returns kNoTurn for

@@ -51,7 +51,8 @@ int best_parallel_route(const Model& model, const State& state, int route, int s
     return route;
 }
 
-// Draws a turn at the intersection to which a route leads. Returns Turn::none if there is no such intersection.
+// Draws a turn at the intersection downstream of a route's exit lane. Returns Turn::none if there is no such
+// intersection, or if no route begins on the exit lane.
 Turn draw_turn_beyond(const Model& model, State& state, int route, bool chose_lane) {
     const int exit = state.plan.route(route).back();
     if (model.graph.lanes[at(exit)].approach < 0) return Turn::none;

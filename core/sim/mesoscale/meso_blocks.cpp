@@ -108,8 +108,8 @@ public:
         }
         if (queue.first == 0 && queue.end > 0 && !first_aligns_ && waits_only_for_signal()) {
             sleep_group = state_.plan.signal_group_for(lane_, v_.next_lane[at(first)]);
-            // The kernels also compute the first vehicle if another vehicle of its block moves. A cap of 0 keeps it at
-            // rest.
+            // If another vehicle of its block moves, the kernels also compute the first vehicle. A cap of 0 keeps the
+            // first vehicle at rest.
             v_.speed_cap_mps[at(first)] = 0.0;
             return add_blocks(first + queue.end, block_.past_last());
         }
@@ -120,7 +120,8 @@ public:
     }
 
 private:
-    // Returns the slot of the vehicle furthest upstream that must stop at the stop line or at a yield stop; -1: none.
+    // Returns the slot of the vehicle furthest upstream that must stop, either at the stop line or at a yield stop (a
+    // position where a vehicle yields or waits for a gap in the adjacent lane); -1: none.
     int last_stopping_slot() const {
         return std::max(stop_slot_, yield_stops_.count == 0 ? -1 : yield_stops_.stops[at(yield_stops_.count - 1)].slot);
     }
@@ -151,7 +152,7 @@ private:
         return plan_.stop_line_m - model_.driver.stop.margin_m - v_.position_m[at(slot)];
     }
 
-    // Returns true if nothing but its signal holds the first vehicle of the lane. This vehicle must be at rest.
+    // Returns true if only the signal holds the first vehicle of the lane. Precondition: this vehicle is at rest.
     bool waits_only_for_signal() const {
         const int first = block_.first;
         if (stop_slot_ != first || state_.stop_lines.lines[at(lane_)].stopping_vehicle != v_.id[at(first)])
@@ -209,7 +210,7 @@ private:
     const LanePlan& plan_;
     int stop_slot_;
     const YieldStops& yield_stops_;
-    bool first_aligns_ = false;  // the first vehicle aligns with a gap
+    bool first_aligns_ = false;  // true: the first vehicle aligns with a gap
 };
 
 }  // namespace

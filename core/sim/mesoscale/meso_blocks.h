@@ -7,8 +7,9 @@
 
 namespace stopline {
 
-// Lists the blocks of slots that the kernels must update (MesoKernels::size). Leaves out a block if all of its vehicles
-// are stopped in a queue. Caps the speed of vehicles that must stop or align with a gap.
+// Lists the blocks that the kernels must update. A block consists of MesoKernels::size consecutive slots. Leaves out a
+// block if all of its vehicles will remain stopped in this step. Caps the speed of vehicles that must stop or align
+// with a gap.
 void collect_moving_blocks(const Model& model, State& state, Partition& part);
 
 }  // namespace stopline

@@ -15,7 +15,7 @@ namespace stopline {
 double stopping_speed_mps(const Model& model, const VehicleArrays& v, int slot, double room_m);
 
 // Returns the speed for the next step of a vehicle without a leader. The speed approaches `limit_mps` times
-// Model::leader_speed_share. A faster vehicle brakes to it with the deceleration DriverTables::deceleration_mps2.
+// Model::leader_speed_share. A vehicle above this product brakes to it with DriverTables::deceleration_mps2.
 double leading_speed_mps(const Model& model, double speed_mps, double limit_mps);
 
 // Return the arguments of the kernels. `prefetches`: see MesoStep.

@@ -26,15 +26,17 @@ struct MesoStep {
     std::uint64_t tick;
     double slow_down_mps2;  // deceleration before a lower speed limit
     double approach_share;  // a vehicle below the speed limit gains at most this share of (limit - speed) in a step
-    // Before a lower speed limit, such as that of a turn, vehicles follow a braking curve: the speed from which they
-    // reach the lower limit with slow_down_mps2. A step reduces the deviation from this curve by this share.
+    // Before a lower speed limit, such as that of a turn, vehicles follow a braking curve: at each position, the speed
+    // from which braking with slow_down_mps2 just suffices. turn_share: part of the deviation from this curve that a
+    // vehicle corrects in one step.
     double turn_share;
     double leader_mps2;                      // acceleration of platoon leaders; 0: acceleration of the vehicle's policy
     double leader_constant_power_speed_mps;  // above this speed, leader_mps2 falls as 1 / speed
     // Acceleration of platoon leaders by speed. If it is not nullptr, the kernels ignore leader_mps2 and
     // leader_constant_power_speed_mps.
     const LeaderProfile* leader_profile;
-    // Lowest accelerations where the speed limit exceeds calibrated_limit_mps; nullptr: no lane has such a limit.
+    // Lower bound of a vehicle's acceleration by speed, for lanes with a speed limit above calibrated_limit_mps;
+    // nullptr: no lane has such a limit.
     const LeaderProfile* power_profile;
     double calibrated_limit_mps;
     bool relays;  // true: V2V relays the start of a queue, and platoon leaders anticipate the speed of their leader
@@ -46,8 +48,8 @@ struct MesoStep {
     bool prefetches;        // true: the kernels prefetch blocks; useful if the vehicle data do not fit into the cache
 };
 
-// Extra standstill gap in m of each vehicle whose policy is a switching policy (SWITCH); 0 for all other vehicles. The
-// array has one value for each slot of the blocks that move, in the same order; nullptr: 0 for all slots.
+// Gap in m that a vehicle with a switching policy (SWITCH) adds to its standstill gap; 0 for all other vehicles. The
+// array has one value for each slot of the blocks that move, in the order of the blocks; nullptr: 0 for all slots.
 using ExtraGap = const double*;
 
 struct MesoKernels {

@@ -124,7 +124,7 @@ STOPLINE_INLINE KraussPerVehicle<R> of_two_policies(const R& policy, const Kraus
 template <class R>
 STOPLINE_INLINE R approach_limit(const R& speed_mps, const R& limit_mps, double share, double braked_mps) {
     const R gaining_mps = speed_mps + share * (limit_mps - speed_mps);
-    // Above the limit the inner result is limit_mps, because share <= 1.
+    // For a vehicle above the limit, min_of() returns limit_mps, because share <= 1.
     return max_of(min_of(gaining_mps, limit_mps), speed_mps - braked_mps);
 }
 
@@ -214,8 +214,9 @@ STOPLINE_INLINE R table_value(const std::array<double, bins>& table, const R& bi
     }
 }
 
-// Returns the lowest acceleration of each vehicle. It is 0 on lanes whose speed limit does not exceed
-// calibrated_limit_mps, because the models are calibrated for these lanes.
+// Returns a lower bound of each vehicle's acceleration: on fast lanes, the value of power_profile at the vehicle's
+// speed. On lanes with a speed limit up to calibrated_limit_mps the bound is 0, because the accelerations of the driver
+// models were calibrated on such lanes.
 template <class R>
 STOPLINE_INLINE R least_acceleration_mps2(const MesoStreams& s, const MesoStep& t, int i, const R& speed_mps) {
     if (t.power_profile == nullptr) return R(0.0);
@@ -242,7 +243,8 @@ STOPLINE_INLINE R platoon_leader_acceleration_mps2(const MesoStep& t, const R& s
 // leaders have the same acceleration, whatever their policy. A platoon leader becomes a follower when two conditions
 // hold: its next speed is above 0, and its safe speed behind the vehicle ahead is lower than its speed in free driving.
 // `foreseen_mps`: result of anticipated_safe_speed_mps(). `next`: next speeds of the vehicles as followers.
-// `has_policy`: 1 for vehicles with the policy of model `k`, else 0. `least_mps2`: lowest acceleration.
+// `k`: parameters of a policy. `has_policy`: 1 for vehicles with this policy, else 0. `least_mps2`: lower bound of the
+// acceleration.
 template <class R, class Model>
 STOPLINE_INLINE R platoon_leader_speed(const Model& k, const MesoStep& t, const KraussInputOf<R>& in,
                                        const R& foreseen_mps, const R& next, const R& has_policy, const R& least_mps2,

@@ -17,8 +17,8 @@ namespace stopline {
 
 namespace {
 
-// Adds a braking demand on the vehicle in `slot`, whose leader hides the vehicle `hidden`. `hidden` is the nearest
-// vehicle beyond the end of `lane` on the route of the vehicle in `slot`.
+// Adds a braking demand on the vehicle in `slot`, whose leader hides the vehicle `hidden`, if `hidden` is near enough
+// to require it. `hidden` is the nearest vehicle beyond the end of `lane` on the route of the vehicle in `slot`.
 void add_demand(const Model& model, const State& state, int lane, int slot, const LeaderAhead& hidden,
                 Partition& part) {
     const VehicleArrays& v = state.vehicles;

@@ -91,7 +91,7 @@ LaneNeighbours neighbours_at(const Model& model, const State& state, int lane, d
 
 double required_gap_m(const Model& model, int policy, double speed_mps, double ahead_mps, double share) {
     // In full dynamics the radar and the brake respond late, so each vehicle of a platoon brakes harder than its
-    // leader. The gap must therefore be so long that the vehicle at its rear end needs only gentle braking.
+    // leader. The gap must therefore be so long that the vehicle behind the gap needs only gentle braking.
     constexpr double kGentleBraking_mps2 = 2.0;
     constexpr double kDelay_s = 0.3;
     const double b_mps2 = model.meso ? model.krauss[at(policy)].deceleration_mps2 : kGentleBraking_mps2;

@@ -22,13 +22,13 @@ struct LaneNeighbours {
 };
 
 // Returns the leader and the follower that a vehicle of length `length_m` would have with its front at `front_m` on
-// `lane`. Beyond the end of the lane, the leader is searched along `route`, which begins on the lane. If `route` is -1,
-// the leader is the nearest of the last vehicles on all next lanes. Upstream of the lane, the follower is searched on
-// all lanes that lead to it.
+// `lane`. If no vehicle of the lane would be ahead, the leader is searched further along `route`, which begins on the
+// lane. If `route` is -1, this leader is the nearest of the last vehicles on all next lanes. If no vehicle of the lane
+// would be behind, the follower is searched on the connections to the lane and on the lanes where they begin.
 LaneNeighbours neighbours_at(const Model& model, const State& state, int lane, double front_m, double length_m,
                              int route);
 
-// Returns the number of vehicles on a lane whose front is at `front_m` or further downstream.
+// Returns how many vehicles of a lane have their front at `front_m` or further downstream.
 int vehicles_ahead(const State& state, int lane, double front_m);
 
 // Returns the position on the adjacent lane `other` that lies beside `front_m` of `lane`.

@@ -33,8 +33,8 @@ LeaderAhead leader_ahead(const State& state, int lane, double position_m, int ro
 LeaderAhead leader_ahead(const State& state, int lane, double position_m, const RoutePosition& position,
                          double range_m);
 
-// Returns the nearest vehicle beyond the end of `lane` on the route of the vehicle in `slot`. Ignores vehicles on other
-// lanes, for example vehicles that diverge from this route.
+// Returns the nearest vehicle beyond the end of `lane` on the route of the vehicle in `slot`, within `range_m`. Ignores
+// vehicles on lanes outside this route, for example vehicles that diverge from it.
 LeaderAhead last_vehicle_on_route(const State& state, int lane, int slot, double range_m);
 
 // Returns true if the rear of the vehicle in slot `ahead` is still on a lane that merges into the route of the vehicle
@@ -42,8 +42,8 @@ LeaderAhead last_vehicle_on_route(const State& state, int lane, int slot, double
 bool rear_is_on_merging_path(const State& state, int lane, int slot, int ahead);
 
 // Finds the leader of the first vehicle of each lane in Partition::awake. Copies this leader to the lane's sentinel
-// slot, the slot before the first vehicle. If the leader has changed, resets the radar history of the first vehicle. In
-// full dynamics, also adds the braking demands due to hidden leaders (hidden_leaders.h).
+// slot, the slot before the first vehicle. If the leader has changed, makes the first vehicle a platoon leader and
+// resets its radar history. In full dynamics, also adds the braking demands due to hidden leaders (hidden_leaders.h).
 void find_leaders_beyond_lanes(const Model& model, const State& state, VehicleArrays& vehicles, Partition& part);
 
 }  // namespace stopline

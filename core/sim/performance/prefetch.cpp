@@ -28,8 +28,8 @@ STOPLINE_INLINE void prefetch_vehicle(const VehicleArrays& v, int slot) {
     prefetch(v.id, slot);
 }
 
-// Prefetches the last vehicle of a lane. For an awake lane, also prefetches the first vehicle and the vehicles that the
-// decisions at the stop line read.
+// Prefetches the last vehicle of a lane. Also prefetches the first vehicle and the vehicles that the decisions at the
+// stop line read, unless the lane sleeps: no decisions are made while its first vehicle rests before a red signal.
 STOPLINE_INLINE void prefetch_lane_ends(const State& state, int lane) {
     const VehicleArrays& v = state.vehicles;
     const LaneBlock& block = state.blocks[at(lane)];
@@ -124,7 +124,8 @@ void advance_prefetch_step(const State& state, PrefetchProgress& progress) {
     }
     const Partition& next = *progress.next;
     const std::size_t k = progress.lane++;
-    // The list is still that of the previous step, because the decisions for the partition `next` have not begun.
+    // next.occupied still lists the lanes that held vehicles in the previous step, because the decisions for the
+    // partition `next` have not begun.
     const IndexBuffer& occupied = next.occupied;
     if (k < occupied.size()) {
         prefetch_lane_ends(state, occupied[k]);

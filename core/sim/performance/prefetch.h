@@ -19,8 +19,8 @@ void begin_prefetch(State& state, std::size_t number, std::size_t end);
 // Prefetches a few cache lines. begin_prefetch() must have started the prefetching.
 void advance_prefetch_step(const State& state, PrefetchProgress& progress);
 
-// Prefetches a few cache lines if begin_prefetch() has started the prefetching. Each phase of the decisions calls this
-// function once for each lane.
+// Prefetches a few cache lines if begin_prefetch() has started the prefetching. Several phases of a step call this
+// function once for each lane that they process.
 inline void advance_prefetch(const State& state, PrefetchProgress& progress) {
     if (progress.next != nullptr) advance_prefetch_step(state, progress);
 }

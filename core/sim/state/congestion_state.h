@@ -24,7 +24,8 @@ struct LastBlocker {
 };
 
 // Working memory of delay attribution. The arrays indexed by slot are valid only in the step that attributed the
-// delays, because vehicles change slots. Unless noted otherwise, only the elements of stopped vehicles are valid.
+// delays, because vehicles change slots. They are valid only for stopped vehicles, except where a comment includes
+// moving vehicles.
 struct DelayWatch {
     std::vector<int> waits_for;  // [slot] slot of the vehicle that blocks this vehicle; -1: none
     // [slot] cause that stops the vehicle itself; none: it only waits behind a stopped leader, or nothing stops it
@@ -38,7 +39,7 @@ struct DelayWatch {
     std::vector<int> traversal;
     std::vector<int> path;                   // slots of the vehicles in the chain that find_causes() follows at present
     std::vector<int> stopped_slots;          // slots of all stopped vehicles
-    std::vector<LastBlocker> last_blockers;  // [lane] latest blocker of the first vehicle
+    std::vector<LastBlocker> last_blockers;  // [lane]
     // [key] index of the open episode in DelayLog::episodes; -1: none. key = lane * number of causes + cause
     std::vector<int> open_episode;
     std::vector<int> open_episodes;   // keys of all open episodes

@@ -46,18 +46,18 @@ struct DelayEpisode {
     double delay_s = 0.0;  // total delay, vehicle seconds
 };
 
-// A cycle of vehicles in which each vehicle waits for the next one. A cycle that is observed at most one signal cycle
-// later counts as the same gridlock if the two cycles have a vehicle in common.
+// A ring of vehicles in which each vehicle waits for the next one. If two rings have a vehicle in common and are
+// observed at most one signal cycle apart, both count as the same gridlock.
 struct Gridlock {
     double from_s = 0.0;        // time of the first observation
     double to_s = 0.0;          // time of the latest observation
-    std::vector<int> vehicles;  // ids at the latest observation, lowest id first, then in the order of the cycle
+    std::vector<int> vehicles;  // ids at the latest observation, lowest id first, then in the order of the ring
     std::vector<int> lanes;     // lane of each vehicle
 };
 
 // A starving vehicle. It is the first vehicle of its queue and has been stopped for at least
-// RulesPlan::starvation_ticks and two signal cycles. No queue and no vehicle ahead blocks its way: it waits for right
-// of way, for its signal or for a gap in the adjacent lane.
+// RulesPlan::starvation_ticks. If it has a signal, it has also been stopped for at least two cycles of this signal. No
+// vehicle ahead blocks its way: it waits for right of way, for its signal or for a gap in the adjacent lane.
 struct Starvation {
     DelayCause cause = DelayCause::none;  // at the last observation
     int lane = -1;

@@ -30,8 +30,8 @@ struct InsertionState {
     std::vector<int> open_inlets;
     std::vector<int> inlet_of;  // [lane] index of the inlet; -1: no route begins on the lane
     // [approach][Turn] number of vehicles on all lanes of the approach for which the turn was drawn. If these numbers
-    // deviate from the turn shares of the approach (DemandPlan::Inlet::approach_shares), the next draws correct the
-    // deviation. Draws at inlets without approach_shares are not counted.
+    // deviate from the planned turn shares of the approach (DemandPlan::Inlet::approach_shares), the next draws correct
+    // the deviation. Draws at inlets without such planned shares are not counted.
     std::vector<std::array<std::int64_t, kMaxTurns>> drawn_turns;
     std::size_t next_trip = 0;                    // index of the first trip whose departure time has not come yet
     std::vector<std::vector<int>> waiting_trips;  // [approach] trips whose vehicles wait to be inserted, oldest first

@@ -55,14 +55,14 @@ struct JunctionState {
     std::vector<char> has_yield_stops;    // [lane] 1: the lane has yield stops
     // Sets of connections. In each set, LanePlan::bitset_index is the index of a connection's bit.
     Bitset occupied;                      // connections with occupants
-    Bitset with_stopped;                  // connections with an occupant slower than kCrawlingSpeed_mps
+    Bitset with_stopped;                  // connections with an occupant slower than kCrawlingSpeed_mps (1 m/s)
     Bitset to_decide;                     // connections on which right of way must be decided in this step
-    std::int64_t next_priority_tick = 0;  // tick at which right of way changes next with the phase of a signal
+    std::int64_t next_priority_tick = 0;  // tick at which a signal phase next changes right of way
 };
 
 struct Partition;
 
-// Adds a yield stop to a lane, and lists the lane in Partition::lanes_with_yield_stops.
+// Adds a yield stop to a lane, and adds the lane to Partition::lanes_with_yield_stops if it is not there yet.
 void add_yield_stop(JunctionState& junctions, Partition& part, int lane, const YieldStop& stop);
 
 }  // namespace stopline

@@ -5,7 +5,7 @@
 #include "base/containers/index.h"
 #include "base/simd/simd.h"
 
-// The block of a lane is its range of slots in the vehicle arrays. The blocks are in the order in which lanes are
+// A block is the range of slots of one lane in the vehicle arrays. The blocks are in the order in which lanes are
 // processed, so that memory is read sequentially.
 //
 // Full dynamics: a block has room for a full lane and never moves. The kernels write whole batches of slots, also
@@ -25,8 +25,8 @@ int max_vehicles(const Model& model, const Lane& lane) {
 }
 
 // Full dynamics: the start of a block is aligned to a cache line, so the first vehicle of a lane is best placed there.
-// When a vehicle leaves a lane on which at most kMaxShifted vehicles remain, these are shifted to the start. A larger
-// number of vehicles is shifted only when the vehicles have reached the end of the block.
+// When the first vehicle leaves the lane and at most kMaxShifted vehicles remain, the remaining vehicles are shifted to
+// the start. A larger number of vehicles is shifted only when the vehicles have reached the end of the block.
 constexpr int kMaxShifted = 64;
 
 // Moves the vehicles of a block to the start of the block.
@@ -39,10 +39,10 @@ void shift_to_begin(State& state, LaneBlock& block) {
 // Mesoscale mode: returns the size of a block for a number of vehicles, with a reserve for more.
 int capacity_for(int vehicles) { return vehicles + 2 + vehicles / 4; }
 
-// Returns the number of free slots before the block of a lane. One slot is for the sentinel, the copy of the leader
-// downstream of the lane. Before the first lane of a partition (a group of whole intersections) a whole batch of slots
-// is free. The kernels of the previous partition may run in another thread, and the last batch that they write can
-// reach beyond the last vehicle of that partition.
+// Returns the number of free slots before the block of a lane. One slot is for the sentinel: a copy of the first
+// vehicle's leader, which is on a lane downstream. Before the first lane of a partition (a group of whole
+// intersections) a whole batch of slots is free. The kernels of the previous partition may run in another thread, and
+// the last batch that they write can reach beyond the last vehicle of that partition.
 int slots_before(const Partition& part, int lane) { return lane == part.lanes.front() ? kSimdWidth : 1; }
 
 // Lays out the blocks of all lanes again and wakes all lanes. `expected`: see reserve_blocks(). If `expected` is empty,
@@ -126,9 +126,10 @@ void reserve_blocks(State& state, const std::vector<int>& expected) {
 
 namespace {
 
-constexpr int kMaxDistance = 8;  // number of lanes before and after a lane that are searched for free slots
+constexpr int kMaxDistance = 8;  // the search for free slots covers this many lanes before and after a lane
 
-// Shifts the block of a lane and the vehicles in it by `slots` slots, and wakes the lane.
+// Shifts the block of a lane by `slots` slots, and moves its vehicles to the start of the shifted block. Wakes the
+// lane.
 void shift(State& state, int lane, int slots) {
     LaneBlock& block = state.blocks[at(lane)];
     state.vehicles.move(block.first, block.count, block.begin + slots);

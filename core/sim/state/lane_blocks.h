@@ -1,8 +1,9 @@
 // Adds, moves and removes vehicles in the slots of the lanes.
 //
 // A function that adds a vehicle to a lane can shift the vehicles of other lanes to other slots. A sleeping lane
-// (QueueState) keeps the decisions of an earlier step, and these refer to slots, for example StopLines::stop_slot. The
-// function therefore wakes each lane whose vehicles it shifts, so that the decisions are made again.
+// (QueueState) keeps the decisions of an earlier step. These decisions refer to slots, for example
+// StopLines::stop_slot. The function therefore wakes each lane whose vehicles it shifts, so that the decisions are made
+// again.
 #pragma once
 
 #include <vector>
@@ -32,8 +33,8 @@ void ensure_teleport_slot(State& state);
 // Adds a slot for a new last vehicle of a lane and returns the slot.
 int append_slot(State& state, int lane);
 
-// Adds a slot between the vehicles of a lane, for a vehicle whose front is at `front_m`. Returns the slot. Only
-// detectors downstream of the front will record the vehicle.
+// Adds a slot to a lane for a vehicle whose front is at `front_m`: behind the vehicles further downstream and ahead of
+// the other vehicles. Returns the slot. Only detectors downstream of `front_m` will record the vehicle.
 int insert_slot(const Model& model, State& state, int lane, double front_m);
 
 // Removes the first vehicle of a lane.

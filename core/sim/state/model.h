@@ -42,7 +42,7 @@ struct RulesPlan {
     std::int64_t pass_blocker_ticks = 0;
     // Interval at which the delays of stopped vehicles are attributed to causes; 0: never.
     std::int64_t watch_ticks = 0;
-    // If a gridlock is observed again within this time, it counts as the same gridlock.
+    // A gridlock ends when it has not been observed for this time. A later observation counts as a new gridlock.
     std::int64_t gridlock_ticks = 0;
     // Signals, yielding and queue discharge cause many short stops. A delay episode (DelayEpisode) with such a cause
     // includes only vehicles that have been stopped for this time. Episodes with other causes include all stopped
@@ -103,8 +103,8 @@ struct Model {
     // The accelerations of `krauss` and of platoon leaders are calibrated for lanes on which the speed limit times
     // speed_factor is at most this value.
     double calibrated_limit_mps = 1e9;
-    bool has_fast_lanes = false;  // true: on some lanes, the speed limit times speed_factor exceeds this value
-    LeaderProfile power_profile;  // lowest acceleration by speed on these lanes
+    bool has_fast_lanes = false;  // true: on some lanes, limit times speed_factor exceeds calibrated_limit_mps
+    LeaderProfile power_profile;  // lower bound of the acceleration on such fast lanes, by speed
     // Acceleration of platoon leaders by speed. If the profile has bins, it replaces leader_mps2 and
     // leader_constant_power_speed_mps.
     LeaderProfile leader_profile;

@@ -53,7 +53,7 @@ struct StartMessage {
 };
 
 // Full dynamics: the acceleration with which the vehicle in `slot` must brake for a hidden leader. A hidden leader is a
-// vehicle further ahead on the same route. The present leader hides it, but will leave the route
+// vehicle further ahead on the route of this vehicle. The present leader hides it, but will take another route
 // (sim/perception/hidden_leaders.h).
 struct BrakingDemand {
     int slot;
@@ -96,8 +96,8 @@ struct Partition {
 
     // These members are reports. They are merged into the records of the run after each step.
     std::int64_t present = 0;              // number of vehicles on the lanes at the start of the step
-    std::int64_t updates = 0;              // number of vehicles in the step, including vehicles at rest
-    std::int64_t longest_in_junction = 0;  // longest time of a vehicle inside a junction, ticks
+    std::int64_t updates = 0;              // number of vehicles moved in the step, including vehicles at rest
+    std::int64_t longest_in_junction = 0;  // longest time that a vehicle has been inside a junction, ticks
     std::int64_t passed_blockers = 0;
     Violations violations;
     std::vector<Crossing> crossings;

@@ -15,8 +15,8 @@ struct StandingQueue {
     // Latest tick at which something other than a leader may have acted on the vehicles behind the first one: an
     // insertion, a lane change, a gap alignment, a stop line or a yield stop.
     std::int64_t last_external_tick = -1;
-    // Index after the last vehicle that may have moved in the previous step because of a start message. This vehicle is
-    // the follower of the last receiver. 0: there was no message.
+    // All vehicles of the queue with a lower index may have moved in the previous step because of a start message: the
+    // receivers and the follower of the last receiver. 0: there was no message.
     int released = 0;
 };
 

@@ -11,7 +11,7 @@
 
 namespace stopline {
 
-// The events of each list are in the order of the steps.
+// Each list of events is in the order of the steps in which the events occurred.
 struct RunRecords {
     std::vector<Passage> passages;
     std::vector<Crossing> crossings;

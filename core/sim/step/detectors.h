@@ -6,7 +6,8 @@
 
 namespace stopline {
 
-// Records all crossings of this step on the lanes of a partition, and counts entries on red.
+// Records each vehicle that has passed a detector of the partition in this step. Also counts the vehicles that have
+// passed a stop line on red.
 void record_detector_crossings(const Model& model, State& state, Partition& part);
 
 }  // namespace stopline

@@ -14,9 +14,10 @@ namespace stopline {
 
 namespace {
 
-// Appends a lane to a group, with the accelerations that stop lines, yield stops, hidden leaders and gap alignment
-// demand of its vehicles. `hidden_leader_demands`: the demands of hidden leaders that no group contains yet, in the
-// order of slots. Moves the demands on the vehicles of this lane from this list to the group.
+// Appends a lane to a group, with a list of demands: accelerations that a vehicle must not exceed because of a stop
+// line, yielding, a hidden leader (perception/hidden_leaders.h) or the alignment with a gap. `hidden_leader_demands`:
+// the demands due to hidden leaders that are not yet in a group, in the order of slots. The demands on vehicles of this
+// lane are removed from `hidden_leader_demands`.
 void add_lane(const Model& model, const State& state, int lane, std::span<const BrakingDemand>& hidden_leader_demands,
               LaneGroup& group) {
     const VehicleArrays& v = state.vehicles;
@@ -54,8 +55,8 @@ void add_lane(const Model& model, const State& state, int lane, std::span<const 
     group.vehicles += block.count;
 }
 
-// Fills a group with occupied lanes, starting with the k-th occupied lane. Advances k to the first lane after the
-// group.
+// Clears a group and fills it with occupied lanes, starting with the k-th occupied lane, until the group has at least
+// kGroupVehicles vehicles or no lane is left. Advances k to the first lane after the group.
 void collect_group(const Model& model, const State& state, const Partition& part, std::size_t& k,
                    std::span<const BrakingDemand>& hidden_leader_demands, LaneGroup& group) {
     group.clear();

@@ -7,7 +7,8 @@
 
 namespace stopline {
 
-// Moves the vehicles, then lists the lanes whose first vehicle has left its lane (Partition::lanes_to_transfer).
+// Moves the vehicles. Then lists the lanes on which the first vehicle has passed the end of the lane
+// (Partition::lanes_to_transfer).
 void move_vehicles(const Model& model, const FullTables& tables, State& state, Partition& part);
 
 }  // namespace stopline

@@ -5,8 +5,9 @@
 
 namespace stopline {
 
-// Lists the lanes of a partition that hold vehicles, and separately those that are awake. A sleeping lane, whose first
-// vehicle rests before a red signal (QueueState::sleeps_until_green), wakes if the signal is green.
+// Lists the lanes of a partition that hold vehicles, and separately the awake ones. A lane sleeps while its first
+// vehicle rests before a red signal (QueueState::sleeps_until_green). This function wakes the lane if the signal is
+// green.
 void find_occupied_lanes(const State& state, QueueState& queues, Partition& part);
 
 }  // namespace stopline

@@ -78,9 +78,9 @@ void Simulation::decide(Partition& part) {
     if (model_.meso) collect_moving_blocks(model_, state_, part);
 }
 
-// Moves the partitions from the last to the first. The data of the last partitions are still in the cache after
+// Moves the vehicles of the last partition first, because the data of the last partitions are still in the cache after
 // decide(). After move() the data of the first partitions are in the cache, and decide() of the next step begins with
-// these partitions.
+// the first partition.
 void Simulation::move(int thread, int threads) {
     const Share share = share_of(state_.partitions.size(), thread, threads);
     for (std::size_t k = share.end; k-- > share.begin;) move(state_.partitions[k]);
@@ -92,8 +92,8 @@ void Simulation::move(Partition& part) {
     record_detector_crossings(model_, state_, part);
 }
 
-// Does the same as watch_delays(), but divides the partitions among the threads. All threads of an OpenMP team must
-// call it.
+// Finds the stopped vehicles and the causes of their delay, as watch_delays() does, but divides the partitions among
+// the threads. All threads of an OpenMP team must call this function.
 void Simulation::watch_delays_in_parallel() {
     const auto for_each_partition = [&](int thread, auto visit) {
         const Share share = share_of(state_.partitions.size(), thread, threads_);

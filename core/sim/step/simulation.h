@@ -15,7 +15,7 @@
 //   at intervals:
 //     delay       stopped vehicles and the causes of their delay                congestion/delay_causes
 //   for each partition:
-//     move        request, powertrain, speed and position of all vehicles       step/move_vehicles
+//     move        requested acceleration, powertrain, speed and position        step/move_vehicles
 //     detectors   vehicles whose front passes a detector                        step/detectors
 //   for the whole network:
 //     reports     merging of events and counters of the partitions              step/partition_reports
@@ -24,8 +24,8 @@
 //     teleport    vehicles that have been stopped for too long                  congestion/teleport
 //     change      lane changes                                                  lane_change/lane_change
 //
-// The decisions of a partition read the state at the beginning of the step, and write only data of the partition.
-// Results therefore do not depend on the number of partitions and threads.
+// For each partition, the phases from `occupied` to `selection` read the state at the beginning of the step, and write
+// only data of this partition. Results therefore do not depend on the number of partitions and threads.
 #pragma once
 
 #include <cstdint>
@@ -60,8 +60,8 @@ public:
     const State& state() const { return state_; }
     const Model& model() const { return model_; }
 
-    // Returns a hash of the vehicles in lane order, of the passages and of the main counters. Compare the hashes of two
-    // runs to check that their results agree in every bit.
+    // Returns a hash of the vehicles in lane order, of the recorded passages, of the tick, and of the numbers of
+    // vehicles that entered and exited. Compare the hashes of two runs to check that the results agree in every bit.
     std::uint64_t state_hash() const;
 
 private:

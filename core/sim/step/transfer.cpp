@@ -24,7 +24,8 @@ void miss_turn(const Model& model, State& state, int lane) {
     state.vehicles.speed_mps[slot] = 0.0;
 }
 
-// Moves the first vehicle of a lane to the next lane of its route, or out of the network.
+// Moves the first vehicle of a lane to the next lane of its route, or out of the network. Calls miss_turn() instead if
+// the vehicle has no next lane although its trip does not end here.
 void transfer_first(const Model& model, State& state, int lane) {
     VehicleArrays& v = state.vehicles;
     const double length_m = state.plan.lane(lane).length_m;

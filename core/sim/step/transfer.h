@@ -6,7 +6,8 @@
 
 namespace stopline {
 
-// Moves each vehicle that has reached the end of its lane to the next lane of its route, or out of the network.
+// Moves each vehicle that has reached the end of its lane to the next lane of its route, or out of the network. A
+// vehicle whose lane does not allow the next turn of its trip is teleported or stopped instead.
 void transfer_vehicles(const Model& model, State& state);
 
 }  // namespace stopline

@@ -16,8 +16,8 @@ check() {
     [ -s "$1" ] && head -n 1 "$1" | tr ',' '\n' >>"$work/columns_of.${2//\//.}"
 }
 
-# check_complete TABLE: expects that each column described under the heading TABLE occurs in a file that was given to
-# check. Skips described names with CAPITALS, because CAPITALS stand for any word.
+# check_complete TABLE: expects that each column described under the heading TABLE occurs in one of the files for which
+# check() was called. Skips described names with CAPITALS, because CAPITALS stand for any word.
 check_complete() {
     local column
     while read -r column; do

@@ -70,7 +70,8 @@ for ms in 50 200 400 800 1200 1600; do
     wait $pid 2>/dev/null
 done
 mkdir -p "$work/killed/figures" "$work/killed/runs_reduced/startup"
-# Partial files carry the number of the process that writes them. $! becomes the number of a process that has ended.
+# The name of a partial file contains the number of the process that writes the file. These two belong to a process that
+# has ended ($!), so the next run must remove them.
 sleep 0 &
 wait $!
 touch "$work/killed/figures/.fig05_counters.svg.$!.part" "$work/killed/runs_reduced/startup/.startup.csv.$!.part"

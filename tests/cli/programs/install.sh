@@ -94,7 +94,7 @@ written out/calibration/misses.csv
 
 runs "INSTALLED" stopline-export --sumo sumo "$scenarios/first_steps.yaml" "${installed_policy[@]}"
 written sumo/run.sumocfg
-# A run needs SUMO, so this test asks for an unknown policy: the message lists the installed ones.
+# stopline-compare runs only with SUMO, so this test asks for an unknown policy: the message lists the installed ones.
 refuses "INSTALLED" stopline-compare "$scenarios/first_steps.yaml" --set 'populations=[UNKNOWN]'
 
 if command -v gnuplot >/dev/null; then

@@ -10,8 +10,8 @@ endless=(--set "duration=1000000 s" --no-figures --threads 2)
 
 code=0
 timeout --signal=INT 2 "$run" "$scenario" "${endless[@]}" --output "$work/out" >"$work/stdout" 2>"$work/stderr" || code=$?
-# Without --preserve-status, timeout returns 124 if it had to send the signal. With this option, as in the next call, it
-# returns the exit code of the program.
+# Without --preserve-status, timeout returns 124 if it has sent the signal. With --preserve-status, as in the next call,
+# timeout returns the exit code of the program.
 [ $code -eq 124 ] || fail "the run ended before the signal: exit code $code"
 code=0
 timeout --preserve-status --signal=INT 2 "$run" "$scenario" "${endless[@]}" --output "$work/out" \

@@ -83,7 +83,8 @@ done
 sweep "$work/killed" >/dev/null || fail "after $kills kills: exit code $?"
 same_table "$kills kills" "$work/killed"
 
-# A kill in the middle of the sweep, for any speed of the machine. Finished runs are not repeated.
+# A kill in the middle of the sweep. The test tries several times until the kill, so that one of them suits the speed of
+# the machine. Finished runs are not repeated.
 now=0
 for seconds in 0.7 0.3 2 6 20; do
     rm -rf "$work/once"

@@ -141,7 +141,7 @@ TEST(NetworkSweepFigures, DistinguishSevenOffsets) {
         ++entries;
         styles.insert(body.substr(at, body.find(" title", at) - at));
     }
-    EXPECT_EQ(entries, 7u);  // the key lists colours and dashes of the 14 lines separately
+    EXPECT_EQ(entries, 7u);  // one for each offset, not one for each of the 14 lines (7 offsets, 2 populations)
     EXPECT_EQ(styles.size(), 7u);
     EXPECT_TRUE(contains(body, "title 'offset 36 s'"));
     EXPECT_TRUE(contains(body, "title 'CDG'"));

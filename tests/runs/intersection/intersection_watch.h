@@ -17,7 +17,8 @@ namespace stopline::testing_support {
 inline constexpr double kNotYet_s = -1.0;
 inline constexpr double kStep_s = 0.02;
 inline constexpr double kStage_s = 15.0 + 3.0 + 5.0;
-inline constexpr double kFrom_s = 1.0 + 2.0 * kStage_s;  // after the first green and one warm-up cycle
+// Start of the measurement. The first green begins at 1 s; a warm-up cycle of two stages follows.
+inline constexpr double kFrom_s = 1.0 + 2.0 * kStage_s;
 inline constexpr int kCycles = 2;
 inline constexpr double kTo_s = kFrom_s + kCycles * 2.0 * kStage_s;
 inline constexpr double kLimit_mps = 50.0 / 3.6;

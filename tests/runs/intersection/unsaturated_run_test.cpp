@@ -36,7 +36,8 @@ TEST(UnsaturatedRun, HasTheSaturationFlowOfAQueue) {
     EXPECT_LT(weak.startup_lost_time_s, 3.0);
 }
 
-// With a constant distance, queues of four vehicles have left before a fifth one stops.
+// With a constant distance gap (CDG) a queue starts so fast that it has left before a fifth vehicle stops. A saturation
+// flow needs a fifth vehicle.
 TEST(UnsaturatedRun, HasNoSaturationFlowIfNoQueueIsLongEnough) {
     const Discharge weak = discharge_of("CDG", kWeakDemand);
     EXPECT_EQ(weak.saturated_greens, 0);

@@ -1,5 +1,5 @@
-// A movement starves if the first vehicle of its queue is stopped for measure.starvation although no queue or vehicle
-// ahead blocks its way.
+// A movement starves if the first vehicle of its queue is stopped for the time `measure.starvation` of the scenario,
+// although no queue or vehicle ahead blocks this vehicle.
 #include <gtest/gtest.h>
 
 #include <string>

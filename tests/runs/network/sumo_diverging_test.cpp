@@ -75,7 +75,7 @@ double distance_m(const Model& model, const Body& one, const Body& two) {
 struct Case {
     const char* fidelity;
     std::size_t population;
-    const char* slow_exit;  // exit edge with a low speed limit; its queue holds up the other connections
+    const char* slow_exit;  // exit edge with a low speed limit; the queue on this edge holds up the other connections
 };
 
 // Shortens the straight connection to 3 m, less than a vehicle.

@@ -62,8 +62,8 @@ TEST(SteadyVehicles, ExcludeSlowerClosingAndLeadingVehicles) {
     EXPECT_TRUE(steady_vehicles(samples(0, 0, 9.0, at_limit, none), kInterval_s, kLimit_mps, 5.0).empty());
 }
 
-// A vehicle that closes up is faster than a vehicle without leader. Until the vehicles ahead have closed up, its gap
-// stays constant.
+// A vehicle in the rear of a platoon that closes up drives faster than a vehicle without leader. Its gap stays constant
+// until the vehicles ahead have closed up. Such a vehicle counts as cruising, but not as steady.
 TEST(CruisingVehicles, IncludeThoseFasterThanTheCruiseSpeed) {
     const auto faster = [](double /*t*/) { return 1.05 * kLimit_mps; };
     const auto slower = [](double /*t*/) { return kLimit_mps - 0.2; };

@@ -42,8 +42,8 @@ struct Case {
     double min_amplification, max_amplification;
 };
 
-// For a lag of 0.3 s, linear analysis gives an amplification of 1.02 for CDG with a delay of 20 ms and of 1.09 with 100
-// ms. It is below 1 for time gaps above 0.25 s with 20 ms and above 0.64 s with 100 ms.
+// Linear analysis for a lag of 0.3 s: for CDG the amplification is 1.02 with a V2V delay of 20 ms, and 1.09 with 100
+// ms. For a time gap it is below 1 if the time gap exceeds 0.25 s (delay of 20 ms) or 0.64 s (100 ms).
 const Case kCases[] = {
     {"CDG", "20 ms", 1.01, 1.03},
     {"CDG", "100 ms", 1.05, 1.10},

@@ -149,7 +149,8 @@ TEST_F(ConflictCount, CountsEveryPair) {
 }
 
 TEST_F(ConflictCount, IncludesVehiclesThatReachBackFromTheExitLane) {
-    // The connections merge, so their conflict area reaches to their ends.
+    // The connections merge, so their conflict area reaches to their ends. The first vehicle has its front on the exit
+    // lane and its rear still in this area.
     const Conflict c = conflict("west_1_right", "north_1_straight");
     place("west_1_right", graph().lanes[at(lane("west_1_right"))].length_m + 1.0);
     ASSERT_EQ(track_.count(lane("west_1_right")), 0);

@@ -51,7 +51,8 @@ protected:
         return k;
     }
 
-    // Returns the inlet upstream of a connection. All its vehicles will take this connection.
+    // Changes the inlet (the entry lane) upstream of a connection, so that all its vehicles take this connection.
+    // Returns the inlet.
     DemandPlan::Inlet& inlet_to(int connection) {
         auto inlet = model_.demand.inlets.begin();
         while (inlet->lane != model_.graph.lanes[at(connection)].origin) ++inlet;
@@ -118,8 +119,8 @@ TEST_P(GapAcceptance, AcceptsLongGapsAndRejectsShortOnes) {
             accepted_s.push_back(time_s);
             const auto next =
                 std::find_if(oncoming.begin(), oncoming.end(), [](auto& o) { return o.distance_m > 0.0; });
-            // A vehicle that has braked for the previous left turn is still accelerating, so its speed predicts no
-            // arrival.
+            // Only for vehicles at full speed. A vehicle that has braked for the previous left-turning vehicle still
+            // accelerates, so distance / speed would not be its time of arrival.
             if (next != oncoming.end() && next->speed_mps > 0.97 * model_.graph.lanes[at(priority_)].limit_mps) {
                 EXPECT_GE(next->distance_m / next->speed_mps, critical_s) << "at " << time_s << " s";
                 ++checked_gaps;

@@ -33,7 +33,7 @@ double stopping_distance_m(const Model& model, const VehicleView& car) {
     return v * v / (2.0 * b) + (car.speed_mps + 0.5 * a * delay_s) * delay_s;
 }
 
-// Accepted decelerations: the default of drivers, and maximum braking.
+// A driver stops on yellow if this deceleration suffices: the default, and maximum braking.
 constexpr std::array kDecisions{"3.5 m/s2", "7 m/s2"};
 
 std::vector<std::string> decision_deceleration(const char* deceleration) {

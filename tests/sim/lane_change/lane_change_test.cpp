@@ -77,8 +77,8 @@ double uniform(std::uint64_t seed, int vehicle, int quantity) {
                           Purpose::turn);
 }
 
-// Fills each lane with vehicles from `first_front_m` upstream. The gaps are random between `min_gap_m` and twice
-// `min_gap_m`. Each vehicle draws its target lane.
+// Fills each lane with vehicles. The first front is up to 5 m upstream of `first_front_m`. The gaps are random between
+// `min_gap_m` and twice `min_gap_m`, and the target lanes are random too.
 void fill(Track& track, std::uint64_t seed, int lanes, double min_gap_m, double speed_mps, double first_front_m) {
     int vehicle = 0;
     for (int k = 0; k < lanes; ++k) {

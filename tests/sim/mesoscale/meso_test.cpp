@@ -51,7 +51,7 @@ protected:
         for (Krauss& krauss : model.krauss) krauss.dawdling = sigma;
         return model;
     }
-    // Returns the gap that a switching policy adds to its standstill gap at this speed.
+    // Returns the gap that a switching policy adds to its standstill gap at this speed; 0 for other policies.
     static double extra_gap_m(const Model& model, double speed_mps) {
         const GapPolicySettings& s = model.policies[0].settings;
         return model.krauss[0].constant_distance ? equilibrium_gap_m(s, speed_mps) - s.standstill_gap_m : 0.0;

@@ -44,8 +44,8 @@ double hardest_braking_mps2(const std::string& name, double& lowest_mps, double&
     return hardest_mps2;
 }
 
-// A vehicle enters at the limit of 27.78 m/s. Then the limit falls to 13.89 m/s. The vehicle has no leader, so it must
-// brake to 95 % of the lower limit.
+// A vehicle enters at the limit of 27.78 m/s and reaches a road with a limit of 13.89 m/s. A vehicle without leader
+// drives at 95 % of the limit, so this vehicle must brake to 95 % of the lower limit.
 TEST(SpeedLimits, VehicleWithoutLeaderBrakesComfortably) {
     double lowest_mps = 0.0, highest_mps = 0.0;
     EXPECT_LT(hardest_braking_mps2("speed_drop", lowest_mps, highest_mps), 2.5);
@@ -53,7 +53,8 @@ TEST(SpeedLimits, VehicleWithoutLeaderBrakesComfortably) {
     EXPECT_LT(lowest_mps, 13.3) << "the vehicle did not reach 95 % of the lower limit";
 }
 
-// Fifteen edges of 20 m lead to a limit of 2.78 m/s. Braking for it takes more than one edge.
+// Fifteen edges of 20 m lead to a road with a limit of 2.78 m/s. The braking distance is longer than one edge, so
+// vehicles must look several edges ahead.
 TEST(SpeedLimits, AreForeseenOverShortEdges) {
     double lowest_mps = 0.0, highest_mps = 0.0;
     EXPECT_LT(hardest_braking_mps2("short_edges", lowest_mps, highest_mps), 3.0);

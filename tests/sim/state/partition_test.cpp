@@ -60,7 +60,8 @@ void expect_same(Simulation& first, Simulation& second, double until_s, double e
 TEST(Partitions, AnyNumberOfThreadsGivesTheSameRun) {
     for (const int population : {1, 2}) {
         const Model model = crowded_grid("meso", population);
-        // If there are more threads than processors, they wait long for each other. The run with three is shorter.
+        // Threads wait long for each other if there are fewer processors than threads. The run with three threads is
+        // therefore shorter than the run with two.
         for (const int threads : {2, 3}) {
             Simulation alone(model);
             Simulation shared(model, threads);

@@ -35,7 +35,7 @@ struct TurnOption {
     int lane_changes = 0;
 };
 
-// The position of an approach lane among its neighbours.
+// The adjacent lanes of an approach lane, and how a vehicle on this lane can make each turn.
 struct AdjacentLanes {
     int left = -1;  // adjacent lane; -1: none
     int right = -1;

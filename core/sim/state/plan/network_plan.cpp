@@ -13,7 +13,7 @@ namespace stopline {
 
 namespace {
 
-// Disjoint sets of lanes (union-find). The lanes of one set depend on each other within a step.
+// Disjoint sets of lanes (union-find). At the start, each lane is a set of its own.
 class LaneSets {
 public:
     explicit LaneSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
@@ -91,9 +91,9 @@ double max_space_per_vehicle(const Model& model) {
     return longest_vehicle_m(model) + gap_m;
 }
 
-// Joins the lanes of each intersection to one set. A connection depends on its approach lane and on the connections
-// with which it shares a conflict area. An exit lane without a stop line joins the set of its connections, so that the
-// data of these lanes are close together in memory.
+// Joins the lanes of each intersection to one set: the lanes of its approaches, its connections, and its exit lanes
+// without a stop line. These exit lanes join the set only so that the data of the intersection are close together in
+// memory.
 void join_intersections(const Model& model, LaneSets& sets) {
     for (int index = 0; index < static_cast<int>(model.graph.lanes.size()); ++index) {
         const Lane& lane = model.graph.lanes[at(index)];

@@ -78,8 +78,8 @@ public:
     }
     // Returns the conflict areas of a connection, in the order from its start to its end.
     std::span<const Conflict> conflicts(int lane) const { return conflicts_.of(lane); }
-    // Sets which of two connections yields at their conflict area. This is the only part of the plan that changes
-    // during a run: right of way can change with the phases of a signal.
+    // Sets which of two connections yields at their conflict area. Right of way can change with the phases of a signal.
+    // All other data of the plan are constant during a run.
     void set_priority(int first, int second, Priority priority);
     // Returns the connections that share a conflict area with connection `lane`, as masks for the bitsets of
     // JunctionState.
@@ -91,7 +91,7 @@ public:
     int connection_at(std::size_t bitset_index) const {
         return connections_[bitset_index];  // -1: the bit is unused
     }
-    // Calls visit(begin, end) for each range of memory that a step reads for this lane.
+    // Calls visit(begin, end) for the ranges of memory that are prefetched for this lane (sim/performance/prefetch.h).
     template <class Visit>
     void for_each_memory_range(int lane, Visit visit) const {
         const auto element = [&](const auto& array) { visit(array.data() + lane, array.data() + lane + 1); };
@@ -104,7 +104,8 @@ public:
     // Returns all lanes, grouped by intersection.
     const std::vector<int>& lane_order() const { return lane_order_; }
     int intersection_count() const { return intersection_count_; }
-    // Returns the intersection number of a lane. Lanes with the same number depend on each other within a step.
+    // Returns the intersection number of a lane. Lanes with the same number are in the same partition, so one
+    // thread processes them.
     int intersection_of(int lane) const { return intersection_of_[static_cast<std::size_t>(lane)]; }
 
 private:

@@ -12,7 +12,7 @@ namespace stopline {
 
 TripLanes::TripLanes(const Model& model, const NetworkPlan& plan) : after_(model.demand.trip_turns.size(), 0) {
     // Trips along the same route share their entries of trip_turns, and therefore the entries of after_ with the same
-    // indices. They are computed only for the first of these trips.
+    // indices. The entries are computed only for the first of these trips.
     std::vector<char> planned(after_.size(), 0);
     for (const Trip& trip : model.demand.trips) {
         if (trip.turn_count == 0 || planned[at(trip.first_turn)] != 0) continue;

@@ -28,8 +28,8 @@ public:
     TripLanes() = default;
     TripLanes(const Model& model, const NetworkPlan& plan);
 
-    // Return the numbers defined at the top of this file. after() returns 14 for 14 or more changes. `edge` is
-    // counted along the trip from 0, `lane_index` from the left.
+    // Return the numbers defined at the top of this file. after() returns 14 for 14 or more changes, and 0 on the last
+    // edge of the trip. `edge` is counted along the trip from 0, `lane_index` from the left.
     int after(const Trip& trip, int edge, int lane_index) const {
         if (edge >= trip.turn_count || lane_index >= kMaxLanes) return 0;
         const std::uint64_t packed = after_[static_cast<std::size_t>(trip.first_turn + edge)];

@@ -19,7 +19,9 @@ struct FullGroup {
     float *gap, *closing;  // net gap and closing speed, from the delayed radar measurement
     float *heard_acceleration, *heard_request, *heard_rate;  // delayed V2V message of the leader
     float *to_next_limit, *limit, *end_speed, *standstill_gap, *sine;
-    float* demand;  // lowest external demand of the vehicle (ExternalDemand in lane_group.h); kUnconstrained_mps2: none
+    // Acceleration that the vehicle must not exceed, for example before a stop line: the lowest of its external demands
+    // (ExternalDemand in lane_group.h). kUnconstrained_mps2: none.
+    float* demand;
     float *is_platoon_leader, *torque, *brake, *gear_time, *gear;
     float* mean_request;                                  // mean request within the step, for the powertrain
     float *sent_acceleration, *sent_request, *sent_rate;  // V2V message to the follower

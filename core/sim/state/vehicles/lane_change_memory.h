@@ -9,13 +9,15 @@ namespace stopline {
 
 struct LaneChangeMemory {
     int change_tick = -1'000'000;  // tick of the most recent lane change
-    float remembered_mps = 0.0F;   // highest recent speed; falls to a lower present speed within some seconds
-    // Sum over time of the accelerations that a change to the left or right lane would have gained
-    // (LaneChangeSettings::gain_mps). Below 0: the vehicle has just left that lane.
+    float remembered_mps = 0.0F;   // highest recent speed; while the vehicle is slower, falls gradually to its speed
+    // Speed that the vehicle would recently have gained on the left or right lane: the gain in acceleration, summed
+    // over time. Older gains fade. The vehicle may change when the sum reaches LaneChangeSettings::gain_mps. Below 0:
+    // the vehicle has just left that lane.
     float left_gain_mps = 0.0F;
     float right_gain_mps = 0.0F;
     Turn third_turn = Turn::none;  // turn at the third intersection ahead; none: not known, or vehicle on a trip
-    // Number of lanes from the present lane to the lane that suits the later turns best; below 0: to the left.
+    // Number of lanes from the present lane to the preferred lane, which suits the later turns best; below 0: to the
+    // left.
     std::int8_t preferred_offset = 0;
     // True: for the turn at the second intersection ahead, the present lane suits as well as the preferred lane. Only
     // the turn at the third intersection is the reason for the preference.

@@ -31,8 +31,8 @@ struct VehicleArrays {
     LargeArray<float> is_platoon_leader;  // 1: platoon leader; 0: follower
     LargeArray<int> policy;
     LargeArray<int> id;  // vehicle id; mesoscale mode: -1 in a free slot
-    // Mesoscale mode only. These values depend on the lane. When a vehicle goes to another lane, they are not copied
-    // but set for the new lane.
+    // Mesoscale mode only. These values depend on the lane. When a vehicle goes to another lane, these values are not
+    // copied but set for the new lane.
     LargeArray<double> limit_mps;     // speed limit of the lane times the speed factor
     LargeArray<double> next_limit_m;  // position from which end_speed_mps applies
     // Highest speed in this step that stop lines, yield stops, gap alignments and driving without a leader allow.
@@ -53,7 +53,8 @@ struct VehicleArrays {
     // A step reads these values only for some vehicles, mainly for the first vehicles of a lane and for vehicles that
     // change the lane or the route. Full dynamics also reads the standstill gap of all vehicles, and their type if the
     // model has several types.
-    // Next lane of the route. -1: the vehicle leaves the network from its present lane, or must change lanes.
+    // Next lane of the route. -1: the vehicle leaves the network from its present lane, or the present lane does not
+    // allow its turn, so that it must change lanes.
     LargeArray<int> next_lane;
     LargeArray<VehicleRecord> record;
     LargeArray<LaneChangeMemory> lane_memory;

@@ -7,11 +7,11 @@
 
 namespace stopline {
 
-// Why a vehicle has to stop at a yield stop.
+// The reason why a vehicle has to stop at a yield stop (YieldStop in junction_state.h).
 enum class YieldReason : std::uint8_t {
     priority,     // a vehicle with priority arrives too soon, or another vehicle has stopped earlier at an all-way stop
     occupied,     // another vehicle is in the conflict area or enters it
-    intruder,     // another vehicle goes first although it must yield, for example because it can no longer stop
+    intruder,     // another vehicle that must itself yield goes first, for example because it can no longer stop
     merging,      // the vehicle follows another vehicle that merges ahead of it or is about to leave the conflict area
     stop_sign,    // every vehicle must stop at the stop line
     lane_change,  // the vehicle waits for a gap in the adjacent lane
@@ -27,7 +27,7 @@ struct alignas(64) VehicleRecord {
     int accepted_gap_on = -1;          // connection on which the vehicle has accepted a gap; -1: none
     int junction_entry_tick = 0;       // tick at which the vehicle most recently passed a stop line
     int yield_tick = -2;               // latest tick at which the vehicle had to wait before a conflict area
-    float yield_position_m = 0.0F;     // position where the vehicle had to wait, from the start of the connection
+    float yield_position_m = 0.0F;     // position of the wait at yield_tick, from the start of the connection
     Turn following_turn = Turn::none;  // turn at the second intersection ahead; none: unknown or no turn
     YieldReason yield_reason = YieldReason::priority;  // reason of the wait at yield_tick
     int trip = -1;      // index of the trip in the demand; -1: no trip, the turns are drawn
