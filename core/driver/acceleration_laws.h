@@ -37,10 +37,10 @@ struct DriverTablesOf {
     Number deceleration_mps2 = 0.0;  // braking before a lower speed limit
     Number profile_nodes_per_mps = 0.0;
     std::array<Number, kProfileNodes> profile_mps2{};  // [node] acceleration of free driving, from speed 0
-    // Driving at desired speeds beyond the range of the profile. extend_by_power() sets these values.
-    Number profile_end_mps = 1e9;  // highest desired speed for which the profile holds
+    Number profile_end_mps = 1e9;                      // highest desired speed for which the profile holds
+    // The next two members apply to desired speeds above profile_end_mps. extend_by_power() sets them.
     Number power_nodes_per_mps = 0.0;
-    std::array<Number, kProfileNodes> power_mps2{};  // [node] lowest acceleration at such desired speeds, from speed 0
+    std::array<Number, kProfileNodes> power_mps2{};  // [node] lower bound of the acceleration; node 0 is speed 0
 };
 using DriverTables = DriverTablesOf<double>;
 

@@ -67,8 +67,8 @@ std::string refusal(const Act& action) {
 }
 
 // Returns two crossing streets of 200 m: w_in (two lanes) leads to e_out, s_in to n_out. The left lane of w_in also
-// allows a left turn to n_out, over an internal junction. Links: 0 s_in straight, 1 and 2 the right and left lane of
-// w_in straight, 3 the left turn of w_in. Traffic on w_in has priority.
+// allows a left turn to n_out, over an internal junction. Link indices: 0: s_in, straight on; 1: right lane of w_in,
+// straight on; 2: left lane of w_in, straight on; 3: left lane of w_in, left turn. Traffic on w_in has priority.
 inline std::string crossing_net() {
     return R"(<?xml version="1.0" encoding="UTF-8"?>
 <net version="1.20">

@@ -36,7 +36,7 @@ struct Builder {
     std::vector<int> in = {};         // [index(intersection, leg, lane)] approach lane
     std::vector<int> out = {};        // [index(intersection, direction, lane)] exit lane
     std::vector<int> node_at = {};    // [row * columns + column] intersection; -1: none
-    std::vector<double> shared = {};  // [k] approach lane k of any leg: result of shared_stretch(), m
+    std::vector<double> shared = {};  // [lane of a leg] shared_stretch() of the approach lane, m; equal on all legs
     int first_connection = 0;         // index of the first connection in graph.lanes
 
     int lanes() const { return static_cast<int>(s.lanes.size()); }

@@ -215,7 +215,8 @@ private:
     }
 
     // Returns how the candidate waits for a vehicle that is in the conflict area or enters it. Returns no wait if there
-    // is no such vehicle, or if the area is so far away (`is_far`) that the decision can be made later.
+    // is no such vehicle. Also returns no wait if the area is beyond the decision distance (`is_far`), unless that
+    // vehicle is slow or the candidate checks all areas in advance (`checks_all`).
     Wait blocked_wait(const Conflict& conflict, bool is_empty, bool checks_committed, bool is_far) {
         int blocker = is_empty ? -1 : area_blocker(conflict);
         if (blocker < 0 && checks_committed) blocker = committed_blocker(conflict);

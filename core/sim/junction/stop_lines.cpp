@@ -236,10 +236,10 @@ private:
     ConnectionState* last_ = nullptr;
 };
 
-// Returns true if the vehicle can still stop before the line for the keep-clear rule. It may brake with the highest
-// deceleration of a normal stop, or with the comfortable deceleration if this is higher. Because the brake lags, the
-// highest deceleration of a normal stop is kLagFactor times `stop.deceleration`. The mesoscale mode has no brake lag,
-// so a normal stop needs no response time there.
+// Returns true if the vehicle can still stop before the line for the keep-clear rule. It may brake with the peak
+// deceleration of a normal stop, or with the comfortable deceleration if this is higher. The peak is kLagFactor times
+// `stop.deceleration`, because braking starts late and must then be harder, but at most the emergency deceleration. The
+// mesoscale mode has no brake lag. With the peak deceleration, no response time is added there.
 bool can_hold_for_keep_clear(const Model& model, const VehicleArrays& v, int slot, double line_m) {
     constexpr double kLagFactor = 1.4;  // ratio of the highest deceleration of a normal stop to `stop.deceleration`
     const CaccSettings& cacc = model.driver.cacc;

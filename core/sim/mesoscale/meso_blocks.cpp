@@ -108,8 +108,8 @@ public:
         }
         if (queue.first == 0 && queue.end > 0 && !first_aligns_ && waits_only_for_signal()) {
             sleep_group = state_.plan.signal_group_for(lane_, v_.next_lane[at(first)]);
-            // If another vehicle of its block moves, the kernels also compute the first vehicle. A cap of 0 keeps the
-            // first vehicle at rest.
+            // The kernels compute whole blocks of slots. So they also compute the first vehicle if it shares a block
+            // with a vehicle that moves. A cap of 0 keeps the first vehicle at rest.
             v_.speed_cap_mps[at(first)] = 0.0;
             return add_blocks(first + queue.end, block_.past_last());
         }

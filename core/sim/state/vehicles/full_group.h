@@ -13,7 +13,7 @@ namespace stopline {
 // Pointers to the arrays of a group. Each array has one value for each vehicle, in the order of the lanes. SI units.
 struct FullGroup {
     // State of the vehicle, its measurements, and the road at its position.
-    double* coming_speed;  // speed at the end of the step, when the new request takes effect
+    double* coming_speed;  // speed at the end of the step with the present acceleration
     float *speed, *acceleration, *lag,
         *request;          // request: from the previous step, until the driver kernel replaces it
     float *gap, *closing;  // net gap and closing speed, from the delayed radar measurement
