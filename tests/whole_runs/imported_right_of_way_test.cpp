@@ -138,8 +138,8 @@ INSTANTIATE_TEST_SUITE_P(Settings, ImportedRightOfWay,
                          });
 
 // Two streets merge at a signal. For 30 s the first street has priority (letter G) and the second street yields (letter
-// g). Then they swap for 30 s, and so on. 43 vehicles enter each street. Those that still drive at the end of the run have
-// not passed yet. In SUMO, 39 vehicles of each street pass.
+// g). Then they swap for 30 s, and so on. 43 vehicles enter each street. Those that still drive at the end of the run
+// have not passed yet. In SUMO, 39 vehicles of each street pass.
 TEST_P(ImportedRightOfWay, PriorityFollowsThePhase) {
     const std::string rate = "period=\"7\"";
     const Observed seen = run({"merge_signal", flow("ac", "cd", rate) + flow("bc", "cd", rate),
