@@ -147,6 +147,8 @@ private:
             const DelayCause cause = w_.cause[at(slot)];
             ++vehicles[static_cast<std::size_t>(cause)];
             if (is_upstream_of_area(slot)) log_.delay_upstream_s += interval_s;
+            if (blocks_the_way(cause) && w_.queue_head[at(slot)] == slot)
+                w_.last_blocked_tick[at(w_.lane[at(slot)])] = now_;
             if (starves(slot, cause)) record_starvation(slot, cause);
             if (!is_blocking(cause) && !is_stopped_for_long(slot)) continue;
             DelayEpisode& episode = episode_of(w_.queue_head[at(slot)], cause);
@@ -162,14 +164,23 @@ private:
         }
     }
 
+    // Returns true if the cause means that vehicles ahead block the way. The way of a vehicle that waits for a lane
+    // change does not count as blocked.
+    static bool blocks_the_way(DelayCause cause) { return is_blocking(cause) && cause != DelayCause::wrong_lane; }
+
+    // Returns the tick since which the vehicle has been stopped without a blockage ahead. At red, nobody can tell
+    // whether the way is blocked. So a vehicle that is blocked at each green does not starve.
+    std::int64_t unblocked_since(int slot) const {
+        return std::max<std::int64_t>(v_.stopped_since[at(slot)], w_.last_blocked_tick[at(w_.lane[at(slot)])]);
+    }
+
     // Returns true if the vehicle in `slot` is the first of its queue and has been stopped for
-    // RulesPlan::starvation_ticks and for two signal cycles, although no vehicle ahead blocks its way. A vehicle that
+    // RulesPlan::starvation_ticks and for two signal cycles, while no vehicle ahead blocked its way. A vehicle that
     // waits for a lane change can starve, too.
     bool starves(int slot, DelayCause cause) const {
-        const std::int64_t stopped_ticks = now_ - v_.stopped_since[at(slot)];
+        const std::int64_t stopped_ticks = now_ - unblocked_since(slot);
         if (model_.rules.starvation_ticks == 0 || stopped_ticks < model_.rules.starvation_ticks) return false;
-        if (w_.queue_head[at(slot)] != slot || !has_stood_two_cycles(slot)) return false;
-        return !is_blocking(cause) || cause == DelayCause::wrong_lane;
+        return w_.queue_head[at(slot)] == slot && has_stood_two_cycles(slot) && !blocks_the_way(cause);
     }
 
     // Returns true if the vehicle has stood for two cycles of its signal, or has no signal. A red before the programme
@@ -180,7 +191,7 @@ private:
         if (group < 0) return true;
         const GroupProgramme& programme = model_.signals[at(group)];
         return now_ >=
-               std::max<std::int64_t>(v_.stopped_since[at(slot)], programme.first_tick()) + 2 * programme.cycle_ticks();
+               std::max<std::int64_t>(unblocked_since(slot), programme.first_tick()) + 2 * programme.cycle_ticks();
     }
 
     // Records that the movement of the vehicle starves. If an entry for the same stop of the vehicle exists, updates
@@ -260,6 +271,7 @@ void prepare_delay_watch(const Model& model, const State& state, DelayWatch& w) 
     // lane, or by lane and cause, and keep their contents.
     w.last_blockers.resize(model.graph.lanes.size());
     w.open_episode.resize(model.graph.lanes.size() * kDelayCauseNames.size(), -1);
+    w.last_blocked_tick.resize(model.graph.lanes.size(), 0);
 }
 
 void attribute_delays(const Model& model, const State& state, CongestionState& congestion) {

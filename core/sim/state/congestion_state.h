@@ -40,6 +40,8 @@ struct DelayWatch {
     std::vector<int> path;                   // slots of the vehicles in the chain that find_causes() follows at present
     std::vector<int> stopped_slots;          // slots of all stopped vehicles
     std::vector<LastBlocker> last_blockers;  // [lane]
+    // [lane] tick of the last observation in which vehicles ahead blocked the first vehicle of the queue; 0: none
+    std::vector<std::int64_t> last_blocked_tick;
     // [key] index of the open episode in DelayLog::episodes; -1: none. key = lane * number of causes + cause
     std::vector<int> open_episode;
     std::vector<int> open_episodes;   // keys of all open episodes

@@ -56,8 +56,8 @@ struct Gridlock {
 };
 
 // A starving vehicle. It is the first vehicle of its queue and has been stopped for at least
-// RulesPlan::starvation_ticks. If it has a signal, it has also been stopped for at least two cycles of this signal. No
-// vehicle ahead blocks its way: it waits for right of way, for its signal or for a gap in the adjacent lane.
+// RulesPlan::starvation_ticks. If it has a signal, it has also been stopped for at least two cycles of this signal. In
+// this time no vehicle ahead blocked its way: it waited for right of way, its signal or a gap in the adjacent lane.
 struct Starvation {
     DelayCause cause = DelayCause::none;  // at the last observation
     int lane = -1;

@@ -6,6 +6,7 @@
 
 #include "runs/intersection/intersection_run.h"
 #include "runs/network/network.h"
+#include "scenario/load_scenario.h"
 #include "scenario/scenario_text.h"
 
 namespace stopline {
@@ -52,6 +53,18 @@ TEST(Starvation, LongRedsOfAWorkingSignalDoNotCount) {
     const IntersectionResult result = run_intersection(scenario, 0);
     EXPECT_TRUE(result.starvations.empty());
     EXPECT_GT(result.queue_veh, 5.0) << "no queue stood";
+}
+
+// In a gridlock, the keep-clear rule holds the same vehicle at each green, and at red its signal. This vehicle does not
+// starve, because vehicles ahead block its way.
+TEST(Starvation, VehiclesBlockedAtEachGreenDoNotStarve) {
+    const Scenario scenario =
+        load_scenario(STOPLINE_SOURCE_DIR "/scenarios/grid.yaml",
+                      {"network.grid.columns=3", "network.grid.rows=3", "signal.green=20 s", "rules={keep_clear: on}",
+                       "seed=2", "populations=[CDG]", "duration=1500 s", "measure={area_margin: 20 m, window: 600 s}"});
+    const NetworkResult result = run_network(scenario, 0);
+    EXPECT_GT(result.delays.longest_stop_s, 2.0 * scenario.measure.starvation_s) << "no vehicle stood for long";
+    EXPECT_TRUE(result.delays.starvations.empty());
 }
 
 }  // namespace
