@@ -106,7 +106,8 @@ def scenario(kind, number, folder):
 
 def problem(binary, file, fidelity, output):
     """Runs a scenario. Returns what is wrong with the run, or an empty text."""
-    command = [binary / "stopline-run", file, "--no-figures", "--threads", "1", "--output", output, "--set", f"fidelity={fidelity}"]
+    command = [binary / "stopline-run", file, "--no-figures", "--threads", "1", "--output", output,
+               "--set", f"fidelity={fidelity}"]  # fmt: skip
     result = subprocess.run(command, capture_output=True, text=True, check=False)
     summary = output / "summary.csv"
     if not summary.is_file():
@@ -139,7 +140,7 @@ def main():
     parser.add_argument("--count", type=int, default=100, help="number of scenarios (default: 100)")
     parser.add_argument("--first", type=int, default=1, help="number of the first scenario (default: 1)")
     parser.add_argument("--jobs", type=int, default=2, help="runs at the same time (default: 2)")
-    parser.add_argument("--keep", type=Path, help="folder for the scenarios and their results (default: a temporary one)")
+    parser.add_argument("--keep", type=Path, help="folder for scenarios and results (default: a temporary one)")
     options = parser.parse_args()
     options.bin = options.bin.resolve()
     failed = []

@@ -68,11 +68,12 @@ def without_precompiled_header(entry):
 
 
 def entries_of_sources(entry):
-    """Returns the entry in a list. For a unity source of CMake, returns one entry for each project source that it includes."""
+    """Returns the entry in a list. For a unity source of CMake, returns one entry for each project source in it."""
     path = Path(entry["file"])
     if not UNITY_SOURCE.fullmatch(path.name):
         return [entry]
-    return [{**entry, "file": source, "command": re.sub(r" -o \S+ -c \S+$", f" -o {source}.o -c {source}", entry["command"])}
+    command = re.sub(r" -o \S+ -c \S+$", "", entry["command"])
+    return [{**entry, "file": source, "command": f"{command} -o {source}.o -c {source}"}
             for source in INCLUDE.findall(path.read_text(encoding="utf-8"))]
 
 
