@@ -158,8 +158,8 @@ CompletedSweep run_sweep(const CalibrateCliOptions& options, const std::string& 
     return {std::move(sweep), std::move(store), totals};
 }
 
-// Returns the evaluations of earlier sessions: [number of the evaluation]. An evaluation is a set of parameter values
-// and its loss. The store holds it as a text: first the loss, then the values.
+// Returns the evaluations that earlier sessions stored, indexed by the number of the evaluation. An evaluation is a set
+// of parameter values and its loss. Its text in the store begins with the loss, and the values follow.
 std::vector<std::optional<FitEvaluation>> stored_evaluations(const RunStore& store) {
     std::vector<std::optional<FitEvaluation>> stored(store.identity().points);
     store.for_each_run([&](std::size_t index, const std::string& text) {

@@ -127,8 +127,8 @@ void print(const Comparison& comparison) {
     if (!comparison.note.empty()) fmt::print("\n{}\n", comparison.note);
 }
 
-// Prints the settings that make our drivers behave like SUMO's, unless the scenario has them. Without these settings
-// most metrics lie outside the bands, because the drivers differ.
+// Prints the settings that make our drivers behave like SUMO's drivers. Settings that the scenario already has are left
+// out. Without all these settings most metrics lie outside the bands, because the drivers differ.
 void print_settings_like_sumo(const Scenario& scenario) {
     std::string settings;
     const auto add_if = [&](bool is_missing, const char* setting) {

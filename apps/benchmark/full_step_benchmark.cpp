@@ -22,7 +22,7 @@ namespace {
 constexpr int kVehiclesPerLane = 80;
 constexpr double kGreen_s = 120.0;  // start of green; all queues have formed by then
 constexpr double kHeadway_s = 0.9;
-constexpr double kDriving_s = 10.0;  // time from the start of green to the measurement; by then all vehicles move
+constexpr double kDriving_s = 10.0;  // from the start of green to the warm-up steps; by then all vehicles move
 constexpr int kWarmUpSteps = 10;
 constexpr int kSteps = 100;  // number of measured steps, 1 s in total; during them no vehicle leaves the network
 

@@ -1,5 +1,5 @@
 // Benchmarks of one simulation step in full dynamics, with 16 to 16,000 vehicles. The vehicles drive in platoons of up
-// to 80 vehicles per lane. The measurement begins ten seconds after the start of green.
+// to 80 vehicles per lane. The measurement begins about ten seconds after the start of green.
 #pragma once
 
 #include <cstdint>

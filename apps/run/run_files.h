@@ -42,7 +42,7 @@ public:
     // InputError that names the option.
     RunFiles(const RunFilesOptions& options, const Scenario& scenario, const std::string& command);
 
-    // Returns the observer to pass to the runs. It must not outlive this object.
+    // Returns the observer to pass to the runs. The observer must not outlive this object.
     Observation observation();
     // Completes all files after the runs. Returns a text that lists the files for the user; empty if there are no
     // files.

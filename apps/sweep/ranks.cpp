@@ -27,8 +27,8 @@ namespace stopline {
 namespace {
 
 // Message types. A worker sends `ready` at the start, `alive` every second during a run, `done` or `failed` after the
-// run, and `bye` at the end. It sends `broken` if an exception makes all runs impossible. Rank 0 sends `run` with the
-// number of a run, or `stop`.
+// run, and `bye` at the end. A worker sends `broken` if an exception makes all runs impossible. Rank 0 sends `run` with
+// the number of a run, or `stop`.
 enum Tag : int { ready, alive, done, failed, broken, bye, run, stop };
 
 using Clock = std::chrono::steady_clock;
@@ -150,7 +150,7 @@ private:
     }
 
     // Sends points or the stop message to the workers. A worker without a point is kept waiting while other workers are
-    // busy, because a busy worker may die and its point must then be assigned again.
+    // busy, because a busy worker may die and the point of the dead worker must then be assigned again.
     void assign_points() {
         const bool finished = !points_left() && count(State::busy) == 0;
         for (std::size_t rank = 1; rank < workers_.size(); ++rank) {
@@ -199,8 +199,8 @@ private:
     std::exception_ptr error_;
 };
 
-// Keeps in contact with rank 0 during a run of a worker. keep_going() must be called regularly. It sends the message
-// `alive` every second and returns false after the stop message of rank 0.
+// Keeps in contact with rank 0 during a run of a worker. keep_going() must be called regularly: keep_going() sends the
+// message `alive` every second, and returns false after the stop message of rank 0.
 class Heartbeat {
 public:
     bool keep_going() {

@@ -2,10 +2,10 @@
 // run. Rank 0 owns the store of results and assigns points to the other ranks, the workers, one at a time. Without MPI
 // or mpirun there is one rank.
 //
-// Rank 0 executes no run itself, because workers would have to wait for its answers. If a worker dies, plain mpirun
-// ends the job. The finished runs are stored, and the same command executes the remaining runs. Under `mpirun
-// --enable-recovery` the other workers continue. Rank 0 then counts a worker as dead if it sends no message for too
-// long, and assigns the point of the dead worker again.
+// Rank 0 executes no run itself, because the workers would have to wait for new points until this run ends. If a worker
+// dies, plain mpirun ends the job. The finished runs are stored, and the same command executes the remaining runs.
+// Under `mpirun --enable-recovery` the other workers continue. Rank 0 then counts a worker as dead if it sends no
+// message for too long, and assigns the point of the dead worker again.
 #pragma once
 
 #include <cstddef>
@@ -30,8 +30,8 @@ public:
     int count() const { return count_; }
 
     // Compares `key` over all ranks, which must all call this function. A rank passes an empty key if it has met an
-    // error. Returns true if all keys are equal and not empty. Otherwise rank 0 throws InputError, unless its own key
-    // is empty.
+    // error. Returns true if all keys are equal and not empty. Otherwise returns false, but on rank 0 throws InputError
+    // if the key of rank 0 is not empty.
     bool agree_on(const std::string& key) const;
 
     // Must be called on rank 0. Lets the workers run the points, and stores the results. (Without MPI, run_points()

@@ -1,6 +1,6 @@
-// Step II of the calibration (Section V.B). It checks for each permutation (combination of axis values) whether the
-// mean of the mesoscale mode lies in the confidence band of full dynamics. Both modes run the same sweep with the same
-// seeds.
+// Step II of the calibration (Section V.B of the paper). It checks for each permutation (combination of axis values of
+// a sweep) whether the mean of the mesoscale mode lies in the confidence band of full dynamics. Both modes run the same
+// sweep with the same seeds.
 #pragma once
 
 #include <string>

@@ -36,9 +36,9 @@ double cycle_of(const Scenario& scenario) {
     return scenario.network.has_intersections() ? scenario.intersection_cycle_s() : scenario.signal.cycle_s;
 }
 
-// Returns the cause of a miss as text. Without pairs beyond the limit, the miss consists of unpaired passages. A
-// largest difference of half a cycle or more means that the vehicle used another green. Otherwise the vehicle passes at
-// another time of the same green.
+// Returns, as text, the cause of the differences at one detector. If no pair of passages differs by more than the
+// limit, there are only unpaired passages. If the largest difference is half a cycle or more, a vehicle passed in
+// another green than in full dynamics. If it is smaller, the vehicle passed in the same green, but earlier or later.
 std::string cause_of(const TimingMiss& miss, double cycle_s) {
     if (miss.pairs_beyond_limit == 0) return "one mode has more passages than the other";
     if (cycle_s > 0.0 && std::abs(miss.largest_s) >= 0.5 * cycle_s) {

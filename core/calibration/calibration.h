@@ -1,6 +1,6 @@
-// Step I of the calibration (Section V.B). It compares the times at which vehicles pass detectors in full dynamics and
-// in the mesoscale mode, for every permutation (combination of axis values) of a sweep and any set of mesoscale
-// parameters. The k-th passages of a detector in both modes form a pair.
+// Step I of the calibration (Section V.B of the paper). It compares the times at which vehicles pass detectors in full
+// dynamics and in the mesoscale mode, for every permutation (combination of axis values) of a sweep and any set of
+// mesoscale parameters. The k-th passages of a detector in both modes form a pair.
 //
 // The criterion is that the two times of each pair differ by at most one second. A user can review a larger difference
 // and mark it as accepted (scenario/load_accepted.h); the pair is then valid. Every third permutation is held out of
@@ -56,7 +56,7 @@ struct TimingMiss {
     int pairs_beyond_limit;
     int pairs_compared;
     int unpaired;          // number of passages without counterpart
-    double largest_s;      // largest difference; positive if the mesoscale vehicle is later
+    double largest_s;      // largest difference of a pair; positive if the vehicle passes later in the mesoscale mode
     int first_passage;     // number (from 1) of the first passage beyond the limit
     std::string cause;     // cause of the difference, as text
     std::string accepted;  // reason why the user accepts the difference; empty: not accepted

@@ -1,5 +1,5 @@
 // Times at which vehicles pass the detectors of a scenario, and the differences between these times in two runs of the
-// scenario (Section V.B, step I).
+// scenario (Section V.B of the paper, step I).
 #pragma once
 
 #include <cstdint>
@@ -49,8 +49,9 @@ struct PassagePair {
 
 struct PairedTimes {
     std::vector<PassagePair> pairs;
-    std::map<int, int> unpaired;  // [detector] number of passages that only one of the runs has; no entry for 0
-    int unpaired_count() const;   // sum over all detectors
+    // [detector] number of passages that only one of the two runs has. Detectors without such passages have no entry.
+    std::map<int, int> unpaired;
+    int unpaired_count() const;  // sum over all detectors
 };
 PairedTimes pair_up(const DetectorTimes& reference, const DetectorTimes& other);
 

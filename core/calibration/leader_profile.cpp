@@ -17,9 +17,9 @@ constexpr double kStep_s = 0.01;                // step of the simulation and in
 constexpr double kLast_s = 120.0;
 
 // Returns the scenario of a single lane with one signal, and with a speed limit so high that it does not limit the
-// acceleration. profile_limit_mps has the same value: on a road with a higher limit, a driver would also use a share of
-// the engine power, but here the driver's acceleration curve alone must determine the start. On fast roads, the
-// mesoscale mode adds the influence of engine power itself (Model::power_profile).
+// acceleration. On roads with a limit above profile_limit_mps, drivers also use a share of the engine power. Here
+// profile_limit_mps is as high as the speed limit, so that only the acceleration curve of the driver determines the
+// start. In the mesoscale mode, Model::power_profile adds the engine power on fast roads.
 Scenario straight_road_scenario(const Scenario& scenario) {
     Scenario road = scenario;
     road.fidelity = "full";

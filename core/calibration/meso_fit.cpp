@@ -59,7 +59,7 @@ struct Search {
 MesoSettings with_values(MesoSettings settings, const std::vector<double>& values) {
     for (std::size_t k = 0; k < values.size(); ++k) fit_parameters()[k].value(settings) = values[k];
     // In the constant-distance model, the gap at rest is the sum of standstill_gap_m and band_m. The fit changes band_m
-    // and must keep the gap at rest, so standstill_gap_m is computed from both.
+    // but must keep this sum, so standstill_gap_m is what remains of the sum.
     settings.constant_distance.standstill_gap_m = settings.calibrated_standstill_gap_m - settings.band_m;
     return settings;
 }

@@ -1,7 +1,7 @@
-// Fits the parameters of the mesoscale mode to detector passages of full dynamics (Section V.B, step I). The k-th
-// passages of a detector in both modes form a pair. The loss of a run is a mean over its pairs (fit_loss), or 1 if
-// vehicles overlap or collide in a conflict area. The loss of a set of parameters is the mean over all runs. A single
-// pair adds at most 1 to the sum of its run, however large its difference is.
+// Fits the parameters of the mesoscale mode to detector passages of full dynamics (Section V.B of the paper, step I).
+// The k-th passages of a detector in both modes form a pair. The loss of a run is a mean over its pairs and its
+// unpaired passages (fit_loss), or 1 if vehicles overlap or collide in a conflict area. The loss of a set of parameters
+// is the mean over all runs. A single pair adds at most 1 to the sum of its run, however large its difference is.
 //
 // A permutation is a combination of axis values of a sweep. First, the time-gap model and the constant-distance model
 // are fitted separately, each to the permutations in which all vehicles use this model. Each of these searches is
@@ -62,8 +62,8 @@ struct FitOptions {
     int evaluations_per_start = 250;  // limit for each search that fits one model
     int joint_evaluations = 800;      // limit for the search that fits all parameters
     double limit_s = 1.0;
-    // Returns the loss of evaluation `index` that an earlier session stored, if that evaluation had the same parameter
-    // values.
+    // Returns the loss of evaluation `index` that an earlier, interrupted fit stored. Returns nothing if no loss is
+    // stored, or if that evaluation had other parameter values.
     std::function<std::optional<double>(std::size_t index, const std::vector<double>& values)> stored_loss;
     std::function<void(std::size_t index, const FitEvaluation&)> on_evaluation;
     std::function<bool(double)> on_progress;  // gets the finished share; false: fit_meso throws Interrupted

@@ -1,5 +1,5 @@
-// Calibration of the start-up (Section III.B). The fit chooses the acceleration of platoon leaders as a function of
-// speed, so that the simulated start in full dynamics follows the mean of the measured starts.
+// Calibration of the start-up (Section III.B of the paper). The fit chooses the acceleration of platoon leaders as a
+// function of speed, so that the simulated start in full dynamics follows the mean of the measured starts.
 #pragma once
 
 #include <filesystem>
@@ -41,7 +41,7 @@ struct StartupRun {
 StartupRun simulate_start(const Scenario& scenario, const std::vector<double>& times_s);
 
 struct StartupFit {
-    DriverSettings driver;        // driver of the scenario with the fitted profile
+    DriverSettings driver;        // the driver of the scenario, but with the fitted acceleration curve
     double rms_before_mps = 0.0;  // root mean square deviation from the measured mean
     double rms_after_mps = 0.0;
     int evaluations = 0;
@@ -55,7 +55,7 @@ StartupFit fit_startup(const Scenario& scenario, const StartupCurve& curve,
 // interpolated.
 struct BandExit {
     double from_s, to_s;
-    double largest_deviation_mps;  // largest deviation from the mean; negative if the start is slower
+    double largest_deviation_mps;  // from the measured mean; negative if the simulated start is slower than the mean
 };
 // Returns the exits from the confidence band of the mean (`of_mean` true) or from the band of single starts (false).
 // Returns nothing if the curve does not have that band.

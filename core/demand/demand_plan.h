@@ -40,10 +40,11 @@ struct Trip {
 
 struct DemandPlan {
     // A lane where vehicles get a route. On an entry lane, vehicles that enter the network get their first route. On a
-    // link lane, vehicles get the route through the next intersection.
+    // link lane (from one intersection to the next), vehicles get the route through the next intersection.
     struct Inlet {
         int lane = 0;
-        // Number of vehicles that enter the network on this lane; usually 0 on link lanes.
+        // Number of vehicles that enter the network on this lane; the largest integer if the number is unlimited. A
+        // link lane has vehicles of its own only if DemandSettings::approaches names its approach.
         std::int64_t vehicles = 0;
         std::vector<int> routes;     // routes from which the route of a vehicle is drawn
         std::vector<double> shares;  // [index in `routes`] share of the route; the shares sum to 1

@@ -3,11 +3,12 @@
 // function without branches per vehicle. It computes one vehicle (double) or several at a time (Batch,
 // base/simd/simd.h). The loops over vehicles are in sim/full_dynamics/full_kernels.inl.
 //
-// The law for following is the cascade of Fig. 3: PD feedback on the gap measured by radar, and feedforward of the
-// leader's state from V2V. Symbols: e = gap - d(v) is the error of the gap against the desired gap d, h is the time gap
-// (slope of d), u is the requested acceleration, a is the realised acceleration, and tau is the lag of the powertrain.
-// Values of the leader have the suffix _p. The spacing policy is H = 1 + h s, with s the variable of the Laplace
-// transform. In the time domain, the request u is given by
+// The law for following is the cascade of Fig. 3 of the paper: PD feedback on the gap measured by radar, and
+// feedforward of the leader's state from V2V. Symbols: e = gap - d(v) is the error of the gap against the desired gap
+// d, h is the time gap (slope of d), u is the requested acceleration, a is the realised acceleration, and tau is the
+// lag of the powertrain. Values of the leader have the suffix _p. The spacing policy is H = 1 + h s, with s the
+// variable of the Laplace transform. In the time domain, the request u for a constant time gap (CTG) or distance gap
+// (CDG) is given by
 //     CTG  (h > 0):  h du/dt = -u + kp e + kd de/dt + a_p + (tau / tau_p) (u_p - a_p)
 //     CDG  (h = 0):        u =      kp e + kd de/dt + predictive_feedforward(...)
 // (Ploeg et al. 2011, reference [31] of the paper.) The last term of CTG is tau times the jerk of the leader, because
@@ -46,8 +47,8 @@ using DriverTables = DriverTablesOf<double>;
 
 // Compiles the settings. Throws InputError if the acceleration profile is empty or incomplete.
 DriverTables compile_driver(const DriverSettings& settings);
-// Sets the accelerations beyond the range of the profile. `available_mps2` returns the highest acceleration of the
-// vehicle at a speed, m/s.
+// Sets the accelerations for desired speeds above the range of the profile. `available_mps2` returns the highest
+// acceleration of the vehicle, m/s2, at a given speed, m/s.
 void extend_by_power(const FreeDriveSettings& free, const std::function<double(double)>& available_mps2,
                      DriverTables& tables);
 
@@ -113,7 +114,7 @@ inline constexpr double kLandingTime_s = 0.5;  // tau of stop_acceleration()
 //     v_s = -b tau + sqrt((b tau)^2 + 2 b distance).
 // A vehicle that keeps the speed v_s for the time tau and then brakes with b stops exactly at that distance, without
 // overshoot. v_s is the safe speed of Krauss 1998 behind a stopped obstacle. On the curve, the vehicle decelerates with
-// b v / (v_s + b tau).
+// b v / (v_s + b tau). If the vehicle has already passed the stopping point, b is added to the braking.
 //
 // Our choices: tau covers the lag of the brake (0.2 s) and the time that the request needs to change. The gain
 // kSpeedGain_1ps returns the vehicle to the curve with the time constant 1 / gain = 0.7 s. The brake responds faster
@@ -167,7 +168,7 @@ STOPLINE_INLINE R stop_behind_acceleration(const DriverTablesOf<Number>& d, cons
 // leader. u minimises the sum of the squared differences between both accelerations at three times in the prediction
 // horizon, and is limited to the allowed range. With first-order lags and the V2V delay, the accelerations after a
 // further time th are
-//     a_p(t + th) = u_p + (a_p - u_p) exp(-(th + delay) / tau_p),   a(t + th) = u + (a - u) exp(-th / tau),
+//     a_p(t + th) = u_p + (a_p - u_p) exp(-(th + delay) / tau_p),   a(t + th) = u + (a - u) exp(-th / tau).
 // Each of the three times thus gives one equation for u: w u = a_p(t + th) - (1 - w) a with w = 1 - exp(-th / tau).
 template <class R, class Number>
 STOPLINE_INLINE R predictive_feedforward(const CaccSettingsOf<Number>& c, const R& acceleration_mps2, const R& rate_1ps,
@@ -259,7 +260,7 @@ STOPLINE_INLINE R emergency_acceleration(const CaccSettingsOf<Number>& c, const 
 
 // Constants of keep_room_acceleration(), whose comment explains their use. All three values are our choice.
 //
-// The brake lags by 0.2 s. Before that, it takes about 0.1 s until the requested acceleration has changed.
+// Sum of the lag of the brake (0.2 s) and of the time that the requested acceleration needs to change (about 0.1 s).
 inline constexpr double kBrakeReserve_s = 0.3;
 // If this share were 1, vehicles with the policy SWITCH-2 would brake during every start.
 inline constexpr double kReservedGrowthShare = 0.5;
@@ -274,13 +275,13 @@ inline constexpr double kMinReserve_s = 0.15;
 // v_safe decelerates at the rate at which v_safe falls, d v_safe / dt = (v_p a_p - b closing) / v_safe. The vehicle
 // brakes a little harder than that, to return to v_safe.
 //
-// Two reserves reduce the room. The first reserve covers the delays of radar and brake. This reserve is the closing
-// speed times the sum of the radar delay and kBrakeReserve_s. The second reserve is for policies with a time gap. Their
-// filter (H = 1 + h s) also delays braking, so a vehicle with a short gap would use up its room. The second reserve is
-// the own speed times kBrakeReserve_s, but at most kReservedGrowthShare of `gap_growth_m`, the desired gap minus the
-// standstill gap. Just above a switch speed gap_growth_m is almost 0, so this reserve is at least the own speed times
-// kMinReserve_s. With a constant distance gap_growth_m is 0 and there is no second reserve, because the feedforward
-// reports the leader's braking in time.
+// The room is the net gap, minus the gap that must remain, minus two reserves. The first reserve covers the delays of
+// radar and brake. It is the closing speed times the sum of the radar delay and kBrakeReserve_s. The second reserve is
+// for policies with a time gap. Their filter (H = 1 + h s) also delays braking, so a vehicle with a short gap would use
+// up its room. The second reserve is the own speed times kBrakeReserve_s, but at most kReservedGrowthShare of
+// `gap_growth_m`, the desired gap minus the standstill gap. Just above a switch speed gap_growth_m is almost 0, so this
+// reserve is at least the own speed times kMinReserve_s. With a constant distance gap_growth_m is 0 and there is no
+// second reserve, because the feedforward reports the leader's braking in time.
 template <class R, class Number>
 STOPLINE_INLINE R keep_room_acceleration(const CaccSettingsOf<Number>& c, const R& speed_mps, const R& gap_growth_m,
                                          const LeaderView<R>& p) {

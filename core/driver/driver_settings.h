@@ -67,9 +67,9 @@ struct GiveWaySettings {
 struct LaneChangeSettings {
     // Mandatory changes. A vehicle that needs n lane changes begins to look for a gap when its usable distance is
     // shorter than its speed times n look_ahead_s, plus room for two vehicles. The usable distance is the distance to
-    // the stop line minus the queue on the target lane. For changes to the left, left_factor times look_ahead_s
-    // applies. The form and both defaults are those of SUMO's model LC2013 (Erdmann 2015, "SUMO's lane-changing
-    // model").
+    // the stop line minus the queue on the target lane, but at most the distance to the position from which on the
+    // whole vehicle is beside its turn pocket. For changes to the left, left_factor times look_ahead_s applies. The
+    // form and both defaults are those of SUMO's model LC2013 (Erdmann 2015, "SUMO's lane-changing model").
     double look_ahead_s = 10.0;
     double left_factor = 2.0;
     // Smallest accepted lead gap and lag gap, as a share of the gap of the spacing policy. The share falls linearly
@@ -77,7 +77,7 @@ struct LaneChangeSettings {
     double gap_share = 1.0;
     // The default follows measurements: at equal speeds the median critical gap of mandatory changes is 4 m (Toledo,
     // Koutsopoulos, Ben-Akiva 2003, "Modeling integrated lane-changing behavior", Transportation Research Record 1857).
-    // This is 0.3 of a time gap of 0.87 s at 50 km/h.
+    // These 4 m are about 0.3 of the 12 m that a vehicle drives at 50 km/h within the time gap of 0.87 s.
     double urgent_gap_share = 0.3;
     std::string look_ahead = "on";   // off | on: vehicles also choose lanes for the turn after the next one
     std::string gap_opening = "on";  // off | on: followers on the target lane open a gap for mandatory changes
@@ -139,9 +139,8 @@ struct MesoSettings {
     double leader_constant_power_speed_mps = 500.0 / 3.6;
     std::vector<double> leader_profile_mps;
     std::vector<double> leader_profile_mps2;
-    // Queue discharge: in each step, a V2V start message reaches at most this number of stopped vehicles, in addition
-    // to the next vehicle, which starts because its leader has started. Only vehicles with the constant-distance model
-    // receive the message. 0: no start messages.
+    // Queue discharge: in each step, a V2V start message reaches at most this number of stopped vehicles at the front
+    // of the queue. Only vehicles with the constant-distance model receive the message. 0: no start messages.
     int start_relay_vehicles = 0;
     double start_delay_s = 0.0;  // start-up delay of the first vehicle at a stop line, due to its powertrain
     KraussSettings constant_time;

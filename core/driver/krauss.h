@@ -114,8 +114,8 @@ struct KraussInputOf {
 using KraussInput = KraussInputOf<double>;
 
 // Returns v_safe, reduced so that the vehicle keeps its time gap. v_safe allows a shorter gap while the leader is
-// faster, because a faster leader needs longer to stop. Full tracking (gap_tracking = 1) limits the speed to (s - s_0)
-// / tau. With partial tracking the speed lies between that limit and v_safe.
+// faster, because a faster leader needs longer to stop. Full tracking (gap_tracking = 1) limits the speed to
+// (s - s_0) / tau. With partial tracking the speed lies between that limit and v_safe.
 template <class R, class Model>
 STOPLINE_INLINE R track_time_gap(const Model& k, const KraussInputOf<R>& in, const R& extra_gap_m, const R& safe_mps) {
     const R time_gap_mps = (in.gap_m - k.standstill_gap_m - extra_gap_m) * (1.0 / max_of(R(k.reaction_s), R(0.05)));
@@ -140,9 +140,9 @@ STOPLINE_INLINE R anticipated_safe_speed_mps(const Model& k, const KraussInputOf
 
 // Returns the speed of the next step. `safe_mps` is the result of anticipated_safe_speed_mps(), `random` is uniform in
 // [0, 1), and `power_limit` is the result of has_power_limit(). If `power_limit` is true, constant power can lower the
-// maximum acceleration, but not below `least_mps2`. v_safe reduces the speed at most to `lowest_mps`. The vehicle
-// brakes harder only to avoid contact with the leader, or if in.speed_cap_mps is lower. The limit `lowest_mps` matters
-// only after lane changes; otherwise the models do not demand such hard braking.
+// maximum acceleration, but not below `least_mps2`. v_safe cannot reduce the speed below `lowest_mps`. A lower speed
+// results only if the vehicle must avoid contact with the leader, or if in.speed_cap_mps is lower. v_safe is below
+// `lowest_mps` only after lane changes.
 template <bool power_limit, class R, class Model>
 STOPLINE_INLINE R speed_after_mps(const Model& k, const KraussInputOf<R>& in, const R& safe_mps, const R& random,
                                   double dt, const R& lowest_mps = R(0.0), const R& least_mps2 = R(0.0)) {

@@ -1,5 +1,5 @@
 // Draws figures with gnuplot as SVG and PNG. The data and the script stay beside the figure, so that a user can restyle
-// it: `gnuplot NAME.gp` in its folder draws it again.
+// the figure. The command `gnuplot NAME.gp` in the folder of the script draws the figure again.
 #pragma once
 
 #include <filesystem>
@@ -22,8 +22,8 @@ struct Figure {
 };
 
 // Colour, dash and point of a line. The eight colours are those of Okabe and Ito (2008), which colour-blind readers can
-// distinguish. Grey replaces their yellow, because yellow is too light on white. Beyond eight lines, the colours repeat
-// with other dashes.
+// distinguish. Grey replaces the yellow of these eight, because yellow is too light on white. Beyond eight lines, the
+// colours repeat with other dashes.
 struct LineStyle {
     std::string colour;    // #rrggbb
     int dash = 1;          // gnuplot dash type

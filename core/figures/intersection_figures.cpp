@@ -107,8 +107,8 @@ struct PositionHeadway {
 };
 
 // Returns the mean headways by queue position, over all lanes with saturated greens (greens that start with a queue of
-// at least five vehicles). The list ends before the first position that one of these lanes never reaches. At this
-// position, the mean would cover only the lanes with long queues.
+// at least five vehicles). The list ends before the first position that the queue of one of these lanes never reaches.
+// From this position on, the mean would cover only the lanes with long queues.
 std::vector<PositionHeadway> common_positions(const Discharge& discharge) {
     std::vector<PositionHeadway> positions;
     for (std::size_t n = 0;; ++n) {

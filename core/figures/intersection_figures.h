@@ -9,8 +9,8 @@
 
 namespace stopline {
 
-// Draws the network to scale with the vehicles of one population at the time IntersectionResult::snapshot_s. The colour
-// of a vehicle shows its policy.
+// Draws the network to scale with the vehicles of one population at the time of the snapshot
+// (IntersectionResult::snapshot_s). The colour of a vehicle shows its policy.
 Figure intersection_picture(const IntersectionReport& report, std::size_t population);
 
 // Returns the picture of the population with the most even mix of policies, and the headways by queue position if there

@@ -1,4 +1,4 @@
-// Points of curves over time. Each point is the mean of one or several measured intervals.
+// Points of curves over time. Each point combines one or several successive measured intervals.
 #pragma once
 
 #include <cstddef>

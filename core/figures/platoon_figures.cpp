@@ -23,7 +23,8 @@ std::vector<std::size_t> shown_populations(const SingleLightReport& result) {
     return {*result.baseline == 0 ? std::size_t{1} : std::size_t{0}, *result.baseline};
 }
 
-// Returns the end of the time axis: 40 s, or earlier if the run or the recorded trajectories end earlier.
+// Returns the end of the time axis, in s after the start of green: 40 s, or less if the run or the recorded
+// trajectories end earlier.
 double trajectories_end_s(const SingleLightReport& result) {
     constexpr double kShown_s = 40.0;
     const double run_s = result.scenario.duration_s - result.scenario.signal.first_green_s;
@@ -65,8 +66,8 @@ std::string light_line(const std::string& light, double from_s, double to_s) {
     return text;
 }
 
-// Returns the commands that draw the signal over time: red, then green, yellow and red. The last three repeat in every
-// cycle if the signal has a cycle time.
+// Returns the commands that draw the signal over time: red, then green, yellow and red. If the signal has a cycle time,
+// green, yellow and red repeat in every cycle.
 std::string signal_lines(const SingleLightReport& result) {
     const SignalSettings& signal = result.scenario.signal;
     const double end_s = trajectories_end_s(result);

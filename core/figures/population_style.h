@@ -1,5 +1,5 @@
 // Line style of a population in all figures of a run. The style depends on the position of the population in the
-// scenario. So a population has the same style in figures that show only some populations. In a figure that shows
+// scenario. So a population keeps its style in a figure that shows only some of the populations. In a figure that shows
 // vehicles by policy, a policy has the style of the population with the same name.
 #pragma once
 

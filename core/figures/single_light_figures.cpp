@@ -14,7 +14,8 @@ namespace stopline {
 
 namespace {
 
-// Returns the time at which the curves end: shortly after the last reported green time.
+// Returns the time at which the curves end: 5 s after the longest reported green time (measure.green), but not after
+// the end of green.
 double curves_end_s(const SingleLightReport& result) {
     const std::vector<double>& green_s = result.scenario.measure.green_s;
     const double signal_s = result.scenario.signal.green_s;
@@ -139,8 +140,9 @@ std::string improvement_data(const SingleLightReport& result, const std::vector<
     return text;
 }
 
-// Returns the improvements computed from whole vehicle counts. There is one value for each reported green time. A value
-// is NaN if the whole queue of the population passes the stop line within a shorter time.
+// Returns the improvements computed from whole vehicle counts, one value for each reported green time. A value is NaN
+// if the whole queue of the population passes the stop line within a shorter time, or if the improvement is not a
+// finite number.
 std::string whole_count_data(const SingleLightReport& result, const std::vector<std::size_t>& order) {
     std::string text = "# green_s improvement_percent, one block for each population\n";
     for (const std::size_t k : order) {

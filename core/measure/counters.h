@@ -30,8 +30,9 @@ private:
 double improvement_percent(double passed, double baseline);
 
 // Returns the improvement of a counter over the baseline in percent, averaged over the time from `from_s` to `to_s`
-// (Fig. 6). The function uses interpolated counts, because rounding both counts down to whole vehicles would increase
-// the ratio. Returns NaN if the interval is empty or the count of the baseline is 0 at the start of the interval.
+// (Fig. 6 of the paper). The function uses interpolated counts, because rounding both counts down to whole vehicles
+// would exaggerate the improvement. Returns NaN if the interval is empty or the count of the baseline is 0 at the start
+// of the interval.
 double mean_improvement_percent(const Counter& counter, const Counter& baseline, double from_s, double to_s);
 
 }  // namespace stopline

@@ -24,7 +24,7 @@ struct LinePassage {
 std::vector<LinePassage> line_passages(const LaneGraph& graph, const std::vector<Passage>& passages,
                                        double green_start_s);
 
-// Returns the passages within the green time.
+// Returns the passages up to the time `green_s` after the start of green.
 std::vector<LinePassage> within_green(const std::vector<LinePassage>& passages, double green_s);
 
 // The flow at the end of the queue: means over the last `positions` passages of each lane. The first passage of a lane

@@ -27,10 +27,10 @@ struct Collapse {
 inline constexpr std::size_t kMinCollapseValues = 10;
 
 // Finds a collapse. The series is cut into two parts, so that the squared deviations from the means of the two parts
-// have the smallest sum. The mean after the cut must be lower than the mean before it: by at least `share` of the mean
-// before it, and by more than three standard errors. The mean of the last tenth of the series (at least five values)
-// must also be lower by at least this share. Returns nothing if there is no collapse, or for fewer than
-// kMinCollapseValues values.
+// have the smallest sum. The mean of the second part must be lower than the mean of the first part: by at least `share`
+// of the first mean, and by more than three standard errors. The mean of the last tenth of the series (at least five
+// values) must also be lower than the first mean by at least this share. Returns nothing if there is no collapse, or
+// for fewer than kMinCollapseValues values.
 std::optional<Collapse> find_collapse(std::span<const double> values, double share);
 
 }  // namespace stopline

@@ -1,6 +1,6 @@
-// Travel time and density of a zone, from the times at which vehicle fronts pass its borders. By the definition of Edie
-// (1963), density follows from the mean number of vehicles in the zone. In this file, density is the share of the lane
-// length that vehicles cover.
+// Travel time and density of a zone, from the times at which vehicle fronts pass the borders of the zone. A vehicle
+// counts in proportion to the time that it spends in the zone (Edie 1963). Density is expressed in two ways: as the
+// mean number of vehicles in the zone, and as the share of the lane length that these vehicles cover.
 #pragma once
 
 #include <span>
@@ -19,7 +19,7 @@ struct TimeWindow {
 };
 
 struct ZoneResult {
-    double travel_time_s = 0.0;  // mean of the vehicles that left the zone within the window; NaN if none did
+    double travel_time_s = 0.0;  // mean of the vehicles that left the zone within the window; NaN if no vehicle left
     double vehicles = 0.0;       // mean number of fronts in the zone
     double occupied = 0.0;       // share of the lane length that vehicles cover, 0 .. 1
     int exited = 0;              // vehicles that left the zone within the window

@@ -76,7 +76,7 @@ std::optional<Conflict> areas_of(const Lane& one, const Lane& two, double cleara
                     position_m(two, on_two->to_m)};
 }
 
-// Returns the rank of a movement for right of way. Movements of a higher rank yield to movements of a lower rank.
+// Returns a number for the right of way of a movement. Of two movements, the one with the larger number yields.
 int rank(Turn turn) { return turn == Turn::left ? 2 : turn == Turn::right ? 1 : 0; }
 
 }  // namespace

@@ -8,11 +8,11 @@
 namespace stopline {
 
 // Returns how far two diverging paths run together: the distance along `a`, from the common start to the point where
-// `a` is `clearance_m` away from `b`.
+// `a` is `clearance_m` away from `b`, or to the end of the shorter path if the paths stay closer than that.
 double shared_stretch_m(const Polyline& a, const Polyline& b, double clearance_m);
 
-// Returns the conflict area of two connections, seen from `one`, or nothing if vehicles on them cannot touch. The
-// caller sets the members `other`, `yields` and `other_yields` of the result.
+// Returns the conflict area of two connections, or nothing if vehicles on them cannot touch. In the result, `one` is
+// this connection and `two` is the other. The caller sets the members `other`, `yields` and `other_yields`.
 std::optional<Conflict> conflict_of(const Lane& one, const Lane& two, double clearance_m);
 
 // Finds the conflicts between the connections with the lane indices first .. stop - 1, and adds these conflicts to

@@ -21,8 +21,8 @@ namespace stopline {
 enum class Turn : std::uint8_t { none, straight, right, left };
 inline constexpr int kMaxTurns = 12;  // number of values of Turn, including `none`
 
-// One lane of a SUMO network file. The import can join consecutive lanes of the file to one lane of the lane graph.
-// They are then the parts of this lane.
+// One lane of a SUMO network file. The import can join consecutive lanes of the file to one lane of the lane graph. The
+// lanes of the file are then the parts of the joined lane.
 struct LanePart {
     std::string name;       // name of the lane in the file
     double end_m = 0.0;     // end of the part, from the start of the lane; on a connection, from the stop line
@@ -45,8 +45,10 @@ struct Lane {
     std::vector<int> next = {};  // successor lanes; empty: vehicles leave the network at the end
     Polyline shape = {};         // centre line; it begins shape_start_m before the start of the lane
     double stop_line_m = 0.0;    // position of the stop line
-    double shape_start_m = 0.0;  // connection: length of `shape` that lies on the approach lane, beyond its stop line
-    double shape_scale = 1.0;    // metres of `shape` per metre of the lane; 1 except in imported networks
+    // Connection: distance from the stop line, where `shape` begins, to the end of the approach lane, where the
+    // connection begins.
+    double shape_start_m = 0.0;
+    double shape_scale = 1.0;  // metres of `shape` per metre of the lane; 1 except in imported networks
     // Connection: a vehicle whose rear is beyond this position is clear of the other connections of its approach lane.
     double diverge_end_m = 0.0;
     Turn turn = Turn::none;          // connection: its movement; else none
@@ -56,9 +58,12 @@ struct Lane {
     double start_offset_m = 0.0;     // distance of the lane's start from the approach's start; > 0: turn pocket
     int approach = -1;               // index in LaneGraph::approaches; -1: none
     int movement_signal_group = -1;  // connection: signal group of its movement; -1: group of the stop line
-    bool waits_inside = true;  // connection: yielding vehicles wait before the conflict area; false: at the stop line
-    bool keep_clear = true;    // connection: vehicles enter only if the exit lane has room (TrafficRules::keep_clear)
-    // Imported lane: its parts in driving order, as far as the stop line. Empty: the lane is a single part.
+    // Connection. True: yielding vehicles wait before the conflict area. False: they wait at the stop line.
+    bool waits_inside = true;
+    // Connection. True: the rule TrafficRules::keep_clear applies, so vehicles enter only if the exit lane has room.
+    bool keep_clear = true;
+    // Imported lane: its parts in driving order; on an approach lane, up to the stop line. Empty: the lane is a single
+    // part.
     std::vector<LanePart> parts = {};
     StopRule stop_rule = StopRule::none;  // connection
 };
@@ -66,16 +71,19 @@ struct Lane {
 // A conflict area: the parts of two connections where vehicles on one can touch vehicles on the other.
 // LaneGraph::conflicts lists the area for each of the two, which is then called "this connection". The bounds of the
 // area are distances from the start of the connection. A vehicle occupies the area while its front is beyond `from_m`
-// and its rear is not beyond `to_m`.
+// and its rear is before `to_m`.
 struct Conflict {
-    int other = -1;             // lane index of the other connection
-    double from_m = 0.0;        // start of the area on this connection; < 0: on the approach lane, beyond its stop line
+    int other = -1;  // lane index of the other connection
+    // Start of the area on this connection. < 0: the area begins before the connection, on the piece of the approach
+    // lane between its stop line and its end.
+    double from_m = 0.0;
     double to_m = 0.0;          // end of the area on this connection
     double other_from_m = 0.0;  // start of the area on the other connection
     double other_to_m = 0.0;    // end of the area on the other connection
-    bool yields = false;        // this connection gives way to the other
-    bool other_yields = false;  // the other connection gives way to this one
-    bool zipper = false;        // both connections lead to one lane, and their vehicles merge in the order of arrival
+    bool yields = false;        // true: this connection gives way to the other
+    bool other_yields = false;  // true: the other connection gives way to this one
+    // True: both connections lead to the same lane, and their vehicles merge in the order of arrival.
+    bool zipper = false;
 };
 
 // A sequence of lanes that a vehicle follows. A route begins on an entry lane or a link lane. The route ends at the
@@ -101,8 +109,8 @@ struct LaneGraph {
     std::vector<int> entries;          // lanes where vehicles enter the network
     std::vector<int> links;            // lanes from one intersection to the next; routes begin on entries and links
     int signal_groups = 0;
-    // [signal group] number of its stage. Groups of the same stage have green together. Empty: every group has a stage
-    // of its own.
+    // [signal group] number of its stage. Groups of the same stage can have green at the same time. Empty: every group
+    // has a stage of its own.
     std::vector<int> stage_of;
     std::vector<std::vector<Conflict>> conflicts;  // [lane] conflicts sorted by from_m; empty if no lane has conflicts
 
@@ -115,8 +123,8 @@ inline Pose pose_along(const Lane& lane, double distance_m) {
     return pose_at(lane.shape, distance_m * lane.shape_scale);
 }
 
-// Builds a straight road of adjacent lanes without lane changes. All stop lines have signal group 0. The k-th entry
-// lane is lane 2 k, its exit lane is lane 2 k + 1, and its route has the index k.
+// Builds a straight road of adjacent lanes without lane changes. All stop lines have signal group 0. Entry lane k
+// (k = 0, 1, ...) has the lane index 2 k. Its exit lane has the lane index 2 k + 1, and its route has the index k.
 LaneGraph make_approach(const ApproachSettings& settings);
 
 // Builds an intersection of four equal legs at right angles. Legs 0 .. 3 lie in the west, south, east and north. Signal
@@ -138,8 +146,8 @@ struct GridPosition {
 std::vector<GridPosition> grid_positions(const GridSettings& grid);
 
 // Builds the streets that the user describes. Intersection n has three signal groups: 3 n for the major street, 3 n + 1
-// for those left-turn lanes of the major street that have a protected green, and 3 n + 2 for the minor street. The
-// groups 3 n and 3 n + 1 form one stage.
+// for its lanes that only turn left, and 3 n + 2 for the minor street. If the programme has no protected left turn, the
+// lanes that only turn left belong to group 3 n. The groups 3 n and 3 n + 1 form one stage.
 //
 // A lane name begins with the name of its intersection, such as suarezstr_west_in_0 or suarezstr_east_out_0. Lanes are
 // counted from the left, turn pockets included. An exit lane that leads to another intersection is named as an approach

@@ -32,8 +32,8 @@ struct Series {
     std::vector<Range> values;
 };
 
-// Returns the throughput of a population (given by its name) at a green time and an offset, both in s. The unit does
-// not matter, because the gain is a ratio of two throughputs.
+// Returns the throughput of a population (given by its name) at a green time and an offset, both in s. The unit of the
+// throughput does not matter, because the gain is a ratio of two throughputs.
 using Throughput = std::function<std::optional<double>(const std::string&, int, int)>;
 
 std::vector<Range> improvements(const std::string& population, std::span<const int> greens_s,

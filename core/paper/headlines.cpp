@@ -14,7 +14,7 @@ namespace stopline {
 
 namespace {
 
-// A sentence with one placeholder {} for our value of each row.
+// A sentence about rows of the scorecard. It has one placeholder {} for each row, which is replaced by our value.
 struct Statement {
     std::vector<const char*> rows;  // row ids
     const char* sentence;

@@ -1,6 +1,6 @@
 // The main results of the reproduction in five lines. Three lines give the gain of CDG at one signal, at one
-// intersection and in networks. One line gives its losses on the grid with turns, and one the number of scorecard rows
-// inside their tolerance.
+// intersection and in networks. One line gives the losses of CDG on the grid with turns. One line gives the number of
+// scorecard rows inside their tolerance.
 #pragma once
 
 #include <string>

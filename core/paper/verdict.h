@@ -40,8 +40,8 @@ std::optional<TargetRange> parse_range(const std::string& value);
 // if a row of kind 'claim' has an answer without `holds`.
 Verdict judge(const Target& target, const std::optional<Answer>& answer);
 
-// Returns the tolerance of a row as text: "±1", "±6 %", "exact" or, if our value must only not exceed that of the
-// paper, "max". Returns an empty text if the row states no tolerance.
+// Returns the tolerance of a row as text: "±1", "±6 %", "exact" or "max". "max" means that our value must not exceed
+// the value of the paper. Returns an empty text if the row states no tolerance.
 std::string tolerance_text(const Target& target);
 
 }  // namespace stopline

@@ -11,8 +11,8 @@ namespace stopline {
 
 class StreamedFile {
 public:
-    // Opens a temporary file; commit() lets it replace `file`. A device or a pipe is written directly. On failure the
-    // constructor, write() and commit() throw InputError.
+    // Opens a temporary file. commit() replaces `file` by this temporary file. A device or a pipe is written directly.
+    // On failure the constructor, write() and commit() throw InputError.
     explicit StreamedFile(const std::filesystem::path& file);
     StreamedFile(const StreamedFile&) = delete;
     StreamedFile& operator=(const StreamedFile&) = delete;
@@ -29,7 +29,7 @@ private:
     class Compressor;
 
     ReplacedFile file_;
-    std::unique_ptr<Compressor> compressor_;  // null: the file is plain
+    std::unique_ptr<Compressor> compressor_;  // null: the file is not compressed
 };
 
 // Writes a whole file, compressed if its name ends with ".gz". Throws InputError with path and reason on failure.

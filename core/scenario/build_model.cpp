@@ -39,8 +39,8 @@ void add_policies(const Scenario& scenario, const PopulationSettings& population
 // signal group of their intersection.
 bool from_south_or_north(const LaneGraph& graph, int lane) { return graph.lanes[at(lane)].signal_group % 2 == 1; }
 
-// Returns the share of a route among the vehicles on its first lane, 0 .. 1. This share follows from the turn shares of
-// the demand.
+// Returns the share of the vehicles on the first lane of a route that take this route, 0 .. 1. The share follows from
+// the turn shares of the demand.
 double share_of(const Scenario& scenario, const Model& model, const Route& route) {
     const LaneGraph& graph = model.graph;
     const std::vector<int>& connections = graph.lanes[at(route.lanes[0])].next;
@@ -133,8 +133,9 @@ void add_zones(const Scenario& scenario, int lane, Model& model) {
     }
 }
 
-// If the lane begins at an intersection (if it is neither an entry lane nor a turn pocket), adds a detector one vehicle
-// length after the start of the lane. If this lane also leads to another intersection, adds a detector in its middle.
+// Adds detectors to a lane that begins at an intersection, that is, to a lane that is neither an entry lane nor a turn
+// pocket: one detector a vehicle length after the start of the lane and, if the lane has a stop line, one in the
+// middle.
 void add_counters(const Scenario& scenario, int lane, Model& model) {
     const Lane& road = model.graph.lanes[at(lane)];
     const std::vector<int>& entries = model.graph.entries;
@@ -226,7 +227,7 @@ void set_meso(const Scenario& scenario, const MesoSettings& settings, Model& mod
     model.leader_mps2 = settings.leader_mps2;
     model.leader_constant_power_speed_mps = settings.leader_constant_power_speed_mps;
     model.leader_profile = leader_profile(settings);
-    // With this factor, a rounding error cannot put a lane with exactly the calibrated speed limit above the limit.
+    // Without this factor, a rounding error could make a lane with exactly the calibrated speed limit count as faster.
     constexpr double kRounding = 1.001;
     model.calibrated_limit_mps = kRounding * settings.speed_factor * settings.calibrated_speed_limit_mps;
     model.power_profile = power_profile(model.driver);

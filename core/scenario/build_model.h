@@ -10,7 +10,7 @@ namespace stopline {
 // itself, for instance by the name of an unknown policy.
 Model build_model(const Scenario& scenario, std::size_t population);
 
-// Replaces the parameters of the mesoscale mode in a model. A calibration uses it to try parameters.
+// Replaces the parameters of the mesoscale mode in a model. A calibration calls this function to try parameters.
 void set_meso(const Scenario& scenario, const MesoSettings& settings, Model& model);
 
 }  // namespace stopline

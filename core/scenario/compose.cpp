@@ -123,8 +123,8 @@ void merge_library_list(const Field& field, const std::string& library, SourceNo
     list.items = std::move(known->items);
 }
 
-// Inserts the default, the data file or the library list of one field. If the value is a map or a list, does not
-// complete the fields inside it.
+// Completes one field: inserts its default, its data file or its library list, and turns list entries that are a single
+// word into maps. Does not complete the fields inside a map or a list.
 void complete_field(const Field& field, SourceNode& map, const std::string& path, Report& report) {
     SourceNode* value = map.find(field.name);
     const auto* const section = std::get_if<SectionField>(&field.kind);
@@ -145,8 +145,8 @@ void complete_field(const Field& field, SourceNode& map, const std::string& path
     }
 }
 
-// Returns the value of the choice field at `path`, which consists of field names joined by dots. If `map` has no value
-// for the field, returns the default of the field.
+// Returns the value of the choice field at `path` (names of fields, joined by dots). If `map` has no value for the
+// field, returns the default of the field.
 std::string choice_at(const Table& table, const SourceNode* map, const std::string& path) {
     const auto dot = path.find('.');
     const std::string name = path.substr(0, dot);

@@ -22,10 +22,9 @@ bool is_used(const Scenario& scenario, const GapPolicySettings& policy) {
     });
 }
 
-// Returns the smallest standstill gap of a policy with which vehicles do not touch in the mesoscale mode, m. In this
-// mode, a vehicle can stop behind its leader with a gap as small as the standstill gap of the car-following model minus
-// the width of the model's tolerance band (krauss.h). The result is the amount by which this smallest gap is below the
-// standstill gap of the policy.
+// Returns how much smaller than the standstill gap of the policy the gap of a stopped vehicle can be in the mesoscale
+// mode, m. There, the smallest gap is the standstill gap of the car-following model minus the width of the tolerance
+// band of this model (krauss.h). So vehicles can touch if the standstill gap of the policy is smaller than the result.
 double meso_min_gap_m(const Scenario& scenario, const GapPolicySettings& policy) {
     const Krauss model = make_krauss_model(scenario.meso, policy);
     return policy.standstill_gap_m - (model.standstill_gap_m - model.band_m);

@@ -21,8 +21,9 @@ inline constexpr double kMinStandstillGap_m = 2.0;
 void check_gaps(const Scenario& scenario, Checker& check);
 
 // Returns one line for each parameter set that the scenario uses beyond its range. Full dynamics: the speed limits of
-// the network exceed the range of the driver's acceleration profile. Mesoscale mode: the speed limits or the time step
-// exceed those for which the car-following models were calibrated.
+// the network exceed the range of the driver's acceleration profile. Mesoscale mode: the speed limits exceed the one
+// for which the car-following models were calibrated; or the time step exceeds the calibrated one, and a population
+// uses a policy with another law than constant_time.
 std::vector<std::string> range_warnings(const Scenario& scenario);
 
 }  // namespace stopline

@@ -20,8 +20,8 @@ using FieldProblem = std::pair<std::string, std::string>;
 // `directory`.
 std::vector<FieldProblem> sumo_file_problems(const Scenario& scenario, const std::filesystem::path& directory);
 
-// Reads the SUMO network, additional and route files of the scenario into it. Does nothing if network.kind is not
-// `sumo`. Throws InputError with file and line.
+// Reads the SUMO network, additional and route files that the scenario names, and stores their content in the scenario.
+// Does nothing if network.kind is not `sumo`. Throws InputError with file and line if a file is invalid.
 void import_sumo(Scenario& scenario, const std::filesystem::path& directory);
 
 // Adds the imported trips to the demand plan. Assigns a spacing policy to each trip, by the plan's policy shares and in

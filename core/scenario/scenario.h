@@ -22,8 +22,8 @@ struct MeasureSettings {
     int warmup_cycles = 1;                   // signal cycles before the measurement
     int cycles = 5;                          // measured signal cycles
     std::vector<double> zone_radius_m = {};  // radii of the zones for travel time and density (measure.zones)
-    // For all networks with intersections: a movement starves if the first vehicle of its queue stands for this time
-    // and for two cycles of its signal, although nothing blocks its way. 0: never.
+    // For all networks with intersections: a movement starves if the first vehicle of its queue has been stopped for
+    // this time and for two cycles of its signal, although no vehicle ahead blocks its way. 0: never.
     double starvation_s = 300.0;
     // For networks of several intersections only:
     double area_margin_m = 20.0;           // distance from the outer intersections to the boundary of the measured area

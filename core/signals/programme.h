@@ -27,10 +27,12 @@ public:
     GroupProgramme(std::vector<Stage> stages, std::int64_t offset_ticks, bool repeats);
 
     Light light(std::int64_t tick) const;
-    // Returns the tick at which the light shown at `tick` began. The result can be negative, because the offset can be
-    // negative. For the red before the offset the result is 0.
+    // Returns the tick at which the stage at `tick` began. The result can be negative, because the offset can be
+    // negative. For the red before the offset the result is 0. For the red after a programme that does not repeat, the
+    // result is the end of the last stage.
     std::int64_t light_start_tick(std::int64_t tick) const;
-    // Returns the start of the latest green that began at or before `tick`, or -1 if there was no such green.
+    // Returns the start of the latest green that was shown at any tick from 0 to `tick`, or -1 if there was none. The
+    // start can be negative.
     std::int64_t last_green_start_tick(std::int64_t tick) const;
     std::int64_t cycle_ticks() const { return cycle_; }
     std::int64_t first_tick() const { return offset_; }
@@ -60,8 +62,8 @@ std::vector<GroupProgramme> make_stage_programmes(const SignalSettings& settings
 
 // Makes the seven-step programme of an intersection (Table 3 of the paper). The three signal groups are those of
 // make_streets(): the major street, its left-turn lanes and the minor street. Left-turn lanes have a permissive green
-// together with the major street, and later a protected green. A cycle begins at `offset_s`. The programmes also run
-// from time 0 to `offset_s`, as the end of an earlier cycle.
+// together with the major street, and later a protected green. A cycle begins at `offset_s`. The cycle also repeats
+// before that time, so the programmes run from time 0 on.
 std::array<GroupProgramme, 3> make_seven_steps(const SevenSteps& steps, double offset_s, double step_s);
 // Makes the programmes of all signal groups of make_streets(), in the order of the groups.
 std::vector<GroupProgramme> make_street_signals(const StreetSettings& streets, double step_s);

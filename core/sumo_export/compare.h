@@ -33,18 +33,18 @@ struct ComparedMetric {
 
     // Returns by how many percent our mean exceeds SUMO's mean. Returns NaN if `sumo_only` is set or SUMO's mean is 0.
     double difference_percent() const;
-    // Returns the confidence band of SUMO's mean. Band::paper needs at least three runs, and Band::student at least
-    // two.
+    // Returns the 95 % confidence interval of SUMO's mean. Band::paper (the formula of the paper) needs at least three
+    // runs, and Band::student (the usual formula) at least two.
     Interval band(Band kind) const;
 };
 
 struct Comparison {
-    std::string note = {};  // sentence for the user about features of the population that SUMO lacks, or ""
+    std::string note = {};  // sentence for the user if the population uses a model that SUMO lacks, else ""
     std::string population;
     double from_s = 0.0;  // start of the compared period
     double to_s = 0.0;    // end of the compared period
     std::vector<ComparedRun> runs = {};
-    bool imported = false;       // the network is imported: both programs have the same planned departures
+    bool imported = false;       // the network is imported, so both programs have the same planned departures
     bool has_stop_lines = true;  // the network has stop lines with a signal, at which passages are counted
 
     std::vector<ComparedMetric> metrics() const;

@@ -110,7 +110,8 @@ private:
     // Returns the position where the lane ends in SUMO, measured from the start of its approach.
     static double approach_end_m(const Lane& lane) { return lane.start_offset_m + end_m(lane); }
 
-    // Returns the position where the lane ends in SUMO: its stop line, or the end of a lane without a stop line.
+    // Returns the position where the lane ends in SUMO, measured from the start of the lane: its stop line, or the end
+    // of a lane without a stop line.
     static double end_m(const Lane& lane) { return lane.signal_group >= 0 ? lane.stop_line_m : lane.length_m; }
 
     void make_connections() {

@@ -26,7 +26,7 @@ std::vector<std::string> run_with_writers(Simulation& simulation, double end_s,
 // Throws InputError for networks of the kind 'sumo', because these networks already exist as SUMO files.
 void check_exportable(const Scenario& scenario);
 
-// Returns a sentence about features of the model that SUMO lacks, or "" if there are none.
+// Returns a sentence for the user if vehicles use the constant-distance model, which SUMO lacks. Returns "" otherwise.
 std::string sumo_limits_note(const Model& model);
 
 // Writes all files that inputs.h describes. If SUMO is installed, netconvert also builds the network file. The scenario

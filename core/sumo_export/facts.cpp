@@ -127,7 +127,8 @@ RunSummary summary_of(const RunFacts& facts, double from_s, double to_s) {
         for (const double time_s : times_s) passages += within(time_s) ? 1 : 0;
     }
     int instants = 0;
-    int instants_with_vehicles = 0;  // SUMO writes a mean speed of -1 if no vehicle is in the network
+    // The mean speed is averaged over these instants only. SUMO writes -1 as mean speed if the network is empty.
+    int instants_with_vehicles = 0;
     for (const RunFacts::Instant& instant : facts.instants) {
         if (!within(instant.time_s)) continue;
         ++instants;

@@ -40,15 +40,15 @@ struct RunSummary {
     double travel_time_s = 0.0;      // mean time in the network over the completed trips
     double departure_delay_s = 0.0;  // mean departure delay over the completed trips
     double passages_veh_h = 0.0;     // passages per hour, summed over all stop lines
-    double speed_mps = 0.0;          // mean over time of Instant::mean_speed_mps, if vehicles are present
+    double speed_mps = 0.0;          // mean of Instant::mean_speed_mps over the instants at which vehicles are present
     double stopped = 0.0;            // mean over time of the number of stopped vehicles
     double backlog = 0.0;            // vehicles that wait for insertion at the end of the period
 };
 // Returns the summary of the period after `from_s` and up to `to_s`. Means without data are NaN.
 RunSummary summary_of(const RunFacts& facts, double from_s, double to_s);
 
-// Returns a writer that collects `facts` from a run of Stopline. `stop_lines` holds a name for each lane. Passages of
-// the stop line of the lane are counted under this name. If the name is "", they are not counted. The writer keeps
+// Returns a writer that collects `facts` from a run of Stopline. For each lane, `stop_lines` holds the name under which
+// the writer counts the passages of the stop line. If the name is "", the writer does not count them. The writer keeps
 // references to `model` and `facts`.
 std::unique_ptr<RunWriter> make_facts_writer(const Model& model, std::vector<std::string> stop_lines, RunFacts& facts);
 

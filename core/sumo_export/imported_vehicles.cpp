@@ -106,7 +106,7 @@ std::string depart_pos(const Trip& trip, const SumoNetwork& network) {
         case Trip::DepartPosition::given:
             break;
     }
-    // The route file can have a rounded position that lies slightly beyond the end of the lane.
+    // The route file of the scenario can have a rounded position slightly beyond the end of the lane.
     const Approach& approach = network.graph.approaches[at(trip.approach)];
     const double max_m = network.graph.lanes[at(approach.lanes[0])].stop_line_m;
     return fmt::format("{:.2f}", std::min(static_cast<double>(trip.front_m), max_m));

@@ -17,7 +17,8 @@ namespace stopline {
 void write_sumo_inputs(const std::filesystem::path& folder, const Model& model, const PlainNetwork& network,
                        double duration_s);
 
-// Writes SUMO's options for teleporting and for junction blockers according to the rules of the model.
+// Writes the options that make SUMO treat blocked vehicles as the model does: after which time SUMO teleports a
+// vehicle, and after which time a vehicle ignores another one that blocks the junction.
 void write_sumo_rules(XmlFile& xml, const Model& model);
 
 // Returns a writer that records the vehicles of a run of Stopline as a SUMO route file. Each vehicle has its type, its

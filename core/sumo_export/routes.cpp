@@ -47,7 +47,7 @@ public:
                 xml, model_, k,
                 {escape_xml(model_.policies[k].settings.name), model_.vehicles[0].length_m, changes_lanes()});
         }
-        // SUMO reads vehicles in the order of departure.
+        // A SUMO route file must list the vehicles in the order of departure.
         std::vector<std::pair<int, const Trip*>> trips;
         for (const auto& [vehicle, trip] : trips_) trips.emplace_back(vehicle, &trip);
         std::stable_sort(trips.begin(), trips.end(),
@@ -75,8 +75,8 @@ private:
         add_edges_of(lane, trip.edges);
     }
 
-    // Adds the edges of a lane to the route. If the route already ends on one of these edges, adds only the edges after
-    // it. Does nothing if the lane is a connection.
+    // Adds the edges of a lane to the route. If the route already ends on one of these edges, adds only the edges of
+    // the lane after that edge. Does nothing if the lane is a connection.
     void add_edges_of(int lane, std::vector<int>& edges) const {
         const std::vector<EdgePart>& parts = network_.parts_of[at(lane)];
         if (parts.empty() || edges.back() == parts.back().edge) return;

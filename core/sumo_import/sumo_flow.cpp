@@ -77,8 +77,8 @@ private:
         return random_uniform(seed_, key_, static_cast<std::uint64_t>(index), Purpose::vehicle_type);
     }
 
-    // Adds a departure. If the flow or the run ends before this time, or if the flow already has all its vehicles, adds
-    // nothing and returns false.
+    // Adds a departure. If the flow or the run ends at or before this time, or if the flow already has all its
+    // vehicles, adds nothing and returns false.
     bool add(double time_s) {
         const auto count = static_cast<double>(times_s_.size());
         if (time_s >= until_s_ || (number_ && count >= *number_)) return false;

@@ -95,8 +95,9 @@ private:
         first_connection_ = static_cast<int>(lanes().size());
     }
 
-    // Joins consecutive lanes of the file, given by name and length, to the parts of one lane of the graph. The first
-    // `fixed_m` metres keep their length. The rest is stretched evenly, so that the whole lane is `length_m` long.
+    // Makes the parts of one lane of the graph from consecutive lanes of the SUMO file, each given by name and length.
+    // The first `fixed_m` metres keep their length. The rest is stretched evenly, so that the whole lane is `length_m`
+    // long.
     static std::vector<LanePart> parts_of(const std::vector<std::pair<std::string, double>>& lanes, double fixed_m,
                                           double length_m) {
         std::vector<LanePart> parts;
@@ -113,8 +114,8 @@ private:
         }
     }
 
-    // Sets shape, speed limit, junction and link of a connection from its internal lanes, which form a chain: the
-    // attribute `via` of the connection names the first internal lane, and each internal lane leads to the next.
+    // Sets shape, speed limit, junction and link number of a connection from its internal lanes, which form a chain:
+    // the attribute `via` of the connection names the first internal lane, and each internal lane leads to the next.
     void trace_chain(BuiltConnection& connection) const {
         constexpr int kMaxLanes = 16;
         const SumoConnection& c = *connection.source;
@@ -148,8 +149,8 @@ private:
         }
     }
 
-    // Gives each successor of an edge a Turn value of its own: straight, right or left according to SUMO's attribute
-    // `dir`. If another successor already has this value, or if `dir` has another direction, the successor gets the
+    // Gives each edge to which a given edge leads a Turn value of its own: straight, right or left according to SUMO's
+    // attribute `dir`. If `dir` has another direction, or if another of these edges already has the value, assigns the
     // next unused value.
     void assign_turns() {
         std::map<std::pair<int, int>, Turn> turns;      // [from edge, to edge]
@@ -198,8 +199,8 @@ private:
     }
 
     // Connections that begin on the same lane share a first stretch. Beyond it, vehicles on different connections are
-    // clear of each other. This function moves the stretch from the connections to the lane. If a connection is too
-    // short, only a part of the stretch is moved. The rest stays at the start of the connections, up to diverge_end_m.
+    // clear of each other. This function makes the stretch a part of the lane. If one of the connections is too short,
+    // only a part of the stretch goes to the lane. The rest stays at the start of the connections, up to diverge_end_m.
     void assign_shared_stretches() {
         for (int index = 0; index < first_connection_; ++index) {
             const std::vector<int> next = lanes()[at(index)].next;
@@ -218,8 +219,8 @@ private:
         }
     }
 
-    // Sets Lane::parts of all connections. A connection without internal lanes gets a single part, which has the length
-    // 0 and the name of the lane that the connection leads to.
+    // Sets Lane::parts of all connections. A connection without internal lanes gets a single part with the name of the
+    // exit lane and with LanePart::length_m = 0, because the file has no lane for this connection.
     void name_internal_lanes() {
         for (const BuiltConnection& connection : connections_) {
             Lane& lane = lanes()[at(connection.lane)];
@@ -274,8 +275,8 @@ private:
         return from.cosine * to.cosine + from.sine * to.sine < -0.9;
     }
 
-    // Adds a route that consists of this lane only. If any lane of its approach leads to a connection, gives the lane a
-    // stop line. The stop line at first belongs to signal group 0, which is always green.
+    // Adds the lane to LaneGraph::links, and adds a route that consists of this lane only. If any lane of the approach
+    // leads to a connection, gives this lane a stop line, at first of signal group 0, which is always green.
     void finish_lane(int lane) {
         network_.graph.routes.push_back({lanes()[at(lane)].name, {lane}});
         network_.graph.links.push_back(lane);
@@ -285,9 +286,9 @@ private:
         if (continues) lanes()[at(lane)].signal_group = 0;
     }
 
-    // Makes the signal groups. Links of a signal that have the same lights in all phases share one group. If all
-    // connections of a lane have the same group, this group belongs to the stop line of the lane. Otherwise each
-    // connection stores its group in Lane::movement_signal_group.
+    // Makes the signal groups. Links of a signal that have the same lights in all phases share one group. The stop line
+    // of a lane gets the group of the first connection of this lane. If the connections of the lane have different
+    // groups, each connection also stores its own group in Lane::movement_signal_group.
     void assign_signal_groups() {
         std::map<std::pair<int, std::string>, int> groups;
         const auto group_of = [&](const SumoConnection& c) {
@@ -314,9 +315,9 @@ private:
         }
     }
 
-    // Lowers the speed limit of each connection to a lane that is too short to brake from the limit to the safe speed
-    // at the end of the lane. This safe speed is 0 before a signal or a conflict area. Elsewhere it depends on the next
-    // lane, so a chain of short lanes needs several rounds.
+    // Lowers the speed limit of a connection, but not below kMinEntrySpeed_mps, if its exit lane is too short to brake
+    // from the limit to the safe speed at the end of this lane. The safe speed is 0 before a signal or a conflict area.
+    // Elsewhere the safe speed depends on the next lane, so a chain of short lanes needs several rounds.
     void limit_entry_speeds() {
         constexpr double kBraking_mps2 = 3.0;
         constexpr double kMargin_m = 2.0;

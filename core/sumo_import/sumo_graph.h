@@ -16,8 +16,9 @@
 //   never green together do not yield to each other.
 // - If an approach has connections, each of its lanes has a stop line. Stop lines without a signal belong to signal
 //   group 0, which is always green.
-// - If a lane is too short for a vehicle to brake to a stop, the connections to this lane get a lower speed limit v. A
-//   vehicle that enters with v and brakes with the deceleration b can stop in time: v^2 = 2 b (length - margin).
+// - If a lane is too short for a vehicle to brake to a stop before the signal or the conflict area at the end of the
+//   lane, the connections to this lane get a lower speed limit v, but not below 3 m/s. A vehicle that enters with v and
+//   brakes with the deceleration b can stop in time: v^2 = 2 b (length - margin).
 #pragma once
 
 #include <cstdint>
@@ -31,7 +32,8 @@
 
 namespace stopline {
 
-// A signal group shows the lights of one link of a SUMO signal. The phases of the signal have a letter for this link.
+// The link of a SUMO signal whose lights a signal group shows. If several links have the same lights in all phases,
+// they share the group, and this is the first of them.
 struct SumoLight {
     int signal = -1;  // index in SumoNet::signals; -1: always green
     int link = 0;     // index of the letter in SumoPhase::state

@@ -77,8 +77,8 @@ public:
 
 private:
     // Returns the version of SUMO that wrote the file. If no comment in the file names this version, returns the
-    // version of the file format, but only if the format version is below 1.20: all later versions of SUMO write 1.20,
-    // too.
+    // version of the file format if it is below 1.20, and nothing otherwise: every version of SUMO since 1.20 writes
+    // the format version 1.20.
     std::optional<SumoVersion> version() const {
         constexpr SumoVersion kLastFormat{1, 20};
         if (xml_.version()) return xml_.version();
@@ -258,8 +258,8 @@ private:
         c.from_lane = known_lane(node, "fromLane", c.from);
         c.to_lane = known_lane(node, "toLane", c.to);
         c.where = xml_.where(node);
-        // Register the signal even if the connection is closed to cars: an additional file may have a programme for the
-        // signal.
+        // Register the signal even if the connection is closed to cars. Otherwise the import would refuse a programme
+        // for this signal in an additional file, because it would not know the signal.
         if (const std::string tl = node.attribute("tl").value(); !tl.empty()) net_.signal(tl);
         if (!lane(c.from, c.from_lane).allows_cars || !lane(c.to, c.to_lane).allows_cars) return;
         if (!sumo_allows_cars(node.attribute("allow").value(), node.attribute("disallow").value())) return;

@@ -174,9 +174,9 @@ private:
     }
 
     // Returns the right of way in a phase in which both connections are green. A connection with a minor green yields
-    // to one with a major green. If both have the same kind of green, the matrix decides. Neither rule makes a
-    // connection with the attribute `pass` yield. If no connection yields by these rules, the one with the higher link
-    // number yields.
+    // to one with a major green. Here a connection with the attribute `pass` counts as one with a major green. If both
+    // have the same kind of green, the matrix decides, but a connection with `pass` does not yield. If these rules make
+    // neither connection yield, the one with the higher link number yields.
     static Priority priority_in(const SumoPhase& phase, const SumoJunction& junction, const BuiltConnection& first,
                                 const BuiltConnection& second) {
         Priority priority{!first.source->pass && !is_major(phase.state[at(first.source->tl_link)]),
@@ -188,8 +188,8 @@ private:
         return {is_later(first, second), is_later(second, first)};
     }
 
-    // Returns the right of way by the matrix alone. If the matrix makes neither connection yield, the connection with
-    // the higher link number yields, and each connection yields to one with the attribute `pass`.
+    // Returns the right of way by the matrix. A connection with the attribute `pass` never yields. If the matrix makes
+    // neither connection yield, a connection yields to one that has `pass` or a lower link number.
     static Priority priority_without_signal(const SumoJunction& junction, const BuiltConnection& first,
                                             const BuiltConnection& second) {
         const Priority by_matrix{must_yield(junction, first, second), must_yield(junction, second, first)};
@@ -205,8 +205,8 @@ private:
         return bit(junction.response, connection.link, to.link);
     }
 
-    // Returns true if `connection` has a higher link number than `to`. Copies of one connection (is_left_of) have the
-    // same number; of these, the function returns true for the left copy.
+    // Returns true if `connection` has a higher link number than `to`. Two copies of one connection (see is_left_of)
+    // have the same number. For two copies, returns true if `connection` is the left one.
     static bool is_later(const BuiltConnection& connection, const BuiltConnection& to) {
         return connection.link > to.link || is_left_of(connection, to);
     }

@@ -22,8 +22,9 @@ struct BuiltConnection {
     int lane = -1;  // index in the lane graph
 };
 
-// Sets graph.conflicts, and `waits_inside` and `keep_clear` of the lanes of all connections. These lanes must be in the
-// graph already.
+// Sets graph.conflicts and network.phase_priorities, and `waits_inside`, `stop_rule` and `keep_clear` of the lanes of
+// all connections. These lanes must be in the graph already. Also sets junction and link of connections without
+// internal lanes.
 void find_sumo_conflicts(SumoNetwork& network, std::vector<BuiltConnection>& connections, double clearance_m);
 
 }  // namespace stopline

@@ -13,8 +13,8 @@ namespace stopline {
 namespace {
 
 constexpr double kUnreachable_s = std::numeric_limits<double>::infinity();
-// Landmarks are edges whose travel times to and from all other edges are known; they make searches faster. To compute
-// them costs as much as 32 searches of the whole network, which is not worthwhile for a few routes.
+// Landmarks are edges whose travel times to and from all other edges are known. They make searches faster. Computing
+// these times costs as much as 32 searches of the whole network, which is not worthwhile for a few routes.
 constexpr int kSearchesBeforeLandmarks = 32;
 // After this number of successive calls with the same destination, a shortest-path tree is faster than single searches.
 constexpr int kCallsBeforeTree = 8;
@@ -78,8 +78,8 @@ void SumoRouter::start(int to) {
     open_.assign(1, {0.0, to});
 }
 
-// Extends the shortest-path tree backwards from to_ until the fastest route from the edge `target` to to_ is known, or
-// until the tree contains all edges from which to_ can be reached.
+// Extends the shortest-path tree backwards from the destination to_ until the fastest route from the edge `target` is
+// known, or until the tree contains all edges from which the destination can be reached.
 void SumoRouter::settle(int target) {
     while (settled_[at(target)] == 0 && !open_.empty()) {
         const int edge = pop(open_).second;
@@ -95,9 +95,10 @@ void SumoRouter::settle(int target) {
     }
 }
 
-// Finds the remaining travel times to to_ of all edges on fastest routes from the edge `from` to to_. The search ends
-// when no other route of the same travel time can exist. If the travel time of an edge falls, the search visits the
-// edge again, so that rounding errors of the lower bounds do no harm.
+// Finds the travel time to the destination to_ for each edge on a fastest route from the edge `from` to the
+// destination. The search ends when no further route with the least travel time can exist. If the search finds a faster
+// route from an edge that it has already visited, it visits the edge again, so that rounding errors of the lower bounds
+// do no harm.
 void SumoRouter::search(int from) {
     constexpr double kRounding = 1e-9;
     choose_active(from);
@@ -171,7 +172,8 @@ double SumoRouter::difference_s(float longer_s, float shorter_s) {
     return static_cast<double>(longer_s) * (1.0 - kRounding) - static_cast<double>(shorter_s);
 }
 
-// Chooses the landmarks that give the highest lower bounds of the travel time from the edge `from` to to_.
+// Chooses the landmarks that give the highest lower bounds of the travel time from the edge `from` to the destination
+// to_.
 void SumoRouter::choose_active(int from) {
     active_count_ = 0;
     if (landmarks_.empty()) return;
@@ -221,7 +223,7 @@ std::vector<float> SumoRouter::travel_times_s(int edge, bool backwards) {
     return {times_s.begin(), times_s.end()};
 }
 
-// Chooses landmarks one after the other, each as far as possible from those before it.
+// Chooses landmarks one after the other. Each landmark is as far as possible from the landmarks chosen before.
 void SumoRouter::choose_landmarks() {
     int next = 0;
     while (!allows_cars(next)) ++next;

@@ -19,7 +19,7 @@ public:
     // Returns the turn from one edge to another, or Turn::none if no connection joins the edges.
     Turn turn(int from, int to) const;
     // Returns the edges of the route with the least free-flow travel time, including `from` and `to`. Returns nothing
-    // if there is no route. Of several fastest routes the result is always the same, whatever was searched before.
+    // if there is no route. If several routes are equally fast, earlier calls do not influence which one is returned.
     //
     // The search is A* backwards from `to`, with lower bounds from landmarks (Goldberg, Harrelson 2005: "Computing the
     // shortest path: A* search meets graph theory"). This search looks at little more than the edges on fastest routes.
@@ -71,7 +71,7 @@ private:
     int requests_ = 0;                 // successive calls with this to_
     bool is_tree_ = false;             // the search builds the shortest-path tree of to_
     std::vector<double> remaining_s_;  // [edge] travel time from the end of the edge to the end of to_
-    std::vector<char> settled_;        // [edge] 1: remaining_s_ of the edge is final; only in a tree
+    std::vector<char> settled_;        // [edge] 1: the edge has been visited; in a tree its remaining_s_ is then final
     std::vector<int> changed_;         // edges whose remaining_s_ has been set
     std::vector<Candidate> open_;      // min-heap
 };

@@ -111,7 +111,8 @@ private:
         return edge;
     }
 
-    // Reads a complete route and returns its index. Throws InputError if a route open to cars has a gap.
+    // Reads a route that lists all its edges. Returns the index of the route in routes_. Throws InputError if two
+    // successive edges are not connected, unless the route has edges closed to cars.
     std::size_t read_route(pugi::xml_node node) {
         TripRoute route;
         route.where = xml_->where(node);
@@ -223,8 +224,8 @@ private:
         }
     }
 
-    // Reads departLane, departPos and departSpeed, or takes the defaults of the file. Warns if the vehicle has
-    // attributes of arrival or stops, which the import ignores.
+    // Reads departLane, departPos and departSpeed, or takes the defaults of the file. Warns if the element has an
+    // attribute of the arrival (arrivalPos, ...) or a stop, because the import ignores both.
     void read_departure(pugi::xml_node node, Trip& trip) {
         if (read_sumo_departure(*xml_, node, defaults_, traffic_.warnings, trip)) uses_defaults_ = true;
         if (node.attribute("arrivalPos") || node.attribute("arrivalLane") || node.attribute("arrivalSpeed")) {
@@ -251,8 +252,8 @@ private:
         return random_uniform(seed_, traffic_.trips.size(), key, Purpose::vehicle_type);
     }
 
-    // Adds the trip of one vehicle. Adds nothing if the vehicle departs after the end of the run, if its vehicle class
-    // may not use car lanes, or if its route has edges closed to cars.
+    // Adds the trip of one vehicle. Adds nothing if the vehicle departs at or after the end of the run, if its vehicle
+    // class may not use car lanes, or if its route has edges closed to cars.
     void add(pugi::xml_node node, const VehicleTemplate& vehicle, const std::string& id, double depart_s) {
         if (depart_s >= until_s_) return note_late_departure(depart_s);
         if (traffic_.trips.size() >= kMaxTrips)
@@ -341,9 +342,9 @@ private:
         }
     }
 
-    // Completes partial routes and lists the turns of all routes. A piece is the missing part between two given edges.
-    // The pieces are sorted by their last edge, because the router is faster if successive calls have the same
-    // destination.
+    // Completes partial routes and lists the turns of all routes that are open to cars. A piece is the part of a route
+    // between two successive edges of the file. The pieces are sorted by their last edge, because the router is faster
+    // if successive calls have the same destination.
     void complete_routes_and_turns() {
         struct Piece {
             int to;
@@ -378,7 +379,8 @@ private:
         }
     }
 
-    // Replaces the edges of route k by the edges of all its pieces. `found` holds the edges of each piece.
+    // Replaces the edges of route k by the edges of all its pieces. `found` holds the edges of each piece, by route and
+    // Piece::position.
     void join_pieces(std::size_t k, const std::map<std::pair<std::size_t, std::size_t>, std::vector<int>>& found) {
         std::vector<int> all{routes_[k].edges[0]};
         for (std::size_t i = 1; i < routes_[k].edges.size(); ++i) {

@@ -154,7 +154,8 @@ private:
         }
     }
 
-    // Replaces the connections of both edges by `new_connections` and closes the merged edge to cars.
+    // Adds `new_connections`, which replace the connections from `before` to `edge` and the connections that leave
+    // `edge`. Closes `edge`, which has been merged into `before`, to cars.
     void replace_connections(int before, int edge, std::vector<SumoConnection> new_connections) {
         const auto is_removed = [&](std::size_t k) { return connection(k).from < 0; };
         outgoing_[at(before)].clear();

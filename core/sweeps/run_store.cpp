@@ -68,7 +68,7 @@ std::string reason(int code, sqlite3* database) {
     return fmt::format("the store cannot be used: {} ({})", message, code);
 }
 
-// Returns a text about the first difference between two identities; "" if they are equal. Their provenance is not
+// Returns a text about the first difference between two identities; "" if they are equal. The provenance is not
 // compared.
 std::string difference_of(const StoreIdentity& has, const StoreIdentity& wanted) {
     if (has.name != wanted.name) return fmt::format("it holds runs of the sweep '{}'", has.name);

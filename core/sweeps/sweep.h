@@ -60,8 +60,8 @@ public:
     // Returns the axis values and the seed as text, such as "green = 5 s, population = CDG, seed = 1".
     std::string describe(std::size_t point) const;
 
-    // Loads the scenario with a combination of axis values. Throws InputError if its files have changed since the
-    // constructor loaded them.
+    // Loads the scenario with a combination of axis values. Throws InputError if the files of the scenario have changed
+    // since the constructor loaded them.
     Scenario scenario(std::size_t combination) const;
 
     // Returns a hash of the scenarios of all combinations, the axis values and the number of seeds. Sweeps with the
@@ -83,8 +83,8 @@ private:
     std::string describe_combination(std::size_t combination) const;
     // Returns, for each column, the index of its value in a combination. For the column of populations the index is 0.
     std::vector<std::size_t> values_of(std::size_t combination) const;
-    // Returns file and line for an error message. The place in the sweep file is that of the axis value that the
-    // message quotes, or that of the value of the first axis if the message quotes none.
+    // Returns file and line for the error message `problem` about a combination: the place in the sweep file of the
+    // axis value that the message quotes. If the message quotes no axis value, uses the value of the first axis.
     std::string place_of_problem(std::size_t combination, const std::string& problem) const;
     void add_columns();
     void check_column_names(std::set<std::string> taken) const;

@@ -54,7 +54,7 @@ struct SweepSession {
     std::vector<SweepFailure> failures;  // in the order of the points
 };
 
-// Stores the results of runs, counts them and reports the progress. Only one thread at a time may use it.
+// Stores the results of runs, counts them and reports the progress. Only one thread at a time may use a recorder.
 class SweepRecorder {
 public:
     // `todo` is the number of runs to do. `on_progress` gets the completed share of these runs, 0 .. 1, and returns

@@ -1,5 +1,5 @@
-// The user's settings of a vehicle (data/vehicles/*.yaml), in SI units unless the name has another unit. They are
-// constant after loading. The step function reads the `PowertrainTables` made from them (powertrain_tables.h).
+// The user's settings of a vehicle (data/vehicles/*.yaml), in SI units unless the name has another unit. The settings
+// do not change after loading. The step function reads the `PowertrainTables` made from them (powertrain_tables.h).
 #pragma once
 
 #include <string>
@@ -40,11 +40,13 @@ struct PowertrainSettings {
     double final_drive = 4.083;
     double driveline_efficiency = 0.92;
     double launch_rpm = 1500.0;  // engine speed that the slipping clutch or converter holds during the start
-    double shift_up_part_load_rpm = 2000.0;  // engine speed of the upshift at little torque
-    double shift_up_full_load_rpm = 4500.0;  // engine speed of the upshift at full load; linear in between
+    // Engine speed of the upshift: the first value up to 50 % of the full-load torque, the second value from 90 % on,
+    // and linear in between.
+    double shift_up_part_load_rpm = 2000.0;
+    double shift_up_full_load_rpm = 4500.0;
     double shift_down_rpm = 1100.0;
     double torque_interruption_s = 0.45;  // time without drive torque during a gear change
-    double minimum_gear_time_s = 1.5;     // shortest time between gear changes
+    double minimum_gear_time_s = 1.5;     // shortest time between gear changes; downshifts while braking do not wait
 
     // Time constant of the first-order lag of the torque: a map over engine speed and requested share of the full-load
     // torque, times a factor per gear

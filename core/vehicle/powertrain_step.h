@@ -75,9 +75,9 @@ struct GearDemand {
 };
 
 // Sets the gear of `next` and the time since the last gear change. `s` is the state before the step. The engine speed
-// of the upshift rises with the load. A car shifts down to accelerate (kick-down) if the requested acceleration needs
-// more than 1.5 times the full-load torque. For a smaller request, the torque interruption would cost more speed than
-// the lower gear gains.
+// of the upshift rises with the load. A car shifts down below the engine speed shift_down_rpm. It also shifts down to
+// accelerate (kick-down) if the requested acceleration needs more than 1.5 times the full-load torque. For a smaller
+// request, the torque interruption would cost more speed than the lower gear gains.
 template <class R, class Number>
 STOPLINE_INLINE void change_gear(const PowertrainTablesOf<Number>& t, const PowertrainState<R>& s,
                                  const GearDemand<R>& demand, double dt, PowertrainState<R>& next) {
@@ -168,8 +168,7 @@ STOPLINE_INLINE PowertrainState<R> powertrain_step(const PowertrainTablesOf<Numb
     next.speed_mps = choose(stops_in_step, splat<R>(0.0), speed + moving_mps2 * dt);
     next.acceleration_mps2 = choose(stops_in_step, (0.0 - speed) * (1.0 / dt), moving_mps2);
 
-    // A closed clutch is assumed even during the torque interruption of a gear change, because the interruption is
-    // short.
+    // The available acceleration ignores that a gear change interrupts the torque, because the interruption is short.
     const auto highest_Nm = select(locked_rpm < t.limiter_rpm, full_Nm, drag_Nm);
     const auto highest_N = highest_Nm * gain * t.efficiency - resistance_N;
     next.available_mps2 = min_of<R>(highest_N / inertia_kg, t.friction_mps2 - resistance_mps2);

@@ -1,4 +1,5 @@
-// Tests of the kernels' fast approximations against the exact functions of the standard library.
+// Compares the fast approximations in the kernels (the loops over all vehicles) with the exact functions of the
+// standard library.
 #include "base/simd/arithmetic.h"
 
 #include <gtest/gtest.h>

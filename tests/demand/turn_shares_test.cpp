@@ -35,8 +35,8 @@ TEST(TurnsByLane, AreEqualForEqualLanes) {
     expect_row(lanes[1], {0.5, 0.3, 0.2});
 }
 
-// The left-turn lane carries 30 % of the traffic, the other two lanes 35 % each. On the third lane, 5 % go straight and
-// 30 % turn right. No vehicle enters on a lane that does not serve its turn.
+// The left-turn lane carries 30 % of the traffic, the other two lanes 35 % each. The third lane carries 5 % that go
+// straight and 30 % that turn right. No vehicle enters on a lane that does not serve its turn.
 TEST(TurnsByLane, AreServedByTheLane) {
     const auto lanes = turns_by_lane({kLeft, kStraight, kStraightRight}, {0.4, 0.3, 0.3});
     expect_row(lanes[0], {0.0, 0.0, 1.0});

@@ -134,7 +134,7 @@ IMPORT_SCENARIO = "fidelity: meso\n"  # the settings of the run give all other f
 
 
 def add_numbers(hasher, path):
-    """Hashes the numeric cells of a CSV file row by row. Returns their number."""
+    """Hashes the numeric cells of a CSV file row by row. Returns the number of these cells."""
     count = 0
     with open(path, newline="", encoding="utf-8") as file:
         for row in csv.reader(file):

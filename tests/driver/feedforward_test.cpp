@@ -1,5 +1,6 @@
-// Tests of the two feedforwards of Fig. 3 and 4 in the paper. The predictive feedforward solves a least-squares
-// problem. The feedforward for time gaps inverts the vehicle's own lag and applies the leader's lag.
+// Tests of the two feedforward terms of Fig. 3 and 4 in the paper. A feedforward term is the acceleration that a
+// follower requests because its leader accelerates. Each vehicle realises its request with a lag. The predictive term
+// solves a least-squares problem. The term for time gaps inverts the follower's lag and applies the leader's lag.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -85,8 +86,8 @@ TEST(PredictiveFeedforward, EqualsTheRequestOfAnIdenticalLeader) {
     }
 }
 
-// Returns the largest gap error behind a manoeuvring leader, m. Both vehicles are pure first-order lags without delays,
-// so an exact feedforward leaves no error.
+// Returns the largest gap error behind a manoeuvring leader, m. Both vehicles are first-order lags without delays, so
+// an exact feedforward leaves no error. The time constants are tau_p for the leader and tau for the follower.
 double largest_error_m(double tau_p, double tau, double kp, double kd) {
     constexpr double kStep_s = 0.001;
     constexpr double kTimeGap_s = 0.87;

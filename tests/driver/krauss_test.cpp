@@ -1,4 +1,5 @@
-// Tests of the extensions of the mesoscale car-following model, each against its closed form.
+// Tests of the extensions of the mesoscale car-following model (Krauss): constant power, transient gap, gap tracking
+// and catching up.
 #include "driver/krauss.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +32,8 @@ double speed_after(const Krauss& k, double time_s) {
 
 TEST(Krauss, AcceleratesConstantlyWithoutAPowerLimit) { EXPECT_NEAR(speed_after(model(), 20.0), 40.0, 1e-9); }
 
-// Above the speed v_p the power is constant: v dv/dt = a v_p, so v^2 = v_p^2 + 2 a v_p (t - v_p / a).
+// Up to the speed v_p the acceleration is the constant a, and v_p is reached at t = v_p / a. Above v_p the power is
+// constant: v dv/dt = a v_p, so v^2 = v_p^2 + 2 a v_p (t - v_p / a).
 TEST(Krauss, AcceleratesWithConstantPowerAboveASpeed) {
     Krauss k = model();
     k.constant_power_speed_mps = 5.0;
@@ -49,8 +51,8 @@ TEST(Krauss, AddsTheTransientGap) {
     EXPECT_GT(next_speed_mps(k, {8.0, gap_m, 8.0, 0.0, 0.0, 1e3}, 0.0, kStep_s), 8.05);
 }
 
-// The leader is faster, and the gap equals the time gap. The safe speed alone lets the follower accelerate, so the gap
-// becomes shorter than the time gap. With gap tracking the follower keeps its speed.
+// The leader is faster, and the gap is exactly the standstill gap plus the time gap times the follower's speed. Without
+// gap tracking the follower accelerates, so its time gap becomes too short. With gap tracking it keeps its speed.
 TEST(Krauss, TracksItsTimeGap) {
     Krauss k = model();
     const double gap_m = k.standstill_gap_m + 5.0 * k.reaction_s;

@@ -1,5 +1,5 @@
-// Tests of the acceleration laws. No acceleration falls with a growing gap or rises with the closing speed, and all are
-// finite in every state.
+// Tests of the acceleration laws. A larger gap never gives a smaller acceleration, and a higher closing speed never
+// gives a larger one. All accelerations are finite in every state.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -97,7 +97,8 @@ TEST(Emergency, IsMonotone) {
     }
 }
 
-// The emergency law is either inactive or brakes at least as hard as the situation requires.
+// The emergency law is either inactive, and then returns more than 100 m/s2, or it brakes at least as hard as the
+// situation requires.
 TEST(Emergency, BrakesEnoughOrNotAtAll) {
     const CaccSettings c = shipped().cacc;
     for (double v = 1.0; v < 20.0; v += 1.0) {
@@ -174,8 +175,8 @@ TEST(KeepRoom, IsMonotone) {
     }
 }
 
-// keep_room_acceleration() starts to brake at the gap at which the follower would just touch a leader if both braked
-// equally hard.
+// If the follower (speed v) and the leader (speed v_p) both brake with b, a distance of (v^2 - v_p^2) / (2 b) between
+// them just suffices. keep_room_acceleration() starts to brake at this distance plus a reserve and the emergency gap.
 TEST(KeepRoom, StartsWhereEqualBrakingJustSuffices) {
     const CaccSettings c = shipped().cacc;
     const double b = c.deceleration_emergency_mps2;

@@ -1,4 +1,5 @@
-// Drawing with gnuplot: files, errors, quoting and line styles. Figures of a single light can always be drawn.
+// Tests of drawing with gnuplot: files, errors, quoting and line styles. The figures of a single-light run can be drawn
+// for any settings.
 #include "figures/gnuplot.h"
 
 #include <gtest/gtest.h>

@@ -35,7 +35,7 @@ TEST(AreaSeries, MatchesHandCalculation) {
     EXPECT_NEAR(series[1].vehicles, (5.0 + 10.0) / 20.0, 1e-12);
 }
 
-// Detector 3 is a second entry that vehicles from the west also pass.
+// Detector 3 is a second entry from the west. Vehicle 1 passes both entries, vehicle 2 only the second one.
 TEST(AreaSeries, CountsOnlyTheFirstEntryOfAVehicle) {
     std::vector<Detector> all = detectors();
     all.push_back({2, 0.0, Detector::Kind::zone, 0, false});

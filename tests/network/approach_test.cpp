@@ -67,7 +67,8 @@ TEST(Approach, ShapesMeetAtTheStopLineSideBySide) {
         EXPECT_EQ(end.x_m, 0.0);
         EXPECT_EQ(begin.x_m, 0.0);
         EXPECT_EQ(end.y_m, begin.y_m);
-        // In right-hand traffic lane 0 is the leftmost lane. Each further lane lies one lane width to its right.
+        // The first approach lane is the leftmost one. Each further approach lane lies one lane width to the right of
+        // the previous approach lane.
         if (k >= 2) {
             EXPECT_NEAR(graph.lanes[k - 2].shape.back().y_m - end.y_m, 3.5, 0.5);
         }

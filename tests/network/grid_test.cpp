@@ -1,4 +1,5 @@
-// Tests of make_grid(): the links between intersections, and each intersection compared with a single one.
+// Tests of make_grid(): the lanes, and the links between intersections. Each intersection must have as many conflicts
+// as an isolated intersection of make_intersection().
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -67,7 +67,8 @@ TEST_P(BrokenGraph, IsRefusedAndNamed) {
     }
 }
 
-// Invalid changes to neighbouring lanes. Lane 0 is a turn pocket of first_west; lanes 1 to 3 lie to its right.
+// Invalid changes to neighbouring lanes. Lane 0 is a turn pocket of the approach first_west; lanes 1 to 3 lie to the
+// right of the pocket.
 const Damage kNeighbourDamages[] = {
     {"neighbour without the link back", [](LaneGraph& g) { g.lanes[1].left = -1; }, "first_west_in_1"},
     {"neighbour of another approach", [](LaneGraph& g) { g.lanes[3].right = 7; }, "first_west_in_3"},

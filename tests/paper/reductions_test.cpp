@@ -1,4 +1,4 @@
-// Reductions of sweeps and scenarios for quick runs.
+// Tests of the reductions: a CSV file that shortens sweeps and scenarios for quick runs, for example to fewer seeds.
 #include "paper/reductions.h"
 
 #include <gtest/gtest.h>

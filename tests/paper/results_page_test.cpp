@@ -1,4 +1,4 @@
-// The results page and the headlines, from made-up rows.
+// Tests of the results page and its headlines with made-up rows, and of the results page in the repository.
 #include "paper/results_page.h"
 
 #include <gtest/gtest.h>
@@ -69,7 +69,7 @@ TEST(ResultsPage, HasATablePerSectionAndTheFindingsAtTheEnd) {
     EXPECT_TRUE(page.ends_with("\n## Findings\n"));
 }
 
-// Returns the cells of each line of data/paper/RESULTS.md that begins with the id of a row.
+// Returns the table rows with ten columns in data/paper/RESULTS.md. The key of a row is the text of its first column.
 std::map<std::string, std::vector<std::string>> rows_of_committed_page() {
     std::ifstream file(data_directory() / "paper" / "RESULTS.md");
     std::map<std::string, std::vector<std::string>> rows;

@@ -1,4 +1,5 @@
-// The scorecard: our results for the rows of the paper (answers), verdicts by section, stored measurements, commands.
+// Tests of the scorecard, which compares our results (answers) with the statements of the paper (rows): answers,
+// verdicts by section, stored measurements and the commands that give the answers.
 #include "paper/scorecard.h"
 
 #include <gtest/gtest.h>
@@ -148,7 +149,7 @@ TEST(Scorecard, RefusesAnUnknownSection) {
     EXPECT_TRUE(contains(error, "no rows of section 'XI'; sections with rows: III.B"));
 }
 
-// Every section has a command, and its scenario file exists.
+// Every section has a command. If the command names a scenario file, this file exists.
 TEST(Scorecard, NamesTheCommandsOfASection) {
     const auto commands = [](const std::string& section) { return commands_behind(score(section, {}).rows); };
     using Commands = std::vector<std::string>;

@@ -1,4 +1,5 @@
-// Rows with statements of the paper: sections, conditions, numbers, explanations, and the function that judges a row.
+// Tests of the table of the paper's statements, one in each row: sections, conditions, numbers, explanations, and the
+// functions that judge a row.
 #include "reference/targets.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-// Verdicts on our results for the rows of the paper (answers): tolerances, ranges, claims and invalid rows.
+// Tests of judge(), which compares our result (answer) with a statement of the paper (row): tolerances, ranges, claims
+// and invalid rows.
 #include "paper/verdict.h"
 
 #include <gtest/gtest.h>

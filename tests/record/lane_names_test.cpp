@@ -1,4 +1,4 @@
-// Tests that positions in result files of an imported network belong to the lane that they name.
+// Tests of result files of an imported network: each position must lie on the lane that stands beside it in the file.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ struct Case {
     std::string name;
     std::string net;
     std::string routes;
-    std::vector<std::string> expected_lanes;  // lanes that some vehicle must be on
+    std::vector<std::string> expected_lanes;  // lanes that vehicles must use during the run
 };
 
 void PrintTo(const Case& test, std::ostream* stream) { *stream << test.name; }  // NOLINT: a name of GoogleTest
@@ -88,8 +88,8 @@ std::vector<Row> rows_of(const std::filesystem::path& file) {
 
 TEST_P(NamedPlaces, HoldPositionsInFcd) {
     constexpr double kRounding_m = 0.011;
-    // The import joins several shapes of the file into one, so the length of the shape can differ from the length of
-    // the lane. The import also draws U-turns wider than the file does.
+    // Points of the import may lie this far from the points in the file: the import joins several shapes of the file
+    // into one, whose length can differ from the length of the lane, and draws U-turns wider than the file does.
     constexpr double kStretch_m = 1.2;
     std::vector<std::string> seen;
     for (const Row& row : rows_of(run_fcd("fcd.xml"))) {
@@ -138,7 +138,7 @@ TEST_P(NamedPlaces, AreTheSameInTrajectories) {
 
 TEST_P(NamedPlaces, CompressedFileHasTheSameText) {
     const SumoXml plain(run_fcd("fcd.xml"), {"fcd-export"});
-    const SumoXml compressed(run_fcd("fcd.xml.gz"), {"fcd-export"});  // reads both kinds of files
+    const SumoXml compressed(run_fcd("fcd.xml.gz"), {"fcd-export"});  // SumoXml also reads compressed files
     EXPECT_EQ(plain.hash(), compressed.hash());
     EXPECT_LT(4 * std::filesystem::file_size(files_.folder() / "fcd.xml.gz"),
               std::filesystem::file_size(files_.folder() / "fcd.xml"));

@@ -1,4 +1,5 @@
-// Tests of recordings. Reading one back gives the simulated states within rounding. Damage to the file is detected.
+// Tests of recordings (files that store a run frame by frame). Reading a recording back gives the simulated states
+// within rounding. Damage to the file is detected.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -153,7 +154,8 @@ int slot_past_line(const Model& model, const State& state) {
     return -1;
 }
 
-// A stopped vehicle past the stop line may change its next lane. Its position stays the same.
+// A stopped vehicle past the stop line may change its next lane. The recording must contain this change, although the
+// position of the vehicle stays the same.
 TEST(Recording, UpdatesTheNextLaneOfAStoppedVehicle) {
     const TemporaryFolder folder;
     const fs::path file = folder.path() / "run.rec";

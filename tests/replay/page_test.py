@@ -52,7 +52,8 @@ def check_states(browser, rows):
             check(state[key] == row[key] and row[key] in text, f"{key} {state[key]} instead of {row[key]}: {text}")
         check(abs(state["speed_mps"] - float(row["speed_mps"])) < 0.0051, f"speed {state} instead of {row}")
         check(f"{state['speed_mps']:.2f} m/s" in text, f"the speed is missing in: {text}")
-        # The page shows the position on the lane, the CSV file that on the route. They are equal on the first lane.
+        # The page shows the position along the lane, the CSV file the position along the route. The two positions are
+        # equal on the first lane of a route.
         if row["lane"].endswith(("_in_0", "_in_1")):
             check(abs(state["position_m"] - float(row["position_m"])) < 0.0051, f"position {state} instead of {row}")
             check(f"{state['position_m']:.2f} m" in text, f"the position is missing in: {text}")

@@ -37,8 +37,8 @@ TEST(DrivingChecks, StandstillGapCoversAHardStop) {
 }
 
 TEST(DrivingChecks, MesoscaleGapCoversTheToleranceBand) {
-    // Equation (1) of the paper holds the gap only within a tolerance band. With the parameters of Table 2, a vehicle
-    // may come 1 m nearer to its leader than the standstill gap.
+    // The constant-distance model (equation (1) of the paper) keeps the gap only within a tolerance band. With the
+    // parameters of Table 2, a vehicle can stop with a gap 1 m smaller than the standstill gap.
     std::vector<std::string> small = population_with_gap("constant_distance, standstill_gap: 0.9 m");
     small.emplace_back("fidelity=meso");
     small.emplace_back("meso=table2");

@@ -97,7 +97,7 @@ TEST(Turns, OfALaneSumToAtMost100Percent) {
             error_with_lanes(kind, all,
                              {"demand.cross_turns=separate", "demand.cross_left=60 %", "demand.cross_right=60 %"}),
             "field 'demand.cross_left': cross_left and cross_right sum to 120 %"));
-        // In the default network no lane has both turns. The limit applies to each lane, so 60 % and 60 % are accepted.
+        // The sum is limited only on a lane that allows both turns, and the default network has no such lane.
         EXPECT_EQ(error_for_kind(kind, {"demand.left=60 %", "demand.right=60 %"}), "");
     }
 }
@@ -145,7 +145,7 @@ TEST(Rules, ParametersOfKeepClearNeedTheRule) {
     }
 }
 
-// While the keep-clear rule is off, its parameters may stay in the file. They apply again when the rule is on again.
+// If an override switches the keep-clear rule off, the file may still set parameters of this rule. An override may not.
 TEST(Rules, CanBeSwitchedOffByOneOverride) {
     const std::string all = "{keep_clear: on, sight: 100 m, count_queue_at_red_exit: on}";
     EXPECT_EQ(error_with_rules(all, {"rules.keep_clear=off"}), "");

@@ -109,7 +109,8 @@ TEST(Streets, HaveTheirOwnSignalsAndTurns) {
     EXPECT_TRUE(contains(with({"network.streets.intersections[first].offset=0.005 s"}), "not a whole number of steps"));
 }
 
-// Compares with the rows of Table 3 in the paper: seven steps, offset, turn shares of the major and the minor street.
+// Compares with the rows of Table 3 in the paper: the seven steps of the signal programme, its offset, and the turn
+// shares of the major and the minor street.
 TEST(Berlin, MatchesTable3) {
     struct Row {
         const char* name;
@@ -153,7 +154,8 @@ TEST(Berlin, MatchesTable3) {
     }
 }
 
-// Distances between neighbours in Table 3. The positions are from OpenStreetMap and differ by at most 5 m.
+// Compares the distances between neighbouring intersections with Table 3. The positions in the streets file are from
+// OpenStreetMap, so the distances differ by up to 5 m from the table.
 TEST(Berlin, HasTheDistancesOfTable3) {
     constexpr std::array<double, 9> kTable_m{500, 160, 390, 290, 250, 280, 160, 210, 160};
     const Scenario s = load_scenario(shipped("scenarios/berlin.yaml"));

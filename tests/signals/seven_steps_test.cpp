@@ -1,4 +1,4 @@
-// Tests of seven-step programmes, tick by tick.
+// Tests of the signal programmes with seven steps (Table 3 of the paper), tick by tick.
 #include <gtest/gtest.h>
 
 #include "signals/programme.h"
@@ -11,7 +11,8 @@ const SevenSteps kProtected{22, 3, 8, 3, 11, 3, 10};
 const SevenSteps kPlain{24, 3, 9, 0, 12, 3, 9};
 const SevenSteps kNoClearance{20, 0, 0, 5, 15, 0, 0};
 
-// Returns the lights of the three groups at a tick, directly from the definition of the seven steps.
+// Returns the lights of the three signal groups (major street, its left turns, minor street) at a tick, directly from
+// the definition of the seven steps.
 std::array<Light, 3> lights_at(const SevenSteps& s, double offset_s, std::int64_t tick) {
     const std::int64_t cycle = to_ticks(s.cycle_s(), kStep_s);
     std::int64_t cycle_tick = ((tick - to_ticks(offset_s, kStep_s)) % cycle + cycle) % cycle;
@@ -65,7 +66,7 @@ TEST(SevenSteps, SeparateTheMinorStreetFromTheMajorStreet) {
     }
 }
 
-// light_start_tick() returns the start of the light, also if this start lies before the run.
+// light_start_tick() returns the tick at which the present light began. This tick may lie before the start of the run.
 TEST(SevenSteps, ReportWhenALightStarted) {
     for (const double offset_s : {0.0, 19.0, 54.0}) {
         for (const GroupProgramme& group : make_seven_steps(kProtected, offset_s, kStep_s)) {

@@ -4,9 +4,9 @@
     compare_all.py FOLDER_OF_STOPLINE_PROGRAMS [SEEDS]        default: three seeds
 
 Prints a row for each case: single light, intersection (24 cases), grid (3 x 2), arterial; CTG-Ref with the paper's
-parameters. Two settings follow SUMO instead of ours: the first vehicle of a queue does not hesitate, and drivers brake
-like SUMO's vehicles. Exit codes: 0 throughput within 5 % and travel time within 8 % in all cases, 1 outside these
-limits, 77 SUMO is not installed.
+parameters. In two respects our drivers are set to behave like SUMO's: the first vehicle of a queue does not hesitate,
+and drivers brake as hard as SUMO's vehicles. Exit codes: 0 throughput within 5 % and travel time within 8 % in all
+cases, 1 outside these limits, 77 SUMO is not installed.
 """
 
 import csv
@@ -23,7 +23,8 @@ from cross_check import HERE, find_sumo
 SCENARIOS = HERE.parent.parent / "scenarios"
 # SUMO's vehicles brake for stop lines and for yielding with their maximum, 4.7 m/s2 with the paper's parameters. On
 # yellow they stop if v^2 / (2 * 4.7 m/s2) - v * 0.05 s is at most the distance to the line. Our vehicles stop 1 m
-# before the line, so an equal decision needs a higher deceleration: 5.8 m/s2 to 5.1 m/s2 at 30 km/h to 50 km/h.
+# before the line, so an equal decision needs a higher deceleration: 5.8 m/s2 at 30 km/h and 5.1 m/s2 at 50 km/h. The
+# setting is a value between the two.
 AS_SUMO = ["driver.free_drive.hesitation=0 s", "driver.stop.decision_deceleration=5.3 m/s2",
            "driver.stop.deceleration=4.7 m/s2", "meso=table2"]
 THROUGHPUT, TRAVEL_TIME = 5.0, 8.0  # percent

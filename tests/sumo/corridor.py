@@ -4,9 +4,9 @@
     corridor.py --bin FOLDER_OF_STOPLINE_PROGRAMS
 
 Both programs get the same network (stopline-export), signals and car-following parameters (Table 2 of the paper). Our
-drivers start and stop as SUMO's. SUMO's demand does not come from our run: vehicles always wait on each inlet lane, and
-their turns are drawn at random with the shares of the streets file. Both programs count vehicles at the same places.
-SUMO's results are stored, so that a second comparison with the same inputs is fast.
+drivers start and stop like SUMO's. SUMO's demand does not come from our run: vehicles always wait on each inlet lane,
+and their turns are drawn at random with the shares of the streets file. Both programs count vehicles at the same
+places. SUMO's results are stored, so that a second comparison with the same inputs is fast.
 
 Exit codes: 0 all requirements are met, 1 some are missed, 77 SUMO is not installed.
 """

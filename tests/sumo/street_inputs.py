@@ -160,9 +160,9 @@ def write_demand(file, streets, shares, vehicle_type, duration_s, seed):
 
 
 def insertion_faults(streets, shares, inserted, run_s):
-    """Checks the vehicles that SUMO inserted: {"INLET.LANE": {turn: number}}. Each inlet lane must always have
-    had a waiting vehicle, which shows in planned vehicles that SUMO dropped. The first turns must have their shares,
-    within four standard deviations. Returns the faults as sentences."""
+    """Checks the vehicles that SUMO inserted: {"INLET.LANE": {turn: number}}. A vehicle must always
+    have waited on each inlet lane. SUMO has then dropped some of the planned vehicles. The first turns must have their
+    shares, within four standard deviations. Returns the faults as sentences."""
     faults = []
     for inlet in streets.inlets():
         for lane, lane_shares in enumerate(inlet_shares(streets, inlet, shares[EDGE.match(inlet)["approach"]])):

@@ -22,7 +22,7 @@ MARGIN_M = 20
 # Makes our drivers behave like SUMO's: no hesitation at the start of green, and SUMO's deceleration at stop lines.
 LIKE_SUMO = ["driver.free_drive.hesitation=0 s", "driver.stop.deceleration=4.7 m/s2",
              "driver.stop.decision_deceleration=5.3 m/s2"]
-EXPORT_S = 300  # run of stopline-export; longer than a signal cycle
+EXPORT_S = 300  # length of the run of stopline-export; longer than a signal cycle
 KEY_S = 60      # sumo_key() hashes the demand of the first 60 s only; this part identifies the whole demand
 VIOLATIONS = ["overlaps", "conflicts", "red_entries", "lost_vehicles"]
 

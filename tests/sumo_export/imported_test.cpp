@@ -72,7 +72,8 @@ public:
         write_imported_inputs(folder_.path(), model, network, stop_line_names(network), scenario.duration_s);
     }
 
-    // Returns one row for each element of a file, with the given attributes and the route.
+    // Returns one row for each element of this kind in the file: the given attributes, and the edges of the route if
+    // the element has a route.
     std::vector<std::string> rows(const std::string& file, const char* element,
                                   const std::vector<const char*>& attributes) const {
         const SumoXml xml(folder_.path() / file, {"routes", "additional"});

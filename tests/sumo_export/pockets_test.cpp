@@ -74,8 +74,9 @@ TEST_P(ExportedStreets, PartsCoverEachLane) {
     EXPECT_GT(pockets, 0);
 }
 
-// One connection leads to each part that is not the first part of an approach lane. It comes from the previous part of
-// the lane or, for the first part of a pocket, from a lane beside the pocket.
+// Apart from the connections through junctions, one connection leads to each part of a lane. It comes from the previous
+// part of the lane or, if the part is the first part of a pocket, from another lane of the approach. No such connection
+// leads to the first part of a lane that is not a pocket.
 TEST_P(ExportedStreets, EachPartHasOneConnectionToIt) {
     const LaneGraph graph = GetParam()();
     const PlainNetwork network = plain_network(graph);
@@ -116,8 +117,8 @@ INSTANTIATE_TEST_SUITE_P(Layouts, ExportedStreets,
 TEST(ExportedPockets, BeginWhereTheirEdgeBegins) {
     const LaneGraph graph = pockets_on_both_sides();
     const PlainNetwork network = plain_network(graph);
-    // From the start of the approach of 300 m: all three through lanes; from 220 m the long left pocket; from 240 m the
-    // right pocket; from 260 m the short left pocket.
+    // The approach is 300 m long. Its three through lanes begin at its start, the long left pocket at 220 m, the right
+    // pocket at 240 m, and the short left pocket at 260 m.
     const std::vector<EdgePart>& middle = network.parts_of[at(lane_named(graph, "first_west_in_3"))];
     ASSERT_EQ(middle.size(), 4U);
     const std::vector<std::pair<std::size_t, double>> lanes_and_lengths{

@@ -184,7 +184,7 @@ TEST(SumoNetwork, MovementsOfALaneCanHaveTheirOwnSignals) {
 }
 
 TEST(SumoNetwork, ShortLanesBeforeASignalHaveALowerEntrySpeed) {
-    // Lane n_out ends at a signal after 12 m. Vehicles must enter it slowly enough to stop within 10 m at 3 m/s2.
+    // Lane n_out ends at a signal after 12 m. With a margin of 2 m, vehicles must be able to stop in 10 m at 3 m/s2.
     std::string text = signal_net(two_phases());
     text = replaced(text, "length=\"190.00\" shape=\"1.60,10.00 1.60,200.00\"",
                     "length=\"12.00\" shape=\"1.60,10.00 1.60,22.00\"");

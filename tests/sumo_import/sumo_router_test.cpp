@@ -128,7 +128,8 @@ TEST_F(SumoRouterOnGrid, FindsFastestRoutes) {
 }
 
 // After some searches, the router precomputes travel times from and to a few edges (landmarks) to search faster. After
-// many calls with the same destination, it builds a tree of fastest routes to it. The routes must not depend on this.
+// many calls with the same destination, it builds a tree of fastest routes to this destination. In all cases, the
+// routes must be those of a new router.
 TEST_F(SumoRouterOnGrid, GivesTheSameRoutesWhateverWasSearchedBefore) {
     SumoRouter used(network_);
     for (int k = 0; k < 100; ++k) used.fastest_route(k, 200 - k);
@@ -141,7 +142,8 @@ TEST_F(SumoRouterOnGrid, GivesTheSameRoutesWhateverWasSearchedBefore) {
             const std::optional<std::vector<int>> expected = fresh.fastest_route(from, to);
             EXPECT_EQ(tree.fastest_route(from, to), expected) << from << " to " << to;
             EXPECT_EQ(used.fastest_route(from, to), expected) << from << " to " << to;
-            used.fastest_route(from, (to + 1) % edges());  // no tree for this destination
+            // The other destination prevents `used` from building a tree for `to`.
+            used.fastest_route(from, (to + 1) % edges());
             routes += expected ? 1 : 0;
         }
     }

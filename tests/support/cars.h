@@ -49,7 +49,7 @@ struct Car {
     bool electric() const { return settings.gear_ratio.size() == 1; }
 };
 
-// Returns the state after long cruising at a speed.
+// Returns the state of a vehicle that has driven at the speed `v_mps` for a long time.
 inline CarState cruising(const Car& car, double v_mps) {
     CarState s{};
     s.speed_mps = v_mps;

@@ -125,7 +125,8 @@ inline std::string crossing_net() {
 )";
 }
 
-// Returns edges a and b (100 m) that merge into s (`short_m` long), which leads to c (100 m). Traffic from a yields.
+// Returns edges a and b (100 m) that merge into s (`short_m` long), which leads to c (100 m). Traffic from a yields to
+// traffic from b.
 inline std::string merge_net(const std::string& short_m) {
     const auto edge = [](const std::string& id, const std::string& length_m, const std::string& shape) {
         const std::string internal = id[0] == ':' ? " function=\"internal\"" : " from=\"A\" to=\"B\"";
@@ -149,7 +150,7 @@ inline std::string merge_net(const std::string& short_m) {
 }
 
 // Returns part of a roundabout. Traffic from b (100 m) goes over s (2 m) to c, or exits to x before s. Traffic from a
-// yields at the end of s.
+// joins at the start of c and yields to traffic from s.
 inline std::string roundabout_net() {
     return R"(<net version="1.20">
 <edge id=":J_0" function="internal"><lane id=":J_0_0" index="0" speed="8" length="4" shape="0,0 4,0"/></edge>
@@ -225,7 +226,8 @@ inline std::string lane_drop_net() {
            "</net>\n";
 }
 
-// Returns a street with one lane in each direction. Left turns yield to oncoming traffic inside the junction.
+// Returns a street with one lane in each direction. Left-turning vehicles wait inside the junction until oncoming
+// traffic has passed.
 inline std::string opposing_lefts_net() {
     return R"(<net version="1.20">
 <edge id=":J_0" function="internal"><lane id=":J_0_0" index="0" speed="13.89" length="24" shape="-12,-3.2 12,-3.2"/></edge>

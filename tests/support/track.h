@@ -133,7 +133,8 @@ public:
     // Returns the slot of the k-th vehicle of a lane, counted from the front.
     std::size_t slot(int lane, int k) const { return at(state().blocks[at(lane)].first + k); }
 
-    // Prescribes a vehicle's state at the beginning of the next step and the request that it sends to its follower.
+    // Prescribes the state of a vehicle at the beginning of the next step, and the acceleration request (the commanded
+    // acceleration) in the message to the follower of this vehicle.
     void drive(int lane, int k, double position_m, double speed_mps, double acceleration_mps2, double request_mps2,
                double lag_s) {
         VehicleArrays& v = mutable_state().vehicles;

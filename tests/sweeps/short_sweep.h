@@ -1,4 +1,4 @@
-// A sweep whose runs take a few milliseconds: two green times, two vehicles, three populations, two seeds.
+// A sweep whose runs take a few milliseconds: two green times, two vehicle types, three populations, two seeds.
 #pragma once
 
 #include <string>

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Installs clang-tidy from the Python package index into build/clang-tidy. It is three times as fast as the version of
-# Debian 12, which spends its time in system headers. If the installation fails, it prints a message, and lint.py uses
-# Debian's version.
+# Installs clang-tidy from the Python package index into build/clang-tidy. This version is three times as fast as that
+# of Debian 12, which spends its time in system headers. If the installation fails, this script prints a message, and
+# lint.py uses Debian's version.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 

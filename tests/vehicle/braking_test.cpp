@@ -56,7 +56,9 @@ TEST_P(Braking, NeverExceedsFriction) {
         const Car car(settings);
         CarState s = cruising(car, 30.0);
         double max_friction_use = 0.0;
-        while (s.speed_mps > 1.0) {  // the clutch opens during the stop
+        // The stop includes the moment at which the clutch opens. A brake force for the closed clutch is then too
+        // large.
+        while (s.speed_mps > 1.0) {
             s = advance(car, s, -15.0, 0.0, kStep_s);
             const double tyres_N = -s.acceleration_mps2 * car.mass_kg() - car.resistance_N(s.speed_mps);
             max_friction_use = std::max(max_friction_use, tyres_N / car.friction_N());

@@ -11,8 +11,8 @@ using namespace testing_support;
 class ForceBalance : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(EveryVehicle, ForceBalance, testing::ValuesIn(car_names()), as_test_name);
 
-// Returns the vehicle with a single gear and an engine without torque and drag. If it is asked to
-// accelerate, it coasts, so the low-level controller cannot hide a wrong resistance.
+// Returns the vehicle with a single gear and an engine without torque and drag. This vehicle coasts even if it is asked
+// to accelerate, so the low-level controller cannot hide a wrong resistance.
 Car without_engine(const std::string& name, std::size_t gear) {
     PowertrainSettings s = load_vehicle(name);
     for (double& torque : s.full_load.y) torque = 0.0;
@@ -105,7 +105,7 @@ TEST(ElectricCar, ConservesEnergy) {
     }
 }
 
-// On a start from rest to 100 km/h, the engine's work is at least the kinetic energy.
+// On a start from rest to 100 km/h, the engine's work at the wheels is one to two times the kinetic energy.
 TEST_P(ForceBalance, StartNeedsAtLeastTheKineticEnergy) {
     const Car car(GetParam());
     CarState s = cruising(car, 0.0);

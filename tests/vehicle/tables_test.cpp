@@ -1,4 +1,5 @@
-// Tests of compile_powertrain(): curves keep their shape on the grid, and inconsistent settings are refused by name.
+// Tests of compile_powertrain(): curves keep their shape on the grid of the tables, and inconsistent settings are
+// refused with a message that names the setting.
 #include <gtest/gtest.h>
 
 #include <functional>

@@ -1,4 +1,5 @@
-// Tests that the torque follows its request as a first-order lag with the time constant of the map.
+// Tests that the torque follows its request as a first-order lag. The time constant comes from the lag map of the
+// vehicle.
 #include <gtest/gtest.h>
 
 #include "support/cars.h"
@@ -11,7 +12,8 @@ using namespace testing_support;
 class TorqueLag : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(EveryVehicle, TorqueLag, testing::ValuesIn(car_names()), as_test_name);
 
-// Returns the time constant of the map, s. The shipped maps do not depend on the torque, so the first column suffices.
+// Returns the time constant from the lag map, s. The shipped maps do not depend on the torque, so the first column
+// suffices.
 double map_lag_s(const Car& car, double rpm) {
     SampledCurve over_rpm{car.settings.lag_rpm, {}};
     const std::size_t columns = car.settings.lag_torque_share.size();

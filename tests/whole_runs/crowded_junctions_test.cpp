@@ -108,7 +108,7 @@ populations: [S-SHORT]
 }
 
 // A left-turning vehicle has accepted a gap and started. Then another vehicle inside the junction makes the gap too
-// short. The left-turning vehicle has barely room to stop, and its brakes lag, so it must continue nevertheless.
+// short. The left-turning vehicle has barely room to stop, and its brakes lag, so it must not try to stop.
 TEST(CrowdedJunctions, VehicleThatMayStopTooLateKeepsItsGap) {
     expect_no_violations(R"(
 duration: 456 s

@@ -91,7 +91,7 @@ protected:
         return 0.0;
     }
 
-    // Runs the phases of a step that attribute delays.
+    // Runs those phases of a step that are needed to attribute delays.
     void attribute() {
         const Model& model = track_.model();
         Partition& all = state().partitions[0];
@@ -262,7 +262,8 @@ TEST_F(DelayCauses, BlockerThatStartsToCrawlIsNotInAGridlock) {
     EXPECT_EQ(state().congestion.delays.episodes[1].blocker, blocker);
 }
 
-// Moving vehicles fill the exit lane. They will stop at its signal, so there will be no room behind them.
+// Moving vehicles fill the exit lane. If the signal at the end of this lane is yellow or red, they will stop there and
+// leave no room for a further vehicle.
 TEST_F(DelayCauses, MovingVehiclesCountAsStoppedBeforeARedLight) {
     constexpr double kSpace_m = 5.15 + 2.95;  // length of a vehicle and its standstill gap
     constexpr double kMoving_mps = 10.0;

@@ -97,9 +97,9 @@ TEST(Inflow, BetweenTwoIntersectionsIsInsertedAndMeasured) {
     }
 }
 
-// Regression test: two vehicles were in the same conflict area at 1,917 s. A left-turning vehicle had accepted a gap
-// far upstream, behind a waiting left-turning vehicle. It must not rely on this gap after the waiting vehicle has
-// started.
+// Regression test: two vehicles were in the same conflict area at 1,917 s. A left-turning vehicle L had accepted a gap
+// far upstream, behind another left-turning vehicle that waited. After the waiting vehicle has started, L must not rely
+// on this gap.
 TEST(Inflow, LightTrafficHasNoConflicts) {
     const Scenario scenario =
         load_scenario(STOPLINE_SOURCE_DIR "/scenarios/grid.yaml",

@@ -60,7 +60,8 @@ TEST_P(ImportedEntry, DefaultsOfDepartureDecideTheInflow) {
     EXPECT_TRUE(old.violations.none());
 }
 
-// Vehicles enter 2 to 60 m before a signal, at all times of its cycle. They enter as fast as they can still stop.
+// Vehicles enter 2 to 60 m before a signal, at all times of its cycle. Each enters at a speed from which it can
+// still stop at the signal.
 TEST_P(ImportedEntry, NearASignalIsPossibleAtAllTimes) {
     std::string flows;
     for (const char* const position : {"-2", "-5", "-10", "-30", "-60", "last"}) {

@@ -20,7 +20,7 @@ constexpr double kSpacing_m = 5.0;  // between cross-sections
 constexpr double kFirst_m = 10.0;   // first cross-section; vehicles enter upstream of it, with their fronts at 5 m
 constexpr double kLast_m = 185.0;
 
-// Loops on both lanes at each cross-section. The id is the position.
+// Returns induction loops on both lanes at each cross-section. The id of a loop consists of its position and its lane.
 std::string loops_everywhere() {
     std::string text = "<additional>\n";
     for (double position_m = kFirst_m; position_m <= kLast_m; position_m += kSpacing_m) {

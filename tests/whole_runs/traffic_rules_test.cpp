@@ -26,7 +26,8 @@ class SlowRules : public testing::TestWithParam<Run> {};
 INSTANTIATE_TEST_SUITE_P(Fidelities, SlowRules, testing::Values(Run{"meso", 1200.0}, Run{"full", 400.0}),
                          [](const auto& run) { return std::string(run.param.fidelity); });
 
-// Returns true if the vehicle occupies the lane or will enter it next.
+// Returns true if the lane is the present lane of the vehicle, its next lane, or one of the two lanes before the
+// present one.
 bool uses_lane(const State& state, int vehicle, int lane) {
     for (std::size_t k = 0; k < state.blocks.size(); ++k) {
         for (int slot = state.blocks[k].first; slot < state.blocks[k].past_last(); ++slot) {

@@ -77,7 +77,7 @@ class SectionDecoder {
 
     frame() {
         this.readEvents();
-        this.in.varint();  // skip the counts of entries and exits, which Recording.series has
+        this.in.varint();  // skip the counts of entries and exits; Recording.series contains them
         this.in.varint();
         this.readColumns();
         return this.drawableFrame();

@@ -122,8 +122,8 @@ class Replay {
         if (this.playing) {
             const elapsed_s = this.lastTick_ms === undefined ? 0 : (now_ms - this.lastTick_ms) / 1000;
             this.lastTick_ms = now_ms;
-            // At most this much real time counts between two drawings. Otherwise the replay would jump after the
-            // browser was inactive.
+            // From one drawing to the next, the replay counts at most this much real time. Otherwise the replay would
+            // jump after the browser was inactive.
             const MAX_STEP_S = 0.25;
             if (this.hasFrame) this.time_s += Math.min(elapsed_s, MAX_STEP_S) * this.rate;
             if (this.time_s >= this.last_s) {

@@ -160,10 +160,11 @@ class Network {
     }
 }
 
-// Calls visit(k, points) for each vehicle k of the frame `from`. `points` holds x and y of its front and its rear at a
-// time between two frames. `share` is the elapsed share of this interval, 0 to 1. A vehicle moves along its lanes and
-// has the recorded speed at both frames. A vehicle that changes to an adjacent lane, or passes a whole lane between the
-// frames, moves along a straight line.
+// Calls visit(k, points) for each vehicle k of the frame `from`. `points` holds x and y of front and rear of the
+// vehicle at a time between the frames `from` and `to`. `share` is the elapsed share of the time between these frames,
+// 0 to 1. A vehicle that is missing in `to` is left out in the second half of this time. A vehicle moves along its
+// lanes and has the recorded speed at both frames. A vehicle that changes to an adjacent lane, or passes a whole lane
+// between the frames, moves along a straight line.
 function interpolate(network, from, to, share, frame_s, visit) {
     const a = network.placements(from);
     const b = to ? network.placements(to) : a;
@@ -188,7 +189,8 @@ function interpolate(network, from, to, share, frame_s, visit) {
         }
         const done = distance_m < 0.01 ? 0 :
             hermite(share, from.speed_mps[k] * frame_s / distance_m, to.speed_mps[j] * frame_s / distance_m);
-        // Distance of the front from the start of the lane of the later frame; negative while upstream of that lane.
+        // Distance of the front from the start of the lane that the vehicle is on in the later frame. It is negative
+        // while the front has not reached this lane.
         const on_next_m = b.front_m[j] - (1 - done) * distance_m;
         if (straight) {
             for (let i = 0; i < 4; ++i) p[i] += done * (q[i] - p[i]);

@@ -39,8 +39,8 @@
 #define STOPLINE_INLINE_LAMBDA __attribute__((always_inline))
 
 #if defined(__GNUC__) && !defined(__clang__)
-// The warning says that the instruction set determines how a batch is passed to a function. The warning does not matter
-// here, because all functions with batches as parameters are inlined.
+// -Wpsabi warns that the instruction set determines how a batch is passed to a function. This does not matter here,
+// because all functions with batches as parameters are inlined.
 #pragma GCC diagnostic ignored "-Wpsabi"
 #endif
 

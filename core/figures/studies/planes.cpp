@@ -110,7 +110,7 @@ bool has_paper_axes(const SweepPlanes& all) {
     return all.x_axis.column == kGreenColumn && all.line_axis.column == kOffsetColumn;
 }
 
-// Returns the number of combinations of the axes that are neither x axis nor line axis.
+// Returns the number of planes: combinations of values of the axes that are neither x axis nor line axis.
 std::size_t plane_count(const CsvTable& results, const SweepPlanes& all, const std::string& population_column) {
     std::set<std::vector<std::string>> combinations;
     for (const std::vector<std::string>& row : results.rows) {

@@ -1,6 +1,6 @@
 // The results of a sweep over several intersections, arranged for its figures. Each figure has an x axis. If two axes
 // vary, it also has a line axis, with one line for each value. All other axes are constant in a figure. The results for
-// one combination of their values are called a plane. Each plane has figures of its own.
+// one combination of the values of these other axes are called a plane. Each plane has figures of its own.
 //
 // As in the paper, the x axis is the axis `green` (green time) and the line axis is the axis `offset`, provided that
 // the sweep has both axes and at least one of them varies. Otherwise the first one or two numeric axes that vary are
@@ -112,12 +112,13 @@ bool has_network_metrics(const CsvTable& results, const std::string& population_
 // Returns the columns of all axes except the population axis.
 std::vector<std::string> axis_columns(const CsvTable& results, const std::string& population_column);
 
-// Highest number of planes (combinations of the constant axes) that get figures. A sweep with more planes gets figures
-// only if its x axis is the axis `green` and its line axis is the axis `offset`.
+// Highest number of planes that get figures. A plane is one combination of values of the axes that are constant in a
+// figure. A sweep with more planes gets figures only if its x axis is the axis `green` and its line axis is the axis
+// `offset`.
 inline constexpr std::size_t kMaxPlanes = 24;
 
-// Arranges the results in planes. Returns nothing if the figures have no x axis, because no numeric axis varies, or if
-// there are too many planes.
+// Arranges the results in planes. Returns nothing if no axis of the sweep can be the x axis, or if there are too many
+// planes (see kMaxPlanes).
 std::optional<SweepPlanes> sweep_planes(const CsvTable& results, const CellTitles& titles,
                                         const std::string& population_column);
 

@@ -6,8 +6,8 @@
 
 namespace stopline {
 
-// Draws speed and gear over time. Also draws the band of single starts and the confidence band of the mean, if the
-// measured curve has them.
+// Draws speed and gear over time. If the measured curve contains them, also draws two bands: the range of 95 % of the
+// measured starts, and the confidence band of their mean.
 Figure startup_figure(const StartupReport& report);
 
 }  // namespace stopline

@@ -22,8 +22,9 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 }
 
 // Returns advice if the results have a column `name` without a unit, such as "green" instead of "green_s". The figures
-// do not recognise such a column. A sweep writes a column without a unit if an axis sets several fields at once and two
-// values of the axis have the same first field, so that the first field alone does not identify the axis value.
+// do not recognise such a column. A sweep writes such a column if each value of an axis sets several fields, and two
+// axis values agree in the first field, as in "15 s / 5 s" and "15 s / 7 s". The column then holds all fields of an
+// axis value as text.
 std::string advice_for(const CsvTable& results, const std::vector<std::string>& axes, const std::string& name) {
     if (!contains(axes, name)) return "";
     return fmt::format(

@@ -20,7 +20,7 @@ bool has_turns(const CsvTable& results);
 std::vector<Figure> turn_figures(const CsvTable& results);
 
 // Returns Table 1 as CSV: the value of the paper, ours, and the difference in percentage points. Our value is empty if
-// the results lack its combination.
+// the results lack the combination of population, green and turns.
 std::string table1_csv(const CsvTable& results, const std::vector<Target>& targets);
 
 // Check of two statements of Section IV on mean throughput. First, throughput falls with the share of turns. Second,

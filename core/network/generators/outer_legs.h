@@ -17,8 +17,8 @@ struct OuterLeg {
     double exit_length_m = 0.0;     // from the intersection to the border; 0: no exit lane
 };
 
-// Returns the outer legs. If all legs of a network are equal, the result holds a single leg. The result is empty for an
-// imported network.
+// Returns the outer legs. A single road, an intersection and a grid have equal legs by definition, so the result holds
+// only one of these legs. The result is empty for an imported network.
 std::vector<OuterLeg> outer_legs(const NetworkSettings& network);
 
 }  // namespace stopline

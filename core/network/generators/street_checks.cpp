@@ -148,7 +148,8 @@ private:
     }
 
     // Checks that the lanes serve, from left to right, first left turns, then straight traffic, then right turns. In
-    // another order, connections of the same approach would cross.
+    // another order, connections of the same approach would cross. Also checks that the turn pockets lie beside the
+    // lanes that are as long as the approach, and that there is such a lane.
     void check_lane_order(const Leg& leg) {
         const auto& lanes = leg.settings.lanes;
         for (std::size_t k = 1; k < lanes.size(); ++k) {

@@ -18,8 +18,8 @@ struct ListedFigure {
 
     bool is_table() const { return file.ends_with(".csv"); }
     std::string major_section() const { return section.substr(0, section.find('.')); }
-    // Returns the identifier of the figure, such as fig05_counters. It names the figure's files and its anchor in the
-    // page.
+    // Returns the identifier of the figure, such as fig05_counters. The files of the figure and its anchor in the page
+    // have this name.
     std::string id() const;
 };
 

@@ -28,7 +28,8 @@ struct JobOutput {
     std::vector<std::string> commands;                            // command lines that repeat the runs
     std::set<std::uint64_t> seeds;
     std::map<std::string, std::uint64_t> scenario_hashes;
-    std::int64_t violations = 0;  // 0 if no run has overlaps, entries on red or lost vehicles
+    // Overlaps of vehicles, entries on red and lost vehicles: number of violations, or of runs with violations.
+    std::int64_t violations = 0;
 };
 
 // Input of a job.

@@ -19,8 +19,8 @@ void JobWriter::table(const std::string& name, const std::string& csv) {
 }
 
 Figure marked_as_reduced(Figure figure) {
-    // The mark is a gnuplot label with the tag 1000. The other labels of a figure have the tags 1, 2, ... A label with
-    // the tag 1000 among them would replace the mark.
+    // The mark is a gnuplot label with the tag 1000. gnuplot gives the other labels of a figure the tags 1, 2, ... The
+    // tag of the mark must differ from them, because a label replaces an earlier label with the same tag.
     const std::string mark =
         "set label 1000 'REDUCED: quick run' at screen 0.992,0.02 left rotate by 90 noenhanced tc rgb '#b00000' font ',10' "
         "front\n";

@@ -74,8 +74,8 @@ std::string picture_of(const std::string& svg, const std::string& png) {
     return "data:image/png;base64," + encode_base64(png);
 }
 
-// Draws Fig. 23, which is one of the scorecard's figures. Returns the figure in the form of a job result, with the
-// conditions and seeds of those jobs whose measurements the figure shows.
+// Draws Fig. 23, the only figure of the scorecard. Returns it in the form of a job result, with the scenarios and seeds
+// of the jobs whose measurements the figure shows.
 JobResult comparison_job(const ReproduceOptions& options, const std::vector<JobResult>& jobs,
                          const Scorecard& scorecard) {
     JobContext context;
@@ -97,7 +97,8 @@ JobResult comparison_job(const ReproduceOptions& options, const std::vector<JobR
     return {nullptr, context.folder, writer.output, "", {}};
 }
 
-// Fills in drawing or table, conditions, seeds and commands of a figure. `end` is the result of the job of the figure.
+// Fills in drawing or table, conditions, seeds and commands of a figure. `end` is the result of the job that makes the
+// figure.
 void fill_figure(ShownFigure& shown, const JobResult& end, ReportFiles& files) {
     if (!end.problem.empty()) {
         shown.problem = "the runs failed: " + end.problem;

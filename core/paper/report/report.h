@@ -27,7 +27,7 @@ struct ReportContent {
     std::string section;  // section that the user requested, or "all"
     std::string command;  // command that makes the report
     std::string version;
-    std::string program;  // identity of the program file
+    std::string program;  // text that identifies the program file
     std::string machine;
     std::string seeds;
     Reductions reductions;

@@ -6,9 +6,9 @@ namespace stopline {
 
 namespace {
 
-// The pace of finished work is its wall time divided by its expected time. The estimate uses a weighted mean of an
-// assumed pace and the observed pace. The weights are equal when the expected time of the finished work is this
-// constant.
+// The pace of work is its wall time divided by its expected time. The estimate is a weighted mean of an assumed pace
+// and the pace of the finished work. The weight of the finished work is its expected time. The weight of the assumed
+// pace is this constant.
 constexpr double kPriorWeight_s = 10.0;
 
 }  // namespace

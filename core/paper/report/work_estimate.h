@@ -35,8 +35,8 @@ private:
     std::size_t current_ = 0;
     bool running_ = false;
     double begin_s_ = 0.0;         // start of the current job
-    double current_done_s_ = 0.0;  // work on the current job that this session finished, in expected seconds
-    double done_s_ = 0.0;          // work on ended jobs that this session finished, in expected seconds
+    double current_done_s_ = 0.0;  // expected time of the part of the current job that this session finished
+    double done_s_ = 0.0;          // expected time of the parts of ended jobs that this session finished
     double spent_s_ = 0.0;         // wall time that the ended jobs took
 };
 

@@ -3,9 +3,9 @@
 //
 // A count is the number of vehicles whose front has passed the stop line since the start of green. In a row with the
 // condition green=T, the improvement compares the counts of two populations at time T. The condition green>=T stands
-// for the flat part of the curve in Fig. 6. There the improvement is the mean of our curve from time T on, so that a
-// single vehicle has little influence. The mean ends at the end of green, or earlier when all 60 vehicles of one of the
-// two queues have passed.
+// for the flat part of the curve in Fig. 6. In a row with this condition, the improvement is the mean of our curve from
+// time T on, so that a single vehicle has little influence. The mean ends at the end of green, or earlier when all 60
+// vehicles of one of the two queues have passed.
 #include <array>
 #include <cmath>
 #include <string>

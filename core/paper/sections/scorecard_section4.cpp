@@ -2,8 +2,8 @@
 // paper (T01 to T48).
 //
 // Every number is the mean over six seeds, or fewer in a quick run. An improvement compares two such means. The
-// population that the paper calls MIX, half of the vehicles with CDG, has the name P50 in scenarios/intersection.yaml.
-// Density is the percentage of the total lane length that vehicles occupy.
+// population MIX of the paper (half of the vehicles have the policy CDG) has the name P50 in
+// scenarios/intersection.yaml. Density is the percentage of the total lane length that vehicles occupy.
 #include <algorithm>
 #include <array>
 #include <atomic>

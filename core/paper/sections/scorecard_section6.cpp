@@ -76,8 +76,8 @@ Measurements measure_stability(const Scenario& /*scenario*/, const ScorecardOpti
 }
 
 // Measures the mean travel time from the first to the last stop line of the street, divided by the number of blocks
-// between these stop lines, s. Stores one value for each driving direction: "NAME east" and "NAME west". Also counts
-// the run if it has violations.
+// between these stop lines, s. Stores one value for each driving direction: "NAME east" and "NAME west". Adds 1 to the
+// measurement "violations" if the run has violations.
 void measure_block_times(const Scenario& scenario, std::size_t population, const std::string& name,
                          Measurements& measured) {
     constexpr double kUntil_s = 1800.0;
@@ -115,8 +115,9 @@ std::size_t index_of(const Scenario& scenario, const std::string& population) {
     throw InputError(fmt::format("the scenario has no population '{}'", population));
 }
 
-// Runs the arterial without turns, for situations 1 and 2 of Fig. 16 and for the rows about throughput without turns.
-// Also runs a single intersection to measure the number of vehicles in a platoon.
+// Runs the arterial without turns. Measures the travel time for each block at two offsets (Fig. 16, situations 1 and
+// 2), and the throughput of two populations. Also runs a single intersection to measure the number of vehicles in a
+// platoon.
 Measurements measure_platoons(const Scenario& scenario, const ScorecardOptions& options) {
     Measurements measured;
     Scenario street = scenario;

@@ -76,7 +76,7 @@ MaybeAnswer no_turns(const Measurements& m, int green_s) {
 MaybeAnswer no_turns_25(const Target&, const Measurements& m) { return no_turns(m, 25); }
 MaybeAnswer no_turns_35(const Target&, const Measurements& m) { return no_turns(m, 35); }
 
-// Row functions that read the sweep of the arterial.
+// Row functions that read the sweep of the arterial, and their helper functions.
 double arterial_gain(const Reader& r, const char* population) {
     return mean_over(kArterialGreens_s, kArterialOffsets_s,
                      [&](int g, int o) { return r.gain("free", g, o, population); });
@@ -179,7 +179,7 @@ MaybeAnswer slowest_at_25_0(const Target&, const Measurements& m) {
     return claim_answer(where == "25/0 s", fmt::format("{:.0f} s at {}", highest, where));
 }
 
-// Row functions that read the sweep of the grid.
+// Row functions that read the sweep of the grid, and their helper functions.
 double grid_gain(const Reader& r, const char* traffic, int green_s, const char* population) {
     return mean_over(std::array{green_s}, kGridOffsets_s,
                      [&](int g, int o) { return r.gain(traffic, g, o, population); });
@@ -269,7 +269,7 @@ MaybeAnswer time_rises(const Target&, const Measurements& m) {
     return claim_answer(holds, text);
 }
 
-// Row functions that read the stability sweep.
+// Row functions that read the stability sweep, and their helper functions.
 std::string stability_name(const Reader& r, const std::string& traffic, int green_s, int offset_s,
                            const char* population) {
     const double value = r.value("stability", traffic, green_s, offset_s, population);

@@ -110,8 +110,8 @@ MaybeAnswer mix_gain(const Target&, const Measurements& m) {
     return number_answer(100.0 * (flow(m, "MIX") / flow(m, "CTG-Ref") - 1.0));
 }
 
-// Returns a text about the times at which queues filled the approaches: median, earliest and latest, such as "minute 12
-// (3 to 20) in 5 of 6 runs". `filled_s` holds one time for each seed, NaN for never.
+// Returns a text about the times at which queues filled an approach or several approaches: median, earliest and latest,
+// such as "minute 12 (3 to 20) in 5 of 6 runs". `filled_s` holds one time for each seed, NaN for never.
 std::string filled_text(const std::vector<double>& filled_s) {
     std::vector<double> minutes;
     for (const double s : filled_s) {
@@ -123,9 +123,9 @@ std::string filled_text(const std::vector<double>& filled_s) {
                        minutes.front(), minutes.back(), minutes.size(), filled_s.size());
 }
 
-// Returns for each seed the time from which queues fill all approaches in `columns`, s, or NaN if this never happens. A
-// queue on the last of these approaches alone does not show a backlog, because the signal there causes a queue of its
-// own.
+// Returns for each seed the time from which all approaches in `columns` are congested, s, or NaN if one of them never
+// is. Congestion only on the approach at the entry of the network does not show a backlog, because the signal of this
+// approach also causes a queue.
 std::vector<double> connected_s(const Measurements& m, Columns columns, const char* population) {
     std::vector<double> since_s = values(m, columns.front(), population);
     for (const char* const column : columns) {
@@ -142,8 +142,9 @@ bool never(const std::vector<double>& filled_s) {
     return std::all_of(filled_s.begin(), filled_s.end(), [](double s) { return std::isnan(s); });
 }
 
-// Compares the throughput of the populations SWITCH-1 and CDG for each seed, over both periods together. The claim
-// holds if the 95 % confidence interval of the difference contains 0 and SWITCH-1 never has a backlog at Suarezstr.
+// Compares the throughput of the populations SWITCH-1 and CDG for each seed, over both periods of flow() together. The
+// claim holds if the 95 % confidence interval of the difference contains 0 and SWITCH-1 never has a backlog at
+// Suarezstr.
 MaybeAnswer switch_equals_cdg(const Target&, const Measurements& m) {
     std::vector<double> differences;
     const auto add_differences = [&](const char* column, double weight) {

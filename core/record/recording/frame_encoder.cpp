@@ -92,8 +92,9 @@ void FrameEncoder::encode_lights(std::int64_t tick) {
     }
 }
 
-// Updates the slots of all lanes (a slot is the index of a vehicle in the arrays of the simulation). Empties the slots
-// that a lane no longer uses. Call this function before vehicles of other lanes are placed in these slots.
+// Updates the range of slots of each lane (a slot is the index of a vehicle in the arrays of the simulation). Empties
+// the slots that a range no longer contains. Call this function before encode_placement(), which can put vehicles of
+// other lanes into these slots.
 void FrameEncoder::vacate_slots(const Snapshot& snapshot) {
     for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
         const Snapshot::Slots now = snapshot.lanes[lane];

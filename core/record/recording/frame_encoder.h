@@ -1,7 +1,7 @@
-// Encodes snapshots of a run as frames of a recording (recording_format.h). The encoder tracks vehicles by slot, which
-// is the index of a vehicle in the arrays of the simulation. A snapshot contains position and speed of every vehicle.
-// For each vehicle that is new or was in another slot before, the snapshot also contains a Placement, which names the
-// vehicle, its slot and its lane.
+// Encodes snapshots (copies of the state of a run, snapshot.h) as frames of a recording (recording_format.h). The
+// encoder tracks vehicles by slot, which is the index of a vehicle in the arrays of the simulation. A snapshot contains
+// position and speed of every vehicle. For each vehicle that is new or was in another slot before, the snapshot also
+// contains a Placement, which names the vehicle, its slot and its lane.
 #pragma once
 
 #include <array>

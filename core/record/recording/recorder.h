@@ -50,7 +50,7 @@ private:
     FrameGrid grid_;
     SnapshotTaker taker_;
     int snapshots_in_section_ = 0;
-    // Tick of the latest update of the delay causes that a snapshot contains.
+    // Tick of the update of the delay causes that was copied into a snapshot last.
     std::int64_t cause_tick_ = -1;
     // Only the second thread uses the next six members until finish() has stopped it.
     ReplacedFile file_;

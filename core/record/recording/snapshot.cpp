@@ -12,8 +12,8 @@ namespace {
 constexpr double kSpeedUnitsPer_mps = 1.0 / kSpeedUnit_mps;
 constexpr double kMaxCode = 65535.0;
 
-// Converts the value to units, rounds it, and limits it to 16 bits. The comparisons are written so that they compile to
-// one maximum and one minimum instruction.
+// Converts the value to a rounded number of units, limited to 16 bits. The two comparisons are written so that they
+// compile to one maximum and one minimum instruction.
 std::uint32_t code_of(double value, double units_per_value) {
     const double code = value * units_per_value + 0.5;
     const double clipped = code > 0.0 ? code : 0.0;
@@ -79,9 +79,9 @@ void SnapshotTaker::take(const State& state, bool with_stopped, Snapshot& snapsh
     if (with_stopped) copy_stopped(state.congestion.watch, snapshot.stopped);
 }
 
-// Copies the slots of all lanes (a slot is the index of a vehicle in the arrays of the simulation) and returns the
-// number of vehicles. Empties the slots that a lane no longer uses. Call this function before the vehicles of other
-// lanes are placed in these slots.
+// Copies the range of slots of each lane (a slot is the index of a vehicle in the arrays of the simulation) and returns
+// the number of vehicles. Marks slots that a range no longer contains as empty. Call this function before
+// add_placements(), which can put vehicles of other lanes into these slots.
 std::size_t SnapshotTaker::update_lanes(const State& state, Snapshot& snapshot) {
     std::size_t vehicles = 0;
     for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {

@@ -66,7 +66,7 @@ public:
     // Begins a new section of the recording. The next snapshot will contain a Placement for every vehicle.
     void start_section();
     // Copies the state into `snapshot`. The list of stopped vehicles is copied only if `with_stopped` is true. The
-    // caller can set it to false while the delay causes are the same as in the previous snapshot.
+    // caller can set `with_stopped` to false while the delay causes are the same as in the previous snapshot.
     void take(const State& state, bool with_stopped, Snapshot& snapshot);
 
 private:

@@ -1,4 +1,4 @@
-// Processes snapshots in order on a second thread while the run continues.
+// Processes snapshots (copies of the state of a run) in order on a second thread while the run continues.
 #pragma once
 
 #include <array>

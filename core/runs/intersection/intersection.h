@@ -14,7 +14,7 @@ namespace stopline {
 struct IntersectionReport {
     Scenario scenario;
     std::vector<IntersectionResult> populations;             // in the order of scenario.populations
-    std::vector<std::vector<TrajectoryPoint>> trajectories;  // [population] in the first measured cycle; empty: none
+    std::vector<std::vector<TrajectoryPoint>> trajectories;  // [population] first measured cycle only; empty: none
     std::vector<std::string> lanes;                          // [lane] name of the lane
 
     // Returns by how many percent the throughput exceeds that of the baseline, the population that measure.baseline

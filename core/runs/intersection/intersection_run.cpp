@@ -40,7 +40,7 @@ public:
         }
     }
 
-    // Returns true if the vehicle has been slower than kQueuedSpeed_mps before its stop line.
+    // Returns true if the vehicle has driven at kQueuedSpeed_mps or slower upstream of its stop line.
     bool has_queued(int vehicle) const { return at(vehicle) < has_queued_.size() && has_queued_[at(vehicle)]; }
 
     void finish(IntersectionResult& result) const {
@@ -196,7 +196,7 @@ IntersectionResult run_intersection(const Scenario& scenario, std::size_t popula
                                     const Observation& observation) {
     Model model = build_model(scenario, population);
     observation.prepare(model);
-    // Once a second, the model checks for starving movements.
+    // The simulation checks once a second for starving movements.
     model.rules.watch_ticks = std::max<std::int64_t>(to_ticks(1.0, model.step_s), 1);
     Simulation simulation(model);
     IntersectionResult result;

@@ -35,7 +35,8 @@ struct IntersectionResult {
     // Shares of the three movements among the vehicles that leave the intersection within the window, 0 .. 1.
     double straight_share = 0.0, right_share = 0.0, left_share = 0.0;
     std::int64_t gaps_accepted = 0;
-    double longest_in_junction_s = 0.0;  // longest time of a vehicle from the stop line (front) to the exit lane (rear)
+    // Longest time of a vehicle from its front at the stop line to its rear on the exit lane.
+    double longest_in_junction_s = 0.0;
     std::vector<Starvation> starvations;  // movements that starve
     // Time of the snapshot: the middle of the green time of signal stage 2, in the first measured cycle.
     double snapshot_s = 0.0;

@@ -38,7 +38,7 @@ struct Congestion {
 
     // Returns the time at which an approach becomes congested, s; std::nullopt if it is never congested. An approach is
     // congested if the mean speed in its upstream third is below 12 km/h for five successive intervals. Without a
-    // queue, this mean speed is more than twice as high.
+    // queue, the mean speed there is more than twice this limit.
     std::optional<double> congested_from_s(std::size_t approach) const;
 };
 

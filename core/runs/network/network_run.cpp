@@ -66,8 +66,8 @@ void add_area_detectors(const Scenario& scenario, Model& model) {
     add_inner_inlet_detectors(model);
 }
 
-// Returns the length of all lanes in the measured area, m. Except in SUMO networks, the length of a lane that leads to
-// an intersection includes the straight way across this intersection.
+// Returns the length of all lanes in the measured area, m. Except in imported networks, the length of a lane that leads
+// to an intersection includes the straight way across this intersection.
 double area_lane_m(const Scenario& scenario, const Model& model) {
     double sum_m = 0.0;
     const double margin_m = scenario.measure.area_margin_m;
@@ -131,8 +131,8 @@ private:
     std::vector<int> present_;  // [second] number of vehicles in the network
 };
 
-// Returns the result over all intervals that begin at `from_s` or later: the total number of exits, and the means of
-// all other values. Values without data are NaN.
+// Returns one result for all intervals that begin at `from_s` or later: their common time window, the total number of
+// exits, and the means of all other values. Values without data are NaN.
 AreaResult mean_from(const std::vector<NetworkInterval>& series, double from_s) {
     AreaResult mean;
     double travel_s = 0.0;

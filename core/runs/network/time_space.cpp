@@ -47,8 +47,8 @@ std::string grid_inlet_prefix(const GridSettings& grid, const std::string& from)
     return single ? from + "_in_" : fmt::format("c{}r{}_{}_in_", column, row, from);
 }
 
-// Returns the name prefix of the entry lanes that begin furthest from the origin in the direction `side`. Entry lanes
-// without a straight connection do not count. Returns "" if there is no such lane.
+// Among the entry lanes for vehicles from `side`, returns the name prefix of those that begin furthest out in this
+// direction. Entry lanes without a straight connection do not count. Returns "" if there is no such lane.
 std::string street_inlet_prefix(const LaneGraph& graph, Side side) {
     const Lane* furthest = nullptr;
     for (const int entry : graph.entries) {

@@ -1,12 +1,14 @@
 // An ideal platoon: each follower keeps the gap of its policy at all times, without a controller, delay or acceleration
-// limit. The speed of the leader over time is given. The result is the best discharge that a spacing policy allows
-// behind this leader. A simulated platoon discharges differently because of its controllers and powertrains.
+// limit. The speed of the platoon leader over time is given. The result is the best discharge that a spacing policy
+// allows behind this platoon leader. A simulated platoon discharges differently because of its controllers and
+// powertrains.
 //
 //     front_{i-1}(t) - length - front_i(t) = gap_i(v_i(t)),   dfront_i / dt = v_i >= 0
 //
 // The platoon starts as a queue with standstill gaps. The equations are solved with backward Euler steps of
-// kIdealStep_s. Each step finds the speed v with v dt + gap(v) = d. Here d is the net gap after the leader has moved
-// and before the follower moves. The left side increases with v, so there is one solution.
+// kIdealStep_s. Each step finds the speed v with v dt + gap(v) = d. Here d is the net gap of a vehicle after the
+// vehicle ahead has moved, but before the vehicle itself moves. The left side increases with v, so there is one
+// solution.
 #pragma once
 
 #include <span>

@@ -34,9 +34,9 @@ struct SteadyVehicle {
 // or less. `cruise_mps` is the speed of a vehicle without leader. The samples must be `interval_s` apart.
 std::vector<SteadyVehicle> steady_vehicles(const std::vector<TrajectoryPoint>& trajectory, double interval_s,
                                            double cruise_mps, double length_m);
-// Returns the vehicles that kept their net gap for five seconds at a speed of at least `cruise_mps` - kAtLimit_mps. The
-// speed can be higher than `cruise_mps`: a vehicle that closes up drives faster, and the vehicles behind it keep their
-// larger gaps until it has closed up.
+// Returns the vehicles that kept their net gap for five seconds at a speed of at least `cruise_mps` - kAtLimit_mps.
+// There is no upper limit, because a vehicle that closes a gap drives faster than `cruise_mps`. The vehicles behind it
+// follow at the same speed, with gaps that stay too large meanwhile.
 std::vector<SteadyVehicle> cruising_vehicles(const std::vector<TrajectoryPoint>& trajectory, double interval_s,
                                              double cruise_mps, double length_m);
 

@@ -166,8 +166,9 @@ std::string renamed_value(std::string_view table, std::string_view column, const
     return value;
 }
 
-// Returns the index of the first column that can have an old name. In tables of sweeps, most columns before it
-// are axes, whose names the user chooses. In all other tables the index is 0.
+// Returns the index of the first column that can have an old name. In tables of sweeps and of their means, this is the
+// column `seed` or `metric`: most columns before this column are axes, whose names the user chooses. In all other
+// tables the index is 0.
 std::size_t first_result_column(std::string_view table, const std::vector<std::string>& columns) {
     const char* const last_axis = table == kSweepTable ? "seed" : "metric";
     if (table != kSweepTable && table != kMeansTable) return 0;

@@ -203,8 +203,8 @@ SourceNode population_of_one_policy(const SourceNode& policy) {
     return population;
 }
 
-// Checks that normal car following can brake as hard as the threshold at which emergency braking begins. Checks that
-// stopping and slowing down never need more than the maximum deceleration of emergency braking.
+// Checks that emergency braking begins at a deceleration that normal car following can still reach. Checks that the
+// decelerations for stopping and for slowing down are at most the maximum deceleration of emergency braking.
 void check_driver(const DriverSettings& driver, Checker& check) {
     const CaccSettings& cacc = driver.cacc;
     const auto compare = [&](const std::string& field, double value, const std::string& other, double most) {

@@ -7,8 +7,8 @@
 
 namespace stopline {
 
-// Returns the YAML text of a settings struct, with exact numbers (exact_text()). Fields whose condition is not
-// fulfilled and empty texts are left out. `indent` is the number of spaces before each line.
+// Returns the YAML text of a settings struct, with exact numbers (exact_text()). Leaves out empty texts, and fields
+// that do not exist because their condition is not fulfilled. `indent` is the number of spaces before each line.
 std::string write_fields(const Table& table, const void* settings, int indent = 0);
 
 // Returns the value of one field in one line with rounded numbers, for the defaults in the list of fields. Returns ""

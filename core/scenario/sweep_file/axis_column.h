@@ -13,9 +13,9 @@ namespace stopline {
 // as 60 s and 1 min give equal texts.
 std::vector<std::string> axis_parts(const SweepAxis& axis, std::size_t value);
 
-// The column of an axis in the result table. A cell shows the value of the first path of the axis, as a number in the
-// unit of the column, such as 5 in turns_percent. If two cells would be equal, each cell shows the values of all paths
-// instead, such as "5 % / 10 %".
+// The column of an axis in the result table. A cell shows the value of the first path of the axis. A quantity is shown
+// as a number, and its unit is part of the column name, such as 5 in turns_percent. If two cells would be equal, each
+// cell shows the values of all paths instead, such as "5 % / 10 %", and the column name has no unit.
 struct AxisColumn {
     std::string name;
     std::vector<std::string> cells;   // [value] text in the result table

@@ -80,8 +80,8 @@ private:
 
     // Sets the cause to which the delay of a vehicle is attributed. This is the cause that stops the vehicle itself
     // (DelayWatch::direct_cause), unless there is none or the cause of the blocker is a gridlock. In these two cases
-    // the vehicle gets the cause of its blocker, or queue_discharge if the blocker has no cause. The cause of a stopped
-    // blocker must have been set before.
+    // the vehicle gets the cause of its blocker, or queue_discharge if no stopped vehicle blocks it. The cause of a
+    // stopped blocker must have been set before.
     void set_cause(int slot) {
         if (w_.cause[at(slot)] == DelayCause::gridlock) return;
         const int blocker = w_.waits_for[at(slot)];
@@ -168,8 +168,9 @@ private:
     // change does not count as blocked.
     static bool blocks_the_way(DelayCause cause) { return is_blocking(cause) && cause != DelayCause::wrong_lane; }
 
-    // Returns the tick since which the vehicle has been stopped without a blockage ahead. At red, nobody can tell
-    // whether the way is blocked. So a vehicle that is blocked at each green does not starve.
+    // Returns the tick since which the vehicle has been stopped without an observed blockage ahead. During red, the
+    // cause is the signal, even if the way is blocked. starves() therefore requires two signal cycles without an
+    // observed blockage, so that a vehicle that is blocked at each green does not starve.
     std::int64_t unblocked_since(int slot) const {
         return std::max<std::int64_t>(v_.stopped_since[at(slot)], w_.last_blocked_tick[at(w_.lane[at(slot)])]);
     }
@@ -183,9 +184,9 @@ private:
         return w_.queue_head[at(slot)] == slot && has_stood_two_cycles(slot) && !blocks_the_way(cause);
     }
 
-    // Returns true if the vehicle has stood for two cycles of its signal, or has no signal. A red before the programme
-    // begins does not count. The test does not depend on the present cause, because a vehicle that starts or yields at
-    // green may have waited at red before.
+    // Returns true if the vehicle has stood for two cycles of its signal without a blockage ahead, or has no signal.
+    // The time before the start of the signal programme does not count. The present cause does not matter, because a
+    // vehicle that yields at green may have waited at red before.
     bool has_stood_two_cycles(int slot) const {
         const int group = state_.plan.signal_group_for(w_.lane[at(slot)], v_.next_lane[at(slot)]);
         if (group < 0) return true;
@@ -194,8 +195,7 @@ private:
                std::max<std::int64_t>(unblocked_since(slot), programme.first_tick()) + 2 * programme.cycle_ticks();
     }
 
-    // Records that the movement of the vehicle starves. If an entry for the same stop of the vehicle exists, updates
-    // it.
+    // Records that the vehicle starves. If an entry for the same stop of the vehicle exists, updates this entry.
     void record_starvation(int slot, DelayCause cause) {
         const double from_s = model_.time_s(v_.stopped_since[at(slot)]);
         const int vehicle = v_.id[at(slot)];

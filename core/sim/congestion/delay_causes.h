@@ -1,10 +1,11 @@
-// Attributes delay to causes (Section VI.A of the paper), once every RulesPlan::watch_ticks steps.
+// Attributes delay to causes (Section VI.A of Massow, Radusch and Shorten, 2021), once every RulesPlan::watch_ticks
+// steps.
 //
 // A stopped vehicle waits for one thing: its signal, its leader, room in its exit lane, a vehicle in a conflict area, a
-// vehicle with priority, or a gap in the adjacent lane. The vehicle for which it waits is its blocker. A vehicle at a
-// red signal can have a blocker as well: a vehicle that is stopped a short distance past the stop line. If there is no
-// such vehicle, the blocker is the vehicle that blocked the waiting vehicle during the previous green, provided that
-// this blocker has not moved since.
+// vehicle with priority, or a gap in the adjacent lane. A vehicle for which a stopped vehicle waits is called the
+// blocker of the stopped vehicle. A vehicle at a red signal can have a blocker as well: a vehicle that is stopped a
+// short distance past the stop line. If there is no such vehicle, the blocker is the vehicle that blocked the waiting
+// vehicle during the previous green, provided that this blocker has not moved since.
 //
 // The chain from blocker to blocker ends at a vehicle without a stopped blocker, or in a cycle of vehicles, which is a
 // gridlock. The delay of a vehicle is attributed to the cause that stops the first vehicle of its queue. If the chain

@@ -90,8 +90,8 @@ bool reinsert_teleported(const Model& model, State& state, int k) {
     const double length_m = v.length_m[at(waiting)];
     double front_m = length_m;
     double speed_mps = lane.limit_mps;
-    // Only vehicles in imported networks have a trip. There the target lane can be shorter than the vehicle. Such a
-    // vehicle is reinserted only if its trip ends on the target lane. Its front is then placed at the stop line.
+    // Only vehicles in imported networks have a trip. In these networks the vehicle can be longer than the target lane.
+    // It is then reinserted only if its trip ends on the target lane, with its front at the stop line.
     if (v.record[at(waiting)].trip >= 0) {
         if (length_m >= lane.stop_line_m && !trip_ends_on_next_edge(state, v.record[at(waiting)])) return false;
         front_m = std::min(length_m, lane.stop_line_m);
@@ -131,7 +131,7 @@ bool reinsert_teleported(const Model& model, State& state, int k) {
 
 // Moves the target lane of a removed vehicle one intersection further downstream. Does nothing if no intersection
 // follows or if the trip of the vehicle ends on the present target lane. Also does nothing until the vehicle has waited
-// for room on this lane as long as it would take to drive along it.
+// for as long as a drive along the present target lane would take.
 void advance_target(const Model& model, State& state, int waiting, TeleportTarget& target) {
     const Lane& lane = model.graph.lanes[at(target.lane)];
     const double waiting_s = model.time_s(state.tick - target.waiting_since);

@@ -1,4 +1,5 @@
-// Teleports blocked vehicles: removes them and reinserts them downstream of the intersection (TrafficRules).
+// Teleports vehicles that are blocked (TrafficRules::teleport_cycles) or have missed their turn: removes them and
+// reinserts them downstream of the intersection.
 #pragma once
 
 #include "sim/state/model.h"

@@ -41,8 +41,8 @@ public:
 private:
     bool is_stopped(int slot) const { return v_.speed_mps[at(slot)] < kStoppedSpeed_mps; }
 
-    // Finds the blocker of a stopped vehicle, and the cause that stops this vehicle itself. A moving vehicle does not
-    // count as a blocker. Exception: the blocker for which the keep-clear rule holds the stopped vehicle may be moving.
+    // Finds the blocker of a stopped vehicle, and the cause that stops this vehicle itself. A moving vehicle counts as
+    // the blocker only if the stopped vehicle waits for it under the keep-clear rule.
     void find_direct_cause(int slot, int lane) {
         if (const YieldStop* const stop = yield_stop_of(slot, lane); stop != nullptr) {
             if (stop->reason == YieldReason::lane_change) return set(slot, -1, DelayCause::wrong_lane);

@@ -6,8 +6,8 @@
 
 namespace stopline {
 
-// Lists the stopped vehicles of a partition (Partition::stopped_slots). Updates VehicleArrays::stopped_since of all
-// vehicles of the partition.
+// Lists the stopped vehicles of a partition (Partition::stopped_slots). Sets VehicleArrays::stopped_since of all moving
+// vehicles of the partition to the present tick.
 void find_stopped_vehicles(State& state, Partition& part);
 
 // Finds the blocker of each stopped vehicle of a partition, and the cause that stops the vehicle itself

@@ -1,5 +1,5 @@
-// Source of the full-dynamics kernels. One .cpp file for each instruction set includes it. The kernels have internal
-// linkage, so that the linker keeps the versions apart.
+// Source of the full-dynamics kernels. One .cpp file for each instruction set includes this file. The kernels have
+// internal linkage, so that the linker keeps the versions for the instruction sets apart.
 #include <algorithm>
 #include <array>
 #include <cstdint>

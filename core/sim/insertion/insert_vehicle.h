@@ -13,15 +13,16 @@ struct NewVehicle {
     double length_m = 0.0;
     int policy = 0;
     int route = -1;
-    bool behind_last = true;  // true: it becomes the last vehicle on the lane; false: position_m determines its place
+    // True: the new vehicle becomes the last vehicle on the lane. False: position_m determines its place.
+    bool behind_last = true;
 };
 
-// Inserts a vehicle and returns its slot. The caller must then set the position of the vehicle on its route, and call
-// finish_insertion().
+// Inserts a vehicle and returns its slot. The caller must then put the vehicle on its route (adopt_lane_route() or
+// enter_trip_edge()), and call finish_insertion().
 int insert_vehicle(const Model& model, State& state, const NewVehicle& vehicle);
 
-// Initialises the sensors of an inserted vehicle and records its entry. The caller must have set the position of the
-// vehicle on its route before.
+// Initialises the sensors of an inserted vehicle and records its entry. The caller must have put the vehicle on its
+// route before.
 void finish_insertion(const Model& model, State& state, int lane, int slot);
 
 }  // namespace stopline

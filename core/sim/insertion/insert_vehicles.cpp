@@ -18,8 +18,8 @@ namespace stopline {
 namespace {
 
 constexpr double kBeforeStart_s = -1e9;
-// Headway that determines the entry gap at inlets where vehicles arrive at a constant headway. It replaces the headway
-// of the arrivals, so that vehicles of a backlog can enter faster than they arrived.
+// At inlets where vehicles arrive at a constant headway, the gap that a new vehicle needs is computed with this headway
+// instead of the headway of the arrivals. Vehicles of a backlog can thus enter at shorter headways than they arrived.
 constexpr double kBacklogHeadway_s = 2.0;
 
 // Draws spacing policy and route of the next vehicle of an inlet, unless they have been drawn already.
@@ -43,8 +43,8 @@ bool is_connection_occupied(const Model& model, const State& state, int lane) {
                        [&](int connection) { return state.blocks[at(connection)].count > 0; });
 }
 
-// Does the same as entry_at() for an empty link lane, that is, a lane between two intersections. The new vehicle has no
-// leader on this lane, so the leader is searched further downstream.
+// Does the work of entry_at() if the lane of the inlet is an empty link lane (a lane between two intersections). The
+// new vehicle has no leader on this lane, so the leader is searched further downstream.
 Entry entry_on_empty_link(const Model& model, const State& state, int number, int policy, double max_entry_mps) {
     const int lane = model.demand.inlets[at(number)].lane;
     const double front_m = model.vehicles[0].length_m;

@@ -23,7 +23,7 @@ namespace stopline {
 namespace {
 
 // Within this distance of the stop line, no new vehicle is inserted while a vehicle without priority is crossing the
-// route of the new vehicle or has decided to do so. The crossing vehicle decided before the new vehicle was there.
+// route of the new vehicle or has decided to cross it. The crossing vehicle decided before the new vehicle was there.
 constexpr double kNearLine_m = 40.0;
 // Positions in route files are rounded, so the gaps in a queue from a file can be a little too small. This tolerance
 // allows such gaps.
@@ -195,10 +195,10 @@ double wanted_speed_mps(const Model& model, const State& state, int number, int 
 }
 
 // Returns the highest safe speed of a new vehicle behind its leader, at most `wanted_mps`. A result below 0 means that
-// the gap is too small. A speed below both `wanted_mps` and the leader's speed is not tried, because the new vehicle
-// represents a vehicle that has followed its leader from upstream of the network. Vehicles that entered at a crawl into
-// smaller gaps would keep the flow low for the rest of the run after a blockage. A trip with a given speed enters only
-// with this speed.
+// the gap is too small. A speed below both `wanted_mps` and the leader's speed is not tried: the new vehicle represents
+// a vehicle that has followed its leader from upstream of the network, so it is not slower than the leader. If
+// vehicles entered more slowly into smaller gaps, the flow would stay low for the rest of the run after a blockage. A
+// trip with a given speed enters only with this speed.
 double departure_speed_mps(const Model& model, const Trip& trip, int policy, double wanted_mps,
                            const EntryLeader& leader) {
     if (!leader.exists()) return wanted_mps;
@@ -276,7 +276,7 @@ bool insert_trip(const Model& model, State& state, int number, const InsertionPo
 }
 
 // Inserts waiting vehicles on an approach, in the order of their departure times. A vehicle without room blocks only
-// later vehicles that depart on the same lane.
+// later vehicles that depart on the same lane. Stops after kMaxFailures vehicles without room.
 void insert_backlog(const Model& model, State& state, int approach) {
     constexpr std::size_t kMaxFailures = 16;
     std::vector<int>& trips = state.insertion.waiting_trips[at(approach)];

@@ -12,7 +12,7 @@ namespace stopline {
 
 namespace {
 
-constexpr double kCloseBehind_m = 6.0;      // a slow vehicle with a shorter net gap to a slow leader is blocked
+constexpr double kCloseBehind_m = 6.0;      // net gap to a slow leader below which a slow vehicle is blocked
 constexpr double kQueueLookAhead_m = 20.0;  // range of the search for a leader beyond the end of the lane
 
 }  // namespace
@@ -83,8 +83,8 @@ bool is_behind_yielding_vehicle(const State& state, int lane, const JunctionOccu
 namespace {
 
 // Returns the slot of a vehicle that stops at the stop line of `lane`, so that the vehicles behind it cannot reach
-// `connection`; -1: none. If the signal of `connection` is green, a stopping vehicle counts only if it takes another
-// connection and the signal of that movement is not green.
+// `connection`; -1: none. While the signal of `connection` is green, a stopping vehicle counts only if it takes another
+// connection whose signal is not green.
 int vehicle_stopping_at_signal(const State& state, int lane, int connection) {
     const int stopping = state.stop_lines.stop_slot[at(lane)];
     if (state.stop_lines.lights[at(state.plan.signal_group_for(lane, connection))] != Light::green) return stopping;
@@ -93,8 +93,8 @@ int vehicle_stopping_at_signal(const State& state, int lane, int connection) {
     return state.stop_lines.lights[at(state.plan.signal_group_for(lane, next))] == Light::green ? -1 : stopping;
 }
 
-// Returns the slot of a vehicle that the keep-clear rule holds at rest at the stop line of `lane`; -1: none. Vehicles
-// that must yield to the held vehicle may go first. Imported networks only.
+// Imported networks only (only their demand has trips): returns the slot of a vehicle that the keep-clear rule holds at
+// rest at the stop line of `lane`; -1: none. Vehicles that must yield to the held vehicle may go first.
 int vehicle_held_at_rest(const Model& model, const State& state, int lane) {
     if (model.demand.trips.empty() || state.stop_lines.held_at_green[at(lane)].blocker < 0) return -1;
     const int held = state.stop_lines.stop_slot[at(lane)];
@@ -119,10 +119,10 @@ void look_upstream(const Model& model, const State& state, const Upstream& here,
     const auto consider = [&](int slot, double distance_m, double limit_mps) {
         if (v.speed_mps[at(slot)] < kCrawlingSpeed_mps || distance_m > horizon_s * limit_mps) return;
         const VehicleRecord& record = v.record[at(slot)];
-        // In the first call (depth 0), following_turn is the vehicle's turn at the end of `here.lane`. The search
-        // ignores vehicles with another turn than that of `here.connection`, and vehicles whose trip ends on
-        // `here.lane` (Turn::none). The turn of a vehicle without a trip may not be drawn yet (Turn::none, too). The
-        // search assumes that this vehicle takes `here.connection`.
+        // Only the first call (depth 0) checks the turn that the vehicle will make at the end of `here.lane`
+        // (following_turn). The call ignores vehicles with another turn than that of `here.connection`, and vehicles
+        // whose trip ends on `here.lane` (Turn::none). A vehicle without a trip can have Turn::none, too, because its
+        // turn is not drawn yet. Such a vehicle is assumed to take `here.connection`.
         const bool unknown = record.trip < 0 && record.following_turn == Turn::none;
         if (here.depth == 0 && !unknown && record.following_turn != turn) return;
         const double acceleration_mps2 = model.give_way.approach_acceleration_mps2;

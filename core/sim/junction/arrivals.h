@@ -10,17 +10,18 @@ namespace stopline {
 
 inline constexpr double kNoArrival_s = 1e9;
 
-// Returns true if the vehicle is slower than kCrawlingSpeed_mps and had to wait before a conflict area in this step or
-// the previous step. A yielding vehicle is not expected to arrive soon, because it lets other vehicles go first.
+// Returns true if the vehicle is slower than kCrawlingSpeed_mps (1 m/s) and had to wait, in this step or the previous
+// step, before a conflict area or at a stop sign. A yielding vehicle is not expected to arrive soon, because it lets
+// other vehicles go first.
 bool is_yielding(const State& state, int slot);
 
-// Returns true if the vehicle yields and its waiting position is at or upstream of `area_m`, the start of a conflict
-// area on its connection. A vehicle with a waiting position further downstream still drives into the area.
+// Returns true if the vehicle yields (is_yielding()) and the position where it waits is at or upstream of `area_m`, the
+// start of a conflict area on its connection. A vehicle that waits further downstream still drives into the area.
 bool is_yielding_before(const State& state, int slot, double area_m);
 
-// Returns true if the vehicle yields, except to an intruder: a vehicle without priority that goes first, for example
-// because it can no longer stop (YieldReason::intruder). If the result is true, vehicles that must yield to this
-// vehicle may go first.
+// Returns true if the vehicle yields (is_yielding()), but not to an intruder (YieldReason::intruder). An intruder is a
+// vehicle that must itself yield but goes first, for example because it can no longer stop. If the result is true,
+// vehicles that must yield to this vehicle may go before it.
 bool lets_others_go(const State& state, int slot);
 
 // Returns true if the vehicle and its leader are close together and both slower than kCrawlingSpeed_mps. Neither the
@@ -28,8 +29,8 @@ bool lets_others_go(const State& state, int slot);
 bool is_blocked_by_leader(const State& state, int slot);
 
 // Returns true if `occupant`, a vehicle on connection `lane`, is in a queue of slow vehicles, and a vehicle further
-// ahead in this queue yields. The yielding vehicle may be on another connection from the same approach lane, at a place
-// where the two connections still overlap.
+// ahead in this queue yields. The yielding vehicle may be on another connection from the same approach lane, as long as
+// it is where that connection overlaps with `lane`.
 bool is_behind_yielding_vehicle(const State& state, int lane, const JunctionOccupant& occupant);
 
 // Returns the time in s that a vehicle needs for a distance if it accelerates up to the speed limit. A vehicle above

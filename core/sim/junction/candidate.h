@@ -9,7 +9,7 @@ struct Candidate {
     int slot;
     double front_m;  // front position along the connection; below 0: on the approach lane
     bool inside;     // the front is past the stop line
-    bool stopped;    // slower than kCrawlingSpeed_mps
+    bool stopped;    // slower than kCrawlingSpeed_mps (1 m/s)
 };
 
 inline constexpr double kNoWait_m = 1e9;  // stands for the waiting position of a vehicle that need not wait

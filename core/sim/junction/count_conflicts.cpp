@@ -61,8 +61,8 @@ std::int64_t count_pairs(const Model& model, const State& state, Partition& part
     return pairs;
 }
 
-// Returns the number of conflicts in all conflict areas of connection `lane`. Checks only areas that `lane` shares with
-// a connection of a higher index, so that each pair is counted once.
+// Returns the number of conflicts between connection `lane` and connections whose lane index is higher than `lane`. The
+// calls for the connections with lower indices count the other conflicts of `lane`, so each pair is counted once.
 std::int64_t count_conflicts_of_lane(const Model& model, const State& state, Partition& part, int lane) {
     std::int64_t pairs = 0;
     for (const Conflict& c : state.plan.conflicts(lane)) {

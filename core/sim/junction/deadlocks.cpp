@@ -61,9 +61,10 @@ private:
         return state_.plan.route(record.route)[at(record.route_index)];
     }
 
-    // Returns the vehicle in `slot` and its blocker: the blocker of its yield stop, else a stopped leader close ahead.
-    // The result has no blocker if neither exists, if the vehicle moves, or if it is at another intersection, where the
-    // decisions of this step may not be complete yet.
+    // Returns the vehicle in `slot` and its blocker: the blocker of its yield stop (YieldStop), else a stopped leader
+    // close ahead. The result has no blocker if neither exists, or if the vehicle moves. It also has no blocker if the
+    // vehicle is not at intersection_, because the decisions of this step for another intersection may not be complete
+    // yet.
     WaitingVehicle waiting(int slot) const {
         const int lane = lane_of(slot);
         if (v_.speed_mps[at(slot)] >= kCrawlingSpeed_mps || state_.plan.intersection_of(lane) != intersection_)

@@ -26,9 +26,9 @@ double travel_time_s(const Model& model, double distance_m, double speed_mps, do
     return (speed_mps - std::sqrt(square(speed_mps) - 2.0 * b * std::max(distance_m, 0.0))) / b;
 }
 
-// Returns the time in s since the latest arrival of a vehicle of connection `conflict.other` in the conflict area.
-// Returns 0 if no such vehicle is in the area any more. The time is computed as if the vehicle had driven at the speed
-// limit, so it is rather too short than too long.
+// Returns the time in s since a vehicle of connection `conflict.other` most recently arrived in the conflict area.
+// Returns 0 if no vehicle of this connection is in the area now. The time is computed as if the vehicle had driven at
+// the speed limit, so it is rather too short than too long.
 double time_since_last_arrival_s(const State& state, const Conflict& conflict) {
     double since_s = 0.0;
     for (const JunctionOccupant& occupant : state.junctions.occupants[at(conflict.other)]) {
@@ -53,12 +53,13 @@ double passing_time_s(const Model& model, const State& state, int lane, const Co
 }
 
 // Returns the earliest arrival time of the next vehicle with priority, in s from now, at which candidate `v` still
-// accepts the gap. In imported networks the gap begins when the last vehicle with priority has reached the area, as in
-// the Highway Capacity Manual. A vehicle that starts from rest at the waiting position `wait_m` needs the critical gap.
-// If the candidate passes the area later or earlier than a vehicle from rest, the difference is added or subtracted.
-// `has_begun`: the candidate is moving and uses a gap that it has accepted before. In imported networks the candidate
-// then gives up this gap only if it would hinder the next vehicle. In other networks `has_begun` has no effect, and the
-// critical gap begins when the candidate reaches `wait_m`.
+// accepts the gap. `wait_m`: waiting position of the candidate. If the network is not imported (its demand has no
+// trips), the critical gap begins when the candidate reaches `wait_m`.
+// In imported networks the gap begins when the previous vehicle with priority has reached the area, as in the Highway
+// Capacity Manual. The critical gap then holds for a vehicle that starts from rest at `wait_m`. If the candidate passes
+// the area later or earlier than such a vehicle, the difference is added or subtracted. `has_begun`: the candidate is
+// moving and uses a gap that it has accepted before. In imported networks this candidate gives up the gap only if it
+// would hinder the next vehicle with priority. In other networks `has_begun` has no effect.
 double needed_time_s(const Model& model, const State& state, int lane, const Conflict& conflict, const Candidate& v,
                      double wait_m, bool has_begun) {
     const VehicleArrays& arrays = state.vehicles;
@@ -75,9 +76,9 @@ double needed_time_s(const Model& model, const State& state, int lane, const Con
     return std::max(gap_s + passing_s - from_rest_s, passing_s);
 }
 
-// Returns the slot of a vehicle that must yield to candidate `v` but has already accepted a gap; -1: none, or the
-// candidate is moving. A stopped candidate lets this vehicle go first. Otherwise several stopped vehicles could give
-// way to each other in a cycle and never start. Imported networks only.
+// Imported networks only (only their demand has trips): returns the slot of a vehicle that must yield to candidate `v`
+// but has already accepted a gap; -1: none, or the candidate is moving. A stopped candidate lets this vehicle go first.
+// Otherwise several stopped vehicles could give way to each other in a cycle and never start.
 int yield_cycle_winner(const Model& model, const State& state, int lane, const Candidate& v) {
     if (model.demand.trips.empty() || !v.stopped) return -1;
     for (const Conflict& conflict : state.plan.conflicts(lane)) {
@@ -120,7 +121,8 @@ GapBlocker find_gap_blocker(const Model& model, State& state, Partition& part, i
         if (arrival.time_s < until_s) return {arrival.slot, YieldReason::priority};
     }
     record.accepted_gap_on = lane;
-    // Clear the yielding state at once, so that the other vehicles of a yield cycle see that this vehicle proceeds.
+    // Imported networks: clear the yielding state at once. If stopped vehicles yield to each other in a cycle, the
+    // others then see that this vehicle proceeds.
     if (!model.demand.trips.empty()) record.yield_tick = -2;
     if (!model.records_all || had_accepted_gap) return {};
     part.gaps_accepted.push_back({model.time_s(state.tick), arrays.id[at(v.slot)], lane,

@@ -15,9 +15,10 @@ struct GapBlocker {
     YieldReason reason = YieldReason::priority;
 };
 
-// Returns the vehicle to which candidate `v` must yield. This is a vehicle with priority that arrives too soon, or a
-// vehicle without priority that has accepted a gap. Stores in VehicleRecord::accepted_gap_on whether the candidate
-// accepts its gap. `wait_m`: the candidate's waiting position, along the connection.
+// Returns the vehicle to which candidate `v` on connection `lane` must yield. This is a vehicle with priority that
+// arrives too soon. If the candidate is stopped and the network is imported, it can also be a vehicle without priority
+// that has accepted a gap. Stores in VehicleRecord::accepted_gap_on whether the candidate accepts its gap. `wait_m`:
+// the candidate's waiting position, along the connection.
 GapBlocker find_gap_blocker(const Model& model, State& state, Partition& part, int lane, const Candidate& v,
                             double wait_m);
 

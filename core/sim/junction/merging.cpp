@@ -27,8 +27,8 @@ bool merges_first(const State& state, int lane, const Candidate& v, const Confli
     const bool is_in_area = v.front_m > conflict.from_m;
     const bool other_is_in_area = other_front_m > conflict.other_from_m;
     if (is_in_area != other_is_in_area) {
-        // The candidate goes before a vehicle that is already in the area only if the candidate is wholly ahead of that
-        // vehicle.
+        // If only the candidate is in the area, it goes first. If only the other vehicle is in the area, the candidate
+        // goes first only if it is wholly ahead of that vehicle.
         return is_in_area || own_m + static_cast<double>(state.vehicles.length_m[at(v.slot)]) <= other_m;
     }
     const auto& id = state.vehicles.id;

@@ -10,7 +10,7 @@
 namespace stopline {
 
 // Returns true if connection `lane` and connection `conflict.other` lead to the same exit lane and the network is
-// imported.
+// imported (only the demand of imported networks has trips).
 bool is_merge(const Model& model, const State& state, int lane, const Conflict& conflict);
 
 // Returns the net gap in m from the front of candidate `v` on connection `lane` to the rear of a vehicle on connection
@@ -26,16 +26,18 @@ double merging_gap_m(const State& state, int lane, const Candidate& v, int other
 bool merges_first(const State& state, int lane, const Candidate& v, const Conflict& conflict, int other_slot,
                   double other_front_m);
 
-// Returns the position, in m along its connection, where candidate `v` must be able to stop in order to follow the
-// vehicle in `other_slot`. The position is one standstill gap upstream of the place where the rear of that vehicle
-// would come to rest if it braked now. Before the candidate has entered the conflict area, the result is not upstream
-// of the waiting position before the area. While the net gap is too short to enter, the result is the waiting position.
+// Returns the position, in m along the candidate's connection, where candidate `v` must be able to stop in order to
+// follow the vehicle in `other_slot`. The position is one standstill gap upstream of the place where the rear of that
+// vehicle would come to rest if that vehicle braked now. For a candidate that has not entered the conflict area, the
+// result is not upstream of its waiting position before the area. If the net gap is too short to enter the area, the
+// result is this waiting position.
 double merging_stop_m(const Model& model, const State& state, int lane, const Candidate& v, const Conflict& conflict,
                       int other_slot, double other_front_m);
 
-// Zipper merging (Conflict::zipper): candidate `v` follows a vehicle that takes the other connection and is nearer to
-// the exit lane; of several such vehicles, the one furthest upstream. Returns where the candidate must be able to stop
-// behind this vehicle; no wait if there is no such vehicle. Ignores vehicles that stop at their line or yield.
+// Zipper merging (Conflict::zipper): the vehicles of two connections merge in the order of their distances to the exit
+// lane. Returns where candidate `v` must be able to stop behind the vehicle of the other connection that is directly
+// ahead of the candidate in this order; no wait if there is no such vehicle. Ignores vehicles that stop at their line
+// or yield.
 Wait zipper_wait(const Model& model, const State& state, int lane, const Candidate& v, const Conflict& conflict);
 
 }  // namespace stopline

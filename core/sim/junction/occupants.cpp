@@ -19,7 +19,8 @@ public:
     OccupantSearch(const State& state, JunctionState& junctions, Partition& part)
         : state_(state), v_(state.vehicles), junctions_(junctions), part_(part) {}
 
-    // Removes the occupants of the previous step from the occupant lists, and their connections from the bitsets.
+    // Removes the occupants of the previous step from the occupant lists, and their connections from the bitsets
+    // `occupied` and `with_stopped`.
     void clear_lists() {
         for (const int lane : part_.occupied_connections) {
             junctions_.occupants[at(lane)].clear();

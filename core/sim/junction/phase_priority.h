@@ -6,7 +6,8 @@
 
 namespace stopline {
 
-// Sets the right of way of the present phase of each signal. Call it once in each step, before the decisions.
+// Sets the right of way of the present phase of each signal. Call this function once in each step, before right of way
+// is decided.
 void update_phase_priorities(const Model& model, State& state);
 
 }  // namespace stopline

@@ -1,7 +1,7 @@
 // Right of way inside intersections: decides which vehicles must wait, and before which conflict area. All decisions
 // use the positions and speeds at the beginning of the step. All vehicles keep out of occupied conflict areas. On each
-// connection only the vehicles up to the first waiting vehicle check gaps. A vehicle behind a waiting vehicle waits for
-// that vehicle before each conflict area where it must yield.
+// connection only the vehicles up to the first waiting vehicle check gaps. The vehicles behind that waiting vehicle
+// check no gaps: before a conflict area where they must yield, they wait for the waiting vehicle.
 //
 // In a conflict area the connection of a vehicle meets another connection. The vehicle may enter the area under these
 // conditions:
@@ -14,7 +14,7 @@
 //   - If neither connection has priority (movements of different signal groups), the vehicle that was the first to pass
 //     its stop line drives first. Exception: if only one of the two vehicles can stop before the area, the other one
 //     drives first. If two vehicles wait for each other, one of them proceeds (DeadlockResolution).
-// The pass-blocker rule (driver/traffic_rules.h) lets a vehicle pass a vehicle that has been stopped inside the
+// The pass-blocker rule (driver/traffic_rules.h) lets a vehicle pass another vehicle that has been stopped inside the
 // intersection for a long time.
 #include "sim/junction/right_of_way.h"
 
@@ -60,7 +60,7 @@ bool may_pass(const Model& model, State& state, Partition& part, int vehicle, in
 // Returns true if the vehicle can stop, with maximum braking, before a conflict area that begins `to_area_m` ahead of
 // it.
 bool can_stop_before(const Model& model, const State& state, int slot, double to_area_m) {
-    constexpr double kResponse_s = 0.3;  // lag of the brake, and time in which the requested acceleration changes
+    constexpr double kResponse_s = 0.3;  // brake lag plus the time in which the requested acceleration changes
     const double speed_mps = state.vehicles.speed_mps[at(slot)];
     const double response_m = model.meso ? 0.0 : kResponse_s * speed_mps;
     return emergency_braking_distance_m(model, speed_mps) + response_m <= to_area_m;
@@ -203,7 +203,8 @@ private:
     }
 
     // Returns the slot of a vehicle without priority that can no longer stop (committed_vehicle()) and for which the
-    // candidate must therefore wait; -1: none, or the candidate can no longer stop either.
+    // candidate must therefore wait; -1: none, or the candidate can no longer stop either. A candidate that has not
+    // waited so far waits only if that vehicle will still be in the conflict area when the candidate arrives.
     int committed_blocker(const Conflict& conflict) const {
         const double braking_m = emergency_braking_distance_m(model_, speed_mps_);
         if (!conflict.other_yields || conflict.from_m - v_.front_m < braking_m) return -1;
@@ -228,16 +229,16 @@ private:
         Wait wait{std::min(wait_m(conflict), line_m_), blocker, YieldReason::occupied};
         if (!is_imported_) return wait;
         if (conflict.other_yields) wait.reason = YieldReason::intruder;
-        // The gap behind a vehicle with priority begins when this vehicle reaches the area. So the candidate can
-        // already accept the gap while that vehicle is still in the area.
+        // The gap behind a vehicle with priority begins when that vehicle reaches the area. So the candidate can
+        // already accept the gap while the vehicle with priority is still in the area.
         if (conflict.yields && v_.stopped && !blocker_is_slow) wait.keeps_gap = gap_blocker(conflict).slot < 0;
         return wait;
     }
 
     // Returns true if the waiting place of the candidate is the stop line, but it need not wait there: all vehicles of
     // the other connection will have left the conflict area before the candidate reaches the position just before this
-    // area. Returns false if one of these vehicles is slow or had to wait, because it may stop before it has left the
-    // area.
+    // area. Returns false if `blocker` is slow, or if a vehicle that has not left the area yet is slow or has just had
+    // to wait. Such a vehicle may stop before it has left the area.
     bool clears_area_in_time(const Conflict& conflict, int blocker) const {
         if (!waits_at_line() || arrays_.speed_mps[at(blocker)] < kCrawlingSpeed_mps) return false;
         for (const JunctionOccupant& occupant : state_.junctions.occupants[at(conflict.other)]) {
@@ -253,7 +254,7 @@ private:
         return true;
     }
 
-    // Returns how the candidate must follow vehicles that merge into its exit lane ahead of it.
+    // Returns where the candidate must be able to stop behind the vehicles that merge into its exit lane ahead of it.
     Wait merging_wait(const Conflict& conflict, bool is_empty) {
         Wait nearest;
         if (conflict.zipper) {
@@ -283,7 +284,7 @@ private:
 
     // Returns the waiting position furthest downstream, but not beyond `place_m`, where the candidate blocks no
     // conflict area. Two kinds of areas do not count: areas before which the candidate can no longer stop, and areas
-    // shared with a connection that has no green now.
+    // shared with a connection whose signal is not green now.
     double clear_place_m(double place_m) const {
         const double length_m = arrays_.length_m[at(v_.slot)];
         // The stopping distance assumes deceleration_comfort, which is usually higher than stop.deceleration. A
@@ -316,7 +317,7 @@ private:
     const VehicleArrays& arrays_;
     VehicleRecord& record_;
     double speed_mps_;
-    bool is_imported_;  // the network is imported
+    bool is_imported_;  // true: the network is imported (only the demand of imported networks has trips)
     double line_m_ = kNoWait_m;
     double decision_m_ = 0.0;
     bool has_decided_ = false;

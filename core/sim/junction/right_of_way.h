@@ -6,8 +6,8 @@
 
 namespace stopline {
 
-// Decides which vehicles of a partition must yield, and adds a YieldStop for each of them. Finally counts the conflicts
-// of this step.
+// Decides which vehicles of a partition must yield, and stores for each of them where it must stop (YieldStop). Finally
+// counts the conflicts of this step: pairs of vehicles in the same conflict area.
 void decide_right_of_way(const Model& model, State& state, Partition& part);
 
 }  // namespace stopline

@@ -18,11 +18,11 @@ namespace stopline {
 
 namespace {
 
-// Returns true if the vehicle can stop before the line if it brakes with `deceleration_mps2` after a response time. The
-// response time is the brake lag plus half the time that the requested acceleration needs, at the jerk limit, to fall
-// from its present value to `-deceleration_mps2`. A vehicle keeps its present acceleration in the response time, so the
-// braking starts at a higher speed. The requested acceleration is higher than the present one while gears change, and
-// if the vehicle is too weak for the request. A present acceleration below 0 is taken as 0.
+// Returns true if the vehicle can stop before the line if it brakes with `deceleration_mps2` after a response time. In
+// the response time the vehicle keeps its present acceleration (if below 0: taken as 0), so the braking starts at a
+// higher speed. The response time is the brake lag plus half the time that the requested acceleration needs, at the
+// jerk limit, to fall to `-deceleration_mps2`. The requested acceleration can be higher than the present one while
+// gears change or if the vehicle is too weak for the request.
 bool can_stop(const Model& model, const VehicleArrays& v, int slot, double line_m, double deceleration_mps2) {
     const double speed = v.speed_mps[at(slot)];
     const double lag_s = model.vehicles[at(v.type[at(slot)])].brake_lag_s;
@@ -158,8 +158,8 @@ const ExitRoom& exit_room(const Model& model, State& state, int exit) {
 
 // Returns true if `occupant`, a vehicle on connection `conflict.other`, must leave the conflict area before vehicles of
 // the conflicting connection may start. This is the case if the occupant is in the area. It is also the case if the
-// occupant is still before the area and its own signal is red: the occupant has then waited inside the intersection
-// since an earlier green, or it passes the stop line at red.
+// occupant is still before the area, its own signal is red, and the occupant does not stop at its stop line: it has
+// then waited inside the intersection since an earlier green, or it passes the stop line at red.
 bool must_clear_first(const State& state, const Conflict& conflict, const JunctionOccupant& occupant) {
     if (occupant.rear_m >= conflict.other_to_m) return false;
     if (occupant.front_m > conflict.other_from_m) return true;
@@ -238,8 +238,8 @@ private:
 
 // Returns true if the vehicle can still stop before the line for the keep-clear rule. It may brake with the peak
 // deceleration of a normal stop, or with the comfortable deceleration if this is higher. The peak is kLagFactor times
-// `stop.deceleration`, because braking starts late and must then be harder, but at most the emergency deceleration. The
-// mesoscale mode has no brake lag. With the peak deceleration, no response time is added there.
+// `stop.deceleration`, but at most the emergency deceleration: with brake lag, braking starts late and must then be
+// harder. The mesoscale mode has no brake lag, so no response time is added there to braking with the peak.
 bool can_hold_for_keep_clear(const Model& model, const VehicleArrays& v, int slot, double line_m) {
     constexpr double kLagFactor = 1.4;  // ratio of the highest deceleration of a normal stop to `stop.deceleration`
     const CaccSettings& cacc = model.driver.cacc;
@@ -316,12 +316,12 @@ void make_platoon_leader(State& state, const LanePlan& lane, int slot) {
 
 // Lists the vehicles of an approach lane for which right of way must be decided (JunctionState::approaching). Leaves
 // out the vehicle that stops at the line and all vehicles behind it. Also leaves out vehicles that are further than
-// decision_distance_m() from their first conflict area, or from the stop line if they may wait only there. Exception:
-// vehicles that must yield and have already accepted a gap are listed at any distance within the look-back.
+// decision_distance_m() from their first conflict area, or from the stop line if they may wait only there or have a
+// stop sign. Exception: vehicles that must yield and have already accepted a gap are listed at a greater distance, too.
 void list_approaching(const Model& model, State& state, int index) {
-    // Vehicles further upstream of the lane's end are not listed. 60 m suffice for a comfortable stop from 50 km/h.
+    // Vehicles further than this from the lane's end are not listed. 60 m suffice for a comfortable stop from 50 km/h.
     constexpr double kLookBack_m = 60.0;
-    // This value replaces kLookBack_m in imported networks, because speed limits above 50 km/h occur there.
+    // Replaces kLookBack_m in imported networks (only their demand has trips), where speed limits above 50 km/h occur.
     constexpr double kFastRoadLookBack_m = 160.0;
     const bool has_trips = !model.demand.trips.empty();
     const double look_back_m = has_trips ? kFastRoadLookBack_m : kLookBack_m;
@@ -335,8 +335,9 @@ void list_approaching(const Model& model, State& state, int index) {
         if (next < 0) continue;
         const LanePlan& connection_plan = state.plan.lane(next);
         if (connection_plan.origin != index || connection_plan.bitset_index < 0) continue;
-        // A vehicle with priority needs no decision while all conflicting connections are empty. In imported networks a
-        // vehicle with priority may still have to wait for a vehicle without priority that is too fast to stop.
+        // A vehicle with priority needs no decision while no vehicle is on a conflicting connection. In imported
+        // networks a vehicle with priority may still have to wait for a vehicle without priority that is too fast to
+        // stop.
         if (!has_trips && !connection_plan.yields && !state.junctions.occupied.has_any(state.plan.conflicting(next)))
             continue;
         double to_area_m = to_end_m + connection_plan.first_conflict_m - model.give_way.margin_m;

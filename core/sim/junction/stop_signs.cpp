@@ -50,7 +50,7 @@ bool may_accompany(const Model& model, const State& state, int lane, int next, i
 }  // namespace
 
 Wait stop_sign_wait(const Model& model, State& state, int lane, const Candidate& v, double line_m) {
-    constexpr double kAtLine_m = 2.0;  // a vehicle that stops further upstream has not stopped at the line
+    constexpr double kAtLine_m = 2.0;  // largest distance to line_m at which a stop counts as a stop at the line
     const StopRule rule = state.plan.stop_rule(lane);
     if (rule == StopRule::none || v.inside) return {};
     VehicleArrays& arrays = state.vehicles;

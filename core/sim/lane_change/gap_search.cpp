@@ -18,9 +18,11 @@ namespace {
 
 constexpr double kFallBack_mps = 3.0;  // speed difference with which a vehicle falls back behind another vehicle
 constexpr double kMinSpeed_mps = 1.0;  // lowest target speed of a vehicle that falls back
-// Ratio of the target gap to the required gap. This ratio is above 1, because the gap approaches the target gap slowly.
+// Ratio of the target gap to the required gap. A vehicle approaches its target gap ever more slowly. The ratio is above
+// 1, so that the vehicle reaches the required gap soon.
 constexpr double kTargetGapFactor = 1.1;
-// If the follower is slower than the vehicle by more than this speed, the lag gap grows by itself.
+// If the follower in the target lane is slower than the lane-changing vehicle by more than this speed, the lag gap
+// grows by itself.
 constexpr double kDroppingBack_mps = 0.5;
 
 class GapSearch {
@@ -67,8 +69,8 @@ private:
     }
 
     // Returns true if the lag gap to `follower` is too short and does not grow by itself. While `me` is almost at rest,
-    // any lag gap counts as too short, so that the follower keeps the gap open until the leader on that lane has moved
-    // away. Returns false if the follower wants to swap lanes with `me`, because the follower then falls back.
+    // any lag gap counts as too short, so that the follower keeps the gap open until the leader on lane `other` has
+    // moved away. Returns false if the follower wants to swap lanes with `me`, because the follower then falls back.
     bool must_let_pass(int other, const Neighbour& follower, const LaneChangeRequest& me, double urgency) const {
         if (follower.slot < 0 || follower.speed_mps + kDroppingBack_mps < me.speed_mps) return false;
         const double share = urgent_share(model_, urgency);
@@ -81,7 +83,7 @@ private:
     // brake to the speed of `me` with GapAlignment::kDeceleration_mps2. The slot is -1 if there is no such vehicle or
     // if gap opening is off.
     Neighbour gap_opener(int other, const Neighbour& follower, const LaneChangeRequest& me) const {
-        // Number of vehicles checked. Vehicles further upstream are still too far from the place of the gap.
+        // Number of vehicles checked. Vehicles further upstream are still too far away to open a gap for `me`.
         constexpr int kMaxSearched = 5;
         const LaneBlock& block = state_.blocks[at(other)];
         if (model_.lane_change.gap_opening != "on" || follower.slot < block.first) return {};
@@ -99,7 +101,7 @@ private:
     // Returns the target speed of a vehicle that opens a gap for `me`.
     double opening_speed_mps(const Neighbour& opener, const LaneChangeRequest& me) const {
         const Neighbour ahead{me.slot, opener.gap_m, me.speed_mps, me.policy};
-        // The opener even stops if `me` waits for a gap almost at rest. Otherwise the opener would creep past `me`.
+        // If `me` waits almost at rest, the opener may stop completely. Otherwise the opener would creep past `me`.
         const double lowest_mps = me.speed_mps < kMinSpeed_mps ? 0.0 : kMinSpeed_mps;
         return std::max(gap_reaching_speed_mps(ahead, opener.policy, opener.speed_mps), lowest_mps);
     }

@@ -6,8 +6,8 @@
 
 namespace stopline {
 
-// Aligns the speed of vehicles that must change lanes with gaps in the target lane, and makes other vehicles open gaps
-// for them. A vehicle that finds no gap stops before the stop line.
+// Adapts the speed of each vehicle that must change lanes to a gap in the target lane, and makes other vehicles open
+// gaps. A vehicle that finds no gap stops before the stop line.
 void prepare_lane_changes(const Model& model, State& state, Partition& part);
 
 }  // namespace stopline

@@ -30,7 +30,8 @@ constexpr double kMinInterval_s = 2.0;       // shortest time from a lane change
 constexpr double kGainMemory_s = 10.0;
 constexpr double kReturnFactor = 10.0;
 constexpr double kReturnMemory_s = 30.0;
-// Distance from the start of a pocket to the rear of a vehicle that waits beside it to change lanes.
+// A pocket is a lane that begins downstream of the start of the approach. This is the distance from the start of a
+// pocket to the rear of a vehicle that waits beside the pocket to change lanes.
 constexpr double kBesidePocket_m = 1.0;
 
 // Returns the acceleration of the intelligent driver model (Treiber, Hennecke, Helbing 2000), with the desired gap of
@@ -109,7 +110,8 @@ int lane_after_changes(const State& state, int lane, int changes) {
     return lane;
 }
 
-// Returns LaneChangeRequest::pocket_entry_m.
+// Returns the position of the vehicle's front from which on the whole vehicle is beside its target lane, if this lane
+// is a pocket; else kNoPocket_m. The position includes the reserve kBesidePocket_m.
 double pocket_entry_m(const State& state, const LaneChangeRequest& me) {
     const int target = lane_after_changes(state, me.lane, me.lane_changes);
     if (target < 0) return kNoPocket_m;
@@ -118,8 +120,8 @@ double pocket_entry_m(const State& state, const LaneChangeRequest& me) {
 }
 
 // Returns the length that the vehicles ahead of `me` would have as a standing queue, m. Counts the vehicles ahead on
-// the target lane. If the change serves a later turn, also counts the vehicles on the lanes of the route from the next
-// intersection to the intersection of this turn.
+// the target lane. If the change serves a later turn, also counts the vehicles on the exit lanes of the route, up to
+// the intersection of this turn.
 double queue_ahead_m(const Model& model, const State& state, const LaneChangeRequest& me, int changes) {
     const int lane = lane_after_changes(state, me.lane, changes);
     if (lane < 0) return 0.0;
@@ -138,8 +140,8 @@ double queue_ahead_m(const Model& model, const State& state, const LaneChangeReq
 }
 
 // Returns the position one standstill gap behind the last vehicle of pocket `other`, m from the start of the lane of
-// `me`. The last vehicle is assumed to stop comfortably. Returns infinity if the pocket is empty or if the front of
-// `me` is already beside this vehicle or further downstream.
+// `me`, but at least the present position of `me`. The last vehicle is assumed to stop comfortably. Returns infinity if
+// the pocket is empty, or if the front of `me` is already beside the last vehicle or further downstream.
 double behind_pocket_queue_m(const Model& model, const State& state, const LaneChangeRequest& me, int other) {
     constexpr double kNoQueue_m = std::numeric_limits<double>::infinity();
     const LaneBlock& block = state.blocks[at(other)];
@@ -187,8 +189,9 @@ private:
                              me_.length_m, route_on(other));
     }
 
-    // Updates the remembered speed: the highest recent speed, which fades. The lower the remembered speed, the nearer
-    // to the stop line a vehicle begins to look for a gap. A vehicle in a queue thus begins later than a fast vehicle.
+    // Updates the remembered speed: the highest recent speed, which falls gradually while the vehicle is slower. The
+    // lower the remembered speed, the nearer to the stop line a vehicle begins to look for a gap. A vehicle in a queue
+    // thus begins later than a fast vehicle.
     void remember_speed() {
         constexpr double kMemory_s = 10.0;
         float& remembered_mps = state_.vehicles.lane_memory[at(me_.slot)].remembered_mps;
@@ -233,9 +236,9 @@ private:
     }
 
     // Lets the gain of a lane fade, and adds the part of this decision's incentive above the threshold. This part is
-    // limited to the maximum acceleration of the intelligent driver model, because no vehicle gains speed faster.
-    // Negative incentives do not reduce a gain below 0. Only the gain of the lane that the vehicle has just left is
-    // negative.
+    // limited to the maximum acceleration of the intelligent driver model, because no vehicle gains speed faster. An
+    // incentive below the threshold reduces the gain, but not below 0. Only the lane that the vehicle has just left can
+    // have a negative gain.
     void add_gain(double incentive_mps2, float& gain_mps) const {
         const LaneChangeSettings& c = model_.lane_change;
         const double memory_s = gain_mps < 0.0F ? kReturnMemory_s : kGainMemory_s;

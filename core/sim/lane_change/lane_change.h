@@ -2,13 +2,14 @@
 // is safe. A lane change takes no time.
 //
 // Mandatory changes serve the route. They follow the strategic changes of SUMO's LC2013 (Erdmann 2015, "SUMO's
-// lane-changing model"). A vehicle on a lane that does not serve its route changes as soon as the gaps allow it. Near
-// the stop line it aligns its speed with a gap. If it finds no gap, it stops before the line and waits for one.
+// lane-changing model"). A vehicle on a lane that does not serve its route begins to look for a gap at some distance
+// from the stop line, and changes as soon as the gaps allow it. Until then it aligns its speed with a gap. If it finds
+// no gap, it stops before the line and waits for one.
 //
 // Discretionary changes serve the speed. They follow MOBIL (Kesting, Treiber, Helbing 2007, "General lane-changing
-// model MOBIL for car-following models"). A vehicle changes if the other lane allows a higher acceleration. The
-// intelligent driver model gives the accelerations on both lanes. Its desired gap is that of the vehicle's spacing
-// policy.
+// model MOBIL for car-following models"). A vehicle changes if the other lane has allowed a higher acceleration for
+// some time. The intelligent driver model gives the accelerations on both lanes. The desired gap in this model is that
+// of the vehicle's spacing policy.
 #pragma once
 
 #include <algorithm>
@@ -57,8 +58,9 @@ struct MandatoryChange {
 // Returns the change for which a vehicle has to look for a gap now.
 MandatoryChange mandatory_change(const Model& model, const State& state, const LaneChangeRequest& me);
 
-// Returns which share of its policy's gap a vehicle requires for a mandatory change (argument of required_gap_m() in
-// lane_gaps.h). The more urgent the change, the smaller the share. `urgency`: 0 to 1, see MandatoryChange.
+// Returns the share of the spacing policy's gap that a vehicle requires for a mandatory change (argument of
+// required_gap_m() in lane_gaps.h). The more urgent the change, the smaller the share. `urgency`: 0 to 1, see
+// MandatoryChange.
 double urgent_share(const Model& model, double urgency);
 
 // Returns the position where a vehicle waits before the stop line to change lanes, m from the start of the lane.
@@ -68,8 +70,8 @@ double urgent_share(const Model& model, double urgency);
 // already passed this start.
 double waiting_position_m(const Model& model, const State& state, const LaneChangeRequest& me);
 
-// Carries out lane changes. Each vehicle considers a lane change only in some steps, so the function treats only the
-// vehicles that consider one in this step.
+// Carries out lane changes. A vehicle decides about a lane change only every half second. A call treats only the
+// vehicles that decide in this step.
 void change_lanes(const Model& model, State& state);
 
 }  // namespace stopline

@@ -17,8 +17,8 @@ namespace stopline {
 
 namespace {
 
-// Returns the entry speed of the next lane on the route if it is lower than the limit of the current lane; else
-// kNoLowerLimit_mps.
+// Returns the highest speed at which a vehicle may enter the next lane on the route, if this speed is lower than the
+// limit of the current lane; else kNoLowerLimit_mps.
 float end_speed(const State& state, std::span<const int> route, int index) {
     if (at(index) + 1 >= route.size()) return kNoLowerLimit_mps;
     const double here = state.plan.lane(route[at(index)]).limit_mps;

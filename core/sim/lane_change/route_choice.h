@@ -13,8 +13,8 @@ namespace stopline {
 void set_route_index(State& state, int slot, int route_index);
 
 // Returns the route of the k-th vehicle of an inlet, drawn at random. An inlet is a lane on which vehicles get a route.
-// `chose_lane`: true if the vehicle has chosen this lane because of its turn. The probabilities of the routes are then
-// DemandPlan::Inlet::lane_shares.
+// `chose_lane`: true if the vehicle has chosen this lane because of its turn. Other shares of the routes then apply
+// (DemandPlan::Inlet::lane_shares).
 int draw_route(const Model& model, State& state, int inlet, std::int64_t k, bool chose_lane);
 
 // Draws the turns of a vehicle at the second and third intersection ahead, as far as they are not known yet. Sets the

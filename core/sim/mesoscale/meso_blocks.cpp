@@ -161,8 +161,8 @@ private:
         return snap_to_standstill(stopping_speed_mps(model_, v_, first, room_to_line_m(first))) == 0.0;
     }
 
-    // Caps the speed of the vehicles of a sleeping lane that have a yield stop. These vehicles wait for a gap in the
-    // adjacent lane. Skips the first vehicle of the lane, which already has a cap.
+    // Sleeping lane: caps the speed of each vehicle with a yield stop, that is, a vehicle that must wait for a gap in
+    // the adjacent lane. Skips the first vehicle of the lane, which already has a cap.
     void cap_behind_first() {
         for (int k = 0; k < yield_stops_.count; ++k) {
             const YieldStop& stop = yield_stops_.stops[at(k)];

@@ -14,8 +14,8 @@ namespace stopline {
 namespace {
 
 // Returns one value for each slot of the moving blocks: the gap in m that the vehicle adds to its standstill gap at its
-// present speed. The value is 0 unless the vehicle has a switching policy (SWITCH). Returns nullptr if the model has no
-// switching policy.
+// present speed. The value is 0 unless the vehicle has a switching policy (SWITCH: the desired gap grows above a switch
+// speed). Returns nullptr if the model has no switching policy.
 ExtraGap evaluate_extra_gap(const Model& model, std::size_t size, const VehicleArrays& v, Partition& part) {
     const auto is_switching = [&](int k) {
         return model.krauss[at(k)].constant_distance && model.policies[at(k)].settings.law != "constant_distance";

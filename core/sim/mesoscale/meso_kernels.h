@@ -39,17 +39,19 @@ struct MesoStep {
     // nullptr: no lane has such a limit.
     const LeaderProfile* power_profile;
     double calibrated_limit_mps;
-    bool relays;  // true: V2V relays the start of a queue, and platoon leaders anticipate the speed of their leader
-    // True: the safe speed of a platoon leader is equal to that of a follower, so it is not computed again. Requires
-    // `relays`, and policies without a transient gap (Krauss::transient_gap_s2).
+    // True: V2V relays the start of a queue, and platoon leaders anticipate the speed of the vehicle ahead.
+    bool relays;
+    // True: a platoon leader has the same safe speed as a follower, so the kernels compute the safe speed only once.
+    // Requires `relays`, and policies without a transient gap (Krauss::transient_gap_s2).
     bool leaders_foresee;
     double hardest_mps2;    // maximum deceleration behind a leader
     double emergency_mps2;  // maximum deceleration before a lower speed limit
     bool prefetches;        // true: the kernels prefetch blocks; useful if the vehicle data do not fit into the cache
 };
 
-// Gap in m that a vehicle with a switching policy (SWITCH) adds to its standstill gap; 0 for all other vehicles. The
-// array has one value for each slot of the blocks that move, in the order of the blocks; nullptr: 0 for all slots.
+// Gap in m that a vehicle with a switching policy (SWITCH: the desired gap grows above a switch speed) adds to its
+// standstill gap; 0 for all other vehicles. The array has one value for each slot of the blocks that move, in the order
+// of the blocks; nullptr: 0 for all slots.
 using ExtraGap = const double*;
 
 struct MesoKernels {

@@ -1,7 +1,7 @@
-// Source of the mesoscale kernels. Each of the files meso_kernels_*.cpp includes it and thus compiles one version: one
-// for each instruction set, and the scalar version. The kernels have internal linkage, so that the linker keeps these
-// versions apart. R is the number type of the equations: one double, or a vector with one double for each slot of a
-// block.
+// Source of the mesoscale kernels. Each file meso_kernels_*.cpp includes this file and thus compiles one version of the
+// kernels: the version for one instruction set, or the scalar version. The kernels have internal linkage, so that the
+// linker keeps the versions apart. R is the number type of the equations: one double, or a vector with one double for
+// each slot of a block.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -271,7 +271,7 @@ constexpr double kNoExtraGap[kWide] = {};
 
 // Properties of a run. The kernels are compiled once for each combination.
 struct MesoVariant {
-    int policies;           // number of policies: 1 or 2; 0: more than 2
+    int policies;           // number of policies if it is 1 or 2; 0: there are more than 2 policies
     bool power_limit;       // true: at high speed the acceleration of at least one policy falls (constant power)
     bool instant_slowdown;  // true: vehicles reach the braking curve before a turn in one step (turn_share = 1)
 };

@@ -43,7 +43,8 @@ void add_demand(const Model& model, const State& state, int lane, int slot, cons
 // Adds braking demands on vehicles behind the first vehicle of the lane. A vehicle can get a demand only if it takes
 // another connection than the first vehicle, and if no vehicle between the two takes this connection.
 void react_to_leaders_hidden_from_followers(const Model& model, const State& state, int lane, Partition& part) {
-    // At least the vehicles within this distance of the lane's end are checked. 60 m suffice to stop from 50 km/h.
+    // Vehicles within this distance of the lane's end are checked; if the stopping distance at the speed limit is
+    // longer, vehicles within the stopping distance. A distance of 60 m suffices to stop from 50 km/h.
     constexpr double kMinLookBack_m = 60.0;
     constexpr std::size_t kMaxConnections = 8;
     const VehicleArrays& v = state.vehicles;

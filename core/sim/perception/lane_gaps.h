@@ -23,8 +23,9 @@ struct LaneNeighbours {
 
 // Returns the leader and the follower that a vehicle of length `length_m` would have with its front at `front_m` on
 // `lane`. If no vehicle of the lane would be ahead, the leader is searched further along `route`, which begins on the
-// lane. If `route` is -1, this leader is the nearest of the last vehicles on all next lanes. If no vehicle of the lane
-// would be behind, the follower is searched on the connections to the lane and on the lanes where they begin.
+// lane. If `route` is -1, the nearest of the last vehicles on all next lanes is the leader. If no vehicle of the lane
+// would be behind, the follower is searched on the connections to the lane and on the lanes from which these
+// connections come.
 LaneNeighbours neighbours_at(const Model& model, const State& state, int lane, double front_m, double length_m,
                              int route);
 
@@ -38,9 +39,9 @@ inline double adjacent_position_m(const State& state, int lane, double front_m, 
 
 inline constexpr double kMinLaneChangeGap_m = 1.0;  // smallest lead gap and lag gap, even at standstill
 // Returns the net gap in m that a vehicle needs behind its leader after a lane change. The gap is the sum of two parts.
-// The first part is the policy's gap at `speed_mps` times `share`, but at least kMinLaneChangeGap_m. The second part is
-// the distance in which the vehicle brakes to the leader's speed `ahead_mps`. SUMO's lane changer has the same formula
-// for its secure gap, but with another gap in the first part.
+// The first part is the spacing policy's gap at `speed_mps` times `share`, but at least kMinLaneChangeGap_m. The second
+// part is the distance in which the vehicle brakes to the leader's speed `ahead_mps`, in full dynamics with a delay.
+// SUMO's lane changer has the same formula for its secure gap, but with another gap in the first part.
 double required_gap_m(const Model& model, int policy, double speed_mps, double ahead_mps, double share);
 
 }  // namespace stopline

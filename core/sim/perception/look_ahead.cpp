@@ -224,7 +224,7 @@ bool rear_is_on_merging_path(const State& state, int lane, int slot, int ahead) 
     if (leader.previous_lane >= 0 && state.plan.lane(leader.previous_lane).origin == lane)
         return false;  // the vehicle in slot `ahead` came over this lane, so it does not merge
     if (leader.previous_lane >= 0 && !is_on_route(leader.previous_lane)) return true;
-    // If the previous lane is shorter than the vehicle, the rear may still be on the lane before it.
+    // If the previous lane is shorter than the vehicle, the rear may still be on the lane before the previous lane.
     if (leader.previous_lane >= 0) rear_m += state.plan.lane(leader.previous_lane).length_m;
     return rear_m < 0.0 && leader.second_previous_lane >= 0 && !is_on_route(leader.second_previous_lane);
 }

@@ -21,15 +21,18 @@ struct RoutePosition {
     int trip_edge = 0;
 };
 
-// Returns the nearest vehicle beyond the end of `lane`, within `range_m` of the vehicle in `slot`. The vehicle in
-// `slot` must be the first vehicle of the lane.
+// Returns the leader of the vehicle in `slot` beyond the end of `lane`, within `range_m`: the nearest vehicle on the
+// route or trip of the vehicle in `slot`, or a nearer vehicle that diverges from this route. The vehicle in `slot` must
+// be the first vehicle of the lane.
 LeaderAhead leader_ahead(const State& state, int lane, int slot, double range_m);
 
 // Does the same for any observer with its front at `position_m` on `lane`, for example a vehicle that is not inserted
-// yet. Ignores the vehicles on `lane` itself. `route_index`: index of `lane` in `route`.
+// yet. Searches only the route, not the trip. Ignores the vehicles on `lane` itself. `route_index`: index of `lane` in
+// `route`.
 LeaderAhead leader_ahead(const State& state, int lane, double position_m, int route, int route_index, double range_m);
 
-// Does the same, and continues the search beyond the end of the route, on the later edges of the observer's trip.
+// Does the same as the function above, but continues the search beyond the end of the route, on the later edges of the
+// observer's trip.
 LeaderAhead leader_ahead(const State& state, int lane, double position_m, const RoutePosition& position,
                          double range_m);
 
@@ -41,9 +44,10 @@ LeaderAhead last_vehicle_on_route(const State& state, int lane, int slot, double
 // in `slot`. Right of way then prevents contact with this rear, so the vehicle in `slot` need not keep a gap to it.
 bool rear_is_on_merging_path(const State& state, int lane, int slot, int ahead);
 
-// Finds the leader of the first vehicle of each lane in Partition::awake. Copies this leader to the lane's sentinel
-// slot, the slot before the first vehicle. If the leader has changed, makes the first vehicle a platoon leader and
-// resets its radar history. In full dynamics, also adds the braking demands due to hidden leaders (hidden_leaders.h).
+// Finds the leader of the first vehicle of each lane in Partition::awake (occupied lanes, except those whose first
+// vehicle rests at a red signal). Copies this leader to the lane's sentinel slot, the slot before the first vehicle. If
+// the leader has changed, makes the first vehicle a platoon leader and resets its radar history. In full dynamics, also
+// adds the braking demands due to hidden leaders (hidden_leaders.h).
 void find_leaders_beyond_lanes(const Model& model, const State& state, VehicleArrays& vehicles, Partition& part);
 
 }  // namespace stopline

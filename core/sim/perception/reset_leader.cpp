@@ -9,7 +9,7 @@ void reset_leader(VehicleArrays& v, int slot, const LaneBlock& block) {
     if (slot >= block.past_last()) return;
     const bool first = slot == block.first;
     v.record[at(slot)].leader_id = first ? -1 : v.id[at(slot - 1)];
-    if (first) return;  // find_leaders_beyond_lanes() finds the leader of a first vehicle in the next step
+    if (first) return;  // find_leaders_beyond_lanes() finds the leader of the first vehicle in the next step
     v.is_platoon_leader[at(slot)] = 0.0F;
     const double rear_m = v.position_m[at(slot - 1)] - static_cast<double>(v.length_m[at(slot - 1)]);
     v.reset_radar(slot, rear_m - v.position_m[at(slot)], v.speed_mps[at(slot)] - v.speed_mps[at(slot - 1)]);

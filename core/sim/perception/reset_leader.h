@@ -5,9 +5,9 @@
 
 namespace stopline {
 
-// Stores the vehicle in the slot before as the new leader of the vehicle in `slot`, makes the latter a follower, and
-// resets its radar history. For the first vehicle of the lane, only removes the old leader. Does nothing if `slot` is
-// past the last vehicle of the lane's block.
+// Makes the vehicle in the preceding slot the leader of the vehicle in `slot`. The vehicle in `slot` is then no platoon
+// leader, and its radar history is reset. For the first vehicle of the lane, only removes the old leader. Does nothing
+// if `slot` is past the last vehicle of the lane's block.
 void reset_leader(VehicleArrays& vehicles, int slot, const LaneBlock& block);
 
 // Initialises the leader and the radar and V2V data of a vehicle just inserted. `first`: the vehicle is the first of

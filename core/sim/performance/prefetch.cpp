@@ -29,7 +29,8 @@ STOPLINE_INLINE void prefetch_vehicle(const VehicleArrays& v, int slot) {
 }
 
 // Prefetches the last vehicle of a lane. Also prefetches the first vehicle and the vehicles that the decisions at the
-// stop line read, unless the lane sleeps: no decisions are made while its first vehicle rests before a red signal.
+// stop line read, unless the lane sleeps. A lane sleeps while its first vehicle rests before a red signal, and there
+// are no decisions at its stop line in this time.
 STOPLINE_INLINE void prefetch_lane_ends(const State& state, int lane) {
     const VehicleArrays& v = state.vehicles;
     const LaneBlock& block = state.blocks[at(lane)];

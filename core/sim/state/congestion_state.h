@@ -24,11 +24,12 @@ struct LastBlocker {
 };
 
 // Working memory of delay attribution. The arrays indexed by slot are valid only in the step that attributed the
-// delays, because vehicles change slots. They are valid only for stopped vehicles, except where a comment includes
-// moving vehicles.
+// delays, because vehicles change slots. Their elements are set only for stopped vehicles (slower than 0.1 m/s), except
+// where a comment includes moving vehicles.
 struct DelayWatch {
     std::vector<int> waits_for;  // [slot] slot of the vehicle that blocks this vehicle; -1: none
-    // [slot] cause that stops the vehicle itself; none: it only waits behind a stopped leader, or nothing stops it
+    // [slot] cause that stops the vehicle itself. DelayCause::none: the vehicle only waits behind a stopped leader, or
+    // nothing stops the vehicle.
     std::vector<DelayCause> direct_cause;
     std::vector<DelayCause> cause;  // [slot] cause to which the delay of the vehicle is attributed
     std::vector<int> queue_head;    // [slot] slot of the first vehicle of the queue to which the vehicle belongs
@@ -40,7 +41,7 @@ struct DelayWatch {
     std::vector<int> path;                   // slots of the vehicles in the chain that find_causes() follows at present
     std::vector<int> stopped_slots;          // slots of all stopped vehicles
     std::vector<LastBlocker> last_blockers;  // [lane]
-    // [lane] tick of the last observation in which vehicles ahead blocked the first vehicle of the queue; 0: none
+    // [lane] latest tick at which vehicles ahead blocked the way of the first vehicle of a queue on this lane; 0: none
     std::vector<std::int64_t> last_blocked_tick;
     // [key] index of the open episode in DelayLog::episodes; -1: none. key = lane * number of causes + cause
     std::vector<int> open_episode;
@@ -51,7 +52,8 @@ struct DelayWatch {
 struct CongestionState {
     LaneBlock teleporting;                         // slots of vehicles that were removed and are not reinserted yet
     std::vector<TeleportTarget> teleport_targets;  // target of each vehicle in `teleporting`, in the same order
-    // Number of times that a vehicle on a trip has reached an intersection on a lane that does not allow its turn.
+    // Number of missed turns: a vehicle on a trip has reached an intersection on a lane that does not allow the next
+    // turn of the trip.
     std::int64_t missed_turns = 0;
     DelayLog delays;
     DelayWatch watch;

@@ -10,13 +10,13 @@ namespace stopline {
 // The cause of the delay of a stopped vehicle. Situations 1 to 3 are those of Massow, Radusch and Shorten (2021),
 // Section VI.A. A vehicle in a queue has the cause that stops the first vehicle of the queue.
 enum class DelayCause : std::uint8_t {
-    none,               // the vehicle is moving
+    none,               // the vehicle is moving, or its cause has not been found yet
     signal,             // the vehicle waits at a red or yellow signal
     yielding,           // the vehicle yields to a vehicle that has priority or is moving across its path
     junction_blocking,  // situation 1: a stopped vehicle blocks a conflict area ahead
     turn_blocking,      // situation 2: the vehicle turns, and its exit lane is full
     spillback,          // the vehicle goes straight on, and its exit lane is full
-    gridlock,           // situation 3: the vehicle is in a cycle of vehicles that wait for each other, or is behind it
+    gridlock,           // situation 3: a cycle of vehicles that wait for each other contains or blocks the vehicle
     wrong_lane,         // the vehicle waits for a gap in the adjacent lane, to which it must change
     queue_discharge     // nothing holds the vehicle: its leader has started or is far ahead
 };
@@ -24,8 +24,8 @@ inline constexpr std::array<const char*, 9> kDelayCauseNames{
     "none",      "signal",   "yielding",   "junction_blocking", "turn_blocking",
     "spillback", "gridlock", "wrong_lane", "queue_discharge"};
 
-// Returns true if the cause is a blockage: a blocked junction, a full exit lane, a gridlock, or a vehicle that waits on
-// the wrong lane and blocks it. Signals, yielding and queue discharge delay vehicles even if nothing is blocked.
+// Returns true if the cause is a blockage: a blocked junction, a full exit lane, a gridlock, or a lane that is blocked
+// by a vehicle waiting for a lane change. Signals, yielding and queue discharge delay vehicles without any blockage.
 inline bool is_blocking(DelayCause cause) {
     return cause >= DelayCause::junction_blocking && cause != DelayCause::queue_discharge;
 }
@@ -56,8 +56,8 @@ struct Gridlock {
 };
 
 // A starving vehicle. It is the first vehicle of its queue and has been stopped for at least
-// RulesPlan::starvation_ticks. If it has a signal, it has also been stopped for at least two cycles of this signal. In
-// this time no vehicle ahead blocked its way: it waited for right of way, its signal or a gap in the adjacent lane.
+// RulesPlan::starvation_ticks. If it has a signal, it has also been stopped for at least two cycles of this signal. No
+// vehicle ahead blocked the way in this time. The vehicle only waited for right of way, its signal or a lane change.
 struct Starvation {
     DelayCause cause = DelayCause::none;  // at the last observation
     int lane = -1;
@@ -66,7 +66,8 @@ struct Starvation {
     double to_s = 0.0;    // time of the last observation
 };
 
-// One use of a traffic rule (driver/traffic_rules.h).
+// One use of a traffic rule (driver/traffic_rules.h): a vehicle is teleported, is reinserted after its teleport, passes
+// a blocker, or is held at a green signal by the keep-clear rule.
 struct RuleUse {
     enum class Kind : std::uint8_t { teleported, reinserted, passed_blocker, keep_clear };
     Kind kind = Kind::teleported;

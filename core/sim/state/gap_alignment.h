@@ -1,4 +1,5 @@
-// The adaptation of speeds to gaps before lane changes. Owner: sim/lane_change/gap_search.cpp.
+// The vehicles that adapt their speed for a lane change, their own or that of another vehicle. Owner:
+// sim/lane_change/gap_search.cpp.
 #pragma once
 
 namespace stopline {

@@ -108,8 +108,8 @@ void allocate_lane_blocks(const Model& model, State& state) {
         block.end = slots = block.begin + vehicles;
     };
     for (const int lane : state.plan.lane_order()) {
-        // The block has room for 50 % more vehicles than fit on the lane. The vehicles then rarely have to be shifted
-        // to the start of the block.
+        // The block has room for at least 50 % more vehicles than fit on the lane. The vehicles then rarely have to be
+        // shifted to the start of the block.
         const int most = max_vehicles(model, model.graph.lanes[at(lane)]);
         append(state.blocks[at(lane)], rounded_up(most + std::max(most / 2, kSimdWidth)));
     }

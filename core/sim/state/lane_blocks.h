@@ -1,8 +1,8 @@
-// Adds, moves and removes vehicles in the slots of the lanes.
+// Adds, moves and removes vehicles in the slots of the lanes. A slot is the index of a vehicle in the vehicle arrays.
 //
-// A function that adds a vehicle to a lane can shift the vehicles of other lanes to other slots. A sleeping lane
-// (QueueState) keeps the decisions of an earlier step. These decisions refer to slots, for example
-// StopLines::stop_slot. The function therefore wakes each lane whose vehicles it shifts, so that the decisions are made
+// Adding a vehicle to a lane can shift the vehicles of other lanes to other slots. The decisions at a stop line refer
+// to slots (StopLines::stop_slot). A sleeping lane, whose first vehicle rests before a red signal (QueueState), keeps
+// the decisions of an earlier step. Therefore each lane whose vehicles are shifted is woken, and its decisions are made
 // again.
 #pragma once
 

@@ -75,8 +75,8 @@ struct Model {
     GiveWaySettings give_way;
     LaneChangeSettings lane_change;
     RulesPlan rules;
-    // Age of the radar data when the driver computes a request. The request takes effect one step later. The radar
-    // delay of the settings includes this step, so the age is the radar delay minus one step.
+    // Age of the radar data when the driver computes the requested acceleration. This acceleration takes
+    // effect one step later. The radar delay of the settings ends only then, so the age is that delay minus one step.
     DelayLine radar;
     DelayLine v2v;
     // true: the kernels compute one vehicle at a time and do not skip standing queues. The results are the same.
@@ -95,8 +95,9 @@ struct Model {
     double leader_speed_share = 1.0;  // a vehicle without a leader drives at this share of the speed limit
     // Below the speed limit, the speed rises in one step by at most this share of (speed limit - speed).
     double approach_share = 1.0;
-    // Before a lower speed limit, such as that of a turn, the speed of a vehicle follows a braking curve. A step
-    // corrects this share of the deviation from the curve (MesoStep in mesoscale/meso_kernels.h).
+    // Before a lower speed limit, such as that of a turn, vehicles follow a braking curve: at each position, the speed
+    // from which moderate braking just suffices. In each step, a vehicle corrects this share of the difference between
+    // its speed and the curve (MesoStep in mesoscale/meso_kernels.h).
     double turn_share = 1.0;
     double leader_mps2 = 0.0;  // acceleration of platoon leaders; 0: acceleration of the policy's car-following model
     double leader_constant_power_speed_mps = 0.0;  // above this speed, leader_mps2 falls as 1 / speed
@@ -104,9 +105,9 @@ struct Model {
     // speed_factor is at most this value.
     double calibrated_limit_mps = 1e9;
     bool has_fast_lanes = false;  // true: on some lanes, limit times speed_factor exceeds calibrated_limit_mps
-    LeaderProfile power_profile;  // lower bound of the acceleration on such fast lanes, by speed
-    // Acceleration of platoon leaders by speed. If the profile has bins, it replaces leader_mps2 and
-    // leader_constant_power_speed_mps.
+    LeaderProfile power_profile;  // lower bound of the acceleration on these fast lanes, by speed
+    // Acceleration of platoon leaders by speed. If this table is not empty (bins_per_mps above 0), it replaces
+    // leader_mps2 and leader_constant_power_speed_mps.
     LeaderProfile leader_profile;
     // Largest number of stopped vehicles that one V2V start message (StartMessage in partition.h) reaches in a step. 0:
     // no messages.

@@ -66,7 +66,7 @@ struct Partition {
     // The bits of `connections` are in the words [first_word, end_word) of the bitsets in JunctionState.
     std::size_t first_word = 0;
     std::size_t end_word = 0;
-    std::vector<int> exits;      // exit lanes of `connections`; no exit lane is in the lists of two partitions
+    std::vector<int> exits;      // exit lanes of `connections`; each exit lane is in the list of one partition only
     std::vector<int> detectors;  // indices of the detectors on `lanes`
     // Lanes that may be occupied: a vehicle has entered the lane, and no step has found the lane empty since then.
     Bitset occupied_candidates;  // [index in `lanes`]
@@ -111,7 +111,7 @@ struct Partition {
     // Mesoscale mode. In moving_blocks a block is not the block of a lane, but a batch of consecutive slots that the
     // kernels move together (MesoKernels::size).
     IndexBuffer moving_blocks;      // blocks to move in this step
-    std::vector<int> capped_slots;  // slots with a speed cap in this step
+    std::vector<int> capped_slots;  // slots of vehicles whose speed cap applies in this step only
     // Extra standstill gaps of the vehicles with a switching policy (ExtraGap in mesoscale/meso_kernels.h): one value
     // for each slot of moving_blocks, in the same order. Empty: 0 for all vehicles.
     std::vector<double> extra_gap_m;

@@ -15,16 +15,16 @@ struct StandingQueue {
     // Latest tick at which something other than a leader may have acted on the vehicles behind the first one: an
     // insertion, a lane change, a gap alignment, a stop line or a yield stop.
     std::int64_t last_external_tick = -1;
-    // All vehicles of the queue with a lower index may have moved in the previous step because of a start message: the
-    // receivers and the follower of the last receiver. 0: there was no message.
+    // Index after the last vehicle that may have moved in the previous step because of a start message. This vehicle is
+    // the follower of the last receiver of the message. 0: there was no message.
     int released = 0;
 };
 
 struct QueueState {
     std::vector<StandingQueue> standing;  // [lane]
     // [lane] signal group whose green wakes the sleeping lane; -1: the lane is awake. The first vehicle of a sleeping
-    // lane is at rest before its red signal. No decisions are made for the lane until the signal is green, or until a
-    // vehicle joins or leaves the lane.
+    // lane is at rest before its red signal. Until the signal is green, or until a vehicle joins or leaves the lane, no
+    // leader is searched for this vehicle, and the decisions at the stop line stay as they are.
     std::vector<int> sleeps_until_green;
 };
 

@@ -11,8 +11,8 @@ namespace stopline {
 // The stop line at the end of a lane.
 struct StopLineState {
     int stopping_vehicle = -1;  // id of the vehicle that stops at the line for the signal; -1: none
-    // Full dynamics, true: the stop needs more than 90 % of the maximum braking. If the vehicle overruns the line, this
-    // is no violation.
+    // True (only in full dynamics): stopping_vehicle needs more than 90 % of the maximum braking to stop at the line.
+    // It is then no violation if this vehicle overruns the line.
     bool may_overrun = false;
     int keep_clear_vehicle = -1;  // id of the vehicle that the keep-clear rule holds at green; -1: none
 };

@@ -6,8 +6,8 @@
 
 namespace stopline {
 
-// Records each vehicle that has passed a detector of the partition in this step. Also counts the vehicles that have
-// passed a stop line on red.
+// Records each vehicle that has passed a detector of the partition in this step, if the run records this detector
+// (Model::records_all). Also counts the vehicles that have passed a stop line on red.
 void record_detector_crossings(const Model& model, State& state, Partition& part);
 
 }  // namespace stopline

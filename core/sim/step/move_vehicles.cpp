@@ -14,10 +14,10 @@ namespace stopline {
 
 namespace {
 
-// Appends a lane to a group, with a list of demands: accelerations that a vehicle must not exceed because of a stop
-// line, yielding, a hidden leader (perception/hidden_leaders.h) or the alignment with a gap. `hidden_leader_demands`:
-// the demands due to hidden leaders that are not yet in a group, in the order of slots. The demands on vehicles of this
-// lane are removed from `hidden_leader_demands`.
+// Appends a lane and its demands to a group. A demand is an acceleration that a vehicle must not exceed because of a
+// stop line, yielding, a hidden leader (perception/hidden_leaders.h) or the alignment with a gap.
+// `hidden_leader_demands` lists the demands because of hidden leaders, in the order of slots. The function takes the
+// demands on the vehicles of this lane off this list.
 void add_lane(const Model& model, const State& state, int lane, std::span<const BrakingDemand>& hidden_leader_demands,
               LaneGroup& group) {
     const VehicleArrays& v = state.vehicles;

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Tests that Ctrl-C ends long work with exit code 130 and leaves no file. Progress is a bar on a terminal, and short
-# work shows none.
+# Tests that Ctrl-C ends long work with exit code 130 and leaves no file. On a terminal, long work shows a progress bar
+# and short work shows none.
 set -u
 
 . "$STOPLINE_SOURCE/tests/tools/cli.sh"

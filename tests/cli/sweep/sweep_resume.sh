@@ -141,7 +141,7 @@ refused "store of another build" "another build of the program" "$work/rebuilt" 
 echo "no database" >"$work/two/other.sqlite"
 refused "file that is not a store" "not a store" "$program" "$work/other.yaml" --output "$work/two"
 
-# Two programs on one store.
+# A second program must not open a store that is in use.
 start "$work/busy" --threads 1 --set "duration=20000 s"
 wait_for [ -s "$work/busy/sweep.sqlite-wal" ] || fail "there is no store"
 refused "store in use" "another program has this store open" sweep "$work/busy" --set "duration=20000 s"

@@ -99,7 +99,8 @@ TEST(NetworkSweepFigures, SurfacesShowValuesAndChanges) {
                                        "by hand");
     const Figure figure = figure_named(network_sweep_figures(results, {}), "surfaces_1");
     const std::string& data = figure.data.front().second;
-    // Each line has the cell, the value, its text and the text colour: black on light cells, white on dark cells.
+    // Each line has the column and row of the cell, the value as a number, the value as text, and the colour of the
+    // text: 0 (black) on light cells, 16777215 (white) on dark cells.
     EXPECT_TRUE(
         contains(data, "# CDG, throughput [veh/h]\n0 0 1500 1500 0\n0 1 900 900 16777215\n1 0 1000 1000 16777215\n"));
     EXPECT_TRUE(contains(data,
@@ -275,7 +276,8 @@ TEST(NetworkSweepFigures, ExplainHowToSplitAnAxisOfSeveralFields) {
     EXPECT_TRUE(contains(note, "give each field an axis of its own, or put a field first that differs in every value"));
 }
 
-// The shipped sweeps of Section VI draw all of their figures that data/paper/figures.csv lists for the report.
+// data/paper/figures.csv lists the figures of the report. The shipped sweeps of Section VI must draw each figure that
+// the list assigns to them.
 TEST(NetworkSweepFigures, IncludeTheFiguresOfTheReport) {
     const CsvTable listed = parse_csv(read_text(shipped("data/paper/figures.csv")), "figures.csv");
     std::size_t surfaces = 0;

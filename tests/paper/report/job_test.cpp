@@ -1,4 +1,5 @@
-// The list of jobs, the list of figures of the report, and the records of finished jobs.
+// Tests of stopline-reproduce: the list of its jobs, the list of the figures in its report, and the records of finished
+// jobs.
 #include "paper/report/job.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +37,7 @@ TEST(JobList, OfASectionIncludesTheJobsThatItComparesWith) {
     EXPECT_TRUE(jobs_of("").empty());
     std::set<std::string> sections;
     for (const Job* job : jobs_of("VI")) sections.insert(job->section);
-    EXPECT_EQ(sections, (std::set<std::string>{"IV", "VI"}));  // Fig. 23 compares with Section IV
+    EXPECT_EQ(sections, (std::set<std::string>{"IV", "VI"}));  // Fig. 23 (Section VI) shows results of Section IV too
 }
 
 // If this test fails after a new experiment, add a job that measures the experiment, and add its name to this list.

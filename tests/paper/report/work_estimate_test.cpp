@@ -9,7 +9,7 @@ namespace {
 TEST(WorkEstimate, StartsFromTheExpectedDurations) {
     const WorkEstimate estimate({60.0, 40.0}, 2);
     EXPECT_DOUBLE_EQ(estimate.share(), 0.0);
-    EXPECT_NEAR(estimate.remaining_s(0.0), 50.0, 1e-9);  // two threads
+    EXPECT_NEAR(estimate.remaining_s(0.0), 50.0, 1e-9);  // 100 s of work on two threads
 }
 
 TEST(WorkEstimate, IsExactAtTheExpectedPace) {
@@ -44,7 +44,7 @@ TEST(WorkEstimate, CorrectsMostlyTheCurrentJob) {
     EXPECT_LT(remaining_s, 1000.0 * 4.5);
 }
 
-// The estimate counts work of earlier sessions neither as work of this session nor as a sign of this session's speed.
+// Results that an earlier session has stored are no work of this session, and they say nothing about its speed.
 TEST(WorkEstimate, ExcludesWorkOfEarlierSessions) {
     WorkEstimate estimate({500.0, 100.0, 100.0}, 1);
     estimate.skip(0);
@@ -58,8 +58,8 @@ TEST(WorkEstimate, ExcludesWorkOfEarlierSessions) {
     EXPECT_NEAR(estimate.remaining_s(5.0), 105.0, 1e-9);
 }
 
-// The share that a job reports can drop when the job reaches a part with fewer stored results. The estimate must not
-// drop.
+// The share that a job reports can drop when the job reaches a part with fewer stored results. The estimated share must
+// not drop.
 TEST(WorkEstimate, NeverDecreases) {
     WorkEstimate estimate({100.0}, 1);
     estimate.begin(0, 0.0);

@@ -55,8 +55,8 @@ TEST(Starvation, LongRedsOfAWorkingSignalDoNotCount) {
     EXPECT_GT(result.queue_veh, 5.0) << "no queue stood";
 }
 
-// In a gridlock, the keep-clear rule holds the same vehicle at each green, and at red its signal. This vehicle does not
-// starve, because vehicles ahead block its way.
+// In a gridlock, the keep-clear rule holds the same vehicle at each green, and its signal holds this vehicle at each
+// red. The vehicle does not starve, because vehicles ahead block its way.
 TEST(Starvation, VehiclesBlockedAtEachGreenDoNotStarve) {
     const Scenario scenario =
         load_scenario(STOPLINE_SOURCE_DIR "/scenarios/grid.yaml",

@@ -1,4 +1,4 @@
-// Runs of small imported networks that are written by hand.
+// Runs of small imported networks. Most of these networks are written by hand.
 #include <gtest/gtest.h>
 
 #include <algorithm>

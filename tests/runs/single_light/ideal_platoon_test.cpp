@@ -1,4 +1,5 @@
-// Compares the ideal platoon with closed forms, and the simulated platoon with the ideal one.
+// Tests of the ideal platoon, whose followers keep their gap law without error or delay. Compares the ideal platoon
+// with closed forms, and the simulated platoon with the ideal platoon.
 #include "runs/single_light/ideal_platoon.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +23,7 @@ GapPolicySettings policy(const std::string& law, double time_gap_s) {
 }
 
 // The leader drives at speed v from the start. With standstill gap s0 and time gap h, its follower drives at the speed
-// v (1 - exp(-t / h)). The k-th follower passes through k such lags. When all drive at v, their headway is
+// v (1 - exp(-t / h)), a first-order lag. The k-th follower has k of these lags. When all drive at v, their headway is
 // (length + s0 + h v) / v.
 TEST(IdealPlatoon, TimeGapActsAsAChainOfLags) {
     const GapPolicySettings time_gap = policy("constant_time", 0.87);

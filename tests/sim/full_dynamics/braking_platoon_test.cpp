@@ -11,7 +11,7 @@ namespace {
 
 using namespace testing_support;
 
-constexpr double kBraking_mps2[] = {2.0, 4.0, 7.0};  // the last value is the maximum request
+constexpr double kBraking_mps2[] = {2.0, 4.0, 7.0};  // the last value is the hardest braking that can be requested
 constexpr double kMinGap_m[] = {0.3, 0.3, 0.1};
 constexpr int kFollowers = 10;
 constexpr double kSpeed_mps = 50.0 / 3.6;
@@ -67,8 +67,8 @@ TEST_P(BrakingPlatoon, StopsWithoutTouching) {
             for (int n = 2; n <= kFollowers; ++n) {
                 smallest_gap_m[at(k)] = std::min(smallest_gap_m[at(k)], track.vehicle(2 * k, n).gap_m);
             }
-            // The simulation has moved the platoon leader in this step. The gap of the first follower must be measured
-            // to the prescribed position.
+            // The simulation has moved the platoon leader in this step as a normal vehicle. The gap of the first
+            // follower must therefore be measured to the leader's prescribed position.
             const double rear_m = leaders[at(k)].position_m - track.model().vehicles[0].length_m;
             smallest_gap_m[at(k)] = std::min(smallest_gap_m[at(k)], rear_m - track.vehicle(2 * k, 1).position_m);
         }

@@ -34,8 +34,8 @@ struct Stop {
     double hardest_mps2 = 0.0;
 };
 
-// Vehicles start from a queue. The light turns red after `green_s`, when the platoon has reached its speed. The first
-// vehicle that can stop brakes for it.
+// Vehicles start from a queue. The light turns red after `green_s`, when the vehicles have reached their speed. The
+// first vehicle that can stop brakes for the red light.
 Stop stop_at_end_of_green(const std::string& vehicle, const Law& law, double green_s) {
     TrackPlan plan;
     plan.vehicle = vehicle;
@@ -63,9 +63,9 @@ Stop stop_at_end_of_green(const std::string& vehicle, const Law& law, double gre
     return stop;
 }
 
-// The first vehicle that can stop needs its full braking only if the light changes at the right time. The test
-// therefore tries several green times. They differ by up to the headway of two vehicles, so one of them is near the
-// right time.
+// The first vehicle that can stop needs full braking only if the light turns red when this vehicle can barely stop. The
+// test therefore tries green times that differ by up to the headway of two vehicles, so that one green time is near
+// this moment.
 TEST_P(HardStop, LeavesAGapToEveryLeader) {
     for (const std::string vehicle : {"petrol_eu4_72kw", "{base: electric_100kw, length: 18 m, brake_lag: 0.5 s}"}) {
         double hardest_mps2 = 0.0;

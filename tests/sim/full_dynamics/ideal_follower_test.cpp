@@ -56,8 +56,8 @@ std::vector<double> ideal_passages_s(const Discharge& d, double r_m, double h_s)
             double x = leader_m.front() - d.length_m - r_m;
             for (const double front_m : leader_m) {
                 const double limit_m = front_m - d.length_m - r_m;
-                // At limit_m the gap is r and the speed 0. While the leader stands still, the follower approaches
-                // limit_m exponentially with the time constant h. The leader moves between two steps.
+                // At limit_m the gap is r and the speed 0. Within one step the leader counts as stopped, so the
+                // follower approaches limit_m exponentially with the time constant h.
                 x = h_s > 0.0 ? limit_m + (x - limit_m) * std::exp(-d.step_s / h_s) : limit_m;
                 own_m.push_back(x);
             }

@@ -63,7 +63,7 @@ Track oscillating_platoons(const Case& c, const std::string& vehicle) {
     return track;
 }
 
-// Prescribes the motion of a platoon leader. The oscillation starts slowly, so that no sudden change excites the
+// Prescribes the motion of a platoon leader. The amplitude grows slowly from 0, so that no sudden change excites the
 // platoon.
 void drive_oscillating_leader(Track& track, int lane, double w) {
     constexpr double kLag_s = 0.2;

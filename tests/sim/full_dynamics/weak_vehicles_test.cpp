@@ -30,7 +30,7 @@ TEST(WeakVehicles, AnnounceOnlyWhatTheEngineGives) {
     EXPECT_NEAR(announced, lorry.acceleration_mps2, 0.05);
 }
 
-// Lorries at intervals of 2 s catch up with a lorry ahead. Each requests as much as it may.
+// Each lorry starts 20 m behind its leader and closes up. All lorries request as much acceleration as they may.
 TEST(WeakVehicles, KeepTheirGapsInAPlatoon) {
     constexpr int kLorries = 8;
     for (const std::string policy : {"CDG", "CTG-Ref", "SWITCH-1", "SWITCH-2"}) {

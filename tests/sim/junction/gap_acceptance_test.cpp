@@ -119,8 +119,8 @@ TEST_P(GapAcceptance, AcceptsLongGapsAndRejectsShortOnes) {
             accepted_s.push_back(time_s);
             const auto next =
                 std::find_if(oncoming.begin(), oncoming.end(), [](auto& o) { return o.distance_m > 0.0; });
-            // Only for vehicles at full speed. A vehicle that has braked for the previous left-turning vehicle still
-            // accelerates, so distance / speed would not be its time of arrival.
+            // The time gap is checked only if the next oncoming vehicle drives at full speed. A vehicle that has braked
+            // for the previous left-turning vehicle still accelerates, so it arrives sooner than distance / speed says.
             if (next != oncoming.end() && next->speed_mps > 0.97 * model_.graph.lanes[at(priority_)].limit_mps) {
                 EXPECT_GE(next->distance_m / next->speed_mps, critical_s) << "at " << time_s << " s";
                 ++checked_gaps;

@@ -33,7 +33,7 @@ double stopping_distance_m(const Model& model, const VehicleView& car) {
     return v * v / (2.0 * b) + (car.speed_mps + 0.5 * a * delay_s) * delay_s;
 }
 
-// A driver stops on yellow if this deceleration suffices: the default, and maximum braking.
+// Decelerations up to which a driver stops on yellow: the default, and maximum braking.
 constexpr std::array kDecisions{"3.5 m/s2", "7 m/s2"};
 
 std::vector<std::string> decision_deceleration(const char* deceleration) {
@@ -143,8 +143,8 @@ TEST_P(YellowQueue, SplitsAtTheFirstVehicleThatCanStop) {
     }
 }
 
-// Without yellow some vehicles need nearly maximum braking to stop. They overrun the stop line when they shift down.
-// These are forced red entries.
+// Without yellow some vehicles need nearly maximum braking to stop. A vehicle that shifts down meanwhile loses braking
+// and overruns the stop line. Such an overrun counts as a forced red entry.
 TEST(WithoutYellow, OnlyForcedRedEntriesOccur) {
     const Scenario scenario =
         load_scenario(STOPLINE_SOURCE_DIR "/scenarios/intersection.yaml",

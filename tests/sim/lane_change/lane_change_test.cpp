@@ -141,7 +141,7 @@ TEST_P(DenseLaneChanging, HasNoCollisionAtAnyDensity) {
     for (const std::uint64_t seed : {2U, 7U, 10U, 29U}) {
         for (const double gap_m : {3.2, 5.5, 8.0, 16.0, 40.0}) run_traffic(GetParam(), seed, gap_m, discretionary);
     }
-    // Few vehicles change back and forth between queues that move in turn.
+    // Few vehicles change back and forth between queues that move alternately.
     EXPECT_LE(6 * discretionary.returns, discretionary.all);
 }
 
@@ -167,8 +167,8 @@ TEST_P(LaneChanging, ReachesTargetLanesWithoutStoppingInFreeTraffic) {
 
 TEST_P(LaneChanging, IsSymmetricInLeftAndRight) {
     TrackPlan plan = plan_of(GetParam(), 3);
-    // Only mandatory lane changes occur. A discretionary change is not symmetric: it prefers the right of two equal
-    // lanes.
+    // With these settings only mandatory lane changes occur. Discretionary changes are not symmetric: if the lanes on
+    // both sides are equally good, a vehicle changes to the right.
     plan.overrides.emplace_back("driver.lane_change.look_ahead_time=1000 s");
     plan.overrides.emplace_back("driver.lane_change.left_factor=1");
     Track one(parallel_lanes(plan));

@@ -73,8 +73,8 @@ TEST_P(MesoModel, ReachesTheEquilibriumGap) {
         Track track(this->plan());
         const double v = kmh / 3.6;
         const double expected_m = track.model().krauss[0].equilibrium_gap_m(v) + extra_gap_m(track.model(), v);
-        // The follower starts at twice the equilibrium gap and closes up. It must not start below the equilibrium gap:
-        // in equation (1) of the paper, every gap in a band below it is an equilibrium too.
+        // The follower starts at twice the equilibrium gap and closes up. It must not start below the equilibrium gap,
+        // because the model of the paper lets a follower keep any gap within a band below the equilibrium gap.
         track.place(0, 100.0, v);
         track.place(0, 100.0 - track.model().vehicles[0].length_m - 2.0 * expected_m, v);
         double front_m = 100.0;

@@ -100,7 +100,7 @@ TEST(Partitions, ThreadsGiveTheSameRunInFullDynamics) {
 // The vectorised kernels leave out standing queues. The scalar kernels evaluate all vehicles and must give the same
 // result.
 TEST(StandingQueues, LeavingThemOutChangesNothing) {
-    // With the parameters `passages`, a V2V message passes the start of a queue on from vehicle to vehicle.
+    // With the parameters `passages`, the vehicles of a queue relay a V2V message when the queue starts.
     for (const char* const meso : {"fitted", "passages"}) {
         for (const int population : {0, 1, 2}) {
             const Model model = crowded_grid("meso", population, meso);

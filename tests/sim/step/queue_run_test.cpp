@@ -1,5 +1,5 @@
 // Simulates the single-light scenario with every policy and vehicle: vehicles enter, queue at their standstill gaps and
-// exit. Track checks its invariants in every step.
+// exit. The test helper Track checks in every step that no vehicle is lost, overlaps another one or enters on red.
 #include <gtest/gtest.h>
 
 #include "support/track.h"

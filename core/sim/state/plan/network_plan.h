@@ -18,7 +18,7 @@ namespace stopline {
 
 class NetworkPlan {
 public:
-    // Keeps a pointer to the demand of the model, which must outlive the plan.
+    // The plan keeps a pointer to the demand of the model, so the model must outlive the plan.
     explicit NetworkPlan(const Model& model);
 
     const LanePlan& lane(int lane) const { return lanes_[static_cast<std::size_t>(lane)]; }
@@ -41,7 +41,7 @@ public:
     }
     Turn turn_of(int route) const { return turns_[static_cast<std::size_t>(route)]; }
     // Routes with the same first lane and the same turn, but with different exit lanes, form a list. Returns the route
-    // after `route` in its list; -1: none.
+    // that follows `route` in this list; -1: none.
     int next_parallel_route(int route) const { return next_parallel_route_[static_cast<std::size_t>(route)]; }
     // Returns the signal group that a vehicle on an approach lane obeys. `next`: connection that the vehicle will take;
     // -1: none.
@@ -50,8 +50,8 @@ public:
         const int own = plan.has_movement_signals && next >= 0 ? movement_groups_[static_cast<std::size_t>(next)] : -1;
         return own >= 0 ? own : plan.signal_group;
     }
-    // Returns the position on a connection where it has diverged from the other connections of the same approach lane.
-    // A vehicle whose rear is past this position is clear of these connections.
+    // Returns the position on a connection from which the connection lies apart from the other connections of the same
+    // approach lane. A vehicle whose rear is past this position is clear of these other connections.
     double diverge_end_m(int lane) const { return diverges_[static_cast<std::size_t>(lane)].end_m; }
     // Returns true if a vehicle with its front on the exit lane of a connection can still have its rear upstream of
     // diverge_end_m() of this connection.

@@ -1,6 +1,7 @@
-// Finds the best lane on each edge of a trip: the lane from which the vehicle needs the fewest lane changes on the
-// following edges. A vehicle thus reaches the lane of its turn even if the edge before the intersection is short.
-// Dynamic programming from the end of the trip gives two numbers of lane changes:
+// Computes, for each lane of each edge of a trip, how many lane changes the vehicle still needs. The best lane is the
+// lane with the fewest lane changes. A vehicle that chooses the best lane early reaches the lane of its turn even if
+// the edge before the intersection is short. Dynamic programming from the end of the trip gives two numbers of lane
+// changes:
 //
 //     after(edge, lane): changes on later edges if the vehicle leaves the edge from `lane`. This is the minimum of
 //         from(edge + 1, exit) over all exit lanes that the turn at the end of the edge reaches from `lane`.
@@ -28,8 +29,9 @@ public:
     TripLanes() = default;
     TripLanes(const Model& model, const NetworkPlan& plan);
 
-    // Return the numbers defined at the top of this file. after() returns 14 for 14 or more changes, and 0 on the last
-    // edge of the trip. `edge` is counted along the trip from 0, `lane_index` from the left.
+    // Return the numbers defined at the top of this file. after() returns 14 for 14 or more changes, 0 on the last edge
+    // of the trip, and 0 for lanes from index kMaxLanes on. `edge` is counted along the trip from 0, `lane_index` from
+    // the left.
     int after(const Trip& trip, int edge, int lane_index) const {
         if (edge >= trip.turn_count || lane_index >= kMaxLanes) return 0;
         const std::uint64_t packed = after_[static_cast<std::size_t>(trip.first_turn + edge)];

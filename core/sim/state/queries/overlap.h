@@ -1,4 +1,4 @@
-// Detects vehicles that overlap their leader on the same lane.
+// Detects vehicles that overlap their leader.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
-// The working memory of the full-dynamics kernels for one lane group. The vehicles of several lanes lie next to each
-// other, so that the kernels compute whole batches. Elements after the last vehicle are computed too, but nothing reads
-// them.
+// The working memory of the full-dynamics kernels for one lane group (lanes whose vehicles are computed together). The
+// vehicles of the lanes lie next to each other, so that the kernels compute whole batches. The kernels also compute
+// elements after the last vehicle, but nothing reads these elements.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ struct FullGroup {
     // State of the vehicle, its measurements, and the road at its position.
     double* coming_speed;  // speed at the end of the step with the present acceleration
     float *speed, *acceleration, *lag,
-        *request;          // request: from the previous step, until the driver kernel replaces it
+        *request;          // requested acceleration of the previous step; the driver kernel overwrites it
     float *gap, *closing;  // net gap and closing speed, from the delayed radar measurement
     float *heard_acceleration, *heard_request, *heard_rate;  // delayed V2V message of the leader
     float *to_next_limit, *limit, *end_speed, *standstill_gap, *sine;

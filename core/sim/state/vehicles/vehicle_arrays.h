@@ -35,7 +35,8 @@ struct VehicleArrays {
     // copied but set for the new lane.
     LargeArray<double> limit_mps;     // speed limit of the lane times the speed factor
     LargeArray<double> next_limit_m;  // position from which end_speed_mps applies
-    // Highest speed in this step that stop lines, yield stops, gap alignments and driving without a leader allow.
+    // Upper bound of the speed in this step, for a vehicle that stops at a line or a yield stop, aligns with a gap, or
+    // drives without a leader. kUnlimitedSpeed_mps: none.
     LargeArray<double> speed_cap_mps;
     // Full dynamics only.
     LargeArray<float> request_mps2;  // acceleration requested in the previous step; u in driver/acceleration_laws.h
@@ -53,8 +54,8 @@ struct VehicleArrays {
     // A step reads these values only for some vehicles, mainly for the first vehicles of a lane and for vehicles that
     // change the lane or the route. Full dynamics also reads the standstill gap of all vehicles, and their type if the
     // model has several types.
-    // Next lane of the route. -1: the vehicle leaves the network from its present lane, or the present lane does not
-    // allow its turn, so that it must change lanes.
+    // next_lane: next lane of the route. -1: the vehicle leaves the network from its present lane, or must change lanes
+    // because the present lane does not allow its turn.
     LargeArray<int> next_lane;
     LargeArray<VehicleRecord> record;
     LargeArray<LaneChangeMemory> lane_memory;

@@ -7,7 +7,8 @@
 
 namespace stopline {
 
-// The reason why a vehicle has to stop at a yield stop (YieldStop in junction_state.h).
+// The reason for a yield stop (YieldStop in junction_state.h): a position where a vehicle must stop to yield to another
+// vehicle, at a stop sign, or to wait for a gap in the adjacent lane.
 enum class YieldReason : std::uint8_t {
     priority,     // a vehicle with priority arrives too soon, or another vehicle has stopped earlier at an all-way stop
     occupied,     // another vehicle is in the conflict area or enters it
