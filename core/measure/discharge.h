@@ -26,7 +26,7 @@ struct LaneDischarge {
     std::vector<int> samples;           // [position in the queue, from 0] number of headways
     int saturated_greens = 0;           // number of greens with a queue of five vehicles or more
     double saturation_headway_s = 0.0;  // NaN without a saturated green
-    double startup_lost_time_s = 0.0;   // over the saturated greens; NaN without one
+    double startup_lost_time_s = 0.0;   // mean over the saturated greens; NaN without a saturated green
 };
 
 struct Discharge {

@@ -1,5 +1,6 @@
 // Compares the start of a queue in the mesoscale mode with full dynamics. The platoon leader accelerates as measured in
-// full dynamics. The followers start when the V2V message reaches them.
+// full dynamics. A V2V message that starts the queue is passed from vehicle to vehicle, and each follower starts when
+// it receives the message. A vehicle with a time-gap policy does not pass the message on.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,6 @@
-// Tests of every row of the field tables. A bad value gives an error with its place and path. A good value reaches its
-// member and the canonical text. New rows are tested without a change here.
+// Tests of every row of the field tables. An invalid value gives an error that names the line and the path of the
+// field. A valid value is stored in the struct member of the field and written by canonical_text(). New rows are tested
+// without a change here.
 #include "scenario/schema/field_table.h"
 
 #include <gtest/gtest.h>

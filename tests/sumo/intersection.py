@@ -77,7 +77,8 @@ def run_sumo(sumo, folder, green, seconds, loops):
         f'<flow id="{leg}{lane}" type="ctg" route="{leg}" begin="0" end="{seconds}" period="1.0" departLane="{lane}" '
         f'departSpeed="avg" departPos="base"/>' for leg in LEGS for lane in (0, 1))
     (folder / "i.rou.xml").write_text(f"<routes>{CTG}{flows}</routes>")
-    # SUMO drops vehicles that cannot be inserted, because a growing backlog would cost it computing time.
+    # With --max-depart-delay 2, SUMO drops a vehicle that could not be inserted within 2 s. Otherwise the backlog would
+    # grow and slow the simulation down.
     return subprocess.run([sumo, "-n", "i.net.xml", "-r", "i.rou.xml", "-a", "i.add.xml", "--step-length", "0.1", "--end",
                            str(seconds), "--no-step-log", "--duration-log.statistics", "--seed", "1",
                            "--max-depart-delay", "2", "--lanechange.duration", "0"], cwd=folder, check=True,

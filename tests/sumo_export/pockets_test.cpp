@@ -74,9 +74,9 @@ TEST_P(ExportedStreets, PartsCoverEachLane) {
     EXPECT_GT(pockets, 0);
 }
 
-// Apart from the connections through junctions, one connection leads to each part of a lane. It comes from the previous
-// part of the lane or, if the part is the first part of a pocket, from another lane of the approach. No such connection
-// leads to the first part of a lane that is not a pocket.
+// The test leaves connections through junctions aside. Each later part of a lane is reached from the previous part of
+// the same lane only. The first part of a pocket is reached from exactly one other lane of its approach. The first part
+// of any other lane is not reached from any lane.
 TEST_P(ExportedStreets, EachPartHasOneConnectionToIt) {
     const LaneGraph graph = GetParam()();
     const PlainNetwork network = plain_network(graph);

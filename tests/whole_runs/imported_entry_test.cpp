@@ -99,7 +99,8 @@ TEST_P(ImportedEntry, FlowRecoversAfterABlockage) {
     }
 }
 
-// Between two signals lies an exit lane of 6 to 16 m, which has room for one car at most and for no lorry.
+// Between two signals lies an exit lane of 6, 9, 12 or 16 m. A queued lorry needs about 15 m, so that it fits into the
+// longest lane only. The shortest lanes hold one queued car.
 TEST_P(ImportedEntry, ShortExitsLetAllVehiclesPass) {
     const std::string routes = routes_of(R"(<vType id="lorry" length="12"/>
 <flow id="f" from="wc" to="de" begin="0" end="300" vehsPerHour="250" departSpeed="max"/>

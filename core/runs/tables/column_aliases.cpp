@@ -176,8 +176,8 @@ std::size_t first_result_column(std::string_view table, const std::vector<std::s
 }
 
 std::string old_value(std::string_view table, const std::string& column, const std::string& value) {
-    // In these two tables, a cell of the column 'metric' contains the name of a column of the sweep table. This name is
-    // translated like the name of that column.
+    // In the tables of means and of bands, a cell of the column 'metric' contains the name of a column of the sweep
+    // table. The cell is translated like that column name.
     if ((table == kMeansTable || table == kBandsTable) && column == "metric") {
         return renamed_column(kSweepTable, value, &ColumnAlias::name, &ColumnAlias::old_name);
     }

@@ -72,7 +72,7 @@ private:
         SourceNode node;
         YAML::anchor_t anchor = 0;
         std::size_t nodes_before = 0;
-        std::size_t depth = 0;  // number of nesting levels, including the container itself
+        std::size_t depth = 0;  // number of nesting levels from this container down to its deepest content so far
         std::unordered_set<std::string> keys;
         bool has_key = false;  // true: the last key of the map has no value yet
     };

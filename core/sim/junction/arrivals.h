@@ -29,8 +29,8 @@ bool lets_others_go(const State& state, int slot);
 bool is_blocked_by_leader(const State& state, int slot);
 
 // Returns true if `occupant`, a vehicle on connection `lane`, is in a queue of slow vehicles, and a vehicle further
-// ahead in this queue yields. The yielding vehicle may be on another connection from the same approach lane, as long as
-// it is where that connection overlaps with `lane`.
+// ahead in this queue yields. The yielding vehicle may also be on another connection from the same approach lane, but
+// only on the part of that connection that overlaps with `lane`.
 bool is_behind_yielding_vehicle(const State& state, int lane, const JunctionOccupant& occupant);
 
 // Returns the time in s that a vehicle needs for a distance if it accelerates up to the speed limit. A vehicle above

@@ -147,8 +147,8 @@ private:
         was_waiting_ = v_.stopped || record_.yield_tick >= state_.tick - 1;
         const bool checks_committed = was_waiting_ || is_imported_;
         if (!has_others_inside && !checks_committed && (has_decided_ || !plan.yields)) return {};
-        // `behind`: the nearest place where the candidate must be able to stop behind a vehicle that it may follow.
-        // This is a vehicle that is about to leave a conflict area, or a merging vehicle.
+        // The candidate may follow a vehicle that is about to leave a conflict area or that merges ahead of it, but
+        // must stay able to stop behind that vehicle. `behind` is the nearest stopping place behind such a vehicle.
         Wait behind;
         for (const Conflict& conflict : state_.plan.conflicts(lane_)) {
             const bool merges = is_imported_ && is_merge(model_, state_, lane_, conflict);

@@ -102,7 +102,8 @@ int choose_stopper_per_movement(const Model& model, const State& state, int inde
 }
 
 // Returns true if the setting `count_queue_at_red_exit` is on and the lane ends at a signal that is not green for the
-// lane's last vehicle. The keep-clear rule then treats all moving vehicles on the lane as already stopped.
+// lane's last vehicle. If no vehicle on the lane is stopped, the keep-clear rule then counts the moving vehicles
+// upstream of the stop line as a queue at this line.
 bool queue_ends_at_red(const Model& model, const State& state, int lane) {
     const LanePlan& plan = state.plan.lane(lane);
     if (!model.rules.count_queue_at_red_exit || plan.signal_group < 0) return false;

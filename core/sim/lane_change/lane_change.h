@@ -33,8 +33,9 @@ struct LaneChangeRequest {
     Turn turn = Turn::none;
     int lane_changes = 0;    // lane changes required before the stop line; below 0: to the left; 0: none
     double to_line_m = 0.0;  // distance to the stopping position before the line
-    // A pocket is a lane that begins downstream of the start of the approach. If the turn needs a pocket: the position
-    // of the vehicle's front from which on the whole vehicle is beside the pocket, m; else kNoPocket_m.
+    // A pocket is a lane that begins downstream of the start of the approach. If the turn needs a pocket, this is the
+    // smallest position of the vehicle's front, in m, at which the pocket is beside the full length of the vehicle. If
+    // not: kNoPocket_m.
     double pocket_entry_m = kNoPocket_m;
     // The last two members are set if no lane change is required and another lane suits the later turns better
     // (preferred_lane.h). An offset below 0 means to the left.
@@ -47,8 +48,9 @@ LaneChangeRequest lane_change_request(const Model& model, const State& state, in
 // A mandatory change, or a change to the lane that suits the later turns better (LaneChangeRequest::preferred_offset).
 struct MandatoryChange {
     int lane_changes = 0;  // number of lane changes; below 0: to the left; 0: none is due
-    // distance to the stop line before which the lane changes must be done, minus the length of the queue ahead. If the
-    // lane changes lead into a pocket: at most the distance until the vehicle is beside the pocket
+    // Distance that the vehicle has left for the lane changes: the distance to the stop line of the turn that needs
+    // them, minus the length of the queue ahead. If the changes lead into a pocket, it is at most the distance to
+    // pocket_entry_m.
     double usable_m = 0.0;
     double look_ahead_m = 0.0;  // usable distance below which the vehicle looks for a gap
 

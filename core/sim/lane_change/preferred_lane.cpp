@@ -11,8 +11,9 @@ namespace stopline {
 
 namespace {
 
-// Returns the fewest lane changes that a vehicle needs from `lane`: at_second counts those for `turn`, in_total those
-// for `turn` and for `turn_after`, the turn at the following intersection.
+// Returns the fewest lane changes that a vehicle needs after it has entered `lane`. `turn` is its turn at the end of
+// this lane, and `turn_after` is its turn at the next intersection. LaterChanges::at_second: number of lane changes for
+// `turn` alone. LaterChanges::in_total: number of lane changes for both turns.
 LaterChanges changes_for(const State& state, int lane, Turn turn, Turn turn_after) {
     LaterChanges best{std::abs(state.plan.adjacent(lane).turn_option(turn).lane_changes), kNoTurn};
     const auto rate = [&](int other, int distance) {

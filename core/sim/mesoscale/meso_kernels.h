@@ -35,8 +35,8 @@ struct MesoStep {
     // Acceleration of platoon leaders by speed. If it is not nullptr, the kernels ignore leader_mps2 and
     // leader_constant_power_speed_mps.
     const LeaderProfile* leader_profile;
-    // Lower bound of a vehicle's acceleration by speed, for lanes with a speed limit above calibrated_limit_mps;
-    // nullptr: no lane has such a limit.
+    // The lowest acceleration of a vehicle that speeds up freely, by speed, on lanes with a speed limit above
+    // calibrated_limit_mps. nullptr: no lane has such a limit.
     const LeaderProfile* power_profile;
     double calibrated_limit_mps;
     // True: V2V relays the start of a queue, and platoon leaders anticipate the speed of the vehicle ahead.

@@ -40,7 +40,8 @@ inline double adjacent_position_m(const State& state, int lane, double front_m, 
 inline constexpr double kMinLaneChangeGap_m = 1.0;  // smallest lead gap and lag gap, even at standstill
 // Returns the net gap in m that a vehicle needs behind its leader after a lane change. The gap is the sum of two parts.
 // The first part is the spacing policy's gap at `speed_mps` times `share`, but at least kMinLaneChangeGap_m. The second
-// part is the distance in which the vehicle brakes to the leader's speed `ahead_mps`, in full dynamics with a delay.
+// part is the distance in which the vehicle brakes to the leader's speed `ahead_mps`. In full dynamics, this includes
+// the distance that the vehicle drives before radar and brakes respond.
 // SUMO's lane changer has the same formula for its secure gap, but with another gap in the first part.
 double required_gap_m(const Model& model, int policy, double speed_mps, double ahead_mps, double share);
 

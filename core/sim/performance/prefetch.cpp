@@ -11,7 +11,7 @@ namespace stopline {
 namespace {
 
 constexpr std::uintptr_t kCacheLine = 64;  // bytes
-constexpr std::size_t kLinesPerCall = 4;   // cache lines prefetched per call; the processor would drop more requests
+constexpr std::size_t kLinesPerCall = 4;   // cache lines prefetched per call; the processor would ignore further ones
 constexpr int kInspectedVehicles = 7;      // number of vehicles near the stop line that a step usually reads
 
 // These functions must be inlined, because the compiler removes calls of functions that only prefetch.

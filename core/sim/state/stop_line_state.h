@@ -28,9 +28,10 @@ struct ExitRoom {
     std::int64_t tick = -1;  // tick of the step for which the values are valid
     // Distance from the start of the lane to the rear of the stopped vehicle furthest upstream (stopped: slower than
     // kCrawlingSpeed_mps, 1 m/s). The space for the moving vehicles upstream of this vehicle and for all vehicles on
-    // the connections to the lane is subtracted. If no vehicle is stopped and the signal at the end of the lane is not
-    // green, the moving vehicles can count as a queue at the stop line (RulesPlan::count_queue_at_red_exit). 1e9: no
-    // vehicle within RulesPlan::sight_m of the start of the lane is stopped or counts as stopped.
+    // the connections to the lane is subtracted. Special case with RulesPlan::count_queue_at_red_exit: no vehicle is
+    // stopped and the signal at the end of the lane is not green. The value is then the distance from the start of the
+    // lane to the stopping position at its stop line, minus the space for the moving vehicles. 1e9: no vehicle within
+    // RulesPlan::sight_m of the start of the lane is stopped or counts as stopped.
     double room_m = 1e9;
     // Slot of the stopped vehicle at which the free length ends. If all vehicles move but count as stopped at a red
     // signal: slot of the vehicle furthest upstream on the lane. -1: none.

@@ -70,8 +70,8 @@ for ms in 50 200 400 800 1200 1600; do
     wait $pid 2>/dev/null
 done
 mkdir -p "$work/killed/figures" "$work/killed/runs_reduced/startup"
-# The name of a partial file contains the number of the process that writes the file. These two belong to a process that
-# has ended ($!), so the next run must remove them.
+# The name of a partial file contains the number of the process that writes the file. The two files below have the
+# number ($!) of a process that has already ended. The next run must remove both files.
 sleep 0 &
 wait $!
 touch "$work/killed/figures/.fig05_counters.svg.$!.part" "$work/killed/runs_reduced/startup/.startup.csv.$!.part"
