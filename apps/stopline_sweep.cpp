@@ -269,20 +269,23 @@ void print_throughput_trends(const ThroughputTrends& trends) {
 std::string draw_results(const Sweep& sweep, const std::string& csv, const std::filesystem::path& file,
                          ColumnNames names) {
     const CsvTable results = parse_csv(csv, file.string());
+    const std::string& baseline = sweep.base().measure.baseline;
     std::string next = fmt::format("open {}. It has one row per run.", file.string());
     if (has_seeds(results)) {
         const ResultFile means = result_file("sweep/NAME_means.csv", file.stem().string() + "_means.csv",
-                                             seed_means_csv(results, sweep.population_column()), names);
+                                             seed_means_csv(results, sweep.population_column(), baseline), names);
         write_file(file.parent_path() / means.name, means.text);
         fmt::print("  {}\n", means.name);
         next = fmt::format("open {}. It has the means over the seeds, with confidence intervals.",
                            (file.parent_path() / means.name).string());
     }
-    const std::string note = network_sweep_note(results, sweep.titles(), sweep.population_column());
+    const std::string note = sweep_figures_note(results, sweep.titles(), sweep.population_column());
     if (!note.empty()) fmt::print("  {}\n", note);
-    const std::vector<Figure> figures = network_sweep_figures(results, sweep.titles(), sweep.population_column());
-    if (!figures.empty()) draw_figures(figures, file.parent_path());
-    if (!has_turns(results)) return next;
+    if (!has_turns(results)) {
+        const std::vector<Figure> figures = sweep_figures(results, sweep.titles(), sweep.population_column(), baseline);
+        if (!figures.empty()) draw_figures(figures, file.parent_path());
+        return next;
+    }
     if (is_of_reference_intersection(sweep)) {
         write_file(file.parent_path() / "table1.csv", table1_csv(results, load_targets()));
         fmt::print("  table1.csv\n");

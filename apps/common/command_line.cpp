@@ -108,7 +108,7 @@ std::string list_text(const std::string& file, const CommonOptions& options) {
                             equilibrium_gap_m(policy, 0.0), equilibrium_gap_m(policy, 50.0 / 3.6));
     }
     text += "\nSpacing laws, for policies of your own\n";
-    for (const GapLaw& law : gap_laws()) text += fmt::format("  {:<18} {}\n", law.name, law.meaning);
+    for (const GapLaw* law : gap_laws()) text += fmt::format("  {:<18} {}\n", law->name, law->meaning);
     if (has_file) {
         text += fmt::format("\nPopulations of {}, with one run each\n", file);
         for (const PopulationSettings& population : scenario.populations) {

@@ -2,6 +2,8 @@
 // the spacing policies and the populations. SI units.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -118,7 +120,8 @@ struct KraussSettings {
     double dawdling = 0.4;           // sigma, 0 .. 1
 };
 
-// The mesoscale mode: one car-following model for policies with the law constant_time, and one for all other policies.
+// The mesoscale mode: one car-following model for policies with a time gap, and one for policies with a constant
+// distance (MesoGap::Model in driver/krauss.h).
 struct MesoSettings {
     std::string name;  // name of this set of values; default: the name of the file in data/meso
     double step_s = 0.1;
@@ -159,15 +162,22 @@ struct MesoSettings {
     double calibrated_step_s = 0.1;
 };
 
-// A spacing policy. `law` is the name of a registered spacing law. Parameters that the law does not use stay 0.
+inline constexpr std::size_t kMaxLawParameters = 16;
+
+// A spacing policy. `law` is the name of a registered spacing law (spacing_laws/gap_policy.h).
 struct GapPolicySettings {
     std::string name;
-    std::string law;  // constant_distance | constant_time | switch_time_gap | switch_distance
+    std::string law;
     double standstill_gap_m = 2.95;
-    double time_gap_s = 0.0;
-    double switch_speed_mps = 0.0;     // the gap is the standstill gap up to this speed
-    double reference_speed_mps = 0.0;  // switch_distance: speed at which the gap is reference_gap_m
-    double reference_gap_m = 0.0;
+    // Parameters of laws in SI units, in the order of law_parameters(). Those that the law does not have are 0.
+    std::array<double, kMaxLawParameters> parameters{};
+    std::string gap_formula;  // law `formula`: the gap as a function of the speed
+    // law `table`: net gaps at rising speeds above 0
+    std::vector<double> gap_speed_mps;
+    std::vector<double> gap_at_speed_m;
+    // Laws `formula` and `table`: car-following model of the mesoscale mode, "constant_distance" or "time_gap"; "none":
+    // the policy is for full dynamics only.
+    std::string mesoscale = "none";
 };
 
 // A population: a mix of vehicles with one or several spacing policies. The shares of the components sum to 1.

@@ -32,8 +32,8 @@ LeaderProfile power_profile(const DriverTables& driver) {
     return profile;
 }
 
-Krauss make_krauss_model(const MesoSettings& settings, const GapPolicySettings& policy) {
-    const bool time_gap = policy.law == "constant_time";
+Krauss make_krauss_model(const MesoSettings& settings, const MesoGap& gap) {
+    const bool time_gap = gap.model == MesoGap::Model::time_gap;
     const KraussSettings& s = time_gap ? settings.constant_time : settings.constant_distance;
     Krauss k;
     k.acceleration_mps2 = s.acceleration_mps2;
@@ -44,10 +44,10 @@ Krauss make_krauss_model(const MesoSettings& settings, const GapPolicySettings& 
     k.anticipation_s = s.anticipation_s;
     k.deceleration_mps2 = s.deceleration_mps2;
     k.reaction_s = s.reaction_s;
-    k.standstill_gap_m = s.standstill_gap_m + policy.standstill_gap_m - settings.calibrated_standstill_gap_m;
+    k.standstill_gap_m = s.standstill_gap_m + gap.standstill_gap_m - settings.calibrated_standstill_gap_m;
     k.dawdling = s.dawdling;
     if (time_gap) {
-        k.reaction_s = std::max(k.reaction_s + policy.time_gap_s - settings.calibrated_time_gap_s, 0.0);
+        k.reaction_s = std::max(k.reaction_s + gap.time_gap_s - settings.calibrated_time_gap_s, 0.0);
     } else {
         k.constant_distance = true;
         k.band_m = settings.band_m;

@@ -1,13 +1,13 @@
 // Car following of the mesoscale mode: computes the speed of the next step from the state at the start of the step.
 //
-// Policies with the law constant_time use the model of Krauss (1998, "Microscopic modeling of traffic flow", chapter
+// Policies with a time gap use the model of Krauss (1998, "Microscopic modeling of traffic flow", chapter
 // 5), with its condition for safe driving solved for the speed, as in SUMO. At a net gap s behind a leader with the
 // speed v_l, the safe speed is (struct Krauss explains the other symbols):
 //
 //   v_safe = -b tau + sqrt(b^2 tau^2 + v_l^2 + 2 b (s - s_0))
 //
-// All other policies use equation (1) of the paper. In the printed equation, v_safe jumps at s_0, because a plus sign
-// is missing. The model restores the plus sign:
+// Policies with a constant distance use equation (1) of the paper. In the printed equation, v_safe jumps at s_0,
+// because a plus sign is missing. The model restores the plus sign:
 //
 //   s > s_0               v_safe as above, with s_0 + s_t in place of s_0
 //   s_0 - s_t < s <= s_0  v_safe = v_l
@@ -19,8 +19,8 @@
 //   v' = min(v_safe, v + a(v) dt, cap),  v <- max(0, v' - sigma dt xi min(v', a 1 s)),  x <- x + v dt
 //
 // Here xi is uniform in [0, 1), and `cap` is the highest speed that the speed limit and the stop line allow. Slow
-// vehicles dawdle less, so that dawdling never prevents a start (as in SUMO). A v' below 1 cm/s is set to 0. For
-// switching policies (SWITCH), s_0 also contains the extra gap of the policy at the current speed.
+// vehicles dawdle less, so that dawdling never prevents a start (as in SUMO). A v' below 1 cm/s is set to 0. If the
+// policy has an extra gap (MesoGap), s_0 also contains the extra gap at the current speed.
 //
 // The following extensions are off in the models of the paper:
 //   constant power   a(v) = a min(1, v_p / v); in the paper v_p is above all speed limits
@@ -84,8 +84,8 @@ STOPLINE_INLINE R braking_speed_mps(const Parameter& b, const Parameter& tau, co
     return square_root(max_of(square, R(0.0))) - bt;
 }
 
-// Returns v_safe for a net gap. `extra_gap_m` is added to s_0: the extra gap of a switching policy at the current
-// speed.
+// Returns v_safe for a net gap. `extra_gap_m` is added to s_0: the extra gap of the policy (MesoGap) at the
+// current speed.
 template <class R, class Model>
 STOPLINE_INLINE R safe_speed_mps(const Model& k, const R& gap_m, const R& leader_speed_mps, const R& extra_gap_m) {
     const R spare_gap_m = gap_m - k.standstill_gap_m - extra_gap_m;
@@ -184,8 +184,24 @@ inline double next_speed_mps(const Krauss& k, const KraussInput& in, double rand
     return speed_after_mps<true>(k, in, anticipated_safe_speed_mps(k, in), random, dt);
 }
 
-// Makes the model of a spacing policy: Krauss for a constant time gap, equation (1) for all other laws. If the time gap
-// or the standstill gap of the policy differs from the calibrated one, tau or s_0 changes by the difference.
-Krauss make_krauss_model(const MesoSettings& settings, const GapPolicySettings& policy);
+// The form that the mesoscale mode gives to the desired gap of a spacing policy: standstill gap + time gap x speed +
+// extra gap. The extra gap is a function of the speed and 0 at rest.
+struct MesoGap {
+    enum class Model {
+        constant_distance,  // equation (1)
+        time_gap            // Krauss
+    };
+    Model model = Model::constant_distance;
+    double standstill_gap_m = 0.0;
+    double time_gap_s = 0.0;     // 0 for Model::constant_distance
+    bool has_extra_gap = false;  // false: the extra gap is 0 at every speed
+
+    // Returns the gap without the extra gap.
+    double gap_m(double speed_mps) const { return standstill_gap_m + time_gap_s * speed_mps; }
+};
+
+// Makes the model of a spacing policy. If the time gap or the standstill gap of the policy differs from the calibrated
+// one, tau or s_0 changes by the difference.
+Krauss make_krauss_model(const MesoSettings& settings, const MesoGap& gap);
 
 }  // namespace stopline

@@ -40,7 +40,7 @@ set output
 
 std::string line_types() {
     std::string text;
-    for (std::size_t k = 0; k < 8; ++k) {
+    for (std::size_t k = 0; k < 16; ++k) {
         const LineStyle style = line_style(k);
         text += fmt::format("set linetype {} lc rgb '{}' dt {} pt {} lw 1.8\n", k + 1, style.colour, style.dash,
                             style.hollow_point);

@@ -15,7 +15,7 @@ struct Figure {
     int height_px = 560;
     std::vector<std::pair<std::string, std::string>> data;  // names and contents of the files that the script reads
     // gnuplot commands that draw the figure. The script contains these commands twice, for SVG and for PNG. Before the
-    // commands, the script sets terminal, output, font, axes without a box, a light grid, and the line types 1 to 8 of
+    // commands, the script sets terminal, output, font, axes without a box, a light grid, and the line types 1 to 16 of
     // line_style(). A command must not have a line break inside quotes.
     std::string body;
     std::string nothing;  // reason why there is nothing to draw; empty for a complete figure

@@ -1,17 +1,23 @@
-// Line style of a population in all figures of a run. The style depends on the position of the population in the
-// scenario. So a population keeps its style in a figure that shows only some of the populations. In a figure that shows
-// vehicles by policy, a policy has the style of the population with the same name.
+// Line style of a population or a policy. Each policy of the paper has a style of its own, which is the same in all
+// figures of all programs. Other names get the remaining styles, in the order in which the scenario or the sweep lists
+// them.
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include "figures/gnuplot.h"
 #include "scenario/scenario.h"
 
 namespace stopline {
 
-// Returns the style of a population or a policy. A policy without a population of its name gets one of the styles after
-// those of the populations.
+// Returns the index of the style for line_style(). `names` are all names that need a style.
+std::size_t style_index(const std::vector<std::string>& names, const std::string& name);
+
+// Returns the names of the populations of a scenario, followed by the names of the policies in mixed populations.
+std::vector<std::string> styled_names(const Scenario& scenario);
+
 LineStyle style_of(const Scenario& scenario, const std::string& name);
 
 }  // namespace stopline

@@ -222,12 +222,7 @@ Figure improvement_figure(const SingleLightReport& result, const std::vector<Tar
 }
 
 std::size_t style_index(const SingleLightReport& result, std::size_t population) {
-    constexpr std::size_t kStyles = 8;
-    constexpr std::size_t kBlack = 5;
-    if (!result.baseline) return population % kStyles;
-    if (population == *result.baseline) return kBlack;
-    const std::size_t rank = (population > *result.baseline ? population - 1 : population) % (kStyles - 1);
-    return rank < kBlack ? rank : rank + 1;
+    return style_index(styled_names(result.scenario), result.populations[population].name);
 }
 
 std::vector<Figure> single_light_figures(const SingleLightReport& result, const std::vector<Target>& targets) {

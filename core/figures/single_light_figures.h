@@ -21,8 +21,7 @@ Figure improvement_figure(const SingleLightReport& result, const std::vector<Tar
 Figure time_space_figure(const SingleLightReport& result);
 Figure platoon_figure(const SingleLightReport& result);
 
-// Returns the index of the line style of a population. The baseline, if there is one, has the black style. The other
-// populations have the remaining styles in order.
+// Returns the index of the line style of a population (population_style.h).
 std::size_t style_index(const SingleLightReport& result, std::size_t population);
 
 }  // namespace stopline

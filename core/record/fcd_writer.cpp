@@ -19,7 +19,7 @@ public:
           clock_(window, model.step_s),
           xml_(file, "fcd-export", "fcd_file.xsd"),
           lane_names_(model.graph, LaneNames::Style::sumo) {
-        for (const CompiledPolicy& policy : model.policies) policies_.push_back(escape_xml(policy.settings.name));
+        for (const GapPolicy& policy : model.policies) policies_.push_back(escape_xml(policy.settings.name));
     }
 
     void observe(const State& state) override {

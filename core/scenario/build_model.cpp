@@ -27,7 +27,7 @@ void add_policies(const Scenario& scenario, const PopulationSettings& population
         }
         model.demand.policies.push_back(static_cast<int>(model.policies.size()));
         model.demand.policy_shares.push_back(component.share);
-        model.policies.push_back({*found, &find_gap_law(found->law)});
+        model.policies.push_back(make_gap_policy(*found));
     }
     using Pattern = PopulationSettings::Pattern;
     model.demand.pattern = population.pattern == Pattern::random     ? DemandPlan::Pattern::random
@@ -218,8 +218,7 @@ void add_network(const Scenario& scenario, Model& model) {
 
 void set_meso(const Scenario& scenario, const MesoSettings& settings, Model& model) {
     model.krauss.clear();
-    for (const CompiledPolicy& policy : model.policies)
-        model.krauss.push_back(make_krauss_model(settings, policy.settings));
+    for (const GapPolicy& policy : model.policies) model.krauss.push_back(make_krauss_model(settings, policy.meso));
     model.speed_factor = settings.speed_factor;
     model.leader_speed_share = settings.leader_speed_share;
     model.approach_share = std::min(settings.speed_gain_1ps * model.step_s, 1.0);

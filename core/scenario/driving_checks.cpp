@@ -26,13 +26,19 @@ bool is_used(const Scenario& scenario, const GapPolicySettings& policy) {
 // mode, m. There, the smallest gap is the standstill gap of the car-following model minus the width of the tolerance
 // band of this model (krauss.h). So vehicles can touch if the standstill gap of the policy is smaller than the result.
 double meso_min_gap_m(const Scenario& scenario, const GapPolicySettings& policy) {
-    const Krauss model = make_krauss_model(scenario.meso, policy);
+    const Krauss model = make_krauss_model(scenario.meso, make_gap_policy(policy).meso);
     return policy.standstill_gap_m - (model.standstill_gap_m - model.band_m);
 }
 
 void check_policies(const Scenario& scenario, Checker& check) {
     for (const GapPolicySettings& policy : scenario.policies) {
         if (!is_used(scenario, policy)) continue;
+        if (scenario.is_meso() && find_gap_law(policy.law).names_mesoscale_model && policy.mesoscale == "none") {
+            check.error("policies[" + policy.name + "].mesoscale",
+                        "is 'none', but the run is mesoscale (fidelity: meso): give the car-following model of this "
+                        "mode, constant_distance or time_gap");
+            continue;
+        }
         const std::string field = "policies[" + policy.name + "].standstill_gap";
         const std::string value = "value " + short_text(policy.standstill_gap_m, unit("m")) + " is too small";
         if (!scenario.is_meso() && policy.standstill_gap_m < kMinStandstillGap_m - kRounding) {
@@ -88,11 +94,10 @@ double highest_limit_mps(const NetworkSettings& network) {
     return highest_mps;
 }
 
-// Returns true if a population uses a policy with another law than constant_time. For such a policy, the mesoscale mode
-// uses the constant-distance model (krauss.h).
+// Returns true if a population uses a policy for which the mesoscale mode uses the constant-distance model (krauss.h).
 bool keeps_constant_distances(const Scenario& scenario) {
     return std::any_of(scenario.policies.begin(), scenario.policies.end(), [&](const GapPolicySettings& policy) {
-        return policy.law != "constant_time" && is_used(scenario, policy);
+        return is_used(scenario, policy) && make_gap_policy(policy).meso.model == MesoGap::Model::constant_distance;
     });
 }
 

@@ -10,6 +10,7 @@
 #include "scenario/driving_checks.h"
 #include "scenario/file_name.h"
 #include "scenario/import_sumo.h"
+#include "scenario/network_checks.h"
 #include "scenario/schema/field_path.h"
 #include "scenario/schema/fields.h"
 #include "scenario/schema/old_names.h"
@@ -44,6 +45,22 @@ void apply_overrides(SourceNode& root, const std::vector<std::string>& overrides
     }
 }
 
+// Returns true if the scenario has a single intersection.
+bool is_intersection(const SourceNode& root) {
+    const SourceNode* const network = root.find("network");
+    const SourceNode* const kind = network == nullptr ? nullptr : network->find("kind");
+    return kind != nullptr && kind->text == "intersection";
+}
+
+// Adds a field with a value as if the file had it.
+void add_scalar(SourceNode& map, const std::string& name, const std::string& text) {
+    SourceNode value;
+    value.kind = SourceNode::Kind::scalar;
+    value.text = text;
+    value.place = map.place;
+    map.add({name, map.place}, std::move(value));
+}
+
 Scenario scenario_from(SourceNode root, const std::vector<std::string>& overrides) {
     require_map(root);
     const Source source = *root.place.source;
@@ -51,16 +68,15 @@ Scenario scenario_from(SourceNode root, const std::vector<std::string>& override
     replace_old_names(scenario_table(), root, "", report);
     apply_overrides(root, overrides, source.directory, report);
     complete(scenario_table(), root, "", report);
-    if (root.find("name") == nullptr) {
-        SourceNode name;
-        name.kind = SourceNode::Kind::scalar;
-        name.text = name_from_file(source.label, "scenario");
-        name.place = root.place;
-        root.add({"name", root.place}, std::move(name));
-    }
+    if (root.find("name") == nullptr) add_scalar(root, "name", name_from_file(source.label, "scenario"));
+    // The run of a single intersection ends after its measured cycles, unless the file gives its duration.
+    if (is_intersection(root) && root.find("duration") == nullptr) add_scalar(root, "duration", "0 s");
     Scenario scenario;
     read_fields(scenario_table(), root, "", &scenario, report);
     report.throw_if_any();
+    if (scenario.network.kind == "intersection" && scenario.duration_s != 0.0) {
+        scenario.measure.cycles = cycles_within_duration(scenario);
+    }
     scenario.vehicle_name = scenario.vehicle.name;
     scenario.driver_name = scenario.driver.name;
     const auto throw_if_any = [&](const std::vector<FieldProblem>& problems) {

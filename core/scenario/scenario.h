@@ -19,8 +19,8 @@ struct MeasureSettings {
     std::vector<double> green_s;
     std::string baseline;  // name of the population with which the others are compared; empty: none
     // For single intersections only:
-    int warmup_cycles = 1;                   // signal cycles before the measurement
-    int cycles = 5;                          // measured signal cycles
+    int warmup_cycles = 1;  // signal cycles before the measurement
+    int cycles = 5;         // measured signal cycles; follows from Scenario::duration_s if that is not 0
     std::vector<double> zone_radius_m = {};  // radii of the zones for travel time and density (measure.zones)
     // For all networks with intersections: a movement starves if the first vehicle of its queue has been stopped for
     // this time and for two cycles of its signal, although no vehicle ahead blocks its way. 0: never.

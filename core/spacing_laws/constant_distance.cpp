@@ -5,16 +5,21 @@ namespace stopline {
 
 namespace {
 
-void evaluate(const GapPolicySettings& s, std::span<const double> speed_mps, std::span<double> gap_m,
-              std::span<double> slope_s) {
+void constant_distance(const GapPolicy& policy, std::span<const double> speed_mps, std::span<double> gap_m,
+                       std::span<double> slope_s) {
     for (std::size_t i = 0; i < speed_mps.size(); ++i) {
-        gap_m[i] = s.standstill_gap_m;
+        gap_m[i] = policy.settings.standstill_gap_m;
         slope_s[i] = 0.0;
     }
 }
 
+MesoGap constant_distance_meso(const GapPolicy& policy) {
+    return {MesoGap::Model::constant_distance, policy.settings.standstill_gap_m, 0.0, false};
+}
+
 }  // namespace
 
-extern const GapLaw kConstantDistanceLaw{"constant_distance", "the standstill gap at every speed (CDG)", evaluate};
+extern const GapLaw kConstantDistanceLaw{
+    "constant_distance", "the standstill gap at every speed (CDG)", {}, constant_distance, constant_distance_meso};
 
 }  // namespace stopline

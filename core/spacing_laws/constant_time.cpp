@@ -6,16 +6,24 @@ namespace stopline {
 
 namespace {
 
-void evaluate(const GapPolicySettings& s, std::span<const double> speed_mps, std::span<double> gap_m,
-              std::span<double> slope_s) {
+constexpr std::array kConstantTimeParameters{kTimeGapParameter};
+
+void constant_time(const GapPolicy& policy, std::span<const double> speed_mps, std::span<double> gap_m,
+                   std::span<double> slope_s) {
+    const double time_gap_s = policy.values[0];
     for (std::size_t i = 0; i < speed_mps.size(); ++i) {
-        gap_m[i] = s.standstill_gap_m + s.time_gap_s * speed_mps[i];
-        slope_s[i] = s.time_gap_s;
+        gap_m[i] = policy.settings.standstill_gap_m + time_gap_s * speed_mps[i];
+        slope_s[i] = time_gap_s;
     }
+}
+
+MesoGap constant_time_meso(const GapPolicy& policy) {
+    return {MesoGap::Model::time_gap, policy.settings.standstill_gap_m, policy.values[0], false};
 }
 
 }  // namespace
 
-extern const GapLaw kConstantTimeLaw{"constant_time", "standstill gap plus time gap x speed (CTG)", evaluate};
+extern const GapLaw kConstantTimeLaw{"constant_time", "standstill gap plus time gap x speed (CTG)",
+                                     kConstantTimeParameters, constant_time, constant_time_meso};
 
 }  // namespace stopline

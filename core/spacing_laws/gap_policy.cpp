@@ -1,10 +1,12 @@
 #include "spacing_laws/gap_policy.h"
 
-#include <array>
+#include <algorithm>
+#include <stdexcept>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/containers/index.h"
 #include "base/input_error.h"
 
 namespace stopline {
@@ -13,15 +15,18 @@ extern const GapLaw kConstantDistanceLaw;
 extern const GapLaw kConstantTimeLaw;
 extern const GapLaw kSwitchTimeGapLaw;
 extern const GapLaw kSwitchDistanceLaw;
+extern const GapLaw kFormulaLaw;
+extern const GapLaw kTableLaw;
 
-std::span<const GapLaw> gap_laws() {
-    static const std::array kLaws{kConstantDistanceLaw, kConstantTimeLaw, kSwitchTimeGapLaw, kSwitchDistanceLaw};
+std::span<const GapLaw* const> gap_laws() {
+    static const std::array<const GapLaw*, 6> kLaws{&kConstantDistanceLaw, &kConstantTimeLaw, &kSwitchTimeGapLaw,
+                                                    &kSwitchDistanceLaw,   &kFormulaLaw,      &kTableLaw};
     return kLaws;
 }
 
 const GapLaw& find_gap_law(const std::string& name) {
-    for (const GapLaw& law : gap_laws()) {
-        if (name == law.name) return law;
+    for (const GapLaw* law : gap_laws()) {
+        if (name == law->name) return *law;
     }
     throw InputError(
         fmt::format("there is no spacing law '{}'; the laws are: {}", name, fmt::join(gap_law_names(), ", ")));
@@ -29,15 +34,80 @@ const GapLaw& find_gap_law(const std::string& name) {
 
 std::vector<std::string> gap_law_names() {
     std::vector<std::string> names;
-    for (const GapLaw& law : gap_laws()) names.emplace_back(law.name);
+    for (const GapLaw* law : gap_laws()) names.emplace_back(law->name);
     return names;
 }
 
-double equilibrium_gap_m(const GapPolicySettings& settings, double speed_mps) {
+namespace {
+
+std::vector<LawParameter> all_parameters() {
+    std::vector<LawParameter> all;
+    for (const GapLaw* law : gap_laws()) {
+        for (const LawParameter& parameter : law->parameters) {
+            const auto has_name = [&](const LawParameter& one) { return std::string_view(one.name) == parameter.name; };
+            if (std::none_of(all.begin(), all.end(), has_name)) all.push_back(parameter);
+        }
+    }
+    if (all.size() > kMaxLawParameters) throw std::logic_error("more law parameters than kMaxLawParameters");
+    return all;
+}
+
+std::size_t index_of(std::string_view name) {
+    const std::vector<LawParameter>& all = law_parameters();
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        if (name == all[k].name) return k;
+    }
+    throw std::logic_error(fmt::format("no law has the parameter '{}'", name));
+}
+
+}  // namespace
+
+const std::vector<LawParameter>& law_parameters() {
+    static const std::vector<LawParameter> kAll = all_parameters();
+    return kAll;
+}
+
+double law_parameter(const GapPolicySettings& settings, std::string_view name) {
+    return settings.parameters[index_of(name)];
+}
+
+void set_law_parameter(GapPolicySettings& settings, std::string_view name, double value) {
+    settings.parameters[index_of(name)] = value;
+}
+
+void GapTable::evaluate(std::span<const double> speed_mps, std::span<double> gap, std::span<double> slope_s) const {
+    for (std::size_t i = 0; i < speed_mps.size(); ++i) {
+        const double at_node = std::max(speed_mps[i], 0.0) * kNodesPerMps;
+        const std::size_t k = std::min(static_cast<std::size_t>(std::min(at_node, 1e9)), kNodes - 2);
+        const double step_m = gap_m[k + 1] - gap_m[k];
+        gap[i] = gap_m[k] + (at_node - static_cast<double>(k)) * step_m;
+        slope_s[i] = step_m * kNodesPerMps;
+    }
+}
+
+void GapPolicy::evaluate(std::span<const double> speed_mps, std::span<double> gap_m, std::span<double> slope_s) const {
+    law->evaluate(*this, speed_mps, gap_m, slope_s);
+}
+
+GapPolicy make_gap_policy(const GapPolicySettings& settings) {
+    GapPolicy policy{settings, &find_gap_law(settings.law), {}, {}, {}};
+    for (std::size_t k = 0; k < policy.law->parameters.size(); ++k) {
+        policy.values[k] = law_parameter(settings, policy.law->parameters[k].name);
+    }
+    if (policy.law->tabulate != nullptr) policy.table = policy.law->tabulate(settings);
+    policy.meso = policy.law->meso_gap(policy);
+    return policy;
+}
+
+double equilibrium_gap_m(const GapPolicy& policy, double speed_mps) {
     double gap_m = 0.0;
     double slope_s = 0.0;
-    find_gap_law(settings.law).evaluate(settings, {&speed_mps, 1}, {&gap_m, 1}, {&slope_s, 1});
+    policy.evaluate({&speed_mps, 1}, {&gap_m, 1}, {&slope_s, 1});
     return gap_m;
+}
+
+double equilibrium_gap_m(const GapPolicySettings& settings, double speed_mps) {
+    return equilibrium_gap_m(make_gap_policy(settings), speed_mps);
 }
 
 }  // namespace stopline

@@ -3,36 +3,107 @@
 // positive, and with a constant distance where it is 0.
 //
 // To add a law, write a file spacing_laws/<name>.cpp that defines a GapLaw, and register the law in gap_policy.cpp. The
-// conformance tests and the error message for an unknown name then include the new law. A spacing policy is a law with
-// values for its parameters; to add one, write YAML (data/policies).
+// fields of its parameters in YAML files, the lists for the user, the error message for an unknown name and the
+// conformance tests then include the new law. A spacing policy is a law with values for its parameters; to add one,
+// write YAML (data/policies). The laws `formula` and `table` need no C++ at all.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "driver/driver_settings.h"
+#include "driver/krauss.h"
 
 namespace stopline {
+
+// A number that a policy gives in YAML for its law, in addition to the standstill gap.
+struct LawParameter {
+    const char* name;     // name of the field
+    const char* unit;     // unit in the file; values in C++ are in SI units
+    double min, max;      // allowed values, in `unit`
+    const char* meaning;  // description in the list of fields
+};
+inline constexpr LawParameter kTimeGapParameter{"time_gap", "s", 0, 20,
+                                                "time gap: growth of the net gap per m/s of speed"};
+inline constexpr LawParameter kSwitchSpeedParameter{"switch_speed", "km/h", 0, 300,
+                                                    "speed up to which the net gap stays the standstill gap"};
+
+// A gap that is stored for speeds with a constant spacing. Between these speeds, the gap is interpolated linearly.
+// Above the last speed, it goes on with the last slope.
+struct GapTable {
+    static constexpr double kNodesPerMps = 50.0;
+    static constexpr double kHighest_mps = 100.0;
+    static constexpr std::size_t kNodes = static_cast<std::size_t>(kNodesPerMps * kHighest_mps) + 1;
+
+    std::vector<double> gap_m;  // [node], empty or kNodes values; node k has the speed k / kNodesPerMps
+
+    void evaluate(std::span<const double> speed_mps, std::span<double> gap, std::span<double> slope_s) const;
+};
+
+struct GapLaw;
+
+// A spacing policy, ready for use.
+struct GapPolicy {
+    GapPolicySettings settings;
+    const GapLaw* law = nullptr;
+    std::array<double, kMaxLawParameters> values{};  // the parameters in the order of GapLaw::parameters, SI units
+    GapTable table;                                  // empty if the law needs none
+    MesoGap meso;
+
+    // Writes the desired gap [m] and its slope over speed [s] for each speed [m/s]. All spans must have the same
+    // length.
+    void evaluate(std::span<const double> speed_mps, std::span<double> gap_m, std::span<double> slope_s) const;
+};
+
+// An invalid combination of values.
+struct LawProblem {
+    std::string field;
+    std::string message;
+};
 
 struct GapLaw {
     const char* name;
     const char* meaning;  // description in lists for the user
-    // Writes the desired gap [m] and its slope over speed [s] for each speed [m/s]. All spans must have the same
-    // length.
-    void (*evaluate)(const GapPolicySettings& settings, std::span<const double> speed_mps, std::span<double> gap_m,
+    std::span<const LawParameter> parameters;
+    // See GapPolicy::evaluate().
+    void (*evaluate)(const GapPolicy& policy, std::span<const double> speed_mps, std::span<double> gap_m,
                      std::span<double> slope_s);
+    // Returns the form that the mesoscale mode gives to the gap of the policy.
+    MesoGap (*meso_gap)(const GapPolicy& policy);
+    // Returns the problems of settings whose values are all within their ranges. nullptr: there are none.
+    std::vector<LawProblem> (*problems)(const GapPolicySettings& settings) = nullptr;
+    // Makes GapPolicy::table. nullptr: the law needs no table.
+    GapTable (*tabulate)(const GapPolicySettings& settings) = nullptr;
+    // True: the law can be of any shape, so a policy for the mesoscale mode must name a car-following model of this
+    // mode (GapPolicySettings::mesoscale).
+    bool names_mesoscale_model = false;
 };
 
 // Returns all registered laws.
-std::span<const GapLaw> gap_laws();
+std::span<const GapLaw* const> gap_laws();
 
 // Returns the law with this name. Throws InputError with a list of the known names if there is none.
 const GapLaw& find_gap_law(const std::string& name);
 
 std::vector<std::string> gap_law_names();
 
+// Returns the parameters of all laws. A parameter that several laws have is listed once. The index of a parameter in
+// this list is its index in GapPolicySettings::parameters.
+const std::vector<LawParameter>& law_parameters();
+
+// Returns the value of a parameter in SI units. Throws std::logic_error if no law has a parameter of this name.
+double law_parameter(const GapPolicySettings& settings, std::string_view name);
+void set_law_parameter(GapPolicySettings& settings, std::string_view name, double value);
+
+// Makes a policy ready for use. The settings must have no problems. Throws InputError for an unknown law.
+GapPolicy make_gap_policy(const GapPolicySettings& settings);
+
 // Returns the desired gap [m] at one speed [m/s].
+double equilibrium_gap_m(const GapPolicy& policy, double speed_mps);
 double equilibrium_gap_m(const GapPolicySettings& settings, double speed_mps);
 
 }  // namespace stopline

@@ -59,16 +59,22 @@ void add_cells(const Interval95& interval, std::vector<std::string>& row) {
     for (const double value : {interval.mean, interval.low, interval.high}) row.push_back(fixed(value, 4));
 }
 
-// Returns the combination with which `one` is compared: the first combination in the table whose axis values, except
-// the population, equal those of `one`. `population` is the index of the population in Combination::axes.
-const Combination& baseline_of(const std::vector<Combination>& all, const Combination& one, std::size_t population) {
+// Returns the combination with which `one` is compared. All its axis values except the population equal those of `one`,
+// and its population is `baseline`. If there is none, returns the first combination in the table with these axis
+// values. `population` is the index of the population in Combination::axes.
+const Combination& baseline_of(const std::vector<Combination>& all, const Combination& one, std::size_t population,
+                               const std::string& baseline) {
     const auto has_same_axes = [&](const Combination& other) {
         for (std::size_t k = 0; k < one.axes.size(); ++k) {
             if (k != population && other.axes[k] != one.axes[k]) return false;
         }
         return true;
     };
-    return *std::find_if(all.begin(), all.end(), has_same_axes);
+    const auto is_baseline = [&](const Combination& other) {
+        return other.axes[population] == baseline && has_same_axes(other);
+    };
+    const auto found = std::find_if(all.begin(), all.end(), is_baseline);
+    return found != all.end() ? *found : *std::find_if(all.begin(), all.end(), has_same_axes);
 }
 
 }  // namespace
@@ -79,7 +85,7 @@ bool has_seeds(const CsvTable& results) {
     return std::any_of(all.begin(), all.end(), [](const Combination& c) { return c.runs.size() > 1; });
 }
 
-std::string seed_means_csv(const CsvTable& results, const std::string& population_column) {
+std::string seed_means_csv(const CsvTable& results, const std::string& population_column, const std::string& baseline) {
     const std::size_t seed = results.column("seed");
     const std::size_t population = results.column(population_column) - 1;
     std::vector<std::string> columns(results.columns.begin() + 1,
@@ -91,7 +97,7 @@ std::string seed_means_csv(const CsvTable& results, const std::string& populatio
     CsvWriter csv(columns);
     const std::vector<Combination> all = combinations_of(results);
     for (const Combination& one : all) {
-        const Combination& base = baseline_of(all, one, population);
+        const Combination& base = baseline_of(all, one, population, baseline);
         for (std::size_t metric = seed + 1; metric < results.columns.size(); ++metric) {
             if (std::find(kWithoutMeans.begin(), kWithoutMeans.end(), results.columns[metric]) != kWithoutMeans.end())
                 continue;

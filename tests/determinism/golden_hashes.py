@@ -65,6 +65,12 @@ MIXED = {"populations": "[CTG-Ref, {name: MIX, pattern: alternating, components:
                         "{policy: CTG-Ref, share: 50 %}]}]", "measure.baseline": "CTG-Ref"}
 IMPORT_BASE = {"fidelity": "meso", "rules": "{teleport_cycles: 3}", **MIXED}
 TWO_STREETS = {"network.streets": f"{SOURCE}/tests/data/two_intersections.yaml", "duration": "600 s"}
+OWN_LAWS = {
+    "policies": "[{name: PROGRESSIVE, law: formula, standstill_gap: 2.95 m, mesoscale: time_gap, "
+                'gap: "s0 + 0.4 s * v + 0.01 s2/m * v^2"}, '
+                "{name: MEASURED, law: table, standstill_gap: 2.95 m, mesoscale: constant_distance, "
+                "gaps: {20 km/h: 4 m, 40 km/h: 7 m, 50 km/h: 11 m}}]",
+    "populations": "[PROGRESSIVE, MEASURED, CTG-Ref]"}
 POLICIES = ["CDG", "CDG-6m", "CTG-Ref", "CTG-HCM", "CTG-HBS", "SWITCH-1", "SWITCH-1-6m", "SWITCH-2"]
 
 
@@ -83,6 +89,8 @@ RUNS = [
     Run("single_light", "single_light"),
     Run("first_steps", "first_steps", {}),
     Run("first_steps_electric", "first_steps", {"vehicle": "electric_100kw"}),
+    Run("first_steps_own_laws", "first_steps", OWN_LAWS),
+    Run("first_steps_own_laws_meso", "first_steps", {**OWN_LAWS, **MESO}),
     Run("first_steps_diesel", "first_steps", {"vehicle": "diesel_eu4_103kw"}),
     Run("intersection", "intersection", {**QUICK_CYCLES, "signal.green": "10 s"}),
     Run("intersection_turns", "intersection", {**QUICK_CYCLES, "demand.left": "15 %", "demand.right": "10 %"}),

@@ -50,7 +50,7 @@ TEST(Follow, IsMonotoneForEveryPolicy) {
         for (const double v : kSpeeds) {
             double gap_m = 0.0;
             double slope_s = 0.0;
-            find_gap_law(policy.law).evaluate(policy, {&v, 1}, {&gap_m, 1}, {&slope_s, 1});
+            make_gap_policy(policy).evaluate({&v, 1}, {&gap_m, 1}, {&slope_s, 1});
             for (const double a : {-3.0, 0.0, 2.0}) {
                 for (const double a_p : kAccelerations) {
                     const auto acceleration = [&](double gap, double closing) {

@@ -8,6 +8,7 @@
 
 #include "base/io/data_directory.h"
 #include "scenario/scenario_text.h"
+#include "spacing_laws/gap_policy.h"
 
 namespace stopline {
 namespace {
@@ -142,11 +143,11 @@ measure: {green: [5 s, 20 s], baseline: R}
     };
     EXPECT_EQ(policy("P").law, "switch_distance");
     EXPECT_EQ(policy("P").standstill_gap_m, 3.0);
-    EXPECT_EQ(policy("P").switch_speed_mps, 5.0);
-    EXPECT_EQ(policy("P").reference_speed_mps, 15.0);
-    EXPECT_EQ(policy("P").reference_gap_m, 9.0);
-    EXPECT_EQ(policy("Q").time_gap_s, 0.7);
-    EXPECT_EQ(policy("Q").switch_speed_mps, 10.0);
+    EXPECT_EQ(law_parameter(policy("P"), "switch_speed"), 5.0);
+    EXPECT_EQ(law_parameter(policy("P"), "reference_speed"), 15.0);
+    EXPECT_EQ(law_parameter(policy("P"), "reference_gap"), 9.0);
+    EXPECT_EQ(law_parameter(policy("Q"), "time_gap"), 0.7);
+    EXPECT_EQ(law_parameter(policy("Q"), "switch_speed"), 10.0);
     EXPECT_EQ(policy("CDG").standstill_gap_m, 2.95);  // the policies of the paper remain
     ASSERT_EQ(s.populations.size(), 2u);
     EXPECT_EQ(s.populations[0].components.at(0).share, 1.0);
@@ -226,7 +227,7 @@ TEST(Overrides, ReachAllFieldsAndEntries) {
     EXPECT_EQ(s.vehicle.load_kg, 292.0);
     EXPECT_EQ(s.vehicle.full_load.y, (std::vector<double>{100.0, 50.0}));
     EXPECT_EQ(s.policies[0].standstill_gap_m, 3.0);
-    EXPECT_EQ(s.policies[2].time_gap_s, 0.6);
+    EXPECT_EQ(law_parameter(s.policies[2], "time_gap"), 0.6);
     EXPECT_EQ(s.policies.size(), load_policies().size());
     EXPECT_EQ(s.populations[4].components[1].share, 0.75);
     EXPECT_EQ(s.populations[5].pattern, PopulationSettings::Pattern::random);

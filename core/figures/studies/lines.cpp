@@ -9,11 +9,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "figures/population_style.h"
+
 namespace stopline {
 
 namespace {
 
-constexpr std::size_t kMetricCount = kSweepMetrics.size();
 constexpr std::size_t kMaxNamedLines = 12;  // largest number of lines that the legend names one by one
 
 // 8 dashes and 11 points: these numbers have no common factor, so 88 lines have different combinations.
@@ -30,7 +31,7 @@ struct CurveStyle {
 };
 
 CurveStyle curve_style(const SweepPlanes& all, std::size_t population, std::size_t line) {
-    const LineStyle style = line_style(population);
+    const LineStyle style = line_style(style_index(all.populations, all.populations[population]));
     if (!all.line_axis.exists()) return {style.colour, fmt::format("{}", style.dash), style.hollow_point};
     return {style.colour, kDashes[line % kDashes.size()], kPoints[line % kPoints.size()]};
 }
@@ -57,14 +58,14 @@ std::string ticks_of(const std::vector<double>& values) {
 std::string cells_of(const std::optional<SeedSpread>& spread) {
     if (!spread) return " NaN NaN NaN";
     const auto cell = [](double value) { return fmt::format(" {:.6g}", value + 0.0); };  // + 0.0 turns -0 into 0
-    return cell(spread->mean) + cell(spread->min) + cell(spread->max);
+    return cell(spread->mean) + cell(spread->low) + cell(spread->high);
 }
 
 // Returns one data block for each line of the figure.
 std::string data_of(const SweepPlanes& all, const SweepPlane& plane) {
-    std::string data = fmt::format(
-        "# {}; mean, minimum and maximum of throughput, travel time and density; then of their changes in percent\n",
-        all.x_axis.name);
+    std::string data =
+        fmt::format("# {}; mean and 95 % confidence interval of {}, {} and {}; then of their changes in percent\n",
+                    all.x_axis.name, all.metrics[0].name, all.metrics[1].name, all.metrics[2].name);
     for (std::size_t population = 0; population < all.populations.size(); ++population) {
         for (std::size_t line = 0; line < all.line_axis.values.size(); ++line) {
             data += "# " + all.populations[population] +
@@ -72,10 +73,10 @@ std::string data_of(const SweepPlanes& all, const SweepPlane& plane) {
             for (std::size_t x = 0; x < all.x_axis.values.size(); ++x) {
                 const PlanePoint point{x, line, population};
                 data += fmt::format("{:g}", all.x_axis.values[x]);
-                for (std::size_t metric = 0; metric < kMetricCount; ++metric)
+                for (std::size_t metric = 0; metric < kSweepMetricCount; ++metric)
                     data += cells_of(plane.value(metric, point));
-                for (std::size_t metric = 0; metric < kMetricCount; ++metric)
-                    data += cells_of(plane.change(metric, point));
+                for (std::size_t metric = 0; metric < kSweepMetricCount; ++metric)
+                    data += cells_of(plane.change(metric, point, all.metrics[metric].sign));
                 data += "\n";
             }
             data += "\n\n";
@@ -106,7 +107,8 @@ std::vector<KeyEntry> key_of(const SweepPlanes& all) {
         return entries;
     }
     for (std::size_t p = 0; p < populations; ++p) {
-        entries.push_back({fmt::format("lines lw 4 dt 1 lc rgb '{}'", line_style(p).colour), all.populations[p]});
+        entries.push_back(
+            {fmt::format("lines lw 4 dt 1 lc rgb '{}'", curve_style(all, p, 0).colour), all.populations[p]});
     }
     for (std::size_t line = 0; line < lines; ++line) {
         CurveStyle style = curve_style(all, 0, line);
@@ -126,7 +128,7 @@ double key_width_px(const std::vector<KeyEntry>& entries) {
 
 std::string panel_of(const SweepPlanes& all, const std::string& file, std::size_t metric, bool change) {
     std::string plots;
-    const std::size_t column = 2 + 3 * (metric + (change ? kMetricCount : 0));
+    const std::size_t column = 2 + 3 * (metric + (change ? kSweepMetricCount : 0));
     for (std::size_t p = change ? 1 : 0; p < all.populations.size(); ++p) {
         for (std::size_t line = 0; line < all.line_axis.values.size(); ++line) {
             const CurveStyle style = curve_style(all, p, line);
@@ -148,13 +150,13 @@ Figure sweep_lines_figure(const SweepPlanes& all, const SweepPlane& plane, std::
     constexpr double kMargin = 0.05;  // share of the range, keeps points off the frame
     constexpr double kKeyMargin = 0.008;
     Figure figure;
-    figure.name = fmt::format("network_{}", number);
+    figure.name = fmt::format("{}_{}", all.has_stability ? "network" : "lines", number);
     figure.width_px = 1300;
     const bool compares = all.populations.size() > 1;
     figure.height_px = compares ? 760 : 410;
     const std::string file = figure.name + ".dat";
     figure.data.emplace_back(file, data_of(all, plane));
-    const std::string title = all.title(plane, "means of {} seeds, whiskers from minimum to maximum");
+    const std::string title = all.title(plane, "means of {} seeds with 95 % confidence intervals");
     const std::vector<double>& values = all.x_axis.values;
     const double margin = values.size() > 1 ? kMargin * (values.back() - values.front()) : 1.0;
     const std::vector<KeyEntry> key = key_of(all);
@@ -167,14 +169,14 @@ Figure sweep_lines_figure(const SweepPlanes& all, const SweepPlane& plane, std::
         : compares    ? "0.94"
                       : "0.89",
         gnuplot_text(all.x_axis.label()), values.front() - margin, values.back() + margin, ticks_of(values));
-    for (std::size_t panel = 0; panel < (compares ? 2 : 1) * kMetricCount; ++panel) {
-        const bool change = panel >= kMetricCount;
-        const std::size_t metric = panel % kMetricCount;
-        const SweepMetric& shown = kSweepMetrics[metric];
+    for (std::size_t panel = 0; panel < (compares ? 2 : 1) * kSweepMetricCount; ++panel) {
+        const bool change = panel >= kSweepMetricCount;
+        const std::size_t metric = panel % kSweepMetricCount;
+        const SweepMetric& shown = all.metrics[metric];
         body += fmt::format("set ylabel {}\n", gnuplot_text(change ? all.change_label(shown) : shown.label()));
         // gnuplot needs an explicit range if no value is a number.
         body += change ? "set yrange [*:*]\n" : plane.has(metric) ? "set yrange [0:*]\n" : "set yrange [0:1]\n";
-        const bool with_key = panel + 1 == kMetricCount;
+        const bool with_key = panel + 1 == kSweepMetricCount;
         body += with_key ? fmt::format("set key at screen {:.4f},graph 1 left top\nplot ", right + kKeyMargin)
                          : "unset key\nplot ";
         body += panel_of(all, file, metric, change);

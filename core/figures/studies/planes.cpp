@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "base/io/csv.h"
+#include "measure/confidence.h"
 #include "runs/network/network_run.h"
 
 namespace stopline {
@@ -18,6 +19,7 @@ namespace stopline {
 namespace {
 
 constexpr double kPercent = 100.0;
+constexpr std::size_t kSeedsForInterval = 3;  // the interval of two seeds is so wide that it tells nothing
 
 template <class T>
 std::size_t index_of(const std::vector<T>& all, const T& one) {
@@ -139,18 +141,72 @@ std::size_t index_on(const PlotAxis& axis, const CsvTable& results, const std::v
     return index_of(axis.values, parse_number(row[results.column(axis.column)]).value_or(0.0));
 }
 
-void add_row(SweepPlane& plane, const PlanePoint& point, const CsvTable& results, const std::vector<std::string>& row) {
-    for (std::size_t metric = 0; metric < kSweepMetrics.size(); ++metric) {
-        const std::optional<double> value = parse_number(row[results.column(kSweepMetrics[metric].column)]);
+void add_row(SweepPlane& plane, const PlanePoint& point, const SweepPlanes& all, const CsvTable& results,
+             const std::vector<std::string>& row) {
+    for (std::size_t metric = 0; metric < all.metrics.size(); ++metric) {
+        const std::optional<double> value = parse_number(row[results.column(all.metrics[metric].column)]);
         if (value) plane.add(metric, point, row[results.column("seed")], *value);
     }
+    if (!all.has_stability) return;
     const auto known = std::find(kStabilityNames.begin(), kStabilityNames.end(), row[results.column("stability")]);
     if (known != kStabilityNames.end()) {
         plane.add_stability(point, static_cast<std::size_t>(known - kStabilityNames.begin()));
     }
 }
 
+SeedSpread spread_of(const std::vector<double>& values) {
+    const double mean = mean_of(values);
+    if (values.size() < kSeedsForInterval) return {mean, mean, mean};
+    const Interval interval = confidence_interval(values, Band::student);
+    return {mean, interval.low, interval.high};
+}
+
+const std::vector<SweepMetric>& network_metrics() {
+    static const std::vector<SweepMetric> kMetrics{
+        {"throughput_veh_h", "throughput", "veh/h", "throughput gain over {} [%]", 1.0, true},
+        {"travel_time_s", "travel time", "s", "travel time saved against {} [%]", -1.0, true},
+        {"density_percent", "density", "%", "density change against {} [%]", 1.0, false}};
+    return kMetrics;
+}
+
+const std::vector<SweepMetric>& intersection_metrics() {
+    static const std::vector<SweepMetric> kMetrics{
+        {"throughput_veh_h", "throughput", "veh/h", "throughput gain over {} [%]", 1.0, true},
+        {"vehicles_per_green", "vehicles per green and lane", "veh", "gain over {} [%]", 1.0, true},
+        {"queue_veh", "queue at the start of green", "veh", "queue saved against {} [%]", -1.0, true}};
+    return kMetrics;
+}
+
+// Returns the metrics of a single light. `passed` is the column for the last green time of measure.green.
+std::vector<SweepMetric> light_metrics(const std::string& passed) {
+    return {{passed, "vehicles passed in the last green", "veh", "gain over {} [%]", 1.0, true},
+            {"queue_emptied_s", "time until the queue has passed", "s", "time saved against {} [%]", -1.0, true},
+            {"steady_headway_s", "headway in steady state", "s", "headway saved against {} [%]", -1.0, true}};
+}
+
+bool has_columns(const CsvTable& results, const std::vector<SweepMetric>& metrics) {
+    return std::all_of(metrics.begin(), metrics.end(),
+                       [&](const SweepMetric& metric) { return has_column(results, metric.column); });
+}
+
+// Returns the last column "passed_K_veh"; empty if there is none.
+std::string last_passed_column(const CsvTable& results) {
+    std::string last;
+    for (const std::string& column : results.columns) {
+        if (column.starts_with("passed_") && column.ends_with("_veh")) last = column;
+    }
+    return last;
+}
+
 }  // namespace
+
+std::vector<SweepMetric> sweep_metrics(const CsvTable& results, const std::string& population_column) {
+    if (results.rows.empty() || !has_column(results, population_column) || !has_column(results, "seed")) return {};
+    if (has_network_metrics(results, population_column)) return network_metrics();
+    if (has_columns(results, intersection_metrics())) return intersection_metrics();
+    const std::vector<SweepMetric> light = light_metrics(last_passed_column(results));
+    return has_columns(results, light) ? light : std::vector<SweepMetric>{};
+}
 
 bool SweepPlane::has(std::size_t metric) const {
     return std::any_of(values_.begin(), values_.end(), [&](const auto& entry) { return entry.first.first == metric; });
@@ -164,32 +220,28 @@ const SweepPlane::Seeds* SweepPlane::seeds(std::size_t metric, const PlanePoint&
 std::optional<SeedSpread> SweepPlane::value(std::size_t metric, const PlanePoint& point) const {
     const Seeds* const here = seeds(metric, point);
     if (here == nullptr) return std::nullopt;
-    SeedSpread spread{0.0, here->begin()->second, here->begin()->second};
-    for (const auto& [seed, value] : *here) {
-        spread.mean += value / static_cast<double>(here->size());
-        spread.min = std::min(spread.min, value);
-        spread.max = std::max(spread.max, value);
-    }
-    return spread;
+    std::vector<double> values;
+    for (const auto& [seed, value] : *here) values.push_back(value);
+    return spread_of(values);
 }
 
-std::optional<SeedSpread> SweepPlane::change(std::size_t metric, const PlanePoint& point) const {
-    const PlanePoint base{point.x, point.line, 0};
-    const std::optional<SeedSpread> spread_here = value(metric, point);
-    const std::optional<SeedSpread> base_spread = value(metric, base);
-    if (!spread_here || !base_spread || base_spread->mean == 0.0) return std::nullopt;
-    const double sign = kSweepMetrics[metric].sign;
-    const double change_of_means = sign * kPercent * (spread_here->mean / base_spread->mean - 1.0);
-    SeedSpread spread{change_of_means, change_of_means, change_of_means};
-    const Seeds& runs_of_base = *seeds(metric, base);
-    for (const auto& [seed, here] : *seeds(metric, point)) {
-        const auto before = runs_of_base.find(seed);
-        if (before == runs_of_base.end() || before->second == 0.0) continue;
-        const double change = sign * kPercent * (here / before->second - 1.0);
-        spread.min = std::min(spread.min, change);
-        spread.max = std::max(spread.max, change);
+std::optional<SeedSpread> SweepPlane::change(std::size_t metric, const PlanePoint& point, double sign) const {
+    const Seeds* const runs_here = seeds(metric, point);
+    const Seeds* const runs_of_base = seeds(metric, {point.x, point.line, 0});
+    if (runs_here == nullptr || runs_of_base == nullptr) return std::nullopt;
+    std::vector<double> differences;
+    double sum_of_base = 0.0;
+    for (const auto& [seed, here] : *runs_here) {
+        const auto before = runs_of_base->find(seed);
+        if (before == runs_of_base->end()) continue;
+        differences.push_back(here - before->second);
+        sum_of_base += before->second;
     }
-    return spread;
+    if (differences.empty() || sum_of_base == 0.0) return std::nullopt;
+    const double percent = sign * kPercent * static_cast<double>(differences.size()) / sum_of_base;
+    const SeedSpread spread = spread_of(differences);
+    const auto [low, high] = std::minmax({percent * spread.low, percent * spread.high});
+    return SeedSpread{percent * spread.mean, low, high};
 }
 
 std::array<std::size_t, 3> SweepPlane::stabilities(const PlanePoint& point) const {
@@ -212,7 +264,7 @@ std::string SweepPlanes::change_label(const SweepMetric& metric) const {
 bool has_network_metrics(const CsvTable& results, const std::string& population_column) {
     const auto has = [&](const std::string& name) { return has_column(results, name); };
     return has(population_column) && has("seed") && has("stability") && !results.rows.empty() &&
-           std::all_of(kSweepMetrics.begin(), kSweepMetrics.end(), [&](const SweepMetric& m) { return has(m.column); });
+           has_columns(results, network_metrics());
 }
 
 std::vector<std::string> axis_columns(const CsvTable& results, const std::string& population_column) {
@@ -225,10 +277,14 @@ std::vector<std::string> axis_columns(const CsvTable& results, const std::string
 }
 
 std::optional<SweepPlanes> sweep_planes(const CsvTable& results, const CellTitles& titles,
-                                        const std::string& population_column) {
+                                        const std::string& population_column, const std::string& baseline) {
     const std::vector<PlotAxis> axes = drawn_axes(results, titles, population_column);
     if (axes.empty()) return std::nullopt;
     SweepPlanes all;
+    all.metrics = sweep_metrics(results, population_column);
+    all.has_stability = has_column(results, "stability");
+    const auto has_baseline = [&](const auto& row) { return row[results.column(population_column)] == baseline; };
+    if (std::any_of(results.rows.begin(), results.rows.end(), has_baseline)) all.populations.push_back(baseline);
     all.x_axis = axes.front();
     if (axes.size() == 2) all.line_axis = axes.back();
     if (plane_count(results, all, population_column) > kMaxPlanes && !has_paper_axes(all)) return std::nullopt;
@@ -247,7 +303,7 @@ std::optional<SweepPlanes> sweep_planes(const CsvTable& results, const CellTitle
         add_row(*plane,
                 {index_on(all.x_axis, results, row), index_on(all.line_axis, results, row),
                  index_of(all.populations, population)},
-                results, row);
+                all, results, row);
     }
     all.seeds = seeds.size();
     return all;

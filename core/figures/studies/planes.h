@@ -25,21 +25,22 @@ inline constexpr const char* kGreenColumn = "green_s";
 inline constexpr const char* kOffsetColumn = "offset_s";
 
 struct SweepMetric {
-    const char* column;
-    const char* name;
-    const char* unit;
-    const char* change;  // axis label of the change; {} is replaced by the name of the first population
+    std::string column;
+    std::string name;
+    std::string unit;
+    std::string change;  // axis label of the change; {} is replaced by the name of the baseline
     double sign;         // 1: the change is positive if the metric rises; -1: it is positive if the metric falls
     // True if a positive change is an improvement. It is false for density: a lower density is not always better,
     // because it can also mean less traffic.
     bool improves;
 
-    std::string label() const { return std::string(name) + " [" + unit + "]"; }
+    std::string label() const { return name + " [" + unit + "]"; }
 };
-inline constexpr std::array<SweepMetric, 3> kSweepMetrics{
-    SweepMetric{"throughput_veh_h", "throughput", "veh/h", "throughput gain over {} [%]", 1.0, true},
-    SweepMetric{"travel_time_s", "travel time", "s", "travel time saved against {} [%]", -1.0, true},
-    SweepMetric{"density_percent", "density", "%", "density change against {} [%]", 1.0, false}};
+inline constexpr std::size_t kSweepMetricCount = 3;
+
+// Returns the metrics that figures of a sweep show, one in each column of panels: those of runs over several
+// intersections, of a single intersection, or of a single light. Returns nothing for any other table.
+std::vector<SweepMetric> sweep_metrics(const CsvTable& results, const std::string& population_column);
 
 // The x axis or the line axis of a figure.
 struct PlotAxis {
@@ -61,11 +62,12 @@ struct PlanePoint {
     auto operator<=>(const PlanePoint&) const = default;
 };
 
-// Mean, minimum and maximum over the seeds.
+// The mean over the seeds and its 95 % confidence interval (Student). With fewer than three seeds, low and high equal
+// the mean.
 struct SeedSpread {
     double mean;
-    double min;
-    double max;
+    double low;
+    double high;
 };
 
 class SweepPlane {
@@ -79,9 +81,9 @@ public:
 
     bool has(std::size_t metric) const;
     std::optional<SeedSpread> value(std::size_t metric, const PlanePoint& point) const;
-    // Returns the change against the first population in percent. `mean` is the change of the mean over seeds. `min`
-    // and `max` are the extremes of the changes between runs with the same seed.
-    std::optional<SeedSpread> change(std::size_t metric, const PlanePoint& point) const;
+    // Returns the change against the baseline, which is population 0, in percent of the mean of the baseline: the mean
+    // and the confidence interval of the differences between runs with the same seed. `sign` is SweepMetric::sign.
+    std::optional<SeedSpread> change(std::size_t metric, const PlanePoint& point, double sign) const;
     // Returns the numbers of seeds that are stable, semi-stable and unstable.
     std::array<std::size_t, 3> stabilities(const PlanePoint& point) const;
 
@@ -96,14 +98,16 @@ private:
 struct SweepPlanes {
     PlotAxis x_axis;
     PlotAxis line_axis;
-    std::vector<std::string> populations;
+    std::vector<SweepMetric> metrics;      // kSweepMetricCount of them
+    std::vector<std::string> populations;  // the first one is the baseline
     std::size_t seeds = 1;
+    bool has_stability = false;  // true: the results say whether each run is stable
     std::vector<SweepPlane> planes;
 
     // Returns the title of the figures of a plane, which may be empty. `seed_note` is appended if there are several
     // seeds; its {} is replaced by their number.
     std::string title(const SweepPlane& plane, const std::string& seed_note) const;
-    std::string change_label(const SweepMetric& metric) const;  // contains the name of the first population
+    std::string change_label(const SweepMetric& metric) const;  // contains the name of the baseline
 };
 
 // Returns true if the table has the metrics of runs over several intersections.
@@ -117,9 +121,10 @@ std::vector<std::string> axis_columns(const CsvTable& results, const std::string
 // `offset`.
 inline constexpr std::size_t kMaxPlanes = 24;
 
-// Arranges the results in planes. Returns nothing if no axis of the sweep can be the x axis, or if there are too many
-// planes (see kMaxPlanes).
+// Arranges the results in planes. `baseline` is the population with which the others are compared. If the results do
+// not have it, the first population of the results takes its place. Returns nothing if no axis of the sweep can be the
+// x axis, or if there are too many planes (see kMaxPlanes).
 std::optional<SweepPlanes> sweep_planes(const CsvTable& results, const CellTitles& titles,
-                                        const std::string& population_column);
+                                        const std::string& population_column, const std::string& baseline);
 
 }  // namespace stopline

@@ -52,10 +52,12 @@ struct Panel {
     bool change;  // true: changes against the first population; false: values
 };
 
-std::optional<double> value_in(const SweepPlane& plane, const Panel& panel, std::size_t x, std::size_t line) {
+std::optional<double> value_in(const SweepPlanes& all, const SweepPlane& plane, const Panel& panel, std::size_t x,
+                               std::size_t line) {
+    const double sign = all.metrics[panel.metric].sign;
     const PlanePoint point{x, line, panel.population};
     const std::optional<SeedSpread> spread =
-        panel.change ? plane.change(panel.metric, point) : plane.value(panel.metric, point);
+        panel.change ? plane.change(panel.metric, point, sign) : plane.value(panel.metric, point);
     return spread ? std::optional(spread->mean) : std::nullopt;
 }
 
@@ -65,14 +67,14 @@ ColourScale scale_of(const SweepPlanes& all, const SweepPlane& plane, std::size_
     for (std::size_t p = change ? 1 : 0; p < all.populations.size(); ++p) {
         for (std::size_t x = 0; x < all.x_axis.values.size(); ++x) {
             for (std::size_t line = 0; line < all.line_axis.values.size(); ++line) {
-                const auto value = value_in(plane, {metric, p, change}, x, line);
+                const auto value = value_in(all, plane, {metric, p, change}, x, line);
                 if (value) values.push_back(*value);
             }
         }
     }
     ColourScale scale;
     scale.signs = change;
-    scale.palette = change ? diverging_palette(kSweepMetrics[metric].improves) : ordered_palette();
+    scale.palette = change ? diverging_palette(all.metrics[metric].improves) : ordered_palette();
     if (values.empty()) return scale;
     const auto [min, max] = std::minmax_element(values.begin(), values.end());
     const double largest = std::max(std::abs(*min), std::abs(*max));
@@ -125,7 +127,7 @@ std::string cells_of(const SweepPlanes& all, const SweepPlane& plane, const Pane
     std::string text;
     for (std::size_t x = 0; x < all.x_axis.values.size(); ++x) {
         for (std::size_t line = 0; line < all.line_axis.values.size(); ++line) {
-            const std::optional<double> value = value_in(plane, panel, x, line);
+            const std::optional<double> value = value_in(all, plane, panel, x, line);
             if (!value) continue;
             text +=
                 fmt::format("{} {} {:.6g} {} {}\n", x, line, *value, number_of(scale, *value), ink_on(scale, *value));
@@ -142,13 +144,13 @@ PanelGrid grid_of(const SweepPlanes& all, bool titled) {
     constexpr double kLetter_px = 6.9;
     double title_px = 0.0;
     for (const std::string& population : all.populations) {
-        for (const SweepMetric& metric : kSweepMetrics) {
+        for (const SweepMetric& metric : all.metrics) {
             const std::size_t letters = (population + ", " + all.change_label(metric)).size();
             title_px = std::max(title_px, kLetter_px * static_cast<double>(letters));
         }
     }
     PanelGrid grid;
-    grid.columns = kSweepMetrics.size();
+    grid.columns = all.metrics.size();
     grid.rows = 2 * all.populations.size() - 1;
     grid.between_columns_px = 92.0;
     grid.between_rows_px = 62.0;
@@ -191,8 +193,8 @@ Figure sweep_surfaces_figure(const SweepPlanes& all, const SweepPlane& plane, st
     for (std::size_t row = 0; row < grid.rows; ++row) {
         const bool change = row >= all.populations.size();
         const std::size_t population = change ? row - all.populations.size() + 1 : row;
-        for (std::size_t metric = 0; metric < kSweepMetrics.size(); ++metric) {
-            const SweepMetric& shown = kSweepMetrics[metric];
+        for (std::size_t metric = 0; metric < all.metrics.size(); ++metric) {
+            const SweepMetric& shown = all.metrics[metric];
             const ColourScale scale = scale_of(all, plane, metric, change);
             const std::string cells = cells_of(all, plane, {metric, population, change}, scale);
             const std::string heading =

@@ -40,26 +40,26 @@ bool is_network_sweep(const CsvTable& results) {
            contains(results.columns, kOffsetColumn);
 }
 
-std::vector<Figure> network_sweep_figures(const CsvTable& results, const CellTitles& titles,
-                                          const std::string& population_column) {
-    if (!has_network_metrics(results, population_column)) return {};
-    const std::optional<SweepPlanes> all = sweep_planes(results, titles, population_column);
+std::vector<Figure> sweep_figures(const CsvTable& results, const CellTitles& titles,
+                                  const std::string& population_column, const std::string& baseline) {
+    if (sweep_metrics(results, population_column).empty()) return {};
+    const std::optional<SweepPlanes> all = sweep_planes(results, titles, population_column, baseline);
     if (!all) return {};
     std::vector<Figure> figures;
     for (std::size_t k = 0; k < all->planes.size(); ++k) {
         figures.push_back(sweep_lines_figure(*all, all->planes[k], k + 1));
         if (all->line_axis.exists()) figures.push_back(sweep_surfaces_figure(*all, all->planes[k], k + 1));
-        figures.push_back(sweep_stability_figure(*all, all->planes[k], k + 1));
+        if (all->has_stability) figures.push_back(sweep_stability_figure(*all, all->planes[k], k + 1));
     }
     return figures;
 }
 
-std::string network_sweep_note(const CsvTable& results, const CellTitles& titles,
+std::string sweep_figures_note(const CsvTable& results, const CellTitles& titles,
                                const std::string& population_column) {
     if (!has_network_metrics(results, population_column)) return "";
     const std::vector<std::string> axes = axis_columns(results, population_column);
     if (contains(axes, kGreenColumn) && contains(axes, kOffsetColumn)) return "";
-    const std::optional<SweepPlanes> all = sweep_planes(results, titles, population_column);
+    const std::optional<SweepPlanes> all = sweep_planes(results, titles, population_column, "");
     std::string instead;
     if (all) {
         instead = "; the figures use " + all->x_axis.column +

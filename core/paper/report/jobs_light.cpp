@@ -83,7 +83,8 @@ JobOutput run_intersection_sweep_job(const JobContext& context) {
     writer.command("stopline-sweep scenarios/sweeps/intersection.yaml");
     writer.table("intersection.csv", csv);
     if (has_seeds(results)) {
-        writer.table("intersection_means.csv", seed_means_csv(results, runs.sweep.population_column()));
+        writer.table("intersection_means.csv",
+                     seed_means_csv(results, runs.sweep.population_column(), runs.sweep.base().measure.baseline));
     }
     writer.table("table1.csv", table1_csv(results, load_targets()));
     writer.figures(turn_figures(results));

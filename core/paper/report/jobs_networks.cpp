@@ -35,9 +35,10 @@ JobOutput sweep_job(const JobContext& context, const char* experiment, const cha
     writer.command(fmt::format("stopline-sweep scenarios/sweeps/{}.yaml", sweep));
     writer.table(fmt::format("{}.csv", sweep), csv);
     if (has_seeds(results)) {
-        writer.table(fmt::format("{}_means.csv", sweep), seed_means_csv(results, runs.sweep.population_column()));
+        writer.table(fmt::format("{}_means.csv", sweep),
+                     seed_means_csv(results, runs.sweep.population_column(), runs.sweep.base().measure.baseline));
     }
-    if (is_network_sweep(results)) writer.figures(network_sweep_figures(results, runs.sweep.titles()));
+    if (is_network_sweep(results)) writer.figures(sweep_figures(results, runs.sweep.titles()));
     return writer.output;
 }
 

@@ -32,7 +32,7 @@ std::string timed(const char* quantity, const std::string& population, double ti
 Measurements inputs_of(const Scenario& scenario, const ScorecardOptions& /*options*/) {
     Measurements inputs;
     for (const GapPolicySettings& policy : scenario.policies) {
-        inputs.set("time_gap " + policy.name, policy.time_gap_s);
+        inputs.set("time_gap " + policy.name, law_parameter(policy, "time_gap"));
         inputs.set("standstill_gap " + policy.name, policy.standstill_gap_m);
     }
     inputs.set("vehicle_length", scenario.vehicle.length_m);

@@ -106,7 +106,7 @@ std::string recording_header(const Model& model, const RunOrigin& origin, const 
               {"lane_width_m", origin.lane_width_m},
               {"lanes", Json::array()},
               {"entries", model.graph.entries}};
-    for (const CompiledPolicy& policy : model.policies) json["policies"].push_back(policy.settings.name);
+    for (const GapPolicy& policy : model.policies) json["policies"].push_back(policy.settings.name);
     for (const Lane& lane : model.graph.lanes) json["lanes"].push_back(lane_json(lane, !model.demand.trips.empty()));
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -101,7 +101,7 @@ StreetTracer::StreetTracer(const Scenario& scenario, const Model& model) : model
     if (scenario.measure.time_space_s <= 0.0) return;
     trace_.to_s = scenario.duration_s;
     trace_.from_s = std::max(scenario.duration_s - scenario.measure.time_space_s, 0.0);
-    for (const CompiledPolicy& policy : model.policies) trace_.policies.push_back(policy.settings.name);
+    for (const GapPolicy& policy : model.policies) trace_.policies.push_back(policy.settings.name);
     const StraightPath path = find_path(scenario, model.graph);
     if (path.lanes.empty()) return;
     trace_.first_lane = model.graph.lanes[at(path.lanes.front())].name;

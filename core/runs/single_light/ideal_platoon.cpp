@@ -22,13 +22,13 @@ double speed_at(std::span<const SpeedSample> samples, double time_s) {
 
 // Returns the speed v >= 0 with v dt + gap(v) = available_m, m/s (see ideal_platoon.h). Uses Newton steps from
 // `guess_mps`. A Newton step is exact where the gap law is linear.
-double gap_keeping_speed_mps(const GapPolicySettings& policy, const GapLaw& law, double available_m, double guess_mps) {
+double gap_keeping_speed_mps(const GapPolicy& policy, double available_m, double guess_mps) {
     double speed_mps = guess_mps;
     constexpr int kSteps = 20;
     for (int k = 0; k < kSteps; ++k) {
         double gap_m = 0.0;
         double slope_s = 0.0;
-        law.evaluate(policy, {&speed_mps, 1}, {&gap_m, 1}, {&slope_s, 1});
+        policy.evaluate({&speed_mps, 1}, {&gap_m, 1}, {&slope_s, 1});
         const double next_mps =
             std::max(speed_mps - (speed_mps * kIdealStep_s + gap_m - available_m) / (kIdealStep_s + slope_s), 0.0);
         if (std::abs(next_mps - speed_mps) < 1e-12) break;
@@ -46,10 +46,10 @@ std::vector<double> ideal_passages_s(std::span<const SpeedSample> leader,
     const std::size_t vehicles = policies.size();
     std::vector<double> front_m(vehicles, -to_line_m);
     std::vector<double> speed_mps(vehicles, 0.0);
-    std::vector<const GapLaw*> laws(vehicles);
+    std::vector<GapPolicy> ready;
     for (std::size_t i = 0; i < vehicles; ++i) {
-        laws[i] = &find_gap_law(policies[i]->law);
-        if (i > 0) front_m[i] = front_m[i - 1] - length_m - equilibrium_gap_m(*policies[i], 0.0);
+        ready.push_back(make_gap_policy(*policies[i]));
+        if (i > 0) front_m[i] = front_m[i - 1] - length_m - equilibrium_gap_m(ready[i], 0.0);
     }
     std::vector<double> passages_s;
     const auto steps = static_cast<std::int64_t>(std::floor(until_s / kIdealStep_s));
@@ -60,7 +60,7 @@ std::vector<double> ideal_passages_s(std::span<const SpeedSample> leader,
                 speed_mps[i] = speed_at(leader, now_s + 0.5 * kIdealStep_s);
             } else {
                 const double available_m = front_m[i - 1] - length_m - front_m[i];
-                speed_mps[i] = gap_keeping_speed_mps(*policies[i], *laws[i], available_m, speed_mps[i]);
+                speed_mps[i] = gap_keeping_speed_mps(ready[i], available_m, speed_mps[i]);
             }
             const double last_m = front_m[i];
             front_m[i] += speed_mps[i] * kIdealStep_s;

@@ -97,7 +97,8 @@ std::vector<TableDoc> sweep_table_docs() {
           {"ci95_low", "of the metric", "seeds", "lower bound of the 95 % confidence interval of the mean (Student)"},
           {"ci95_high", "of the metric", "seeds", "upper bound of this interval"},
           {"difference", "of the metric", "seeds",
-           "mean difference from the run of the first population with the same seed; empty for the first population"},
+           "mean difference from the run of the baseline with the same seed; empty for the baseline. The baseline is "
+           "`measure.baseline`, or else the first population of the sweep"},
           {"difference_ci95_low", "of the metric", "seeds",
            "lower bound of the 95 % confidence interval of the difference. If the interval excludes 0, the "
            "difference is significant"},

@@ -1,7 +1,6 @@
 // Makes the rows of a table of fields from pointers to struct members, see field_table.h.
 #pragma once
 
-#include <initializer_list>
 #include <memory>
 #include <string>
 #include <type_traits>
@@ -76,6 +75,15 @@ template <auto M>
 auto number(std::string name, std::string_view unit_name, Range range, std::string meaning) {
     return Row<field_rows::StructOf<M>>{
         {std::move(name), std::move(meaning), NumberField{field_rows::access<M>(), &unit(unit_name), range}}};
+}
+
+// Makes the row of the element `Index` of an array member.
+template <auto M, std::size_t Index>
+auto number_at(std::string name, std::string_view unit_name, Range range, std::string meaning) {
+    using S = field_rows::StructOf<M>;
+    const Access<double> access{[](void* s) -> double& { return (static_cast<S*>(s)->*M)[Index]; },
+                                [](const void* s) -> const double& { return (static_cast<const S*>(s)->*M)[Index]; }};
+    return Row<S>{{std::move(name), std::move(meaning), NumberField{access, &unit(unit_name), range}}};
 }
 
 template <auto M>
@@ -182,7 +190,7 @@ auto list(std::string name, const Table& (*table)(), Count count, std::string me
 }
 
 template <class S>
-Table make_table(std::string title, std::initializer_list<Row<S>> rows, void (*check)(const S&, Checker&) = nullptr,
+Table make_table(std::string title, std::vector<Row<S>> rows, void (*check)(const S&, Checker&) = nullptr,
                  SourceNode (*expand)(const SourceNode&) = nullptr) {
     Table table;
     table.title = std::move(title);

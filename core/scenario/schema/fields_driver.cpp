@@ -1,6 +1,9 @@
 // Fields of drivers, traffic rules, spacing policies and populations.
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "scenario/schema/field_rows.h"
@@ -268,38 +271,76 @@ const Table& rules_table() {
     return table;
 }
 
-const Table& gap_policy_table() {
+namespace {
+
+// Returns the names of the laws for which a condition holds.
+template <class Condition>
+std::vector<std::string> laws_with(const Condition& holds) {
+    std::vector<std::string> names;
+    for (const GapLaw* law : gap_laws()) {
+        if (holds(*law)) names.emplace_back(law->name);
+    }
+    return names;
+}
+
+// Adds a row for each parameter of the laws (law_parameters()).
+template <std::size_t... Index>
+void add_law_parameters(std::index_sequence<Index...> /*indices*/, std::vector<Row<GapPolicySettings>>& rows) {
+    const auto add = [&]<std::size_t k>() {
+        if (k >= law_parameters().size()) return;
+        const LawParameter& parameter = law_parameters()[k];
+        const auto has_parameter = [&](const GapLaw& law) {
+            return std::any_of(law.parameters.begin(), law.parameters.end(),
+                               [&](const LawParameter& one) { return std::string_view(one.name) == parameter.name; });
+        };
+        rows.push_back(number_at<&GapPolicySettings::parameters, k>(parameter.name, parameter.unit,
+                                                                    {parameter.min, parameter.max}, parameter.meaning)
+                           .required()
+                           .only_if("law", laws_with(has_parameter)));
+    };
+    (add.template operator()<Index>(), ...);
+}
+
+std::vector<Row<GapPolicySettings>> gap_policy_rows() {
     using S = GapPolicySettings;
-    static const Table table = make_table<S>(
-        "a spacing policy: the net gap as a function of speed",
-        {
-            text<&S::name>("name", TextField::Rule::name, "name of the policy").required(),
-            choice<&S::law>("law", gap_law_names(), "spacing law: how the gap depends on the speed").required(),
-            number<&S::standstill_gap_m>("standstill_gap", "m", {0.1, 100}, "net gap at standstill").required(),
-            number<&S::time_gap_s>("time_gap", "s", {0, 20}, "time gap: growth of the net gap per m/s of speed")
-                .required()
-                .only_if("law", {"constant_time", "switch_time_gap"}),
-            number<&S::switch_speed_mps>("switch_speed", "km/h", {0, 300},
-                                         "speed up to which the net gap stays the standstill gap")
-                .required()
-                .only_if("law", {"switch_time_gap", "switch_distance"}),
-            number<&S::reference_speed_mps>("reference_speed", "km/h", {1, 300},
-                                            "speed at which the net gap is reference_gap")
-                .required()
-                .only_if("law", {"switch_distance"}),
-            number<&S::reference_gap_m>("reference_gap", "m", {0.1, 1000}, "net gap at reference_speed")
-                .required()
-                .only_if("law", {"switch_distance"}),
-        },
-        [](const S& s, Checker& check) {
-            if (s.law != "switch_distance") return;
-            if (s.reference_speed_mps <= s.switch_speed_mps) {
-                check.error("reference_speed", "must be greater than switch_speed");
-            }
-            if (s.reference_gap_m < s.standstill_gap_m) {
-                check.error("reference_gap", "must be at least standstill_gap");
-            }
-        });
+    std::vector<Row<S>> rows{
+        text<&S::name>("name", TextField::Rule::name, "name of the policy").required(),
+        choice<&S::law>("law", gap_law_names(), "spacing law: how the gap depends on the speed").required(),
+        number<&S::standstill_gap_m>("standstill_gap", "m", {0.1, 100}, "net gap at standstill").required(),
+    };
+    add_law_parameters(std::make_index_sequence<kMaxLawParameters>(), rows);
+    rows.push_back(text<&S::gap_formula>("gap", TextField::Rule::title,
+                                         "net gap as a formula of the speed v and the standstill gap s0, such as "
+                                         "\"s0 + 0.4 s * v + 0.01 s2/m * v^2\"; functions: min, max, sqrt, "
+                                         "if(v < 30 km/h, ..., ...)")
+                       .required()
+                       .only_if("law", {"formula"}));
+    rows.push_back(curve<&S::gap_speed_mps, &S::gap_at_speed_m>("gaps", {"km/h", {0.1, 300}}, {"m", {0.1, 1000}},
+                                                                {1, 200},
+                                                                "net gap over speed, without the gap at standstill; "
+                                                                "above the last speed, the last slope goes on")
+                       .required()
+                       .only_if("law", {"table"}));
+    rows.push_back(
+        choice<&S::mesoscale>("mesoscale", {"none", "constant_distance", "time_gap"},
+                              "car-following model of the mesoscale mode for this policy: that of policies with a "
+                              "constant distance or that of policies with a time gap; none: the policy is for full "
+                              "dynamics only")
+            .only_if("law", laws_with([](const GapLaw& law) { return law.names_mesoscale_model; })));
+    return rows;
+}
+
+}  // namespace
+
+const Table& gap_policy_table() {
+    static const Table table =
+        make_table<GapPolicySettings>("a spacing policy: the net gap as a function of speed", gap_policy_rows(),
+                                      [](const GapPolicySettings& s, Checker& check) {
+                                          const GapLaw& law = find_gap_law(s.law);
+                                          if (law.problems == nullptr) return;
+                                          for (const LawProblem& problem : law.problems(s))
+                                              check.error(problem.field, problem.message);
+                                      });
     return table;
 }
 

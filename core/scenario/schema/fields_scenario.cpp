@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "base/nearest_name.h"
 #include "scenario/driving_checks.h"
 #include "scenario/network_checks.h"
@@ -113,6 +115,14 @@ void check_intersection(const Scenario& scenario, Checker& check) {
         check.error("duration",
                     "leaves no whole cycle to measure after first_green and warmup_cycles: must be at least " +
                         short_text(shortest_s, unit("s")));
+    } else if (scenario.duration_s != 0.0 && check.given("measure.cycles") &&
+               scenario.measure.cycles != cycles_within_duration(scenario)) {
+        check.error(
+            "measure.cycles",
+            fmt::format("{} cycles contradict the duration of {}, in which {} whole cycles can be measured: give "
+                        "only one of the two fields, or 'duration: 0 s' for the time that the cycles take",
+                        scenario.measure.cycles, short_text(scenario.duration_s, unit("s")),
+                        cycles_within_duration(scenario)));
     }
     const double reach_m = layout.radius_m + std::min(layout.approach_length_m, layout.exit_length_m);
     for (std::size_t i = 0; i < scenario.measure.zone_radius_m.size(); ++i) {
@@ -221,7 +231,9 @@ const Table& measure_table() {
                                "population with which the others are compared; absent: no improvements are computed"),
             whole_number<&S::warmup_cycles>("warmup_cycles", {0, 1000},
                                             "single intersection: signal cycles before the measurement"),
-            whole_number<&S::cycles>("cycles", {1, 100'000}, "single intersection: measured signal cycles"),
+            whole_number<&S::cycles>("cycles", {1, 100'000},
+                                     "single intersection: measured signal cycles; a `duration` replaces it: the run "
+                                     "is then measured from the end of the warm-up to its end"),
             numbers<&S::zone_radius_m>(
                 "zones", "m", {1, 20'000}, {0, 10},
                 "single intersection: radii around the centre within which travel time and density are "
@@ -271,7 +283,8 @@ const Table& scenario_table() {
                                "meso.step"),
             number<&S::duration_s>(
                 "duration", "s", {0, 1'000'000},
-                "length of a run; 0 s: the run ends after the measured cycles (single intersection only)"),
+                "length of a run; 0 s: the run ends after the measured cycles, which is the default of a single intersection "
+                "and allowed for no other network"),
             whole_number<&S::seed>("seed", {}, "seed of all random numbers"),
             section<&S::network>("network", network_table, "road network"),
             section<&S::signal>("signal", signal_table,

@@ -59,8 +59,7 @@ void evaluate_gap_laws(const Model& model, int vehicles, const FullGroup& g) {
     const std::span<const double> speed_mps(g.coming_speed, n);
     const int* const policy_of = g.policy;
     const auto evaluate = [&](int policy, double* gap, double* slope) {
-        const CompiledPolicy& p = model.policies[at(policy)];
-        p.law->evaluate(p.settings, speed_mps, {gap, n}, {slope, n});
+        model.policies[at(policy)].evaluate(speed_mps, {gap, n}, {slope, n});
     };
     const int first = model.policies.size() > 1 ? policy_of[0] : 0;
     evaluate(first, g.desired_gap, g.slope);

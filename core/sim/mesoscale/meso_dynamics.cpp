@@ -13,28 +13,23 @@ namespace stopline {
 
 namespace {
 
-// Returns one value for each slot of the moving blocks: the gap in m that the vehicle adds to its standstill gap at its
-// present speed. The value is 0 unless the vehicle has a switching policy (SWITCH: the desired gap grows above a switch
-// speed). Returns nullptr if the model has no switching policy.
+// Returns one value for each slot of the moving blocks: the extra gap in m of the vehicle's policy at its present speed
+// (MesoGap). Returns nullptr if no policy has an extra gap.
 ExtraGap evaluate_extra_gap(const Model& model, std::size_t size, const VehicleArrays& v, Partition& part) {
-    const auto is_switching = [&](int k) {
-        return model.krauss[at(k)].constant_distance && model.policies[at(k)].settings.law != "constant_distance";
-    };
     constexpr std::size_t kMaxBlockSize = kSimdWidth;
     part.extra_gap_m.clear();
     for (int k = 0; k < static_cast<int>(model.policies.size()); ++k) {
-        if (!is_switching(k)) continue;
-        const CompiledPolicy& policy = model.policies[at(k)];
+        const GapPolicy& policy = model.policies[at(k)];
+        if (!policy.meso.has_extra_gap) continue;
         part.extra_gap_m.resize(part.moving_blocks.size() * size, 0.0);
         double* extra_gap = part.extra_gap_m.data();
         for (const int block : part.moving_blocks) {
             std::array<double, kMaxBlockSize> gap_m{};
             std::array<double, kMaxBlockSize> slope_s{};
             const std::size_t from = at(block) * size;
-            policy.law->evaluate(policy.settings, {v.speed_mps.data() + from, size}, {gap_m.data(), size},
-                                 {slope_s.data(), size});
+            policy.evaluate({v.speed_mps.data() + from, size}, {gap_m.data(), size}, {slope_s.data(), size});
             for (std::size_t j = 0; j < size; ++j, ++extra_gap) {
-                if (v.policy[from + j] == k) *extra_gap = gap_m[j] - policy.settings.standstill_gap_m;
+                if (v.policy[from + j] == k) *extra_gap = gap_m[j] - policy.meso.gap_m(v.speed_mps[from + j]);
             }
         }
     }

@@ -17,11 +17,6 @@
 
 namespace stopline {
 
-struct CompiledPolicy {
-    GapPolicySettings settings;
-    const GapLaw* law = nullptr;
-};
-
 // The time lag of a sensor or of V2V messages. It is realised by storing samples of past steps. The delayed value is
 // interpolated between the sample of `steps` steps ago and the sample of one step before that. The lag thus need not be
 // a whole number of steps.
@@ -65,7 +60,7 @@ struct Model {
     std::vector<GroupProgramme> signals;           // [signal group]
     std::vector<PhasePriority> phase_priorities;   // right of way that changes with the phases of a signal
     std::vector<PowertrainTables> vehicles;
-    std::vector<CompiledPolicy> policies;
+    std::vector<GapPolicy> policies;
     DriverTables driver;
     std::int64_t hesitation_ticks = 0;  // reaction time of the first vehicle at a stop line when its signal turns green
     DemandPlan demand;

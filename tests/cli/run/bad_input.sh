@@ -57,6 +57,23 @@ refused_text "NUL byte" 'title: a\0b\n' "bad.yaml:1:9" "0x00"
 refused_text "broken UTF-8" 'title: \xc3\x28\n' "bad.yaml:1:8" "0xC3"
 refused_text "approach too short for the queue" 'network: {approach: {length: 50 m}}\n' "'network.approach.length'" "a queue of 60 vehicles"
 
+# Spacing laws that the policy itself defines. Each message names the term that is wrong.
+law() { printf '%s' "policies:\n- {name: P, law: formula, standstill_gap: 3 m, gap: $1}\npopulations: [P]\n"; }
+refused_text "unit of a term" "$(law '"s0 + 0.4 m * v"')" "bad.yaml:2:53" "policies[P].gap" "'0.4 m * v' has the unit m2/s"
+refused_text "unknown symbol" "$(law '"s0 + speed"')" "bad.yaml:2:53" "there is no 'speed'" "v (speed)"
+refused_text "gap that falls" "$(law '"s0 - 0.1 s * v"')" "the gap falls near"
+refused_text "gap that jumps" "$(law '"if(v < 5 m/s, s0, 9 m)"')" "may not jump"
+refused_text "gap at rest" "$(law '"2 m + 1 s * v"')" "standstill_gap is 3 m"
+refused_text "no model for the mesoscale mode" "$(law '"s0 + 1 s * v"')fidelity: meso\n" "policies[P].mesoscale" "constant_distance or time_gap"
+refused_text "table that falls" 'policies:\n- {name: P, law: table, standstill_gap: 3 m, gaps: {50 km/h: 2 m}}\npopulations: [P]\n' \
+    "bad.yaml:2:52" "the gap falls"
+refused_text "formula of another law" 'policies:\n- {name: P, law: constant_distance, standstill_gap: 3 m, gap: s0}\npopulations: [P]\n' \
+    "policies[P].gap" "only if law is formula"
+
+intersection='network: {kind: intersection}\nsignal: {green: 15 s}\nmeasure: {cycles: 20}\n'
+refused_text "cycles that contradict the duration" "${intersection}duration: 400 s\n" "bad.yaml:3:19" "measure.cycles" \
+    "20 cycles contradict the duration of 400 s" "give only one of the two fields"
+
 refused_text "name of the parent folder" 'populations: [{name: .., components: [{policy: CDG, share: 100 %}]}]\n' \
     "'populations[0].name'" "'..' cannot be used as a name"
 

@@ -56,7 +56,7 @@ sweep "$work/whole" --threads 1 >"$work/stdout" || fail "exit code $?"
 whole_ms=$(($(milliseconds) - begin))
 [ "$(wc -l <"$work/whole/sweep.csv")" -eq 41 ] || fail "the table has not 40 runs: $(wc -l <"$work/whole/sweep.csv") lines"
 grep -q "million vehicle updates per second" "$work/stdout" || fail "the speed is missing in: $(cat "$work/stdout")"
-[ "$(ls -A "$work/whole")" = "$(printf '%s\n' sweep.csv sweep.provenance.json sweep.sqlite sweep_means.csv)" ] ||
+[ "$(ls -A "$work/whole")" = "$(printf '%s\n' lines_1.{dat,gp,png,svg} sweep.csv sweep.provenance.json sweep.sqlite sweep_means.csv)" ] ||
     fail "the folder has other files: $(ls -A "$work/whole")"
 sweep "$work/two" --threads 2 >/dev/null || fail "exit code $?"
 same_table "two threads" "$work/two"

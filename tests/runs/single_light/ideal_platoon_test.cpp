@@ -18,7 +18,7 @@ constexpr double kLength_m = 5.15;
 GapPolicySettings policy(const std::string& law, double time_gap_s) {
     GapPolicySettings settings;
     settings.law = law;
-    settings.time_gap_s = time_gap_s;
+    set_law_parameter(settings, "time_gap", time_gap_s);
     return settings;
 }
 
@@ -28,7 +28,7 @@ GapPolicySettings policy(const std::string& law, double time_gap_s) {
 TEST(IdealPlatoon, TimeGapActsAsAChainOfLags) {
     const GapPolicySettings time_gap = policy("constant_time", 0.87);
     const double v = 12.0;
-    const double h = time_gap.time_gap_s;
+    const double h = law_parameter(time_gap, "time_gap");
     const std::vector<SpeedSample> leader{{0.0, v}};
     const double line_m = 100.0;
     const std::vector<double> times_s =

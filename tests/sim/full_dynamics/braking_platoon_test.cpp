@@ -83,8 +83,7 @@ TEST_P(BrakingPlatoon, StopsWithoutTouching) {
     }
     // A follower with a time gap of about one second need not repeat the emergency braking of its leader. Hard braking
     // dies out within three vehicles.
-    const GapPolicySettings& policy = track.model().policies[0].settings;
-    const bool has_long_gap = policy.law == "constant_time" && policy.time_gap_s > 0.8;
+    const bool has_long_gap = track.model().policies[0].meso.time_gap_s > 0.8;
     for (int k = 0; k < 3 && has_long_gap; ++k) {
         for (int n = 4; n <= kFollowers; ++n) {
             EXPECT_LT(hardest_mps2[at(k)][at(n)], 1.3 * track.model().driver.cacc.deceleration_comfort_mps2)

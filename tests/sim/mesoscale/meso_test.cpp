@@ -53,8 +53,8 @@ protected:
     }
     // Returns the gap that a switching policy adds to its standstill gap at this speed; 0 for other policies.
     static double extra_gap_m(const Model& model, double speed_mps) {
-        const GapPolicySettings& s = model.policies[0].settings;
-        return model.krauss[0].constant_distance ? equilibrium_gap_m(s, speed_mps) - s.standstill_gap_m : 0.0;
+        const GapPolicy& policy = model.policies[0];
+        return equilibrium_gap_m(policy, speed_mps) - policy.meso.gap_m(speed_mps);
     }
 };
 INSTANTIATE_TEST_SUITE_P(EveryPolicy, MesoModel,

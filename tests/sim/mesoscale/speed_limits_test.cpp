@@ -77,9 +77,8 @@ TEST(SpeedLimits, FollowersCloseUpToLeadersAtTheirSpeed) {
             Track track(plan);
             const Model& model = track.model();
             const double cruise_mps = model.leader_speed_share * model.speed_factor * plan.limit_mps;
-            const GapPolicySettings& gap = model.policies[0].settings;
-            const double extra_m =
-                model.krauss[0].constant_distance ? equilibrium_gap_m(gap, cruise_mps) - gap.standstill_gap_m : 0.0;
+            const GapPolicy& gap = model.policies[0];
+            const double extra_m = equilibrium_gap_m(gap, cruise_mps) - gap.meso.gap_m(cruise_mps);
             const double equilibrium_m = model.krauss[0].equilibrium_gap_m(cruise_mps) + extra_m;
             track.place(0, 300.0, cruise_mps);
             track.place(0, 300.0 - model.vehicles[0].length_m - equilibrium_m - kExcess_m, cruise_mps);

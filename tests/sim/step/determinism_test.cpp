@@ -28,7 +28,7 @@ Model mixed_model() {
     }
     model.policies.clear();
     for (const GapPolicySettings& policy : load_policies()) {
-        model.policies.push_back({policy, &find_gap_law(policy.law)});
+        model.policies.push_back(make_gap_policy(policy));
     }
     return model;
 }

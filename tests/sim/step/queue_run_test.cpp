@@ -26,7 +26,7 @@ TEST_P(QueueRun, HoldsTheInvariantsInEveryStep) {
     EXPECT_EQ(track.state().records.passages.size(), 25u) << "entries";
     EXPECT_NEAR(track.vehicle(0, 0).position_m, 320.0 - scenario.driver.stop.margin_m, 0.1);
     for (int k = 1; k < 25; ++k) {
-        const CompiledPolicy& policy = track.model().policies[at(track.state().vehicles.policy[track.slot(0, k)])];
+        const GapPolicy& policy = track.model().policies[at(track.state().vehicles.policy[track.slot(0, k)])];
         EXPECT_NEAR(track.vehicle(0, k).gap_m, policy.settings.standstill_gap_m, 0.2) << "vehicle " << k + 1;
         EXPECT_LT(track.vehicle(0, k).speed_mps, 0.05) << "vehicle " << k + 1;
     }

@@ -87,7 +87,7 @@ double longest_vehicle_m(const Model& model) {
 
 double max_space_per_vehicle(const Model& model) {
     double gap_m = 0.0;
-    for (const CompiledPolicy& policy : model.policies) gap_m = std::max(gap_m, policy.settings.standstill_gap_m);
+    for (const GapPolicy& policy : model.policies) gap_m = std::max(gap_m, policy.settings.standstill_gap_m);
     return longest_vehicle_m(model) + gap_m;
 }
 
