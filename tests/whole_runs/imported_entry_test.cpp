@@ -149,6 +149,22 @@ TEST_P(ImportedEntry, DenseFlowThroughAFastLaneDropHasNoViolation) {
     }
 }
 
+// Half of the vehicles must change lanes on an edge of 16 m, which they reach at 50 km/h. They must brake before this
+// edge, because they cannot stop on it from 50 km/h. Otherwise they miss their turn.
+TEST_P(ImportedEntry, VehiclesBrakeBeforeAShortEdgeWithALaneChange) {
+    const std::string routes = routes_of(R"(<flow id="f" from="in" to="straight" begin="0" end="300" vehsPerHour="300"
+      departSpeed="max"/>
+<flow id="g" from="in" to="right" begin="0" end="300" vehsPerHour="300" departSpeed="max"/>
+)");
+    for (const std::string population : {"CTG-Ref", "CDG"}) {
+        const NetworkResult result = run(read_data("short_weave"), routes, 400, population);
+        EXPECT_EQ(result.entered, 25 + 25) << population;
+        EXPECT_EQ(result.exited, result.entered) << population;
+        EXPECT_EQ(result.missed_turns, 0) << population;
+        EXPECT_TRUE(result.violations.none()) << population;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(BothFidelities, ImportedEntry, ::testing::Values("meso", "full"),
                          [](const auto& test) { return std::string(test.param); });
 

@@ -121,7 +121,7 @@ bool reinsert_teleported(const Model& model, State& state, int k) {
     v.record[i].previous_lane = v.record[i].second_previous_lane = v.record[i].accepted_gap_on = -1;
     initialise_sensors(v, slot, state.blocks[at(target_lane)].count == 1);
     const int route_index = static_cast<int>(model.graph.routes[at(v.record[i].route)].lanes.size()) - 1;
-    set_route_index(state, slot, route_index);
+    set_route_index(model, state, slot, route_index);
     choose_next_route(model, state, target_lane, slot);
     record_rule_use(model, state, RuleUse::Kind::reinserted, slot, target_lane);
     v.stopped_since[i] = static_cast<int>(state.tick);

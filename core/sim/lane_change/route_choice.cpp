@@ -12,17 +12,36 @@
 
 #include "base/containers/index.h"
 #include "sim/lane_change/preferred_lane.h"
+#include "sim/state/queries/stopping_distance.h"
 
 namespace stopline {
 
 namespace {
 
-// Returns the highest speed at which a vehicle may enter the next lane on the route, if this speed is lower than the
-// limit of the current lane; else kNoLowerLimit_mps.
-float end_speed(const State& state, std::span<const int> route, int index) {
+// Returns the highest speed at the start of the lane route[next] from which a vehicle can still stop comfortably on the
+// exit lane of the route, if it must change lanes there; else kNoLowerLimit_mps. Some edges of imported networks are so
+// short that a vehicle cannot stop on them from the speed limit. There is no such speed if the exit lane is too short
+// for the vehicle to change lanes at all.
+double lane_change_entry_speed_mps(const Model& model, const State& state, std::span<const int> route, int next,
+                                   int slot) {
+    const VehicleRecord& record = state.vehicles.record[at(slot)];
+    const int exit = route.back();
+    if (record.trip < 0 || record.following_turn == Turn::none) return kNoLowerLimit_mps;
+    const int changes = state.plan.adjacent(exit).turn_option(record.following_turn).lane_changes;
+    const double room_m = state.plan.lane(exit).stop_line_m - model.driver.stop.margin_m;
+    if (changes == 0 || room_m < state.vehicles.length_m[at(slot)]) return kNoLowerLimit_mps;
+    double distance_m = room_m;
+    for (std::size_t k = at(next); k + 1 < route.size(); ++k) distance_m += state.plan.lane(route[k]).length_m;
+    return lane_change_stopping_speed_mps(model, distance_m);
+}
+
+// Returns the highest speed at which the vehicle in `slot` may enter the next lane on the route, if this speed is lower
+// than the limit of the current lane; else kNoLowerLimit_mps.
+float end_speed(const Model& model, const State& state, std::span<const int> route, int index, int slot) {
     if (at(index) + 1 >= route.size()) return kNoLowerLimit_mps;
     const double here = state.plan.lane(route[at(index)]).limit_mps;
-    const double next = state.plan.entry_speed_mps(route[at(index) + 1]);
+    const double next = std::min(state.plan.entry_speed_mps(route[at(index) + 1]),
+                                 lane_change_entry_speed_mps(model, state, route, index + 1, slot));
     return next < here ? static_cast<float>(next) : kNoLowerLimit_mps;
 }
 
@@ -64,12 +83,12 @@ Turn draw_turn_beyond(const Model& model, State& state, int route, bool chose_la
 
 }  // namespace
 
-void set_route_index(State& state, int slot, int index) {
+void set_route_index(const Model& model, State& state, int slot, int index) {
     VehicleArrays& v = state.vehicles;
     const std::span<const int> route = state.plan.route(v.record[at(slot)].route);
     v.record[at(slot)].route_index = index;
     v.next_lane[at(slot)] = at(index) + 1 < route.size() ? route[at(index) + 1] : -1;
-    v.end_speed_mps[at(slot)] = end_speed(state, route, index);
+    v.end_speed_mps[at(slot)] = end_speed(model, state, route, index, slot);
 }
 
 int draw_route(const Model& model, State& state, int inlet, std::int64_t k, bool chose_lane) {
@@ -138,7 +157,7 @@ void adopt_lane_route(const Model& model, State& state, int lane, int slot) {
     const int own = state.plan.adjacent(lane).turn_option(state.plan.turn_of(record.route)).route;
     if (own >= 0) {
         record.route = state.plan.next_parallel_route(own) < 0 ? own : best_parallel_route(model, state, own, slot);
-        return set_route_index(state, slot, 0);
+        return set_route_index(model, state, slot, 0);
     }
     record.route_index = 0;
     state.vehicles.next_lane[at(slot)] = -1;

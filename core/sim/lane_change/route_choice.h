@@ -10,7 +10,7 @@
 namespace stopline {
 
 // Sets the route index of a vehicle, its next lane and the speed limit at the end of its lane.
-void set_route_index(State& state, int slot, int route_index);
+void set_route_index(const Model& model, State& state, int slot, int route_index);
 
 // Returns the route of the k-th vehicle of an inlet, drawn at random. An inlet is a lane on which vehicles get a route.
 // `chose_lane`: true if the vehicle has chosen this lane because of its turn. Other shares of the routes then apply

@@ -52,7 +52,7 @@ void transfer_first(const Model& model, State& state, int lane) {
         v.position_m[at(target)] -= length_m;
         v.record[at(target)].second_previous_lane = v.record[at(target)].previous_lane;
         v.record[at(target)].previous_lane = lane;
-        set_route_index(state, target, route_index);
+        set_route_index(model, state, target, route_index);
         choose_next_route(model, state, next, target);
     }
     remove_first(state, lane);

@@ -40,10 +40,17 @@ inline double decision_distance_m(const Model& model, double speed_mps) {
     return 0.5 * square(speed_mps) / model.driver.stop.deceleration_mps2 + 1.5 * speed_mps + 3.0;
 }
 
+inline constexpr double kLaneChangeReaction_s = 0.5;
+
 // Returns the smallest distance to the stop line at which a vehicle can change lanes and then still stop comfortably.
 inline double lane_change_stopping_distance_m(const Model& model, double speed_mps) {
-    constexpr double kReaction_s = 0.5;
-    return 0.5 * square(speed_mps) / model.driver.stop.deceleration_mps2 + kReaction_s * speed_mps;
+    return 0.5 * square(speed_mps) / model.driver.stop.deceleration_mps2 + kLaneChangeReaction_s * speed_mps;
+}
+
+// Returns the speed whose lane_change_stopping_distance_m() is `distance_m`.
+inline double lane_change_stopping_speed_mps(const Model& model, double distance_m) {
+    const double b = model.driver.stop.deceleration_mps2;
+    return std::sqrt(square(b * kLaneChangeReaction_s) + 2.0 * b * distance_m) - b * kLaneChangeReaction_s;
 }
 
 // Returns the gap that a vehicle needs to stop behind another vehicle that is inserted ahead of it. The standstill gap
