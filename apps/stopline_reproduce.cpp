@@ -13,6 +13,7 @@
 #include "common/examples.h"
 #include "common/program.h"
 #include "common/progress_bar.h"
+#include "paper/headlines.h"
 #include "paper/report/report.h"
 #include "paper/report/reproduce.h"
 
@@ -80,9 +81,7 @@ ExitCode run(const ReproduceCliOptions& user) {
     const ReportContent content = write_report(options, jobs, command_of(user));
     const Scorecard& scorecard = content.scorecard;
     print_warnings(scorecard.warnings);
-    fmt::print("\n{}{} rows of the paper: {} within tolerance, {} outside, {} open\n",
-               content.reduced() ? "REDUCED: " : "", scorecard.rows.size(), scorecard.count(Verdict::inside),
-               scorecard.count(Verdict::miss), scorecard.count(Verdict::open));
+    fmt::print("\n{}{}\n", content.reduced() ? "REDUCED: " : "", results_text(scorecard));
     fmt::print("\nWritten to {}\n  index.html\n  figures/  SVG and PNG\n  tables/   CSV\n", options.folder.string());
     fmt::print("\nNext: open the report in a browser\n  file://{}\n",
                std::filesystem::absolute(options.folder / "index.html").lexically_normal().string());

@@ -199,9 +199,9 @@ ExitCode run_as_intersection(const RunCliOptions& options, const Scenario& scena
     write_results(options, report, folder);
     fmt::print("{}", run_files.finish());
     if (!options.no_figures) draw_figures(intersection_figures(report), folder);
-    fmt::print("{}", runnable("\nNext:\n"
-                              "  other greens and turns: add --set 'signal.green=10 s' --set 'demand.left=30 %'\n"
-                              "  all combinations: stopline-sweep scenarios/sweeps/intersection.yaml\n"
+    fmt::print("\nNext:\n{}", settings_hint(options.file, options.common, "other greens and turns",
+                                            {"signal.green=10 s", "demand.left=30 %"}));
+    fmt::print("{}", runnable("  all combinations: stopline-sweep scenarios/sweeps/intersection.yaml\n"
                               "  comparison with the paper: stopline-scorecard\n"));
     return report.no_violations() && report.no_starvation() ? ExitCode::done : ExitCode::check_failed;
 }
@@ -243,16 +243,18 @@ ExitCode run_as_network(const RunCliOptions& options, const Scenario& scenario, 
     write_tables(options, scenario, std::move(tables), std::move(hashes), folder);
     fmt::print("{}", run_files.finish());
     if (!options.no_figures) draw_figures(figures, folder);
-    const char* const variation =
-        scenario.network.is_sumo() ? "another fidelity: add --set fidelity=full"
-        : scenario.network.is_streets()
-            ? "other lanes: add --set network.streets=four_lanes"
-            : "other greens, offsets and turns: add --set 'signal.green=10 s' --set 'signal.offset=15 s' "
-              "--set 'demand.left=5 %'";
+    const auto hint = [&](const std::string& purpose, const std::vector<std::string>& settings) {
+        return settings_hint(options.file, options.common, purpose, settings);
+    };
+    std::string variation = hint("another fidelity", {scenario.is_meso() ? "fidelity=full" : "fidelity=meso"});
+    if (!scenario.network.is_streets() && !scenario.network.is_sumo()) {
+        variation =
+            hint("other greens, offsets and turns", {"signal.green=10 s", "signal.offset=15 s", "demand.left=5 %"});
+    }
     fmt::print(
         "\nNext:\n"
         "  delays.csv lists each delay: its cause, lane, time, and the vehicle that caused it\n"
-        "  {}\n"
+        "{}"
         "  many variations at once: {} --help\n",
         variation, program_command("stopline-sweep"));
     return report.no_violations() && report.no_starvation() ? ExitCode::done : ExitCode::check_failed;
@@ -300,11 +302,13 @@ ExitCode run(const RunCliOptions& options) {
     write_results(options, result, interval_s, folder);
     fmt::print("{}", run_files.finish());
     if (!options.no_figures) draw_figures(single_light_figures(result, load_targets()), folder);
+    const bool is_meso = result.scenario.is_meso();
     const char* const trajectories =
         options.trajectories ? "" : "  positions of all vehicles over time: add --trajectories\n";
-    fmt::print("{}", runnable(fmt::format("\nNext:\n"
-                                          "  another vehicle: add --set vehicle=electric_100kw (all names: "
-                                          "stopline-run --list)\n"
+    fmt::print("\nNext:\n{}",
+               settings_hint(options.file, options.common, is_meso ? "another fidelity" : "another vehicle",
+                             {is_meso ? "fidelity=full" : "vehicle=electric_100kw"}));
+    fmt::print("{}", runnable(fmt::format("  names of vehicles and policies: stopline-run --list\n"
                                           "{}"
                                           "  comparison with the paper: stopline-scorecard\n",
                                           trajectories)));

@@ -123,8 +123,8 @@ ExitCode run(const ScorecardCliOptions& options) {
         fmt::print("{}", csv);
     } else {
         fmt::print("{}{}\n", table_text(scorecard), remarks_text(scorecard));
-        fmt::print("{} inside, {} miss, {} open\n", scorecard.count(Verdict::inside), misses,
-                   scorecard.count(Verdict::open));
+        fmt::print("{} inside, {} miss, {} open; {} input\n", scorecard.count(Verdict::inside), misses,
+                   scorecard.count(Verdict::open), scorecard.count(Verdict::input));
         fmt::print("\nThe table is also in {}.\nNext: repeat the runs of these rows with tables and figures\n  {}\n",
                    (folder / "scorecard.csv").string(),
                    runnable(fmt::format("{}", fmt::join(commands_behind(scorecard.rows), "\n  "))));

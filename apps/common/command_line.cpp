@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/input_error.h"
 #include "common/examples.h"
 #include "scenario/load_scenario.h"
 #include "scenario/schema/quantity.h"
@@ -79,6 +80,25 @@ Scenario load_with_options(const std::string& file, const CommonOptions& options
     Scenario scenario = load_scenario(file, settings);
     print_warnings(scenario.warnings);
     return scenario;
+}
+
+std::string settings_hint(const std::string& file, const CommonOptions& options, const std::string& purpose,
+                          const std::vector<std::string>& settings) {
+    const auto is_accepted = [&](const std::string& setting) {
+        std::vector<std::string> all = options.settings;
+        all.push_back(setting);
+        try {
+            load_scenario(file, all);
+        } catch (const InputError&) {
+            return false;
+        }
+        return true;
+    };
+    std::string line;
+    for (const std::string& setting : settings) {
+        if (is_accepted(setting)) line += " --set " + shell_word(setting);
+    }
+    return line.empty() ? "" : fmt::format("  {}: add{}\n", purpose, line);
 }
 
 void set_mesoscale(const char* program, CommonOptions& options) {

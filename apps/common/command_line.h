@@ -40,6 +40,11 @@ void print_warnings(const std::vector<std::string>& warnings);
 // is invalid.
 Scenario load_with_options(const std::string& file, const CommonOptions& options);
 
+// Returns a line of the 'Next:' hint, such as "  other greens: add --set 'signal.green=10 s'". Leaves out each setting that
+// the scenario refuses. Returns an empty text if it refuses all of them.
+std::string settings_hint(const std::string& file, const CommonOptions& options, const std::string& purpose,
+                          const std::vector<std::string>& settings);
+
 // Adds the setting fidelity=meso. Warns on standard error if --set asks for another fidelity.
 void set_mesoscale(const char* program, CommonOptions& options);
 

@@ -81,14 +81,18 @@ std::vector<Headline> headlines(const Scorecard& scorecard) {
         {{"G06"},
          "A mix with half CDG gains {} % on this grid, mean of all greens and offsets.",
          "gain of a mix on the grid with turns"}};
-    return {
-        {"One signal", text_of(scorecard, signal)},
-        {"One intersection", text_of(scorecard, intersection)},
-        {"Networks", text_of(scorecard, networks)},
-        {"Cost", text_of(scorecard, cost)},
-        {"Agreement with the paper", fmt::format("Of {} rows {} are inside their tolerance, {} outside, and {} open.",
-                                                 scorecard.rows.size(), scorecard.count(Verdict::inside),
-                                                 scorecard.count(Verdict::miss), scorecard.count(Verdict::open))}};
+    return {{"One signal", text_of(scorecard, signal)},
+            {"One intersection", text_of(scorecard, intersection)},
+            {"Networks", text_of(scorecard, networks)},
+            {"Cost", text_of(scorecard, cost)},
+            {"Agreement with the paper", results_text(scorecard)}};
+}
+
+std::string results_text(const Scorecard& scorecard) {
+    const int inputs = scorecard.count(Verdict::input);
+    return fmt::format("Of {} rows with results {} are inside their tolerance, {} outside, and {} open.",
+                       static_cast<int>(scorecard.rows.size()) - inputs, scorecard.count(Verdict::inside),
+                       scorecard.count(Verdict::miss), scorecard.count(Verdict::open));
 }
 
 }  // namespace stopline

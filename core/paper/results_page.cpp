@@ -15,20 +15,21 @@ namespace {
 std::string verdict_text(Verdict verdict) {
     if (verdict == Verdict::inside) return "inside";
     if (verdict == Verdict::miss) return "**outside**";
+    if (verdict == Verdict::input) return "input";
     return "open";
 }
 
 std::string counts_table(const Scorecard& scorecard) {
-    std::string text = "| section | rows | inside | outside | open |\n|---|--:|--:|--:|--:|\n";
+    std::string text = "| section | results | inside | outside | open | inputs |\n|---|--:|--:|--:|--:|--:|\n";
     const auto add_line = [&](const std::string& name, const std::string& section) {
-        std::array<int, 3> counts{};
+        std::array<int, 4> counts{};
         for (const ScoredRow& row : scorecard.rows) {
             if (section.empty() || main_section(row.target.section) == section) {
                 ++counts.at(static_cast<std::size_t>(row.verdict));
             }
         }
-        text += fmt::format("| {} | {} | {} | {} | {} |\n", name, counts[0] + counts[1] + counts[2], counts[0],
-                            counts[1], counts[2]);
+        text += fmt::format("| {} | {} | {} | {} | {} | {} |\n", name, counts[0] + counts[1] + counts[2], counts[0],
+                            counts[1], counts[2], counts[3]);
     };
     for (const std::string& section : main_sections(scorecard.rows)) add_line(section_title(section), section);
     add_line("All", "");

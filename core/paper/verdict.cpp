@@ -40,6 +40,8 @@ const char* to_string(Verdict verdict) {
             return "inside";
         case Verdict::miss:
             return "miss";
+        case Verdict::input:
+            return "input";
         case Verdict::open:
             break;
     }
@@ -84,7 +86,8 @@ Verdict judge(const Target& target, const std::optional<Answer>& answer) {
     const bool low_near = near(target, answer->low, paper->low, *tolerance);
     const bool high_near = near(target, answer->high, paper->high, *tolerance);
     const bool inside = in_range || (is_number ? low_near || high_near : low_near && high_near);
-    return inside ? Verdict::inside : Verdict::miss;
+    if (!inside) return Verdict::miss;
+    return target.kind == "input" ? Verdict::input : Verdict::inside;
 }
 
 std::string tolerance_text(const Target& target) {

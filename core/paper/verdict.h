@@ -12,7 +12,8 @@ namespace stopline {
 enum class Verdict {
     inside,  // our value is within the tolerance, or the claim holds
     miss,    // our value is outside the tolerance, or the claim does not hold
-    open     // we have no value, or the row states no tolerance
+    open,    // we have no value, or the row states no tolerance
+    input    // the row is an input of the paper, and our input has the same value
 };
 const char* to_string(Verdict verdict);
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/input_error.h"
+#include "base/io/data_directory.h"
 #include "base/nearest_name.h"
 #include "scenario/compose.h"
 #include "scenario/driving_checks.h"
@@ -62,6 +63,7 @@ void add_scalar(SourceNode& map, const std::string& name, const std::string& tex
 }
 
 Scenario scenario_from(SourceNode root, const std::vector<std::string>& overrides) {
+    require_data_directory();
     require_map(root);
     const Source source = *root.place.source;
     Report report;

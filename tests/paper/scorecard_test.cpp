@@ -91,7 +91,8 @@ TEST(Scorecard, JudgesInputsWithoutMeasuring) {
     options.folder = folder.path();
     const Scorecard scorecard = make_scorecard(options);
     ASSERT_EQ(scorecard.rows.size(), 3U);
-    EXPECT_EQ(scorecard.count(Verdict::inside), 3);
+    EXPECT_EQ(scorecard.count(Verdict::input), 3) << "inputs are no results";
+    EXPECT_EQ(scorecard.count(Verdict::inside), 0);
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 

@@ -52,6 +52,14 @@ TEST(Judge, ZeroToleranceAllowsOnlyRounding) {
     EXPECT_EQ(judged(target, 0.870001), Verdict::miss);
 }
 
+// An input of the paper is no result, so an equal value does not count as agreement.
+TEST(Judge, InputsAreNoResults) {
+    Target target = row("0.87", "0", "abs");
+    target.kind = "input";
+    EXPECT_EQ(judged(target, 0.87), Verdict::input);
+    EXPECT_EQ(judged(target, 0.88), Verdict::miss);
+}
+
 TEST(Judge, RangeAcceptsNumbersWithinAndRangesWithItsEnds) {
     const Target target = row("20..45", "8", "abs");
     EXPECT_EQ(judged(target, 30.0), Verdict::inside);

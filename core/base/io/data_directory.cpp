@@ -15,6 +15,8 @@ namespace stopline {
 
 namespace {
 
+constexpr const char* kAdvice = "set STOPLINE_DATA to the data folder of a complete copy of the project";
+
 // Returns the folder PREFIX/share/stopline/data of a program that is installed in PREFIX/bin. Returns an empty path if
 // this folder does not exist.
 std::filesystem::path installed_data_directory() {
@@ -35,14 +37,19 @@ std::filesystem::path data_directory() {
     return kInstalled.empty() ? STOPLINE_SOURCE_DATA_DIR : kInstalled;
 }
 
-std::filesystem::path scenario_directory() {
-    constexpr const char* kAdvice = "set STOPLINE_DATA to the data folder of a complete copy of the project";
+void require_data_directory() {
     const std::filesystem::path data = data_directory();
-    const std::filesystem::path scenarios = (data / ".." / "scenarios").lexically_normal();
     std::error_code ignored;
     if (!std::filesystem::is_directory(data, ignored)) {
         throw InputError(fmt::format("there is no data folder {}; {}", data.string(), kAdvice));
     }
+}
+
+std::filesystem::path scenario_directory() {
+    require_data_directory();
+    const std::filesystem::path data = data_directory();
+    const std::filesystem::path scenarios = (data / ".." / "scenarios").lexically_normal();
+    std::error_code ignored;
     if (!std::filesystem::is_directory(scenarios, ignored)) {
         throw InputError(fmt::format(
             "there is no folder {}; the shipped scenarios must lie beside the data folder {}. Copy them there, or {}",

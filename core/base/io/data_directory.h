@@ -9,6 +9,9 @@ namespace stopline {
 // the installation, else the data folder of the source tree.
 std::filesystem::path data_directory();
 
+// Throws InputError if data_directory() does not exist, for instance because the source tree was moved after the build.
+void require_data_directory();
+
 // Returns the folder of the shipped scenarios, which lies beside the data folder. Throws InputError if one of the two
 // folders does not exist.
 std::filesystem::path scenario_directory();

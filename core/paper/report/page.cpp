@@ -106,6 +106,7 @@ std::string contents(const ReportContent& content) {
 HtmlTable::Cell verdict_cell(Verdict verdict) {
     if (verdict == Verdict::inside) return {"✓ inside", "inside"};
     if (verdict == Verdict::miss) return {"✗ outside", "miss"};
+    if (verdict == Verdict::input) return {"input", "open"};
     return {"– open", "open"};
 }
 

@@ -22,7 +22,7 @@ bytes_of() {
 }
 
 report "$work/whole" >"$work/stdout" 2>"$work/stderr" || fail "exit code $?: $(cat "$work/stderr")"
-grep -q "rows of the paper" "$work/stdout" || fail "the number of rows is missing in: $(cat "$work/stdout")"
+grep -q "rows with results" "$work/stdout" || fail "the number of rows is missing in: $(cat "$work/stdout")"
 grep -q "file://$work/whole/index.html" "$work/stdout" || fail "the link to the page is missing in: $(cat "$work/stdout")"
 grep -q " 0 open" "$work/stdout" || fail "open rows remain: $(cat "$work/stdout")"
 bytes_of "$work/whole" >"$work/expected"

@@ -20,9 +20,9 @@ grep -q 'already measured' "$work/stderr" || fail "results were not reused: $(ca
 
 # The table agrees with the CSV on the verdicts.
 "$scorecard" --section III --output "$work/out" >"$work/table" 2>/dev/null || fail "exit code $?"
-for verdict in inside miss; do
+for verdict in inside miss input; do
     count=$(grep -cE ",$verdict," "$work/rows.csv")
-    grep -qE "(^|, )$count $verdict(,|$)" "$work/table" || fail "the table does not count $count $verdict"
+    grep -qE "(^|[,;] )$count $verdict([,;]|$)" "$work/table" || fail "the table does not count $count $verdict"
 done
 grep -q ', 0 open' "$work/table" || fail "the table counts open rows"
 

@@ -69,7 +69,7 @@ TEST(ReportPage, StartsWithTheAnswer) {
     EXPECT_LT(answer, page.find("<nav"));
     EXPECT_TRUE(has(page, "In 15 s of green 17 vehicles pass the stop line with CDG and 7 with CTG-Ref."));
     EXPECT_TRUE(has(page, "Not measured in these runs: gain with long greens."));
-    EXPECT_TRUE(has(page, "Of 3 rows 2 are inside their tolerance, 1 outside, and 0 open."));
+    EXPECT_TRUE(has(page, "Of 3 rows with results 2 are inside their tolerance, 1 outside, and 0 open."));
     std::size_t lines = 0;
     for (std::size_t at = page.find("<li>", answer); at < lines_end; at = page.find("<li>", at + 1)) ++lines;
     EXPECT_EQ(lines, 5u);
