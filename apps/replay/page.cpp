@@ -11,6 +11,7 @@
 #include "base/input_error.h"
 #include "base/io/base64.h"
 #include "base/io/escape.h"
+#include "figures/population_style.h"
 #include "record/recording/bytes.h"
 #include "record/recording/frame_decoder.h"
 #include "replay/packing.h"
@@ -155,6 +156,10 @@ ReplayPage make_replay_page(RecordingReader& reader, const ReplayWindow& window,
     }
     data += data_element("data-series", series);
     payload["first_s"] = page.from_s;
+    // Policies have the colours that they have in the figures.
+    for (const std::string& policy : run.policies) {
+        payload["policy_colours"].push_back(line_style(style_index(run.policies, policy)).colour);
+    }
     page.html = page_of(run, payload.dump(), data);
     return page;
 }

@@ -2,7 +2,6 @@
 'use strict';
 
 const LIGHT_COLOURS = ['#d55e00', '#009e73', '#f0c000'];  // red, green, yellow
-const POLICY_COLOURS = ['#0072b2', '#e69f00', '#cc79a7', '#56b4e9', '#000000', '#009e73', '#d55e00'];
 const SPEED_COLOURS = ['#00224e', '#213b6e', '#4c556c', '#6c6e72', '#8e8978', '#b2a570', '#d9c55c'];
 const SCALE_END_MPS = 14;  // end of the speed scale; faster vehicles have the last colour
 // Colour and label of each delay cause, by its name in the recording.
@@ -20,11 +19,11 @@ const CAUSES = {
 
 // Returns the ways to colour vehicles, by name. Each way has colours, their labels, and a function `of` that returns
 // the index of the colour of vehicle k in a frame.
-function colourModes(head) {
+function colourModes(head, policyColours) {
     const classes = SPEED_COLOURS.length;
     return {
         policy: {
-            colours: head.policies.map((name, k) => POLICY_COLOURS[k % POLICY_COLOURS.length]),
+            colours: policyColours,
             labels: head.policies,
             of: (frame, k) => frame.policy[k],
         },

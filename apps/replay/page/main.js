@@ -9,7 +9,7 @@ class Replay {
         const {head} = recording;
         Object.assign(this, {recording, head, playing: false, rate: 5, time_s: recording.time_s(0), selected: -1});
         this.last_s = recording.time_s(recording.frameCount - 1);
-        this.modes = colourModes(head);
+        this.modes = colourModes(head, recording.payload.policy_colours);
         this.network = new Network(head);
         this.map = new MapView(byId('map'), this.network, (number) => this.select(number));
         this.diagram = new TimeSpace(byId('time-space'), recording, (time_s) => this.seek(time_s));
