@@ -195,5 +195,33 @@ TEST(RightOfWay, EveryEntryLaneDischargesTheSameWithoutTurns) {
     }
 }
 
+// Left-turning vehicles wait inside for oncoming traffic, and vehicles behind them keep a standstill gap of 6 m. When the
+// signal is red again, the left-turning vehicles must not wait for an oncoming vehicle that is itself stuck behind one
+// of them.
+TEST(LongStandstillGaps, DoNotLockOpposedLeftTurners) {
+    const Scenario scenario = parse_scenario(R"(
+seed: 665
+step: 20 ms
+network:
+  kind: intersection
+  intersection:
+    lanes: [{movements: left}, {movements: straight+left}, {movements: straight+right}]
+    radius: 22 m
+    approach_length: 280 m
+    exit_length: 101 m
+    speed_limit: 30 km/h
+    turn_speed: 7 m/s
+signal: {green: 22 s, all_red: 1 s}
+demand: {left: 20 %}
+driver: {base: startup_kit, free_drive: {hesitation: 1 s}}
+populations: [CDG-6m]
+)",
+                                             "test.yaml");
+    const IntersectionResult result = run_intersection(scenario, 0);
+    EXPECT_GT(result.left_share, 0.1);
+    EXPECT_TRUE(result.violations.none());
+    EXPECT_EQ(result.violations.deadlocks, 0);
+}
+
 }  // namespace
 }  // namespace stopline

@@ -12,9 +12,10 @@ namespace stopline {
 
 namespace {
 
-constexpr double kCloseBehind_m = 6.0;      // net gap to a slow leader below which a slow vehicle is blocked
-constexpr double kQueueLookAhead_m = 20.0;  // range of the search for a leader beyond the end of the lane
-
+// A slow vehicle is blocked by its slow leader if the net gap is below kCloseBehind_m, or if it exceeds the standstill
+// gap of the vehicle's policy by less than kNearStandstillGap_m.
+constexpr double kCloseBehind_m = 6.0;
+constexpr double kNearStandstillGap_m = 3.0;
 }  // namespace
 
 bool is_yielding(const State& state, int slot) {
@@ -43,8 +44,15 @@ bool is_blocked_by_leader(const State& state, int slot) {
     const VehicleArrays& v = state.vehicles;
     const std::size_t i = at(slot);
     const double gap_m = v.position_m[i - 1] - v.length_m[i - 1] - v.position_m[i];
+    const double close_m = std::max(kCloseBehind_m, v.standstill_gap_m[i] + kNearStandstillGap_m);
     return v.record[i].leader_id >= 0 && v.speed_mps[i] < kCrawlingSpeed_mps &&
-           v.speed_mps[i - 1] < kCrawlingSpeed_mps && gap_m < kCloseBehind_m;
+           v.speed_mps[i - 1] < kCrawlingSpeed_mps && gap_m < close_m;
+}
+
+double queue_look_ahead_m(const State& state, int slot) {
+    constexpr double kShortest_m = 20.0;
+    constexpr double kBeyondStandstillGap_m = 17.0;
+    return std::max(kShortest_m, state.vehicles.standstill_gap_m[at(slot)] + kBeyondStandstillGap_m);
 }
 
 namespace {
@@ -66,7 +74,7 @@ bool is_behind_yielding_vehicle(const State& state, int lane, const JunctionOccu
     for (int k = 0; k < kMaxQueue && is_blocked_by_leader(state, slot); ++k) {
         const LaneBlock& block = state.blocks[at(current_lane)];
         if (slot == block.first) {
-            slot = leader_ahead(state, current_lane, slot, kQueueLookAhead_m).slot;
+            slot = leader_ahead(state, current_lane, slot, queue_look_ahead_m(state, slot)).slot;
             const LaneBlock& connection_block = state.blocks[at(lane)];
             const bool on_connection = slot >= connection_block.first && slot < connection_block.past_last();
             if (!on_connection)

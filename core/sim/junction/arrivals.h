@@ -28,6 +28,9 @@ bool lets_others_go(const State& state, int slot);
 // vehicle nor its followers are expected to arrive soon.
 bool is_blocked_by_leader(const State& state, int slot);
 
+// Returns the range of the search for the leader of a queued vehicle beyond the end of the vehicle's lane, m.
+double queue_look_ahead_m(const State& state, int slot);
+
 // Returns true if `occupant`, a vehicle on connection `lane`, is in a queue of slow vehicles, and a vehicle further
 // ahead in this queue yields. The yielding vehicle may also be on another connection from the same approach lane, but
 // only on the part of that connection that overlaps with `lane`.

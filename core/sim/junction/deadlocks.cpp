@@ -76,9 +76,9 @@ private:
             }
         }
         if (!is_blocked_by_leader(state_, slot)) return {slot};
-        constexpr double kQueueLookAhead_m = 20.0;
         const bool is_first = slot == state_.blocks[at(lane)].first;
-        return {slot, is_first ? leader_ahead(state_, lane, slot, kQueueLookAhead_m).slot : slot - 1, false};
+        return {slot, is_first ? leader_ahead(state_, lane, slot, queue_look_ahead_m(state_, slot)).slot : slot - 1,
+                false};
     }
 
     // Returns false if the connections of the vehicle and the blocker conflict and the front of the blocker has not
