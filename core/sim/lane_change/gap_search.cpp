@@ -80,8 +80,8 @@ private:
     }
 
     // Returns the vehicle on lane `other` that opens a gap for `me`: the first one behind `me` whose gap suffices to
-    // brake to the speed of `me` with GapAlignment::kDeceleration_mps2. The slot is -1 if there is no such vehicle or
-    // if gap opening is off.
+    // brake to the speed of `me` with GapAlignment::kDeceleration_mps2, and then to let `me` change lanes at rest. The
+    // slot is -1 if there is no such vehicle or if gap opening is off.
     Neighbour gap_opener(int other, const Neighbour& follower, const LaneChangeRequest& me) const {
         // Number of vehicles checked. Vehicles further upstream are still too far away to open a gap for `me`.
         constexpr int kMaxSearched = 5;
@@ -92,8 +92,9 @@ private:
             const double gap_m = follower.gap_m + v_.position_m[at(follower.slot)] - v_.position_m[at(slot)];
             const double braking_m =
                 braking_distance_m(v_.speed_mps[at(slot)], me.speed_mps, GapAlignment::kDeceleration_mps2);
-            if (gap_m >= braking_m + kMinLaneChangeGap_m)
-                return {slot, gap_m, v_.speed_mps[at(slot)], v_.policy[at(slot)]};
+            const int policy = v_.policy[at(slot)];
+            const double needed_m = required_gap_m(model_, policy, 0.0, 0.0, model_.lane_change.urgent_gap_share);
+            if (gap_m >= braking_m + needed_m) return {slot, gap_m, v_.speed_mps[at(slot)], policy};
         }
         return {};
     }

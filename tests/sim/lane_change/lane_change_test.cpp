@@ -214,6 +214,20 @@ TEST_P(LaneChanging, WaitsBeforeTheStopLineWithoutAGap) {
     EXPECT_TRUE(track.state().records.lane_changes.empty());
 }
 
+// A vehicle waits at the stop line for a lane change. The vehicle beside it stands so close behind that the gap is too
+// short, and it cannot open the gap any more. It must then go on, so that both vehicles leave.
+TEST(LongStandstillGap, VehicleThatCannotOpenTheGapGoesOn) {
+    for (const char* const fidelity : {"full", "meso"}) {
+        Track track(parallel_lanes(plan_of({fidelity, "CDG-6m"}, 2)));
+        const double waiting_m = 1000.0 - track.model().driver.stop.margin_m;
+        place(track, 0, waiting_m, 0.0, 1);
+        place(track, 1, waiting_m - track.model().vehicles[0].length_m - 1.2, 0.0, 1);
+        track.run(60.0);
+        EXPECT_EQ(track.state().present(), 0) << fidelity;
+        EXPECT_EQ(track.state().records.lane_changes.size(), 1U) << fidelity;
+    }
+}
+
 constexpr double kPocket_m = 60.0;
 
 // Returns a road with `lanes` lanes before a red signal. Lane 0 is a pocket, which begins kPocket_m before the line.
