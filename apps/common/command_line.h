@@ -40,8 +40,8 @@ void print_warnings(const std::vector<std::string>& warnings);
 // is invalid.
 Scenario load_with_options(const std::string& file, const CommonOptions& options);
 
-// Returns a line of the 'Next:' hint, such as "  other greens: add --set 'signal.green=10 s'". Leaves out each setting that
-// the scenario refuses. Returns an empty text if it refuses all of them.
+// Returns a line of the 'Next:' hint, such as "  other greens: add --set 'signal.green=10 s'". Leaves out each setting
+// that the scenario refuses. Returns an empty text if it refuses all of them.
 std::string settings_hint(const std::string& file, const CommonOptions& options, const std::string& purpose,
                           const std::vector<std::string>& settings);
 

@@ -195,9 +195,9 @@ TEST(RightOfWay, EveryEntryLaneDischargesTheSameWithoutTurns) {
     }
 }
 
-// Left-turning vehicles wait inside for oncoming traffic, and vehicles behind them keep a standstill gap of 6 m. When the
-// signal is red again, the left-turning vehicles must not wait for an oncoming vehicle that is itself stuck behind one
-// of them.
+// Left-turning vehicles wait inside for oncoming traffic, and vehicles behind them keep a standstill gap of 6 m. When
+// the signal is red again, the left-turning vehicles must not wait for an oncoming vehicle that is itself stuck behind
+// one of them.
 TEST(LongStandstillGaps, DoNotLockOpposedLeftTurners) {
     const Scenario scenario = parse_scenario(R"(
 seed: 665

@@ -1,0 +1,244 @@
+// Runs core/sim and the reference engine side by side, and shrinks a scenario in which they differ.
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "base/containers/index.h"
+#include "base/input_error.h"
+#include "reference/engine.h"
+#include "reference/random_plan.h"
+#include "scenario/build_model.h"
+#include "sim/state/state.h"
+#include "sim/step/simulation.h"
+
+namespace stopline::reference_engine {
+
+// The largest differences that count as rounding.
+struct Tolerance {
+    double position_m = 0.0;
+    double speed_mps = 0.0;
+    double time_s = 0.0;  // of passages
+};
+
+// The first difference between core/sim and the reference engine.
+struct Difference {
+    std::int64_t step = 0;
+    double time_s = 0.0;
+    std::string what;
+    int lane = -1;
+    int vehicle = -1;
+    double simulated = 0.0;
+    double reference = 0.0;
+
+    std::string text() const {
+        return fmt::format(
+            "step {} ({:.3f} s), lane {}, vehicle {}: {} is {:.9g} in core/sim and {:.9g} in the reference", step,
+            time_s, lane, vehicle, what, simulated, reference);
+    }
+};
+
+struct Comparison {
+    std::optional<Difference> difference;
+    Situations situations;
+    double max_position_m = 0.0;  // largest difference of a position
+    double max_speed_mps = 0.0;
+};
+
+// Returns the model of core/sim for a plan.
+inline Model model_of(const Scenario& scenario, const Road& road, bool scalar) {
+    Model model = build_model(scenario, 0);
+    model.scalar_kernels = scalar;
+    if (road.exit_limit_mps <= 0.0) return model;
+    for (stopline::Lane& lane : model.graph.lanes) {
+        if (!lane.next.empty()) continue;
+        lane.limit_mps = road.exit_limit_mps;
+        model.has_fast_lanes |= model.speed_factor * road.exit_limit_mps > model.calibrated_limit_mps;
+    }
+    return model;
+}
+
+// Compares two runs step by step.
+class SideBySide {
+public:
+    SideBySide(const Plan& plan, const Tolerance& tolerance, const UndocumentedRules& rules)
+        : scenario_(scenario_of(plan)),
+          tolerance_(tolerance),
+          model_(model_of(scenario_, road_of(plan), plan.seed % 2 == 0)),
+          simulation_(model_),
+          engine_(scenario_, road_of(plan), rules) {}
+
+    Comparison run() {
+        const std::int64_t steps = ticks_in(scenario_.duration_s, model_.step_s);
+        compare_vehicles();
+        while (engine_.tick() < steps && !result_.difference) {
+            simulation_.step();
+            engine_.step();
+            compare_vehicles();
+            compare_passages();
+        }
+        result_.situations = engine_.situations();
+        return result_;
+    }
+
+private:
+    // Stores a difference unless an earlier one is stored or both values are equal within `tolerance`.
+    void compare(const char* what, int lane, int vehicle, double simulated, double reference, double tolerance) {
+        if (result_.difference || std::abs(simulated - reference) <= tolerance) return;
+        result_.difference = {engine_.tick(), engine_.time_s(), what, lane, vehicle, simulated, reference};
+    }
+
+    void compare_vehicles() {
+        const State& state = simulation_.state();
+        const VehicleArrays& v = state.vehicles;
+        for (int number = 0; number < static_cast<int>(engine_.lanes().size()); ++number) {
+            const Lane& lane = engine_.lanes()[at(number)];
+            const LaneBlock& block = state.blocks[at(number)];
+            compare("the number of vehicles", number, -1, block.count, static_cast<double>(lane.vehicles.size()), 0.0);
+            if (result_.difference) return;
+            for (int k = 0; k < block.count; ++k) {
+                const Vehicle& own = lane.vehicles[at(k)];
+                const std::size_t slot = at(block.first + k);
+                compare("the id", number, own.id, v.id[slot], own.id, 0.0);
+                compare("the policy", number, own.id, v.policy[slot], own.policy, 0.0);
+                compare("the speed", number, own.id, v.speed_mps[slot], own.speed_mps, tolerance_.speed_mps);
+                compare("the position", number, own.id, v.position_m[slot], own.position_m, tolerance_.position_m);
+                if (result_.difference) return;
+                result_.max_speed_mps = std::max(result_.max_speed_mps, std::abs(v.speed_mps[slot] - own.speed_mps));
+                result_.max_position_m =
+                    std::max(result_.max_position_m, std::abs(v.position_m[slot] - own.position_m));
+            }
+        }
+    }
+
+    // Compares the passages of this step. Passages of vehicles that enter the network are left out.
+    void compare_passages() {
+        const std::vector<Passage>& all = simulation_.state().records.passages;
+        for (; next_passage_ < all.size(); ++next_passage_) {
+            const Passage& simulated = all[next_passage_];
+            if (simulated.from_lane < 0) continue;
+            if (next_own_ == engine_.passages().size())
+                return compare("the number of passages", simulated.from_lane, simulated.vehicle, 1.0, 0.0, 0.0);
+            const LanePassage& own = engine_.passages()[next_own_++];
+            compare("the lane of a passage", own.from_lane, own.vehicle, simulated.from_lane, own.from_lane, 0.0);
+            compare("the vehicle of a passage", own.from_lane, own.vehicle, simulated.vehicle, own.vehicle, 0.0);
+            compare("the time of a passage", own.from_lane, own.vehicle, simulated.time_s, own.time_s,
+                    tolerance_.time_s);
+        }
+        compare("the number of passages", -1, -1, static_cast<double>(next_own_),
+                static_cast<double>(engine_.passages().size()), 0.0);
+    }
+
+    Scenario scenario_;
+    Tolerance tolerance_;
+    Model model_;
+    Simulation simulation_;
+    Engine engine_;
+    std::size_t next_passage_ = 0;
+    std::size_t next_own_ = 0;
+    Comparison result_;
+};
+
+inline Comparison compare_engines(const Plan& plan, const Tolerance& tolerance, const UndocumentedRules& rules = {}) {
+    return SideBySide(plan, tolerance, rules).run();
+}
+
+// Returns true if rounding decides about the values after `steps` steps. A decision can depend on the last digit of a
+// value: whether a gear changes, or in which step a brake is released. core/sim rounds differently, so it may decide
+// otherwise. The function adds noise of the size of rounding errors to the reference engine. It returns true if a run
+// with noise differs from the run without noise by more than half of the tolerance.
+inline bool is_decided_by_rounding(const Plan& plan, std::int64_t steps, const Tolerance& tolerance,
+                                   const UndocumentedRules& rules = {}) {
+    constexpr std::uint64_t kRuns = 40;
+    const Scenario scenario = scenario_of(plan);
+    const auto run = [&](std::uint64_t seed) {
+        const double amplitude = (scenario.is_meso() ? 1e-13 : 5e-5) * (seed % 2 == 0 ? 1.0 : 4.0);
+        Engine engine(scenario, road_of(plan), rules, {seed == 0 ? 0.0 : amplitude, seed});
+        while (engine.tick() < steps) engine.step();
+        return engine.lanes();
+    };
+    const std::vector<Lane> exact = run(0);
+    for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
+        const std::vector<Lane> noisy = run(seed);
+        for (std::size_t lane = 0; lane < exact.size(); ++lane) {
+            const std::deque<Vehicle>& a = exact[lane].vehicles;
+            const std::deque<Vehicle>& b = noisy[lane].vehicles;
+            if (a.size() != b.size()) return true;
+            for (std::size_t k = 0; k < a.size(); ++k) {
+                if (std::abs(a[k].position_m - b[k].position_m) > 0.5 * tolerance.position_m) return true;
+                if (std::abs(a[k].speed_mps - b[k].speed_mps) > 0.5 * tolerance.speed_mps) return true;
+            }
+        }
+    }
+    return false;
+}
+
+// A plan in which the engines differ.
+struct Failure {
+    Plan plan;
+    Difference difference;
+
+    std::string text() const { return difference.text() + "\nThe smallest scenario found:\n" + yaml_of(plan); }
+};
+
+// Simplifies a plan as long as the engines still differ: fewer vehicles, a shorter duration, fewer policies and lanes.
+inline Failure shrunk(Failure failure, const Tolerance& tolerance, const UndocumentedRules& rules = {}) {
+    using Change = std::function<void(Plan&)>;
+    std::vector<Change> changes{
+        [](Plan& p) { p.vehicles /= 2; },
+        [](Plan& p) { --p.vehicles; },
+        [](Plan& p) {
+            p.components = {{p.components.front().policy, 100.0}};
+        },
+        [](Plan& p) {
+            p.components = {{p.components.back().policy, 100.0}};
+        },
+        [](Plan& p) {
+            const double share_percent = p.components.back().share_percent;
+            p.components.pop_back();
+            if (!p.components.empty()) p.components.back().share_percent += share_percent;
+        },
+        [](Plan& p) { p.lanes = 1; },
+        [](Plan& p) { p.demand = "queue"; },
+        [](Plan& p) { p.starts_queued = false; },
+        [](Plan& p) { p.dawdling = 0.0; },
+        [](Plan& p) { p.gradient_percent = 0.0; },
+        [](Plan& p) { p.exit_limit_kmh = 0.0; },
+        [](Plan& p) { p.limit_kmh = 50.0; },
+        [](Plan& p) { p.hesitation_s = 0.0; },
+        [](Plan& p) { p.vehicle = Plan().vehicle; },
+        [](Plan& p) { p.stop_margin_m = Plan().stop_margin_m; },
+        [](Plan& p) { p.stop_mps2 = Plan().stop_mps2; },
+        [](Plan& p) { p.decision_mps2 = Plan().decision_mps2; },
+        [](Plan& p) { p.radar_delay_ms = 150.0; },
+        [](Plan& p) { p.v2v_delay_ms = 20.0; },
+        [](Plan& p) { p.cycle_s = 0.0; },
+        [](Plan& p) { p.first_green_s = 0.0; },
+    };
+    const auto shorten = [&](Plan& p) {
+        p.duration_s = std::ceil(std::max(failure.difference.time_s, p.first_green_s + 1.0));
+    };
+    changes.emplace_back(shorten);
+    for (bool has_changed = true; has_changed;) {
+        has_changed = false;
+        for (const Change& change : changes) {
+            Plan smaller = failure.plan;
+            change(smaller);
+            if (smaller.components.empty() || yaml_of(smaller) == yaml_of(failure.plan)) continue;
+            try {
+                const Comparison comparison = compare_engines(smaller, tolerance, rules);
+                if (!comparison.difference) continue;
+                failure = {smaller, *comparison.difference};
+                has_changed = true;
+            } catch (const InputError&) {
+                continue;  // the smaller plan is no valid scenario
+            }
+        }
+    }
+    return failure;
+}
+
+}  // namespace stopline::reference_engine

@@ -1,0 +1,219 @@
+// The mesoscale mode of the reference engine: the speed of the next step. The equations are those of the comments in
+// core/driver/krauss.h and core/driver/driver_settings.h.
+#pragma once
+
+#include <optional>
+
+#include "base/random.h"
+#include "base/speed_thresholds.h"
+#include "reference/powertrain.h"
+#include "reference/world.h"
+
+namespace stopline::reference_engine {
+
+// The car-following model of a spacing policy.
+struct MesoPolicy {
+    const GapPolicy* policy = nullptr;
+    KraussSettings settings;
+    bool constant_distance = false;  // true: equation (1) of the paper; false: Krauss
+    double s0_m = 0.0;
+    double tau_s = 0.0;
+    double band_m = 0.0;      // s_t of equation (1), 0 for Krauss
+    double below_band = 1.0;  // d of equation (1)
+
+    // Returns the gap that the law adds to standstill gap and time gap.
+    double extra_gap_m(double speed_mps) const {
+        return policy->meso.has_extra_gap ? law_gap(*policy, speed_mps).gap_m - policy->meso.standstill_gap_m -
+                                                policy->meso.time_gap_s * speed_mps
+                                          : 0.0;
+    }
+    double equilibrium_gap_m(double speed_mps) const { return s0_m + band_m + tau_s * speed_mps; }
+};
+
+// All constants of the mesoscale mode.
+struct MesoModel {
+    MesoSettings settings;
+    DriverSettings driver;
+    std::vector<MesoPolicy> policies;
+    std::vector<double> leader_bins_mps2;  // acceleration of platoon leaders by speed; empty: no profile
+    double leader_bins_per_mps = 0.0;
+    std::vector<double> power_bins_mps2;  // lower bound of the acceleration on fast roads, by speed
+    double power_bins_per_mps = 0.0;
+    double step_s = 0.0;
+    std::uint64_t dawdling_key = 0;
+    bool bounds_followers_by_power = true;
+
+    double free_limit_mps(const Lane& lane) const { return settings.speed_factor * lane.limit_mps; }
+};
+
+inline MesoPolicy make_meso_policy(const MesoSettings& settings, const GapPolicy& policy) {
+    MesoPolicy result;
+    result.policy = &policy;
+    result.constant_distance = policy.meso.model == MesoGap::Model::constant_distance;
+    result.settings = result.constant_distance ? settings.constant_distance : settings.constant_time;
+    result.s0_m =
+        result.settings.standstill_gap_m + policy.meso.standstill_gap_m - settings.calibrated_standstill_gap_m;
+    result.tau_s = result.settings.reaction_s;
+    if (result.constant_distance) {
+        result.band_m = settings.band_m;
+        result.below_band = settings.below_band_speed_share;
+    } else {
+        result.tau_s = std::max(result.tau_s + policy.meso.time_gap_s - settings.calibrated_time_gap_s, 0.0);
+    }
+    return result;
+}
+
+// Sets the tables of MesoModel. They hold one acceleration for each bin of speeds.
+inline void tabulate_profiles(const VehicleModel& vehicle, MesoModel& model) {
+    constexpr std::size_t kBins = 64;
+    const std::vector<double>& speeds = model.settings.leader_profile_mps;
+    if (!speeds.empty()) {
+        model.leader_bins_per_mps = (kBins - 0.5) / std::max(speeds.back(), 1.0);
+        for (std::size_t bin = 0; bin < kBins; ++bin) {
+            const double middle_mps = (static_cast<double>(bin) + 0.5) / model.leader_bins_per_mps;
+            const auto nearest = std::min_element(speeds.begin(), speeds.end(), [&](double a, double b) {
+                return std::abs(a - middle_mps) < std::abs(b - middle_mps);
+            });
+            model.leader_bins_mps2.push_back(
+                model.settings.leader_profile_mps2[static_cast<std::size_t>(nearest - speeds.begin())]);
+        }
+    }
+    const GridCurve power = power_curve(vehicle, model.driver.free_drive.power_share);
+    model.power_bins_per_mps = kBins / kPowerTop_mps;
+    for (std::size_t bin = 0; bin < kBins; ++bin) {
+        model.power_bins_mps2.push_back(power.at((static_cast<double>(bin) + 0.5) / model.power_bins_per_mps));
+    }
+}
+
+inline double bin_value(const std::vector<double>& bins, double bins_per_mps, double speed_mps) {
+    return bins[std::min(static_cast<std::size_t>(std::max(speed_mps * bins_per_mps, 0.0)), bins.size() - 1)];
+}
+
+// Returns the highest speed from which a vehicle can stop behind its leader, which has the speed v_l:
+//     -b tau + sqrt((b tau)^2 + v_l^2 + 2 b gap)
+inline double krauss_speed_mps(double b, double tau_s, double gap_m, double leader_mps) {
+    const double bt = b * tau_s;
+    return std::sqrt(std::max(bt * bt + leader_mps * leader_mps + 2.0 * b * gap_m, 0.0)) - bt;
+}
+
+// Returns v_safe. `extra_gap_m` is added to s_0.
+inline double meso_safe_speed_mps(const MesoPolicy& p, double gap_m, double leader_mps, double extra_gap_m) {
+    const double spare_m = gap_m - p.s0_m - extra_gap_m;
+    if (p.constant_distance && spare_m <= -p.band_m) return p.below_band * leader_mps;
+    if (p.constant_distance && spare_m <= 0.0) return leader_mps;
+    return krauss_speed_mps(p.settings.deceleration_mps2, p.tau_s, spare_m - p.band_m, leader_mps);
+}
+
+inline double snapped(double speed_mps) { return speed_mps < kMesoStopSpeed_mps ? 0.0 : speed_mps; }
+
+// Returns the highest speed before a lower speed limit, or infinity. The vehicle follows the braking curve
+// v^2 = v_end^2 + 2 b distance.
+inline double speed_before_lower_limit_mps(const MesoModel& m, const Lane& lane, const Vehicle& v) {
+    if (lane.end_speed_mps <= 0.0) return std::numeric_limits<double>::infinity();
+    const double b = m.driver.free_drive.deceleration_mps2;
+    const double distance_m = std::max(lane.length_m - v.position_m, 0.0);
+    const double allowed_mps = std::sqrt(lane.end_speed_mps * lane.end_speed_mps + 2.0 * b * distance_m);
+    const double share = std::min(m.settings.turn_gain_1ps * m.step_s, 1.0);
+    double next_mps = allowed_mps;
+    if (share < 1.0) {
+        next_mps =
+            v.speed_mps + share * (allowed_mps - v.speed_mps) - b * m.step_s * v.speed_mps / std::max(allowed_mps, 1.0);
+    }
+    return std::max(next_mps, v.speed_mps - m.driver.cacc.deceleration_emergency_mps2 * m.step_s);
+}
+
+// Returns the highest next speed of a vehicle that must stop at a position of its lane.
+inline double stopping_speed_mps(const MesoModel& m, const Vehicle& v, double position_m) {
+    const MesoPolicy& p = m.policies[static_cast<std::size_t>(v.policy)];
+    const double b = std::min(p.settings.deceleration_mps2, m.driver.stop.deceleration_mps2);
+    const double stop_mps = krauss_speed_mps(b, p.tau_s, std::max(position_m - v.position_m, 0.0), 0.0);
+    return std::max(stop_mps, v.speed_mps - m.driver.cacc.deceleration_emergency_mps2 * m.step_s);
+}
+
+// Returns the highest next speed that the speed limits, a stop at `stop_m` and free driving without a leader allow.
+inline double highest_speed_mps(const MesoModel& m, const Lane& lane, const Vehicle& v, std::optional<double> stop_m,
+                                bool has_leader) {
+    const double limit_mps = m.free_limit_mps(lane);
+    const double share = std::min(m.settings.speed_gain_1ps * m.step_s, 1.0);
+    const double emergency_mps = m.driver.cacc.deceleration_emergency_mps2 * m.step_s;
+    double highest_mps = v.speed_mps + share * (limit_mps - v.speed_mps);
+    highest_mps = std::max(std::min(highest_mps, limit_mps), v.speed_mps - emergency_mps);
+    if (stop_m) highest_mps = std::min(highest_mps, stopping_speed_mps(m, v, *stop_m));
+    if (!has_leader) {
+        const double target_mps = m.settings.leader_speed_share * limit_mps;
+        const double slowing_mps = v.speed_mps - m.driver.free_drive.deceleration_mps2 * m.step_s;
+        const double free_mps = v.speed_mps > target_mps
+                                    ? std::max(target_mps, slowing_mps)
+                                    : std::min(v.speed_mps + share * (target_mps - v.speed_mps), target_mps);
+        highest_mps = std::min(highest_mps, free_mps);
+    }
+    return std::min(highest_mps, speed_before_lower_limit_mps(m, lane, v));
+}
+
+// Returns the lower bound of the acceleration on a road above the calibrated speed limit; else 0.
+inline double power_bound_mps2(const MesoModel& m, const Lane& lane, double speed_mps) {
+    constexpr double kRounding = 1.001;
+    const double calibrated_mps = kRounding * m.settings.speed_factor * m.settings.calibrated_speed_limit_mps;
+    if (m.free_limit_mps(lane) <= calibrated_mps) return 0.0;
+    return bin_value(m.power_bins_mps2, m.power_bins_per_mps, speed_mps);
+}
+
+inline bool has_platoon_leaders(const MesoModel& m) {
+    return m.settings.leader_mps2 > 0.0 || !m.leader_bins_mps2.empty();
+}
+
+// Returns the next speed of a follower. Without platoon leaders, all vehicles are followers.
+inline double next_follower_speed_mps(const MesoModel& m, const Lane& lane, const Vehicle& v, const Leader& leader,
+                                      double highest_mps, std::int64_t tick) {
+    const MesoPolicy& p = m.policies[static_cast<std::size_t>(v.policy)];
+    const KraussSettings& s = p.settings;
+    const double law_extra_m = p.extra_gap_m(v.speed_mps);
+    const double extra_m = law_extra_m + s.transient_gap_s2 * leader.acceleration_mps2;
+    double safe_mps =
+        meso_safe_speed_mps(p, leader.gap_m, leader.speed_mps + s.anticipation_s * leader.acceleration_mps2, extra_m);
+    if (!p.constant_distance) {
+        const double time_gap_mps = (leader.gap_m - p.s0_m - extra_m) / std::max(p.tau_s, 0.05);
+        safe_mps -= s.gap_tracking * std::max(safe_mps - time_gap_mps, 0.0);
+    }
+    double acceleration_mps2 =
+        s.acceleration_mps2 * std::min(1.0, s.constant_power_speed_mps / std::max(v.speed_mps, 1e-3));
+    if (m.bounds_followers_by_power)
+        acceleration_mps2 = std::max(acceleration_mps2, power_bound_mps2(m, lane, v.speed_mps));
+    constexpr double kCatchUp_m = 2.0;
+    const bool is_close = leader.gap_m - law_extra_m < p.equilibrium_gap_m(v.speed_mps) + kCatchUp_m;
+    const double faster_mps = v.speed_mps + acceleration_mps2 * (is_close ? s.catch_up_factor : 1.0) * m.step_s;
+    const double contact_mps = std::max(leader.gap_m, 0.0) / m.step_s;
+    const double desired_mps = snapped(std::min({safe_mps, faster_mps, contact_mps, highest_mps}));
+    const double random = dawdle_uniform(m.dawdling_key, v.id, static_cast<std::uint64_t>(tick));
+    return desired_mps - s.dawdling * m.step_s * random * std::min(desired_mps, s.acceleration_mps2);
+}
+
+// Returns the next speed of a platoon leader, and sets is_platoon_leader to false if it becomes a follower.
+inline double next_platoon_leader_speed_mps(const MesoModel& m, const Lane& lane, Vehicle& v, const Leader& leader,
+                                            double highest_mps) {
+    const MesoPolicy& p = m.policies[static_cast<std::size_t>(v.policy)];
+    double acceleration_mps2 = 0.0;
+    if (!m.leader_bins_mps2.empty()) {
+        const double first_mps2 = bin_value(m.leader_bins_mps2, m.leader_bins_per_mps, v.speed_mps);
+        const double middle_mps = v.speed_mps + first_mps2 * 0.5 * m.step_s;
+        acceleration_mps2 = bin_value(m.leader_bins_mps2, m.leader_bins_per_mps, middle_mps);
+    } else {
+        const double power_mps = m.settings.leader_constant_power_speed_mps;
+        acceleration_mps2 = m.settings.leader_mps2 * power_mps / std::max(v.speed_mps, power_mps);
+    }
+    acceleration_mps2 = std::max(acceleration_mps2, power_bound_mps2(m, lane, v.speed_mps));
+    const double free_mps = v.speed_mps + acceleration_mps2 * m.step_s;
+    // Platoon leaders anticipate only if V2V relays the start of a queue. They keep no transient gap.
+    const double anticipated_mps =
+        m.settings.start_relay_vehicles > 0 ? p.settings.anticipation_s * leader.acceleration_mps2 : 0.0;
+    const double contact_mps = std::max(leader.gap_m, 0.0) / m.step_s;
+    const double safe_mps =
+        std::min(meso_safe_speed_mps(p, leader.gap_m, leader.speed_mps + anticipated_mps, p.extra_gap_m(v.speed_mps)),
+                 contact_mps);
+    const double following_mps = leader.id < 0 ? contact_mps : safe_mps;
+    const double next_mps = snapped(std::min({following_mps, free_mps, highest_mps}));
+    if (following_mps < free_mps && next_mps > 0.0) v.is_platoon_leader = false;
+    return next_mps;
+}
+
+}  // namespace stopline::reference_engine
