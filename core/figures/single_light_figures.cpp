@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/io/csv.h"
+#include "figures/population_style.h"
 
 namespace stopline {
 

@@ -8,6 +8,7 @@
 #include "base/units.h"
 #include "driver/krauss.h"
 #include "scenario/schema/quantity.h"
+#include "spacing_laws/gap_policy.h"
 #include "sumo_import/sumo_graph.h"
 
 namespace stopline {

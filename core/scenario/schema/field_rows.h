@@ -190,7 +190,7 @@ auto list(std::string name, const Table& (*table)(), Count count, std::string me
 }
 
 template <class S>
-Table make_table(std::string title, std::vector<Row<S>> rows, void (*check)(const S&, Checker&) = nullptr,
+Table make_table(std::string title, const std::vector<Row<S>>& rows, void (*check)(const S&, Checker&) = nullptr,
                  SourceNode (*expand)(const SourceNode&) = nullptr) {
     Table table;
     table.title = std::move(title);

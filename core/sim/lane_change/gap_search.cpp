@@ -80,9 +80,10 @@ private:
     }
 
     // Returns the vehicle on lane `other` that opens a gap for `me`: the first one behind `me` whose gap suffices to
-    // brake to the speed of `me` with GapAlignment::kDeceleration_mps2, and then to let `me` change lanes at rest. The
-    // slot is -1 if there is no such vehicle or if gap opening is off.
-    Neighbour gap_opener(int other, const Neighbour& follower, const LaneChangeRequest& me) const {
+    // brake to the speed of `me` with GapAlignment::kDeceleration_mps2, and then to let `me` change lanes at rest. If
+    // both vehicles are almost at rest, the gap must be what `me` requires with its present urgency, because the vehicle
+    // cannot open the gap any further. The slot is -1 if there is no such vehicle or if gap opening is off.
+    Neighbour gap_opener(int other, const Neighbour& follower, const LaneChangeRequest& me, double urgency) const {
         // Number of vehicles checked. Vehicles further upstream are still too far away to open a gap for `me`.
         constexpr int kMaxSearched = 5;
         const LaneBlock& block = state_.blocks[at(other)];
@@ -93,7 +94,9 @@ private:
             const double braking_m =
                 braking_distance_m(v_.speed_mps[at(slot)], me.speed_mps, GapAlignment::kDeceleration_mps2);
             const int policy = v_.policy[at(slot)];
-            const double needed_m = required_gap_m(model_, policy, 0.0, 0.0, model_.lane_change.urgent_gap_share);
+            const bool stands = me.speed_mps < kMinSpeed_mps && v_.speed_mps[at(slot)] < kMinSpeed_mps;
+            const double share = urgent_share(model_, stands ? urgency : 1.0);
+            const double needed_m = required_gap_m(model_, policy, 0.0, 0.0, share);
             if (gap_m >= braking_m + needed_m) return {slot, gap_m, v_.speed_mps[at(slot)], policy};
         }
         return {};
@@ -124,7 +127,7 @@ private:
         }
         const Neighbour& follower = there.follower;
         if (must_let_pass(other, follower, me, change.urgency())) {
-            const Neighbour opener = gap_opener(other, follower, me);
+            const Neighbour opener = gap_opener(other, follower, me, change.urgency());
             if (opener.slot >= 0) add_alignment(other, {opener.slot, opening_speed_mps(opener, me)});
             // If the follower itself does not open the gap, it goes first, and `me` falls back behind it.
             if (opener.slot != follower.slot)

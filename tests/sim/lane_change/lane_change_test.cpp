@@ -228,6 +228,17 @@ TEST(LongStandstillGap, VehicleThatCannotOpenTheGapGoesOn) {
     }
 }
 
+// As in the previous test, but the vehicle waits upstream of the line, where it requires a longer gap than at the line.
+TEST(LongStandstillGap, RequiredGapIsThatOfThePresentUrgency) {
+    for (const char* const fidelity : {"full", "meso"}) {
+        Track track(parallel_lanes(plan_of({fidelity, "CDG-6m"}, 2)));
+        place(track, 0, 985.0, 0.0, 1);
+        place(track, 1, 985.0 - track.model().vehicles[0].length_m - 1.85, 0.0, 1);
+        track.run(60.0);
+        EXPECT_EQ(track.state().present(), 0) << fidelity;
+    }
+}
+
 constexpr double kPocket_m = 60.0;
 
 // Returns a road with `lanes` lanes before a red signal. Lane 0 is a pocket, which begins kPocket_m before the line.
