@@ -184,8 +184,8 @@ inline double next_speed_mps(const Krauss& k, const KraussInput& in, double rand
     return speed_after_mps<true>(k, in, anticipated_safe_speed_mps(k, in), random, dt);
 }
 
-// The form that the mesoscale mode gives to the desired gap of a spacing policy: standstill gap + time gap x speed +
-// extra gap. The extra gap is a function of the speed and 0 at rest.
+// The desired gap of a spacing policy in the mesoscale mode: standstill gap + time gap x speed + extra gap. The extra
+// gap is a function of the speed. It is 0 at rest.
 struct MesoGap {
     enum class Model {
         constant_distance,  // equation (1)

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "figures/population_style.h"
 #include "paper/sections/scorecard_section6.h"
 
 namespace stopline {
@@ -27,8 +28,9 @@ struct Range {
 struct Series {
     std::string name;  // name of the data file
     std::string title;
-    std::size_t style;  // index for line_style()
-    bool band;          // true: draw the band between worst and best offset; false: draw a line
+    std::string colour;  // of the population
+    int point;           // gnuplot point type of the network
+    bool band;           // true: draw the band between worst and best offset; false: draw a line
     std::vector<Range> values;
 };
 
@@ -60,32 +62,36 @@ std::vector<Series> series_of(const std::map<std::string, Measurements>& measure
         const auto found = measured.find(experiment);
         return found == measured.end() ? std::nullopt : found->second.find(name);
     };
-    const auto add = [&](const char* network, std::size_t style, bool band, const std::string& population,
+    const auto add = [&](const char* network, int point, bool band, const std::string& population,
                          std::span<const int> greens_s, std::span<const int> offsets_s, const Throughput& throughput) {
         Series series{fmt::format("comparison_{}_{}_{}.dat", traffic, all.size(), population),
-                      fmt::format("{}, {}", population, network), style, band,
+                      fmt::format("{}, {}", population, network),
+                      line_style(style_index({population}, population)).colour,
+                      point,
+                      band,
                       improvements(population, greens_s, offsets_s, throughput)};
         if (!series.values.empty()) all.push_back(std::move(series));
     };
-    std::size_t colour = 0;
+    constexpr int kCircle = 6;
+    constexpr int kSquare = 4;
+    constexpr int kTriangle = 8;
     for (const char* const population : {"CDG", "MIX"}) {
         const auto throughput_in = [&](const char* experiment) {
             return [&find, &traffic, experiment](const std::string& name, int green_s, int offset_s) {
                 return find(experiment, "throughput " + section6::point_name(traffic, green_s, offset_s, name));
             };
         };
-        add("grid", colour, true, population, section6::kGridGreens_s, section6::kGridOffsets_s,
+        add("grid", kCircle, true, population, section6::kGridGreens_s, section6::kGridOffsets_s,
             throughput_in(section6::kGrid));
-        add("arterial", colour + 1, true, population, section6::kArterialGreens_s, section6::kArterialOffsets_s,
+        add("arterial", kSquare, true, population, section6::kArterialGreens_s, section6::kArterialOffsets_s,
             throughput_in(section6::kArterial));
         if (traffic == "free") {
-            add("single intersection", colour, false, population, kSingleGreens_s, std::array{0},
+            add("single intersection", kTriangle, false, population, kSingleGreens_s, std::array{0},
                 [&find](const std::string& name, int green_s, int) {
                     const std::string policy = name == "MIX" ? "P50" : name;
                     return find("intersection", fmt::format("throughput {} green={} left=0 right=0", policy, green_s));
                 });
         }
-        colour += 2;
     }
     return all;
 }
@@ -114,16 +120,15 @@ std::vector<Figure> comparison_figure(const std::map<std::string, Measurements>&
                 data += fmt::format("{} {:.3f} {:.3f}\n", r.green_s, r.worst, r.best);
             }
             figure.data.emplace_back(series.name, data);
-            const LineStyle style = line_style(series.style);
             if (series.band) {
                 body += fmt::format(
                     "'{0}' using 1:2:3 with filledcurves lc rgb '{1}' fs transparent solid 0.25 title {2}, '{0}' using "
                     "1:2 with linespoints dt 1 lc rgb '{1}' pt {3} notitle, '{0}' using 1:3 with linespoints dt 1 lc rgb '{1}' pt "
                     "{3} notitle, ",
-                    series.name, style.colour, gnuplot_text(series.title), style.hollow_point);
+                    series.name, series.colour, gnuplot_text(series.title), series.point);
             } else {
                 body += fmt::format("'{}' using 1:2 with linespoints lw 2 dt 2 lc rgb '{}' pt {} title {}, ",
-                                    series.name, style.colour, style.hollow_point, gnuplot_text(series.title));
+                                    series.name, series.colour, series.point, gnuplot_text(series.title));
             }
         }
         body += "0 with lines dt 1 lc rgb '#888888' notitle\n";

@@ -39,7 +39,7 @@ struct GapFormula::Node {
     double value = 0.0;  // number: in SI units; power: the exponent
     // choice: the two sides of the comparison, the value if it holds, and the value if not
     std::vector<Node> operands;
-    bool or_equal = false;  // choice: true for <= (and >=, which is read as <= with its sides exchanged)
+    bool or_equal = false;  // choice: true for <=, and for >=, which is stored as <= with exchanged sides
     FormulaDimension dimension;
     std::size_t begin = 0;  // the characters of the term in the text: [begin, end)
     std::size_t end = 0;
@@ -177,7 +177,7 @@ private:
         return left;
     }
 
-    // Reads a sign and a power.
+    // Reads an operand with its optional sign and exponent. The exponent applies before the sign.
     Node factor() {
         const bool negative = next() == '-';
         const std::size_t begin = at_;
@@ -231,7 +231,7 @@ private:
         fail(at_, at_end() ? "a value is missing at the end" : fmt::format("'{}' is not a value", rest()));
     }
 
-    // Returns the letters and digits from the current position on.
+    // Reads the letters, digits and underscores from the current position on.
     std::string_view word() {
         const std::size_t begin = at_;
         while (at_ < text_.size() && (std::isalnum(static_cast<unsigned char>(text_[at_])) != 0 || text_[at_] == '_'))
@@ -261,7 +261,7 @@ private:
             if (std::isalpha(static_cast<unsigned char>(next())) != 0) {
                 const std::size_t begin_of_word = at_;
                 fail(begin_of_word,
-                     fmt::format("'{}' is not a unit; units are m, km, s, ms, h and products such as s2/m or km/h. "
+                     fmt::format("'{}' is not a unit; units are m, km, s, ms, h and quotients such as s2/m or km/h. "
                                  "Write * between factors",
                                  word()));
             }
@@ -273,7 +273,7 @@ private:
     }
 
     // Reads a base unit with its exponent, such as "s2" or "s^2". `sign` is 1 for a unit before '/', and -1 after it.
-    // Returns false, without a defined position, if the text does not continue with a unit.
+    // Returns false if no unit follows. The caller must then restore the position.
     bool take_unit(int sign, double& factor, Dimension& dimension) {
         skip_spaces();
         std::string_view name = word();

@@ -1,10 +1,11 @@
 // Formulas for the net gap as a function of speed, such as "s0 + 0.4 s * v + 0.01 s2/m * v^2".
 //
-// A formula has numbers with units, the speed v, the standstill gap s0, the operators + - * / ^ and parentheses, and
-// the functions min(a, b, ...), max(a, b, ...), sqrt(a) and if(a < b, c, d), which is c if the comparison holds and d
-// if not. Comparisons are < <= > and >=. Exponents are whole numbers from 0 to 9. Units are products of m, km, s, ms
-// and h with exponents, such as s2/m or km/h. A number without unit has no dimension. The parser checks the
-// dimensions of all terms.
+// A formula combines numbers with units, the speed v and the standstill gap s0. It can use the operators + - * / ^,
+// parentheses, and the functions min(a, b, ...), max(a, b, ...), sqrt(a) and if(a < b, c, d). The function `if` returns
+// c if the comparison holds, else d. Comparisons are < <= > and >=. Exponents are whole numbers from 0 to 9.
+//
+// A unit is one of m, km, s, ms and h, or a quotient of them. Each can have an exponent from 2 to 9, such as s2/m. A
+// number without unit has no dimension. The parser checks the dimensions of all terms.
 #pragma once
 
 #include <cstddef>

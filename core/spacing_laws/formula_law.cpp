@@ -1,4 +1,4 @@
-// A law that the policy gives as a formula, such as "s0 + 0.4 s * v + 0.01 s2/m * v^2" (formula.h).
+// The policy gives the gap of this law as a formula, such as "s0 + 0.4 s * v + 0.01 s2/m * v^2" (formula.h).
 #include <cmath>
 
 #include <fmt/format.h>

@@ -1,11 +1,11 @@
 // Spacing laws: the desired net gap to the leader as a function of the own speed (H of Fig. 3 of the paper). The slope
-// of the function is the local time gap. The controller of full dynamics works with a time gap where the slope is
-// positive, and with a constant distance where it is 0.
+// of the function is the local time gap. Where the slope is positive, the controller of full dynamics keeps a time gap.
+// Where the slope is 0, it keeps a constant distance.
 //
-// To add a law, write a file spacing_laws/<name>.cpp that defines a GapLaw, and register the law in gap_policy.cpp. The
-// fields of its parameters in YAML files, the lists for the user, the error message for an unknown name and the
-// conformance tests then include the new law. A spacing policy is a law with values for its parameters; to add one,
-// write YAML (data/policies). The laws `formula` and `table` need no C++ at all.
+// To add a law, write a file spacing_laws/<name>.cpp that defines a GapLaw, and register the law in gap_policy.cpp. Its
+// parameters are then fields in YAML files. The lists for the user, the error message for an unknown name and the tests
+// of all laws include it. A spacing policy is a law with values for its parameters; to add one, write YAML
+// (data/policies). With the laws `formula` and `table`, a gap of any shape needs no C++.
 #pragma once
 
 #include <array>
@@ -32,14 +32,14 @@ inline constexpr LawParameter kTimeGapParameter{"time_gap", "s", 0, 20,
 inline constexpr LawParameter kSwitchSpeedParameter{"switch_speed", "km/h", 0, 300,
                                                     "speed up to which the net gap stays the standstill gap"};
 
-// A gap that is stored for speeds with a constant spacing. Between these speeds, the gap is interpolated linearly.
-// Above the last speed, it goes on with the last slope.
+// A gap as a function of the speed, stored for speeds in equal steps. Between these speeds, the gap is interpolated
+// linearly. Above the last speed, it continues with the last slope.
 struct GapTable {
     static constexpr double kNodesPerMps = 50.0;
     static constexpr double kHighest_mps = 100.0;
     static constexpr std::size_t kNodes = static_cast<std::size_t>(kNodesPerMps * kHighest_mps) + 1;
 
-    std::vector<double> gap_m;  // [node], empty or kNodes values; node k has the speed k / kNodesPerMps
+    std::vector<double> gap_m;  // [node], empty or kNodes values; node k is for k / kNodesPerMps [m/s]
 
     void evaluate(std::span<const double> speed_mps, std::span<double> gap, std::span<double> slope_s) const;
 };
@@ -59,7 +59,7 @@ struct GapPolicy {
     void evaluate(std::span<const double> speed_mps, std::span<double> gap_m, std::span<double> slope_s) const;
 };
 
-// An invalid combination of values.
+// An error in the settings of a policy: the YAML field and the text for the user.
 struct LawProblem {
     std::string field;
     std::string message;
@@ -72,14 +72,14 @@ struct GapLaw {
     // See GapPolicy::evaluate().
     void (*evaluate)(const GapPolicy& policy, std::span<const double> speed_mps, std::span<double> gap_m,
                      std::span<double> slope_s);
-    // Returns the form that the mesoscale mode gives to the gap of the policy.
+    // Returns how the mesoscale mode models the gap of the policy.
     MesoGap (*meso_gap)(const GapPolicy& policy);
-    // Returns the problems of settings whose values are all within their ranges. nullptr: there are none.
+    // Returns the problems of settings whose values are all within their ranges. nullptr: such settings have none.
     std::vector<LawProblem> (*problems)(const GapPolicySettings& settings) = nullptr;
     // Makes GapPolicy::table. nullptr: the law needs no table.
     GapTable (*tabulate)(const GapPolicySettings& settings) = nullptr;
-    // True: the law can be of any shape, so a policy for the mesoscale mode must name a car-following model of this
-    // mode (GapPolicySettings::mesoscale).
+    // True: the gap can have any shape, so the law does not imply a car-following model of the mesoscale mode. In a
+    // mesoscale run, the policy must name the model (GapPolicySettings::mesoscale).
     bool names_mesoscale_model = false;
 };
 

@@ -1,4 +1,4 @@
-// Functions for laws of any shape, which are stored as a GapTable.
+// Functions for laws whose gap can have any shape. Such a gap is stored as a GapTable.
 #pragma once
 
 #include <span>
@@ -8,8 +8,8 @@
 
 namespace stopline {
 
-// Returns why a table cannot be a desired gap; empty if it can. The gap must be the standstill gap at rest, must not
-// fall with the speed, and must grow by at most 20 m per m/s, so that it has no jump.
+// Returns the reason why a table is no valid desired gap; empty if it is valid. The gap must be the standstill gap at
+// rest and must not fall with the speed. It must not jump, which means that it grows by at most 20 m per m/s.
 std::string gap_shape_problem(const GapTable& table, double standstill_gap_m);
 
 // Implements GapLaw::evaluate with GapPolicy::table.

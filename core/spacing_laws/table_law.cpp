@@ -1,5 +1,5 @@
-// A law that the policy gives as a table: the net gap at some speeds. Between them, and between rest and the first of
-// them, the gap is linear. Above the last speed, it goes on with the last slope.
+// The policy gives the gap of this law as a table: the net gap at some speeds. At rest, the gap is the standstill gap.
+// Between these points it is linear. Above the last speed, it continues with the last slope.
 #include <fmt/format.h>
 
 #include "spacing_laws/gap_policy.h"
@@ -16,7 +16,7 @@ GapTable points_table(const GapPolicySettings& settings) {
     gap_m.insert(gap_m.end(), settings.gap_at_speed_m.begin(), settings.gap_at_speed_m.end());
     GapTable table;
     table.gap_m.resize(GapTable::kNodes);
-    std::size_t after = 1;  // index of the first point with a higher speed, if there is one
+    std::size_t after = 1;  // index of the first point above the speed v, or of the last point
     for (std::size_t k = 0; k < GapTable::kNodes; ++k) {
         const double v = static_cast<double>(k) / GapTable::kNodesPerMps;
         while (after + 1 < speed_mps.size() && speed_mps[after] <= v) ++after;

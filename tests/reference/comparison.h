@@ -48,7 +48,7 @@ struct Comparison {
     double max_speed_mps = 0.0;
 };
 
-// Returns the model of core/sim for a plan.
+// Returns the model of core/sim for a scenario on a road. `scalar`: its kernels compute one vehicle at a time.
 inline Model model_of(const Scenario& scenario, const Road& road, bool scalar) {
     Model model = build_model(scenario, 0);
     model.scalar_kernels = scalar;
@@ -146,10 +146,10 @@ inline Comparison compare_engines(const Plan& plan, const Tolerance& tolerance, 
     return SideBySide(plan, tolerance, rules).run();
 }
 
-// Returns true if rounding decides about the values after `steps` steps. A decision can depend on the last digit of a
-// value: whether a gear changes, or in which step a brake is released. core/sim rounds differently, so it may decide
-// otherwise. The function adds noise of the size of rounding errors to the reference engine. It returns true if a run
-// with noise differs from the run without noise by more than half of the tolerance.
+// Returns true if rounding alone can explain a difference after `steps` steps. A decision, such as a gear change or the
+// release of a brake, can depend on the last digit of a value. core/sim rounds differently, so it may decide otherwise.
+// The function repeats the run of the reference engine with noise of the size of rounding errors. It returns true if a
+// run with noise differs from the run without noise by more than half of the tolerance.
 inline bool is_decided_by_rounding(const Plan& plan, std::int64_t steps, const Tolerance& tolerance,
                                    const UndocumentedRules& rules = {}) {
     constexpr std::uint64_t kRuns = 40;

@@ -1,5 +1,5 @@
-// Signal, stop lines and demand of the reference engine: which vehicle stops at a line, and when the next vehicle
-// enters with which policy.
+// Signal, stop lines and demand of the reference engine. These functions choose the vehicle that stops at a line, and
+// the time, state and policy of the next vehicle that enters.
 #pragma once
 
 #include <optional>
@@ -19,7 +19,7 @@ struct Signal {
     std::int64_t red = 0;
     bool repeats = false;
 
-    // Returns the time since the start of the cycle, or -1 outside of all cycles.
+    // Returns the number of ticks since the start of the cycle, or -1 outside of all cycles.
     std::int64_t phase(std::int64_t tick) const {
         const std::int64_t cycle = green + yellow + red;
         if (tick < first_green || (!repeats && tick >= first_green + cycle)) return -1;
@@ -32,8 +32,8 @@ struct Signal {
     }
 };
 
-// Returns the signals of the lanes from west and east, and of those from south and north. They have green one after the
-// other.
+// Returns two signals: first that of the lanes from west and east, then that of the lanes from south and north. The two
+// signals have green one after the other.
 inline std::vector<Signal> make_crossing_signals(const SignalSettings& s, double step_s) {
     const double stage_s = s.green_s + s.yellow_s + s.all_red_s;
     const auto signal_from = [&](double first_green_s) {
@@ -64,9 +64,9 @@ inline bool can_stop_before(const Vehicle& v, const Lane& lane, const Scenario& 
     return speed_mps * speed_mps <= 2.0 * deceleration_mps2 * room_m;
 }
 
-// Sets Lane::stop_index: the vehicle that stops at the line in this step. A vehicle once chosen stops until the signal
-// is green and the reaction time of the first driver has passed. Marks the vehicle as a platoon leader. Returns true if
-// the signal lets all vehicles pass.
+// Sets Lane::stop_index to the vehicle that must stop at the line in this step. The choice holds until the signal is
+// green and the reaction time of the first driver has passed. Marks the chosen vehicle as a platoon leader. Returns
+// true if the signal lets all vehicles pass.
 inline bool decide_stop_line(const Scenario& scenario, const Signal& signal, std::int64_t hesitation_ticks,
                              std::int64_t tick, Lane& lane) {
     lane.stop_index = -1;
@@ -132,7 +132,8 @@ private:
         while (number >= upper && c + 1 < population_.components.size()) upper += share(++c);
         return static_cast<int>(c);
     }
-    // In each block of 20 vehicles, every vehicle gets a number from another twentieth of [0, 1), in random order.
+    // Returns a number in [0, 1) for the k-th vehicle. The 20 vehicles of a block get numbers from 20 different
+    // twentieths of [0, 1), in random order.
     double balanced_number(int lane, std::int64_t k) const {
         const std::int64_t first = k / 20 * 20;
         const auto bits = [&](std::int64_t other) { return random_bits(seed_, key(lane, other), 1, Purpose::policy); };
@@ -162,8 +163,8 @@ struct EntryState {
     double speed_mps = 0.0;
 };
 
-// Returns the state in which the next vehicle enters; empty if it finds no room. `length_m` is the length of
-// all vehicles, and `gap_m(speed)` the desired gap of the policy of the next vehicle.
+// Returns the state in which the next vehicle enters; empty if it finds no room. `length_m` is the length of each
+// vehicle. `gap_m(speed)` returns the desired gap of the next vehicle.
 template <class Gap>
 std::optional<EntryState> entry_state(const Scenario& scenario, const Lane& lane, double length_m, Gap gap_m) {
     constexpr double kHeadway_s = 2.0;

@@ -14,7 +14,7 @@ namespace stopline::reference_engine {
 struct DriverModel {
     DriverSettings settings;
     GridCurve profile_mps2;  // free driving: acceleration over speed
-    GridCurve power_mps2;    // lower bound of it for desired speeds above profile_end_mps
+    GridCurve power_mps2;    // lower bound of profile_mps2 for desired speeds above profile_end_mps
     double profile_end_mps = 0.0;
 };
 
@@ -66,7 +66,7 @@ inline double stop_at_line_mps2(const DriverModel& d, double speed_mps, double d
     return needed_mps2 > d.settings.stop.deceleration_mps2 ? std::min(curve_mps2, -needed_mps2) : curve_mps2;
 }
 
-// Returns the acceleration for a stop behind a leader that is about to stop; infinity for another leader.
+// Returns the acceleration for a stop behind the leader; infinity if the leader is not about to stop.
 inline double stop_behind_mps2(const DriverModel& d, double speed_mps, double standstill_gap_m, const View& p) {
     constexpr double kStopping_mps = 5.0;
     constexpr double kBraking_mps2 = 0.2;
@@ -79,8 +79,8 @@ inline double stop_behind_mps2(const DriverModel& d, double speed_mps, double st
     return stop_after_mps2(d, speed_mps, p.gap_m - delayed_m - standstill_gap_m + leader_stop_m);
 }
 
-// Returns the constant request u that brings the own acceleration to that of the leader, in the least-squares sense at
-// three times of the prediction horizon: w u = a_p(t + th) - (1 - w) a with w = 1 - exp(-th / tau).
+// Returns the constant request u that brings the own acceleration close to that of the leader. It solves the equation
+// w u = a_p(t + th) - (1 - w) a with w = 1 - exp(-th / tau) by least squares, for three values of th.
 inline double predictive_request_mps2(const CaccSettings& c, const Vehicle& v, const View& p) {
     double numerator = 0.0;
     double denominator = 0.0;
@@ -95,8 +95,8 @@ inline double predictive_request_mps2(const CaccSettings& c, const Vehicle& v, c
     return std::clamp(numerator / denominator, -c.deceleration_emergency_mps2, c.acceleration_max_mps2);
 }
 
-// Returns the acceleration of the spacing controller. `desired` is the gap of the spacing law, and `growth_m` the part
-// of it that exceeds the standstill gap.
+// Returns the acceleration of the spacing controller. `desired` is the gap of the spacing law. `growth_m` is the part
+// of this gap beyond the standstill gap.
 inline double follow_mps2(const CaccSettings& c, const Vehicle& v, const LawGap& desired, double growth_m,
                           const View& p, double dt) {
     constexpr double kFilterRoom_s = 0.3;
@@ -135,8 +135,8 @@ inline double emergency_mps2(const CaccSettings& c, double speed_mps, const View
     return -std::min(kMargin * needed_mps2, c.deceleration_emergency_mps2);
 }
 
-// Returns the braking that keeps room in case the leader brakes with the maximum deceleration; infinity if the speed is
-// safe: v_safe^2 = v_p^2 + 2 b room.
+// Returns the braking to the safe speed, v_safe^2 = v_p^2 + 2 b room; infinity if the vehicle is not faster. At the
+// safe speed, the vehicle can still stop if the leader brakes with the maximum deceleration.
 inline double keep_room_mps2(const CaccSettings& c, double speed_mps, double growth_m, const View& p) {
     constexpr double kGain_1ps = 2.0;
     constexpr double kBrakeReserve_s = 0.3;
@@ -154,7 +154,7 @@ inline double keep_room_mps2(const CaccSettings& c, double speed_mps, double gro
     return std::max(along_mps2 + kGain_1ps * (safe_mps - speed_mps), -b);
 }
 
-// The request of a vehicle, and the mean of the request over the step that the powertrain gets.
+// The request of a vehicle at the end of a step, and its mean over the step. The powertrain gets the mean.
 struct DriverRequest {
     double request_mps2 = 0.0;
     double mean_mps2 = 0.0;
@@ -162,9 +162,9 @@ struct DriverRequest {
     bool is_slowing_down = false;
 };
 
-// Returns the requested acceleration: the lowest one that any law demands, with limited jerk. `stop_m`: position where
-// the vehicle must stop. Clears
-// Vehicle::is_platoon_leader when the acceleration for following no longer exceeds that of free driving.
+// Returns the requested acceleration: the lowest acceleration of all laws, with limited jerk. `stop_m`: position where
+// the vehicle must stop. Clears Vehicle::is_platoon_leader when the acceleration for following no longer exceeds that
+// of free driving.
 inline DriverRequest plan_request(const DriverModel& d, const GapPolicy& policy, const Lane& lane, const View& p,
                                   std::optional<double> stop_m, double dt, Vehicle& v) {
     constexpr double kStart_mps2 = 0.01;

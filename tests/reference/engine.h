@@ -23,7 +23,7 @@ public:
     Engine& operator=(Engine&&) = delete;
     ~Engine() = default;
 
-    // Runs the first population of the scenario.
+    // Prepares a run of the first population of the scenario.
     Engine(const Scenario& scenario, const Road& road, const UndocumentedRules& rules = {}, const Noise& noise = {})
         : scenario_(scenario),
           rules_(rules),
@@ -46,7 +46,8 @@ public:
             make_meso();
         } else {
             driver_ = make_driver_model(scenario.driver, vehicle_);
-            // The radar delay ends when the request takes effect, one step after the controller has computed it.
+            // The radar delay includes the step between the computation of a request and its effect. So the
+            // controller uses data that are one step younger than the delay.
             radar_age_ = std::max(scenario.driver.cacc.radar_delay_s - step_s_, 0.0) / step_s_;
             v2v_age_ = scenario.driver.cacc.v2v_delay_s / step_s_;
         }
@@ -134,8 +135,8 @@ private:
         tabulate_profiles(vehicle_, meso_);
     }
 
-    // Returns the last vehicle of the nearest lane downstream that has vehicles; null if there is none or if that lane
-    // begins beyond the range of the radar. Sets `start_m` to the start of that lane, measured from the start of
+    // Returns the last vehicle of the nearest occupied lane downstream; null if there is no such lane or if it begins
+    // beyond the range of the radar. Sets `start_m` to the start of the occupied lane, measured from the start of
     // `lane`.
     const Vehicle* vehicle_beyond(const Lane& lane, double position_m, double& start_m) const {
         const Lane* here = &lane;
@@ -199,7 +200,8 @@ private:
             for (std::size_t k = 0; k < lane.vehicles.size(); ++k) {
                 Vehicle& v = lane.vehicles[k];
                 Leader leader = leaders[number][k];
-                // A vehicle hears of a start message to its leader if both are on the same lane.
+                // A start message changes the acceleration of its receiver in this step. Only a follower on the same
+                // lane uses the changed value.
                 if (k > 0) leader.acceleration_mps2 = leader.vehicle->acceleration_mps2;
                 leader.acceleration_mps2 = std::max(leader.acceleration_mps2, 0.0);
                 const double highest_mps = highest_speed_mps(meso_, lane, v, stop_position_m(lane, k), leader.id >= 0);
@@ -255,7 +257,8 @@ private:
         const double available = drive(vehicle_, request.mean_mps2, sine, step_s_, v);
         situations_.gear_changes += v.gear != gear_before ? 1 : 0;
         v.request_mps2 = request.request_mps2 + (request.request_mps2 != 0.0 ? noise_.draw() : 0.0);
-        // The message belongs to the end of the step, 1.5 steps after the middle of the previous step.
+        // The message announces the acceleration at the end of this step. The acceleration before is the mean over the
+        // previous step, so it belongs to a time 1.5 steps earlier.
         const double announced_mps2 = std::min(request.request_mps2, available);
         const double share = std::min(1.5 * step_s_ / lag_before_s, 1.0);
         v.sent.push_front({acceleration_before_mps2 + (announced_mps2 - acceleration_before_mps2) * share,
@@ -361,7 +364,7 @@ private:
         if (ahead != nullptr) {
             v.leader_id = ahead->id;
             radar = {ahead->position_m - length_m_ - v.position_m, v.speed_mps - ahead->speed_mps};
-            // A vehicle of a saturated inflow enters as part of a platoon, in the state of its leader.
+            // A vehicle of a saturated inflow enters as a platoon member with the motion of its leader.
             if (scenario_.demand.kind == "saturated" && ahead->speed_mps <= v.speed_mps) copy_motion(*ahead, v);
         }
         v.radar.assign(static_cast<std::size_t>(radar_age_) + 3, radar);

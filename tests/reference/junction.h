@@ -1,7 +1,7 @@
 // Right of way and keep-clear rule of the reference engine, for intersections where all vehicles go straight on. The
 // streets that cross have green one after the other, so neither has priority. A vehicle keeps out of a conflict area
-// while a vehicle of the crossing street is in it. If both still drive towards it, the vehicle that was the first to
-// pass its stop line goes first. The rules are those of the comments in core/sim/junction.
+// while a vehicle of the crossing street is in it. If both vehicles still approach the area, the first one to pass its
+// stop line has priority. The rules are those of the comments in core/sim/junction.
 #pragma once
 
 #include <tuple>
@@ -50,7 +50,8 @@ public:
             const auto origin = static_cast<std::size_t>(connection.origin);
             const Lane& approach = lanes[origin];
             const Signal& signal = signals[static_cast<std::size_t>(approach.signal)];
-            // In the step in which the light changes, no vehicle has been chosen to stop. So no vehicle counts.
+            // In the step in which the light changes, no vehicle has been chosen to stop yet. So the vehicles on the
+            // approach do not count.
             const bool has_changed = tick == 0 || signal.light(tick) != signal.light(tick - 1);
             if (signal.light(tick) == Light::green || has_changed) continue;
             for (std::size_t k = 0; k < approach.vehicles.size(); ++k) {
@@ -60,8 +61,8 @@ public:
         }
     }
 
-    // Keep-clear rule: sets Lane::stop_index to the first vehicle that must wait at green, because its exit lane has no
-    // room or because a stopped vehicle of the crossing street must clear its path first.
+    // Keep-clear rule: sets Lane::stop_index to the first vehicle that must wait at green. A vehicle must wait while
+    // its exit lane has no room for it, or while a slow vehicle of the crossing street blocks its path.
     void hold_for_keep_clear(const std::vector<Lane>& lanes, const std::vector<Signal>& signals, std::int64_t tick,
                              Lane& approach) {
         constexpr double kDecisionDistance_m = 80.0;
@@ -108,7 +109,7 @@ public:
         resolve_deadlocks();
     }
 
-    // Returns in how many steps the keep-clear rule has held a vehicle.
+    // Returns the number of vehicle steps in which the keep-clear rule has held a vehicle.
     std::int64_t holds() const { return holds_; }
     // Returns in how many steps a deadlock was resolved.
     std::int64_t resolved() const { return resolved_; }
@@ -116,7 +117,7 @@ public:
     std::int64_t waits() const { return waits_; }
 
 private:
-    // Two vehicles wait for each other, and the first one proceeds.
+    // The ids of two vehicles that wait for each other. Vehicle `proceeds` drives on, and vehicle `yields` waits.
     struct Resolution {
         int proceeds = -1;
         int yields = -1;
@@ -128,8 +129,8 @@ private:
         return length_m_ + stored(policies_[static_cast<std::size_t>(v.policy)].settings.standstill_gap_m);
     }
 
-    // Returns the free length of the exit lane behind the last slow vehicle, minus the space of the vehicles that are
-    // on their way to it. Without a slow vehicle, the exit lane counts as endless.
+    // Returns the free length of the exit lane behind its last slow vehicle, minus the space for all vehicles that
+    // drive towards this vehicle. If no slow vehicle is in sight, the exit lane counts as endless.
     double exit_room_m(const std::vector<Lane>& lanes, const Lane& connection) const {
         constexpr double kEndless_m = 1e9;
         double moving_m = 0.0;
@@ -259,7 +260,7 @@ private:
         return {0, 0};  // never reached: the vehicle is in the network
     }
 
-    // Returns the leader of a slow vehicle if the leader is slow, too, and close; else null.
+    // Returns the leader of a vehicle if both are slow and their gap is short; else null.
     const Vehicle* blocking_leader(const Vehicle& v) const {
         constexpr double kClose_m = 6.0;
         const auto [lane, k] = place_of(v.id);
@@ -281,11 +282,11 @@ private:
         return false;
     }
 
-    // A slow vehicle that waits, and for whom.
+    // A vehicle and its blocker: the vehicle that it waits for.
     struct Waiting {
         const Vehicle* vehicle = nullptr;
         const Vehicle* blocker = nullptr;      // null: it waits for nobody
-        bool needs_only_right_of_way = false;  // the blocker has not reached their conflict area
+        bool needs_only_right_of_way = false;  // true: the blocker is not in the conflict area yet
     };
 
     Waiting waiting(const Vehicle& v) const {
@@ -300,8 +301,8 @@ private:
         return {&v, blocking_leader(v)};
     }
 
-    // Returns false if the connection of a vehicle on `lane` crosses that of the blocker and the front of the blocker
-    // has not reached the conflict area. Else returns true.
+    // Returns true if the front of the blocker has reached the conflict area of its connection and the connection of a
+    // vehicle on `lane`. Also returns true if these connections do not cross.
     bool is_in_area(std::size_t lane, std::size_t blocker_lane, const Vehicle& blocker) const {
         const auto connection_of = [&](std::size_t number) {
             return (*lanes_)[number].origin >= 0 ? static_cast<int>(number) : (*lanes_)[number].next;
@@ -314,8 +315,8 @@ private:
         return true;
     }
 
-    // If slow vehicles wait for each other in a cycle, lets one of them proceed. It is the one that has waited longest
-    // of those whose blocker has not reached the conflict area yet.
+    // If slow vehicles wait for each other in a cycle, lets one of them proceed. The candidates are the vehicles whose
+    // blocker has not reached the conflict area yet. The candidate that has waited longest proceeds.
     void resolve_deadlocks() {
         for (const Lane& lane : *lanes_) {
             for (const YieldPlace& stop : lane.yield_stops) {

@@ -106,8 +106,8 @@ inline double meso_safe_speed_mps(const MesoPolicy& p, double gap_m, double lead
 
 inline double snapped(double speed_mps) { return speed_mps < kMesoStopSpeed_mps ? 0.0 : speed_mps; }
 
-// Returns the highest speed before a lower speed limit, or infinity. The vehicle follows the braking curve
-// v^2 = v_end^2 + 2 b distance.
+// Returns the highest speed of the next step before a lower speed limit; infinity if no lower limit is ahead. The
+// vehicle follows the braking curve v^2 = v_end^2 + 2 b distance.
 inline double speed_before_lower_limit_mps(const MesoModel& m, const Lane& lane, const Vehicle& v) {
     if (lane.end_speed_mps <= 0.0) return std::numeric_limits<double>::infinity();
     const double b = m.driver.free_drive.deceleration_mps2;
@@ -122,7 +122,7 @@ inline double speed_before_lower_limit_mps(const MesoModel& m, const Lane& lane,
     return std::max(next_mps, v.speed_mps - m.driver.cacc.deceleration_emergency_mps2 * m.step_s);
 }
 
-// Returns the highest next speed of a vehicle that must stop at a position of its lane.
+// Returns the highest speed of the next step for a vehicle that must stop at a position of its lane.
 inline double stopping_speed_mps(const MesoModel& m, const Vehicle& v, double position_m) {
     const MesoPolicy& p = m.policies[static_cast<std::size_t>(v.policy)];
     const double b = std::min(p.settings.deceleration_mps2, m.driver.stop.deceleration_mps2);
@@ -130,7 +130,8 @@ inline double stopping_speed_mps(const MesoModel& m, const Vehicle& v, double po
     return std::max(stop_mps, v.speed_mps - m.driver.cacc.deceleration_emergency_mps2 * m.step_s);
 }
 
-// Returns the highest next speed that the speed limits, a stop at `stop_m` and free driving without a leader allow.
+// Returns the highest speed of the next step that the speed limits and a stop at `stop_m` allow. For a vehicle without
+// leader, the law of free driving limits the speed, too.
 inline double highest_speed_mps(const MesoModel& m, const Lane& lane, const Vehicle& v, std::optional<double> stop_m,
                                 bool has_leader) {
     const double limit_mps = m.free_limit_mps(lane);
@@ -150,7 +151,7 @@ inline double highest_speed_mps(const MesoModel& m, const Lane& lane, const Vehi
     return std::min(highest_mps, speed_before_lower_limit_mps(m, lane, v));
 }
 
-// Returns the lower bound of the acceleration on a road above the calibrated speed limit; else 0.
+// Returns the lower bound of the acceleration if the speed limit is above the calibrated limit; else 0.
 inline double power_bound_mps2(const MesoModel& m, const Lane& lane, double speed_mps) {
     constexpr double kRounding = 1.001;
     const double calibrated_mps = kRounding * m.settings.speed_factor * m.settings.calibrated_speed_limit_mps;

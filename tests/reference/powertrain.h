@@ -80,7 +80,7 @@ inline double available_mps2(const VehicleModel& vehicle, double speed_mps) {
     return std::min(highest_mps2, vehicle.friction_mps2);
 }
 
-// Returns the share `power_share` of the highest acceleration, on a grid of speeds.
+// Returns the highest acceleration times `power_share`, on a grid of speeds.
 inline constexpr double kPowerTop_mps = 250.0 / 3.6;
 inline GridCurve power_curve(const VehicleModel& vehicle, double power_share) {
     GridCurve power(kPowerTop_mps, 32);
@@ -90,14 +90,14 @@ inline GridCurve power_curve(const VehicleModel& vehicle, double power_share) {
     return power;
 }
 
-// Returns the highest gear in which the engine speed is 10 % above the speed for downshifts.
+// Returns the highest gear in which the engine speed is at least 10 % above the engine speed for downshifts.
 inline int cruising_gear_of(const VehicleModel& vehicle, double speed_mps) {
     int gear = vehicle.top_gear();
     while (gear > 0 && speed_mps * vehicle.rpm_per_mps(gear) < 1.1 * vehicle.settings.shift_down_rpm) --gear;
     return gear;
 }
 
-// The quantities of one step between the engine and the wheels, at the start of the step.
+// The state between engine and wheels at the start of a step.
 struct Drivetrain {
     double locked_rpm = 0.0;    // engine speed with closed clutch
     double rpm = 0.0;           // engine speed
@@ -130,10 +130,10 @@ inline Drivetrain drivetrain_of(const VehicleModel& vehicle, const Vehicle& v, d
     return d;
 }
 
-// What the low-level controller requests, from the inverse dynamics.
+// The request of the low-level controller to engine and brake, computed by inverse dynamics.
 struct ActuatorRequest {
     double wanted_Nm = 0.0;  // torque for the requested acceleration
-    double torque_Nm = 0.0;  // torque that the engine is asked for
+    double torque_Nm = 0.0;  // torque requested from the engine
     double brake_N = 0.0;
     double share = 0.0;  // torque_Nm as a share of the full-load torque
 };
@@ -188,7 +188,7 @@ inline double drive(const VehicleModel& vehicle, double request_mps2, double sin
     const PowertrainSettings& s = vehicle.settings;
     const Drivetrain d = drivetrain_of(vehicle, v, vehicle.mass_kg * kGravity_mps2 * sine, dt);
     const ActuatorRequest request = actuator_request(vehicle, d, request_mps2);
-    // A first-order lag leaves the share dt / (lag + dt / 2) of the difference behind in a step.
+    // In one step, a first-order lag closes the share dt / (lag + dt / 2) of the difference.
     const double drive_lag_s = (vehicle.lag_unloaded_s.at(d.rpm) +
                                 request.share * (vehicle.lag_loaded_s.at(d.rpm) - vehicle.lag_unloaded_s.at(d.rpm))) *
                                s.lag_gear_factor[static_cast<std::size_t>(v.gear)];

@@ -7,10 +7,10 @@
 
 namespace stopline::reference_engine {
 
-// Updates the members of the standing queue: consecutive vehicles at rest. A queue begins to form with the first
-// vehicle of the lane. It loses the vehicles that have started at its head, and gains those that stop behind it.
-// Nothing but its leader may act on a member behind the first one. So the queue is dissolved for two steps if a vehicle
-// stops at the line further upstream, or if a vehicle has entered the lane.
+// Updates the members of the standing queue: consecutive vehicles at rest. A new queue begins with the first vehicle of
+// the lane. The queue loses the vehicles that have started at its head, and gains those that have stopped behind it. A
+// member behind the first one must react to nothing but its leader. So the queue is dissolved, up to the end of the
+// next step, if such a member must stop at the line or yield, or if a vehicle has entered the lane.
 inline void update_standing_queue(Lane& lane, std::int64_t tick) {
     std::deque<Vehicle>& vehicles = lane.vehicles;
     const auto is_member = [](const Vehicle& v) { return v.is_in_queue; };
@@ -28,9 +28,9 @@ inline void update_standing_queue(Lane& lane, std::int64_t tick) {
     for (auto v = first; v != past_last; ++v) v->is_in_queue = true;
 }
 
-// Sends the start message to the vehicles at the head of the standing queue, and applies it: the acceleration of the
-// vehicle that has just started ahead of the queue replaces the acceleration of the receivers. The relay ends at a
-// vehicle with a time gap, and at a vehicle whose gap is long.
+// Sends a start message to the first vehicles of the standing queue if the vehicle ahead of the queue has started. The
+// receivers take over the acceleration of this vehicle. The relay ends before a vehicle whose policy has a time gap,
+// before a vehicle with a long gap, and after the highest number of receivers.
 inline void relay_start_message(const MesoModel& model, double length_m, Lane& lane) {
     constexpr double kClosedUp_m = 0.5;
     std::deque<Vehicle>& vehicles = lane.vehicles;

@@ -1,5 +1,5 @@
-// Random scenarios for the comparison of core/sim with the reference engine. A Plan holds the values that vary. Its
-// scenario is made from YAML text, so a printed plan is the scenario itself.
+// Random scenarios for the comparison of core/sim with the reference engine. A Plan holds the values that vary. It is
+// converted to YAML text, and the scenario is read from this text. So a test can print the scenario as YAML.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct Plan {
     };
     std::uint64_t seed = 1;
     double duration_s = 60.0;
-    // Empty: full dynamics. Else the file of data/meso.
+    // Name of a file in data/meso; empty: full dynamics.
     std::string meso;
     double step_s = 0.1;
     double dawdling = -1.0;    // of both car-following models; below 0: that of the file
@@ -31,7 +31,7 @@ struct Plan {
     double length_m = 300.0;
     double exit_m = 200.0;
     double limit_kmh = 50.0;
-    double exit_limit_kmh = 0.0;  // speed limit behind the stop line; 0: the same as before
+    double exit_limit_kmh = 0.0;  // speed limit of the exit lanes; 0: limit_kmh
     double gradient_percent = 0.0;
     double first_green_s = 10.0;
     double green_s = 20.0;
@@ -118,7 +118,7 @@ inline std::string yaml_of(const Plan& p) {
 inline Scenario scenario_of(const Plan& plan) { return parse_scenario(yaml_of(plan), "plan"); }
 inline Road road_of(const Plan& plan) { return {plan.exit_limit_kmh / 3.6}; }
 
-// Draws the values of plans.
+// Draws random plans.
 class PlanDraw {
 public:
     explicit PlanDraw(std::uint64_t seed) : random_(seed) {}
@@ -170,7 +170,7 @@ private:
         return names[static_cast<std::size_t>(number(0, static_cast<int>(names.size()) - 1))];
     }
 
-    // Returns the sum of three times, rounded to the tenth of a second that they have.
+    // Returns the sum of three times that are multiples of 0.1 s. Removes the rounding errors of the addition.
     static double sum(double a_s, double b_s, double c_s) { return std::round(10.0 * (a_s + b_s + c_s)) / 10.0; }
 
     Plan road_and_signal() {

@@ -14,15 +14,15 @@ using namespace reference_engine;
 
 // Mesoscale mode: both engines compute with doubles and differ in the order of operations only. Their rounding errors
 // of about 1e-15 m grow in stop-and-go waves (stored() in world.h). Of 2000 scenarios, ten exceed the tolerance. In
-// these ten, noise of 1e-13 m/s changes the run of the reference engine as much.
+// these ten, noise of 1e-13 m/s changes the run of the reference engine just as much.
 constexpr Tolerance kMesoTolerance{1e-5, 1e-5, 1e-4};
 // Full dynamics: core/sim computes accelerations with floats, whose errors are about 1e-6 m/s2. The controllers keep
 // the resulting differences bounded: they are 1e-5 m in most scenarios and below 2e-4 m in 99 %, whatever the duration.
 // If rounding releases the brake of a starting vehicle a step earlier, its position differs by 1e-3 m.
 constexpr Tolerance kFullTolerance{3e-3, 3e-3, 3e-3};
 
-// Compares both engines in the plans that `draw` returns. Allows rounding to decide in one of twenty scenarios.
-// In full dynamics, it decides in one of sixty, in mesoscale mode in one of a hundred and fifty.
+// Compares both engines in the plans that `draw` returns. In at most one of 20 scenarios, rounding may decide. In fact
+// it decides in one of 60 scenarios of full dynamics, and in one of 150 of the mesoscale mode.
 template <class Draw>
 Situations compare_in_random_plans(int plans, const Tolerance& tolerance, Draw draw) {
     Situations situations;
@@ -116,8 +116,8 @@ TEST(Reference, CrossingsAgreeInFullDynamics) {
     EXPECT_GT(seen.held_at_green, 3000);
 }
 
-// A queue at the start of green, while further vehicles enter upstream. With this seed, a vehicle enters while the
-// start messages go through the queue.
+// Returns a plan in which a queue starts at green while further vehicles enter upstream. With this seed, a vehicle
+// enters while start messages go through the queue.
 Plan queue_with_inflow() {
     Plan plan;
     plan.seed = 23;
@@ -153,7 +153,8 @@ TEST(UndocumentedRule, ThePowerBoundNeedsAPolicyWithAPowerLimit) {
     EXPECT_TRUE(compare_engines(plan, kMesoTolerance, rules).difference);
 }
 
-// The comparison finds a difference, and the scenario that it prints is smaller, still differs, and can be loaded.
+// The comparison finds a difference and prints a smaller scenario. The engines still differ in this scenario, and it
+// can be loaded.
 TEST(Comparison, PrintsASmallerScenarioThatStillDiffers) {
     UndocumentedRules rules;
     rules.insertion_ends_start_messages = false;

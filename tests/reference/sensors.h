@@ -5,7 +5,7 @@
 
 namespace stopline::reference_engine {
 
-// What the sensors of a vehicle report about its leader.
+// The data of radar and V2V about the leader.
 struct View {
     double gap_m = kNoLeaderGap_m;
     double closing_mps = 0.0;

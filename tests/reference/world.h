@@ -1,11 +1,11 @@
 // The data of the reference engine. The reference engine computes the same model as core/sim, but is written for
-// clarity: a vehicle is a struct, a lane is a list of vehicles, all numbers are doubles, and every vehicle is computed
-// in every step. It calls no function of core/sim, core/driver/krauss.h, core/driver/acceleration_laws.h or
+// clarity. A vehicle is a struct, a lane is a list of vehicles, and all numbers are doubles. Every vehicle is computed
+// in every step. The engine calls no function of core/sim, core/driver/krauss.h, core/driver/acceleration_laws.h or
 // core/vehicle/powertrain_step.h. It reads the same settings and draws the same random numbers.
 //
-// The network is a straight road (`network.kind: approach`) with one or several lanes, or an intersection of two
-// streets with one lane for each direction, where all vehicles go straight on (`network.kind: intersection`). Nobody
-// changes lanes. Every stop line is at the end of its lane.
+// With `network.kind: approach`, the network is a straight road with one or several lanes. With `intersection`, two
+// streets cross, with one lane for each direction, and all vehicles go straight on. No vehicle changes lanes. Every
+// stop line is at the end of its lane.
 #pragma once
 
 #include <algorithm>
@@ -72,7 +72,7 @@ struct Vehicle {
     bool is_at_rest() const { return speed_mps == 0.0 && acceleration_mps2 == 0.0; }
 };
 
-// What a vehicle perceives of its leader at the start of a step.
+// The leader of a vehicle at the start of a step, before sensor delays.
 struct Leader {
     int id = -1;  // -1: there is no leader
     double gap_m = kNoLeaderGap_m;
@@ -125,9 +125,9 @@ struct LanePassage {
     int from_lane = 0;
 };
 
-// The number of times that a situation has come up. The tests assert that their scenarios contain all of them.
+// Counts how often each situation has occurred. The tests assert that their scenarios cover the situations.
 struct Situations {
-    std::int64_t stopped_at_red = 0;  // vehicles that stood before the line at red
+    std::int64_t stopped_at_red = 0;  // vehicles that stopped at the line at red
     std::int64_t passed_at_yellow = 0;
     std::int64_t passed_at_red = 0;     // vehicles that could not stop
     std::int64_t became_follower = 0;   // platoon leaders that closed up to the vehicle ahead
@@ -163,10 +163,10 @@ struct Situations {
 // Rules of core/sim that its documents do not state. The reference engine follows them, so that it can be compared with
 // core/sim. A rule that core/sim gives up can be switched off here.
 struct UndocumentedRules {
-    // An insertion at the upstream end of a lane ends the start messages of the queue on this lane, however far away.
+    // The insertion of a vehicle on a lane ends the start messages of the queue on this lane, even of a distant queue.
     bool insertion_ends_start_messages = true;
-    // The lower bound of accelerations on roads above the calibrated speed limit applies to followers only if the power
-    // of at least one policy limits its acceleration below 100 m/s.
+    // If the speed limit is above the calibrated limit, the acceleration has a lower bound. For followers this bound
+    // applies only if at least one policy has a constant-power speed below 100 m/s.
     bool power_bound_needs_power_limit = true;
 };
 

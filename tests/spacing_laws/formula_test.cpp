@@ -1,4 +1,4 @@
-// Tests of formulas for gaps: values, precedence, units, and the part of a wrong formula that an error names.
+// Tests of formulas for gaps: values, precedence, units, and errors that point at the wrong part of a formula.
 #include "spacing_laws/formula.h"
 
 #include <gtest/gtest.h>
@@ -137,12 +137,12 @@ TEST(TableLaw, IsLinearBetweenItsPoints) {
     EXPECT_NEAR(equilibrium_gap_m(policy, 5.0), 3.0, 1e-9);
     EXPECT_NEAR(equilibrium_gap_m(policy, 10.0), 4.0, 1e-9);
     EXPECT_NEAR(equilibrium_gap_m(policy, 16.0), 10.0, 1e-9);
-    EXPECT_NEAR(equilibrium_gap_m(policy, 120.0), 114.0, 1e-6);  // the last slope goes on
+    EXPECT_NEAR(equilibrium_gap_m(policy, 120.0), 114.0, 1e-6);  // continues with the last slope
     settings.gap_at_speed_m = {4.0, 3.0};
     EXPECT_NE(find_gap_law("table").problems(settings)[0].message.find("the gap falls"), std::string::npos);
 }
 
-// A formula that is a time gap gives the mesoscale mode the same model as the law constant_time.
+// A formula with a constant time gap gets the same mesoscale model as the law constant_time.
 TEST(FormulaLaw, NamesItsMesoscaleModel) {
     GapPolicySettings formula = formula_policy("s0 + 0.87 s * v");
     formula.mesoscale = "time_gap";

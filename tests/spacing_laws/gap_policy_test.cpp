@@ -54,7 +54,8 @@ TEST(Policies, MatchTheirClosedForm) {
     }
 }
 
-// Returns random settings in plausible ranges. The laws `formula` and `table` get a kink at the switch speed.
+// Returns random settings in plausible ranges. The gap of the law `formula` has a kink at the switch speed. The gap of
+// the law `table` has one 0.5 m/s above it.
 std::vector<GapPolicySettings> arbitrary_settings(const std::string& law) {
     std::vector<GapPolicySettings> all;
     for (std::uint64_t k = 0; k < 50; ++k) {
@@ -122,7 +123,7 @@ TEST(EveryLaw, ReturnsItsDerivative) {
     }
 }
 
-// The gap must not jump at the switch speed, not even by rounding.
+// The gap must not jump at the switch speed, except by rounding.
 TEST(EveryLaw, IsContinuousAtTheSwitch) {
     for (const GapLaw* law : gap_laws()) {
         for (const GapPolicySettings& s : arbitrary_settings(law->name)) {

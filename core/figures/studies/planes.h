@@ -38,8 +38,8 @@ struct SweepMetric {
 };
 inline constexpr std::size_t kSweepMetricCount = 3;
 
-// Returns the metrics that figures of a sweep show, one in each column of panels: those of runs over several
-// intersections, of a single intersection, or of a single light. Returns nothing for any other table.
+// Returns the metrics that the figures of a sweep show, one in each column of panels. Runs over several intersections,
+// of a single intersection and of a single light have different metrics. Returns nothing for any other table.
 std::vector<SweepMetric> sweep_metrics(const CsvTable& results, const std::string& population_column);
 
 // The x axis or the line axis of a figure.
@@ -81,8 +81,8 @@ public:
 
     bool has(std::size_t metric) const;
     std::optional<SeedSpread> value(std::size_t metric, const PlanePoint& point) const;
-    // Returns the change against the baseline, which is population 0, in percent of the mean of the baseline: the mean
-    // and the confidence interval of the differences between runs with the same seed. `sign` is SweepMetric::sign.
+    // Returns the change against the baseline (population 0) in percent of the mean of the baseline. It is the mean of
+    // the differences between runs with the same seed, with its confidence interval. `sign` is SweepMetric::sign.
     std::optional<SeedSpread> change(std::size_t metric, const PlanePoint& point, double sign) const;
     // Returns the numbers of seeds that are stable, semi-stable and unstable.
     std::array<std::size_t, 3> stabilities(const PlanePoint& point) const;

@@ -94,7 +94,7 @@ const Table& stop_table() {
                           number<&S::decision_deceleration_mps2>(
                               "decision_deceleration", "m/s2", {0.1, 10},
                               "on yellow, a vehicle stops if this deceleration suffices; otherwise it goes on"),
-                          number<&S::margin_m>("margin", "m", {0, 20},
+                          number<&S::margin_m>("margin", "m", {0.1, 20},
                                                "distance from the front of the stopped vehicle to the stop line"),
                       });
     return table;

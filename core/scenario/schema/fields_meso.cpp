@@ -58,7 +58,9 @@ const Table& meso_table() {
                                            "speed of a vehicle without leader, as a share of the speed limit, so that "
                                            "followers can catch up (Section V.A)")
                 .renamed_from("leader_share"),
-            number<&S::speed_factor>("speed_factor", "%", {50, 150}, "factor on every speed limit, as in SUMO"),
+            number<&S::speed_factor>(
+                "speed_factor", "%", {50, 150},
+                "factor on the speed limits of lanes, as in SUMO; vehicles enter a slower lane at its plain limit"),
             number<&S::speed_gain_1ps>("speed_gain", "1/s", {0.05, 1000},
                                        "acceleration per m/s below the speed limit, for a gradual approach to the "
                                        "limit as in full dynamics (1000 1/s: full acceleration, as in the paper)"),

@@ -58,7 +58,7 @@ double queue_look_ahead_m(const State& state, int slot) {
 namespace {
 
 // Returns true if the vehicle is on a lane of the intersection to which `lane` belongs. The yielding state of a vehicle
-// at another intersection cannot be used, because another thread may update this state before or after the call.
+// at another intersection cannot be used, because another thread may or may not have updated it yet.
 bool is_at_same_intersection(const State& state, int lane, int slot) {
     const VehicleRecord& record = state.vehicles.record[at(slot)];
     const int own_lane = state.plan.route(record.route)[at(record.route_index)];

@@ -79,10 +79,10 @@ private:
         return (waits || follower.gap_m < needed_m) && !wants_to_swap(other, follower.slot, me);
     }
 
-    // Returns the vehicle on lane `other` that opens a gap for `me`: the first one behind `me` whose gap suffices to
-    // brake to the speed of `me` with GapAlignment::kDeceleration_mps2, and then to let `me` change lanes at rest. If
-    // both vehicles are almost at rest, the gap must be what `me` requires with its present urgency, because the vehicle
-    // cannot open the gap any further. The slot is -1 if there is no such vehicle or if gap opening is off.
+    // Returns the vehicle on lane `other` that opens a gap for `me`. It is the first vehicle behind `me` that can brake
+    // to the speed of `me` with GapAlignment::kDeceleration_mps2 and still has the gap that `me` requires at rest with
+    // the highest urgency. If both vehicles are almost at rest, the gap cannot grow any more. So it must then suffice
+    // for the present urgency of `me`. The slot is -1 if there is no such vehicle or if gap opening is off.
     Neighbour gap_opener(int other, const Neighbour& follower, const LaneChangeRequest& me, double urgency) const {
         // Number of vehicles checked. Vehicles further upstream are still too far away to open a gap for `me`.
         constexpr int kMaxSearched = 5;

@@ -18,10 +18,10 @@ namespace stopline {
 
 namespace {
 
-// Returns the highest speed at the start of the lane route[next] from which a vehicle can still stop comfortably on the
-// exit lane of the route, if it must change lanes there; else kNoLowerLimit_mps. Some edges of imported networks are so
-// short that a vehicle cannot stop on them from the speed limit. There is no such speed if the exit lane is too short
-// for the vehicle to change lanes at all.
+// Returns the highest speed at the start of the lane route[next] from which a vehicle on a trip can still stop
+// comfortably on the exit lane of the route. This matters on edges of imported networks that are too short to stop from
+// the speed limit. Returns kNoLowerLimit_mps if the vehicle need not change lanes on the exit lane, or cannot change
+// lanes there because the exit lane is too short.
 double lane_change_entry_speed_mps(const Model& model, const State& state, std::span<const int> route, int next,
                                    int slot) {
     const VehicleRecord& record = state.vehicles.record[at(slot)];
@@ -35,8 +35,8 @@ double lane_change_entry_speed_mps(const Model& model, const State& state, std::
     return lane_change_stopping_speed_mps(model, distance_m);
 }
 
-// Returns the highest speed at which the vehicle in `slot` may enter the next lane on the route, if this speed is lower
-// than the limit of the current lane; else kNoLowerLimit_mps.
+// Returns the highest speed at which the vehicle in `slot` may enter the next lane on the route. Returns
+// kNoLowerLimit_mps if this speed is not below the limit of the current lane, or if there is no next lane.
 float end_speed(const Model& model, const State& state, std::span<const int> route, int index, int slot) {
     if (at(index) + 1 >= route.size()) return kNoLowerLimit_mps;
     const double here = state.plan.lane(route[at(index)]).limit_mps;
