@@ -263,13 +263,31 @@ void print_throughput_trends(const ThroughputTrends& trends) {
     }
 }
 
+// Returns the population with which the sweep compares the others: measure.baseline, which an axis with one value can
+// set. Says so if the sweep does not run this population. The first population then takes its place.
+std::string baseline_of(const Sweep& sweep, const CsvTable& results) {
+    std::string baseline = sweep.base().measure.baseline;
+    for (const SweepAxis& axis : sweep.settings().axes) {
+        if (axis.paths == std::vector<std::string>{"measure.baseline"} && axis.values.size() == 1) {
+            baseline = axis.values.front();
+        }
+    }
+    const std::size_t column = results.column(sweep.population_column());
+    const auto runs_it = [&](const std::vector<std::string>& row) { return row[column] == baseline; };
+    if (!baseline.empty() && !results.rows.empty() && !std::any_of(results.rows.begin(), results.rows.end(), runs_it)) {
+        fmt::print("  measure.baseline is {}, which the sweep does not run: differences are against {}\n", baseline,
+                   results.rows.front()[column]);
+    }
+    return baseline;
+}
+
 // Writes the means over seeds, the figures, and Table 1 of the paper. Each of them needs certain axes, and is left out
 // if the sweep does not have these axes. Only sweeps of the paper's intersection get Table 1. Returns the sentences
 // that tell the user which file to open.
 std::string draw_results(const Sweep& sweep, const std::string& csv, const std::filesystem::path& file,
                          ColumnNames names) {
     const CsvTable results = parse_csv(csv, file.string());
-    const std::string& baseline = sweep.base().measure.baseline;
+    const std::string baseline = baseline_of(sweep, results);
     std::string next = fmt::format("open {}. It has one row per run.", file.string());
     if (has_seeds(results)) {
         const ResultFile means = result_file("sweep/NAME_means.csv", file.stem().string() + "_means.csv",

@@ -85,6 +85,8 @@ Scenario load_with_options(const std::string& file, const CommonOptions& options
 std::string settings_hint(const std::string& file, const CommonOptions& options, const std::string& purpose,
                           const std::vector<std::string>& settings) {
     const auto is_accepted = [&](const std::string& setting) {
+        if (std::find(options.settings.begin(), options.settings.end(), setting) != options.settings.end())
+            return false;
         std::vector<std::string> all = options.settings;
         all.push_back(setting);
         try {

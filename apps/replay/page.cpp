@@ -156,7 +156,8 @@ ReplayPage make_replay_page(RecordingReader& reader, const ReplayWindow& window,
     }
     data += data_element("data-series", series);
     payload["first_s"] = page.from_s;
-    // Policies have the colours that they have in the figures.
+    // The policies of the paper have the colours that they have in the figures. The recording does not contain the
+    // names of the other populations, so own policies can have another colour there.
     for (const std::string& policy : run.policies) {
         payload["policy_colours"].push_back(line_style(style_index(run.policies, policy)).colour);
     }

@@ -1,6 +1,6 @@
 // Line style of a population or a policy. Each policy of the paper has a style of its own, which is the same in all
-// figures of all programs. Other names get the remaining styles, in the order in which the scenario or the sweep lists
-// them.
+// figures with one line for each population. Other names get the remaining styles, in the order in which the scenario
+// or the sweep lists them.
 #pragma once
 
 #include <cstddef>

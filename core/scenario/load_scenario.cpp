@@ -100,6 +100,7 @@ Scenario scenario_from(SourceNode root, const std::vector<std::string>& override
 template <class S>
 S load_data(const Table& table, const std::string& folder, const std::string& name_or_path,
             const std::filesystem::path& directory, std::vector<std::string>* warnings) {
+    require_data_directory();
     SourceNode node;
     node.kind = SourceNode::Kind::scalar;
     node.text = name_or_path;

@@ -67,11 +67,14 @@ std::string unit_text(const Dimension& d) {
         if (exponent > 0) above.push_back(power_text(base, exponent));
         if (exponent < 0) below.push_back(power_text(base, -exponent));
     }
-    std::string text = above.empty() ? (below.empty() ? "no unit" : "1") : above[0];
+    std::string text = above.empty() ? "1" : above[0];
     for (std::size_t k = 1; k < above.size(); ++k) text += " " + above[k];
     for (const std::string& one : below) text += "/" + one;
     return text;
 }
+
+// Returns "has the unit m/s2" or, without a dimension, "has no unit".
+std::string has_unit(const Dimension& d) { return d == Dimension{} ? "has no unit" : "has the unit " + unit_text(d); }
 
 struct BaseUnit {
     std::string_view name;
@@ -84,7 +87,8 @@ constexpr std::array kBaseUnits{
 };
 
 // A recursive-descent parser. Each parse function reads one construct of the grammar and returns its node. The first
-// error is thrown as a Failure and ends the parsing.
+// error is thrown as a Failure and ends the parsing. Exception: an error in the units of two terms is kept until the
+// end of the text, because a syntax error further on is often its cause.
 class Parser {
 public:
     struct Failure {
@@ -96,10 +100,12 @@ public:
     Node formula() {
         if (text_.size() > kMaxLength) fail(0, fmt::format("a formula has at most {} characters", kMaxLength));
         Node node = sum();
-        if (!at_end()) fail(at_, fmt::format("'{}' is not expected here", rest()));
+        if (!at_end()) {
+            fail(at_, fmt::format("'{}' is not expected here; write * between factors", rest()));
+        }
+        if (first_unit_error_) throw Failure{*first_unit_error_};
         if (node.dimension != kLength) {
-            fail(node.begin,
-                 fmt::format("the formula has the unit {}, but a gap has the unit m", unit_text(node.dimension)));
+            fail(node.begin, fmt::format("the formula {}, but a gap has the unit m", has_unit(node.dimension)));
         }
         return node;
     }
@@ -142,11 +148,12 @@ private:
         return node;
     }
 
-    void require_equal_dimensions(const Node& a, const Node& b) const {
-        if (a.dimension == b.dimension) return;
-        fail(b.begin, fmt::format("'{}' has the unit {}, but '{}' has the unit {}: only values of the same unit can be "
-                                  "added, subtracted or compared",
-                                  text_of(b), unit_text(b.dimension), text_of(a), unit_text(a.dimension)));
+    void require_equal_dimensions(const Node& a, const Node& b) {
+        if (a.dimension == b.dimension || first_unit_error_) return;
+        first_unit_error_ = GapFormula::Error{
+            b.begin,
+            fmt::format("'{}' {}, but '{}' {}: only values of the same unit can be added, subtracted or compared",
+                        text_of(b), has_unit(b.dimension), text_of(a), has_unit(a.dimension))};
     }
 
     Node sum() {
@@ -368,6 +375,7 @@ private:
     std::string_view text_;
     std::size_t at_ = 0;  // position of the next character
     int depth_ = 0;
+    std::optional<GapFormula::Error> first_unit_error_;
 };
 
 // The values of the symbols.
@@ -405,9 +413,9 @@ double value_of(const Node& node, const Symbols& symbols) {
             return result;
         }
         case Kind::min:
-            return fold([](double a, double b) { return std::min(a, b); });
+            return fold([](double a, double b) { return b < a || std::isnan(b) ? b : a; });
         case Kind::max:
-            return fold([](double a, double b) { return std::max(a, b); });
+            return fold([](double a, double b) { return b > a || std::isnan(b) ? b : a; });
         case Kind::root:
             return std::sqrt(operand(0));
         case Kind::choice: {

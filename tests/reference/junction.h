@@ -262,11 +262,12 @@ private:
 
     // Returns the leader of a vehicle if both are slow and their gap is short; else null.
     const Vehicle* blocking_leader(const Vehicle& v) const {
-        constexpr double kClose_m = 6.0;
+        const double standstill_m = stored(policies_[static_cast<std::size_t>(v.policy)].settings.standstill_gap_m);
+        const double close_m = std::max(6.0, standstill_m + 3.0);
         const auto [lane, k] = place_of(v.id);
         const Leader& leader = (*leaders_)[lane][k];
         const bool blocks = leader.vehicle != nullptr && v.speed_mps < kCrawlingSpeed_mps &&
-                            leader.speed_mps < kCrawlingSpeed_mps && leader.gap_m < kClose_m;
+                            leader.speed_mps < kCrawlingSpeed_mps && leader.gap_m < close_m;
         return blocks ? leader.vehicle : nullptr;
     }
 

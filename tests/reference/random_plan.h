@@ -185,7 +185,7 @@ private:
         p.yellow_s = number(0, 20) / 5.0;
         p.cycle_s = chance(75) ? sum(p.green_s, p.yellow_s, number(10, 150) / 5.0) : 0.0;
         if (chance(30)) p.hesitation_s = number(1, 15) / 10.0;
-        if (chance(20)) p.stop_margin_m = number(0, 40) / 10.0;
+        if (chance(20)) p.stop_margin_m = number(1, 40) / 10.0;
         if (chance(20)) p.stop_mps2 = number(15, 35) / 10.0;
         if (chance(20)) p.decision_mps2 = number(25, 60) / 10.0;
         p.vehicle = one_of({"petrol_eu4_72kw", "petrol_eu4_84kw", "diesel_eu4_103kw", "electric_100kw"});

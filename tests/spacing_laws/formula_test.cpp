@@ -69,8 +69,10 @@ TEST(GapFormula, NamesTheWrongPart) {
     const std::vector<WrongFormula> all{
         {"s0 + 0.4 m * v", "0.4 m * v", "'0.4 m * v' has the unit m2/s, but 's0' has the unit m"},
         {"0.4 * v", "0.4 * v", "the formula has the unit m/s, but a gap has the unit m"},
-        {"5", "5", "the formula has the unit no unit"},
+        {"5", "5", "the formula has no unit"},
         {"s0 + 2 m v", "v", "'v' is not expected here"},
+        {"s0 + 0.5 s v", "v", "'v' is not expected here; write * between factors"},
+        {"s0 + 30 % * v", "% * v", "'% * v' is not expected here"},
         {"s0 + 2 v", "v", "'v' is not a unit"},
         {"s0 + speed", "speed", "there is no 'speed'"},
         {"s0 + 2 ft", "ft", "'ft' is not a unit"},
@@ -124,6 +126,9 @@ TEST(FormulaLaw, RefusesGapsThatVehiclesCannotKeep) {
     expect("if(v < 10 m/s, s0, 15 m)", "it may not jump");
     expect("s0 / (v / (20 m/s) - 1)^0 + 0 m / (v - 20 m/s) * 1 m/s", "is not a finite number");
     expect("s0 + 0.9 m * v", "character 6");
+    expect("s0 + 0.3 m * if(v > 30 km/h, 1, 0)", "it may not jump");
+    expect("max(s0, sqrt(0 m^2 - s0 * v * 1 s))", "is not a finite number");
+    expect("max(sqrt(0 m^2 - s0 * v * 1 s), s0)", "is not a finite number");
 }
 
 TEST(TableLaw, IsLinearBetweenItsPoints) {

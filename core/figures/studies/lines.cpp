@@ -31,7 +31,7 @@ struct CurveStyle {
 };
 
 CurveStyle curve_style(const SweepPlanes& all, std::size_t population, std::size_t line) {
-    const LineStyle style = line_style(style_index(all.populations, all.populations[population]));
+    const LineStyle style = line_style(style_index(all.names_in_order, all.populations[population]));
     if (!all.line_axis.exists()) return {style.colour, fmt::format("{}", style.dash), style.hollow_point};
     return {style.colour, kDashes[line % kDashes.size()], kPoints[line % kPoints.size()]};
 }

@@ -254,6 +254,9 @@ std::array<std::size_t, 3> SweepPlane::stabilities(const PlanePoint& point) cons
 
 std::string SweepPlanes::title(const SweepPlane& plane, const std::string& seed_note) const {
     if (seeds < 2) return plane.title;
+    if (seeds < kSeedsForInterval) {
+        return plane.title + (plane.title.empty() ? "" : "; ") + fmt::format("means of {} seeds", seeds);
+    }
     return plane.title + (plane.title.empty() ? "" : "; ") + fmt::format(fmt::runtime(seed_note), seeds);
 }
 
@@ -284,6 +287,9 @@ std::optional<SweepPlanes> sweep_planes(const CsvTable& results, const CellTitle
     all.metrics = sweep_metrics(results, population_column);
     all.has_stability = has_column(results, "stability");
     const auto has_baseline = [&](const auto& row) { return row[results.column(population_column)] == baseline; };
+    for (const std::vector<std::string>& row : results.rows) {
+        add_new(all.names_in_order, row[results.column(population_column)]);
+    }
     if (std::any_of(results.rows.begin(), results.rows.end(), has_baseline)) all.populations.push_back(baseline);
     all.x_axis = axes.front();
     if (axes.size() == 2) all.line_axis = axes.back();

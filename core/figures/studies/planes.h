@@ -98,8 +98,9 @@ private:
 struct SweepPlanes {
     PlotAxis x_axis;
     PlotAxis line_axis;
-    std::vector<SweepMetric> metrics;      // kSweepMetricCount of them
-    std::vector<std::string> populations;  // the first one is the baseline
+    std::vector<SweepMetric> metrics;         // kSweepMetricCount of them
+    std::vector<std::string> populations;     // the first one is the baseline
+    std::vector<std::string> names_in_order;  // the populations in the order of the results
     std::size_t seeds = 1;
     bool has_stability = false;  // true: the results say whether each run is stable
     std::vector<SweepPlane> planes;

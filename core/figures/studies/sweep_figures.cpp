@@ -56,7 +56,12 @@ std::vector<Figure> sweep_figures(const CsvTable& results, const CellTitles& tit
 
 std::string sweep_figures_note(const CsvTable& results, const CellTitles& titles,
                                const std::string& population_column) {
-    if (!has_network_metrics(results, population_column)) return "";
+    if (sweep_metrics(results, population_column).empty()) return "";
+    if (!has_network_metrics(results, population_column)) {
+        if (sweep_planes(results, titles, population_column, "")) return "";
+        return fmt::format("No figures: the sweep varies no axis with numbers, or they would be more than {}",
+                           kMaxPlanes);
+    }
     const std::vector<std::string> axes = axis_columns(results, population_column);
     if (contains(axes, kGreenColumn) && contains(axes, kOffsetColumn)) return "";
     const std::optional<SweepPlanes> all = sweep_planes(results, titles, population_column, "");

@@ -122,6 +122,19 @@ Figure figure_of(const Means& means, double green_s) {
     return figure;
 }
 
+// Returns true if the sweep has an axis with several values other than green, left, right and population. The figures
+// have no place for such an axis.
+bool varies_another_axis(const CsvTable& results) {
+    for (std::size_t k = 0; k < results.columns.size() && results.columns[k] != "seed"; ++k) {
+        const std::string& column = results.columns[k];
+        const auto is = [&](std::string_view prefix) { return column.starts_with(prefix); };
+        if (column == "point" || is("green") || is("left") || is("right") || is("population")) continue;
+        const auto differs = [&](const auto& row) { return row[k] != results.rows.front()[k]; };
+        if (std::any_of(results.rows.begin(), results.rows.end(), differs)) return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 bool has_turns(const CsvTable& results) {
@@ -129,7 +142,7 @@ bool has_turns(const CsvTable& results) {
          {"green", "left", "right", "population", "throughput", "travel_time", "density_network"}) {
         if (column_named(results, column) == kNone) return false;
     }
-    return !results.rows.empty();
+    return !results.rows.empty() && !varies_another_axis(results);
 }
 
 std::vector<Figure> turn_figures(const CsvTable& results) {

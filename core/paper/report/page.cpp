@@ -134,10 +134,11 @@ std::string score_table(const ReportContent& content, const std::string& section
 
 std::string rows_met_html(const ReportContent& content) {
     HtmlTable summary(
-        "Rows of the paper by section. Open: the row states no tolerance, or these runs did not measure it.",
-        {"Section", "Rows", "Inside", "Outside", "Open"});
+        "Rows of the paper by section. Results: rows without the inputs. Open: the row states no tolerance, or these "
+        "runs did not measure it.",
+        {"Section", "Results", "Inside", "Outside", "Open", "Inputs"});
     const auto count_row = [&](const std::string& name, const std::string& section) {
-        std::array<int, 3> counts{};
+        std::array<int, 4> counts{};
         for (const ScoredRow& row : content.scorecard.rows) {
             if (section.empty() || main_section(row.target.section) == section) {
                 ++counts.at(static_cast<std::size_t>(row.verdict));
@@ -147,7 +148,8 @@ std::string rows_met_html(const ReportContent& content) {
                      {fmt::format("{}", counts[0] + counts[1] + counts[2]), "number"},
                      {fmt::format("{}", counts[0]), "number"},
                      {fmt::format("{}", counts[1]), "number"},
-                     {fmt::format("{}", counts[2]), "number"}});
+                     {fmt::format("{}", counts[2]), "number"},
+                     {fmt::format("{}", counts[3]), "number"}});
     };
     for (const std::string& section : main_sections(content.scorecard.rows)) count_row(section_title(section), section);
     count_row("All", "");
