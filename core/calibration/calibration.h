@@ -21,7 +21,7 @@ namespace stopline {
 
 inline constexpr double kTimingLimit_s = 1.0;
 
-// One permutation: axis values, population and seed.
+// The data of one run of the sweep, that is, one combination of axis values, population and seed.
 struct CalibrationCase {
     std::string permutation;  // "green = 15 s, offset = 0 s, population = CDG"
     double cycle_s = 0.0;

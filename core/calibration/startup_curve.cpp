@@ -44,7 +44,8 @@ std::string plain_text(const fs::path& file) {
     return text;
 }
 
-// Returns the first column that has one of these names.
+// Tries the names in their order. Returns the index of the column with the first name that the table has; nothing if it
+// has none of them.
 std::optional<std::size_t> find_column(const CsvTable& table, std::initializer_list<const char*> names) {
     for (const char* const name : names) {
         const auto found = std::find(table.columns.begin(), table.columns.end(), name);

@@ -150,8 +150,8 @@ private:
         return nullptr;
     }
 
-    // Returns the leader of each vehicle of a lane. If the first vehicle of the lane has another leader than before, it
-    // becomes a platoon leader, and its radar forgets the old leader.
+    // Finds and returns the leader of each vehicle of a lane. If the leader of the first vehicle has changed, the first
+    // vehicle counts as a platoon leader from now on, and its radar forgets the old leader.
     std::vector<Leader> find_leaders(std::size_t number) {
         Lane& lane = lanes_[number];
         std::vector<Leader> leaders;

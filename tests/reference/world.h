@@ -27,9 +27,10 @@ namespace stopline::reference_engine {
 // Gap of a vehicle without leader. It is so long that no law limits the speed because of it.
 inline constexpr double kNoLeaderGap_m = 1e6;
 
-// Returns a value as core/sim stores it in an array of floats. The mesoscale mode amplifies rounding errors: at a low
-// speed v, the safe speed changes by b / v for each metre of gap, and a stop-and-go wave repeats this in every step. So
-// the reference engine rounds those values that core/sim stores as floats in this mode. All else is double.
+// Returns a value rounded to float, as core/sim stores some values of the mesoscale mode. The reference engine rounds
+// the same values, because the mesoscale mode amplifies rounding errors: at a low speed v, one metre of gap changes the
+// safe speed by b / v (b: deceleration of the Krauss model), in every step of a stop-and-go wave. All other values are
+// double.
 inline double stored(double value) { return static_cast<double>(static_cast<float>(value)); }
 
 // A measurement of the radar: the net gap, and the own speed minus the speed of the leader.
@@ -140,7 +141,7 @@ struct Situations {
     std::int64_t yielded = 0;        // vehicles that began to wait before a conflict area
     std::int64_t gear_changes = 0;
     std::int64_t emergency_brakings = 0;
-    std::int64_t slowed_before_limit = 0;  // vehicle steps with a lower limit ahead that limited the speed
+    std::int64_t slowed_before_limit = 0;  // steps in which a lower limit ahead slowed a vehicle
 
     void add(const Situations& other) {
         stopped_at_red += other.stopped_at_red;

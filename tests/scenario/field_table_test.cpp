@@ -226,7 +226,7 @@ TEST_P(EveryField, ListsAndCurvesRefuseInvalidValues) {
             if (f->size.min > 0) expect_refused(leaf, "[]", "has 0 entries");
             ++fields;
         } else if (const auto* const c = std::get_if<CurveField>(&leaf.field->kind)) {
-            // A curve without points is written as {}. Otherwise its place is the place of the first point.
+            // leaf.value is the place of the first point of the curve or, if it has no points, of the text {}.
             const bool empty = text_.compare(offset(leaf.value), 2, "{}") == 0;
             const std::string highest = quantity(c->y_range.max, *c->y_unit);
             const auto refused_point = [&](const std::string& point, const std::string& remark) {

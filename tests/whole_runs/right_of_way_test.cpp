@@ -156,7 +156,7 @@ TEST_P(SlowIntersection, HasNoConflictsAndNoDeadlocks) {
     EXPECT_TRUE(result.violations.none());
     EXPECT_EQ(result.violations.conflicts, 0);
     EXPECT_LT(result.longest_in_junction_s, 2.0 * 2.0 * (GetParam().green_s + 8.0)) << "a deadlock";
-    // Each lane discharges at least one vehicle per green.
+    // On average, a lane discharges at least one vehicle per green.
     EXPECT_GE(result.discharge.vehicles_per_green, 1.0);
     // The travel time is below 12 cycles. With two vehicles per green, a queue of 25 vehicles takes about this time.
     EXPECT_LT(result.zones[0].travel_time_s, 12.0 * 2.0 * (GetParam().green_s + 8.0));

@@ -49,7 +49,7 @@ int decimals_for(double largest) {
 struct Panel {
     std::size_t metric;
     std::size_t population;
-    bool change;  // true: changes against the first population; false: values
+    bool change;  // true: changes against the baseline; false: values
 };
 
 std::optional<double> value_in(const SweepPlanes& all, const SweepPlane& plane, const Panel& panel, std::size_t x,

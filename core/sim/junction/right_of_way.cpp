@@ -317,7 +317,8 @@ private:
     const VehicleArrays& arrays_;
     VehicleRecord& record_;
     double speed_mps_;
-    bool is_imported_;  // true: the network is imported (only the demand of imported networks has trips)
+    bool
+        is_imported_;  // true: the network is imported. Only imported networks have trips, by which they are recognised.
     double line_m_ = kNoWait_m;
     double decision_m_ = 0.0;
     bool has_decided_ = false;

@@ -26,17 +26,17 @@ struct MesoStep {
     std::uint64_t tick;
     double slow_down_mps2;  // deceleration before a lower speed limit
     double approach_share;  // a vehicle below the speed limit gains at most this share of (limit - speed) in a step
-    // Before a lower speed limit, such as that of a turn, vehicles follow a braking curve: at each position, the speed
-    // from which braking with slow_down_mps2 just suffices. turn_share: part of the deviation from this curve that a
-    // vehicle corrects in one step.
+    // Part of its deviation from the braking curve that a vehicle corrects in one step. The braking curve leads to a
+    // lower speed limit ahead, such as that of a turn. At each position, it gives the highest speed from which a vehicle
+    // that brakes with slow_down_mps2 reaches this limit in time.
     double turn_share;
     double leader_mps2;                      // acceleration of platoon leaders; 0: acceleration of the vehicle's policy
     double leader_constant_power_speed_mps;  // above this speed, leader_mps2 falls as 1 / speed
     // Acceleration of platoon leaders by speed. If it is not nullptr, the kernels ignore leader_mps2 and
     // leader_constant_power_speed_mps.
     const LeaderProfile* leader_profile;
-    // The lowest acceleration of a vehicle that speeds up freely, by speed, on lanes with a speed limit above
-    // calibrated_limit_mps. nullptr: no lane has such a limit.
+    // Lower bound of the acceleration, as a table by speed. On lanes with a speed limit above calibrated_limit_mps, a
+    // vehicle that speeds up freely accelerates at least at this rate. nullptr: no lane has such a limit.
     const LeaderProfile* power_profile;
     double calibrated_limit_mps;
     // True: V2V relays the start of a queue, and platoon leaders anticipate the speed of the vehicle ahead.

@@ -26,12 +26,13 @@ struct KeepClearHold {
 // The free length of an exit lane, as the keep-clear rule computes it.
 struct ExitRoom {
     std::int64_t tick = -1;  // tick of the step for which the values are valid
-    // Distance from the start of the lane to the rear of the stopped vehicle furthest upstream (stopped: slower than
-    // kCrawlingSpeed_mps, 1 m/s). The space for the moving vehicles upstream of this vehicle and for all vehicles on
-    // the connections to the lane is subtracted. Special case with RulesPlan::count_queue_at_red_exit: no vehicle is
-    // stopped and the signal at the end of the lane is not green. The value is then the distance from the start of the
-    // lane to the stopping position at its stop line, minus the space for the moving vehicles. 1e9: no vehicle within
-    // RulesPlan::sight_m of the start of the lane is stopped or counts as stopped.
+    // Room for further vehicles, measured from the start of the lane. The space for the vehicles on the connections to
+    // the lane is already subtracted.
+    // - If a vehicle is stopped (slower than kCrawlingSpeed_mps, 1 m/s): the distance to the rear of the stopped vehicle
+    //   furthest upstream, minus the space for the moving vehicles upstream of it.
+    // - If no vehicle is stopped, the signal at the end of the lane is not green and RulesPlan::count_queue_at_red_exit
+    //   is true: the distance to the stopping position at the stop line, minus the space for the moving vehicles.
+    // - In all other cases, and beyond RulesPlan::sight_m: 1e9.
     double room_m = 1e9;
     // Slot of the stopped vehicle at which the free length ends. If all vehicles move but count as stopped at a red
     // signal: slot of the vehicle furthest upstream on the lane. -1: none.

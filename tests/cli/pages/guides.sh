@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # ctest-labels: slow
 # ctest-timeout: 900
-# Tests that the commands of the guides work as they are printed. A guide marks the blocks to run by comments, which
-# tests/tools/guide_blocks.py describes.
+# Tests that the commands of the guides work as they are printed. In a guide, a comment marks each block that this test
+# runs. tests/tools/guide_blocks.py describes these comments.
 set -u
 
 . "$STOPLINE_SOURCE/tests/tools/cli.sh"

@@ -19,7 +19,7 @@ struct alignas(64) LanePlan {
     int signal_group = -1;              // signal group of the stop line; -1: no stop line
     int origin = -1;                    // connection: its approach lane; -1: not a connection
     int exit = -1;                      // connection: its exit lane
-    int bitset_index = -1;              // connection: index of its bit in the bitsets; -1: no conflict area
+    int bitset_index = -1;              // connection: index of its bit in the bitsets of JunctionState; -1: none
     bool yields = false;                // connection: must yield in some conflict area, always or in some signal phase
     bool branches = false;              // true: more than one lane follows
     bool has_movement_signals = false;  // approach lane: movements have signal groups of their own

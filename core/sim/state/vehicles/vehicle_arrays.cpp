@@ -31,7 +31,8 @@ void VehicleArrays::resize(int slot_count, int radar_row_count, int v2v_row_coun
     const auto n = static_cast<std::size_t>(slot_count);
     for_each_common([n](auto& array) { array.assign(n, {}); });
     for_each_powertrain([n](auto& array) { array.assign(n, {}); });
-    // The kernels also compute free slots, so the lag there must not be 0, because it is a divisor.
+    // The kernels do their computations for free slots, too, and divide by the lag. The lag of a free slot must
+    // therefore not be 0.
     lag_s.assign(n, 1.0F);
     for (auto* rows : {&radar_gap_m, &radar_closing_mps}) rows->assign(n * static_cast<std::size_t>(radar_rows), 0.0F);
     for (auto* rows : {&v2v_acceleration_mps2, &v2v_request_mps2, &v2v_rate_1ps}) {
