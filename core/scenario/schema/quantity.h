@@ -1,8 +1,8 @@
 // Quantities with units, as files write them: "50 km/h", "0.87 s", "2.5 m/s2", "30 %".
 //
-// A quantity that has a dimension must have a unit; none is assumed. A unit of the wrong dimension is an error. A number
-// without dimension has no unit or the unit %, as in 0.3 or 30 %. All values are converted to SI units, except engine
-// speeds, which stay in rpm.
+// A quantity that has a dimension must have a unit; none is assumed. A unit of the wrong dimension is an error. A
+// number without dimension has no unit or the unit %, as in 0.3 or 30 %. All values are converted to SI units, except
+// engine speeds, which stay in rpm.
 #pragma once
 
 #include <string>

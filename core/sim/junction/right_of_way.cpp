@@ -317,8 +317,7 @@ private:
     const VehicleArrays& arrays_;
     VehicleRecord& record_;
     double speed_mps_;
-    bool
-        is_imported_;  // true: the network is imported. Only imported networks have trips, by which they are recognised.
+    bool is_imported_;  // true: the network is imported; only imported networks have trips
     double line_m_ = kNoWait_m;
     double decision_m_ = 0.0;
     bool has_decided_ = false;

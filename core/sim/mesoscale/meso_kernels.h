@@ -27,8 +27,8 @@ struct MesoStep {
     double slow_down_mps2;  // deceleration before a lower speed limit
     double approach_share;  // a vehicle below the speed limit gains at most this share of (limit - speed) in a step
     // Part of its deviation from the braking curve that a vehicle corrects in one step. The braking curve leads to a
-    // lower speed limit ahead, such as that of a turn. At each position, it gives the highest speed from which a vehicle
-    // that brakes with slow_down_mps2 reaches this limit in time.
+    // lower speed limit ahead, such as that of a turn. At each position, it gives the highest speed from which a
+    // vehicle that brakes with slow_down_mps2 reaches this limit in time.
     double turn_share;
     double leader_mps2;                      // acceleration of platoon leaders; 0: acceleration of the vehicle's policy
     double leader_constant_power_speed_mps;  // above this speed, leader_mps2 falls as 1 / speed

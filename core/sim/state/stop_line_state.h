@@ -28,8 +28,8 @@ struct ExitRoom {
     std::int64_t tick = -1;  // tick of the step for which the values are valid
     // Room for further vehicles, measured from the start of the lane. The space for the vehicles on the connections to
     // the lane is already subtracted.
-    // - If a vehicle is stopped (slower than kCrawlingSpeed_mps, 1 m/s): the distance to the rear of the stopped vehicle
-    //   furthest upstream, minus the space for the moving vehicles upstream of it.
+    // - If a vehicle is stopped (slower than kCrawlingSpeed_mps, 1 m/s): the distance to the rear of the stopped
+    //   vehicle furthest upstream, minus the space for the moving vehicles upstream of it.
     // - If no vehicle is stopped, the signal at the end of the lane is not green and RulesPlan::count_queue_at_red_exit
     //   is true: the distance to the stopping position at the stop line, minus the space for the moving vehicles.
     // - In all other cases, and beyond RulesPlan::sight_m: 1e9.

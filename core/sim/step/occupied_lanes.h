@@ -6,8 +6,8 @@
 namespace stopline {
 
 // Lists the lanes of a partition that hold vehicles (Partition::occupied). Also makes lists with only those occupied
-// lanes that are awake. A lane sleeps while its first vehicle rests before a red signal (QueueState::sleeps_until_green). This
-// function wakes the lane if the signal is green.
+// lanes that are awake. A lane sleeps while its first vehicle rests before a red signal
+// (QueueState::sleeps_until_green). This function wakes the lane if the signal is green.
 void find_occupied_lanes(const State& state, QueueState& queues, Partition& part);
 
 }  // namespace stopline

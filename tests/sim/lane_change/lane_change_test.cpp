@@ -273,9 +273,9 @@ TEST_P(LaneChanging, WaitsBehindTheQueueOfAFullPocket) {
         << "the vehicle waits at the start of the pocket, not at the stop line";
 }
 
-// A queue stands on lane 1, beside the pocket (lane 0). The third lane is empty. `target` 0: all vehicles must turn from
-// the pocket. `target` 1: all vehicles go straight on, which lane 1 and the third lane both allow. Returns the number of
-// vehicles that change to the third lane.
+// A queue stands on lane 1, beside the pocket (lane 0). The third lane is empty. `target` 0: all vehicles must turn
+// from the pocket. `target` 1: all vehicles go straight on, which lane 1 and the third lane both allow. Returns the
+// number of vehicles that change to the third lane.
 int changes_to_third_lane(const Case& c, int target) {
     Model model = road_with_pocket(c, 3);
     model.graph.lanes[5].turn = Turn::straight;  // the second and the third lane allow straight on
