@@ -1,5 +1,5 @@
-// The user's settings of drivers: car following, free driving, stopping, yielding, lane changes, the mesoscale models,
-// the spacing policies and the populations. SI units.
+// The user's settings of drivers: car following, free driving, stopping, yielding, lane changes, the mesoscale models
+// and the spacing policies. SI units.
 #pragma once
 
 #include <array>
@@ -31,6 +31,8 @@ struct CaccSettingsOf {
     Number jerk_up_mps3 = 6.0;                 // limit of the increase of the requested acceleration
     Number jerk_down_mps3 = 25.0;              // limit of the decrease of the requested acceleration
     Number catch_up_factor = 1.05;             // a follower may exceed the speed limit by this factor to close its gap
+
+    bool operator==(const CaccSettingsOf&) const = default;
 };
 using CaccSettings = CaccSettingsOf<double>;
 
@@ -46,6 +48,8 @@ struct FreeDriveSettings {
     double speed_gain_1ps = 0.35;    // the acceleration is at most this gain x (desired speed - speed)
     double deceleration_mps2 = 1.5;  // deceleration before a lower speed limit, such as in a turn
     double hesitation_s = 0.0;       // reaction time of the first vehicle at the stop line
+
+    bool operator==(const FreeDriveSettings&) const = default;
 };
 
 // Stopping at a stop line.
@@ -54,6 +58,8 @@ struct StopSettingsOf {
     Number deceleration_mps2 = 2.5;           // braking begins when this deceleration is needed
     Number decision_deceleration_mps2 = 3.5;  // a vehicle stops at yellow if this deceleration suffices
     Number margin_m = 1.0;                    // distance from the front of the stopped vehicle to the stop line
+
+    bool operator==(const StopSettingsOf&) const = default;
 };
 using StopSettings = StopSettingsOf<double>;
 
@@ -63,6 +69,8 @@ struct GiveWaySettings {
     double margin_m = 0.5;        // distance from a waiting vehicle's front to the conflict area
     // A yielding driver assumes that approaching vehicles with priority accelerate this much, up to the speed limit.
     double approach_acceleration_mps2 = 2.0;
+
+    bool operator==(const GiveWaySettings&) const = default;
 };
 
 // Lane changes (sim/lane_change/lane_change.cpp).
@@ -94,6 +102,8 @@ struct LaneChangeSettings {
     double acceleration_mps2 = 1.5;  // maximum acceleration of the IDM
     double deceleration_mps2 = 2.0;  // comfortable deceleration of the IDM
     double pause_s = 5.0;            // no discretionary change within this time after any change
+
+    bool operator==(const LaneChangeSettings&) const = default;
 };
 
 struct DriverSettings {
@@ -103,6 +113,8 @@ struct DriverSettings {
     GiveWaySettings give_way;
     LaneChangeSettings lane_change;
     std::string name = {};  // name of the driver; default: the name of the file in data/drivers
+
+    bool operator==(const DriverSettings&) const = default;
 };
 
 // A car-following model of the Krauss family (krauss.h), with the parameters of Table 2 of the paper.
@@ -178,18 +190,6 @@ struct GapPolicySettings {
     // Laws `formula` and `table`: car-following model of the mesoscale mode, "constant_distance" or "time_gap"; "none":
     // the policy is for full dynamics only.
     std::string mesoscale = "none";
-};
-
-// A population: a mix of vehicles with one or several spacing policies. The shares of the components sum to 1.
-struct PopulationSettings {
-    enum class Pattern { alternating, random, balanced };
-    struct Component {
-        std::string policy;
-        double share = 1.0;
-    };
-    std::string name;
-    std::vector<Component> components;
-    Pattern pattern = Pattern::alternating;
 };
 
 }  // namespace stopline

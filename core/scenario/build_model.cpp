@@ -10,6 +10,7 @@
 
 #include "base/containers/index.h"
 #include "base/input_error.h"
+#include "scenario/fleets.h"
 #include "scenario/import_sumo.h"
 #include "scenario/make_network.h"
 #include "sumo_import/sumo_signals.h"
@@ -17,6 +18,49 @@
 namespace stopline {
 
 namespace {
+
+// Returns the index of `value` in the list, after adding it if the list does not have it.
+template <class T>
+int index_in(std::vector<T>& list, const T& value) {
+    const auto found = std::find(list.begin(), list.end(), value);
+    const auto index = static_cast<int>(found - list.begin());
+    if (found == list.end()) list.push_back(value);
+    return index;
+}
+
+DriverPlan driver_plan(const DriverSettings& settings, const PowertrainTables& vehicle, double step_s) {
+    DriverPlan driver;
+    driver.tables = compile_driver(settings);
+    const auto available_mps2 = [&](double v) { return available_acceleration_mps2(vehicle, v); };
+    extend_by_power(settings.free_drive, available_mps2, driver.tables);
+    driver.give_way = settings.give_way;
+    driver.lane_change = settings.lane_change;
+    driver.hesitation_s = settings.free_drive.hesitation_s;
+    driver.hesitation_ticks = to_ticks(driver.hesitation_s, step_s);
+    return driver;
+}
+
+// Adds the vehicle types and the drivers of all components of the population. A driver plan depends on the vehicle, so
+// each pair of vehicle and driver has its own plan.
+void add_fleet(const Scenario& scenario, const PopulationSettings& population, Model& model) {
+    std::vector<PowertrainSettings> vehicles;
+    std::vector<DriverSettings> drivers;
+    std::vector<std::pair<int, int>> plans;  // indices in `vehicles` and `drivers`
+    for (const PopulationSettings::Component& component : population.components) {
+        const int vehicle = index_in(vehicles, component.vehicle.value_or(scenario.vehicle));
+        const int driver = index_in(drivers, component.driver.value_or(scenario.driver));
+        model.classes.push_back({vehicle, index_in(plans, std::pair(vehicle, driver))});
+    }
+    for (const PowertrainSettings& vehicle : vehicles) model.vehicles.push_back(compile_powertrain(vehicle));
+    const auto limits_speed = [&](const PowertrainTables& vehicle) {
+        return std::any_of(model.graph.lanes.begin(), model.graph.lanes.end(),
+                           [&](const Lane& lane) { return vehicle.maximum_speed_mps < lane.limit_mps; });
+    };
+    model.has_speed_limiters = std::any_of(model.vehicles.begin(), model.vehicles.end(), limits_speed);
+    for (const auto& [vehicle, driver] : plans) {
+        model.drivers.push_back(driver_plan(drivers[at(driver)], model.vehicles[at(vehicle)], model.step_s));
+    }
+}
 
 void add_policies(const Scenario& scenario, const PopulationSettings& population, Model& model) {
     for (const PopulationSettings::Component& component : population.components) {
@@ -27,7 +71,9 @@ void add_policies(const Scenario& scenario, const PopulationSettings& population
         }
         model.demand.policies.push_back(static_cast<int>(model.policies.size()));
         model.demand.policy_shares.push_back(component.share);
-        model.policies.push_back(make_gap_policy(*found));
+        GapPolicySettings policy = *found;
+        policy.name = component_name(component);
+        model.policies.push_back(make_gap_policy(policy));
     }
     using Pattern = PopulationSettings::Pattern;
     model.demand.pattern = population.pattern == Pattern::random     ? DemandPlan::Pattern::random
@@ -216,7 +262,7 @@ void add_network(const Scenario& scenario, Model& model) {
 
 }  // namespace
 
-void set_meso(const Scenario& scenario, const MesoSettings& settings, Model& model) {
+void set_meso(const MesoSettings& settings, Model& model) {
     model.krauss.clear();
     for (const GapPolicy& policy : model.policies) model.krauss.push_back(make_krauss_model(settings, policy.meso));
     model.speed_factor = settings.speed_factor;
@@ -229,12 +275,14 @@ void set_meso(const Scenario& scenario, const MesoSettings& settings, Model& mod
     // Without this factor, a rounding error could make a lane with exactly the calibrated speed limit count as faster.
     constexpr double kRounding = 1.001;
     model.calibrated_limit_mps = kRounding * settings.speed_factor * settings.calibrated_speed_limit_mps;
-    model.power_profile = power_profile(model.driver);
+    model.power_profile = power_profile(model.common_driver());
     model.has_fast_lanes = std::any_of(model.graph.lanes.begin(), model.graph.lanes.end(), [&](const Lane& lane) {
         return model.speed_factor * lane.limit_mps > model.calibrated_limit_mps;
     });
     model.start_relay_vehicles = settings.start_relay_vehicles;
-    model.hesitation_ticks = to_ticks(scenario.driver.free_drive.hesitation_s + settings.start_delay_s, model.step_s);
+    for (DriverPlan& driver : model.drivers) {
+        driver.hesitation_ticks = to_ticks(driver.hesitation_s + settings.start_delay_s, model.step_s);
+    }
 }
 
 Model build_model(const Scenario& scenario, std::size_t population) {
@@ -242,11 +290,7 @@ Model build_model(const Scenario& scenario, std::size_t population) {
     model.step_s = scenario.tick_s();
     model.seed = scenario.seed;
     add_network(scenario, model);
-    model.vehicles.push_back(compile_powertrain(scenario.vehicle));
-    model.driver = compile_driver(scenario.driver);
-    const auto available_mps2 = [&](double v) { return available_acceleration_mps2(model.vehicles[0], v); };
-    extend_by_power(scenario.driver.free_drive, available_mps2, model.driver);
-    model.hesitation_ticks = to_ticks(scenario.driver.free_drive.hesitation_s, scenario.tick_s());
+    add_fleet(scenario, scenario.populations.at(population), model);
     // radar_delay_s is the time from a measurement until the vehicle responds to it. It includes one step, because the
     // controller uses the data at the start of a step and the vehicle responds from the end of the step on. So the data
     // that the controller uses are older by radar_delay_s minus one step.
@@ -257,14 +301,12 @@ Model build_model(const Scenario& scenario, std::size_t population) {
         model.radar = make_delay(0.0, model.step_s);
         model.v2v = make_delay(model.step_s, model.step_s);
     }
-    model.give_way = scenario.driver.give_way;
-    model.lane_change = scenario.driver.lane_change;
     add_connections(model);
     if (scenario.network.has_intersections()) add_rules(scenario, model);
     add_detectors(scenario, model);
     add_policies(scenario, scenario.populations.at(population), model);
     add_demand(scenario, model);
-    if (scenario.is_meso()) set_meso(scenario, scenario.meso, model);
+    if (scenario.is_meso()) set_meso(scenario.meso, model);
     check(model);
     return model;
 }

@@ -18,11 +18,14 @@ double power_kW(const PowertrainSettings& car, double speed_rpm) {
 
 TEST(ShippedVehicles, AllLoadAndCompile) {
     const std::vector<std::string> names = data_names("vehicles");
-    EXPECT_GE(names.size(), 4u);
+    EXPECT_GE(names.size(), 7u);
     for (const std::string& name : names) {
         const PowertrainSettings car = load_vehicle(name);
         EXPECT_EQ(car.name, name);
-        EXPECT_EQ(car.length_m, 5.15) << name;  // the length in the paper, for all vehicles
+        const bool is_car = car.mass_kg < 3500.0;
+        if (is_car) {
+            EXPECT_EQ(car.length_m, 5.15) << name;  // the length in the paper, for all cars
+        }
         EXPECT_NO_THROW(compile_powertrain(car)) << name;
     }
 }

@@ -107,6 +107,14 @@ const Table& component_table() {
                       {
                           text<&S::policy>("policy", TextField::Rule::name, "name of the spacing policy").required(),
                           number<&S::share>("share", "%", {0, 100}, "share of the vehicles").required(),
+                          optional_section<&S::vehicle>("vehicle", vehicle_table,
+                                                        "vehicle and powertrain of this part, with the fields of "
+                                                        "`vehicle`; default: the vehicle of the scenario",
+                                                        "vehicles"),
+                          optional_section<&S::driver>("driver", driver_table,
+                                                       "driver of this part, with the fields of `driver`; default: the "
+                                                       "driver of the scenario",
+                                                       "drivers"),
                       });
     return table;
 }

@@ -151,9 +151,10 @@ void gather(const FullStreams& streams, const DelayRows& radar_rows, const Delay
 }
 
 // Computes the requested acceleration of the vehicle at place k of the group. If R has several numbers, computes the
-// requests of a batch of successive vehicles that begins with this vehicle.
+// requests of a batch of successive vehicles that begins with this vehicle. Changes only vehicles with the driver
+// `only`, or all vehicles if `only` is below 0.
 template <class R>
-STOPLINE_INLINE void plan_at(const DriverTablesOf<float>& d, const FullGroup& g, double dt, int k) {
+STOPLINE_INLINE void plan_at(const DriverTablesOf<float>& d, const FullGroup& g, double dt, int only, int k) {
     const CaccSettingsOf<float>& c = d.cacc;
     const auto get = [k](const auto* array) STOPLINE_INLINE_LAMBDA { return load<R>(array + k); };
     const R speed = get(g.speed);
@@ -196,13 +197,17 @@ STOPLINE_INLINE void plan_at(const DriverTablesOf<float>& d, const FullGroup& g,
     // The request of a stopped vehicle does not fall below 0. It thus rises from 0 when the vehicle starts.
     const R lowest = select(speed <= kBrakeHoldSpeed_mps, splat<R>(0.0), splat<R>(-c.deceleration_emergency_mps2));
     const R request = max_of(smooth, lowest);
-    store(g.request + k, request);
+    const R has_driver = only < 0 ? splat<R>(1.0) : STOPLINE_FLAG(R, get(g.driver) == only);
+    const auto write = [&](float* array, const R& value) STOPLINE_INLINE_LAMBDA {
+        store(array + k, only < 0 ? value : choose(has_driver, value, load<R>(array + k)));
+    };
+    write(g.request, request);
     // The request changes linearly within the step, so its mean is the average of the previous and the new request. For
     // a vehicle that is held by its brake, kHold_mps2 replaces this mean.
     const R held = STOPLINE_FLAG(R, speed <= kBrakeHoldSpeed_mps) * STOPLINE_FLAG(R, request <= kStart_mps2);
-    store(g.mean_request + k, choose(held, splat<R>(kHold_mps2), 0.5 * (last_request + request)));
-    store(g.is_platoon_leader + k, is_platoon_leader);
-    store(g.sent_rate + k, rate);
+    write(g.mean_request, choose(held, splat<R>(kHold_mps2), 0.5 * (last_request + request)));
+    write(g.is_platoon_leader, is_platoon_leader);
+    write(g.sent_rate, rate);
 }
 
 // Computes the response of the powertrains for a batch of vehicles that begins at place k. Changes only vehicles of the
@@ -242,13 +247,13 @@ STOPLINE_INLINE void drive_at(const PowertrainTablesOf<float>& t, const FullGrou
 }
 
 template <class R>
-void plan(const DriverTablesOf<float>& d, const FullGroup& group, int vehicles, double dt, const FullStreams& streams,
-          FullKernels::NextSlots next) {
+void plan(const DriverTablesOf<float>& d, const FullGroup& group, int vehicles, double dt, int only,
+          const FullStreams& streams, FullKernels::NextSlots next) {
     const FullGroup g = group;
     const GroupPrefetch prefetch(streams, next, vehicles, kWidthOf<R>);
     for (int k = 0; k < vehicles; k += kWidthOf<R>) {
         prefetch.prefetch_driver_data(k / kWidthOf<R>);
-        plan_at<R>(d, g, dt, k);
+        plan_at<R>(d, g, dt, only, k);
     }
 }
 
