@@ -90,6 +90,8 @@ constexpr double kLimitRounding = 1.001;
 
 std::string kmh(double speed_mps) { return short_text(speed_mps, unit("km/h")); }
 
+}  // namespace
+
 double highest_limit_mps(const NetworkSettings& network) {
     if (network.kind == "approach") return network.approach.speed_limit_mps;
     if (!network.has_several_intersections() || network.kind == "grid") return network.intersection.speed_limit_mps;
@@ -102,6 +104,8 @@ double highest_limit_mps(const NetworkSettings& network) {
     }
     return highest_mps;
 }
+
+namespace {
 
 // Returns true if a population uses a policy for which the mesoscale mode uses the constant-distance model (krauss.h).
 bool keeps_constant_distances(const Scenario& scenario) {

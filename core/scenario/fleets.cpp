@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <string>
 
 #include <fmt/format.h>
 
+#include "scenario/driving_checks.h"
 #include "scenario/schema/quantity.h"
+#include "spacing_laws/gap_policy.h"
 
 namespace stopline {
 namespace {
@@ -44,6 +47,39 @@ void check_population(const Scenario& scenario, const PopulationSettings& popula
     }
 }
 
+// Returns the policy of a component; null if there is none with its name, which another check reports.
+const GapPolicySettings* policy_of(const Scenario& scenario, const PopulationSettings::Component& component) {
+    const auto found = std::find_if(scenario.policies.begin(), scenario.policies.end(),
+                                    [&](const GapPolicySettings& policy) { return policy.name == component.policy; });
+    return found == scenario.policies.end() ? nullptr : &*found;
+}
+
+void check_brake_lags(const Scenario& scenario, const PopulationSettings& population, Checker& check) {
+    constexpr double kSpeedStep_mps = 1.0;
+    constexpr double kRounding_m = 1e-9;
+    double shortest_s = std::numeric_limits<double>::infinity();
+    for (const PopulationSettings::Component& component : population.components) {
+        shortest_s = std::min(shortest_s, vehicle_of(scenario, component).brake_lag_s);
+    }
+    for (std::size_t k = 0; k < population.components.size(); ++k) {
+        const PopulationSettings::Component& component = population.components[k];
+        const double later_s = vehicle_of(scenario, component).brake_lag_s - shortest_s;
+        const GapPolicySettings* const policy = policy_of(scenario, component);
+        if (later_s <= 0.0 || policy == nullptr) continue;
+        for (double v = 0.0; v < highest_limit_mps(scenario.network) + kSpeedStep_mps; v += kSpeedStep_mps) {
+            const double speed_mps = std::min(v, highest_limit_mps(scenario.network));
+            const double needed_m = kMinStandstillGap_m + later_s * speed_mps;
+            if (equilibrium_gap_m(*policy, speed_mps) >= needed_m - kRounding_m) continue;
+            check.error(component_field(population, k) + ".policy",
+                        fmt::format("the brakes of '{}' respond {} later than those of other vehicles of the "
+                                    "population, so its gap at {} must be at least {}: use a policy with a larger gap",
+                                    vehicle_of(scenario, component).name, short_text(later_s, unit("ms")),
+                                    short_text(speed_mps, unit("km/h")), short_text(needed_m, unit("m"))));
+            break;
+        }
+    }
+}
+
 }  // namespace
 
 const PowertrainSettings& vehicle_of(const Scenario& scenario, const PopulationSettings::Component& component) {
@@ -62,7 +98,10 @@ std::string component_name(const PopulationSettings::Component& component) {
 }
 
 void check_fleets(const Scenario& scenario, Checker& check) {
-    for (const PopulationSettings& population : scenario.populations) check_population(scenario, population, check);
+    for (const PopulationSettings& population : scenario.populations) {
+        check_population(scenario, population, check);
+        if (!scenario.is_meso()) check_brake_lags(scenario, population, check);
+    }
 }
 
 double mean_vehicle_m(const Scenario& scenario, const PopulationSettings& population) {

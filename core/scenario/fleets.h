@@ -18,7 +18,8 @@ std::string component_name(const PopulationSettings::Component& component);
 
 // Reports the drivers of a population that disagree in a setting that all its vehicles share: delays of radar and V2V,
 // range of the radar, and maximum braking. A constant distance is safe only if no vehicle brakes harder than its
-// follower can.
+// follower can. In full dynamics, also reports gaps that are too small for vehicles whose brakes respond later than
+// those of the vehicles ahead: in a hard stop they come nearer by the difference of the lags times the speed.
 void check_fleets(const Scenario& scenario, Checker& check);
 
 // Returns the mean length of the vehicles of a population, m.

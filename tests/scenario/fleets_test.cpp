@@ -18,7 +18,7 @@ Scenario with_components(const std::string& components, const std::vector<std::s
 }
 
 constexpr const char* kCarsAndLorries =
-    "{policy: CDG, share: 60 %}, {policy: CDG, share: 10 %, vehicle: articulated_lorry_35t, driver: lorry}, "
+    "{policy: CDG, share: 60 %}, {policy: CDG-6m, share: 10 %, vehicle: articulated_lorry_35t, driver: lorry}, "
     "{policy: CTG-Ref, share: 30 %, vehicle: {base: electric_100kw, length: 4.5 m}}";
 
 TEST(Fleets, ComponentsHaveTheirOwnVehicleAndDriver) {
@@ -31,7 +31,7 @@ TEST(Fleets, ComponentsHaveTheirOwnVehicleAndDriver) {
     EXPECT_EQ(driver_of(scenario, components[1]).cacc.acceleration_max_mps2, 1.0);
     EXPECT_EQ(vehicle_of(scenario, components[2]).length_m, 4.5);
     EXPECT_EQ(component_name(components[0]), "CDG");
-    EXPECT_EQ(component_name(components[1]), "CDG_articulated_lorry_35t_lorry");
+    EXPECT_EQ(component_name(components[1]), "CDG-6m_articulated_lorry_35t_lorry");
     EXPECT_EQ(longest_vehicle_m(scenario), 16.5);
     EXPECT_NEAR(mean_vehicle_m(scenario, scenario.populations[0]), 0.6 * 5.15 + 0.1 * 16.5 + 0.3 * 4.5, 1e-12);
 }
@@ -39,7 +39,7 @@ TEST(Fleets, ComponentsHaveTheirOwnVehicleAndDriver) {
 TEST(Fleets, ModelHasEachVehicleAndDriverOnce) {
     const Scenario scenario = with_components(
         "{policy: CDG, share: 40 %}, {policy: CTG-Ref, share: 40 %}, "
-        "{policy: CDG, share: 10 %, vehicle: city_bus_12m}, {policy: CTG-Ref, share: 10 %, vehicle: city_bus_12m}");
+        "{policy: CDG-6m, share: 10 %, vehicle: city_bus_12m}, {policy: CTG-Ref, share: 10 %, vehicle: city_bus_12m}");
     const Model model = build_model(scenario, 0);
     ASSERT_EQ(model.vehicles.size(), 2u);
     ASSERT_EQ(model.drivers.size(), 2u);  // the same driver with two vehicles
@@ -47,7 +47,7 @@ TEST(Fleets, ModelHasEachVehicleAndDriverOnce) {
     EXPECT_EQ(model.vehicle_of(1).length_m, 5.15);
     EXPECT_EQ(model.vehicle_of(3).length_m, 12.0);
     EXPECT_EQ(model.classes[2].driver, model.classes[3].driver);
-    EXPECT_EQ(model.policies[2].settings.name, "CDG_city_bus_12m");
+    EXPECT_EQ(model.policies[2].settings.name, "CDG-6m_city_bus_12m");
 }
 
 // The canonical text of a scenario defines its hash. A scenario without own vehicles must not mention them.
@@ -93,12 +93,24 @@ TEST(Fleets, WrongVehiclesAreRefusedWithTheirField) {
     EXPECT_NE(slippery.find("populations[X].components[0].vehicle.brake_friction"), std::string::npos) << slippery;
 }
 
+// A lorry whose brakes respond later than those of the car ahead comes nearer in a hard stop.
+TEST(Fleets, ConstantDistancesCoverLaterBrakes) {
+    const std::string cars_and_lorries =
+        "{policy: CDG, share: 90 %}, {policy: CDG, share: 10 %, vehicle: articulated_lorry_35t, driver: lorry}";
+    const std::string message = message_of(cars_and_lorries);
+    EXPECT_NE(message.find("populations[X].components[1].policy"), std::string::npos) << message;
+    EXPECT_NE(message.find("100 ms later"), std::string::npos) << message;
+    EXPECT_EQ(message_of(cars_and_lorries, {"fidelity=meso"}), "");
+    EXPECT_EQ(message_of("{policy: CDG, share: 100 %, vehicle: articulated_lorry_35t, driver: lorry}"), "");
+}
+
 // The mean length of the vehicles counts for the length of a queue.
 TEST(Fleets, QueueMustFitOnTheApproach) {
     const std::vector<std::string> road{"network.approach.length=200 m", "demand.vehicles=20"};
     EXPECT_EQ(message_of("{policy: CDG, share: 100 %}", road), "");
     const std::string message = message_of(
-        "{policy: CDG, share: 70 %}, {policy: CDG, share: 30 %, vehicle: articulated_lorry_35t, driver: lorry}", road);
+        "{policy: CDG, share: 70 %}, {policy: CDG-6m, share: 30 %, vehicle: articulated_lorry_35t, driver: lorry}",
+        road);
     EXPECT_NE(message.find("network.approach.length"), std::string::npos) << message;
 }
 

@@ -175,8 +175,8 @@ TEST(LoadScenario, ErrorsNamePlaceFieldValueAndRemedy) {
     EXPECT_EQ(error_of("fidelity: ful\n"),
               "test.yaml:1:11: field 'fidelity': value 'ful' is unknown; did you mean 'full'? "
               "Known: full, meso");
-    EXPECT_TRUE(
-        contains(error_of("vehicle: petrol_eu4_72kW2\n"), "did you mean 'petrol_eu4_72kw'? Known: diesel_eu4_103kw, "));
+    EXPECT_TRUE(contains(error_of("vehicle: petrol_eu4_72kW2\n"),
+                         "did you mean 'petrol_eu4_72kw'? Known: articulated_lorry_35t, "));
     EXPECT_TRUE(contains(error_of("populations: [CGD]\n"),
                          "test.yaml:1:15: field 'populations[CGD].components[0].policy': "
                          "there is no policy 'CGD'; did you mean 'CDG'?"));

@@ -59,6 +59,12 @@ inline CarState cruising(const Car& car, double v_mps) {
     return s;
 }
 
+// Returns the longest lag of the torque in first gear, s.
+inline double longest_lag_s(const Car& car) {
+    const std::vector<double>& lags_s = car.settings.lag_drive_s;
+    return *std::max_element(lags_s.begin(), lags_s.end()) * car.settings.lag_gear_factor.front();
+}
+
 inline CarState advance(const Car& car, const CarState& s, double request_mps2, double grade_N, double dt) {
     return powertrain_step<double>(car.tables, s, request_mps2, grade_N, dt);
 }

@@ -24,11 +24,12 @@ TEST_P(Braking, StopsWithinTheExpectedDistance) {
                 s = advance(car, s, -braking, 0.0, kStep_s);
                 distance_m += 0.5 * (previous_mps + s.speed_mps) * kStep_s;
             }
-            // The lag of the brake adds at most the distance driven in its time constant. It adds less if engine drag
-            // and resistance, which act at once, provide part of the deceleration.
+            // The lag of the brake adds at most the distance driven in its time constant. It adds less if resistances,
+            // which act at once, provide part of the deceleration. The drag of the engine has the lag of the torque.
+            const double lag_s = std::max(car.settings.brake_lag_s, longest_lag_s(car));
             const double distance_without_lag_m = v * v / (2.0 * braking);
             EXPECT_GT(distance_m, 0.99 * distance_without_lag_m) << v << ' ' << braking;
-            EXPECT_LT(distance_m, 1.01 * distance_without_lag_m + v * car.settings.brake_lag_s) << v << ' ' << braking;
+            EXPECT_LT(distance_m, 1.01 * distance_without_lag_m + v * lag_s) << v << ' ' << braking;
         }
     }
 }
@@ -107,7 +108,7 @@ TEST_P(Braking, NeverRollsBackOnAHillStart) {
             ASSERT_GE(s.speed_mps, 0.0);
             if (start_s < 0.0 && s.speed_mps > 0.1) start_s = k * kStep_s;
         }
-        EXPECT_GT(s.speed_mps, 2.0) << "gradient " << gradient;
+        EXPECT_GT(s.speed_mps, 1.5) << "gradient " << gradient;
         EXPECT_GT(start_s, 0.0);
         EXPECT_LT(start_s, 1.5) << "gradient " << gradient;
     }

@@ -87,11 +87,13 @@ TEST_P(Gearbox, ShiftsAtHigherEngineSpeedForHigherRequests) {
     if (car.electric()) GTEST_SKIP() << "one gear";
     const Drive gentle = drive(car, cruising(car, 0.0), 0.6, 20.0, 60.0);
     const Drive hard = drive(car, cruising(car, 0.0), 9.0, 20.0, 60.0);
-    EXPECT_GT(hard.changes.front().rpm, 1.5 * gentle.changes.front().rpm);
+    const double ratio = car.settings.shift_up_full_load_rpm / car.settings.shift_up_part_load_rpm;
+    EXPECT_GT(hard.changes.front().rpm, std::min(1.5, 0.9 * ratio) * gentle.changes.front().rpm);
 }
 
 // A gear change interrupts the torque, and the vehicle coasts meanwhile. The total coasting time must equal the set
-// interruption times the number of gear changes.
+// interruption times the number of gear changes. After the interruption the torque builds up with its lag, so it
+// exceeds the resistances a little later.
 TEST_P(Gearbox, InterruptsTheTorqueForTheSetTime) {
     const Car car(GetParam());
     const Drive start = drive(car, cruising(car, 0.0), 1.5, 100.0 * kMpsPerKmh, 60.0);
@@ -99,7 +101,9 @@ TEST_P(Gearbox, InterruptsTheTorqueForTheSetTime) {
     for (const CarState& s : start.states)
         coasting_s += s.acceleration_mps2 <= 0.0 && s.speed_mps > 0.0 ? kStep_s : 0.0;
     const auto changes = static_cast<double>(start.changes.size());
-    EXPECT_NEAR(coasting_s, changes * car.settings.torque_interruption_s, (changes + 1.0) * 1.5 * kStep_s);
+    const double build_up_s = car.settings.torque_interruption_s > 0.5 ? 0.1 * longest_lag_s(car) : 0.0;
+    EXPECT_NEAR(coasting_s, changes * (car.settings.torque_interruption_s + 0.5 * build_up_s),
+                (changes + 1.0) * (1.5 * kStep_s + 0.5 * build_up_s));
 }
 
 TEST_P(Gearbox, KeepsAGearForItsMinimumTime) {
@@ -121,7 +125,9 @@ TEST_P(Gearbox, StopsInFirstGearAndStartsAgain) {
         EXPECT_EQ(stop.states.back().gear, 0.0) << request;
         const Drive start = drive(car, stop.states.back(), 1.0, 5.0, 20.0);
         EXPECT_GT(start.states.back().speed_mps, 5.0);
-        EXPECT_LT(start.states.size(), 700u) << "a gear change delays the start";
+        // Without gear changes, the start to 5 m/s takes 5 s and the lag of the torque. Lorries change gears before.
+        const double shifts_s = 2.0 * static_cast<double>(start.changes.size()) * car.settings.torque_interruption_s;
+        EXPECT_LT(static_cast<double>(start.states.size()) * kStep_s, 7.0 + shifts_s);
     }
 }
 

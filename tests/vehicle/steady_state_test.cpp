@@ -28,6 +28,7 @@ CarState settled(const Car& car, double v_mps, double request_mps2, double grade
 // Returns true if engine and brake can deliver the force in this gear. A slipping clutch transmits only part of the
 // engine's inertia, so the force must be feasible with and without rotating masses.
 bool feasible(const Car& car, double v_mps, int gear, double request_mps2, double grade_N) {
+    if (car.rpm(v_mps, gear) > car.settings.limiter_rpm) return false;
     const double resistance_N = car.resistance_N(v_mps) + grade_N;
     for (const double rotating : {1.0, car.rotating(gear)}) {
         const double force_N = car.mass_kg() * rotating * request_mps2 + resistance_N;

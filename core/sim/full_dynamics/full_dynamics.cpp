@@ -73,7 +73,8 @@ void evaluate_gap_laws(const Model& model, int vehicles, const FullGroup& g) {
     }
 }
 
-// Sets the driver of each vehicle of the group, and lowers the speed limits to the speed limiters of the vehicles.
+// Sets the driver of each vehicle of the group. Applies speed limiters: the driver does not want to exceed the maximum
+// speed of the vehicle, and the limiter holds this speed even if the driver wants to close a gap.
 void apply_classes(const Model& model, int vehicles, const FullGroup& g) {
     if (model.drivers.size() > 1) {
         for (int i = 0; i < vehicles; ++i) g.driver[i] = model.classes[at(g.policy[i])].driver;
@@ -81,7 +82,10 @@ void apply_classes(const Model& model, int vehicles, const FullGroup& g) {
     if (!model.has_speed_limiters) return;
     for (int i = 0; i < vehicles; ++i) {
         const int type = model.vehicles.size() > 1 ? g.type[i] : 0;
-        g.limit[i] = std::min(g.limit[i], static_cast<float>(model.vehicles[at(type)].maximum_speed_mps));
+        const auto maximum_mps = static_cast<float>(model.vehicles[at(type)].maximum_speed_mps);
+        const auto gain_1ps = static_cast<float>(model.common_driver().speed_gain_1ps);
+        g.limit[i] = std::min(g.limit[i], maximum_mps);
+        g.demand[i] = std::min(g.demand[i], gain_1ps * (maximum_mps - g.speed[i]));
     }
 }
 

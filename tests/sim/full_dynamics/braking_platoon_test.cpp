@@ -15,15 +15,14 @@ constexpr double kBraking_mps2[] = {2.0, 4.0, 7.0};  // the last value is the ha
 constexpr double kMinGap_m[] = {0.3, 0.3, 0.1};
 constexpr int kFollowers = 10;
 constexpr double kSpeed_mps = 50.0 / 3.6;
-constexpr double kBrakeLag_s = 0.2;
 
 // A platoon leader with prescribed motion: constant speed, then a sudden braking request. Its brake follows with a lag.
 struct Leader {
-    double position_m, speed_mps, acceleration_mps2, request_mps2;
+    double position_m, speed_mps, acceleration_mps2, request_mps2, brake_lag_s;
 
     void advance(double request, double dt) {
         request_mps2 = speed_mps > 0.0 ? request : 0.0;
-        acceleration_mps2 += (request_mps2 - acceleration_mps2) * (1.0 - std::exp(-dt / kBrakeLag_s));
+        acceleration_mps2 += (request_mps2 - acceleration_mps2) * (1.0 - std::exp(-dt / brake_lag_s));
         const double next_mps = std::max(0.0, speed_mps + acceleration_mps2 * dt);
         if (next_mps == 0.0) acceleration_mps2 = 0.0;
         position_m += 0.5 * (speed_mps + next_mps) * dt;
@@ -46,7 +45,7 @@ TEST_P(BrakingPlatoon, StopsWithoutTouching) {
     std::vector<Leader> leaders;
     for (int k = 0; k < 3; ++k) {
         track.place_platoon(2 * k, 1000.0, kSpeed_mps, kFollowers);
-        leaders.push_back({1000.0, kSpeed_mps, 0.0, 0.0});
+        leaders.push_back({1000.0, kSpeed_mps, 0.0, 0.0, track.model().vehicles[0].brake_lag_s});
     }
     std::vector<double> smallest_gap_m(3, 1e9);
     std::vector<std::vector<double>> hardest_mps2(3, std::vector<double>(kFollowers + 1, 0.0));
@@ -54,7 +53,7 @@ TEST_P(BrakingPlatoon, StopsWithoutTouching) {
         for (int k = 0; k < 3; ++k) {
             Leader& leader = leaders[at(k)];
             track.drive(2 * k, 0, leader.position_m, leader.speed_mps, leader.acceleration_mps2, leader.request_mps2,
-                        kBrakeLag_s);
+                        leader.brake_lag_s);
             leader.advance(track.time_s() < 15.0 ? 0.0 : -kBraking_mps2[k], track.step_s());
         }
         track.step();

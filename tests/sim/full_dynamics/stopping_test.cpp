@@ -10,9 +10,9 @@ namespace {
 
 using namespace testing_support;
 
-// A state is feasible if this braking suffices after kDelay_s, which covers the jerk limit and the lag of the brake.
+// A state is feasible if this braking suffices after the lag of the brake and kDelay_s, which covers the jerk limit.
 constexpr double kFeasible_mps2 = 6.0;
-constexpr double kDelay_s = 0.35;
+constexpr double kDelay_s = 0.15;
 
 struct InitialState {
     double speed_mps;
@@ -20,11 +20,12 @@ struct InitialState {
     bool is_far;
 };
 
-std::vector<InitialState> feasible_states() {
+std::vector<InitialState> feasible_states(const std::string& vehicle) {
+    const double delay_s = kDelay_s + load_vehicle(vehicle).brake_lag_s;
     std::vector<InitialState> states;
     for (const double kmh : {5.0, 12.0, 22.0, 35.0, 50.0, 60.0}) {
         const double v = kmh / 3.6;
-        const double stopping_m = v * v / (2.0 * kFeasible_mps2) + kDelay_s * v;
+        const double stopping_m = v * v / (2.0 * kFeasible_mps2) + delay_s * v;
         for (const double factor : {1.001, 1.15, 1.5, 2.5}) states.push_back({v, factor * stopping_m, false});
         states.push_back({v, 170.0, true});
     }
@@ -52,7 +53,7 @@ INSTANTIATE_TEST_SUITE_P(OnePairing, Stopping, testing::Values(Pairing{"SWITCH-1
                          as_pairing_name);
 
 TEST_P(Stopping, StopsBeforeARedSignal) {
-    const std::vector<InitialState> states = feasible_states();
+    const std::vector<InitialState> states = feasible_states(GetParam().vehicle);
     Track track(red_road(GetParam(), states.size()));
     for (std::size_t k = 0; k < states.size(); ++k) {
         track.place(static_cast<int>(2 * k), 1000.0 - states[k].distance_m, states[k].speed_mps);
@@ -74,7 +75,7 @@ TEST_P(Stopping, StopsBeforeARedSignal) {
 }
 
 TEST_P(Stopping, StopsBehindAStoppedVehicle) {
-    const std::vector<InitialState> states = feasible_states();
+    const std::vector<InitialState> states = feasible_states(GetParam().vehicle);
     Track track(red_road(GetParam(), states.size()));
     const double margin_m = track.model().common_driver().stop.margin_m;
     const double length_m = track.model().vehicles[0].length_m;
