@@ -12,6 +12,7 @@
 #include "base/input_error.h"
 #include "scenario/import_sumo.h"
 #include "scenario/make_network.h"
+#include "sim/mesoscale/following_families.h"
 #include "sumo_import/sumo_signals.h"
 
 namespace stopline {
@@ -217,8 +218,10 @@ void add_network(const Scenario& scenario, Model& model) {
 }  // namespace
 
 void set_meso(const Scenario& scenario, const MesoSettings& settings, Model& model) {
-    model.krauss.clear();
-    for (const GapPolicy& policy : model.policies) model.krauss.push_back(make_krauss_model(settings, policy.meso));
+    model.following.clear();
+    for (const GapPolicy& policy : model.policies) {
+        model.following.push_back(make_following_model(settings, policy.meso));
+    }
     model.speed_factor = settings.speed_factor;
     model.leader_speed_share = settings.leader_speed_share;
     model.approach_share = std::min(settings.speed_gain_1ps * model.step_s, 1.0);

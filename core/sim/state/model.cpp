@@ -23,7 +23,7 @@ void check(const Model& model) {
         throw InputError("every signal group needs one programme");
     }
     if (model.vehicles.empty() || model.policies.empty()) throw InputError("a vehicle type and a policy are needed");
-    if (model.meso && model.krauss.size() != model.policies.size()) {
+    if (model.meso && model.following.size() != model.policies.size()) {
         throw InputError("every policy needs a mesoscale model");
     }
     if (model.demand.trips.size() != model.demand.trip_policies.size()) throw InputError("every trip needs a policy");
