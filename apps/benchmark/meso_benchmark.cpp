@@ -33,12 +33,12 @@ Model intersection_model() {
 
 // A platoon of kFollowers vehicles. The benchmarks compute its step again and again.
 struct Platoon {
-    explicit Platoon(const Model& model, const MesoKernels& kernels) : step(meso_step(model, 0)) {
+    Platoon(const Model& model, int block_size) : step(meso_step(model, 0)) {
         v.grow(kSimdWidth + kFollowers);
         for (int k = 0; k < kFollowers; ++k) {
             const int slot = kSimdWidth + k;
             const auto i = static_cast<std::size_t>(slot);
-            if (k % kernels.size == 0) blocks.push_back(slot / kernels.size);
+            if (k % block_size == 0) blocks.push_back(slot / block_size);
             v.speed_mps[i] = 13.0 + 0.01 * (k % 50);
             v.position_m[i] = -18.5 * k - 0.02 * (k % 90);
             v.length_m[i] = 4.5F;
@@ -72,19 +72,18 @@ void repeat(benchmark::State& state, Platoon& platoon, Pass pass) {
 
 void kernel_step(benchmark::State& state, bool scalar) {
     const Model model = intersection_model();
-    const MesoKernels& kernels = meso_kernels(scalar);
-    Platoon platoon(model, kernels);
+    Platoon platoon(model, meso_block_size(scalar));
     const MesoStreams streams = meso_streams(platoon.v);
     repeat(state, platoon, [&] {
-        benchmark::DoNotOptimize(kernels.step(streams, platoon.blocks, model.krauss, nullptr, platoon.step));
+        benchmark::DoNotOptimize(step_blocks(scalar, streams, platoon.blocks, model.following, nullptr, platoon.step));
     });
 }
 
 // Measures the car-following equation alone: it computes the speeds of the next step from gaps and speeds of this step.
 void following(benchmark::State& state, bool scalar) {
     const Model model = intersection_model();
-    const MesoKernels& kernels = meso_kernels(scalar);
-    Platoon platoon(model, kernels);
+    const MesoKernels& kernels = model.following[0].family().kernels(scalar);
+    Platoon platoon(model, kernels.size);
     const LargeArray<double> gap_m(kFollowers, 14.5);
     const LargeArray<double> none(kFollowers, 0.0);
     const LargeArray<double> cap_mps(kFollowers, 14.6);
@@ -92,8 +91,9 @@ void following(benchmark::State& state, bool scalar) {
     const double* const speed = platoon.v.speed_mps.data() + kSimdWidth;
     const std::span<const int> ids(platoon.v.id.data() + kSimdWidth, kFollowers);
     repeat(state, platoon, [&] {
-        kernels.follow(model.krauss[0], platoon.step,
-                       {speed, gap_m.data(), speed, none.data(), none.data(), cap_mps.data()}, ids, next_mps.data());
+        kernels.follow(model.following[0], platoon.step,
+                       {speed, gap_m.data(), speed, none.data(), none.data(), cap_mps.data(), cap_mps.data()}, ids,
+                       next_mps.data());
         benchmark::DoNotOptimize(next_mps.data());
     });
 }

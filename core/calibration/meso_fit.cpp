@@ -22,8 +22,9 @@ enum class LawSubset { constant_time, constant_distance, all };
 // Returns true if all vehicles of the case use the same model: the constant-distance model if `constant_distance` is
 // true, else the time-gap model.
 bool has_law(const FitCase& c, bool constant_distance) {
-    return std::all_of(c.model.krauss.begin(), c.model.krauss.end(),
-                       [&](const Krauss& k) { return k.constant_distance == constant_distance; });
+    return std::all_of(c.model.following.begin(), c.model.following.end(), [&](const FollowingModel& model) {
+        return model.is(constant_distance ? kConstantDistanceFamily : kTimeGapFamily);
+    });
 }
 
 bool is_in(const FitCase& c, LawSubset subset) {

@@ -132,8 +132,14 @@ struct KraussSettings {
     double dawdling = 0.4;           // sigma, 0 .. 1
 };
 
-// The mesoscale mode: one car-following model for policies with a time gap, and one for policies with a constant
-// distance (MesoGap::Model in driver/krauss.h).
+// The intelligent driver model (idm.h). The policy gives the time gap and the standstill gap. The defaults are the
+// values for cities of Treiber, Kesting 2013, "Traffic Flow Dynamics", table 11.2.
+struct IdmSettings {
+    double acceleration_mps2 = 1.0;  // a, maximum acceleration
+    double deceleration_mps2 = 1.5;  // b, comfortable deceleration
+};
+
+// The mesoscale mode: the parameters of the car-following models (following_model.h) and of all else.
 struct MesoSettings {
     std::string name;  // name of this set of values; default: the name of the file in data/meso
     double step_s = 0.1;
@@ -160,6 +166,7 @@ struct MesoSettings {
     double start_delay_s = 0.0;  // start-up delay of the first vehicle at a stop line, due to its powertrain
     KraussSettings constant_time;
     KraussSettings constant_distance;
+    IdmSettings idm;
     // Equation (1) of the paper: a vehicle whose gap is below s_0, but by less than s_t, drives as fast as its leader.
     // If the gap is even smaller, the vehicle drives at the share d of its leader's speed.
     double band_m = 0.5;                   // s_t
@@ -175,6 +182,7 @@ struct MesoSettings {
 };
 
 inline constexpr std::size_t kMaxLawParameters = 16;
+inline constexpr const char* kFamilyByLaw = "by_law";
 
 // A spacing policy. `law` is the name of a registered spacing law (spacing_laws/gap_policy.h).
 struct GapPolicySettings {
@@ -187,9 +195,9 @@ struct GapPolicySettings {
     // law `table`: net gaps at rising speeds above 0
     std::vector<double> gap_speed_mps;
     std::vector<double> gap_at_speed_m;
-    // Laws `formula` and `table`: car-following model of the mesoscale mode, "constant_distance" or "time_gap"; "none":
-    // the policy is for full dynamics only.
-    std::string mesoscale = "none";
+    // Name of the car-following model of the mesoscale mode (FollowingFamily), or kFamilyByLaw: the model that the law
+    // implies. The laws `formula` and `table` imply no model.
+    std::string mesoscale = kFamilyByLaw;
 };
 
 }  // namespace stopline

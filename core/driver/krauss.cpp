@@ -4,36 +4,8 @@
 
 namespace stopline {
 
-LeaderProfile leader_profile(const MesoSettings& settings) {
-    LeaderProfile profile;
-    const std::vector<double>& speeds = settings.leader_profile_mps;
-    if (speeds.empty()) return profile;
-    profile.bins_per_mps = (LeaderProfile::kBins - 0.5) / std::max(speeds.back(), 1.0);
-    for (int bin = 0; bin < LeaderProfile::kBins; ++bin) {
-        const double middle_mps = (bin + 0.5) / profile.bins_per_mps;
-        std::size_t nearest = 0;
-        for (std::size_t k = 1; k < speeds.size(); ++k) {
-            if (std::abs(speeds[k] - middle_mps) < std::abs(speeds[nearest] - middle_mps)) nearest = k;
-        }
-        profile.acceleration_mps2[static_cast<std::size_t>(bin)] = settings.leader_profile_mps2[nearest];
-    }
-    return profile;
-}
-
-LeaderProfile power_profile(const DriverTables& driver) {
-    LeaderProfile profile;
-    const double top_mps = (DriverTables::kProfileNodes - 1) / driver.power_nodes_per_mps;
-    profile.bins_per_mps = LeaderProfile::kBins / top_mps;
-    for (std::size_t bin = 0; bin < profile.acceleration_mps2.size(); ++bin) {
-        const double middle_mps = (static_cast<double>(bin) + 0.5) / profile.bins_per_mps;
-        profile.acceleration_mps2[bin] =
-            interpolate_on_grid(driver.power_mps2, middle_mps * driver.power_nodes_per_mps);
-    }
-    return profile;
-}
-
-Krauss make_krauss_model(const MesoSettings& settings, const MesoGap& gap) {
-    const bool time_gap = gap.model == MesoGap::Model::time_gap;
+Krauss Krauss::make(const MesoSettings& settings, const MesoGap& gap) {
+    const bool time_gap = gap.family != kConstantDistanceFamily;
     const KraussSettings& s = time_gap ? settings.constant_time : settings.constant_distance;
     Krauss k;
     k.acceleration_mps2 = s.acceleration_mps2;

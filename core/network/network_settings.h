@@ -61,6 +61,7 @@ struct NetworkSettings {
     std::string net = {};
     std::vector<std::string> routes = {};
     std::vector<std::string> additional = {};
+    std::string vehicles = "from_scenario";  // source of the driving behaviour: from_scenario | from_routes
     std::shared_ptr<const SumoNetwork> sumo = {};
 
     bool is_streets() const { return kind == "streets"; }

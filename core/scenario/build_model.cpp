@@ -10,76 +10,16 @@
 
 #include "base/containers/index.h"
 #include "base/input_error.h"
+#include "scenario/build_fleet.h"
 #include "scenario/fleets.h"
 #include "scenario/import_sumo.h"
 #include "scenario/make_network.h"
+#include "sim/mesoscale/following_families.h"
 #include "sumo_import/sumo_signals.h"
 
 namespace stopline {
 
 namespace {
-
-// Returns the index of `value` in the list, after adding it if the list does not have it.
-template <class T>
-int index_in(std::vector<T>& list, const T& value) {
-    const auto found = std::find(list.begin(), list.end(), value);
-    const auto index = static_cast<int>(found - list.begin());
-    if (found == list.end()) list.push_back(value);
-    return index;
-}
-
-DriverPlan driver_plan(const DriverSettings& settings, const PowertrainTables& vehicle, double step_s) {
-    DriverPlan driver;
-    driver.tables = compile_driver(settings);
-    const auto available_mps2 = [&](double v) { return available_acceleration_mps2(vehicle, v); };
-    extend_by_power(settings.free_drive, available_mps2, driver.tables);
-    driver.give_way = settings.give_way;
-    driver.lane_change = settings.lane_change;
-    driver.hesitation_s = settings.free_drive.hesitation_s;
-    driver.hesitation_ticks = to_ticks(driver.hesitation_s, step_s);
-    return driver;
-}
-
-// Adds the vehicle types and the drivers of all components of the population. A driver plan depends on the vehicle, so
-// each pair of vehicle and driver has its own plan.
-void add_fleet(const Scenario& scenario, const PopulationSettings& population, Model& model) {
-    std::vector<PowertrainSettings> vehicles;
-    std::vector<DriverSettings> drivers;
-    std::vector<std::pair<int, int>> plans;  // indices in `vehicles` and `drivers`
-    for (const PopulationSettings::Component& component : population.components) {
-        const int vehicle = index_in(vehicles, component.vehicle.value_or(scenario.vehicle));
-        const int driver = index_in(drivers, component.driver.value_or(scenario.driver));
-        model.classes.push_back({vehicle, index_in(plans, std::pair(vehicle, driver))});
-    }
-    for (const PowertrainSettings& vehicle : vehicles) model.vehicles.push_back(compile_powertrain(vehicle));
-    const auto limits_speed = [&](const PowertrainTables& vehicle) {
-        return std::any_of(model.graph.lanes.begin(), model.graph.lanes.end(),
-                           [&](const Lane& lane) { return vehicle.maximum_speed_mps < lane.limit_mps; });
-    };
-    model.has_speed_limiters = std::any_of(model.vehicles.begin(), model.vehicles.end(), limits_speed);
-    for (const auto& [vehicle, driver] : plans) {
-        model.drivers.push_back(driver_plan(drivers[at(driver)], model.vehicles[at(vehicle)], model.step_s));
-    }
-}
-
-void add_policies(const Scenario& scenario, const PopulationSettings& population, Model& model) {
-    for (const PopulationSettings::Component& component : population.components) {
-        const auto named = [&](const GapPolicySettings& policy) { return policy.name == component.policy; };
-        const auto found = std::find_if(scenario.policies.begin(), scenario.policies.end(), named);
-        if (found == scenario.policies.end()) {
-            throw InputError(fmt::format("population '{}': unknown policy '{}'", population.name, component.policy));
-        }
-        model.demand.policies.push_back(static_cast<int>(model.policies.size()));
-        model.demand.policy_shares.push_back(component.share);
-        GapPolicySettings policy = *found;
-        policy.name = component_name(component);
-        model.policies.push_back(make_gap_policy(policy));
-    }
-    using Pattern = PopulationSettings::Pattern;
-    model.demand.pattern = population.pattern == Pattern::random     ? DemandPlan::Pattern::random
-                           : population.pattern == Pattern::balanced ? DemandPlan::Pattern::balanced
-                                                                     : DemandPlan::Pattern::alternating;
-}
 
 // Returns true for an approach lane from south or north. In grids and single intersections, these lanes have the odd
 // signal group of their intersection.
@@ -263,8 +203,10 @@ void add_network(const Scenario& scenario, Model& model) {
 }  // namespace
 
 void set_meso(const MesoSettings& settings, Model& model) {
-    model.krauss.clear();
-    for (const GapPolicy& policy : model.policies) model.krauss.push_back(make_krauss_model(settings, policy.meso));
+    model.following.clear();
+    for (const GapPolicy& policy : model.policies) {
+        model.following.push_back(make_following_model(settings, policy.meso));
+    }
     model.speed_factor = settings.speed_factor;
     model.leader_speed_share = settings.leader_speed_share;
     model.approach_share = std::min(settings.speed_gain_1ps * model.step_s, 1.0);
@@ -290,12 +232,15 @@ Model build_model(const Scenario& scenario, std::size_t population) {
     model.step_s = scenario.tick_s();
     model.seed = scenario.seed;
     add_network(scenario, model);
-    add_fleet(scenario, scenario.populations.at(population), model);
+    const PopulationSettings& vehicles = scenario.populations.at(population);
+    add_fleet(scenario, vehicles, model);
     // radar_delay_s is the time from a measurement until the vehicle responds to it. It includes one step, because the
     // controller uses the data at the start of a step and the vehicle responds from the end of the step on. So the data
     // that the controller uses are older by radar_delay_s minus one step.
-    model.radar = make_delay(std::max(scenario.driver.cacc.radar_delay_s - scenario.tick_s(), 0.0), scenario.tick_s());
-    model.v2v = make_delay(scenario.driver.cacc.v2v_delay_s, scenario.tick_s());
+    // All drivers of a population have the same delays (check_fleets()).
+    const CaccSettings& cacc = driver_of(scenario, vehicles.components.front()).cacc;
+    model.radar = make_delay(std::max(cacc.radar_delay_s - scenario.tick_s(), 0.0), scenario.tick_s());
+    model.v2v = make_delay(cacc.v2v_delay_s, scenario.tick_s());
     if (scenario.is_meso()) {  // mesoscale car following has no radar delay
         model.meso = true;
         model.radar = make_delay(0.0, model.step_s);
@@ -304,9 +249,12 @@ Model build_model(const Scenario& scenario, std::size_t population) {
     add_connections(model);
     if (scenario.network.has_intersections()) add_rules(scenario, model);
     add_detectors(scenario, model);
-    add_policies(scenario, scenario.populations.at(population), model);
     add_demand(scenario, model);
-    if (scenario.is_meso()) set_meso(scenario.meso, model);
+    assign_trip_policies(scenario, model);
+    if (scenario.is_meso()) {
+        set_meso(scenario.meso, model);
+        add_following_models(scenario, vehicles, model);
+    }
     check(model);
     return model;
 }

@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/units.h"
-#include "driver/krauss.h"
+#include "driver/following_model.h"
 #include "scenario/fleets.h"
 #include "scenario/schema/quantity.h"
+#include "sim/mesoscale/following_families.h"
 #include "spacing_laws/gap_policy.h"
 #include "sumo_import/sumo_graph.h"
 
@@ -25,20 +28,26 @@ bool is_used(const Scenario& scenario, const GapPolicySettings& policy) {
 }
 
 // Returns how much smaller than the standstill gap of the policy the gap of a stopped vehicle can be in the mesoscale
-// mode, m. There, the smallest gap is the standstill gap of the car-following model minus the width of the tolerance
-// band of this model (krauss.h). So vehicles can touch if the standstill gap of the policy is smaller than the result.
+// mode, m. Vehicles can touch if the standstill gap of the policy is smaller than the result.
 double meso_min_gap_m(const Scenario& scenario, const GapPolicySettings& policy) {
-    const Krauss model = make_krauss_model(scenario.meso, make_gap_policy(policy).meso);
-    return policy.standstill_gap_m - (model.standstill_gap_m - model.band_m);
+    return policy.standstill_gap_m - make_following_model(scenario.meso, make_gap_policy(policy).meso).smallest_gap_m();
+}
+
+std::vector<std::string> following_names() {
+    std::vector<std::string> names;
+    for (const FollowingFamily& family : following_families()) names.emplace_back(family.text.name);
+    return names;
 }
 
 void check_policies(const Scenario& scenario, Checker& check) {
     for (const GapPolicySettings& policy : scenario.policies) {
         if (!is_used(scenario, policy)) continue;
-        if (scenario.is_meso() && find_gap_law(policy.law).names_mesoscale_model && policy.mesoscale == "none") {
-            check.error("policies[" + policy.name + "].mesoscale",
-                        "is 'none', but the run is mesoscale (fidelity: meso): give the car-following model of this "
-                        "mode, constant_distance or time_gap");
+        if (scenario.is_meso() && make_gap_policy(policy).meso.family.empty()) {
+            check.error(
+                "policies[" + policy.name + "].mesoscale",
+                "is '" + std::string(kFamilyByLaw) + "', but the law '" + policy.law +
+                    "' names no car-following model and the run is mesoscale (fidelity: meso): give the model (" +
+                    fmt::format("{}", fmt::join(following_names(), ", ")) + ")");
             continue;
         }
         const std::string field = "policies[" + policy.name + "].standstill_gap";
@@ -107,10 +116,11 @@ double highest_limit_mps(const NetworkSettings& network) {
 
 namespace {
 
-// Returns true if a population uses a policy for which the mesoscale mode uses the constant-distance model (krauss.h).
-bool keeps_constant_distances(const Scenario& scenario) {
+// Returns true if a population uses a policy whose vehicles pass on V2V start messages.
+bool relays_starts(const Scenario& scenario) {
     return std::any_of(scenario.policies.begin(), scenario.policies.end(), [&](const GapPolicySettings& policy) {
-        return is_used(scenario, policy) && make_gap_policy(policy).meso.model == MesoGap::Model::constant_distance;
+        return is_used(scenario, policy) &&
+               make_following_model(scenario.meso, make_gap_policy(policy).meso).relays_starts();
     });
 }
 
@@ -160,7 +170,7 @@ std::vector<std::string> range_warnings(const Scenario& scenario) {
                                     "the mesoscale parameters '" + meso.name + "'", "meso.calibrated_speed_limit",
                                     free.power_share));
     }
-    if (meso.step_s > kLimitRounding * meso.calibrated_step_s && keeps_constant_distances(scenario)) {
+    if (meso.step_s > kLimitRounding * meso.calibrated_step_s && relays_starts(scenario)) {
         lines.push_back(fmt::format(
             "meso.step of {} is longer than the step of {} for which '{}' was calibrated (meso.calibrated_step): each "
             "vehicle starts a step after its leader, so queues of constant-distance policies discharge too slowly",

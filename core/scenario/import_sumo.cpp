@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "scenario/driving_checks.h"
 #include "sumo_import/sumo_graph.h"
 #include "sumo_import/sumo_net.h"
 #include "sumo_import/sumo_routes.h"
@@ -47,8 +48,8 @@ void import_sumo(Scenario& scenario, const std::filesystem::path& directory) {
     network.sumo = sumo_network;
     std::vector<std::filesystem::path> routes;
     for (const std::string& file : network.routes) routes.push_back(directory / file);
-    scenario.demand.sumo = std::make_shared<SumoTraffic>(
-        read_sumo_routes({additional, routes}, *sumo_network, scenario.duration_s, scenario.seed));
+    scenario.demand.sumo = std::make_shared<SumoTraffic>(read_sumo_routes(
+        {additional, routes, network.vehicles == "from_routes"}, *sumo_network, scenario.duration_s, scenario.seed));
 }
 
 void add_sumo_trips(const Scenario& scenario, DemandPlan& plan) {
@@ -58,7 +59,6 @@ void add_sumo_trips(const Scenario& scenario, DemandPlan& plan) {
     plan.trip_names = {scenario.demand.sumo, &traffic.ids};
     plan.shortest_vehicle_m = traffic.shortest_vehicle_m();
     plan.seed = scenario.seed;
-    plan.draw_trip_policies();
 }
 
 std::vector<SumoLoopPlace> sumo_loops(const Scenario& scenario) {
@@ -85,8 +85,18 @@ std::vector<std::string> sumo_notes(const Scenario& scenario) {
 }
 
 std::vector<FieldProblem> sumo_demand_problems(const Scenario& scenario) {
-    if (!scenario.demand.sumo || scenario.demand.sumo->elements > 0) return {};
-    return {{"network.routes", "the files of 'routes' and 'additional' have no vehicle, trip or flow"}};
+    std::vector<FieldProblem> problems;
+    if (!scenario.demand.sumo) return problems;
+    if (scenario.demand.sumo->elements == 0) {
+        problems.emplace_back("network.routes", "the files of 'routes' and 'additional' have no vehicle, trip or flow");
+    }
+    for (const SumoType& type : scenario.demand.sumo->types) {
+        if (scenario.is_meso() || type.driving.standstill_gap_m >= kMinStandstillGap_m) continue;
+        problems.emplace_back("network.vehicles",
+                              fmt::format("{}: minGap=\"{:g}\" is too small: in full dynamics at least {:g} m",
+                                          type.where, type.driving.standstill_gap_m, kMinStandstillGap_m));
+    }
+    return problems;
 }
 
 std::string sumo_demand_warning(const Scenario& scenario) {

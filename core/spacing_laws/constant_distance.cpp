@@ -14,7 +14,7 @@ void constant_distance(const GapPolicy& policy, std::span<const double> speed_mp
 }
 
 MesoGap constant_distance_meso(const GapPolicy& policy) {
-    return {MesoGap::Model::constant_distance, policy.settings.standstill_gap_m, 0.0, false};
+    return {kConstantDistanceFamily, policy.settings.standstill_gap_m, 0.0, false};
 }
 
 }  // namespace

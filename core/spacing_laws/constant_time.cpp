@@ -18,7 +18,7 @@ void constant_time(const GapPolicy& policy, std::span<const double> speed_mps, s
 }
 
 MesoGap constant_time_meso(const GapPolicy& policy) {
-    return {MesoGap::Model::time_gap, policy.settings.standstill_gap_m, policy.values[0], false};
+    return {kTimeGapFamily, policy.settings.standstill_gap_m, policy.values[0], false};
 }
 
 }  // namespace

@@ -66,13 +66,8 @@ std::vector<LawProblem> formula_problems(const GapPolicySettings& settings) {
 
 }  // namespace
 
-extern const GapLaw kFormulaLaw{"formula",
-                                "a formula of the speed, in the field gap",
-                                {},
-                                evaluate_gap_table,
-                                shaped_meso_gap,
-                                formula_problems,
-                                formula_table,
-                                true};
+extern const GapLaw kFormulaLaw{
+    "formula",    "a formula of the speed, in the field gap", {}, evaluate_gap_table, shaped_meso_gap, formula_problems,
+    formula_table};
 
 }  // namespace stopline

@@ -89,13 +89,29 @@ void GapPolicy::evaluate(std::span<const double> speed_mps, std::span<double> ga
     law->evaluate(*this, speed_mps, gap_m, slope_s);
 }
 
+namespace {
+
+// Returns the gap with the car-following model that the policy names.
+MesoGap with_family(const std::string& family, MesoGap gap) {
+    if (family == kFamilyByLaw) return gap;
+    // The constant-distance model keeps no time gap, so the whole growth of the gap becomes the extra gap.
+    if (family == kConstantDistanceFamily && gap.time_gap_s != 0.0) {
+        gap.time_gap_s = 0.0;
+        gap.has_extra_gap = true;
+    }
+    gap.family = family;
+    return gap;
+}
+
+}  // namespace
+
 GapPolicy make_gap_policy(const GapPolicySettings& settings) {
     GapPolicy policy{settings, &find_gap_law(settings.law), {}, {}, {}};
     for (std::size_t k = 0; k < policy.law->parameters.size(); ++k) {
         policy.values[k] = law_parameter(settings, policy.law->parameters[k].name);
     }
     if (policy.law->tabulate != nullptr) policy.table = policy.law->tabulate(settings);
-    policy.meso = policy.law->meso_gap(policy);
+    policy.meso = with_family(settings.mesoscale, policy.law->meso_gap(policy));
     return policy;
 }
 

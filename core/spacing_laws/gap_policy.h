@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "driver/driver_settings.h"
-#include "driver/krauss.h"
+#include "driver/following_model.h"
 
 namespace stopline {
 
@@ -72,15 +72,14 @@ struct GapLaw {
     // See GapPolicy::evaluate().
     void (*evaluate)(const GapPolicy& policy, std::span<const double> speed_mps, std::span<double> gap_m,
                      std::span<double> slope_s);
-    // Returns how the mesoscale mode models the gap of the policy.
+    // Returns how the mesoscale mode models the gap of the policy, with the car-following model that the law implies.
+    // The policy can name another model (GapPolicySettings::mesoscale). MesoGap::family is empty if the gap can have any
+    // shape, so that the law implies no model. The policy must then name a model for mesoscale runs.
     MesoGap (*meso_gap)(const GapPolicy& policy);
     // Returns the problems of settings whose values are all within their ranges. nullptr: such settings have none.
     std::vector<LawProblem> (*problems)(const GapPolicySettings& settings) = nullptr;
     // Makes GapPolicy::table. nullptr: the law needs no table.
     GapTable (*tabulate)(const GapPolicySettings& settings) = nullptr;
-    // True: the gap can have any shape, so the law does not imply a car-following model of the mesoscale mode. In a
-    // mesoscale run, the policy must name the model (GapPolicySettings::mesoscale).
-    bool names_mesoscale_model = false;
 };
 
 // Returns all registered laws.

@@ -48,11 +48,8 @@ void evaluate_gap_table(const GapPolicy& policy, std::span<const double> speed_m
 MesoGap shaped_meso_gap(const GapPolicy& policy) {
     constexpr double kReference_mps = 50.0 / 3.6;
     const double standstill_m = policy.settings.standstill_gap_m;
-    if (policy.settings.mesoscale != "time_gap") {
-        return {MesoGap::Model::constant_distance, standstill_m, 0.0, true};
-    }
     const double time_gap_s = (equilibrium_gap_m(policy, kReference_mps) - standstill_m) / kReference_mps;
-    return {MesoGap::Model::time_gap, standstill_m, time_gap_s, true};
+    return {"", standstill_m, time_gap_s, true};
 }
 
 }  // namespace stopline

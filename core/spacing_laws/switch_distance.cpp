@@ -27,7 +27,7 @@ void switch_distance(const GapPolicy& policy, std::span<const double> speed_mps,
 }
 
 MesoGap switch_distance_meso(const GapPolicy& policy) {
-    return {MesoGap::Model::constant_distance, policy.settings.standstill_gap_m, 0.0, true};
+    return {kConstantDistanceFamily, policy.settings.standstill_gap_m, 0.0, true};
 }
 
 std::vector<LawProblem> switch_distance_problems(const GapPolicySettings& s) {

@@ -20,7 +20,7 @@ void switch_time_gap(const GapPolicy& policy, std::span<const double> speed_mps,
 }
 
 MesoGap switch_time_gap_meso(const GapPolicy& policy) {
-    return {MesoGap::Model::constant_distance, policy.settings.standstill_gap_m, 0.0, true};
+    return {kConstantDistanceFamily, policy.settings.standstill_gap_m, 0.0, true};
 }
 
 }  // namespace

@@ -40,7 +40,6 @@ extern const GapLaw kTableLaw{"table",
                               evaluate_gap_table,
                               shaped_meso_gap,
                               points_problems,
-                              points_table,
-                              true};
+                              points_table};
 
 }  // namespace stopline

@@ -67,7 +67,8 @@ void check_exportable(const Scenario& scenario) {
 
 std::string sumo_limits_note(const Model& model) {
     const bool keeps_distance =
-        std::any_of(model.krauss.begin(), model.krauss.end(), [](const Krauss& k) { return k.constant_distance; });
+        std::any_of(model.following.begin(), model.following.end(),
+                    [](const FollowingModel& following) { return !following.in_sumo().is_same_model; });
     return keeps_distance
                ? "SUMO has no constant-distance model. Such vehicles drive there with a time gap of nearly 0 s, and SUMO "
                  "reports collisions."

@@ -40,8 +40,14 @@ struct TripRoute {
 
 class RouteReader {
 public:
-    RouteReader(const SumoNetwork& network, double until_s, std::uint64_t seed)
-        : network_(network), router_(network), until_s_(until_s), seed_(seed), merged_(network.net.edges.size(), 0) {
+    RouteReader(const SumoNetwork& network, double until_s, std::uint64_t seed, bool uses_driving)
+        : network_(network),
+          router_(network),
+          until_s_(until_s),
+          seed_(seed),
+          uses_driving_(uses_driving),
+          merged_(network.net.edges.size(), 0),
+          types_(uses_driving) {
         for (const SumoEdge& edge : network.net.edges) {
             if (edge.merged_into >= 0) merged_[at(edge.merged_into)] = 1;
         }
@@ -72,12 +78,14 @@ public:
         sorted.turns = std::move(traffic_.turns);
         sorted.warnings = std::move(traffic_.warnings);
         sorted.notes = std::move(traffic_.notes);
+        sorted.types = std::move(traffic_.types);
         sorted.hash = traffic_.hash;
         sorted.elements = traffic_.elements;
         sorted.first_late_departure_s = traffic_.first_late_departure_s;
         for (const std::size_t k : order) {
             sorted.trips.push_back(traffic_.trips[k]);
             sorted.ids.push_back(std::move(traffic_.ids[k]));
+            if (uses_driving_) sorted.type_of.push_back(traffic_.type_of[k]);
             Trip& trip = sorted.trips.back();
             const TripRoute& route = routes_[route_of_trip_[k]];
             trip.first_turn = route.first_turn;
@@ -283,6 +291,7 @@ private:
         route_of_trip_.push_back(route);
         traffic_.trips.push_back(trip);
         traffic_.ids.push_back(id);
+        if (uses_driving_) traffic_.type_of.push_back(index_of(*xml_, node, type, traffic_.types));
     }
 
     void note_late_departure(double depart_s) {
@@ -394,6 +403,7 @@ private:
     SumoRouter router_;
     double until_s_;
     std::uint64_t seed_;
+    bool uses_driving_;
     std::vector<char> merged_;      // [edge] 1: short edges were merged into it
     const SumoXml* xml_ = nullptr;  // the file that is being read
     bool additional_ = false;       // the file that is being read is an additional file
@@ -417,7 +427,7 @@ double SumoTraffic::shortest_vehicle_m() const {
 
 SumoTraffic read_sumo_routes(const SumoRouteFiles& files, const SumoNetwork& network, double until_s,
                              std::uint64_t seed) {
-    RouteReader reader(network, until_s, seed);
+    RouteReader reader(network, until_s, seed, files.uses_driving);
     for (const std::filesystem::path& file : files.additional) reader.read(file, true);
     for (const std::filesystem::path& file : files.routes) reader.read(file, false);
     return reader.finish();

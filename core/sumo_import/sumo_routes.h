@@ -12,6 +12,7 @@
 
 #include "demand/demand_plan.h"
 #include "sumo_import/sumo_graph.h"
+#include "sumo_import/sumo_types.h"
 
 namespace stopline {
 
@@ -19,6 +20,10 @@ struct SumoTraffic {
     std::vector<Trip> trips;       // in the order of departure
     std::vector<Turn> turns;       // turns of all trips, one trip after the other; see Trip::first_turn
     std::vector<std::string> ids;  // [trip]
+    // The different vehicle types of all trips, and the index of the type for each trip. Empty if the driving behaviour
+    // of the types is not used.
+    std::vector<SumoType> types;
+    std::vector<int> type_of;  // [trip]
     SumoWarnings warnings;
     std::vector<std::string> notes;                     // choices of the import that the user should know
     std::uint64_t hash = 0;                             // hash of the text of all files
@@ -32,6 +37,7 @@ struct SumoTraffic {
 struct SumoRouteFiles {
     std::vector<std::filesystem::path> additional;  // read before the route files; only traffic is read from them
     std::vector<std::filesystem::path> routes;
+    bool uses_driving = false;  // true: read the driving behaviour of the vehicle types
 };
 
 // Reads the files one after the other. A file may use types and routes of the files before it. Vehicles that depart at

@@ -12,17 +12,39 @@ namespace {
 
 struct VehicleClass {
     std::string_view name;
-    double length_m;  // SUMO's default length, https://sumo.dlr.de/docs/Vehicle_Type_Parameter_Defaults.html
+    // Defaults of SUMO 1.28, https://sumo.dlr.de/docs/Vehicle_Type_Parameter_Defaults.html
+    double length_m;
     bool uses_car_lanes;
+    double acceleration_mps2 = 2.6;
+    double deceleration_mps2 = 4.5;
+    double maximum_speed_kmh = 200.0;
 };
 
 constexpr std::array<VehicleClass, 25> kClasses{{
-    {"passenger", 5.0, true},     {"private", 5.0, true},   {"taxi", 5.0, true},          {"hov", 5.0, true},
-    {"evehicle", 5.0, true},      {"emergency", 6.5, true}, {"authority", 5.0, true},     {"army", 5.0, true},
-    {"vip", 5.0, true},           {"custom1", 5.0, true},   {"custom2", 5.0, true},       {"bus", 12.0, true},
-    {"coach", 14.0, true},        {"delivery", 6.5, true},  {"truck", 7.1, true},         {"trailer", 16.5, true},
-    {"motorcycle", 2.2, true},    {"moped", 2.1, true},     {"ignoring", 5.0, true},      {"bicycle", 1.6, false},
-    {"pedestrian", 0.215, false}, {"tram", 22.0, false},    {"rail_urban", 109.5, false}, {"rail", 135.0, false},
+    {"passenger", 5.0, true},
+    {"private", 5.0, true},
+    {"taxi", 5.0, true},
+    {"hov", 5.0, true},
+    {"evehicle", 5.0, true},
+    {"emergency", 6.5, true},
+    {"authority", 5.0, true},
+    {"army", 5.0, true},
+    {"vip", 5.0, true},
+    {"custom1", 5.0, true},
+    {"custom2", 5.0, true},
+    {"bus", 12.0, true, 1.2, 4.0, 100.0},
+    {"coach", 14.0, true, 2.0, 4.0, 100.0},
+    {"delivery", 6.5, true},
+    {"truck", 7.1, true, 1.3, 4.0, 130.0},
+    {"trailer", 16.5, true, 1.1, 4.0, 130.0},
+    {"motorcycle", 2.2, true, 6.0, 10.0, 200.0},
+    {"moped", 2.1, true, 1.1, 7.0, 60.0},
+    {"ignoring", 5.0, true},
+    {"bicycle", 1.6, false},
+    {"pedestrian", 0.215, false},
+    {"tram", 22.0, false},
+    {"rail_urban", 109.5, false},
+    {"rail", 135.0, false},
     {"ship", 17.0, false},
 }};
 
@@ -36,10 +58,34 @@ bool is_in(std::string_view list, std::string_view word) {
     return list.find(fmt::format(" {} ", word)) != std::string_view::npos;
 }
 
-void warn_about_ignored(const SumoXml& xml, pugi::xml_node type, SumoWarnings& warnings) {
+// Attributes that describe the driving behaviour (SumoDriving).
+constexpr std::string_view kDriving = " accel decel maxSpeed tau minGap sigma ";
+
+// Reads an attribute of the driving behaviour. Throws InputError if it is outside of the range.
+void read_driving(const SumoXml& xml, pugi::xml_node node, const char* name, double min, double max, double& value) {
+    const auto given = xml.optional_number(node, name);
+    if (!given) return;
+    if (*given < min || *given > max) {
+        xml.refuse(
+            node, fmt::format("{}=\"{}\" must be between {:g} and {:g}", name, node.attribute(name).value(), min, max));
+    }
+    value = *given;
+}
+
+SumoDriving read_driving(const SumoXml& xml, pugi::xml_node node, SumoDriving driving) {
+    read_driving(xml, node, "accel", 0.1, 20.0, driving.acceleration_mps2);
+    read_driving(xml, node, "decel", 0.5, 20.0, driving.deceleration_mps2);
+    read_driving(xml, node, "maxSpeed", 1.0, 150.0, driving.maximum_speed_mps);
+    read_driving(xml, node, "tau", 0.1, 10.0, driving.time_gap_s);
+    read_driving(xml, node, "minGap", 0.5, 100.0, driving.standstill_gap_m);
+    read_driving(xml, node, "sigma", 0.0, 1.0, driving.dawdling);
+    return driving;
+}
+
+void warn_about_ignored(const SumoXml& xml, pugi::xml_node type, bool uses_driving, SumoWarnings& warnings) {
     for (const pugi::xml_attribute attribute : type.attributes()) {
         const std::string name = attribute.name();
-        if (is_in(kWithoutWarning, name)) continue;
+        if (is_in(kWithoutWarning, name) || (uses_driving && is_in(kDriving, name))) continue;
         const std::string_view text = attribute.value();
         if (is_in(kIgnoredNumbers, name) && text.find('(') == std::string_view::npos)
             xml.optional_number(type, name.c_str());
@@ -64,7 +110,22 @@ std::size_t pick_by_share(const std::vector<double>& shares, double random_numbe
     return k;
 }
 
-SumoTypes::SumoTypes() {
+int index_of(const SumoXml& xml, pugi::xml_node node, const SumoType& type, std::vector<SumoType>& types) {
+    constexpr std::size_t kMaxTypes = 100;
+    const auto found =
+        std::find_if(types.begin(), types.end(), [&](const SumoType& known) { return known.is_like(type); });
+    const auto index = static_cast<int>(found - types.begin());
+    if (found != types.end()) return index;
+    if (types.size() == kMaxTypes) {
+        xml.refuse(node, fmt::format("the vehicles have more than {} different types (network.vehicles is "
+                                     "'from_routes')",
+                                     kMaxTypes));
+    }
+    types.push_back(type);
+    return index;
+}
+
+SumoTypes::SumoTypes(bool uses_driving) : uses_driving_(uses_driving) {
     types_.emplace_back();
     for (const char* const name : {"", "DEFAULT_VEHTYPE", "DEFAULT_TAXITYPE"}) types_by_name_[name] = {{0, 1.0}};
     types_.push_back({1.6, false});
@@ -80,7 +141,11 @@ std::size_t SumoTypes::read_type(const SumoXml& xml, pugi::xml_node node, SumoWa
         const auto known =
             std::find_if(kClasses.begin(), kClasses.end(), [&](auto& known_class) { return known_class.name == name; });
         if (known != kClasses.end()) {
-            type = {known->length_m, known->uses_car_lanes};
+            type.length_m = known->length_m;
+            type.uses_car_lanes = known->uses_car_lanes;
+            type.driving.acceleration_mps2 = known->acceleration_mps2;
+            type.driving.deceleration_mps2 = known->deceleration_mps2;
+            type.driving.maximum_speed_mps = known->maximum_speed_kmh / 3.6;
         } else {
             type.uses_car_lanes = false;
             warnings.note(xml.where(node),
@@ -94,7 +159,9 @@ std::size_t SumoTypes::read_type(const SumoXml& xml, pugi::xml_node node, SumoWa
                                          kMinLength_m, kMaxLength_m));
         }
     }
-    warn_about_ignored(xml, node, warnings);
+    if (uses_driving_) type.driving = read_driving(xml, node, type.driving);
+    type.where = xml.where(node);
+    warn_about_ignored(xml, node, uses_driving_, warnings);
     types_.push_back(type);
     return types_.size() - 1;
 }

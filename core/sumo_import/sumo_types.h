@@ -1,4 +1,5 @@
-// Vehicle types of SUMO's route files. The import uses only the length and the vehicle class of a type.
+// Vehicle types of SUMO's route files. The import always uses the length and the vehicle class of a type. It uses the
+// driving behaviour of a type if the scenario asks for it (NetworkSettings::vehicles).
 #pragma once
 
 #include <string>
@@ -10,15 +11,34 @@
 
 namespace stopline {
 
+// The driving behaviour of a vehicle type. The defaults are those of SUMO 1.28 for passenger cars.
+struct SumoDriving {
+    double acceleration_mps2 = 2.6;          // accel
+    double deceleration_mps2 = 4.5;          // decel
+    double maximum_speed_mps = 200.0 / 3.6;  // maxSpeed
+    double time_gap_s = 1.0;                 // tau
+    double standstill_gap_m = 2.5;           // minGap
+    double dawdling = 0.5;                   // sigma
+
+    bool operator==(const SumoDriving&) const = default;
+};
+
 struct SumoType {
     double length_m = 5.0;
     bool uses_car_lanes = true;  // the vehicle class may use lanes for passenger cars
+    SumoDriving driving = {};
+    std::string where = {};  // file and line; empty: a default type of SUMO
+
+    // Returns true if the vehicles of both types drive in the same way.
+    bool is_like(const SumoType& other) const { return length_m == other.length_m && driving == other.driving; }
 };
 
 // All vehicle types and all distributions of vehicle types, by name.
 class SumoTypes {
 public:
-    SumoTypes();
+    // `uses_driving`: the import uses the driving behaviour of the types, so the attributes that describe it cause no
+    // warning.
+    explicit SumoTypes(bool uses_driving);
 
     // Reads a vType or vTypeDistribution element. Throws InputError with file and line if the element is invalid.
     void read(const SumoXml& xml, pugi::xml_node node, SumoWarnings& warnings);
@@ -34,9 +54,15 @@ private:
     std::size_t read_type(const SumoXml& xml, pugi::xml_node node, SumoWarnings& warnings);
     void add(const SumoXml& xml, pugi::xml_node node, const std::string& name, std::vector<Share> shares);
 
+    bool uses_driving_;
     std::vector<SumoType> types_;
     std::unordered_map<std::string, std::vector<Share>> types_by_name_;
 };
+
+// Returns the index of a vehicle type in the list of the different types. Adds the type if it is new. Throws InputError
+// at `node` if there would be too many types, because the simulation treats the vehicles of each type in a pass of its
+// own.
+int index_of(const SumoXml& xml, pugi::xml_node node, const SumoType& type, std::vector<SumoType>& types);
 
 // Returns the index of the share that a random number in [0, 1) selects. The shares need not sum to 1.
 std::size_t pick_by_share(const std::vector<double>& shares, double random_number);

@@ -56,7 +56,7 @@ TEST(Krauss, AddsTheTransientGap) {
 TEST(Krauss, TracksItsTimeGap) {
     Krauss k = model();
     const double gap_m = k.standstill_gap_m + 5.0 * k.reaction_s;
-    const KraussInput in{5.0, gap_m, 10.0, 0.0, 0.0, 1e3};
+    const FollowingInput in{5.0, gap_m, 10.0, 0.0, 0.0, 1e3};
     EXPECT_GT(next_speed_mps(k, in, 0.0, kStep_s), 5.05);
     k.gap_tracking = 1.0;
     EXPECT_NEAR(next_speed_mps(k, in, 0.0, kStep_s), 5.0, 1e-9);

@@ -49,7 +49,7 @@ struct MesoModel {
 inline MesoPolicy make_meso_policy(const MesoSettings& settings, const GapPolicy& policy) {
     MesoPolicy result;
     result.policy = &policy;
-    result.constant_distance = policy.meso.model == MesoGap::Model::constant_distance;
+    result.constant_distance = policy.meso.family == kConstantDistanceFamily;
     result.settings = result.constant_distance ? settings.constant_distance : settings.constant_time;
     result.s0_m =
         result.settings.standstill_gap_m + policy.meso.standstill_gap_m - settings.calibrated_standstill_gap_m;

@@ -14,7 +14,8 @@ namespace stopline {
 namespace {
 
 Scenario with_components(const std::string& components, const std::vector<std::string>& overrides = {}) {
-    return parse_scenario("populations:\n- {name: X, components: [" + components + "]}\n", "fleet", overrides);
+    return parse_scenario("demand: {vehicles: 20}\npopulations:\n- {name: X, components: [" + components + "]}\n",
+                          "fleet", overrides);
 }
 
 constexpr const char* kCarsAndLorries =

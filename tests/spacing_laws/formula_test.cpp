@@ -156,12 +156,28 @@ TEST(FormulaLaw, NamesItsMesoscaleModel) {
     set_law_parameter(constant_time, "time_gap", 0.87);
     const MesoGap a = make_gap_policy(formula).meso;
     const MesoGap b = make_gap_policy(constant_time).meso;
-    EXPECT_EQ(a.model, b.model);
+    EXPECT_EQ(a.family, b.family);
     EXPECT_NEAR(a.time_gap_s, b.time_gap_s, 1e-9);
     EXPECT_TRUE(a.has_extra_gap);
     EXPECT_FALSE(b.has_extra_gap);
     formula.mesoscale = "constant_distance";
-    EXPECT_EQ(make_gap_policy(formula).meso.model, MesoGap::Model::constant_distance);
+    EXPECT_EQ(make_gap_policy(formula).meso.family, kConstantDistanceFamily);
+    formula.mesoscale = kFamilyByLaw;
+    EXPECT_EQ(make_gap_policy(formula).meso.family, "") << "a formula implies no model";
+}
+
+// A policy can name another model than that of its law. The desired gap stays that of the law at every speed.
+TEST(MesoGap, KeepsTheGapOfTheLawWithEveryModel) {
+    GapPolicySettings settings;
+    settings.law = "constant_time";
+    set_law_parameter(settings, "time_gap", 0.87);
+    for (const char* const family : {kFamilyByLaw, kTimeGapFamily, kConstantDistanceFamily, "idm"}) {
+        settings.mesoscale = family;
+        const MesoGap gap = make_gap_policy(settings).meso;
+        if (settings.mesoscale != kFamilyByLaw) EXPECT_EQ(gap.family, family);
+        EXPECT_EQ(gap.has_extra_gap, gap.family == kConstantDistanceFamily) << family;
+        EXPECT_EQ(gap.time_gap_s, gap.has_extra_gap ? 0.0 : 0.87) << family;
+    }
 }
 
 }  // namespace

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """Runs random scenarios and checks for violations.
 
-    random_runs.py --bin FOLDER_OF_STOPLINE_PROGRAMS --kind junction|streets [--count 100] [--first 1] [--keep FOLDER]
+    random_runs.py --bin FOLDER_OF_STOPLINE_PROGRAMS --kind KIND [--count 100] [--first 1] [--fleet] [--keep FOLDER]
 
 Each scenario has a number, which is the seed of its random features: policies and their mixture, vehicle, signal and
-demand. A scenario of the kind `junction` is one intersection. A scenario of the kind `streets` is a corridor of
-random_corridors.py. Each scenario runs in both fidelities. With --keep, the files of the scenarios stay in a folder.
+demand. The kinds: `light` is a single light, `junction` one intersection, `arterial` a row of intersections, `streets` a
+corridor of random_corridors.py, `imported` a network of tests/data. Each scenario runs in both fidelities. With --fleet,
+the components of a population have vehicles and drivers of their own: cars, electric cars, lorries and buses. With
+--keep, the files of the scenarios stay in a folder.
 
 A run fails if the program reports a violation or a deadlock, if a movement starves, or if the program rejects the
 scenario although it should accept it. Exit codes: 0 no run failed, 1 some runs failed.
@@ -26,6 +28,11 @@ import random_corridors
 VIOLATIONS = ("overlaps", "conflicts", "red_entries", "lost_vehicles", "deadlocks", "starvations")
 PAPER_POLICIES = ["CDG", "CDG-6m", "CTG-Ref", "CTG-HCM", "CTG-HBS", "SWITCH-1", "SWITCH-2"]
 VEHICLES = ["petrol_eu4_72kw", "petrol_eu4_84kw", "diesel_eu4_103kw", "electric_100kw"]
+# Vehicle, driver, and whether its brakes respond so late that full dynamics refuses short constant distances.
+FLEET = [("petrol_eu4_72kw", None, False), ("diesel_eu4_103kw", None, False), ("electric_100kw", None, False),
+         ("rigid_lorry_12t", "lorry", True), ("articulated_lorry_35t", "lorry", True), ("city_bus_12m", "bus", True)]  # fmt: skip
+IMPORTED = ["left_turns", "lights_grid", "roundabout", "short_edges", "speed_drop", "wrong_turn_lane"]
+DATA = Path(__file__).resolve().parent.parent / "data"
 LANES = {
     1: ["straight", "straight+left+right", "straight+left", "straight+right"],
     2: ["straight+left,straight+right", "left,straight+right", "straight,straight+right", "straight+left,straight"],
@@ -63,6 +70,62 @@ def population(rng):
     return {"name": "X", "pattern": pattern, "components": components}, own
 
 
+def light(rng):
+    """Returns the fields of a scenario with a single light."""
+    return {
+        "duration": "300 s",
+        "network": {"kind": "approach", "approach": {
+            "lanes": rng.randint(1, 3), "length": f"{rng.randint(900, 1400)} m", "exit_length": f"{rng.randint(200, 800)} m",
+            "speed_limit": f"{rng.choice([30, 50, 70])} km/h", "gradient": f"{rng.randint(-3, 3)} %"}},
+        "signal": {"first_green": f"{rng.randint(20, 100)} s", "green": f"{rng.randint(10, 60)} s", "yellow": "3 s",
+                   "cycle": "90 s"},
+        "demand": {"kind": "queue", "vehicles": rng.randint(5, 40)},
+    }  # fmt: skip
+
+
+def arterial(rng):
+    """Returns the fields of a scenario with a row of intersections."""
+    fields = junction(rng)
+    layout = fields["network"]["intersection"]
+    layout["approach_length"], layout["exit_length"] = "200 m", "100 m"
+    fields["duration"] = "480 s"
+    fields["network"] = {"kind": "grid", "intersection": layout, "grid": {
+        "columns": rng.randint(2, 4), "rows": 1, "column_spacing": f"{rng.randint(200, 400)} m"}}
+    fields["signal"]["offset"] = f"{rng.randint(0, 20)} s"
+    fields["rules"] = {"keep_clear": "on", "teleport_cycles": rng.choice([0, 3])}
+    fields["measure"] = {"window": "240 s"}
+    return fields  # fmt: skip
+
+
+def imported(rng, number, folder):
+    """Returns the fields of a scenario with a network of tests/data. Half of them use SUMO's vehicle types."""
+    name = rng.choice(IMPORTED)
+    types = folder / f"types_{number}.add.xml"
+    types.write_text(
+        f'<additional><vType id="DEFAULT_VEHTYPE" length="{rng.choice([5, 9.5, 12])}" '
+        f'accel="{rng.uniform(0.8, 3):.2f}" decel="{rng.uniform(3, 5):.2f}" tau="{rng.uniform(0.8, 2):.2f}" '
+        f'minGap="{rng.uniform(2, 4):.2f}" maxSpeed="{rng.uniform(8, 40):.1f}" sigma="{rng.uniform(0, 1):.2f}"/></additional>\n')
+    return {
+        "duration": "400 s",
+        "network": {"kind": "sumo", "net": str(DATA / f"{name}.net.xml"), "routes": [str(DATA / f"{name}.rou.xml")],
+                    "additional": [str(types)], "vehicles": rng.choice(["from_scenario", "from_routes"])},
+        "measure": {"window": "300 s"},
+    }  # fmt: skip
+
+
+def add_fleet(rng, mixture, own):
+    """Gives the components of a population vehicles and drivers of their own."""
+    short = {policy["name"] for policy in own if float(policy["standstill_gap"].split()[0]) < 4.5}
+    for component in mixture["components"]:
+        name, driver, brakes_late = rng.choice(FLEET)
+        # At 70 km/h a brake that responds 0.1 s later needs a gap of 3.95 m.
+        if brakes_late and (component["policy"] in short or component["policy"] not in ("CDG-6m", "CTG-HCM", "CTG-Ref")):
+            component["policy"] = rng.choice(["CDG-6m", "CTG-HCM", "CTG-Ref"])
+        component["vehicle"] = name
+        if driver:
+            component["driver"] = driver
+
+
 def junction(rng):
     """Returns the fields of a scenario with one intersection."""
     lanes = rng.choice(LANES[rng.randint(1, 4)]).split(",")
@@ -95,10 +158,13 @@ def streets(rng, number, folder):
     }
 
 
-def scenario(kind, number, folder):
+def scenario(kind, number, folder, fleet):
     rng = random.Random(f"{kind} {number}")
-    fields = junction(rng) if kind == "junction" else streets(rng, number, folder)
+    simple = {"light": light, "junction": junction, "arterial": arterial}
+    fields = simple[kind](rng) if kind in simple else {"streets": streets, "imported": imported}[kind](rng, number, folder)
     mixture, policies = population(rng)
+    if fleet:
+        add_fleet(rng, mixture, policies)
     driver = {"base": "startup_kit", "free_drive": {"hesitation": f"{rng.choice([0, 0.5, 1.0])} s"}}
     return {"title": f"Random {kind} {number}", "seed": number, "step": "20 ms", **fields, "policies": policies,
             "populations": [mixture], "vehicle": rng.choice(VEHICLES), "driver": driver}  # fmt: skip
@@ -123,7 +189,7 @@ def problem(binary, file, fidelity, output):
 def run(options, folder, number):
     """Runs one scenario in both fidelities. Returns the lines about failed runs."""
     file = folder / f"{options.kind}_{number}.yaml"
-    file.write_text(json.dumps(scenario(options.kind, number, folder), indent=1))
+    file.write_text(json.dumps(scenario(options.kind, number, folder, options.fleet), indent=1))
     failed = []
     for fidelity in options.fidelity or ["meso", "full"]:
         text = problem(options.bin, file, fidelity, folder / f"{options.kind}_{number}_{fidelity}")
@@ -135,7 +201,9 @@ def run(options, folder, number):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bin", type=Path, required=True, help="folder of the Stopline programs")
-    parser.add_argument("--kind", choices=["junction", "streets"], required=True, help="kind of network")
+    parser.add_argument("--kind", choices=["light", "junction", "arterial", "streets", "imported"],
+                        required=True, help="kind of network")
+    parser.add_argument("--fleet", action="store_true", help="vehicles and drivers of several kinds")
     parser.add_argument("--fidelity", choices=["meso", "full"], action="append", help="default: both")
     parser.add_argument("--count", type=int, default=100, help="number of scenarios (default: 100)")
     parser.add_argument("--first", type=int, default=1, help="number of the first scenario (default: 1)")

@@ -114,10 +114,10 @@ TEST(ImportedNetwork, KeepsVehiclesAndTheirPlannedTimes) {
 
 TEST(ImportedNetwork, WritesMesoscaleParametersIntoTypes) {
     const Scenario scenario = scenario_of(crossing_net(), "<trip id=\"a\" depart=\"0\" from=\"s_in\" to=\"n_out\"/>");
-    const Krauss krauss = build_model(scenario, 0).krauss.at(0);
+    const SumoFollowing type = build_model(scenario, 0).following.at(0).in_sumo();
     EXPECT_EQ(Inputs(scenario).rows("vehicles.rou.xml", "vType", {"accel", "decel", "tau", "sigma"}),
-              Rows{fmt::format("{:.4f} {:.4f} {:.4f} {:.4f}", krauss.acceleration_mps2, krauss.deceleration_mps2,
-                               krauss.reaction_s, krauss.dawdling)});
+              Rows{fmt::format("{:.4f} {:.4f} {:.4f} {:.4f}", type.acceleration_mps2, type.deceleration_mps2,
+                               type.time_gap_s, type.dawdling)});
 }
 
 TEST(ImportedNetwork, UsesTheOriginalEdgesForRoutesAndLoops) {

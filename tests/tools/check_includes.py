@@ -41,7 +41,7 @@ ALLOWED = {
     "sim/congestion": SIM_BELOW + ["sim/state", "sim/perception", "sim/lane_change", "sim/insertion"],
     "sim/step": SIM_BELOW + ["sim/*"],
     "measure": ["base", "network", "sim/state/events.h"],
-    "scenario": SIM_BELOW + ["sumo_import", "sim/state/model.h"],
+    "scenario": SIM_BELOW + ["sumo_import", "sim/state/model.h", "sim/mesoscale/following_families.h"],
     "record": ["base", "network", "signals", "sim/*"],
     "reference": ["base"],
     "runs": SIM_BELOW + ["sim/*", "measure", "scenario"],

@@ -8,6 +8,7 @@
 
 #include "scenario/schema/field_rows.h"
 #include "scenario/schema/fields.h"
+#include "sim/mesoscale/following_families.h"
 #include "spacing_laws/gap_policy.h"
 
 namespace stopline {
@@ -309,6 +310,22 @@ void add_law_parameters(std::index_sequence<Index...> /*indices*/, std::vector<R
     (add.template operator()<Index>(), ...);
 }
 
+std::vector<std::string> mesoscale_names() {
+    std::vector<std::string> names{kFamilyByLaw};
+    for (const FollowingFamily& family : following_families()) names.emplace_back(family.text.name);
+    return names;
+}
+
+std::string mesoscale_meaning() {
+    std::string meaning =
+        "car-following model of the mesoscale mode for this policy; by_law: the model that the law implies (the laws "
+        "formula and table imply none)";
+    for (const FollowingFamily& family : following_families()) {
+        meaning += std::string("; ") + family.text.name + ": " + family.text.meaning;
+    }
+    return meaning;
+}
+
 std::vector<Row<GapPolicySettings>> gap_policy_rows() {
     using S = GapPolicySettings;
     std::vector<Row<S>> rows{
@@ -329,12 +346,7 @@ std::vector<Row<GapPolicySettings>> gap_policy_rows() {
                                                                 "above the last speed, the last slope goes on")
                        .required()
                        .only_if("law", {"table"}));
-    rows.push_back(
-        choice<&S::mesoscale>("mesoscale", {"none", "constant_distance", "time_gap"},
-                              "car-following model of the mesoscale mode for this policy: that of policies with a "
-                              "constant distance or that of policies with a time gap; none: the policy is for full "
-                              "dynamics only")
-            .only_if("law", laws_with([](const GapLaw& law) { return law.names_mesoscale_model; })));
+    rows.push_back(choice<&S::mesoscale>("mesoscale", mesoscale_names(), mesoscale_meaning()));
     return rows;
 }
 

@@ -43,6 +43,18 @@ const Table& krauss_table() {
     return table;
 }
 
+const Table& idm_table() {
+    using S = IdmSettings;
+    static const Table table = make_table<S>(
+        "the intelligent driver model",
+        {
+            number<&S::acceleration_mps2>("acceleration", "m/s2", {0.1, 10},
+                                          "a: maximum acceleration; the policy gives standstill gap and time gap"),
+            number<&S::deceleration_mps2>("deceleration", "m/s2", {0.1, 12}, "b: comfortable deceleration"),
+        });
+    return table;
+}
+
 }  // namespace
 
 const Table& meso_table() {
@@ -89,10 +101,10 @@ const Table& meso_table() {
                 "start_delay", "s", {0, 5},
                 "start-up delay of the first vehicle at a stop line, due to its powertrain; the driver's hesitation is "
                 "added"),
-            section<&S::constant_time>("constant_time", krauss_table,
-                                       "Krauss model of the policies with a constant time gap"),
+            section<&S::constant_time>("constant_time", krauss_table, "the car-following model time_gap"),
             section<&S::constant_distance>("constant_distance", krauss_table,
-                                           "equation (1) of the paper, for all other policies"),
+                                           "the car-following model constant_distance: equation (1) of the paper"),
+            section<&S::idm>("idm", idm_table, "the car-following model idm"),
             number<&S::band_m>("band", "m", {0, 5}, "s_t of equation (1): width of the tolerance band"),
             number<&S::below_band_speed_share>(
                 "below_band_speed_share", "", {0, 1},

@@ -126,6 +126,12 @@ const Table& network_table() {
                 "SUMO additional files with signal programmes, offsets, induction loops, "
                 "vehicle types and routes")
                 .only_if("kind", {"sumo"}),
+            choice<&NetworkSettings::vehicles>(
+                "vehicles", {"from_scenario", "from_routes"},
+                "source of the driving behaviour; from_routes: the vehicle types in SUMO's files give maxSpeed, accel and "
+                "decel, and for policies with the law constant_time also tau, minGap and (mesoscale mode) sigma; "
+                "from_scenario: only lengths come from SUMO's files")
+                .only_if("kind", {"sumo"}),
         });
     return table;
 }

@@ -277,8 +277,8 @@ const Table& scenario_table() {
             text<&S::title>("title", TextField::Rule::title, "heading of tables and figures"),
             choice<&S::fidelity>(
                 "fidelity", {"full", "meso"},
-                "vehicle model; full: controller and powertrain (full dynamics); meso: car-following model of the "
-                "Krauss family (mesoscale mode)"),
+                "vehicle model; full: controller and powertrain (full dynamics); meso: car-following models only "
+                "(mesoscale mode)"),
             // A step above 0.1 s would be longer than the shortest lags of the powertrain.
             number<&S::step_s>("step", "s", {0.001, 0.1},
                                "time step of full dynamics, at most driver.cacc.v2v_delay; the mesoscale mode uses "

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/containers/index.h"
-#include "driver/krauss.h"
+#include "driver/following_model.h"
 #include "sim/lane_change/lane_change.h"
 #include "sim/perception/lane_gaps.h"
 #include "sim/state/queries/desired_gap.h"

@@ -41,8 +41,8 @@ void update_queue(const VehicleArrays& v, const LaneBlock& block, std::int64_t t
 
 // Tells stopped vehicles of a queue by V2V that the vehicle ahead of the queue has started. Returns the number of
 // vehicles that receive this start message. A vehicle forwards the message before it moves, so the message reaches
-// several vehicles in one step. The relay ends at the first vehicle whose policy has a time gap, because this vehicle
-// starts later. This function only stores the messages, because the decisions for other lanes still read the present
+// several vehicles in one step. The relay ends at the first vehicle whose car-following model passes on no start messages
+// (FollowingModel::relays_starts()), because this vehicle starts later. This function only stores the messages, because the decisions for other lanes still read the present
 // accelerations of the receivers. step_meso() applies the messages.
 int relay_start(const Model& model, const VehicleArrays& v, const LaneBlock& block, StandingQueue& queue,
                 std::vector<StartMessage>& messages) {
@@ -55,9 +55,9 @@ int relay_start(const Model& model, const VehicleArrays& v, const LaneBlock& blo
     int receivers = 0;
     while (receivers < model.start_relay_vehicles && queue.first + receivers < queue.end) {
         const std::size_t i = at(block.first + queue.first + receivers);
-        const Krauss& krauss = model.krauss[at(v.policy[i])];
+        const FollowingModel& following = model.following[at(v.policy[i])];
         const double gap_m = v.position_m[i - 1] - static_cast<double>(v.length_m[i - 1]) - v.position_m[i];
-        if (!krauss.constant_distance || gap_m > krauss.equilibrium_gap_m(0.0) + kClosedUp_m) break;
+        if (!following.relays_starts() || gap_m > following.equilibrium_gap_m(0.0) + kClosedUp_m) break;
         messages.push_back({static_cast<int>(i), relayed_mps2});
         ++receivers;
     }
@@ -219,7 +219,7 @@ private:
 void collect_moving_blocks(const Model& model, State& state, Partition& part) {
     // Upper bound of the number of moving blocks: one for each vehicle, and a reserve for each lane.
     constexpr std::size_t kReservePerLane = 4;
-    const int shift = std::countr_zero(static_cast<unsigned>(meso_kernels(model.scalar_kernels).size));
+    const int shift = std::countr_zero(static_cast<unsigned>(meso_block_size(model.scalar_kernels)));
     part.lanes_near_end.reset(part.occupied.size());
     part.moving_blocks.reset(static_cast<std::size_t>(part.present) + kReservePerLane * part.occupied.size());
     part.start_messages.clear();

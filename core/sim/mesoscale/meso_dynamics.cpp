@@ -39,12 +39,13 @@ ExtraGap evaluate_extra_gap(const Model& model, std::size_t size, const VehicleA
 }  // namespace
 
 double stopping_speed_mps(const Model& model, const VehicleArrays& v, int slot, double room_m) {
-    const Krauss& krauss = model.krauss[model.krauss.size() == 1 ? 0 : at(v.policy[at(slot)])];
+    const FollowingModel& following = model.following[model.following.size() == 1 ? 0 : at(v.policy[at(slot)])];
+    const FollowingBraking braking = following.braking();
     const DriverTables& driver = model.driver_of(v.policy[at(slot)]).tables;
-    const double b = std::min(krauss.deceleration_mps2, driver.stop.deceleration_mps2);
+    const double b = std::min(braking.deceleration_mps2, driver.stop.deceleration_mps2);
     const double max_braking_mps2 = driver.cacc.deceleration_emergency_mps2;
     const double lowest_mps = v.speed_mps[at(slot)] - max_braking_mps2 * model.step_s;
-    return std::max(braking_speed_mps(b, krauss.reaction_s, std::max(room_m, 0.0), 0.0), lowest_mps);
+    return std::max(braking_speed_mps(b, braking.reaction_s, std::max(room_m, 0.0), 0.0), lowest_mps);
 }
 
 double leading_speed_mps(const Model& model, double speed_mps, double limit_mps) {
@@ -63,7 +64,7 @@ MesoStreams meso_streams(VehicleArrays& v) {
 MesoStep meso_step(const Model& model, std::int64_t tick, bool prefetches) {
     constexpr double kNoLimit_mps2 = 1e9;
     const bool relays = model.start_relay_vehicles > 0;
-    const auto has_no_transient_gap = [](const Krauss& k) { return k.transient_gap_s2 == 0.0; };
+    const auto foresees = [](const FollowingModel& following) { return following.leader_foresees(); };
     return {model.step_s,
             dawdle_key(model.seed),
             static_cast<std::uint64_t>(tick),
@@ -75,8 +76,9 @@ MesoStep meso_step(const Model& model, std::int64_t tick, bool prefetches) {
             model.leader_profile.bins_per_mps > 0.0 ? &model.leader_profile : nullptr,
             model.has_fast_lanes ? &model.power_profile : nullptr,
             model.calibrated_limit_mps,
+            model.acceleration_limits.empty() ? nullptr : model.acceleration_limits.data(),
             relays,
-            relays && std::all_of(model.krauss.begin(), model.krauss.end(), has_no_transient_gap),
+            relays && std::all_of(model.following.begin(), model.following.end(), foresees),
             model.graph.approaches.empty() ? kNoLimit_mps2 : model.common_driver().cacc.deceleration_emergency_mps2,
             model.common_driver().cacc.deceleration_emergency_mps2,
             prefetches};
@@ -84,12 +86,11 @@ MesoStep meso_step(const Model& model, std::int64_t tick, bool prefetches) {
 
 void step_meso(const Model& model, State& state, Partition& part) {
     VehicleArrays& v = state.vehicles;
-    const MesoKernels& kernels = meso_kernels(model.scalar_kernels);
     for (const StartMessage& message : part.start_messages)
         v.acceleration_mps2[at(message.slot)] = message.acceleration_mps2;
-    const ExtraGap extra_gap = evaluate_extra_gap(model, static_cast<std::size_t>(kernels.size), v, part);
-    const std::int64_t count = kernels.step(meso_streams(v), part.moving_blocks, model.krauss, extra_gap,
-                                            meso_step(model, state.tick, state.outgrows_cache()));
+    const ExtraGap extra_gap = evaluate_extra_gap(model, at(meso_block_size(model.scalar_kernels)), v, part);
+    const std::int64_t count = step_blocks(model.scalar_kernels, meso_streams(v), part.moving_blocks, model.following,
+                                           extra_gap, meso_step(model, state.tick, state.outgrows_cache()));
     if (count > 0) record_first_overlap(model, state, part);
     part.violations.overlaps += count;
     for (const int slot : part.capped_slots) v.speed_cap_mps[at(slot)] = kUnlimitedSpeed_mps;

@@ -1,5 +1,5 @@
-// Mesoscale mode: moves vehicles by one step with car-following models of the Krauss family (driver/krauss.h). Every
-// vehicle reacts to the state at the beginning of the step.
+// Mesoscale mode: moves vehicles by one step with the car-following models of their policies
+// (driver/following_model.h). Every vehicle reacts to the state at the beginning of the step.
 #pragma once
 
 #include <cstdint>

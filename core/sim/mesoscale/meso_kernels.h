@@ -3,10 +3,13 @@
 // vehicle at a time. It is the reference for all other versions.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 
-#include "driver/krauss.h"
+#include "driver/following_model.h"
+#include "driver/leader_profile.h"
+#include "sim/mesoscale/following_types.h"
 
 namespace stopline {
 
@@ -39,10 +42,13 @@ struct MesoStep {
     // vehicle that speeds up freely accelerates at least at this rate. nullptr: no lane has such a limit.
     const LeaderProfile* power_profile;
     double calibrated_limit_mps;
+    // [policy] highest acceleration of the vehicles, as a table by speed (Model::acceleration_limits). nullptr: the
+    // car-following models alone limit the accelerations.
+    const LeaderProfile* acceleration_limits;
     // True: V2V relays the start of a queue, and platoon leaders anticipate the speed of the vehicle ahead.
     bool relays;
     // True: a platoon leader has the same safe speed as a follower, so the kernels compute the safe speed only once.
-    // Requires `relays`, and policies without a transient gap (Krauss::transient_gap_s2).
+    // Requires `relays`, and FollowingModel::leader_foresees() of all policies.
     bool leaders_foresee;
     double hardest_mps2;    // maximum deceleration behind a leader
     double emergency_mps2;  // maximum deceleration before a lower speed limit
@@ -54,23 +60,41 @@ struct MesoStep {
 // of the blocks; nullptr: 0 for all slots.
 using ExtraGap = const double*;
 
+// The kernels of one car-following model for one instruction set.
 struct MesoKernels {
+    using Models = std::span<const FollowingModel>;  // [policy]
+
     const char* name;
     // Number of slots in a block. Block b holds the slots [b * size, (b + 1) * size). The kernels update whole blocks
-    // in place. Slots without a vehicle keep their values.
+    // in place. Slots without a vehicle keep their values. The size is the same for all models.
     int size;
-    // Moves the vehicles of `blocks` by one step. `blocks` must be in ascending order. The slot before a lane's first
-    // vehicle must hold a copy of this vehicle's leader. Returns the number of vehicles that overlap their leader.
-    int (*step)(const MesoStreams&, std::span<const int> blocks, std::span<const Krauss> policies, ExtraGap,
-                const MesoStep&);
+    // Moves the vehicles of `blocks` by one step. All policies must have the model of the kernels. `blocks` must be in
+    // ascending order. The slot before a lane's first vehicle must hold a copy of this vehicle's leader. Returns the
+    // number of vehicles that overlap their leader.
+    int (*step)(const MesoStreams&, std::span<const int> blocks, Models, ExtraGap, const MesoStep&);
+    // The same for policies with several models. It is the same function for all models of one instruction set.
+    int (*step_mixed)(const MesoStreams&, std::span<const int> blocks, Models, ExtraGap, const MesoStep&);
+    // Computes the next speeds of the vehicles with one policy in the block that begins at `slot`. step_mixed() calls
+    // this function. `extra_gap` and `next_mps` have one value for each slot of the block.
+    void (*block_speeds)(const MesoStreams&, int slot, const FollowingModel&, int policy, const double* extra_gap,
+                         const MesoStep&, double* next_mps);
     // Evaluates the car-following equation alone, to measure its computing time. Writes the next speed of each vehicle.
     // All arrays are indexed by vehicle, and the number of vehicles must be a multiple of `size`.
-    void (*follow)(const Krauss&, const MesoStep&, const KraussInputOf<const double*>&, std::span<const int> ids,
-                   double* next_mps);
+    void (*follow)(const FollowingModel&, const MesoStep&, const FollowingInputOf<const double*>&,
+                   std::span<const int> ids, double* next_mps);
 };
+using MesoKernelsOfTypes = std::array<MesoKernels, FollowingTypes::kCount>;
 
-// Returns the kernels with the widest vectors that this machine supports. If `scalar` is true, returns the scalar
-// version.
-const MesoKernels& meso_kernels(bool scalar);
+// Returns the kernels of a registered model with the widest vectors that this machine supports. `type` is the place of
+// the model in FollowingTypes. If `scalar` is true, returns the scalar version.
+const MesoKernels& meso_kernels(int type, bool scalar);
+
+// Moves vehicles with the kernels of the models: those of one model if all policies have it, else the mixed ones. The
+// parameters and the result are those of MesoKernels::step.
+int step_blocks(bool scalar, const MesoStreams& streams, std::span<const int> blocks, MesoKernels::Models models,
+                ExtraGap extra_gap, const MesoStep& step);
+
+// Returns MesoKernels::size.
+int meso_block_size(bool scalar);
 
 }  // namespace stopline

@@ -1,7 +1,8 @@
 // Source of the mesoscale kernels. Each file meso_kernels_*.cpp includes this file and thus compiles one version of the
-// kernels: the version for one instruction set, or the scalar version. The kernels have internal linkage, so that the
-// linker keeps the versions apart. R is the number type of the equations: one double, or a vector with one double for
-// each slot of a block.
+// kernels: the version for one instruction set, or the scalar version. The kernels are compiled once for each
+// car-following model (driver/following_model.h). The kernels have internal linkage, so that the linker keeps the
+// versions apart. R is the number type of the equations: one double, or a vector with one double for each slot of a
+// block. `Following` is the trait struct of a car-following model.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -13,111 +14,14 @@
 #include "base/random.h"
 #include "base/simd/arithmetic.h"
 #include "base/simd/simd.h"
+#include "sim/mesoscale/following_types.h"
 #include "sim/mesoscale/meso_kernels.h"
+#include "sim/mesoscale/meso_vectors.inl"
 #include "sim/state/vehicles/vehicle_arrays.h"
 
 namespace stopline {
 
 namespace {
-
-// Number of doubles in a vector register. In all versions but the scalar one, a block has as many slots.
-constexpr int kWide = kBatchWidth / 2;
-using Wide = PackedOf<double, kWide>;
-using Words = Vector<std::uint64_t, kWide>;
-
-template <class To, class From>
-STOPLINE_INLINE To same_bits(const From& from) {
-    To to;
-    static_assert(sizeof to == sizeof from);
-    std::memcpy(&to, &from, sizeof to);
-    return to;
-}
-
-// Converts the numbers of a vector to another type. Vectors of 512 bits are converted by intrinsics, because the
-// compiler would convert them in two halves.
-template <class To, class From>
-STOPLINE_INLINE Vector<To, kWide> converted(const Vector<From, kWide>& from) {
-#if defined(__AVX512F__)
-    constexpr __mmask8 kAll = 0xff;  // the unmasked intrinsics cause warnings in g++
-    if constexpr (kWide == 8 && std::is_same_v<From, float> && std::is_same_v<To, double>) {
-        return same_bits<Vector<To, kWide>>(_mm512_maskz_cvtps_pd(kAll, same_bits<__m256>(from)));
-    } else if constexpr (kWide == 8 && std::is_same_v<From, double> && std::is_same_v<To, float>) {
-        return same_bits<Vector<To, kWide>>(_mm512_maskz_cvtpd_ps(kAll, same_bits<__m512d>(from)));
-    } else if constexpr (kWide == 8 && std::is_same_v<From, int> && std::is_same_v<To, double>) {
-        return same_bits<Vector<To, kWide>>(_mm512_maskz_cvtepi32_pd(kAll, same_bits<__m256i>(from)));
-    } else if constexpr (kWide == 8 && std::is_same_v<From, int> && std::is_same_v<To, std::int64_t>) {
-        return same_bits<Vector<To, kWide>>(_mm512_maskz_cvtepi32_epi64(kAll, same_bits<__m256i>(from)));
-    }
-#endif
-    return __builtin_convertvector(from, Vector<To, kWide>);
-}
-
-// get() loads the values of one block as R, and put() stores them. They convert between the stored type and double.
-template <class R, class Stored>
-STOPLINE_INLINE R get(const Stored* from) {
-    if constexpr (std::is_same_v<R, double>) {
-        return *from;
-    } else {
-        Vector<Stored, kWide> values;
-        std::memcpy(&values, from, sizeof values);
-        return packed<kWide>(converted<double, Stored>(values));
-    }
-}
-template <class Stored>
-STOPLINE_INLINE void put(Stored* to, double value) {
-    *to = static_cast<Stored>(value);
-}
-template <class Stored>
-STOPLINE_INLINE void put(Stored* to, const Wide& value) {
-    const auto values = converted<Stored, double>(value.v);
-    std::memcpy(to, &values, sizeof values);
-}
-
-// Returns the random number of each vehicle for its dawdling, uniform in [0, 1).
-template <class R>
-STOPLINE_INLINE R dawdle(const MesoStep& t, const int* id) {
-    if constexpr (std::is_same_v<R, double>) {
-        return dawdle_uniform(t.key, *id, t.tick);
-    } else {
-        Vector<int, kWide> ids;
-        std::memcpy(&ids, id, sizeof ids);
-        const Words bits = dawdle_bits(t.key, same_bits<Words>(converted<std::int64_t, int>(ids)), t.tick);
-        return packed<kWide>(same_bits<Vector<double, kWide>>(bits)) - 1.0;
-    }
-}
-
-// Returns the mask of the slots that hold a vehicle.
-template <class R>
-STOPLINE_INLINE auto occupied_slots(const int* id) {
-    if constexpr (std::is_same_v<R, double>) {
-        return *id >= 0;
-    } else {
-        Vector<int, kWide> ids;
-        std::memcpy(&ids, id, sizeof ids);
-        return typename R::Mask{converted<std::int64_t, int>(ids) >= 0};
-    }
-}
-
-// Returns the parameters of each vehicle in a run with two policies: `a` for policy 0, `b` for policy 1.
-template <class R>
-STOPLINE_INLINE KraussPerVehicle<R> of_two_policies(const R& policy, const Krauss& a, const Krauss& b) {
-    const auto second = policy > 0.0;
-    const auto pick = [&](double first, double other)
-                          STOPLINE_INLINE_LAMBDA { return select(second, R(other), R(first)); };
-    return {pick(a.acceleration_mps2, b.acceleration_mps2),
-            pick(a.constant_power_speed_mps, b.constant_power_speed_mps),
-            pick(a.transient_gap_s2, b.transient_gap_s2),
-            pick(a.catch_up_factor, b.catch_up_factor),
-            pick(a.gap_tracking, b.gap_tracking),
-            pick(a.anticipation_s, b.anticipation_s),
-            pick(a.deceleration_mps2, b.deceleration_mps2),
-            pick(a.reaction_s, b.reaction_s),
-            pick(a.standstill_gap_m, b.standstill_gap_m),
-            pick(a.dawdling, b.dawdling),
-            pick(a.constant_distance ? 1.0 : 0.0, b.constant_distance ? 1.0 : 0.0) > 0.5,
-            pick(a.band_m, b.band_m),
-            pick(a.below_band_speed_share, b.below_band_speed_share)};
-}
 
 // Returns the next speed of a vehicle under a speed limit. A slower vehicle gains the given share of (limit - speed). A
 // vehicle above the limit brakes to the limit at once, but loses at most `braked_mps` in the step.
@@ -179,41 +83,6 @@ STOPLINE_INLINE R allowed_mps(const MesoStreams& s, const MesoStep& t, int i, co
 
 constexpr double kNoLeader_m = 1e5;  // a vehicle with a longer gap has no leader
 
-#if defined(__AVX512DQ__)
-// Returns the table value of each vehicle's bin. One permutation selects from 16 table values. This is faster than one
-// load for each vehicle.
-template <std::size_t bins>
-STOPLINE_INLINE Wide permute_table(const std::array<double, bins>& table, const Wide& bin) {
-    const __m512i index = _mm512_cvttpd_epi64(same_bits<__m512d>(bin));
-    const auto permute_16 = [&](std::size_t from) STOPLINE_INLINE_LAMBDA {
-        const double* const part = table.data() + from;
-        return _mm512_permutex2var_pd(_mm512_loadu_pd(part), index, _mm512_loadu_pd(part + 8));
-    };
-    __m512d values = permute_16(0);
-    for (std::size_t from = 16; from < bins; from += 16) {
-        const __mmask8 in_range = _mm512_cmpge_epi64_mask(index, _mm512_set1_epi64(static_cast<long long>(from)));
-        values = _mm512_mask_mov_pd(values, in_range, permute_16(from));
-    }
-    return packed<kWide>(same_bits<Vector<double, kWide>>(values));
-}
-#endif
-
-// Returns the table value of each vehicle's bin. A bin past the end of the table gets the last value.
-template <class R, std::size_t bins>
-STOPLINE_INLINE R table_value(const std::array<double, bins>& table, const R& bin) {
-    const R within = clamped(bin, 0.0, static_cast<double>(bins) - 1.0);
-    if constexpr (std::is_same_v<R, double>) {
-        return table[static_cast<std::size_t>(within)];
-    } else {
-#if defined(__AVX512DQ__)
-        if constexpr (kWide == 8 && bins % 16 == 0) return permute_table(table, within);
-#endif
-        R values = 0.0;
-        for (int j = 0; j < kWide; ++j) values.v[j] = table[static_cast<std::size_t>(within.v[j])];
-        return values;
-    }
-}
-
 // Returns a lower bound of each vehicle's acceleration: on fast lanes, the value of power_profile at the vehicle's
 // speed. On lanes with a speed limit up to calibrated_limit_mps the bound is 0, because the accelerations of the driver
 // models were calibrated on such lanes.
@@ -242,27 +111,23 @@ STOPLINE_INLINE R platoon_leader_acceleration_mps2(const MesoStep& t, const R& s
 // Computes the next speeds of platoon leaders. Returns these speeds, and `next` for all other vehicles. All platoon
 // leaders have the same acceleration, whatever their policy. A platoon leader becomes a follower when two conditions
 // hold: its next speed is above 0, and its safe speed behind the vehicle ahead is lower than its speed in free driving.
-// `foreseen_mps`: result of anticipated_safe_speed_mps(). `next`: next speeds of the vehicles as followers.
+// `following_mps`: result of Following::following_speed_mps(). `next`: next speeds of the vehicles as followers.
 // `k`: parameters of a policy. `has_policy`: 1 for vehicles with this policy, else 0. `least_mps2`: lower bound of the
 // acceleration.
-template <class R, class Model>
-STOPLINE_INLINE R platoon_leader_speed(const Model& k, const MesoStep& t, const KraussInputOf<R>& in,
-                                       const R& foreseen_mps, const R& next, const R& has_policy, const R& least_mps2,
+template <class Following, class R, class Model>
+STOPLINE_INLINE R platoon_leader_speed(const Model& k, const MesoStep& t, const FollowingInputOf<R>& in,
+                                       const R& following_mps, const R& next, const R& has_policy, const R& least_mps2,
                                        float* is_platoon_leader) {
     const R acceleration_mps2 = max_of(platoon_leader_acceleration_mps2(t, in.speed_mps), least_mps2);
     const R free_mps = in.speed_mps + acceleration_mps2 * t.dt;
-    const R contact_mps = max_of(in.gap_m, R(0.0)) * (1.0 / t.dt);
-    R policy_safe_mps = foreseen_mps;
-    if (!t.leaders_foresee) {
-        policy_safe_mps = t.relays ? anticipated_safe_speed_mps(k, in, in.extra_gap_m)
-                                   : safe_speed_mps(k, in.gap_m, in.leader_speed_mps, in.extra_gap_m);
-    }
-    const R safe_mps = min_of(policy_safe_mps, contact_mps);
-    const R following_mps = select(in.gap_m > kNoLeader_m, contact_mps, safe_mps);
-    const R leader_next = snap_to_standstill(min_of(following_mps, min_of(free_mps, in.speed_cap_mps)));
+    const R contact_mps = contact_speed_mps(in, t.dt);
+    const R safe_mps =
+        min_of(Following::leader_speed_mps(k, in, following_mps, t.relays, t.leaders_foresee), contact_mps);
+    const R behind_mps = select(in.gap_m > kNoLeader_m, contact_mps, safe_mps);
+    const R leader_next = snap_to_standstill(min_of(behind_mps, min_of(free_mps, in.speed_cap_mps)));
     const R was_leader = get<R>(is_platoon_leader);
     const R becomes_follower =
-        STOPLINE_FLAG(R, following_mps < free_mps) * STOPLINE_FLAG(R, leader_next > 0.0) * has_policy;
+        STOPLINE_FLAG(R, behind_mps < free_mps) * STOPLINE_FLAG(R, leader_next > 0.0) * has_policy;
     put(is_platoon_leader, was_leader * (1.0 - becomes_follower));
     return choose(R(was_leader * has_policy), leader_next, next);
 }
@@ -271,54 +136,136 @@ constexpr double kNoExtraGap[kWide] = {};
 
 // Properties of a run. The kernels are compiled once for each combination.
 struct MesoVariant {
-    int policies;           // number of policies if it is 1 or 2; 0: there are more than 2 policies
+    int policies;           // number of policies if it is 1 or 2; 0: the kernels go through all policies
     bool power_limit;       // true: at high speed the acceleration of at least one policy falls (constant power)
     bool instant_slowdown;  // true: vehicles reach the braking curve before a turn in one step (turn_share = 1)
 };
 
-// Moves the vehicles of one block. Returns 1 for each vehicle that overlaps its leader, else 0.
-template <class R, MesoVariant kVariant>
-STOPLINE_INLINE R step_slots(const MesoStreams& s, int i, std::span<const Krauss> models, const double* extra_gap,
-                             const MesoStep& t) {
-    const R position = get<R>(s.position + i);
-    const R speed = get<R>(s.speed + i);
-    const KraussInputOf<R> in{speed,
-                              get<R>(s.position + i - 1) - get<R>(s.length + i - 1) - position,
-                              get<R>(s.speed + i - 1),
-                              max_of(get<R>(s.acceleration + i - 1), R(0.0)),
-                              get<R>(extra_gap),
-                              allowed_mps<R, kVariant.instant_slowdown>(s, t, i, position, speed)};
-    const R random = dawdle<R>(t, s.id + i);
-    const bool has_platoon_leaders =
-        (t.leader_mps2 > 0.0 || t.leader_profile != nullptr) && any_differs<R>(s.is_platoon_leader + i, 0.0F);
-    const R policy = get<R>(s.policy + i);
-    const R least_mps2 = least_acceleration_mps2(s, t, i, speed);
-    R next = speed;
-    const auto drive = [&](const auto& model, const R& has_policy) STOPLINE_INLINE_LAMBDA {
-        const R safe_mps = anticipated_safe_speed_mps(model, in);
+// The vehicles of one block at the start of a step, and the part of the computation that all models share.
+template <class R, bool kInstantSlowdown>
+struct Block {
+    const MesoStreams& s;
+    const MesoStep& t;
+    int i;  // first slot
+    R position, speed;
+    FollowingInputOf<R> in;
+    bool has_platoon_leaders;
+    R policy, least_mps2;
+
+    STOPLINE_INLINE Block(const MesoStreams& streams, int slot, const double* extra_gap, const MesoStep& step)
+        : s(streams),
+          t(step),
+          i(slot),
+          position(get<R>(s.position + i)),
+          speed(get<R>(s.speed + i)),
+          in{speed,
+             get<R>(s.position + i - 1) - get<R>(s.length + i - 1) - position,
+             get<R>(s.speed + i - 1),
+             max_of(get<R>(s.acceleration + i - 1), R(0.0)),
+             get<R>(extra_gap),
+             allowed_mps<R, kInstantSlowdown>(s, t, i, position, speed),
+             get<R>(s.limit + i)},
+          has_platoon_leaders((t.leader_mps2 > 0.0 || t.leader_profile != nullptr) &&
+                              any_differs<R>(s.is_platoon_leader + i, 0.0F)),
+          policy(get<R>(s.policy + i)),
+          least_mps2(least_acceleration_mps2(s, t, i, speed)) {}
+
+    // Returns the next speeds if all vehicles have the parameters `k`. `has_policy`: see platoon_leader_speed().
+    template <class Following, bool power_limit, class Model>
+    STOPLINE_INLINE R next_speed_mps(const Model& k, const R& has_policy) const {
+        const BlockRandom<R> random{t, s.id + i};
+        const R following_mps = Following::following_speed_mps(k, in, random, t.dt);
         const R lowest_mps = in.speed_mps - t.hardest_mps2 * t.dt;
-        R following = speed_after_mps<kVariant.power_limit>(model, in, safe_mps, random, t.dt, lowest_mps, least_mps2);
-        if (has_platoon_leaders)
-            following = platoon_leader_speed(model, t, in, safe_mps, following, has_policy, least_mps2,
-                                             s.is_platoon_leader + i);
-        return following;
+        const R desired_mps =
+            Following::template desired_speed_mps<power_limit>(k, in, following_mps, t.dt, least_mps2);
+        const R next =
+            Following::disturbed_speed_mps(k, bounded_speed_mps(in, desired_mps, lowest_mps, t.dt), random, t.dt);
+        if (!has_platoon_leaders) return next;
+        return platoon_leader_speed<Following>(k, t, in, following_mps, next, has_policy, least_mps2,
+                                               s.is_platoon_leader + i);
+    }
+
+    // Returns the highest speeds that vehicles with weak powertrains can reach in this step.
+    STOPLINE_INLINE R reachable_mps() const {
+        constexpr int kSize = std::is_same_v<R, double> ? 1 : kWide;
+        std::array<double, std::size_t{kSize}> reachable{};
+        for (int j = 0; j < kSize; ++j) {
+            const LeaderProfile& limit = t.acceleration_limits[std::max(s.policy[i + j], 0)];
+            reachable[static_cast<std::size_t>(j)] = s.speed[i + j] + limit.at(s.speed[i + j]) * t.dt;
+        }
+        return get<R>(reachable.data());
+    }
+
+    // Moves the vehicles. Returns 1 for each vehicle that overlaps its leader, else 0.
+    STOPLINE_INLINE R move(const R& next_mps) const {
+        constexpr double kRounding_m = 1e-6;
+        const R next = t.acceleration_limits == nullptr ? next_mps : min_of(next_mps, reachable_mps());
+        const auto occupied = occupied_slots<R>(s.id + i);
+        put(s.acceleration + i, select(occupied, R((next - speed) * (1.0 / t.dt)), get<R>(s.acceleration + i)));
+        put(s.speed + i, select(occupied, next, speed));
+        put(s.position + i, select(occupied, R(position + next * t.dt), position));
+        return select(occupied, STOPLINE_FLAG(R, in.gap_m < -kRounding_m), R(0.0));
+    }
+};
+
+// Moves the vehicles of one block. Returns 1 for each vehicle that overlaps its leader, else 0.
+template <class R, class Following, MesoVariant kVariant>
+STOPLINE_INLINE R step_slots(const MesoStreams& s, int i, std::span<const FollowingModel> models,
+                             const double* extra_gap, const MesoStep& t) {
+    const Block<R, kVariant.instant_slowdown> block(s, i, extra_gap, t);
+    const auto next_speed = [&](const auto& k, const R& has_policy) STOPLINE_INLINE_LAMBDA {
+        return block.template next_speed_mps<Following, kVariant.power_limit>(k, has_policy);
     };
+    R next = block.speed;
     if constexpr (kVariant.policies == 1) {
-        next = drive(models[0], R(1.0));
+        next = next_speed(models[0].template as<Following>(), R(1.0));
     } else if constexpr (kVariant.policies == 2) {
-        next = drive(of_two_policies(policy, models[0], models[1]), R(1.0));
+        next = next_speed(Following::of_two_policies(block.policy, models[0].template as<Following>(),
+                                                     models[1].template as<Following>()),
+                          R(1.0));
     } else {
         for (std::size_t k = 0; k < models.size(); ++k) {
-            const R has_policy = STOPLINE_FLAG(R, policy == static_cast<double>(k));
-            next = choose(has_policy, drive(models[k], has_policy), next);
+            const R has_policy = STOPLINE_FLAG(R, block.policy == static_cast<double>(k));
+            next = choose(has_policy, next_speed(models[k].template as<Following>(), has_policy), next);
         }
     }
-    constexpr double kRounding_m = 1e-6;
-    const auto occupied = occupied_slots<R>(s.id + i);
-    put(s.acceleration + i, select(occupied, R((next - speed) * (1.0 / t.dt)), get<R>(s.acceleration + i)));
-    put(s.speed + i, select(occupied, next, speed));
-    put(s.position + i, select(occupied, R(position + next * t.dt), position));
-    return select(occupied, STOPLINE_FLAG(R, in.gap_m < -kRounding_m), R(0.0));
+    return block.move(next);
+}
+
+// Computes the next speeds of the vehicles in one block that have the policy number `policy`. Writes them to `next_mps`
+// and leaves the values of all other vehicles unchanged.
+template <class R, class Following>
+inline void block_speeds(const MesoStreams& streams, int i, const FollowingModel& model, int policy,
+                         const double* extra_gap, const MesoStep& step, double* next_mps) {
+    const MesoStreams s = streams;
+    const MesoStep t = step;
+    const auto compute = [&](const auto& block) STOPLINE_INLINE_LAMBDA {
+        const R has_policy = STOPLINE_FLAG(R, block.policy == static_cast<double>(policy));
+        const R next = block.template next_speed_mps<Following, true>(model.as<Following>(), has_policy);
+        put(next_mps, choose(has_policy, next, get<R>(next_mps)));
+    };
+    if (t.turn_share >= 1.0) return compute(Block<R, true>(s, i, extra_gap, t));
+    compute(Block<R, false>(s, i, extra_gap, t));
+}
+
+// Moves the vehicles of one block in a run with several car-following models. Calls the kernels of each policy whose
+// vehicles are in the block.
+template <class R>
+inline R step_mixed_slots(const MesoStreams& s, int i, std::span<const FollowingModel> models, const double* extra_gap,
+                          const MesoStep& t) {
+    constexpr int kSize = std::is_same_v<R, double> ? 1 : kWide;
+    std::array<double, std::size_t{kSize}> next_mps{};
+    put(next_mps.data(), get<R>(s.speed + i));
+    for (std::size_t k = 0; k < models.size(); ++k) {
+        const int policy = static_cast<int>(k);
+        bool is_present = false;
+        for (int j = 0; j < kSize; ++j) is_present = is_present || s.policy[i + j] == policy;
+        if (!is_present) continue;
+        models[k].family().kernels(kSize == 1).block_speeds(s, i, models[k], policy, extra_gap, t, next_mps.data());
+    }
+    const R next = get<R>(next_mps.data());
+    return t.turn_share >= 1.0 ? Block<R, true>(s, i, extra_gap, t).move(next)
+                               : Block<R, false>(s, i, extra_gap, t).move(next);
 }
 
 STOPLINE_INLINE double sum(double value) { return value; }
@@ -342,9 +289,11 @@ STOPLINE_INLINE void prefetch_block(const MesoStreams& s, int i) {
 
 // Moves the vehicles of all blocks and returns the number of overlaps. Begins with the last block. The first vehicle of
 // a block may react to the last vehicle of the preceding block, so the preceding block must not have moved yet.
-template <class R, MesoVariant kVariant>
-inline int step_blocks(const MesoStreams& streams, std::span<const int> blocks, std::span<const Krauss> models,
-                       ExtraGap extra_gaps, const MesoStep& step) {
+// `step_block` moves one block.
+template <class R, class StepBlock>
+STOPLINE_INLINE int step_blocks(const MesoStreams& streams, std::span<const int> blocks,
+                                std::span<const FollowingModel> models, ExtraGap extra_gaps, const MesoStep& step,
+                                StepBlock step_block) {
     constexpr int kSize = std::is_same_v<R, double> ? 1 : kWide;
     const MesoStreams s = streams;  // local copies, so that the compiler knows that stores do not change them
     const MesoStep t = step;
@@ -353,45 +302,94 @@ inline int step_blocks(const MesoStreams& streams, std::span<const int> blocks, 
     for (std::size_t n = blocks.size(); n-- > 0;) {
         if (t.prefetches && n >= kPrefetchBlocks) prefetch_block(s, blocks[n - kPrefetchBlocks] * kSize);
         const double* const extra_gap = extra_gaps == nullptr ? kNoExtraGap : extra_gaps + n * kSize;
-        overlaps += step_slots<R, kVariant>(s, blocks[n] * kSize, models, extra_gap, t);
+        overlaps += step_block(s, blocks[n] * kSize, models, extra_gap, t);
     }
     return static_cast<int>(sum(overlaps));
 }
 
-template <class R>
-inline void follow(const Krauss& krauss, const MesoStep& step, const KraussInputOf<const double*>& in,
-                   std::span<const int> ids, double* next_mps) {
-    constexpr std::size_t kSize = std::is_same_v<R, double> ? 1 : kWide;
-    const Krauss k = krauss;
-    const MesoStep t = step;
-    for (std::size_t i = 0; i < ids.size(); i += kSize) {
-        const KraussInputOf<R> input{get<R>(in.speed_mps + i),        get<R>(in.gap_m + i),
-                                     get<R>(in.leader_speed_mps + i), get<R>(in.leader_acceleration_mps2 + i),
-                                     get<R>(in.extra_gap_m + i),      get<R>(in.speed_cap_mps + i)};
-        const R safe_mps = anticipated_safe_speed_mps(k, input);
-        put(next_mps + i, speed_after_mps<true>(k, input, safe_mps, dawdle<R>(t, ids.data() + i), t.dt));
-    }
+// Moves the vehicles of all blocks in a run in which all policies have the model `Following`.
+template <class R, class Following, MesoVariant kVariant>
+inline int step_variant(const MesoStreams& s, std::span<const int> blocks, std::span<const FollowingModel> models,
+                        ExtraGap extra_gaps, const MesoStep& t) {
+    return step_blocks<R>(s, blocks, models, extra_gaps, t, [](const auto&... arguments) STOPLINE_INLINE_LAMBDA {
+        return step_slots<R, Following, kVariant>(arguments...);
+    });
 }
 
 template <class R>
-inline int step(const MesoStreams& streams, std::span<const int> blocks, std::span<const Krauss> models,
+inline int step_mixed(const MesoStreams& s, std::span<const int> blocks, std::span<const FollowingModel> models,
+                      ExtraGap extra_gaps, const MesoStep& t) {
+    return step_blocks<R>(s, blocks, models, extra_gaps, t, [](const auto&... arguments) STOPLINE_INLINE_LAMBDA {
+        return step_mixed_slots<R>(arguments...);
+    });
+}
+
+template <class R, class Following>
+inline void follow(const FollowingModel& model, const MesoStep& step, const FollowingInputOf<const double*>& in,
+                   std::span<const int> ids, double* next_mps) {
+    constexpr std::size_t kSize = std::is_same_v<R, double> ? 1 : kWide;
+    const Following k = model.as<Following>();
+    const MesoStep t = step;
+    for (std::size_t i = 0; i < ids.size(); i += kSize) {
+        const FollowingInputOf<R> input{get<R>(in.speed_mps + i),        get<R>(in.gap_m + i),
+                                        get<R>(in.leader_speed_mps + i), get<R>(in.leader_acceleration_mps2 + i),
+                                        get<R>(in.extra_gap_m + i),      get<R>(in.speed_cap_mps + i),
+                                        get<R>(in.limit_mps + i)};
+        const BlockRandom<R> random{t, ids.data() + i};
+        const R following_mps = Following::following_speed_mps(k, input, random, t.dt);
+        const R desired_mps = Following::template desired_speed_mps<true>(k, input, following_mps, t.dt, R(0.0));
+        put(next_mps + i,
+            Following::disturbed_speed_mps(k, bounded_speed_mps(input, desired_mps, R(0.0), t.dt), random, t.dt));
+    }
+}
+
+// A model may compute two policies at once.
+template <class Following, class R>
+concept ComputesTwoPolicies = requires(const R& policy, const Following& model) {
+    Following::of_two_policies(policy, model, model);
+};
+
+template <class R, class Following>
+inline int step(const MesoStreams& streams, std::span<const int> blocks, std::span<const FollowingModel> models,
                 ExtraGap extra_gaps, const MesoStep& t) {
-    const bool power_limit = std::any_of(models.begin(), models.end(), has_power_limit);
+    const bool power_limit = std::any_of(models.begin(), models.end(), [](const FollowingModel& model) {
+        return model.as<Following>().has_power_limit();
+    });
     const bool instant_slowdown = t.turn_share >= 1.0;
     const auto step_with = [&](auto policies) {
         constexpr int kPolicies = policies;
-        if (power_limit) {
-            return instant_slowdown
-                       ? step_blocks<R, MesoVariant{kPolicies, true, true}>(streams, blocks, models, extra_gaps, t)
-                       : step_blocks<R, MesoVariant{kPolicies, true, false}>(streams, blocks, models, extra_gaps, t);
-        }
-        return instant_slowdown
-                   ? step_blocks<R, MesoVariant{kPolicies, false, true}>(streams, blocks, models, extra_gaps, t)
-                   : step_blocks<R, MesoVariant{kPolicies, false, false}>(streams, blocks, models, extra_gaps, t);
+        const auto step_as = [&](auto limited, auto instant) {
+            constexpr MesoVariant kVariant{kPolicies, limited, instant};
+            return step_variant<R, Following, kVariant>(streams, blocks, models, extra_gaps, t);
+        };
+        if (power_limit)
+            return instant_slowdown ? step_as(std::true_type(), std::true_type())
+                                    : step_as(std::true_type(), std::false_type());
+        return instant_slowdown ? step_as(std::false_type(), std::true_type())
+                                : step_as(std::false_type(), std::false_type());
     };
     if (models.size() == 1) return step_with(std::integral_constant<int, 1>());
-    if (models.size() == 2) return step_with(std::integral_constant<int, 2>());
+    if constexpr (ComputesTwoPolicies<Following, R>) {
+        if (models.size() == 2) return step_with(std::integral_constant<int, 2>());
+    }
     return step_with(std::integral_constant<int, 0>());
+}
+
+// Returns the kernels of one car-following model.
+template <class R, class Following>
+constexpr MesoKernels kernels_of(const char* name) {
+    return {name,
+            std::is_same_v<R, double> ? 1 : kWide,
+            step<R, Following>,
+            step_mixed<R>,
+            block_speeds<R, Following>,
+            follow<R, Following>};
+}
+
+// Returns the kernels of all registered models, in the order of the list.
+template <class R, class... Models>
+constexpr std::array<MesoKernels, sizeof...(Models)> kernels_of_all(const char* name, FollowingList<Models...>) {
+    return {kernels_of<R, Models>(name)...};
 }
 
 }  // namespace

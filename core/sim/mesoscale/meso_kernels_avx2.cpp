@@ -3,7 +3,7 @@
 
 namespace stopline {
 
-extern const MesoKernels kAvx2MesoKernels;
-const MesoKernels kAvx2MesoKernels{"avx2", kWide, step<Wide>, follow<Wide>};
+extern const MesoKernelsOfTypes kAvx2MesoKernels;
+const MesoKernelsOfTypes kAvx2MesoKernels = kernels_of_all<Wide>("avx2", FollowingTypes());
 
 }  // namespace stopline

@@ -3,7 +3,7 @@
 
 namespace stopline {
 
-extern const MesoKernels kAvx512MesoKernels;
-const MesoKernels kAvx512MesoKernels{"avx512", kWide, step<Wide>, follow<Wide>};
+extern const MesoKernelsOfTypes kAvx512MesoKernels;
+const MesoKernelsOfTypes kAvx512MesoKernels = kernels_of_all<Wide>("avx512", FollowingTypes());
 
 }  // namespace stopline

@@ -3,7 +3,7 @@
 
 namespace stopline {
 
-extern const MesoKernels kBaselineMesoKernels;
-const MesoKernels kBaselineMesoKernels{"baseline", kWide, step<Wide>, follow<Wide>};
+extern const MesoKernelsOfTypes kBaselineMesoKernels;
+const MesoKernelsOfTypes kBaselineMesoKernels = kernels_of_all<Wide>("baseline", FollowingTypes());
 
 }  // namespace stopline

@@ -4,7 +4,7 @@
 
 namespace stopline {
 
-extern const MesoKernels kScalarMesoKernels;
-const MesoKernels kScalarMesoKernels{"scalar", 1, step<double>, follow<double>};
+extern const MesoKernelsOfTypes kScalarMesoKernels;
+const MesoKernelsOfTypes kScalarMesoKernels = kernels_of_all<double>("scalar", FollowingTypes());
 
 }  // namespace stopline

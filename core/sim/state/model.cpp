@@ -26,7 +26,7 @@ void check(const Model& model) {
         throw InputError("a vehicle type, a driver and a policy are needed");
     }
     if (model.classes.size() != model.policies.size()) throw InputError("every policy needs a vehicle and a driver");
-    if (model.meso && model.krauss.size() != model.policies.size()) {
+    if (model.meso && model.following.size() != model.policies.size()) {
         throw InputError("every policy needs a mesoscale model");
     }
     if (model.demand.trips.size() != model.demand.trip_policies.size()) throw InputError("every trip needs a policy");

@@ -7,7 +7,8 @@
 
 #include "demand/demand_plan.h"
 #include "driver/acceleration_laws.h"
-#include "driver/krauss.h"
+#include "driver/following_model.h"
+#include "driver/leader_profile.h"
 #include "network/detector.h"
 #include "network/lane_graph.h"
 #include "signals/phase_priority.h"
@@ -98,10 +99,10 @@ struct Model {
     int trips_end = -1;
     bool has_speed_limiters = false;  // true: some vehicles have a lower maximum speed than the speed limit of a lane
     // Settings of the mesoscale mode.
-    bool meso = false;                // true: mesoscale mode; false: full dynamics
-    std::vector<Krauss> krauss;       // [policy] car-following model
-    double speed_factor = 1.0;        // factor by which all speed limits are multiplied
-    double leader_speed_share = 1.0;  // a vehicle without a leader drives at this share of the speed limit
+    bool meso = false;                      // true: mesoscale mode; false: full dynamics
+    std::vector<FollowingModel> following;  // [policy] car-following model
+    double speed_factor = 1.0;              // factor by which all speed limits are multiplied
+    double leader_speed_share = 1.0;        // a vehicle without a leader drives at this share of the speed limit
     // Below the speed limit, the speed rises in one step by at most this share of (speed limit - speed).
     double approach_share = 1.0;
     // Before a lower speed limit, such as that of a turn, vehicles follow a braking curve: at each position, the speed
@@ -110,10 +111,12 @@ struct Model {
     double turn_share = 1.0;
     double leader_mps2 = 0.0;  // acceleration of platoon leaders; 0: acceleration of the policy's car-following model
     double leader_constant_power_speed_mps = 0.0;  // above this speed, leader_mps2 falls as 1 / speed
-    // The accelerations of `krauss` and of platoon leaders are calibrated for lanes on which the speed limit times
+    // The accelerations of `following` and of platoon leaders are calibrated for lanes on which the speed limit times
     // speed_factor is at most this value.
     double calibrated_limit_mps = 1e9;
     bool has_fast_lanes = false;  // true: on some lanes, limit times speed_factor exceeds calibrated_limit_mps
+    // [policy] highest accelerations of the vehicles; empty: the car-following models alone limit the accelerations.
+    std::vector<LeaderProfile> acceleration_limits;
     LeaderProfile power_profile;  // lower bound of the acceleration on these fast lanes, by speed
     // Acceleration of platoon leaders by speed. If this table is not empty (bins_per_mps above 0), it replaces
     // leader_mps2 and leader_constant_power_speed_mps.

@@ -64,7 +64,7 @@ refused_text "unknown symbol" "$(law '"s0 + speed"')" "bad.yaml:2:53" "there is 
 refused_text "gap that falls" "$(law '"s0 - 0.1 s * v"')" "the gap falls near"
 refused_text "gap that jumps" "$(law '"if(v < 5 m/s, s0, 9 m)"')" "may not jump"
 refused_text "gap at rest" "$(law '"2 m + 1 s * v"')" "standstill_gap is 3 m"
-refused_text "no model for the mesoscale mode" "$(law '"s0 + 1 s * v"')fidelity: meso\n" "policies[P].mesoscale" "constant_distance or time_gap"
+refused_text "no model for the mesoscale mode" "$(law '"s0 + 1 s * v"')fidelity: meso\n" "policies[P].mesoscale" "constant_distance, time_gap, idm"
 refused_text "table that falls" 'policies:\n- {name: P, law: table, standstill_gap: 3 m, gaps: {50 km/h: 2 m}}\npopulations: [P]\n' \
     "bad.yaml:2:52" "the gap falls"
 refused_text "formula of another law" 'policies:\n- {name: P, law: constant_distance, standstill_gap: 3 m, gap: s0}\npopulations: [P]\n' \

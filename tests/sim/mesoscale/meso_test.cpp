@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "driver/krauss.h"
 #include "support/track.h"
 
 namespace stopline {
@@ -48,7 +49,7 @@ protected:
         return meso_plan(policy(), step_s(), dawdling, std::get<2>(GetParam()));
     }
     static Model with_dawdling(Model model, double sigma) {
-        for (Krauss& krauss : model.krauss) krauss.dawdling = sigma;
+        for (FollowingModel& following : model.following) following.as<Krauss>().dawdling = sigma;
         return model;
     }
     // Returns the gap that a switching policy adds to its standstill gap at this speed; 0 for other policies.
@@ -72,7 +73,7 @@ TEST_P(MesoModel, ReachesTheEquilibriumGap) {
     for (const double kmh : {10.0, 25.0, 40.0, 47.0}) {
         Track track(this->plan());
         const double v = kmh / 3.6;
-        const double expected_m = track.model().krauss[0].equilibrium_gap_m(v) + extra_gap_m(track.model(), v);
+        const double expected_m = track.model().following[0].equilibrium_gap_m(v) + extra_gap_m(track.model(), v);
         // The follower starts at twice the equilibrium gap and closes up. It must not start below the equilibrium gap,
         // because the model of the paper lets a follower keep any gap within a band below the equilibrium gap.
         track.place(0, 100.0, v);
@@ -98,7 +99,7 @@ TEST_P(MesoModel, NeverCollidesFromAFeasibleState) {
             for (const double spare_m : {0.0, 0.3, 2.0, 20.0}) {
                 for (const double dawdling : {0.0, 0.4}) {
                     Track track(with_dawdling(model, dawdling));
-                    const Krauss& krauss = track.model().krauss[0];
+                    const auto& krauss = track.model().following[0].as<Krauss>();
                     const double b = krauss.deceleration_mps2;
                     const double own = own_kmh / 3.6;
                     double leader = leader_kmh / 3.6;
@@ -132,7 +133,7 @@ TEST_P(MesoModel, StopsAtRedFromEveryFeasibleState) {
         for (const double spare_m : {0.0, 0.5, 5.0, 60.0, 300.0}) {
             for (const double dawdling : {0.0, 0.4}) {
                 Track track(with_dawdling(model, dawdling));
-                const Krauss& krauss = track.model().krauss[0];
+                const auto& krauss = track.model().following[0].as<Krauss>();
                 const double v = kmh / 3.6;
                 const double tau = std::max(krauss.reaction_s, step_s());
                 const double braking_m = v * tau + v * v / (2.0 * krauss.deceleration_mps2);
@@ -157,7 +158,7 @@ TEST_P(MesoModel, QueueStartsAndStopsWithoutCollision) {
         double front_m = kStopLine_m - track.model().common_driver().stop.margin_m;
         for (int k = 0; k < 40; ++k) {
             track.place(0, front_m, 0.0);
-            front_m -= track.model().vehicles[0].length_m + track.model().krauss[0].equilibrium_gap_m(0.0);
+            front_m -= track.model().vehicles[0].length_m + track.model().following[0].equilibrium_gap_m(0.0);
         }
         track.run(60.0);
         EXPECT_LT(track.count(0), 40);
@@ -234,8 +235,8 @@ TEST(MesoKernels, SharedAndSeparateLeaderSpeedGiveTheSameBits) {
         SCOPED_TRACE(population);
         Model without = mixed_model(population);
         Model with = without;
-        for (Krauss& krauss : without.krauss) krauss.transient_gap_s2 = 0.0;
-        for (Krauss& krauss : with.krauss) krauss.transient_gap_s2 = 1e-30;
+        for (FollowingModel& following : without.following) following.as<Krauss>().transient_gap_s2 = 0.0;
+        for (FollowingModel& following : with.following) following.as<Krauss>().transient_gap_s2 = 1e-30;
         expect_same_bits(without, with);
     }
 }

@@ -79,7 +79,7 @@ TEST(SpeedLimits, FollowersCloseUpToLeadersAtTheirSpeed) {
             const double cruise_mps = model.leader_speed_share * model.speed_factor * plan.limit_mps;
             const GapPolicy& gap = model.policies[0];
             const double extra_m = equilibrium_gap_m(gap, cruise_mps) - gap.meso.gap_m(cruise_mps);
-            const double equilibrium_m = model.krauss[0].equilibrium_gap_m(cruise_mps) + extra_m;
+            const double equilibrium_m = model.following[0].equilibrium_gap_m(cruise_mps) + extra_m;
             track.place(0, 300.0, cruise_mps);
             track.place(0, 300.0 - model.vehicles[0].length_m - equilibrium_m - kExcess_m, cruise_mps);
             track.run(kExcess_m / ((1.0 - model.leader_speed_share) * model.speed_factor * plan.limit_mps) + 20.0);

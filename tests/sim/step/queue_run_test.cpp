@@ -16,15 +16,16 @@ INSTANTIATE_TEST_SUITE_P(Mix, QueueRun, testing::Values(Pairing{"MIX", "petrol_e
 TEST_P(QueueRun, HoldsTheInvariantsInEveryStep) {
     Scenario scenario = single_light(GetParam().vehicle, GetParam().policy);
     scenario.demand.vehicles = 25;
-    scenario.network.approach.length_m = 320.0;
+    const double more_m = 25.0 * (scenario.vehicle.length_m - 5.15);  // than for a queue of cars
+    scenario.network.approach.length_m = 320.0 + more_m;
     scenario.network.approach.exit_length_m = 300.0;
-    scenario.signal.first_green_s = 100.0;
+    scenario.signal.first_green_s = 100.0 + more_m / 2.0;
     scenario.signal.green_s = 20.0;
     Track track(build_model(scenario, 0));
-    track.run(100.0);
+    track.run(scenario.signal.first_green_s);
     ASSERT_EQ(track.count(0), 25) << "all vehicles wait for green";
     EXPECT_EQ(track.state().records.passages.size(), 25u) << "entries";
-    EXPECT_NEAR(track.vehicle(0, 0).position_m, 320.0 - scenario.driver.stop.margin_m, 0.1);
+    EXPECT_NEAR(track.vehicle(0, 0).position_m, 320.0 + more_m - scenario.driver.stop.margin_m, 0.1);
     for (int k = 1; k < 25; ++k) {
         const GapPolicy& policy = track.model().policies[at(track.state().vehicles.policy[track.slot(0, k)])];
         EXPECT_NEAR(track.vehicle(0, k).gap_m, policy.settings.standstill_gap_m, 0.2) << "vehicle " << k + 1;
