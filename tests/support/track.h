@@ -50,7 +50,8 @@ inline Scenario single_light(const std::string& vehicle, const std::string& poli
                              std::vector<std::string> overrides = {}) {
     overrides.insert(overrides.begin(), "vehicle=" + vehicle);
     // A queue of vehicles longer than cars does not fit on the approach of the file.
-    if (load_vehicle(vehicle).length_m > 6.0) overrides.emplace_back("network.approach.length=1400 m");
+    if (vehicle.front() != '{' && load_vehicle(vehicle).length_m > 6.0)
+        overrides.emplace_back("network.approach.length=1400 m");
     Scenario scenario = load_scenario(STOPLINE_SOURCE_DIR "/scenarios/single_light.yaml", overrides);
     scenario.populations = {population_of(scenario, policy)};
     return scenario;

@@ -111,7 +111,7 @@ TEST(SumoVehicleTypes, WrongValuesAreRefusedWithTheirLine) {
                             "/>\n<trip id=\"a\" type=\"t\" depart=\"0\" from=\"ab\" to=\"bc\"/>\n");
         });
     };
-    EXPECT_EQ(load("accel=\"0\""), "my.rou.xml:2: vType 't': accel=\"0\" must be between 0.1 and 20");
+    EXPECT_EQ(load("accel=\"0\""), "my.rou.xml:2: accel=\"0\" must be between 0.1 and 20");
     EXPECT_NE(load("tau=\"-1\"").find("tau=\"-1\" must be between 0.1 and 10"), std::string::npos)
         << load("tau=\"-1\"");
 }
