@@ -9,6 +9,7 @@
 
 #include "base/input_error.h"
 #include "common/examples.h"
+#include "scenario/fleets.h"
 #include "scenario/load_scenario.h"
 #include "scenario/schema/quantity.h"
 #include "sim/state/model.h"  // the registry of spacing laws
@@ -28,7 +29,7 @@ namespace {
 std::string shares_text(const PopulationSettings& population) {
     std::vector<std::string> parts;
     for (const PopulationSettings::Component& component : population.components) {
-        parts.push_back(fmt::format("{:.4g} % {}", 100.0 * component.share, component.policy));
+        parts.push_back(fmt::format("{:.4g} % {}", 100.0 * component.share, component_name(component)));
     }
     return fmt::format("{}", fmt::join(parts, ", "));
 }

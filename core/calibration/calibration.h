@@ -3,8 +3,8 @@
 // mesoscale parameters. The k-th passages of a detector in both modes form a pair.
 //
 // The criterion is that the two times of each pair differ by at most one second. A user can review a larger difference
-// and mark it as accepted (scenario/load_accepted.h); the pair is then valid. Every third permutation is held out of
-// the fit.
+// and mark it as accepted (scenario/files/load_accepted.h); the pair is then valid. Every third permutation is held out
+// of the fit.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@
 
 #include "calibration/detector_times.h"
 #include "calibration/meso_fit.h"
-#include "scenario/load_accepted.h"
+#include "scenario/files/load_accepted.h"
 #include "sweeps/run_store.h"
 #include "sweeps/sweep.h"
 

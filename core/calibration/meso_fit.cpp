@@ -198,7 +198,7 @@ const std::vector<FitParameter>& fit_parameters() {
 
 DetectorRun run_case(const FitCase& fit_case, const MesoSettings& settings) {
     Model model = fit_case.model;
-    set_meso(fit_case.scenario, settings, model);
+    set_meso(settings, model);
     return run_detectors(fit_case.scenario, model);
 }
 

@@ -1,5 +1,5 @@
-// The user's settings of drivers: car following, free driving, stopping, yielding, lane changes, the mesoscale models,
-// the spacing policies and the populations. SI units.
+// The user's settings of drivers: car following, free driving, stopping, yielding, lane changes, the mesoscale models
+// and the spacing policies. SI units.
 #pragma once
 
 #include <array>
@@ -31,6 +31,8 @@ struct CaccSettingsOf {
     Number jerk_up_mps3 = 6.0;                 // limit of the increase of the requested acceleration
     Number jerk_down_mps3 = 25.0;              // limit of the decrease of the requested acceleration
     Number catch_up_factor = 1.05;             // a follower may exceed the speed limit by this factor to close its gap
+
+    bool operator==(const CaccSettingsOf&) const = default;
 };
 using CaccSettings = CaccSettingsOf<double>;
 
@@ -46,6 +48,8 @@ struct FreeDriveSettings {
     double speed_gain_1ps = 0.35;    // the acceleration is at most this gain x (desired speed - speed)
     double deceleration_mps2 = 1.5;  // deceleration before a lower speed limit, such as in a turn
     double hesitation_s = 0.0;       // reaction time of the first vehicle at the stop line
+
+    bool operator==(const FreeDriveSettings&) const = default;
 };
 
 // Stopping at a stop line.
@@ -54,6 +58,8 @@ struct StopSettingsOf {
     Number deceleration_mps2 = 2.5;           // braking begins when this deceleration is needed
     Number decision_deceleration_mps2 = 3.5;  // a vehicle stops at yellow if this deceleration suffices
     Number margin_m = 1.0;                    // distance from the front of the stopped vehicle to the stop line
+
+    bool operator==(const StopSettingsOf&) const = default;
 };
 using StopSettings = StopSettingsOf<double>;
 
@@ -63,6 +69,8 @@ struct GiveWaySettings {
     double margin_m = 0.5;        // distance from a waiting vehicle's front to the conflict area
     // A yielding driver assumes that approaching vehicles with priority accelerate this much, up to the speed limit.
     double approach_acceleration_mps2 = 2.0;
+
+    bool operator==(const GiveWaySettings&) const = default;
 };
 
 // Lane changes (sim/lane_change/lane_change.cpp).
@@ -94,6 +102,32 @@ struct LaneChangeSettings {
     double acceleration_mps2 = 1.5;  // maximum acceleration of the IDM
     double deceleration_mps2 = 2.0;  // comfortable deceleration of the IDM
     double pause_s = 5.0;            // no discretionary change within this time after any change
+
+    bool operator==(const LaneChangeSettings&) const = default;
+};
+
+// The intelligent driver model (idm.h). The policy gives the time gap and the standstill gap. The defaults are the
+// values for cities of Treiber, Kesting 2013, "Traffic Flow Dynamics", table 11.2.
+struct IdmSettings {
+    double acceleration_mps2 = 1.0;  // a, maximum acceleration
+    double deceleration_mps2 = 1.5;  // b, comfortable deceleration
+
+    bool operator==(const IdmSettings&) const = default;
+};
+
+// Human drivers (human.h), for policies with the law `human`. The errors are those of Treiber, Kesting, Helbing 2006. The
+// reaction time is the mean start-up reaction time of Salles, Kaufmann, Reuss 2020, "Extending the intelligent driver
+// model in SUMO and verifying the drive off trajectories with aerial measurements". The spread reaches from an expected to
+// an unexpected signal of the car ahead, 0.75 s to 1.25 s (Green 2000, "How long does it take to stop?").
+struct HumanSettings {
+    IdmSettings idm;
+    double reaction_s = 1.0;
+    double reaction_spread_s = 0.25;  // the reaction times of drivers are uniform within reaction_s +- this value
+    double gap_error = 0.05;          // V_s, relative error of the gap
+    double closing_error_1ps = 0.01;  // r_c, error of the closing speed per metre of gap
+    double error_time_s = 20.0;       // correlation time of the errors
+
+    bool operator==(const HumanSettings&) const = default;
 };
 
 struct DriverSettings {
@@ -102,7 +136,10 @@ struct DriverSettings {
     StopSettings stop;
     GiveWaySettings give_way;
     LaneChangeSettings lane_change;
+    HumanSettings human;
     std::string name = {};  // name of the driver; default: the name of the file in data/drivers
+
+    bool operator==(const DriverSettings&) const = default;
 };
 
 // A car-following model of the Krauss family (krauss.h), with the parameters of Table 2 of the paper.
@@ -118,13 +155,6 @@ struct KraussSettings {
     double reaction_s = 0.9;         // tau, reaction time
     double standstill_gap_m = 2.95;  // s_0 (minGap in SUMO)
     double dawdling = 0.4;           // sigma, 0 .. 1
-};
-
-// The intelligent driver model (idm.h). The policy gives the time gap and the standstill gap. The defaults are the
-// values for cities of Treiber, Kesting 2013, "Traffic Flow Dynamics", table 11.2.
-struct IdmSettings {
-    double acceleration_mps2 = 1.0;  // a, maximum acceleration
-    double deceleration_mps2 = 1.5;  // b, comfortable deceleration
 };
 
 // The mesoscale mode: the parameters of the car-following models (following_model.h) and of all else.
@@ -186,18 +216,6 @@ struct GapPolicySettings {
     // Name of the car-following model of the mesoscale mode (FollowingFamily), or kFamilyByLaw: the model that the law
     // implies. The laws `formula` and `table` imply no model.
     std::string mesoscale = kFamilyByLaw;
-};
-
-// A population: a mix of vehicles with one or several spacing policies. The shares of the components sum to 1.
-struct PopulationSettings {
-    enum class Pattern { alternating, random, balanced };
-    struct Component {
-        std::string policy;
-        double share = 1.0;
-    };
-    std::string name;
-    std::vector<Component> components;
-    Pattern pattern = Pattern::alternating;
 };
 
 }  // namespace stopline

@@ -1,4 +1,5 @@
 #include "figures/intersection_figures.h"
+#include "scenario/fleets.h"
 
 #include <algorithm>
 #include <array>
@@ -92,7 +93,7 @@ Figure intersection_picture(const IntersectionReport& report, std::size_t popula
         figure.body += fmt::format(
             ", 'intersection_vehicles_{}.dat' with vectors head filled size 1.2,18 lw 5 lc rgb '{}' title {}", k,
             // The spaces keep the arrow head off the text.
-            line_style(2 * k).colour, gnuplot_text("  " + components[k].policy));
+            line_style(2 * k).colour, gnuplot_text("  " + component_name(components[k])));
     }
     figure.body += "\n";
     return figure;

@@ -8,6 +8,7 @@
 
 #include "base/units.h"
 #include "figures/single_light_figures.h"
+#include "scenario/fleets.h"
 
 namespace stopline {
 
@@ -95,7 +96,7 @@ std::string time_space_data(const SingleLightReport& result, std::size_t populat
         ++position;
         for (const TrajectoryPoint& point : points) {
             text += fmt::format("{:.2f} {:.2f} \"{}\" {}\n", point.time_s, point.distance_m,
-                                settings.components[static_cast<std::size_t>(point.policy)].policy, position);
+                                component_name(settings.components[static_cast<std::size_t>(point.policy)]), position);
         }
         text += "\n";  // an empty line interrupts the curve
     }

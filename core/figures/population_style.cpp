@@ -1,4 +1,5 @@
 #include "figures/population_style.h"
+#include "scenario/fleets.h"
 
 #include <algorithm>
 #include <array>
@@ -42,7 +43,7 @@ std::vector<std::string> styled_names(const Scenario& scenario) {
     };
     for (const PopulationSettings& population : scenario.populations) add(population.name);
     for (const PopulationSettings& population : scenario.populations) {
-        for (const auto& component : population.components) add(component.policy);
+        for (const auto& component : population.components) add(component_name(component));
     }
     return names;
 }

@@ -22,15 +22,21 @@ double lane_start_m(const Model& model, int route, int route_index) {
     return distance_m;
 }
 
-// Returns the net gap to the leader, m; NaN without a leader. The first vehicle on a lane has its leader on another
-// lane. This leader is searched within the range of the radar.
-double net_gap_m(const Model& model, const State& state, int lane, int slot) {
+struct LeaderGap {
+    double net_gap_m = std::numeric_limits<double>::quiet_NaN();  // NaN: there is no leader
+    double leader_length_m = 0.0;
+};
+
+// Returns the net gap to the leader. The first vehicle on a lane has its leader on another lane. This leader is
+// searched within the range of the radar.
+LeaderGap leader_gap(const Model& model, const State& state, int lane, int slot) {
     const VehicleArrays& v = state.vehicles;
     const bool first = slot == state.blocks[at(lane)].first;
     const LeaderAhead ahead =
-        first ? leader_ahead(state, lane, slot, model.driver.cacc.radar_range_m) : LeaderAhead{slot - 1, 0.0};
-    if (ahead.slot < 0) return std::numeric_limits<double>::quiet_NaN();
-    return ahead.lane_start_m + v.position_m[at(ahead.slot)] - v.length_m[at(ahead.slot)] - v.position_m[at(slot)];
+        first ? leader_ahead(state, lane, slot, model.common_driver().cacc.radar_range_m) : LeaderAhead{slot - 1, 0.0};
+    if (ahead.slot < 0) return {};
+    const double rear_m = ahead.lane_start_m + v.position_m[at(ahead.slot)] - v.length_m[at(ahead.slot)];
+    return {rear_m - v.position_m[at(slot)], model.vehicles[at(v.type[at(ahead.slot)])].length_m};
 }
 
 // Returns the net gaps between the vehicles of the first lane, m.
@@ -72,10 +78,11 @@ void sample_vehicles(const Simulation& simulation, std::vector<TrajectoryPoint>&
             const VehicleRecord& record = v.record[i];
             const double start_m = lane_start_m(simulation.model(), record.route, record.route_index);
             const bool full = v.has_powertrain();
-            points.push_back(
-                {simulation.time_s(), v.id[i], v.policy[i], lane, start_m + v.position_m[i], v.position_m[i],
-                 v.speed_mps[i], v.acceleration_mps2[i], full ? v.request_mps2[i] : v.acceleration_mps2[i],
-                 net_gap_m(simulation.model(), state, lane, slot), full ? static_cast<int>(v.gear[i]) + 1 : 0});
+            const LeaderGap gap = leader_gap(simulation.model(), state, lane, slot);
+            points.push_back({simulation.time_s(), v.id[i], v.policy[i], lane, start_m + v.position_m[i],
+                              v.position_m[i], v.speed_mps[i], v.acceleration_mps2[i],
+                              full ? v.request_mps2[i] : v.acceleration_mps2[i], gap.net_gap_m,
+                              full ? static_cast<int>(v.gear[i]) + 1 : 0, gap.leader_length_m});
         }
     }
 }

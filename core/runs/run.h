@@ -27,6 +27,7 @@ struct TrajectoryPoint {
     double request_mps2;  // acceleration that the controller requests; mesoscale mode: same as acceleration_mps2
     double net_gap_m;     // net gap to the leader; NaN without a leader
     int gear;             // engaged gear, from 1; 0 in the mesoscale mode
+    double leader_length_m = 0.0;  // 0 without a leader
 };
 
 // Appends one point for each vehicle in the network, lane by lane.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 
 #include "base/containers/index.h"
 #include "base/input_error.h"
+#include "scenario/fleets.h"
 #include "scenario/import_sumo.h"
 #include "scenario/make_network.h"
 #include "sim/mesoscale/following_families.h"
@@ -19,16 +21,69 @@ namespace stopline {
 
 namespace {
 
+// Returns the index of `value` in the list, after adding it if the list does not have it.
+template <class T>
+int index_in(std::vector<T>& list, const T& value) {
+    const auto found = std::find(list.begin(), list.end(), value);
+    const auto index = static_cast<int>(found - list.begin());
+    if (found == list.end()) list.push_back(value);
+    return index;
+}
+
+DriverPlan driver_plan(const DriverSettings& settings, const PowertrainTables& vehicle, bool is_human, double step_s) {
+    DriverPlan driver;
+    driver.human = settings.human;
+    driver.is_human = is_human;
+    driver.tables = compile_driver(settings);
+    const auto available_mps2 = [&](double v) { return available_acceleration_mps2(vehicle, v); };
+    extend_by_power(settings.free_drive, available_mps2, driver.tables);
+    driver.give_way = settings.give_way;
+    driver.lane_change = settings.lane_change;
+    driver.hesitation_s = is_human ? std::max(settings.free_drive.hesitation_s, settings.human.reaction_s)
+                                   : settings.free_drive.hesitation_s;
+    driver.hesitation_ticks = to_ticks(driver.hesitation_s, step_s);
+    return driver;
+}
+
+// Returns the settings of the policy of a component.
+const GapPolicySettings& policy_of(const Scenario& scenario, const PopulationSettings& population,
+                                   const PopulationSettings::Component& component) {
+    const auto named = [&](const GapPolicySettings& policy) { return policy.name == component.policy; };
+    const auto found = std::find_if(scenario.policies.begin(), scenario.policies.end(), named);
+    if (found != scenario.policies.end()) return *found;
+    throw InputError(fmt::format("population '{}': unknown policy '{}'", population.name, component.policy));
+}
+
+// Adds the vehicle types and the drivers of all components of the population. A driver plan depends on the vehicle and
+// on the kind of the driver, so each combination of vehicle, driver and kind has its own plan.
+void add_fleet(const Scenario& scenario, const PopulationSettings& population, Model& model) {
+    std::vector<PowertrainSettings> vehicles;
+    std::vector<DriverSettings> drivers;
+    std::vector<std::tuple<int, int, bool>> plans;  // indices in `vehicles` and `drivers`; true: human driver
+    for (const PopulationSettings::Component& component : population.components) {
+        const int vehicle = index_in(vehicles, component.vehicle.value_or(scenario.vehicle));
+        const int driver = index_in(drivers, component.driver.value_or(scenario.driver));
+        const bool is_human = find_gap_law(policy_of(scenario, population, component).law).is_human;
+        model.classes.push_back({vehicle, index_in(plans, std::tuple(vehicle, driver, is_human))});
+    }
+    for (const PowertrainSettings& vehicle : vehicles) model.vehicles.push_back(compile_powertrain(vehicle));
+    const auto limits_speed = [&](const PowertrainTables& vehicle) {
+        return std::any_of(model.graph.lanes.begin(), model.graph.lanes.end(),
+                           [&](const Lane& lane) { return vehicle.maximum_speed_mps < lane.limit_mps; });
+    };
+    model.has_speed_limiters = std::any_of(model.vehicles.begin(), model.vehicles.end(), limits_speed);
+    for (const auto& [vehicle, driver, is_human] : plans) {
+        model.drivers.push_back(driver_plan(drivers[at(driver)], model.vehicles[at(vehicle)], is_human, model.step_s));
+    }
+}
+
 void add_policies(const Scenario& scenario, const PopulationSettings& population, Model& model) {
     for (const PopulationSettings::Component& component : population.components) {
-        const auto named = [&](const GapPolicySettings& policy) { return policy.name == component.policy; };
-        const auto found = std::find_if(scenario.policies.begin(), scenario.policies.end(), named);
-        if (found == scenario.policies.end()) {
-            throw InputError(fmt::format("population '{}': unknown policy '{}'", population.name, component.policy));
-        }
         model.demand.policies.push_back(static_cast<int>(model.policies.size()));
         model.demand.policy_shares.push_back(component.share);
-        model.policies.push_back(make_gap_policy(*found));
+        GapPolicySettings policy = policy_of(scenario, population, component);
+        policy.name = component_name(component);
+        model.policies.push_back(make_gap_policy(policy));
     }
     using Pattern = PopulationSettings::Pattern;
     model.demand.pattern = population.pattern == Pattern::random     ? DemandPlan::Pattern::random
@@ -217,10 +272,11 @@ void add_network(const Scenario& scenario, Model& model) {
 
 }  // namespace
 
-void set_meso(const Scenario& scenario, const MesoSettings& settings, Model& model) {
+void set_meso(const MesoSettings& settings, Model& model) {
     model.following.clear();
-    for (const GapPolicy& policy : model.policies) {
-        model.following.push_back(make_following_model(settings, policy.meso));
+    for (std::size_t k = 0; k < model.policies.size(); ++k) {
+        const HumanSettings& human = model.driver_of(static_cast<int>(k)).human;
+        model.following.push_back(make_following_model({settings, human}, model.policies[k].meso));
     }
     model.speed_factor = settings.speed_factor;
     model.leader_speed_share = settings.leader_speed_share;
@@ -232,12 +288,14 @@ void set_meso(const Scenario& scenario, const MesoSettings& settings, Model& mod
     // Without this factor, a rounding error could make a lane with exactly the calibrated speed limit count as faster.
     constexpr double kRounding = 1.001;
     model.calibrated_limit_mps = kRounding * settings.speed_factor * settings.calibrated_speed_limit_mps;
-    model.power_profile = power_profile(model.driver);
+    model.power_profile = power_profile(model.common_driver());
     model.has_fast_lanes = std::any_of(model.graph.lanes.begin(), model.graph.lanes.end(), [&](const Lane& lane) {
         return model.speed_factor * lane.limit_mps > model.calibrated_limit_mps;
     });
     model.start_relay_vehicles = settings.start_relay_vehicles;
-    model.hesitation_ticks = to_ticks(scenario.driver.free_drive.hesitation_s + settings.start_delay_s, model.step_s);
+    for (DriverPlan& driver : model.drivers) {
+        driver.hesitation_ticks = to_ticks(driver.hesitation_s + settings.start_delay_s, model.step_s);
+    }
 }
 
 Model build_model(const Scenario& scenario, std::size_t population) {
@@ -245,29 +303,29 @@ Model build_model(const Scenario& scenario, std::size_t population) {
     model.step_s = scenario.tick_s();
     model.seed = scenario.seed;
     add_network(scenario, model);
-    model.vehicles.push_back(compile_powertrain(scenario.vehicle));
-    model.driver = compile_driver(scenario.driver);
-    const auto available_mps2 = [&](double v) { return available_acceleration_mps2(model.vehicles[0], v); };
-    extend_by_power(scenario.driver.free_drive, available_mps2, model.driver);
-    model.hesitation_ticks = to_ticks(scenario.driver.free_drive.hesitation_s, scenario.tick_s());
+    add_fleet(scenario, scenario.populations.at(population), model);
     // radar_delay_s is the time from a measurement until the vehicle responds to it. It includes one step, because the
     // controller uses the data at the start of a step and the vehicle responds from the end of the step on. So the data
     // that the controller uses are older by radar_delay_s minus one step.
     model.radar = make_delay(std::max(scenario.driver.cacc.radar_delay_s - scenario.tick_s(), 0.0), scenario.tick_s());
     model.v2v = make_delay(scenario.driver.cacc.v2v_delay_s, scenario.tick_s());
+    // Human drivers read older measurements. The arrays must keep them for the longest reaction time.
+    for (const DriverPlan& driver : model.drivers) {
+        if (!driver.is_human) continue;
+        const double longest_s = driver.human.reaction_s + driver.human.reaction_spread_s;
+        model.radar.rows = std::max(model.radar.rows, make_delay(longest_s, model.step_s).rows);
+    }
     if (scenario.is_meso()) {  // mesoscale car following has no radar delay
         model.meso = true;
         model.radar = make_delay(0.0, model.step_s);
         model.v2v = make_delay(model.step_s, model.step_s);
     }
-    model.give_way = scenario.driver.give_way;
-    model.lane_change = scenario.driver.lane_change;
     add_connections(model);
     if (scenario.network.has_intersections()) add_rules(scenario, model);
     add_detectors(scenario, model);
     add_policies(scenario, scenario.populations.at(population), model);
     add_demand(scenario, model);
-    if (scenario.is_meso()) set_meso(scenario, scenario.meso, model);
+    if (scenario.is_meso()) set_meso(scenario.meso, model);
     check(model);
     return model;
 }

@@ -11,6 +11,6 @@ namespace stopline {
 Model build_model(const Scenario& scenario, std::size_t population);
 
 // Replaces the parameters of the mesoscale mode in a model. A calibration calls this function to try parameters.
-void set_meso(const Scenario& scenario, const MesoSettings& settings, Model& model);
+void set_meso(const MesoSettings& settings, Model& model);
 
 }  // namespace stopline

@@ -6,7 +6,7 @@
 
 #include "base/input_error.h"
 #include "base/nearest_name.h"
-#include "scenario/data_files.h"
+#include "scenario/files/data_files.h"
 #include "scenario/schema/field_path.h"
 #include "scenario/schema/old_names.h"
 #include "scenario/yaml/yaml_source.h"
@@ -263,7 +263,8 @@ void complete(const Table& table, SourceNode& map, const std::string& path, Repo
         const std::string field_path = join_path(path, field.name);
         complete_field(field, map, field_path, report);
         SourceNode* value = map.find(field.name);
-        if (value == nullptr && std::holds_alternative<SectionField>(field.kind) && !field.required &&
+        const auto* const own_section = std::get_if<SectionField>(&field.kind);
+        if (value == nullptr && own_section != nullptr && !own_section->is_optional && !field.required &&
             exists(table, field, map)) {
             // The file does not give the section. An empty section is added; complete() below inserts its defaults.
             SourceNode empty;

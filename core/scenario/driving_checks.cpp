@@ -9,6 +9,7 @@
 
 #include "base/units.h"
 #include "driver/following_model.h"
+#include "scenario/fleets.h"
 #include "scenario/schema/quantity.h"
 #include "sim/mesoscale/following_families.h"
 #include "spacing_laws/gap_policy.h"
@@ -29,7 +30,8 @@ bool is_used(const Scenario& scenario, const GapPolicySettings& policy) {
 // Returns how much smaller than the standstill gap of the policy the gap of a stopped vehicle can be in the mesoscale
 // mode, m. Vehicles can touch if the standstill gap of the policy is smaller than the result.
 double meso_min_gap_m(const Scenario& scenario, const GapPolicySettings& policy) {
-    return policy.standstill_gap_m - make_following_model(scenario.meso, make_gap_policy(policy).meso).smallest_gap_m();
+    return policy.standstill_gap_m -
+           make_following_model({scenario.meso, scenario.driver.human}, make_gap_policy(policy).meso).smallest_gap_m();
 }
 
 std::vector<std::string> following_names() {
@@ -62,29 +64,36 @@ void check_policies(const Scenario& scenario, Checker& check) {
     }
 }
 
-void check_tyres(const Scenario& scenario, Checker& check) {
-    const double tyres_mps2 = scenario.vehicle.brake_friction * kGravity_mps2;
-    const double needed_mps2 = scenario.driver.cacc.deceleration_emergency_mps2;
+// A vehicle with its driver, and the field that gives the vehicle, such as "vehicle".
+struct DrivenVehicle {
+    std::string field;
+    const PowertrainSettings& vehicle;
+    const DriverSettings& driver;
+};
+
+void check_tyres(const DrivenVehicle& driven, Checker& check) {
+    const double tyres_mps2 = driven.vehicle.brake_friction * kGravity_mps2;
+    const double needed_mps2 = driven.driver.cacc.deceleration_emergency_mps2;
     if (tyres_mps2 >= needed_mps2) return;
-    check.error("vehicle.brake_friction", "the tyres give " + short_text(tyres_mps2, unit("m/s2")) +
-                                              ", but drivers count on driver.cacc.deceleration_emergency, " +
-                                              short_text(needed_mps2, unit("m/s2")) +
-                                              ": use a higher friction or more careful drivers");
+    check.error(driven.field + ".brake_friction", "the tyres give " + short_text(tyres_mps2, unit("m/s2")) +
+                                                      ", but drivers count on driver.cacc.deceleration_emergency, " +
+                                                      short_text(needed_mps2, unit("m/s2")) +
+                                                      ": use a higher friction or more careful drivers");
 }
 
-void check_lags(const Scenario& scenario, Checker& check) {
-    const PowertrainSettings& car = scenario.vehicle;
-    const double longest_s = scenario.driver.cacc.prediction_end_s;
+void check_lags(const DrivenVehicle& driven, Checker& check) {
+    const PowertrainSettings& car = driven.vehicle;
+    const double longest_s = driven.driver.cacc.prediction_end_s;
     const auto compare = [&](const std::string& field, double lag_s) {
         if (lag_s <= longest_s + kRounding) return;
         check.error(field, "a lag of " + short_text(lag_s, unit("s")) +
                                " is longer than the controller foresees: at most driver.cacc.prediction_end, " +
                                short_text(longest_s, unit("s")));
     };
-    compare("vehicle.brake_lag", car.brake_lag_s);
+    compare(driven.field + ".brake_lag", car.brake_lag_s);
     if (car.lag_drive_s.empty() || car.lag_gear_factor.empty()) return;
-    compare("vehicle.lag_times", *std::max_element(car.lag_drive_s.begin(), car.lag_drive_s.end()) *
-                                     *std::max_element(car.lag_gear_factor.begin(), car.lag_gear_factor.end()));
+    compare(driven.field + ".lag_times", *std::max_element(car.lag_drive_s.begin(), car.lag_drive_s.end()) *
+                                             *std::max_element(car.lag_gear_factor.begin(), car.lag_gear_factor.end()));
 }
 
 constexpr double kLimitRounding = 1.001;
@@ -108,7 +117,8 @@ double highest_limit_mps(const NetworkSettings& network) {
 bool relays_starts(const Scenario& scenario) {
     return std::any_of(scenario.policies.begin(), scenario.policies.end(), [&](const GapPolicySettings& policy) {
         return is_used(scenario, policy) &&
-               make_following_model(scenario.meso, make_gap_policy(policy).meso).relays_starts();
+               make_following_model({scenario.meso, scenario.driver.human}, make_gap_policy(policy).meso)
+                   .relays_starts();
     });
 }
 
@@ -125,8 +135,19 @@ std::string beyond_text(double limit_mps, double range_mps, const std::string& d
 void check_gaps(const Scenario& scenario, Checker& check) {
     check_policies(scenario, check);
     if (scenario.is_meso()) return;
-    check_tyres(scenario, check);
-    check_lags(scenario, check);
+    const auto check_driven = [&](const DrivenVehicle& driven) {
+        check_tyres(driven, check);
+        check_lags(driven, check);
+    };
+    check_driven({"vehicle", scenario.vehicle, scenario.driver});
+    for (const PopulationSettings& population : scenario.populations) {
+        for (std::size_t k = 0; k < population.components.size(); ++k) {
+            const PopulationSettings::Component& component = population.components[k];
+            if (!component.vehicle && !component.driver) continue;
+            const std::string field = fmt::format("populations[{}].components[{}].vehicle", population.name, k);
+            check_driven({field, vehicle_of(scenario, component), driver_of(scenario, component)});
+        }
+    }
 }
 
 std::vector<std::string> range_warnings(const Scenario& scenario) {

@@ -9,7 +9,7 @@
 #include "base/nearest_name.h"
 #include "scenario/compose.h"
 #include "scenario/driving_checks.h"
-#include "scenario/file_name.h"
+#include "scenario/files/file_name.h"
 #include "scenario/import_sumo.h"
 #include "scenario/network_checks.h"
 #include "scenario/schema/field_path.h"

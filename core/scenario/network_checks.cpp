@@ -8,6 +8,7 @@
 #include "base/simd/arithmetic.h"
 #include "network/generators/outer_legs.h"
 #include "scenario/approach_names.h"
+#include "scenario/fleets.h"
 #include "scenario/schema/quantity.h"
 
 namespace stopline {
@@ -30,18 +31,26 @@ double longest_standstill_gap_m(const Scenario& scenario) {
     return longest_m;
 }
 
-// Returns the length that a stopped vehicle needs in a queue, m: vehicle length and standstill gap.
+// Returns the length that the longest vehicle needs in a queue, m: vehicle length and standstill gap.
 double queue_space_m(const Scenario& scenario) {
-    return scenario.vehicle.length_m + longest_standstill_gap_m(scenario);
+    return longest_vehicle_m(scenario) + longest_standstill_gap_m(scenario);
 }
 
-// Returns the stopping distance with the deceleration that drivers accept on yellow, m. The result includes the
-// distance driven during the lag of the brake and while the deceleration builds up (sim/junction/stop_lines.cpp). It is
-// rounded up to 0.1 m, so that a user can enter the minimum that a message names.
+// Returns the longest stopping distance of all vehicles with the deceleration that their drivers accept on yellow, m.
+// The result includes the distance driven during the lag of the brake and while the deceleration builds up
+// (sim/junction/stop_lines.cpp). It is rounded up to 0.1 m, so that a user can enter the minimum that a message names.
 double stopping_m(const Scenario& scenario, double speed_mps) {
-    const double b = scenario.driver.stop.decision_deceleration_mps2;
-    const double delay_s = scenario.vehicle.brake_lag_s + 0.5 * b / scenario.driver.cacc.jerk_down_mps3;
-    return std::ceil(10.0 * (speed_mps * delay_s + square(speed_mps) / (2.0 * b))) / 10.0;
+    double longest_m = 0.0;
+    for (const PopulationSettings& population : scenario.populations) {
+        for (const PopulationSettings::Component& component : population.components) {
+            const DriverSettings& driver = driver_of(scenario, component);
+            const double b = driver.stop.decision_deceleration_mps2;
+            const double brake_lag_s = vehicle_of(scenario, component).brake_lag_s;
+            const double delay_s = brake_lag_s + 0.5 * b / driver.cacc.jerk_down_mps3;
+            longest_m = std::max(longest_m, speed_mps * delay_s + square(speed_mps) / (2.0 * b));
+        }
+    }
+    return std::ceil(10.0 * longest_m) / 10.0;
 }
 
 std::string stopping_text(const Scenario& scenario, double speed_mps) {
@@ -54,7 +63,12 @@ std::string stopping_text(const Scenario& scenario, double speed_mps) {
 
 void check_queue(const Scenario& scenario, Checker& check) {
     if (scenario.network.kind != "approach" || scenario.demand.kind != "queue") return;
-    const double queue_m = scenario.demand.vehicles * queue_space_m(scenario) + scenario.driver.stop.margin_m;
+    double mean_length_m = 0.0;
+    for (const PopulationSettings& population : scenario.populations) {
+        mean_length_m = std::max(mean_length_m, mean_vehicle_m(scenario, population));
+    }
+    const double space_m = mean_length_m + longest_standstill_gap_m(scenario);
+    const double queue_m = scenario.demand.vehicles * space_m + scenario.driver.stop.margin_m;
     if (scenario.network.approach.length_m >= queue_m) return;
     check.error("network.approach.length",
                 "a queue of " + std::to_string(scenario.demand.vehicles) + " vehicles a lane is " + metres(queue_m) +
@@ -90,7 +104,7 @@ void check_pockets(const Scenario& scenario, Checker& check) {
                 check.error("network.streets.intersections[" + node.name + "].legs[" + std::to_string(a) + "].lanes[" +
                                 std::to_string(k) + "].pocket",
                             "value " + metres(pocket_m) + " is too short for a vehicle of " +
-                                metres(scenario.vehicle.length_m) + " and its standstill gap: at least " +
+                                metres(longest_vehicle_m(scenario)) + " and its standstill gap: at least " +
                                 metres(queue_space_m(scenario)) + ", or 0 m for a lane as long as the approach");
             }
         }

@@ -9,6 +9,7 @@
 #include "driver/driver_settings.h"
 #include "driver/traffic_rules.h"
 #include "network/network_settings.h"
+#include "scenario/population_settings.h"
 #include "signals/signal_settings.h"
 #include "vehicle/powertrain_settings.h"
 

@@ -43,9 +43,9 @@ public:
         XmlFile xml(file_, "routes", "routes_file.xsd");
         xml.add("    <!-- minGap: 1 mm less than the standstill gap of the initial queues -->\n");
         for (std::size_t k = 0; k < model_.policies.size(); ++k) {
-            add_vehicle_type(
-                xml, model_, k,
-                {escape_xml(model_.policies[k].settings.name), model_.vehicles[0].length_m, changes_lanes()});
+            add_vehicle_type(xml, model_, k,
+                             {escape_xml(model_.policies[k].settings.name),
+                              model_.vehicle_of(static_cast<int>(k)).length_m, changes_lanes()});
         }
         // A SUMO route file must list the vehicles in the order of departure.
         std::vector<std::pair<int, const Trip*>> trips;

@@ -11,6 +11,8 @@ namespace stopline {
 struct SampledCurve {
     std::vector<double> x;
     std::vector<double> y;
+
+    bool operator==(const SampledCurve&) const = default;
 };
 
 struct PowertrainSettings {
@@ -25,6 +27,7 @@ struct PowertrainSettings {
     double rolling_r0 = 0.009;           // rolling resistance coefficient at standstill (no unit)
     double rolling_r1_s_per_m = 5.0e-5;  // increase of the coefficient per m/s
     double wheel_diameter_m = 0.606;
+    double maximum_speed_mps = 500.0 / 3.6;  // speed limiter; the driver never wants to drive faster
 
     // Engine or motor
     SampledCurve full_load;  // maximum torque [N m] over engine speed [rpm]
@@ -56,6 +59,8 @@ struct PowertrainSettings {
     std::vector<double> lag_gear_factor;   // [gear]
     double brake_lag_s = 0.2;
     double brake_friction = 0.8;  // tyre-road friction coefficient (no unit) that limits braking and traction
+
+    bool operator==(const PowertrainSettings&) const = default;
 };
 
 }  // namespace stopline

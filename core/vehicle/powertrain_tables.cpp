@@ -81,6 +81,7 @@ PowertrainTables compile_powertrain(const PowertrainSettings& s) {
     PowertrainTables t;
     const double radius_m = 0.5 * s.wheel_diameter_m;
     t.length_m = s.length_m;
+    t.maximum_speed_mps = s.maximum_speed_mps;
     t.mass_kg = s.mass_kg + s.load_kg;
     t.drag_Ns2pm2 = 0.5 * kAirDensity_kgpm3 * s.drag_coefficient * s.frontal_area_m2;
     t.rolling_N = t.mass_kg * kGravity_mps2 * s.rolling_r0;

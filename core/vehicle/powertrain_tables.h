@@ -19,10 +19,11 @@ struct PowertrainTablesOf {
     static constexpr int kLagNodes = 16;
 
     Number length_m = 0.0;
-    Number mass_kg = 0.0;       // kerb mass and load
-    Number drag_Ns2pm2 = 0.0;   // 0.5 rho c_d A: air resistance divided by the square of the speed
-    Number rolling_N = 0.0;     // m g r0
-    Number rolling_Nspm = 0.0;  // m g r1
+    Number maximum_speed_mps = 0.0;  // speed limiter
+    Number mass_kg = 0.0;            // kerb mass and load
+    Number drag_Ns2pm2 = 0.0;        // 0.5 rho c_d A: air resistance divided by the square of the speed
+    Number rolling_N = 0.0;          // m g r0
+    Number rolling_Nspm = 0.0;       // m g r1
     Number inverse_mass_1pkg = 0.0;
     Number friction_mps2 = 0.0;  // mu g: friction limit of acceleration and deceleration
     Number idle_rpm = 0.0;

@@ -27,7 +27,7 @@ Track queue(const std::string& policy, int vehicles, const std::vector<std::stri
     plan.overrides = overrides;
     if (!overrides.empty()) plan.step_s = 0.1;
     Track track(plan);
-    track.place_platoon(0, kStopLine_m - track.model().driver.stop.margin_m, 0.0, vehicles - 1);
+    track.place_platoon(0, kStopLine_m - track.model().common_driver().stop.margin_m, 0.0, vehicles - 1);
     return track;
 }
 

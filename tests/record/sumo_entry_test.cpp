@@ -136,8 +136,9 @@ TEST(SumoEntry, OnShortEdgesLeavesTheMarginForYielding) {
         EXPECT_EQ(fronts.size(), 1U) << position;
         return fronts.empty() ? -1.0 : fronts[0];
     };
-    const double margin_m =
-        network_model(scenario_of(R"(<trip id="a" depart="0" from="w_in" to="e_out"/>)"), 0).give_way.margin_m;
+    const double margin_m = network_model(scenario_of(R"(<trip id="a" depart="0" from="w_in" to="e_out"/>)"), 0)
+                                .drivers[0]
+                                .give_way.margin_m;
     ASSERT_GT(margin_m, 0.2);
     for (const char* const position : {"", "departPos=\"2\"", "departPos=\"last\""}) {
         EXPECT_NEAR(front_m(position, "10,-8 7,-0.5 14,0"), std::max(2.0 - margin_m, 0.0), 0.05) << position;

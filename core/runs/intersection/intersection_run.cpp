@@ -7,6 +7,7 @@
 #include "base/containers/index.h"
 #include "base/speed_thresholds.h"
 #include "scenario/build_model.h"
+#include "scenario/fleets.h"
 
 namespace stopline {
 
@@ -166,12 +167,13 @@ double cycle_of(const Scenario& scenario) { return scenario.signal.intersection_
 // begins with the front at the stop line and ends with the rear on the exit lane. The vehicle drives at the speed limit
 // of the connection.
 double slowest_crossing_s(const Model& model) {
+    double longest_m = 0.0;
+    for (const PowertrainTables& vehicle : model.vehicles) longest_m = std::max(longest_m, vehicle.length_m);
     double slowest_s = 0.0;
     for (const Lane& connection : model.graph.lanes) {
         if (connection.origin < 0) continue;
         const Lane& origin = model.graph.lanes[at(connection.origin)];
-        const double crossing_m =
-            origin.length_m - origin.stop_line_m + connection.length_m + model.vehicles[0].length_m;
+        const double crossing_m = origin.length_m - origin.stop_line_m + connection.length_m + longest_m;
         slowest_s = std::max(slowest_s, crossing_m / connection.limit_mps);
     }
     return slowest_s;
@@ -220,7 +222,8 @@ IntersectionResult run_intersection(const Scenario& scenario, std::size_t popula
     const State& state = simulation.state();
     if (result.complete) observation.call(population, simulation);
     sampler.finish(result);
-    result.occupied = result.vehicles_present * scenario.vehicle.length_m / road_m(scenario, model);
+    const double mean_length_m = mean_vehicle_m(scenario, scenario.populations.at(population));
+    result.occupied = result.vehicles_present * mean_length_m / road_m(scenario, model);
     count_turns(model, state, result);
     measure_zones(scenario, model, state, result);
     const auto latest_green_start_s = [&](int signal_group, double time_s) {

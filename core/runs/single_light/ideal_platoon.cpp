@@ -40,26 +40,25 @@ double gap_keeping_speed_mps(const GapPolicy& policy, double available_m, double
 
 }  // namespace
 
-std::vector<double> ideal_passages_s(std::span<const SpeedSample> leader,
-                                     const std::vector<const GapPolicySettings*>& policies, double length_m,
+std::vector<double> ideal_passages_s(std::span<const SpeedSample> leader, const std::vector<IdealVehicle>& vehicles,
                                      double to_line_m, double until_s) {
-    const std::size_t vehicles = policies.size();
-    std::vector<double> front_m(vehicles, -to_line_m);
-    std::vector<double> speed_mps(vehicles, 0.0);
+    const std::size_t count = vehicles.size();
+    std::vector<double> front_m(count, -to_line_m);
+    std::vector<double> speed_mps(count, 0.0);
     std::vector<GapPolicy> ready;
-    for (std::size_t i = 0; i < vehicles; ++i) {
-        ready.push_back(make_gap_policy(*policies[i]));
-        if (i > 0) front_m[i] = front_m[i - 1] - length_m - equilibrium_gap_m(ready[i], 0.0);
+    for (std::size_t i = 0; i < count; ++i) {
+        ready.push_back(make_gap_policy(*vehicles[i].policy));
+        if (i > 0) front_m[i] = front_m[i - 1] - vehicles[i - 1].length_m - equilibrium_gap_m(ready[i], 0.0);
     }
     std::vector<double> passages_s;
     const auto steps = static_cast<std::int64_t>(std::floor(until_s / kIdealStep_s));
-    for (std::int64_t step = 0; step < steps && passages_s.size() < vehicles; ++step) {
+    for (std::int64_t step = 0; step < steps && passages_s.size() < count; ++step) {
         const double now_s = static_cast<double>(step) * kIdealStep_s;
-        for (std::size_t i = 0; i < vehicles; ++i) {
+        for (std::size_t i = 0; i < count; ++i) {
             if (i == 0) {
                 speed_mps[i] = speed_at(leader, now_s + 0.5 * kIdealStep_s);
             } else {
-                const double available_m = front_m[i - 1] - length_m - front_m[i];
+                const double available_m = front_m[i - 1] - vehicles[i - 1].length_m - front_m[i];
                 speed_mps[i] = gap_keeping_speed_mps(ready[i], available_m, speed_mps[i]);
             }
             const double last_m = front_m[i];

@@ -40,7 +40,7 @@ const TrajectoryPoint* last_steady_point(std::span<const TrajectoryPoint> points
 
 // Returns the vehicles that have a steady sample, with their values at the last steady sample.
 std::vector<SteadyVehicle> vehicles_in_range(const std::vector<TrajectoryPoint>& trajectory, double interval_s,
-                                             const SpeedRange& range, double length_m) {
+                                             const SpeedRange& range) {
     std::vector<TrajectoryPoint> points = trajectory;
     std::stable_sort(points.begin(), points.end(),
                      [](const TrajectoryPoint& a, const TrajectoryPoint& b) { return a.vehicle < b.vehicle; });
@@ -49,8 +49,8 @@ std::vector<SteadyVehicle> vehicles_in_range(const std::vector<TrajectoryPoint>&
         while (end < points.size() && points[end].vehicle == points[begin].vehicle) ++end;
         const TrajectoryPoint* const last = last_steady_point({&points[begin], end - begin}, interval_s, range);
         if (last == nullptr) continue;
-        steady.push_back(
-            {last->vehicle, last->policy, last->net_gap_m, (length_m + last->net_gap_m) / last->speed_mps});
+        steady.push_back({last->vehicle, last->policy, last->net_gap_m,
+                          (last->leader_length_m + last->net_gap_m) / last->speed_mps});
     }
     return steady;
 }
@@ -79,14 +79,14 @@ LeaderStart leader_start(const std::vector<TrajectoryPoint>& points, double limi
 }
 
 std::vector<SteadyVehicle> steady_vehicles(const std::vector<TrajectoryPoint>& trajectory, double interval_s,
-                                           double cruise_mps, double length_m) {
-    return vehicles_in_range(trajectory, interval_s, {cruise_mps - kAtLimit_mps, cruise_mps + kAtLimit_mps}, length_m);
+                                           double cruise_mps) {
+    return vehicles_in_range(trajectory, interval_s, {cruise_mps - kAtLimit_mps, cruise_mps + kAtLimit_mps});
 }
 
 std::vector<SteadyVehicle> cruising_vehicles(const std::vector<TrajectoryPoint>& trajectory, double interval_s,
-                                             double cruise_mps, double length_m) {
+                                             double cruise_mps) {
     constexpr double kAny_mps = std::numeric_limits<double>::max();
-    return vehicles_in_range(trajectory, interval_s, {cruise_mps - kAtLimit_mps, kAny_mps}, length_m);
+    return vehicles_in_range(trajectory, interval_s, {cruise_mps - kAtLimit_mps, kAny_mps});
 }
 
 }  // namespace stopline

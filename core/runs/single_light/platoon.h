@@ -27,18 +27,18 @@ struct SteadyVehicle {
     int vehicle = 0;
     int policy = 0;  // index into PopulationSettings::components
     double net_gap_m = 0.0;
-    double headway_s = 0.0;  // (length + net gap) / speed
+    double headway_s = 0.0;  // (length of the leader + net gap) / speed
 };
 // Returns the vehicles that reach steady state, with their values at the last sample in steady state. A vehicle is in
 // steady state if, for five seconds, its speed was within kAtLimit_mps of `cruise_mps` and its net gap changed by 0.1 m
 // or less. `cruise_mps` is the speed of a vehicle without leader. The samples must be `interval_s` apart.
 std::vector<SteadyVehicle> steady_vehicles(const std::vector<TrajectoryPoint>& trajectory, double interval_s,
-                                           double cruise_mps, double length_m);
+                                           double cruise_mps);
 // Returns the vehicles that kept their net gap for five seconds at a speed of at least `cruise_mps` - kAtLimit_mps.
 // There is no upper limit, because a vehicle that closes a gap drives faster than `cruise_mps`. The vehicles behind it
 // follow at the same speed, with gaps that stay too large meanwhile.
 std::vector<SteadyVehicle> cruising_vehicles(const std::vector<TrajectoryPoint>& trajectory, double interval_s,
-                                             double cruise_mps, double length_m);
+                                             double cruise_mps);
 
 // Returns true if a vehicle has reached the gap of its policy. The limit of 1.25 times this gap plus 0.5 m is far above
 // all errors of the controllers, so a vehicle with a larger gap has not closed up yet.

@@ -9,6 +9,7 @@
 #include "base/containers/index.h"
 #include "base/nan.h"
 #include "runs/single_light/ideal_platoon.h"
+#include "scenario/fleets.h"
 #include "sim/state/model.h"
 
 namespace stopline {
@@ -28,9 +29,9 @@ const GapPolicySettings& policy_named(const Scenario& scenario, const std::strin
 SteadyFlow steady_flow(const Scenario& scenario, const PopulationSettings& population,
                        const std::vector<TrajectoryPoint>& points, double interval_s) {
     const double cruise_mps = cruise_speed_mps(scenario);
-    const double length_m = scenario.vehicle.length_m;
-    const std::vector<SteadyVehicle> steady = steady_vehicles(points, interval_s, cruise_mps, length_m);
-    const std::vector<SteadyVehicle> cruising = cruising_vehicles(points, interval_s, cruise_mps, length_m);
+    const std::vector<SteadyVehicle> steady = steady_vehicles(points, interval_s, cruise_mps);
+    const std::vector<SteadyVehicle> cruising = cruising_vehicles(points, interval_s, cruise_mps);
+    const double mean_length_m = mean_vehicle_m(scenario, population);
     SteadyFlow flow;
     std::vector<double> open_gaps_m;
     for (std::size_t k = 0; k < population.components.size(); ++k) {
@@ -51,7 +52,7 @@ SteadyFlow steady_flow(const Scenario& scenario, const PopulationSettings& popul
         flow.net_gap_m += share * mean(gaps_m);
         flow.headway_s += share * mean(headways_s);
         flow.policy_gap_m += share * gap_m;
-        flow.policy_headway_s += share * (length_m + gap_m) / cruise_mps;
+        flow.policy_headway_s += share * (mean_length_m + gap_m) / cruise_mps;
     }
     flow.deviation_percent = 100.0 * (flow.headway_s / flow.policy_headway_s - 1.0);
     flow.not_closed_up = static_cast<int>(open_gaps_m.size());
@@ -111,13 +112,14 @@ Counter ideal_counter(const Scenario& scenario, const PopulationSettings& popula
         std::sort(queue.begin(), queue.end(), [](const TrajectoryPoint& one, const TrajectoryPoint& other) {
             return one.distance_m > other.distance_m;
         });
-        std::vector<const GapPolicySettings*> policies;
+        std::vector<IdealVehicle> vehicles;
         for (const TrajectoryPoint& point : queue) {
-            policies.push_back(&policy_named(scenario, population.components[at(point.policy)].policy));
+            const PopulationSettings::Component& component = population.components[at(point.policy)];
+            vehicles.push_back({&policy_named(scenario, component.policy), vehicle_of(scenario, component).length_m});
         }
         const std::vector<SpeedSample> leader = speeds_from(points_of(points, queue.front().vehicle), green_start_s);
-        const std::vector<double> lane_s = ideal_passages_s(leader, policies, scenario.vehicle.length_m,
-                                                            line_m - queue.front().distance_m, scenario.signal.green_s);
+        const std::vector<double> lane_s =
+            ideal_passages_s(leader, vehicles, line_m - queue.front().distance_m, scenario.signal.green_s);
         times_s.insert(times_s.end(), lane_s.begin(), lane_s.end());
     }
     return Counter(times_s);

@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 
 #include "base/io/csv.h"
+#include "scenario/fleets.h"
 
 namespace stopline {
 
 namespace {
 
-const std::string& policy_name(const SingleLightReport& result, std::size_t population, int policy) {
-    return result.scenario.populations[population].components[static_cast<std::size_t>(policy)].policy;
+std::string policy_name(const SingleLightReport& result, std::size_t population, int policy) {
+    return component_name(result.scenario.populations[population].components[static_cast<std::size_t>(policy)]);
 }
 
 std::vector<std::string> summary_row(const PopulationSummary& summary, const RunResult& run) {

@@ -58,6 +58,7 @@ void add_blocks(const Table& table, const std::string& path, const void* setting
     for (const Field& field : table.fields) {
         const std::string inner_path = join_path(path, field.name);
         if (const auto* const section = std::get_if<SectionField>(&field.kind)) {
+            if (section->is_optional) continue;  // the same fields as in a section of the top level
             add_blocks(section->table(), inner_path, section->read(settings), blocks);
         } else if (const auto* const list = std::get_if<ListField>(&field.kind)) {
             const Table& inner = list->table();

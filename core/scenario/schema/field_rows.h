@@ -178,6 +178,19 @@ auto section(std::string name, const Table& (*table)(), std::string meaning, std
                                 std::move(library)}}};
 }
 
+// Makes the row of a section that can be absent. The member is a std::optional.
+template <auto M>
+auto optional_section(std::string name, const Table& (*table)(), std::string meaning, std::string library = {}) {
+    using S = field_rows::StructOf<M>;
+    return Row<S>{{std::move(name), std::move(meaning),
+                   SectionField{[](void* s) -> void* { return &(static_cast<S*>(s)->*M).emplace(); },
+                                [](const void* s) -> const void* {
+                                    const auto& member = static_cast<const S*>(s)->*M;
+                                    return member.has_value() ? &*member : nullptr;
+                                },
+                                table, std::move(library), true}}};
+}
+
 template <auto M>
 auto list(std::string name, const Table& (*table)(), Count count, std::string meaning, std::string library = {}) {
     using S = field_rows::StructOf<M>;

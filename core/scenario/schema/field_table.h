@@ -99,6 +99,7 @@ struct SectionField {
     const void* (*read)(const void* settings);
     const Table& (*table)();
     std::string library;
+    bool is_optional = false;  // true: the section can be absent; `read` then returns null
 };
 // A list of maps. If `library` is not empty, it is a file "folder/name" of the data directory, and the list begins with
 // the entries of this file. An entry of the scenario replaces the library entry of the same name.

@@ -10,6 +10,7 @@
 
 #include "base/nearest_name.h"
 #include "scenario/driving_checks.h"
+#include "scenario/fleets.h"
 #include "scenario/network_checks.h"
 #include "scenario/schema/field_rows.h"
 #include "scenario/schema/fields.h"
@@ -207,6 +208,7 @@ void check_scenario(const Scenario& scenario, Checker& check) {
     check_steps(scenario, check);
     check_times(scenario, check);
     check_names(scenario, check);
+    check_fleets(scenario, check);
     check_gaps(scenario, check);
     check_queue(scenario, check);
     check_grid_links(scenario, check);

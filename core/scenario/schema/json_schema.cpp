@@ -1,4 +1,5 @@
 // Writes the tables of fields as a JSON schema (draft 07). Editors use it to complete and check scenario files.
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -71,7 +72,8 @@ struct KindSchema {
     }
 
     Json operator()(const SectionField& f) const {
-        Json map = table_schema(f.table(), f.read(settings));
+        const std::shared_ptr<void> defaults = f.is_optional ? f.table().make_default() : nullptr;
+        Json map = table_schema(f.table(), f.is_optional ? defaults.get() : f.read(settings));
         if (f.library.empty()) return map;
         const Json name{{"type", "string"},
                         {"description", "name of a file in data/" + f.library + ", or path of a file"}};

@@ -61,8 +61,10 @@ struct ValueWriter {
     }
 };
 
-// Returns true for an empty text. write_fields() leaves out such a field.
-bool is_empty_text(const FieldKind& kind, const void* settings) {
+// Returns true for an empty text and for an absent section. write_fields() leaves out such a field.
+bool is_absent(const FieldKind& kind, const void* settings) {
+    const auto* const section = std::get_if<SectionField>(&kind);
+    if (section != nullptr) return section->read(settings) == nullptr;
     const auto* const text = std::get_if<TextField>(&kind);
     return text != nullptr && text->at.read(settings).empty();
 }
@@ -90,7 +92,7 @@ struct ValueText {
 std::string write_fields(const Table& table, const void* settings, int indent) {
     std::string lines;
     for (const Field& field : table.fields) {
-        if (!applies(table, field, settings) || is_empty_text(field.kind, settings)) continue;
+        if (!applies(table, field, settings) || is_absent(field.kind, settings)) continue;
         lines += std::string(static_cast<std::size_t>(indent), ' ') + field.name + ":";
         lines += std::visit(ValueWriter{settings, indent + 2}, field.kind);
     }

@@ -7,7 +7,7 @@
 
 #include "base/input_error.h"
 #include "base/nearest_name.h"
-#include "scenario/file_name.h"
+#include "scenario/files/file_name.h"
 #include "scenario/schema/field_path.h"
 #include "scenario/schema/fields.h"
 #include "scenario/schema/old_names.h"

@@ -70,7 +70,7 @@ bool has_room_beyond_lane(const Model& model, const State& state, int lane, int 
     const int route = state.plan.adjacent(lane).turn_option(state.plan.turn_of_trip(record.trip, trip_edge)).route;
     if (route < 0) return true;
     const RoutePosition position{route, 0, record.trip, trip_edge};
-    const LeaderAhead leader = leader_ahead(state, lane, front_m, position, model.driver.cacc.radar_range_m);
+    const LeaderAhead leader = leader_ahead(state, lane, front_m, position, model.common_driver().cacc.radar_range_m);
     if (leader.slot < 0) return true;
     const double rear_m =
         leader.lane_start_m + v.position_m[at(leader.slot)] - static_cast<double>(v.length_m[at(leader.slot)]);
@@ -86,17 +86,18 @@ bool reinsert_teleported(const Model& model, State& state, int k) {
     ensure_free_slot(state, target_lane);
     const int waiting = state.congestion.teleporting.first + k;
     const LaneBlock& block = state.blocks[at(target_lane)];
+    const DriverPlan& driver = model.driver_of(v.policy[at(waiting)]);
     const Lane& lane = model.graph.lanes[at(target_lane)];
     const double length_m = v.length_m[at(waiting)];
     double front_m = length_m;
-    double speed_mps = lane.limit_mps;
+    double speed_mps = std::min(lane.limit_mps, model.vehicle_of(v.policy[at(waiting)]).maximum_speed_mps);
     // Only vehicles in imported networks have a trip. In these networks the vehicle can be longer than the target lane.
     // It is then reinserted only if its trip ends on the target lane, with its front at the stop line.
     if (v.record[at(waiting)].trip >= 0) {
         if (length_m >= lane.stop_line_m && !trip_ends_on_next_edge(state, v.record[at(waiting)])) return false;
         front_m = std::min(length_m, lane.stop_line_m);
         const double to_line_m = lane.stop_line_m - front_m;
-        speed_mps = std::min(speed_mps, std::sqrt(2.0 * model.driver.stop.deceleration_mps2 * to_line_m));
+        speed_mps = std::min(speed_mps, std::sqrt(2.0 * driver.tables.stop.deceleration_mps2 * to_line_m));
         if (block.count == 0 && !has_room_beyond_lane(model, state, target_lane, waiting, front_m)) return false;
     }
     const double gap_m = v.standstill_gap_m[at(waiting)];
@@ -107,11 +108,12 @@ bool reinsert_teleported(const Model& model, State& state, int k) {
         speed_mps = std::min(v.speed_mps[at(last)], 0.5 * room_m);
     }
     if (v.record[at(waiting)].trip < 0) {
-        speed_mps = std::min(speed_mps, max_stoppable_speed_mps(model, target_lane, front_m));
+        speed_mps = std::min(speed_mps, max_stoppable_speed_mps(model, driver, target_lane, front_m));
     }
     if (approaching_vehicle_cannot_stop(model, state, target_lane)) return false;
     const int slot = append_slot(state, target_lane);
     v.copy(waiting, slot);
+    limit_to_maximum_speed(state, target_lane, slot);
     const auto i = at(slot);
     v.position_m[i] = front_m;
     v.speed_mps[i] = speed_mps;

@@ -5,6 +5,7 @@
 #include "base/containers/index.h"
 #include "base/simd/narrowed.h"
 #include "sim/full_dynamics/full_kernels.h"
+#include "sim/full_dynamics/human_perception.h"
 #include "sim/state/queries/overlap.h"
 
 namespace stopline {
@@ -73,10 +74,23 @@ void evaluate_gap_laws(const Model& model, int vehicles, const FullGroup& g) {
     }
 }
 
+// Sets the driver of each vehicle of the group, and lowers the speed limits to the speed limiters of the vehicles.
+void apply_classes(const Model& model, int vehicles, const FullGroup& g) {
+    if (model.drivers.size() > 1) {
+        for (int i = 0; i < vehicles; ++i) g.driver[i] = model.classes[at(g.policy[i])].driver;
+    }
+    if (!model.has_speed_limiters) return;
+    for (int i = 0; i < vehicles; ++i) {
+        const int type = model.vehicles.size() > 1 ? g.type[i] : 0;
+        g.limit[i] = std::min(g.limit[i], static_cast<float>(model.vehicles[at(type)].maximum_speed_mps));
+    }
+}
+
 }  // namespace
 
 FullTables full_tables(const Model& model) {
-    FullTables tables{narrowed(model.driver), {}};
+    FullTables tables;
+    for (const DriverPlan& driver : model.drivers) tables.drivers.push_back(narrowed(driver.tables));
     for (const PowertrainTables& type : model.vehicles) tables.vehicles.push_back(narrowed(type));
     return tables;
 }
@@ -88,7 +102,14 @@ void step_full(const Model& model, const FullTables& tables, const LaneGroup& la
     const FullGroup group = part.full_group.streams();
     kernels.gather(streams, state.radar, state.v2v, lanes, model.step_s, group);
     evaluate_gap_laws(model, lanes.vehicles, group);
-    kernels.plan(tables.driver, group, lanes.vehicles, model.step_s, streams, next);
+    apply_classes(model, lanes.vehicles, group);
+    see_as_humans(model, state, lanes.lanes, group);
+    for (std::size_t k = 0; k < tables.drivers.size(); ++k) {
+        const int only = tables.drivers.size() == 1 ? -1 : static_cast<int>(k);
+        const auto plan = model.drivers[k].is_human ? kernels.plan_human : kernels.plan;
+        plan(tables.drivers[k], group, lanes.vehicles, model.step_s, only, streams,
+             k == 0 ? next : std::span<const int>());
+    }
     for (std::size_t k = 0; k < tables.vehicles.size(); ++k) {
         const int only = tables.vehicles.size() == 1 ? -1 : static_cast<int>(k);
         kernels.drive(tables.vehicles[k], group, lanes.vehicles, model.step_s, only, streams,

@@ -12,7 +12,7 @@ namespace stopline {
 
 // Driver tables and vehicle tables of the model, converted to single precision for the kernels.
 struct FullTables {
-    DriverTablesOf<float> driver;
+    std::vector<DriverTablesOf<float>> drivers;       // [driver], as Model::drivers
     std::vector<PowertrainTablesOf<float>> vehicles;  // [vehicle type]
 };
 FullTables full_tables(const Model& model);

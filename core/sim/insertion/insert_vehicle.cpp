@@ -16,11 +16,12 @@ int insert_vehicle(const Model& model, State& state, const NewVehicle& vehicle) 
     v.speed_mps[i] = vehicle.speed_mps;
     v.acceleration_mps2[i] = 0.0F;
     v.length_m[i] = static_cast<float>(vehicle.length_m);
-    v.reset_powertrain(slot, model.vehicles[0], vehicle.speed_mps);
+    v.reset_powertrain(slot, model.vehicle_of(vehicle.policy), vehicle.speed_mps);
     v.is_platoon_leader[i] = 1.0F;
     v.standstill_gap_m[i] = static_cast<float>(model.policies[at(vehicle.policy)].settings.standstill_gap_m);
     v.policy[i] = vehicle.policy;
-    v.type[i] = 0;
+    limit_to_maximum_speed(state, vehicle.lane, slot);
+    v.type[i] = model.classes[at(vehicle.policy)].vehicle;
     v.id[i] = state.insertion.next_id++;
     v.record[i] = {};
     v.lane_memory[i] = {};

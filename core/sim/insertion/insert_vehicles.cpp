@@ -47,15 +47,16 @@ bool is_connection_occupied(const Model& model, const State& state, int lane) {
 // new vehicle has no leader on this lane, so the leader is searched further downstream.
 Entry entry_on_empty_link(const Model& model, const State& state, int number, int policy, double max_entry_mps) {
     const int lane = model.demand.inlets[at(number)].lane;
-    const double front_m = model.vehicles[0].length_m;
-    const double max_mps = std::min(max_entry_mps, max_stoppable_speed_mps(model, lane, front_m));
+    const DriverPlan& driver = model.driver_of(policy);
+    const double front_m = model.vehicle_of(policy).length_m;
+    const double max_mps = std::min(max_entry_mps, max_stoppable_speed_mps(model, driver, lane, front_m));
     const int route = state.insertion.inlets[at(number)].next_route;
-    const LeaderAhead leader = leader_ahead(state, lane, front_m, route, 0, model.driver.cacc.radar_range_m);
+    const LeaderAhead leader = leader_ahead(state, lane, front_m, route, 0, model.common_driver().cacc.radar_range_m);
     if (leader.slot < 0) return {true, front_m, max_mps};
     const VehicleArrays& v = state.vehicles;
     const double leader_mps = v.speed_mps[at(leader.slot)];
     const double gap_m = leader.lane_start_m + v.position_m[at(leader.slot)] - v.length_m[at(leader.slot)] - front_m;
-    const double braking_m = braking_distance_m(max_mps, leader_mps, model.driver.stop.deceleration_mps2);
+    const double braking_m = braking_distance_m(max_mps, leader_mps, driver.tables.stop.deceleration_mps2);
     const bool is_far = gap_m >= desired_gap_m(model, policy, max_mps) + braking_m;
     const double speed_mps = is_far ? max_mps : std::min(max_mps, leader_mps);
     return {gap_m >= desired_gap_m(model, policy, speed_mps), front_m, speed_mps};
@@ -65,18 +66,20 @@ Entry entry_on_empty_link(const Model& model, const State& state, int number, in
 // lie wholly on the lane, so that its rear is not inside the intersection upstream.
 Entry entry_at(const Model& model, const State& state, int number, int policy) {
     const int lane = model.demand.inlets[at(number)].lane;
-    const double max_entry_mps = std::min(model.demand.entry_speed_mps, model.graph.lanes[at(lane)].limit_mps);
+    const double max_entry_mps = std::min({model.demand.entry_speed_mps, model.graph.lanes[at(lane)].limit_mps,
+                                           model.vehicle_of(policy).maximum_speed_mps});
     const LaneBlock& block = state.blocks[at(lane)];
     if (is_connection_occupied(model, state, lane)) return {};
     const bool is_link = !model.connections_to[at(lane)].empty();
     if (block.count == 0 && is_link) return entry_on_empty_link(model, state, number, policy, max_entry_mps);
     if (block.count == 0) return {true, 0.0, max_entry_mps};
-    const double min_front_m = is_link ? model.vehicles[0].length_m : 0.0;
+    const double min_front_m = is_link ? model.vehicle_of(policy).length_m : 0.0;
     const VehicleArrays& v = state.vehicles;
     const std::size_t last = at(block.last());
     const double rear_m = v.position_m[last] - v.length_m[last];
     const double max_mps =
-        is_link ? std::min(max_entry_mps, max_stoppable_speed_mps(model, lane, min_front_m)) : max_entry_mps;
+        is_link ? std::min(max_entry_mps, max_stoppable_speed_mps(model, model.driver_of(policy), lane, min_front_m))
+                : max_entry_mps;
     const double speed_mps = std::min(max_mps, v.speed_mps[last]);
     if (model.demand.is_saturated(number)) {
         const double position_m = rear_m - desired_gap_m(model, policy, speed_mps);
@@ -88,11 +91,19 @@ Entry entry_at(const Model& model, const State& state, int number, int policy) {
 }
 
 // Copies acceleration and powertrain state from the leader to a new vehicle. The vehicle thus enters as part of an
-// endless platoon.
-void copy_longitudinal_state(VehicleArrays& v, std::size_t i, std::size_t leader) {
+// endless platoon. Torque, gear and lag of another vehicle type have no meaning for the new vehicle. If the types
+// differ, the new vehicle keeps those of steady driving. It brakes like its leader, but does not accelerate yet.
+void copy_longitudinal_state(const Model& model, VehicleArrays& v, std::size_t i, std::size_t leader) {
     v.acceleration_mps2[i] = v.acceleration_mps2[leader];
     v.is_platoon_leader[i] = 0.0F;
     if (!v.has_powertrain()) return;
+    if (v.type[i] != v.type[leader]) {
+        const double mass_ratio = model.vehicles[at(v.type[i])].mass_kg / model.vehicles[at(v.type[leader])].mass_kg;
+        v.acceleration_mps2[i] = std::min(v.acceleration_mps2[leader], 0.0F);
+        v.request_mps2[i] = std::min(v.request_mps2[leader], 0.0F);
+        v.brake_N[i] = v.brake_N[leader] * static_cast<float>(mass_ratio);
+        return;
+    }
     v.request_mps2[i] = v.request_mps2[leader];
     v.torque_Nm[i] = v.torque_Nm[leader];
     v.brake_N[i] = v.brake_N[leader];
@@ -104,7 +115,7 @@ void copy_longitudinal_state(VehicleArrays& v, std::size_t i, std::size_t leader
 void insert_at_inlet(const Model& model, State& state, int number, const Entry& entry) {
     const int lane = model.demand.inlets[at(number)].lane;
     InletState& inlet = state.insertion.inlets[at(number)];
-    const double length_m = model.vehicles[0].length_m;
+    const double length_m = model.vehicle_of(inlet.next_policy).length_m;
     const NewVehicle vehicle{lane, entry.position_m, entry.speed_mps, length_m, inlet.next_policy, inlet.next_route};
     const int slot = insert_vehicle(model, state, vehicle);
     inlet.next_policy = -1;
@@ -112,7 +123,7 @@ void insert_at_inlet(const Model& model, State& state, int number, const Entry& 
     const std::size_t i = at(slot);
     const bool is_first = state.blocks[at(lane)].count == 1;
     if (model.demand.saturated && !is_first && v.speed_mps[i - 1] <= entry.speed_mps) {
-        copy_longitudinal_state(v, i, i - 1);
+        copy_longitudinal_state(model, v, i, i - 1);
     }
     adopt_lane_route(model, state, lane, slot);
     draw_later_turns(model, state, lane, slot, true);
@@ -168,9 +179,11 @@ void insert_initial_queues(const Model& model, State& state) {
     reserve_initial_queues(model, state);
     for (int k = 0; k < static_cast<int>(model.demand.inlets.size()); ++k) {
         const int lane = model.demand.inlets[at(k)].lane;
-        double front_m = model.graph.lanes[at(lane)].stop_line_m - model.driver.stop.margin_m;
+        if (model.demand.inlets[at(k)].vehicles == 0) continue;
+        draw_next_vehicle(model, state, k);
+        const DriverTables& first_driver = model.driver_of(state.insertion.inlets[at(k)].next_policy).tables;
+        double front_m = model.graph.lanes[at(lane)].stop_line_m - first_driver.stop.margin_m;
         while (front_m >= 0.0 && state.insertion.inlets[at(k)].entered < model.demand.inlets[at(k)].vehicles) {
-            draw_next_vehicle(model, state, k);
             insert_at_inlet(model, state, k, {true, front_m, 0.0});
             const int last = state.blocks[at(lane)].last();
             draw_next_vehicle(model, state, k);

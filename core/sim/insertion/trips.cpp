@@ -82,10 +82,11 @@ double random_position(const Model& model, const State& state, int number) {
 // line and not beyond the waiting position before the first conflict area.
 double max_departure_m(const Model& model, const State& state, int lane, int number) {
     const Lane& road = model.graph.lanes[at(lane)];
+    const DriverPlan& driver = model.driver_of(model.demand.trip_policies[at(number)]);
     const int route = state.plan.adjacent(lane).turn_option(model.demand.turn_of_trip(number, 0)).route;
     if (route < 0 || state.plan.route(route).size() < 2) return road.stop_line_m;
     const double first_conflict_m = state.plan.lane(state.plan.route(route)[1]).first_conflict_m;
-    return std::max(std::min(road.stop_line_m, road.length_m + first_conflict_m - model.give_way.margin_m), 0.0);
+    return std::max(std::min(road.stop_line_m, road.length_m + first_conflict_m - driver.give_way.margin_m), 0.0);
 }
 
 // Returns the front position at which a new vehicle enters. On a link lane (a lane between two intersections) that is
@@ -104,8 +105,8 @@ double departure_front_m(const Model& model, const State& state, int lane, int n
         case given:
             return within_lane(static_cast<double>(trip.front_m));
         case last: {
-            if (block.count == 0) return within_lane(max_m - model.driver.stop.margin_m);
             const int policy = model.demand.trip_policies[at(number)];
+            if (block.count == 0) return within_lane(max_m - model.driver_of(policy).tables.stop.margin_m);
             const double last_mps = state.vehicles.speed_mps[at(block.last())];
             return within_lane(last_rear_m(state, lane) - desired_gap_m(model, policy, last_mps));
         }
@@ -144,7 +145,7 @@ EntryLeader entry_leader(const Model& model, const State& state, const Insertion
         return {v.position_m[leader] - static_cast<double>(v.length_m[leader]) - point.front_m, v.speed_mps[leader]};
     }
     const LeaderAhead leader =
-        leader_ahead(state, point.lane, point.front_m, position, model.driver.cacc.radar_range_m);
+        leader_ahead(state, point.lane, point.front_m, position, model.common_driver().cacc.radar_range_m);
     if (leader.slot < 0) return {};
     const double rear_m =
         leader.lane_start_m + v.position_m[at(leader.slot)] - static_cast<double>(v.length_m[at(leader.slot)]);
@@ -161,7 +162,8 @@ bool follower_has_room(const Model& model, const State& state, const InsertionPo
     const VehicleArrays& v = state.vehicles;
     const std::size_t follower = at(block.first + point.index);
     const double follower_mps = v.speed_mps[follower];
-    const double braking_m = braking_distance_m(follower_mps, speed_mps, model.driver.cacc.deceleration_comfort_mps2);
+    const CaccSettings& cacc = model.driver_of(v.policy[follower]).tables.cacc;
+    const double braking_m = braking_distance_m(follower_mps, speed_mps, cacc.deceleration_comfort_mps2);
     return rear_m - v.position_m[follower] + kPositionRounding_m >=
            desired_gap_m(model, v.policy[follower], follower_mps) + braking_m;
 }
@@ -203,7 +205,8 @@ double departure_speed_mps(const Model& model, const Trip& trip, int policy, dou
                            const EntryLeader& leader) {
     if (!leader.exists()) return wanted_mps;
     const auto is_safe = [&](double speed_mps) {
-        const double braking_m = braking_distance_m(speed_mps, leader.speed_mps, model.driver.stop.deceleration_mps2);
+        const StopSettings& stop = model.driver_of(policy).tables.stop;
+        const double braking_m = braking_distance_m(speed_mps, leader.speed_mps, stop.deceleration_mps2);
         return leader.gap_m + kPositionRounding_m >= desired_gap_m(model, policy, speed_mps) + braking_m;
     };
     if (is_safe(wanted_mps)) return wanted_mps;
@@ -248,11 +251,11 @@ bool insert_trip(const Model& model, State& state, int number, const InsertionPo
     const int lane_route = state.plan.adjacent(point.lane).turn_option(turn).route;
     const RoutePosition position{lane_route >= 0 ? lane_route : route, 0, number, 0};
     const EntryLeader leader = entry_leader(model, state, point, position);
-    double limit_mps = state.plan.free_speed_mps(point.lane);
+    double limit_mps = state.plan.free_speed_mps(point.lane, policy);
     if (lane_route < 0)
         limit_mps = std::min(limit_mps, 0.5 * road.stop_line_m);  // slow enough to change lanes for the turn
     const double to_line_m = road.stop_line_m - point.front_m;
-    const double stoppable_mps = std::sqrt(2.0 * model.driver.stop.deceleration_mps2 * to_line_m);
+    const double stoppable_mps = std::sqrt(2.0 * model.driver_of(policy).tables.stop.deceleration_mps2 * to_line_m);
     if (road.signal_group >= 0) limit_mps = std::min(limit_mps, stoppable_mps);
     const double wanted_mps = wanted_speed_mps(model, state, number, point.lane, limit_mps, leader);
     const double speed_mps = departure_speed_mps(model, trip, policy, wanted_mps, leader);

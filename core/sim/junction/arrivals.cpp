@@ -133,7 +133,7 @@ void look_upstream(const Model& model, const State& state, const Upstream& here,
         // turn is not drawn yet. Such a vehicle is assumed to take `here.connection`.
         const bool unknown = record.trip < 0 && record.following_turn == Turn::none;
         if (here.depth == 0 && !unknown && record.following_turn != turn) return;
-        const double acceleration_mps2 = model.give_way.approach_acceleration_mps2;
+        const double acceleration_mps2 = model.drivers.front().give_way.approach_acceleration_mps2;
         soonest.keep_earlier(earliest_arrival_s(distance_m, v.speed_mps[at(slot)], acceleration_mps2, limit_mps), slot);
     };
     for (const int upstream_connection : model.connections_to[at(here.lane)]) {
@@ -167,7 +167,7 @@ Arrival next_arrival(const Model& model, const State& state, const Conflict& con
     const VehicleArrays& v = state.vehicles;
     const LanePlan& other = state.plan.lane(conflict.other);
     const LanePlan& origin = state.plan.lane(other.origin);
-    const double acceleration_mps2 = model.give_way.approach_acceleration_mps2;
+    const double acceleration_mps2 = model.drivers.front().give_way.approach_acceleration_mps2;
     const int stopping = vehicle_stopping_at_signal(state, other.origin, conflict.other);
     const int held = vehicle_held_at_rest(model, state, other.origin);
     const auto is_ignored = [&](int slot) { return ignores_stopped && v.speed_mps[at(slot)] < kCrawlingSpeed_mps; };

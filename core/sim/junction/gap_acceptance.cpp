@@ -17,9 +17,9 @@ namespace {
 
 // Returns the travel time over a distance, s. A vehicle faster than `limit_mps`, the speed limit of its connection,
 // brakes towards the limit. A slower vehicle keeps its speed, but drives at kMinSpeed_mps at least.
-double travel_time_s(const Model& model, double distance_m, double speed_mps, double limit_mps) {
+double travel_time_s(const DriverPlan& driver, double distance_m, double speed_mps, double limit_mps) {
     constexpr double kMinSpeed_mps = 2.0;
-    const double b = model.driver.deceleration_mps2;
+    const double b = driver.tables.deceleration_mps2;
     const double slowing_m = 0.5 * (square(speed_mps) - square(limit_mps)) / b;
     if (slowing_m <= 0.0) return std::max(distance_m, 0.0) / std::max(speed_mps, kMinSpeed_mps);
     if (distance_m >= slowing_m) return (distance_m - slowing_m) / speed_mps + (speed_mps - limit_mps) / b;
@@ -41,14 +41,15 @@ double time_since_last_arrival_s(const State& state, const Conflict& conflict) {
 // Returns the time in s after which a vehicle of length `length_m`, now at `front_m` with `speed_mps`, no longer
 // hinders the next vehicle with priority. For a crossing vehicle, this is the time until it has left the conflict area.
 // For a merging vehicle, it is the time until this vehicle reaches the area, plus a reserve in which it speeds up.
-double passing_time_s(const Model& model, const State& state, int lane, const Conflict& conflict, double front_m,
-                      double speed_mps, double length_m) {
+double passing_time_s(const Model& model, const State& state, int lane, const Conflict& conflict, const Candidate& v,
+                      double front_m, double speed_mps) {
     constexpr double kMergingReserve_s = 1.0;
+    const double length_m = state.vehicles.length_m[at(v.slot)];
+    const GiveWaySettings& give_way = model.driver_of(state.vehicles.policy[at(v.slot)]).give_way;
     const bool merges = is_merge(model, state, lane, conflict);
     const double distance_m = (merges ? conflict.from_m : conflict.to_m + length_m) - front_m;
-    const double time_s =
-        earliest_arrival_s(std::max(distance_m, 0.0), speed_mps, model.give_way.approach_acceleration_mps2,
-                           state.plan.lane(lane).limit_mps);
+    const double time_s = earliest_arrival_s(std::max(distance_m, 0.0), speed_mps, give_way.approach_acceleration_mps2,
+                                             state.plan.lane(lane).limit_mps);
     return merges ? time_s + kMergingReserve_s : time_s;
 }
 
@@ -64,15 +65,15 @@ double needed_time_s(const Model& model, const State& state, int lane, const Con
                      double wait_m, bool has_begun) {
     const VehicleArrays& arrays = state.vehicles;
     const double speed_mps = arrays.speed_mps[at(v.slot)];
+    const DriverPlan& driver = model.driver_of(arrays.policy[at(v.slot)]);
     if (model.demand.trips.empty()) {
-        return model.give_way.critical_gap_s +
-               travel_time_s(model, wait_m - v.front_m, speed_mps, state.plan.lane(lane).limit_mps);
+        return driver.give_way.critical_gap_s +
+               travel_time_s(driver, wait_m - v.front_m, speed_mps, state.plan.lane(lane).limit_mps);
     }
-    const double length_m = arrays.length_m[at(v.slot)];
-    const double passing_s = passing_time_s(model, state, lane, conflict, v.front_m, speed_mps, length_m);
+    const double passing_s = passing_time_s(model, state, lane, conflict, v, v.front_m, speed_mps);
     if (has_begun) return passing_s;
-    const double from_rest_s = passing_time_s(model, state, lane, conflict, wait_m, 0.0, length_m);
-    const double gap_s = model.give_way.critical_gap_s - time_since_last_arrival_s(state, conflict);
+    const double from_rest_s = passing_time_s(model, state, lane, conflict, v, wait_m, 0.0);
+    const double gap_s = driver.give_way.critical_gap_s - time_since_last_arrival_s(state, conflict);
     return std::max(gap_s + passing_s - from_rest_s, passing_s);
 }
 
@@ -137,11 +138,12 @@ int committed_vehicle(const Model& model, const State& state, const Conflict& co
     for (int slot = block.first; slot < block.past_last(); ++slot) {
         if (v.next_lane[at(slot)] != conflict.other) continue;
         const double speed_mps = v.speed_mps[at(slot)];
-        const double first_m = state.plan.lane(conflict.other).first_conflict_m - model.give_way.margin_m;
+        const DriverPlan& driver = model.driver_of(v.policy[at(slot)]);
+        const double first_m = state.plan.lane(conflict.other).first_conflict_m - driver.give_way.margin_m;
         const double to_area_m = origin.length_m + first_m - v.position_m[at(slot)];
         const bool is_moving_through =
             v.record[at(slot)].accepted_gap_on == conflict.other && speed_mps >= kCrawlingSpeed_mps;
-        return is_moving_through && to_area_m < comfortable_braking_distance_m(model, speed_mps) ? slot : -1;
+        return is_moving_through && to_area_m < comfortable_braking_distance_m(driver, speed_mps) ? slot : -1;
     }
     return -1;
 }
@@ -149,13 +151,14 @@ int committed_vehicle(const Model& model, const State& state, const Conflict& co
 bool occupies_area_on_arrival(const Model& model, const State& state, int lane, const Conflict& conflict,
                               const Candidate& v, int other) {
     const VehicleArrays& arrays = state.vehicles;
+    const DriverPlan& driver = model.driver_of(arrays.policy[at(v.slot)]);
     const LanePlan& other_plan = state.plan.lane(conflict.other);
     const double in_s = earliest_arrival_s(std::max(conflict.from_m - v.front_m, 0.0), arrays.speed_mps[at(v.slot)],
-                                           model.give_way.approach_acceleration_mps2, state.plan.lane(lane).limit_mps);
+                                           driver.give_way.approach_acceleration_mps2, state.plan.lane(lane).limit_mps);
     const double speed_mps = arrays.speed_mps[at(other)];
     const double to_connection_m = state.plan.lane(other_plan.origin).length_m - arrays.position_m[at(other)];
     const double through_m = conflict.other_to_m + arrays.length_m[at(other)];
-    return travel_time_s(model, to_connection_m, speed_mps, other_plan.limit_mps) +
+    return travel_time_s(model.driver_of(arrays.policy[at(other)]), to_connection_m, speed_mps, other_plan.limit_mps) +
                through_m / std::min(speed_mps, other_plan.limit_mps) >
            in_s;
 }

@@ -44,10 +44,11 @@ double merging_stop_m(const Model& model, const State& state, int lane, const Ca
     // brake as hard as it can.
     const double speed_mps = arrays.speed_mps[at(other_slot)];
     const double braking_m =
-        model.meso ? comfortable_braking_distance_m(model, speed_mps) : emergency_braking_distance_m(model, speed_mps);
+        model.meso ? comfortable_braking_distance_m(model.driver_of(arrays.policy[at(other_slot)]), speed_mps)
+                   : emergency_braking_distance_m(model, speed_mps);
     const double stop_m = v.front_m + gap_m - static_cast<double>(arrays.standstill_gap_m[at(v.slot)]) + braking_m;
     if (v.front_m > conflict.from_m) return stop_m;
-    const double wait_m = conflict.from_m - model.give_way.margin_m;
+    const double wait_m = conflict.from_m - model.driver_of(arrays.policy[at(v.slot)]).give_way.margin_m;
     return gap_m < kMinGap_m ? wait_m : std::max(stop_m, wait_m);
 }
 

@@ -23,8 +23,9 @@ void keep_priority_of_unstoppable(const Model& model, State& state, int lane, in
             const LaneBlock& block = state.blocks[at(on_lane)];
             for (int slot = block.first; slot < block.past_last(); ++slot) {
                 if (on_lane == origin && v.next_lane[at(slot)] != lane) continue;
-                const double room_m = conflict.from_m - model.give_way.margin_m - (v.position_m[at(slot)] + offset_m);
-                if (reliable_stopping_distance_m(model, v.speed_mps[at(slot)]) > room_m)
+                const DriverPlan& driver = model.driver_of(v.policy[at(slot)]);
+                const double room_m = conflict.from_m - driver.give_way.margin_m - (v.position_m[at(slot)] + offset_m);
+                if (reliable_stopping_distance_m(model, driver, v.speed_mps[at(slot)]) > room_m)
                     v.record[at(slot)].accepted_gap_on = lane;
             }
         };

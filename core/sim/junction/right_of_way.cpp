@@ -114,6 +114,7 @@ public:
           v_(v),
           arrays_(state.vehicles),
           record_(state.vehicles.record[at(v.slot)]),
+          driver_(model.driver_of(state.vehicles.policy[at(v.slot)])),
           speed_mps_(state.vehicles.speed_mps[at(v.slot)]),
           is_imported_(!model.demand.trips.empty()) {}
 
@@ -133,13 +134,13 @@ private:
         if (v_.stopped && is_blocked_by_leader(state_, v_.slot)) record_.accepted_gap_on = -1;
         has_decided_ = record_.accepted_gap_on == lane_;
         const LanePlan& plan = state_.plan.lane(lane_);
-        const double to_first_m = plan.first_conflict_m - model_.give_way.margin_m - v_.front_m;
-        if (!v_.stopped && to_first_m > comfortable_braking_distance_m(model_, speed_mps_)) has_decided_ = false;
+        const double to_first_m = plan.first_conflict_m - driver_.give_way.margin_m - v_.front_m;
+        if (!v_.stopped && to_first_m > comfortable_braking_distance_m(driver_, speed_mps_)) has_decided_ = false;
         const bool has_others_inside = state_.junctions.occupied.has_any(state_.plan.conflicting(lane_));
         const LanePlan& origin = state_.plan.lane(plan.origin);
-        const double line_m = origin.stop_line_m - origin.length_m - model_.driver.stop.margin_m;
+        const double line_m = origin.stop_line_m - origin.length_m - driver_.tables.stop.margin_m;
         line_m_ = stops_at_line(line_m) ? line_m : kNoWait_m;
-        decision_m_ = decision_distance_m(model_, speed_mps_);
+        decision_m_ = decision_distance_m(driver_, speed_mps_);
         if (waits_at_line() && line_m_ - v_.front_m > decision_m_) return {};
         if (is_imported_) {
             if (const Wait wait = stop_sign_wait(model_, state_, lane_, v_, line_m); wait.exists()) return wait;
@@ -174,7 +175,7 @@ private:
     }
 
     bool waits_at_line() const { return line_m_ < kNoWait_m; }
-    double wait_m(const Conflict& conflict) const { return conflict.from_m - model_.give_way.margin_m; }
+    double wait_m(const Conflict& conflict) const { return conflict.from_m - driver_.give_way.margin_m; }
 
     static const Wait& nearer(const Wait& a, const Wait& b) { return b.place_m < a.place_m ? b : a; }
     static void keep_nearer(const Wait& wait, Wait& nearest) { nearest = nearer(nearest, wait); }
@@ -184,12 +185,12 @@ private:
     // waiting position at the line.
     bool stops_at_line(double line_m) const {
         if (v_.inside || state_.plan.may_wait_inside(lane_)) return false;
-        if (v_.stopped || line_m - v_.front_m >= comfortable_braking_distance_m(model_, speed_mps_)) return true;
+        if (v_.stopped || line_m - v_.front_m >= comfortable_braking_distance_m(driver_, speed_mps_)) return true;
         // A vehicle that already brakes for the line can deviate slightly from the curve of a comfortable stop. It goes
         // on braking for the line as long as maximum braking suffices.
         const bool brakes_for_line =
             record_.yield_tick >= state_.tick - 1 && record_.yield_position_m <= static_cast<float>(line_m);
-        const double to_line_m = line_m + model_.driver.stop.margin_m - v_.front_m;
+        const double to_line_m = line_m + driver_.tables.stop.margin_m - v_.front_m;
         return brakes_for_line && to_line_m >= emergency_braking_distance_m(model_, speed_mps_);
     }
 
@@ -246,7 +247,7 @@ private:
             const double speed_mps = arrays_.speed_mps[at(occupant.slot)];
             const double in_s =
                 earliest_arrival_s(wait_m(conflict) - v_.front_m, speed_mps_,
-                                   model_.give_way.approach_acceleration_mps2, state_.plan.lane(lane_).limit_mps);
+                                   driver_.give_way.approach_acceleration_mps2, state_.plan.lane(lane_).limit_mps);
             const bool may_stop =
                 speed_mps < kCrawlingSpeed_mps || arrays_.record[at(occupant.slot)].yield_tick >= state_.tick - 1;
             if (may_stop || (conflict.other_to_m - occupant.rear_m) / speed_mps > in_s) return false;
@@ -291,7 +292,7 @@ private:
         // candidate that already brakes with stop.deceleration for a waiting position can thus keep this position, even
         // if it deviates slightly from the braking curve.
         const double stopping_m =
-            v_.stopped ? 0.0 : braking_distance_m(speed_mps_, 0.0, model_.driver.cacc.deceleration_comfort_mps2);
+            v_.stopped ? 0.0 : braking_distance_m(speed_mps_, 0.0, driver_.tables.cacc.deceleration_comfort_mps2);
         const std::span<const Conflict> conflicts = state_.plan.conflicts(lane_);
         for (std::size_t k = conflicts.size(); k-- > 0;) {
             const Conflict& conflict = conflicts[k];
@@ -316,6 +317,7 @@ private:
     const Candidate& v_;
     const VehicleArrays& arrays_;
     VehicleRecord& record_;
+    const DriverPlan& driver_;  // driver of the candidate
     double speed_mps_;
     bool is_imported_;  // true: the network is imported; only imported networks have trips
     double line_m_ = kNoWait_m;
@@ -344,13 +346,14 @@ void record_wait(State& state, Partition& part, int lane, int slot, double place
 // only follows another vehicle (YieldReason::merging).
 void drop_gap_if_stopping(const Model& model, State& state, int lane, const Candidate& candidate, const Wait& wait) {
     if (wait.keeps_gap || wait.reason == YieldReason::merging) return;
+    const DriverPlan& driver = model.driver_of(state.vehicles.policy[at(candidate.slot)]);
     double room_m = wait.place_m - candidate.front_m;
     for (const Conflict& c : state.plan.conflicts(lane)) {
-        const double to_area_m = c.from_m - model.give_way.margin_m - candidate.front_m;
+        const double to_area_m = c.from_m - driver.give_way.margin_m - candidate.front_m;
         if (c.yields && c.from_m >= candidate.front_m) room_m = std::min(room_m, to_area_m);
     }
     const double speed_mps = state.vehicles.speed_mps[at(candidate.slot)];
-    const bool can_stop = reliable_stopping_distance_m(model, speed_mps) <= room_m;
+    const bool can_stop = reliable_stopping_distance_m(model, driver, speed_mps) <= room_m;
     if (candidate.stopped || can_stop) state.vehicles.record[at(candidate.slot)].accepted_gap_on = -1;
 }
 

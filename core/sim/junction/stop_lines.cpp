@@ -29,17 +29,17 @@ bool can_stop(const Model& model, const VehicleArrays& v, int slot, double line_
     const double present_mps2 = std::max(static_cast<double>(v.acceleration_mps2[at(slot)]), 0.0);
     const double request_mps2 =
         v.has_powertrain() ? std::max(present_mps2, static_cast<double>(v.request_mps2[at(slot)])) : present_mps2;
-    const double delay_s = lag_s + 0.5 * (request_mps2 + deceleration_mps2) / model.driver.cacc.jerk_down_mps3;
+    const CaccSettings& cacc = model.driver_of(v.policy[at(slot)]).tables.cacc;
+    const double delay_s = lag_s + 0.5 * (request_mps2 + deceleration_mps2) / cacc.jerk_down_mps3;
     const double delay_m = (speed + 0.5 * present_mps2 * delay_s) * delay_s;
     const double room_m = line_m - v.position_m[at(slot)] - delay_m;
     return square(speed + present_mps2 * delay_s) <= 2.0 * deceleration_mps2 * room_m;
 }
 
-// Returns the highest deceleration with which drivers stop for a signal. On yellow this is the setting
+// Returns the highest deceleration with which a driver stops for a signal. On yellow this is the setting
 // `stop.decision_deceleration`, on any other light the maximum braking.
-double stopping_deceleration_mps2(const Model& model, Light light) {
-    return light == Light::yellow ? model.driver.stop.decision_deceleration_mps2
-                                  : model.driver.cacc.deceleration_emergency_mps2;
+double stopping_deceleration_mps2(const DriverTables& driver, Light light) {
+    return light == Light::yellow ? driver.stop.decision_deceleration_mps2 : driver.cacc.deceleration_emergency_mps2;
 }
 
 // Returns true if a stop needs more than 90 % of the maximum braking. The vehicle may then overrun the line: changes to
@@ -47,8 +47,9 @@ double stopping_deceleration_mps2(const Model& model, Light light) {
 // mesoscale mode, which has no gears.
 bool may_overrun_line(const Model& model, const VehicleArrays& v, int slot, double line_m, Light light) {
     constexpr double kReliableShare = 0.9;
-    const double reliable_mps2 = kReliableShare * model.driver.cacc.deceleration_emergency_mps2;
-    if (model.meso || stopping_deceleration_mps2(model, light) <= reliable_mps2) return false;
+    const DriverTables& driver = model.driver_of(v.policy[at(slot)]).tables;
+    const double reliable_mps2 = kReliableShare * driver.cacc.deceleration_emergency_mps2;
+    if (model.meso || stopping_deceleration_mps2(driver, light) <= reliable_mps2) return false;
     return !can_stop(model, v, slot, line_m, reliable_mps2);
 }
 
@@ -63,19 +64,28 @@ int slot_of(const VehicleArrays& v, const LaneBlock& block, int id) {
 // Returns the slot of the first vehicle that can stop before the line for a signal that shows `light`; -1: none.
 // Ignores vehicles whose trip ends on this lane.
 int choose_stopper(const Model& model, const State& state, const LaneBlock& block, double line_m, Light light) {
-    const double deceleration_mps2 = stopping_deceleration_mps2(model, light);
     for (int slot = block.first; slot < block.past_last(); ++slot) {
         if (is_on_last_edge(state, slot)) continue;
-        if (can_stop(model, state.vehicles, slot, line_m, deceleration_mps2)) return slot;
+        const DriverTables& driver = model.driver_of(state.vehicles.policy[at(slot)]).tables;
+        if (can_stop(model, state.vehicles, slot, line_m, stopping_deceleration_mps2(driver, light))) return slot;
     }
     return -1;
 }
 
+// Returns the reaction time of the vehicle that stopped for the signal of a lane, in ticks.
+std::int64_t hesitation_ticks(const Model& model, const State& state, const LaneBlock& block,
+                              const StopLineState& line) {
+    if (model.drivers.size() == 1) return model.drivers.front().hesitation_ticks;
+    const int slot = slot_of(state.vehicles, block, line.stopping_vehicle);
+    return slot < 0 ? 0 : model.driver_of(state.vehicles.policy[at(slot)]).hesitation_ticks;
+}
+
 // Returns true if the signal is green and no vehicle that stopped for it still hesitates to start.
-bool line_is_open(const Model& model, const State& state, int signal_group, const StopLineState& line) {
+bool line_is_open(const Model& model, const State& state, const LaneBlock& block, int signal_group,
+                  const StopLineState& line) {
     if (state.stop_lines.lights[at(signal_group)] != Light::green) return false;
-    return line.stopping_vehicle < 0 ||
-           state.tick >= model.signals[at(signal_group)].light_start_tick(state.tick) + model.hesitation_ticks;
+    return line.stopping_vehicle < 0 || state.tick >= model.signals[at(signal_group)].light_start_tick(state.tick) +
+                                                          hesitation_ticks(model, state, block, line);
 }
 
 double space_needed_m(const VehicleArrays& v, int slot) {
@@ -92,11 +102,13 @@ int choose_stopper_per_movement(const Model& model, const State& state, int inde
         const int group = state.plan.signal_group_for(index, v.next_lane[at(slot)]);
         const Light light = state.stop_lines.lights[at(group)];
         const bool is_stopping = line.stopping_vehicle == v.id[at(slot)];
+        const DriverPlan& driver = model.driver_of(v.policy[at(slot)]);
         const bool hesitates =
-            is_stopping && state.tick < model.signals[at(group)].light_start_tick(state.tick) + model.hesitation_ticks;
+            is_stopping && state.tick < model.signals[at(group)].light_start_tick(state.tick) + driver.hesitation_ticks;
         if (light == Light::green && !hesitates) continue;
         const double line_m = state.plan.lane(index).stop_line_m;
-        if (is_stopping || can_stop(model, v, slot, line_m, stopping_deceleration_mps2(model, light))) return slot;
+        if (is_stopping || can_stop(model, v, slot, line_m, stopping_deceleration_mps2(driver.tables, light)))
+            return slot;
     }
     return -1;
 }
@@ -147,7 +159,7 @@ const ExitRoom& exit_room(const Model& model, State& state, int exit) {
     }
     if (room.stopped_slot < 0 && ends_at_red) {
         room.stopped_slot = block.last();
-        room.room_m = line_m - model.driver.stop.margin_m - (moving_m - leaving_m);
+        room.room_m = line_m - model.common_driver().stop.margin_m - (moving_m - leaving_m);
     }
     if (room.stopped_slot < 0) return room;
     for (const int other : model.connections_to[at(exit)]) {
@@ -243,9 +255,9 @@ private:
 // harder. The mesoscale mode has no brake lag, so no response time is added there to braking with the peak.
 bool can_hold_for_keep_clear(const Model& model, const VehicleArrays& v, int slot, double line_m) {
     constexpr double kLagFactor = 1.4;  // ratio of the highest deceleration of a normal stop to `stop.deceleration`
-    const CaccSettings& cacc = model.driver.cacc;
-    const double peak_mps2 =
-        std::min(kLagFactor * model.driver.stop.deceleration_mps2, cacc.deceleration_emergency_mps2);
+    const DriverTables& driver = model.driver_of(v.policy[at(slot)]).tables;
+    const CaccSettings& cacc = driver.cacc;
+    const double peak_mps2 = std::min(kLagFactor * driver.stop.deceleration_mps2, cacc.deceleration_emergency_mps2);
     if (peak_mps2 <= cacc.deceleration_comfort_mps2) {
         return can_stop(model, v, slot, line_m, cacc.deceleration_comfort_mps2);
     }
@@ -341,12 +353,13 @@ void list_approaching(const Model& model, State& state, int index) {
         // stop.
         if (!has_trips && !connection_plan.yields && !state.junctions.occupied.has_any(state.plan.conflicting(next)))
             continue;
-        double to_area_m = to_end_m + connection_plan.first_conflict_m - model.give_way.margin_m;
+        const DriverPlan& driver = model.driver_of(v.policy[at(slot)]);
+        double to_area_m = to_end_m + connection_plan.first_conflict_m - driver.give_way.margin_m;
         if (!state.plan.may_wait_inside(next) || state.plan.stop_rule(next) != StopRule::none) {
-            const double line_m = state.plan.lane(index).stop_line_m - model.driver.stop.margin_m;
+            const double line_m = state.plan.lane(index).stop_line_m - driver.tables.stop.margin_m;
             to_area_m = std::min(to_area_m, line_m - v.position_m[at(slot)]);
         }
-        const bool is_far = to_area_m > decision_distance_m(model, v.speed_mps[at(slot)]);
+        const bool is_far = to_area_m > decision_distance_m(driver, v.speed_mps[at(slot)]);
         if (is_far && !(connection_plan.yields && v.record[at(slot)].accepted_gap_on == next)) continue;
         state.junctions.approaching[at(next)].push_back(slot);
         if (!state.junctions.to_decide.has(at(connection_plan.bitset_index))) state.plan.prefetch_conflicts(next);
@@ -379,7 +392,7 @@ void decide_stop_lines(const Model& model, State& state, Partition& part) {
             } else if (model.rules.keep_clear) {
                 stop_slot = held_slot = choose_keep_clear_stop(model, state, index);
             }
-        } else if (line_is_open(model, state, lane.signal_group, line)) {
+        } else if (line_is_open(model, state, block, lane.signal_group, line)) {
             line.stopping_vehicle = -1;
             if (model.rules.keep_clear) stop_slot = held_slot = choose_keep_clear_stop(model, state, index);
         } else {

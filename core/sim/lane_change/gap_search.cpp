@@ -35,7 +35,7 @@ public:
         for (int slot = block.first; slot < block.past_last(); ++slot) {
             if (v_.next_lane[at(slot)] >= 0 && v_.lane_memory[at(slot)].preferred_offset == 0) continue;
             const LaneChangeRequest me = lane_change_request(model_, state_, lane_, slot);
-            if (me.to_line_m < -model_.driver.stop.margin_m) continue;
+            if (me.to_line_m < -model_.driver_of(me.policy).tables.stop.margin_m) continue;
             if (me.lane_changes != 0) add_stop(me);
             const MandatoryChange change = mandatory_change(model_, state_, me);
             if (change.lane_changes != 0) align_with_gap(me, change);
@@ -45,15 +45,16 @@ public:
 private:
     void add_stop(const LaneChangeRequest& me) {
         const double place_m = waiting_position_m(model_, state_, me);
-        if (place_m - me.front_m > decision_distance_m(model_, me.speed_mps)) return;
+        if (place_m - me.front_m > decision_distance_m(model_.driver_of(me.policy), me.speed_mps)) return;
         add_yield_stop(state_.junctions, part_, lane_, {me.slot, place_m, -1, YieldReason::lane_change});
     }
 
     // Returns the speed with which a vehicle gradually reaches its target gap behind `ahead`. The speed is at least the
     // speed of `ahead` minus kFallBack_mps.
     double gap_reaching_speed_mps(const Neighbour& ahead, int policy, double speed_mps) const {
-        const double braking_mps2 = model_.driver.stop.deceleration_mps2;
-        const double share = kTargetGapFactor * model_.lane_change.gap_share;
+        const DriverPlan& driver = model_.driver_of(policy);
+        const double braking_mps2 = driver.tables.stop.deceleration_mps2;
+        const double share = kTargetGapFactor * driver.lane_change.gap_share;
         const double spare_gap_m =
             ahead.gap_m - share * desired_gap_m(model_, policy, std::min(speed_mps, ahead.speed_mps));
         return std::max(braking_speed_mps(braking_mps2, kLandingTime_s, spare_gap_m, ahead.speed_mps),
@@ -73,7 +74,7 @@ private:
     // moved away. Returns false if the follower wants to swap lanes with `me`, because the follower then falls back.
     bool must_let_pass(int other, const Neighbour& follower, const LaneChangeRequest& me, double urgency) const {
         if (follower.slot < 0 || follower.speed_mps + kDroppingBack_mps < me.speed_mps) return false;
-        const double share = urgent_share(model_, urgency);
+        const double share = urgent_share(model_.driver_of(me.policy).lane_change, urgency);
         const double needed_m = required_gap_m(model_, follower.policy, follower.speed_mps, me.speed_mps, share);
         const bool waits = me.speed_mps < kMinSpeed_mps;  // `me` is almost at rest
         return (waits || follower.gap_m < needed_m) && !wants_to_swap(other, follower.slot, me);
@@ -87,15 +88,16 @@ private:
         // Number of vehicles checked. Vehicles further upstream are still too far away to open a gap for `me`.
         constexpr int kMaxSearched = 5;
         const LaneBlock& block = state_.blocks[at(other)];
-        if (model_.lane_change.gap_opening != "on" || follower.slot < block.first) return {};
+        if (follower.slot < block.first) return {};
         const int end = std::min(block.past_last(), follower.slot + kMaxSearched);
         for (int slot = follower.slot; slot < end; ++slot) {
             const double gap_m = follower.gap_m + v_.position_m[at(follower.slot)] - v_.position_m[at(slot)];
             const double braking_m =
                 braking_distance_m(v_.speed_mps[at(slot)], me.speed_mps, GapAlignment::kDeceleration_mps2);
             const int policy = v_.policy[at(slot)];
+            if (model_.driver_of(policy).lane_change.gap_opening != "on") continue;
             const bool stands = me.speed_mps < kMinSpeed_mps && v_.speed_mps[at(slot)] < kMinSpeed_mps;
-            const double share = urgent_share(model_, stands ? urgency : 1.0);
+            const double share = urgent_share(model_.driver_of(me.policy).lane_change, stands ? urgency : 1.0);
             const double needed_m = required_gap_m(model_, policy, 0.0, 0.0, share);
             if (gap_m >= braking_m + needed_m) return {slot, gap_m, v_.speed_mps[at(slot)], policy};
         }

@@ -37,7 +37,7 @@ constexpr double kBesidePocket_m = 1.0;
 // Returns the acceleration of the intelligent driver model (Treiber, Hennecke, Helbing 2000), with the desired gap of
 // the policy in place of the model's own gap s_0 + v T (standstill gap plus speed times time gap).
 double idm_mps2(const Model& model, int policy, double speed_mps, double limit_mps, double gap_m, double ahead_mps) {
-    const LaneChangeSettings& c = model.lane_change;
+    const LaneChangeSettings& c = model.driver_of(policy).lane_change;
     constexpr double kNoLeader_m = 1e5;
     constexpr double kMinAcceleration_mps2 = -9.0;
     const double free = 1.0 - square(square(speed_mps / limit_mps));
@@ -56,8 +56,8 @@ double follower_mps2(const Model& model, const Neighbour& follower, double limit
 // its present lane. `there`: those on the target lane.
 double incentive_mps2(const Model& model, const State& state, const LaneChangeRequest& me, const LaneNeighbours& here,
                       const LaneNeighbours& there, bool to_the_right) {
-    const LaneChangeSettings& c = model.lane_change;
-    const double limit_mps = state.plan.free_speed_mps(me.lane);
+    const LaneChangeSettings& c = model.driver_of(me.policy).lane_change;
+    const double limit_mps = state.plan.free_speed_mps(me.lane, me.policy);
     const auto own = [&](const Neighbour& ahead) {
         return idm_mps2(model, me.policy, me.speed_mps, limit_mps, ahead.gap_m, ahead.speed_mps);
     };
@@ -89,13 +89,14 @@ bool gaps_suffice(const Model& model, const LaneChangeRequest& me, const LaneNei
 // stop line.
 bool can_move_beside(const Model& model, const LaneChangeRequest& me, double front_there_m) {
     return me.front_m >= me.length_m && front_there_m >= me.length_m &&
-           me.to_line_m + model.driver.stop.margin_m >= lane_change_stopping_distance_m(model, me.speed_mps);
+           me.to_line_m + model.driver_of(me.policy).tables.stop.margin_m >=
+               lane_change_stopping_distance_m(model.driver_of(me.policy), me.speed_mps);
 }
 
 // Returns the usable distance (MandatoryChange::usable_m) below which a vehicle looks for a gap, m. `changes`: number
 // of lane changes that the vehicle needs; below 0: to the left.
 double look_ahead_m(const Model& model, const LaneChangeRequest& me, double remembered_mps, int changes) {
-    const LaneChangeSettings& c = model.lane_change;
+    const LaneChangeSettings& c = model.driver_of(me.policy).lane_change;
     const double time_s = c.look_ahead_s * std::abs(changes) * (changes < 0 ? c.left_factor : 1.0);
     const double room_m = 2.0 * (me.length_m + model.policies[at(me.policy)].settings.standstill_gap_m);
     return remembered_mps * time_s + room_m;
@@ -149,7 +150,8 @@ double behind_pocket_queue_m(const Model& model, const State& state, const LaneC
     const VehicleArrays& v = state.vehicles;
     const int last = block.last();
     const double front_at_rest_m =
-        v.position_m[at(last)] + comfortable_braking_distance_m(model, v.speed_mps[at(last)]);
+        v.position_m[at(last)] +
+        comfortable_braking_distance_m(model.driver_of(v.policy[at(last)]), v.speed_mps[at(last)]);
     const double rear_m = adjacent_position_m(state, other, front_at_rest_m, me.lane) - v.length_m[at(last)];
     return me.front_m < rear_m ? std::max(rear_m - v.standstill_gap_m[at(me.slot)], me.front_m) : kNoQueue_m;
 }
@@ -171,7 +173,7 @@ public:
             return since_change_s_ >= kMinInterval_s &&
                    change_for_route(change.lane_changes < 0 ? adjacent.left : adjacent.right, change.urgency());
         }
-        if (since_change_s_ < model_.lane_change.pause_s) return false;
+        if (since_change_s_ < lane_change().pause_s) return false;
         return change_for_speed(adjacent.right, adjacent.left);
     }
 
@@ -179,6 +181,8 @@ private:
     double time_since_change_s(int slot) const {
         return model_.time_s(state_.tick - state_.vehicles.lane_memory[at(slot)].change_tick);
     }
+
+    const LaneChangeSettings& lane_change() const { return model_.driver_of(me_.policy).lane_change; }
 
     double remembered_mps() const { return state_.vehicles.lane_memory[at(me_.slot)].remembered_mps; }
 
@@ -203,7 +207,7 @@ private:
         if (other < 0 || !can_move_beside(model_, me_, adjacent_position_m(state_, me_.lane, me_.front_m, other)))
             return false;
         const LaneNeighbours there = neighbours_on(other);
-        if (!gaps_suffice(model_, me_, there, urgent_share(model_, urgency))) return false;
+        if (!gaps_suffice(model_, me_, there, urgent_share(lane_change(), urgency))) return false;
         change_to(other, there, true);
         return true;
     }
@@ -240,7 +244,7 @@ private:
     // incentive below the threshold reduces the gain, but not below 0. Only the lane that the vehicle has just left can
     // have a negative gain.
     void add_gain(double incentive_mps2, float& gain_mps) const {
-        const LaneChangeSettings& c = model_.lane_change;
+        const LaneChangeSettings& c = lane_change();
         const double memory_s = gain_mps < 0.0F ? kReturnMemory_s : kGainMemory_s;
         const double faded_mps = gain_mps * (1.0 - kDecisionInterval_s / memory_s);
         const double counted_mps2 = std::min(incentive_mps2 - c.threshold_mps2, c.acceleration_mps2);
@@ -268,7 +272,7 @@ private:
                              v.speed_mps[at(me_.slot + 1)], v.policy[at(me_.slot + 1)]};
         }
         LaneChangeMemory& memory = state_.vehicles.lane_memory[at(me_.slot)];
-        double best_mps = model_.lane_change.gain_mps;
+        double best_mps = lane_change().gain_mps;
         int chosen = -1;
         LaneNeighbours chosen_neighbours;
         const auto rate = [&](int other, bool may_change, bool to_the_right, float& gain_mps) {
@@ -276,7 +280,7 @@ private:
             const LaneNeighbours there = neighbours_on(other);
             add_gain(incentive_mps2(model_, state_, me_, here, there, to_the_right), gain_mps);
             if (static_cast<double>(gain_mps) < best_mps) return;
-            if (!gaps_suffice(model_, me_, there, model_.lane_change.gap_share)) return;
+            if (!gaps_suffice(model_, me_, there, lane_change().gap_share)) return;
             best_mps = gain_mps;
             chosen = other;
             chosen_neighbours = there;
@@ -290,7 +294,7 @@ private:
 
     Neighbour leader_beyond_lane() const {
         const VehicleArrays& v = state_.vehicles;
-        const LeaderAhead leader = leader_ahead(state_, me_.lane, me_.slot, model_.driver.cacc.radar_range_m);
+        const LeaderAhead leader = leader_ahead(state_, me_.lane, me_.slot, model_.common_driver().cacc.radar_range_m);
         if (leader.slot < 0) return {};
         const double rear_m = v.position_m[at(leader.slot)] - static_cast<double>(v.length_m[at(leader.slot)]);
         return {leader.slot, leader.lane_start_m + rear_m - me_.front_m, v.speed_mps[at(leader.slot)],
@@ -304,7 +308,7 @@ private:
         const int slot = move_to_lane(model_, state_, me_.lane, from, other, there.index,
                                       adjacent_position_m(state_, me_.lane, me_.front_m, other));
         v.lane_memory[at(slot)].change_tick = static_cast<int>(state_.tick);
-        const auto way_back_mps = static_cast<float>((1.0 - kReturnFactor) * model_.lane_change.gain_mps);
+        const auto way_back_mps = static_cast<float>((1.0 - kReturnFactor) * lane_change().gain_mps);
         const bool to_the_right = other == state_.plan.adjacent(me_.lane).right;
         v.lane_memory[at(slot)].left_gain_mps = to_the_right ? way_back_mps : 0.0F;
         v.lane_memory[at(slot)].right_gain_mps = to_the_right ? 0.0F : way_back_mps;
@@ -339,7 +343,8 @@ LaneChangeRequest lane_change_request(const Model& model, const State& state, in
     me.policy = v.policy[at(slot)];
     me.turn = state.plan.turn_of(v.record[at(slot)].route);
     me.lane_changes = state.plan.adjacent(lane).turn_option(me.turn).lane_changes;
-    me.to_line_m = state.plan.lane(lane).stop_line_m - model.driver.stop.margin_m - me.front_m;
+    const DriverPlan& driver = model.driver_of(me.policy);
+    me.to_line_m = state.plan.lane(lane).stop_line_m - driver.tables.stop.margin_m - me.front_m;
     if (me.lane_changes != 0) me.pocket_entry_m = pocket_entry_m(state, me);
     const VehicleRecord& record = v.record[at(slot)];
     const LaneChangeMemory& memory = v.lane_memory[at(slot)];
@@ -370,8 +375,7 @@ MandatoryChange mandatory_change(const Model& model, const State& state, const L
     return change;
 }
 
-double urgent_share(const Model& model, double urgency) {
-    const LaneChangeSettings& c = model.lane_change;
+double urgent_share(const LaneChangeSettings& c, double urgency) {
     return c.gap_share + urgency * (c.urgent_gap_share - c.gap_share);
 }
 
@@ -381,7 +385,8 @@ double waiting_position_m(const Model& model, const State& state, const LaneChan
     const int other = me.lane_changes < 0 ? state.plan.adjacent(me.lane).left : state.plan.adjacent(me.lane).right;
     // The waiting position must be beside the target lane. The target lane may start further downstream than this lane.
     const double min_position_m = adjacent_position_m(state, other, 0.0, me.lane) + me.length_m + kBesidePocket_m;
-    const double line_m = state.plan.lane(me.lane).stop_line_m - model.driver.stop.margin_m;
+    const DriverPlan& driver = model.driver_of(me.policy);
+    const double line_m = state.plan.lane(me.lane).stop_line_m - driver.tables.stop.margin_m;
     const double beside_m = std::min(std::max(line_m - places_behind_line * spacing_m, min_position_m), line_m);
     if (me.pocket_entry_m == kNoPocket_m) return beside_m;
     if (std::abs(me.lane_changes) == 1) return std::min(beside_m, behind_pocket_queue_m(model, state, me, other));

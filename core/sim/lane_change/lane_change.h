@@ -63,7 +63,7 @@ MandatoryChange mandatory_change(const Model& model, const State& state, const L
 // Returns the share of the spacing policy's gap that a vehicle requires for a mandatory change (argument of
 // required_gap_m() in lane_gaps.h). The more urgent the change, the smaller the share. `urgency`: 0 to 1, see
 // MandatoryChange.
-double urgent_share(const Model& model, double urgency);
+double urgent_share(const LaneChangeSettings& settings, double urgency);
 
 // Returns the position where a vehicle waits before the stop line to change lanes, m from the start of the lane.
 // Left-bound vehicles wait nearer to the stop line than right-bound ones. Two vehicles that want to swap lanes thus do

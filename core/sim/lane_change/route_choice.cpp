@@ -28,11 +28,12 @@ double lane_change_entry_speed_mps(const Model& model, const State& state, std::
     const int exit = route.back();
     if (record.trip < 0 || record.following_turn == Turn::none) return kNoLowerLimit_mps;
     const int changes = state.plan.adjacent(exit).turn_option(record.following_turn).lane_changes;
-    const double room_m = state.plan.lane(exit).stop_line_m - model.driver.stop.margin_m;
+    const DriverPlan& driver = model.driver_of(state.vehicles.policy[at(slot)]);
+    const double room_m = state.plan.lane(exit).stop_line_m - driver.tables.stop.margin_m;
     if (changes == 0 || room_m < state.vehicles.length_m[at(slot)]) return kNoLowerLimit_mps;
     double distance_m = room_m;
     for (std::size_t k = at(next); k + 1 < route.size(); ++k) distance_m += state.plan.lane(route[k]).length_m;
-    return lane_change_stopping_speed_mps(model, distance_m);
+    return lane_change_stopping_speed_mps(driver, distance_m);
 }
 
 // Returns the highest speed at which the vehicle in `slot` may enter the next lane on the route. Returns
@@ -109,7 +110,7 @@ int draw_route(const Model& model, State& state, int inlet, std::int64_t k, bool
 
 void draw_later_turns(const Model& model, State& state, int lane, int slot, bool chose_lane) {
     VehicleRecord& record = state.vehicles.record[at(slot)];
-    if (model.lane_change.look_ahead == "off") return;
+    if (model.driver_of(state.vehicles.policy[at(slot)]).lane_change.look_ahead == "off") return;
     if (record.following_turn == Turn::none) {
         record.following_turn = draw_turn_beyond(model, state, record.route, chose_lane);
     }

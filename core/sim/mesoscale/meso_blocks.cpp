@@ -149,7 +149,7 @@ private:
     }
 
     double room_to_line_m(int slot) const {
-        return plan_.stop_line_m - model_.driver.stop.margin_m - v_.position_m[at(slot)];
+        return plan_.stop_line_m - model_.driver_of(v_.policy[at(slot)]).tables.stop.margin_m - v_.position_m[at(slot)];
     }
 
     // Returns true if only the signal holds the first vehicle of the lane. Precondition: this vehicle is at rest.

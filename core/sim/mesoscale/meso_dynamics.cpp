@@ -40,16 +40,18 @@ ExtraGap evaluate_extra_gap(const Model& model, std::size_t size, const VehicleA
 
 double stopping_speed_mps(const Model& model, const VehicleArrays& v, int slot, double room_m) {
     const FollowingModel& following = model.following[model.following.size() == 1 ? 0 : at(v.policy[at(slot)])];
+    const DriverTables& driver = model.driver_of(v.policy[at(slot)]).tables;
     const FollowingBraking braking = following.braking();
-    const double b = std::min(braking.deceleration_mps2, model.driver.stop.deceleration_mps2);
-    const double max_braking_mps2 = model.driver.cacc.deceleration_emergency_mps2;
+    const double b = std::min(braking.deceleration_mps2, driver.stop.deceleration_mps2);
+    const double max_braking_mps2 = driver.cacc.deceleration_emergency_mps2;
     const double lowest_mps = v.speed_mps[at(slot)] - max_braking_mps2 * model.step_s;
     return std::max(braking_speed_mps(b, braking.reaction_s, std::max(room_m, 0.0), 0.0), lowest_mps);
 }
 
 double leading_speed_mps(const Model& model, double speed_mps, double limit_mps) {
     const double target_mps = model.leader_speed_share * limit_mps;
-    if (speed_mps > target_mps) return std::max(target_mps, speed_mps - model.driver.deceleration_mps2 * model.step_s);
+    if (speed_mps > target_mps)
+        return std::max(target_mps, speed_mps - model.common_driver().deceleration_mps2 * model.step_s);
     return std::min(speed_mps + model.approach_share * (target_mps - speed_mps), target_mps);
 }
 
@@ -65,8 +67,9 @@ MesoStep meso_step(const Model& model, std::int64_t tick, bool prefetches) {
     const auto foresees = [](const FollowingModel& following) { return following.leader_foresees(); };
     return {model.step_s,
             dawdle_key(model.seed),
+            driver_key(model.seed),
             static_cast<std::uint64_t>(tick),
-            model.driver.deceleration_mps2,
+            model.common_driver().deceleration_mps2,
             model.approach_share,
             model.turn_share,
             model.leader_mps2,
@@ -76,8 +79,8 @@ MesoStep meso_step(const Model& model, std::int64_t tick, bool prefetches) {
             model.calibrated_limit_mps,
             relays,
             relays && std::all_of(model.following.begin(), model.following.end(), foresees),
-            model.graph.approaches.empty() ? kNoLimit_mps2 : model.driver.cacc.deceleration_emergency_mps2,
-            model.driver.cacc.deceleration_emergency_mps2,
+            model.graph.approaches.empty() ? kNoLimit_mps2 : model.common_driver().cacc.deceleration_emergency_mps2,
+            model.common_driver().cacc.deceleration_emergency_mps2,
             prefetches};
 }
 

@@ -5,7 +5,6 @@
 // block. `Following` is the trait struct of a car-following model.
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -16,64 +15,12 @@
 #include "base/simd/simd.h"
 #include "sim/mesoscale/following_types.h"
 #include "sim/mesoscale/meso_kernels.h"
+#include "sim/mesoscale/meso_vectors.inl"
 #include "sim/state/vehicles/vehicle_arrays.h"
 
 namespace stopline {
 
 namespace {
-
-// Number of doubles in a vector register. In all versions but the scalar one, a block has as many slots.
-constexpr int kWide = kBatchWidth / 2;
-using Wide = PackedOf<double, kWide>;
-using Words = Vector<std::uint64_t, kWide>;
-
-template <class To, class From>
-STOPLINE_INLINE To same_bits(const From& from) {
-    To to;
-    static_assert(sizeof to == sizeof from);
-    std::memcpy(&to, &from, sizeof to);
-    return to;
-}
-
-// Converts the numbers of a vector to another type. Vectors of 512 bits are converted by intrinsics, because the
-// compiler would convert them in two halves.
-template <class To, class From>
-STOPLINE_INLINE Vector<To, kWide> converted(const Vector<From, kWide>& from) {
-#if defined(__AVX512F__)
-    constexpr __mmask8 kAll = 0xff;  // the unmasked intrinsics cause warnings in g++
-    if constexpr (kWide == 8 && std::is_same_v<From, float> && std::is_same_v<To, double>) {
-        return same_bits<Vector<To, kWide>>(_mm512_maskz_cvtps_pd(kAll, same_bits<__m256>(from)));
-    } else if constexpr (kWide == 8 && std::is_same_v<From, double> && std::is_same_v<To, float>) {
-        return same_bits<Vector<To, kWide>>(_mm512_maskz_cvtpd_ps(kAll, same_bits<__m512d>(from)));
-    } else if constexpr (kWide == 8 && std::is_same_v<From, int> && std::is_same_v<To, double>) {
-        return same_bits<Vector<To, kWide>>(_mm512_maskz_cvtepi32_pd(kAll, same_bits<__m256i>(from)));
-    } else if constexpr (kWide == 8 && std::is_same_v<From, int> && std::is_same_v<To, std::int64_t>) {
-        return same_bits<Vector<To, kWide>>(_mm512_maskz_cvtepi32_epi64(kAll, same_bits<__m256i>(from)));
-    }
-#endif
-    return __builtin_convertvector(from, Vector<To, kWide>);
-}
-
-// get() loads the values of one block as R, and put() stores them. They convert between the stored type and double.
-template <class R, class Stored>
-STOPLINE_INLINE R get(const Stored* from) {
-    if constexpr (std::is_same_v<R, double>) {
-        return *from;
-    } else {
-        Vector<Stored, kWide> values;
-        std::memcpy(&values, from, sizeof values);
-        return packed<kWide>(converted<double, Stored>(values));
-    }
-}
-template <class Stored>
-STOPLINE_INLINE void put(Stored* to, double value) {
-    *to = static_cast<Stored>(value);
-}
-template <class Stored>
-STOPLINE_INLINE void put(Stored* to, const Wide& value) {
-    const auto values = converted<Stored, double>(value.v);
-    std::memcpy(to, &values, sizeof values);
-}
 
 // The random numbers of the vehicles of a block. They are uniform in [0, 1).
 template <class R>
@@ -81,29 +28,23 @@ struct BlockRandom {
     const MesoStep& t;
     const int* id;
 
-    STOPLINE_INLINE R dawdle() const {
+    STOPLINE_INLINE R dawdle() const { return uniform(t.key, t.tick); }
+    // Returns number `index` of each driver (driver/human.h).
+    STOPLINE_INLINE R driver(std::uint64_t index) const { return uniform(t.driver_key, index); }
+    STOPLINE_INLINE double time_s() const { return static_cast<double>(t.tick) * t.dt; }
+
+private:
+    STOPLINE_INLINE R uniform(std::uint64_t key, std::uint64_t index) const {
         if constexpr (std::is_same_v<R, double>) {
-            return dawdle_uniform(t.key, *id, t.tick);
+            return keyed_uniform(key, *id, index);
         } else {
             Vector<int, kWide> ids;
             std::memcpy(&ids, id, sizeof ids);
-            const Words bits = dawdle_bits(t.key, same_bits<Words>(converted<std::int64_t, int>(ids)), t.tick);
+            const Words bits = keyed_bits(key, same_bits<Words>(converted<std::int64_t, int>(ids)), index);
             return packed<kWide>(same_bits<Vector<double, kWide>>(bits)) - 1.0;
         }
     }
 };
-
-// Returns the mask of the slots that hold a vehicle.
-template <class R>
-STOPLINE_INLINE auto occupied_slots(const int* id) {
-    if constexpr (std::is_same_v<R, double>) {
-        return *id >= 0;
-    } else {
-        Vector<int, kWide> ids;
-        std::memcpy(&ids, id, sizeof ids);
-        return typename R::Mask{converted<std::int64_t, int>(ids) >= 0};
-    }
-}
 
 // Returns the next speed of a vehicle under a speed limit. A slower vehicle gains the given share of (limit - speed). A
 // vehicle above the limit brakes to the limit at once, but loses at most `braked_mps` in the step.
@@ -121,28 +62,6 @@ STOPLINE_INLINE R approach_limit(const R& speed_mps, const R& limit_mps, double 
 template <class R>
 STOPLINE_INLINE R approach_turn(const R& speed_mps, const R& allowed_mps, double share, double braked_mps) {
     return speed_mps + share * (allowed_mps - speed_mps) - braked_mps * speed_mps / max_of(allowed_mps, R(1.0));
-}
-
-// Returns true if any float of the block differs from `value`.
-template <class R>
-STOPLINE_INLINE bool any_differs(const float* floats, float value) {
-    if constexpr (std::is_same_v<R, double>) {
-        return *floats != value;
-    } else {
-#if defined(__AVX512VL__)
-        if constexpr (kWide == 8) {
-            __m256i loaded;
-            std::memcpy(&loaded, floats, sizeof loaded);
-            return _mm256_cmpneq_epi32_mask(loaded, _mm256_set1_epi32(std::bit_cast<int>(value))) != 0;
-        }
-#endif
-        const auto bits = std::bit_cast<std::uint32_t>(value);
-        std::uint32_t loaded[kWide];
-        std::memcpy(loaded, floats, sizeof loaded);
-        std::uint32_t differences = 0;
-        for (const std::uint32_t own_bits : loaded) differences |= own_bits ^ bits;
-        return differences != 0;
-    }
 }
 
 // Returns the highest next speed that the speed limits and the speed caps allow.
@@ -164,41 +83,6 @@ STOPLINE_INLINE R allowed_mps(const MesoStreams& s, const MesoStep& t, int i, co
 }
 
 constexpr double kNoLeader_m = 1e5;  // a vehicle with a longer gap has no leader
-
-#if defined(__AVX512DQ__)
-// Returns the table value of each vehicle's bin. One permutation selects from 16 table values. This is faster than one
-// load for each vehicle.
-template <std::size_t bins>
-STOPLINE_INLINE Wide permute_table(const std::array<double, bins>& table, const Wide& bin) {
-    const __m512i index = _mm512_cvttpd_epi64(same_bits<__m512d>(bin));
-    const auto permute_16 = [&](std::size_t from) STOPLINE_INLINE_LAMBDA {
-        const double* const part = table.data() + from;
-        return _mm512_permutex2var_pd(_mm512_loadu_pd(part), index, _mm512_loadu_pd(part + 8));
-    };
-    __m512d values = permute_16(0);
-    for (std::size_t from = 16; from < bins; from += 16) {
-        const __mmask8 in_range = _mm512_cmpge_epi64_mask(index, _mm512_set1_epi64(static_cast<long long>(from)));
-        values = _mm512_mask_mov_pd(values, in_range, permute_16(from));
-    }
-    return packed<kWide>(same_bits<Vector<double, kWide>>(values));
-}
-#endif
-
-// Returns the table value of each vehicle's bin. A bin past the end of the table gets the last value.
-template <class R, std::size_t bins>
-STOPLINE_INLINE R table_value(const std::array<double, bins>& table, const R& bin) {
-    const R within = clamped(bin, 0.0, static_cast<double>(bins) - 1.0);
-    if constexpr (std::is_same_v<R, double>) {
-        return table[static_cast<std::size_t>(within)];
-    } else {
-#if defined(__AVX512DQ__)
-        if constexpr (kWide == 8 && bins % 16 == 0) return permute_table(table, within);
-#endif
-        R values = 0.0;
-        for (int j = 0; j < kWide; ++j) values.v[j] = table[static_cast<std::size_t>(within.v[j])];
-        return values;
-    }
-}
 
 // Returns a lower bound of each vehicle's acceleration: on fast lanes, the value of power_profile at the vehicle's
 // speed. On lanes with a speed limit up to calibrated_limit_mps the bound is 0, because the accelerations of the driver
@@ -448,36 +332,37 @@ inline void follow(const FollowingModel& model, const MesoStep& step, const Foll
     }
 }
 
-// A model may compute two policies at once.
+// A model for which more versions of the kernels are compiled: for one and for two policies, and without power limit.
 template <class Following, class R>
-concept ComputesTwoPolicies = requires(const R& policy, const Following& model) {
+concept HasFastVersions = requires(const R& policy, const Following& model) {
     Following::of_two_policies(policy, model, model);
 };
 
 template <class R, class Following>
 inline int step(const MesoStreams& streams, std::span<const int> blocks, std::span<const FollowingModel> models,
                 ExtraGap extra_gaps, const MesoStep& t) {
-    const bool power_limit = std::any_of(models.begin(), models.end(), [](const FollowingModel& model) {
-        return model.as<Following>().has_power_limit();
-    });
-    const bool instant_slowdown = t.turn_share >= 1.0;
-    const auto step_with = [&](auto policies) {
-        constexpr int kPolicies = policies;
-        const auto step_as = [&](auto limited, auto instant) {
-            constexpr MesoVariant kVariant{kPolicies, limited, instant};
-            return step_variant<R, Following, kVariant>(streams, blocks, models, extra_gaps, t);
-        };
-        if (power_limit)
-            return instant_slowdown ? step_as(std::true_type(), std::true_type())
-                                    : step_as(std::true_type(), std::false_type());
-        return instant_slowdown ? step_as(std::false_type(), std::true_type())
-                                : step_as(std::false_type(), std::false_type());
+    const auto step_as = [&](auto policies, auto power_limit, auto instant_slowdown) {
+        constexpr MesoVariant kVariant{policies, power_limit, instant_slowdown};
+        return step_variant<R, Following, kVariant>(streams, blocks, models, extra_gaps, t);
     };
-    if (models.size() == 1) return step_with(std::integral_constant<int, 1>());
-    if constexpr (ComputesTwoPolicies<Following, R>) {
-        if (models.size() == 2) return step_with(std::integral_constant<int, 2>());
+    const auto step_with = [&](auto policies, auto power_limit) {
+        return t.turn_share >= 1.0 ? step_as(policies, power_limit, std::true_type())
+                                   : step_as(policies, power_limit, std::false_type());
+    };
+    constexpr std::integral_constant<int, 0> kAnyNumber;
+    if constexpr (HasFastVersions<Following, R>) {
+        const bool has_power_limit = std::any_of(models.begin(), models.end(), [](const FollowingModel& model) {
+            return model.as<Following>().has_power_limit();
+        });
+        const auto step_limited = [&](auto policies) {
+            return has_power_limit ? step_with(policies, std::true_type()) : step_with(policies, std::false_type());
+        };
+        if (models.size() == 1) return step_limited(std::integral_constant<int, 1>());
+        if (models.size() == 2) return step_limited(std::integral_constant<int, 2>());
+        return step_limited(kAnyNumber);
+    } else {
+        return step_with(kAnyNumber, std::true_type());
     }
-    return step_with(std::integral_constant<int, 0>());
 }
 
 // Returns the kernels of one car-following model.

@@ -15,7 +15,8 @@ bool approaching_vehicle_cannot_stop(const Model& model, const State& state, int
     const VehicleArrays& v = state.vehicles;
     const auto is_too_near = [&](int slot, double distance_m) {
         const double gap_m = v.standstill_gap_m[at(slot)];
-        return insertion_stopping_distance_m(model, v.speed_mps[at(slot)], gap_m) > distance_m;
+        return insertion_stopping_distance_m(model.driver_of(v.policy[at(slot)]), v.speed_mps[at(slot)], gap_m) >
+               distance_m;
     };
     for (const int connection_lane : model.connections_to[at(lane)]) {
         const Lane& connection = model.graph.lanes[at(connection_lane)];

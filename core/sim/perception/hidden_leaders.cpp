@@ -30,13 +30,14 @@ void add_demand(const Model& model, const State& state, int lane, int slot, cons
     LeaderView<double> p{};
     p.gap_m = rear_m - v.position_m[at(slot)];
     const double standstill_m = v.standstill_gap_m[at(slot)];
-    if (p.gap_m > stopping_distance_m(model.driver, speed_mps) + standstill_m) return;
+    const DriverTables& driver = model.driver_of(v.policy[at(slot)]).tables;
+    if (p.gap_m > stopping_distance_m(driver, speed_mps) + standstill_m) return;
     p.closing_mps = speed_mps - v.speed_mps[at(hidden.slot)];
     p.acceleration_mps2 = v.acceleration_mps2[at(hidden.slot)];
     p.request_mps2 = v.request_mps2[at(hidden.slot)];
     const double gap_growth_m = desired_gap_m(model, v.policy[at(slot)], speed_mps) - standstill_m;
     const double demand_mps2 =
-        hidden_leader_acceleration(model.driver, speed_mps, standstill_m, std::max(gap_growth_m, 0.0), p);
+        hidden_leader_acceleration(driver, speed_mps, standstill_m, std::max(gap_growth_m, 0.0), p);
     if (demand_mps2 < kUnconstrained_mps2) part.extra_demands.push_back({slot, demand_mps2});
 }
 
@@ -50,7 +51,11 @@ void react_to_leaders_hidden_from_followers(const Model& model, const State& sta
     const VehicleArrays& v = state.vehicles;
     const LaneBlock& block = state.blocks[at(lane)];
     const LanePlan& plan = state.plan.lane(lane);
-    const double from_m = plan.length_m - std::max(kMinLookBack_m, stopping_distance_m(model.driver, plan.limit_mps));
+    double look_back_m = kMinLookBack_m;
+    for (const DriverPlan& driver : model.drivers) {
+        look_back_m = std::max(look_back_m, stopping_distance_m(driver.tables, plan.limit_mps));
+    }
+    const double from_m = plan.length_m - look_back_m;
     const std::size_t connection_count = std::min(state.plan.next(lane).size(), kMaxConnections);
     int previous = v.next_lane[at(block.first)];
     std::array<int, kMaxConnections> handled{previous};
@@ -62,7 +67,8 @@ void react_to_leaders_hidden_from_followers(const Model& model, const State& sta
         if (connection < 0 ||
             std::find(handled.begin(), handled.begin() + count, connection) != handled.begin() + count)
             continue;
-        const double range_m = stopping_distance_m(model.driver, v.speed_mps[at(slot)]) + v.standstill_gap_m[at(slot)];
+        const DriverTables& driver = model.driver_of(v.policy[at(slot)]).tables;
+        const double range_m = stopping_distance_m(driver, v.speed_mps[at(slot)]) + v.standstill_gap_m[at(slot)];
         const LeaderAhead hidden = last_vehicle_on_route(state, lane, slot, range_m);
         if (hidden.slot >= 0) add_demand(model, state, lane, slot, hidden, part);
         handled[count++] = connection;

@@ -238,7 +238,7 @@ void find_leaders_beyond_lanes(const Model& model, const State& state, VehicleAr
         const int head = state.blocks[at(lane)].first;
         const std::size_t sentinel = at(head - 1);
         LeaderAhead hidden;
-        const LeaderAhead ahead = ahead_of(state, lane, head, model.driver.cacc.radar_range_m, &hidden);
+        const LeaderAhead ahead = ahead_of(state, lane, head, model.common_driver().cacc.radar_range_m, &hidden);
         const bool has_leader = ahead.slot >= 0;
         const std::size_t leader_slot = at(has_leader ? ahead.slot : head);
         v.position_m[sentinel] = has_leader ? ahead.lane_start_m + v.position_m[leader_slot] : kFree_m;

@@ -189,7 +189,8 @@ void ensure_teleport_slot(State& state) {
 
 namespace {
 
-// Mesoscale mode: sets those values of a vehicle that depend on its lane.
+// Mesoscale mode: sets those values of a vehicle that depend on its lane. The speed limiter of the vehicle is not taken
+// into account, because the slot may not hold its vehicle yet (limit_to_maximum_speed()).
 void set_lane_of(State& state, int lane, int slot) {
     VehicleArrays& v = state.vehicles;
     if (v.has_powertrain()) return;
@@ -216,6 +217,11 @@ void wake(State& state, int lane) {
 }
 
 }  // namespace
+
+void limit_to_maximum_speed(State& state, int lane, int slot) {
+    VehicleArrays& v = state.vehicles;
+    if (!v.has_powertrain()) v.limit_mps[at(slot)] = state.plan.free_speed_mps(lane, v.policy[at(slot)]);
+}
 
 int append_slot(State& state, int lane) {
     for (const int detector : state.detectors.on_lane[at(lane)]) ++state.detectors.upstream[at(detector)];
@@ -257,6 +263,7 @@ int move_to_lane(const Model& model, State& state, int lane, int from, int other
     mark_occupied(state, other);
     v.copy(old, slot);
     set_lane_of(state, other, slot);
+    limit_to_maximum_speed(state, other, slot);
     v.move(old + 1, source.count - from - 1, old);
     --source.count;
     if (!v.has_powertrain()) v.clear_slot(source.past_last());

@@ -30,6 +30,10 @@ void ensure_free_slot(State& state, int lane);
 // so it can still be full after the call.
 void ensure_teleport_slot(State& state);
 
+// Mesoscale mode: lowers the speed limit of a vehicle on `lane` to the maximum speed of the vehicle. Must be called
+// after a vehicle has been copied to a slot of another lane.
+void limit_to_maximum_speed(State& state, int lane, int slot);
+
 // Adds a slot for a new last vehicle of a lane and returns the slot.
 int append_slot(State& state, int lane);
 

@@ -22,7 +22,10 @@ void check(const Model& model) {
     if (static_cast<int>(model.signals.size()) != model.graph.signal_groups) {
         throw InputError("every signal group needs one programme");
     }
-    if (model.vehicles.empty() || model.policies.empty()) throw InputError("a vehicle type and a policy are needed");
+    if (model.vehicles.empty() || model.drivers.empty() || model.policies.empty()) {
+        throw InputError("a vehicle type, a driver and a policy are needed");
+    }
+    if (model.classes.size() != model.policies.size()) throw InputError("every policy needs a vehicle and a driver");
     if (model.meso && model.following.size() != model.policies.size()) {
         throw InputError("every policy needs a mesoscale model");
     }

@@ -53,6 +53,23 @@ struct RulesPlan {
     bool watches() const { return watch_ticks > 0; }
 };
 
+// A driver, prepared for the simulation.
+struct DriverPlan {
+    DriverTables tables;
+    GiveWaySettings give_way;
+    LaneChangeSettings lane_change;
+    HumanSettings human;
+    bool is_human = false;  // true: a human driver (driver/human.h); false: an automated vehicle
+    double hesitation_s = 0.0;
+    std::int64_t hesitation_ticks = 0;  // reaction time of the first vehicle at a stop line when its signal turns green
+};
+
+// The vehicle and the driver of one component of the population.
+struct VehicleClass {
+    int vehicle = 0;  // index in Model::vehicles
+    int driver = 0;   // index in Model::drivers
+};
+
 struct Model {
     double step_s = 0.01;
     std::uint64_t seed = 1;
@@ -60,16 +77,14 @@ struct Model {
     std::vector<std::vector<int>> connections_to;  // [lane] connections that lead to the lane
     std::vector<GroupProgramme> signals;           // [signal group]
     std::vector<PhasePriority> phase_priorities;   // right of way that changes with the phases of a signal
-    std::vector<PowertrainTables> vehicles;
-    std::vector<GapPolicy> policies;
-    DriverTables driver;
-    std::int64_t hesitation_ticks = 0;  // reaction time of the first vehicle at a stop line when its signal turns green
+    std::vector<PowertrainTables> vehicles;        // the vehicle types of the population
+    std::vector<DriverPlan> drivers;               // the drivers of the population, for each type that they drive
+    std::vector<GapPolicy> policies;               // [component of the population] spacing policy
+    std::vector<VehicleClass> classes;             // [component of the population, as in `policies`]
     DemandPlan demand;
     std::vector<Detector> detectors;
     std::vector<std::string> loop_names;
     std::vector<double> area_begins_m;  // [lane] position where the measured area begins; empty: all lanes are measured
-    GiveWaySettings give_way;
-    LaneChangeSettings lane_change;
     RulesPlan rules;
     // Age of the radar data when the driver computes the requested acceleration. This acceleration takes
     // effect one step later. The radar delay of the settings ends only then, so the age is that delay minus one step.
@@ -84,6 +99,7 @@ struct Model {
     // Indices of the two detectors that stand for the start and the end of a trip. They are on no lane. -1: none.
     int trips_begin = -1;
     int trips_end = -1;
+    bool has_speed_limiters = false;  // true: some vehicles have a lower maximum speed than the speed limit of a lane
     // Settings of the mesoscale mode.
     bool meso = false;                      // true: mesoscale mode; false: full dynamics
     std::vector<FollowingModel> following;  // [policy] car-following model
@@ -108,6 +124,20 @@ struct Model {
     // Largest number of stopped vehicles that one V2V start message (StartMessage in partition.h) reaches in a step. 0:
     // no messages.
     int start_relay_vehicles = 0;
+
+    // Returns the driver of the vehicles with a spacing policy.
+    const DriverPlan& driver_of(int policy) const {
+        return drivers[drivers.size() == 1
+                           ? 0
+                           : static_cast<std::size_t>(classes[static_cast<std::size_t>(policy)].driver)];
+    }
+    // Returns the type of the vehicles with a spacing policy.
+    const PowertrainTables& vehicle_of(int policy) const {
+        return vehicles[static_cast<std::size_t>(classes[static_cast<std::size_t>(policy)].vehicle)];
+    }
+    // Returns any driver of the population. Use it only for settings in which all drivers of a population must agree
+    // (check_fleets() in scenario/fleets.h), such as the range of the radar and the maximum braking.
+    const DriverTables& common_driver() const { return drivers.front().tables; }
 
     double time_s(std::int64_t tick) const { return static_cast<double>(tick) * step_s; }
 };

@@ -26,12 +26,14 @@ void add_lane(const Model& model, const State& state, int lane, std::span<const 
     const auto demand = [&](int slot, double acceleration_mps2) {
         group.demands.push_back({group.vehicles + slot - block.first, acceleration_mps2});
     };
+    const auto driver_of = [&](int slot) -> const DriverTables& { return model.driver_of(v.policy[at(slot)]).tables; };
     const auto stop_at = [&](int slot, double position_m) {
         const double room_m = position_m - v.position_m[at(slot)];
-        demand(slot, stop_at_line_acceleration(model.driver, v.speed_mps[at(slot)], room_m));
+        demand(slot, stop_at_line_acceleration(driver_of(slot), v.speed_mps[at(slot)], room_m));
     };
-    if (plan.signal_group >= 0 && state.stop_lines.stop_slot[at(lane)] >= 0) {
-        stop_at(state.stop_lines.stop_slot[at(lane)], plan.stop_line_m - model.driver.stop.margin_m);
+    const int stop_slot = plan.signal_group >= 0 ? state.stop_lines.stop_slot[at(lane)] : -1;
+    if (stop_slot >= 0) {
+        stop_at(stop_slot, plan.stop_line_m - driver_of(stop_slot).stop.margin_m);
     }
     const YieldStops& yield_stops = state.junctions.yield_stops[at(lane)];
     for (int k = 0; k < yield_stops.count; ++k) {

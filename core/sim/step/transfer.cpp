@@ -49,6 +49,7 @@ void transfer_first(const Model& model, State& state, int lane) {
     } else {
         const int target = append_slot(state, next);
         v.copy(slot, target);
+        limit_to_maximum_speed(state, next, target);
         v.position_m[at(target)] -= length_m;
         v.record[at(target)].second_previous_lane = v.record[at(target)].previous_lane;
         v.record[at(target)].previous_lane = lane;

@@ -30,9 +30,9 @@ TEST(IdealPlatoon, TimeGapActsAsAChainOfLags) {
     const double v = 12.0;
     const double h = law_parameter(time_gap, "time_gap");
     const std::vector<SpeedSample> leader{{0.0, v}};
+    const IdealVehicle vehicle{&time_gap, kLength_m};
     const double line_m = 100.0;
-    const std::vector<double> times_s =
-        ideal_passages_s(leader, {&time_gap, &time_gap, &time_gap}, kLength_m, line_m, 60.0);
+    const std::vector<double> times_s = ideal_passages_s(leader, std::vector(3, vehicle), line_m, 60.0);
     ASSERT_EQ(times_s.size(), 3U);
     EXPECT_NEAR(times_s[0], line_m / v, 1e-9);
     // At the stop line all vehicles have reached v. Each lag has cost the distance h v, so successive fronts are
@@ -43,8 +43,8 @@ TEST(IdealPlatoon, TimeGapActsAsAChainOfLags) {
     // At the start the first follower drives x(t) = v (t - h (1 - exp(-t / h))). The time below gives about 1 m.
     const double t = 0.453;
     const double start_m = v * (t - h * (1.0 - std::exp(-t / h)));
-    const std::vector<double> early_s = ideal_passages_s(leader, {&time_gap, &time_gap}, kLength_m,
-                                                         start_m - kLength_m - time_gap.standstill_gap_m, 60.0);
+    const std::vector<double> early_s =
+        ideal_passages_s(leader, std::vector(2, vehicle), start_m - kLength_m - time_gap.standstill_gap_m, 60.0);
     ASSERT_FALSE(early_s.empty());
     EXPECT_NEAR(early_s.back(), t, 0.01);
 }
@@ -52,7 +52,8 @@ TEST(IdealPlatoon, TimeGapActsAsAChainOfLags) {
 TEST(IdealPlatoon, ConstantDistancePlatoonMovesAsOneBody) {
     const GapPolicySettings distance = policy("constant_distance", 0.0);
     const std::vector<SpeedSample> leader{{0.0, 0.0}, {10.0, 15.0}};  // 1.5 m/s2, then 15 m/s
-    const std::vector<double> times_s = ideal_passages_s(leader, std::vector(20, &distance), kLength_m, 0.5, 60.0);
+    const std::vector<double> times_s =
+        ideal_passages_s(leader, std::vector(20, IdealVehicle{&distance, kLength_m}), 0.5, 60.0);
     ASSERT_EQ(times_s.size(), 20U);
     for (std::size_t k = 0; k < times_s.size(); ++k) {
         const double distance_m = 0.5 + static_cast<double>(k) * (kLength_m + distance.standstill_gap_m);
@@ -63,8 +64,8 @@ TEST(IdealPlatoon, ConstantDistancePlatoonMovesAsOneBody) {
 
 TEST(IdealPlatoon, NeverPassesBehindAStoppedLeader) {
     const GapPolicySettings time_gap = policy("constant_time", 0.87);
-    EXPECT_TRUE(ideal_passages_s({}, {&time_gap, &time_gap}, kLength_m, 0.5, 60.0).empty());
-    EXPECT_TRUE(ideal_passages_s({}, {}, kLength_m, 0.5, 60.0).empty());
+    EXPECT_TRUE(ideal_passages_s({}, std::vector(2, IdealVehicle{&time_gap, kLength_m}), 0.5, 60.0).empty());
+    EXPECT_TRUE(ideal_passages_s({}, {}, 0.5, 60.0).empty());
 }
 
 // The simulated platoon differs from the ideal one by its controllers and powertrains. With the SWITCH policies more

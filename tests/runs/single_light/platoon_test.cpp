@@ -20,7 +20,7 @@ std::vector<TrajectoryPoint> samples(int vehicle, int policy, double until_s,
     std::vector<TrajectoryPoint> points;
     for (int k = 0; k * kInterval_s <= until_s; ++k) {
         const double time_s = k * kInterval_s;
-        points.push_back({time_s, vehicle, policy, 0, 0.0, 0.0, speed_mps(time_s), 0.0, 0.0, gap_m(time_s), 1});
+        points.push_back({time_s, vehicle, policy, 0, 0.0, 0.0, speed_mps(time_s), 0.0, 0.0, gap_m(time_s), 1, 5.15});
     }
     return points;
 }
@@ -43,8 +43,8 @@ TEST(LeaderStart, IsNaNForAVehicleThatNeverReachesTheLimit) {
 
 TEST(SteadyVehicles, NeedFiveSecondsAtTheLimitWithASteadyGap) {
     const auto at_limit = [](double /*t*/) { return kLimit_mps; };
-    EXPECT_EQ(steady_vehicles(samples(3, 1, 4.8, at_limit, steady_gap_m), kInterval_s, kLimit_mps, 5.15).size(), 0U);
-    const auto steady = steady_vehicles(samples(3, 1, 5.2, at_limit, steady_gap_m), kInterval_s, kLimit_mps, 5.15);
+    EXPECT_EQ(steady_vehicles(samples(3, 1, 4.8, at_limit, steady_gap_m), kInterval_s, kLimit_mps).size(), 0U);
+    const auto steady = steady_vehicles(samples(3, 1, 5.2, at_limit, steady_gap_m), kInterval_s, kLimit_mps);
     ASSERT_EQ(steady.size(), 1U);
     EXPECT_EQ(steady[0].vehicle, 3);
     EXPECT_EQ(steady[0].policy, 1);
@@ -57,9 +57,9 @@ TEST(SteadyVehicles, ExcludeSlowerClosingAndLeadingVehicles) {
     const auto slower = [](double /*t*/) { return kLimit_mps - 0.2; };
     const auto closing = [](double t) { return 20.0 - 0.05 * t; };
     const auto none = [](double /*t*/) { return std::nan(""); };
-    EXPECT_TRUE(steady_vehicles(samples(0, 0, 9.0, slower, steady_gap_m), kInterval_s, kLimit_mps, 5.0).empty());
-    EXPECT_TRUE(steady_vehicles(samples(0, 0, 9.0, at_limit, closing), kInterval_s, kLimit_mps, 5.0).empty());
-    EXPECT_TRUE(steady_vehicles(samples(0, 0, 9.0, at_limit, none), kInterval_s, kLimit_mps, 5.0).empty());
+    EXPECT_TRUE(steady_vehicles(samples(0, 0, 9.0, slower, steady_gap_m), kInterval_s, kLimit_mps).empty());
+    EXPECT_TRUE(steady_vehicles(samples(0, 0, 9.0, at_limit, closing), kInterval_s, kLimit_mps).empty());
+    EXPECT_TRUE(steady_vehicles(samples(0, 0, 9.0, at_limit, none), kInterval_s, kLimit_mps).empty());
 }
 
 // A vehicle in the rear of a platoon that closes up drives faster than a vehicle without leader. Its gap stays constant
@@ -68,11 +68,11 @@ TEST(CruisingVehicles, IncludeThoseFasterThanTheCruiseSpeed) {
     const auto faster = [](double /*t*/) { return 1.05 * kLimit_mps; };
     const auto slower = [](double /*t*/) { return kLimit_mps - 0.2; };
     const auto open_gap = [](double /*t*/) { return 18.0; };
-    const auto cruising = cruising_vehicles(samples(4, 0, 9.0, faster, open_gap), kInterval_s, kLimit_mps, 5.0);
+    const auto cruising = cruising_vehicles(samples(4, 0, 9.0, faster, open_gap), kInterval_s, kLimit_mps);
     ASSERT_EQ(cruising.size(), 1U);
     EXPECT_DOUBLE_EQ(cruising[0].net_gap_m, 18.0);
-    EXPECT_TRUE(steady_vehicles(samples(4, 0, 9.0, faster, open_gap), kInterval_s, kLimit_mps, 5.0).empty());
-    EXPECT_TRUE(cruising_vehicles(samples(4, 0, 9.0, slower, open_gap), kInterval_s, kLimit_mps, 5.0).empty());
+    EXPECT_TRUE(steady_vehicles(samples(4, 0, 9.0, faster, open_gap), kInterval_s, kLimit_mps).empty());
+    EXPECT_TRUE(cruising_vehicles(samples(4, 0, 9.0, slower, open_gap), kInterval_s, kLimit_mps).empty());
 }
 
 TEST(HasClosedUp, AllowsAQuarterOfTheGapAndHalfAMetre) {
@@ -91,7 +91,7 @@ TEST(SteadyVehicles, UseTheLastSteadyTimeOfEachVehicle) {
     // A run gives its points in the order of time, then of vehicles.
     points.insert(points.end(), other.begin(), other.end());
     std::stable_sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
-    const auto steady = steady_vehicles(points, kInterval_s, kLimit_mps, 5.15);
+    const auto steady = steady_vehicles(points, kInterval_s, kLimit_mps);
     ASSERT_EQ(steady.size(), 2U);
     EXPECT_EQ(steady[0].vehicle, 2);
     EXPECT_EQ(steady[1].vehicle, 8);

@@ -86,7 +86,7 @@ TEST_P(BrakingPlatoon, StopsWithoutTouching) {
     const bool has_long_gap = track.model().policies[0].meso.time_gap_s > 0.8;
     for (int k = 0; k < 3 && has_long_gap; ++k) {
         for (int n = 4; n <= kFollowers; ++n) {
-            EXPECT_LT(hardest_mps2[at(k)][at(n)], 1.3 * track.model().driver.cacc.deceleration_comfort_mps2)
+            EXPECT_LT(hardest_mps2[at(k)][at(n)], 1.3 * track.model().common_driver().cacc.deceleration_comfort_mps2)
                 << "follower " << n << " when the leader brakes with " << kBraking_mps2[k];
         }
     }

@@ -46,7 +46,7 @@ TEST_P(Bumpless, RequestsStayWithinTheJerkLimits) {
     plan.green_s = 18.0;
     Track track(plan);
     track.place_platoon(0, 599.0, 0.0, 40);
-    const CaccSettings& cacc = track.model().driver.cacc;
+    const CaccSettings& cacc = track.model().common_driver().cacc;
     const double up = cacc.jerk_up_mps3 * track.step_s() + kSinglePrecision_mps2;
     const double down = cacc.jerk_down_mps3 * track.step_s() + kSinglePrecision_mps2;
     double fastest = 0.0;

@@ -33,7 +33,7 @@ TEST_P(ClosingUp, TakesTheTimeThatTheSpeedDifferenceGives) {
     const double policy_gap_m = equilibrium_gap_m(track.model().policies[0].settings, kLimit_mps);
     track.place(0, 300.0, kLimit_mps);
     track.place(0, 300.0 - track.model().vehicles[0].length_m - policy_gap_m - kExcess_m, kLimit_mps);
-    const double time_s = kExcess_m / ((track.model().driver.cacc.catch_up_factor - 1.0) * kLimit_mps);
+    const double time_s = kExcess_m / ((track.model().common_driver().cacc.catch_up_factor - 1.0) * kLimit_mps);
     track.run(0.8 * time_s);
     EXPECT_GT(track.vehicle(0, 1).gap_m, policy_gap_m + kTolerance_m) << "faster than the speed difference allows";
     track.run(0.2 * time_s + kControl_s);
@@ -47,7 +47,7 @@ TEST(ClosingUpRange, VehicleWithoutLeaderKeepsTheLimit) {
     plan.limit_mps = kLimit_mps;
     Track track(plan);
     track.place(0, 400.0, kLimit_mps);
-    track.place(0, 400.0 - track.model().driver.cacc.radar_range_m - 30.0, kLimit_mps);
+    track.place(0, 400.0 - track.model().common_driver().cacc.radar_range_m - 30.0, kLimit_mps);
     track.run(20.0);
     EXPECT_NEAR(track.vehicle(0, 1).speed_mps, kLimit_mps, 0.1);
 }

@@ -28,7 +28,7 @@ Discharge discharge(const std::string& policy) {
     plan.exit_m = 1500.0;
     plan.green_from_s = kGreen_s;
     Track track(plan);
-    const double front_m = plan.length_m - track.model().driver.stop.margin_m;
+    const double front_m = plan.length_m - track.model().common_driver().stop.margin_m;
     track.place_platoon(0, front_m, 0.0, kQueue);
     Discharge result{{}, {}, track.step_s(), track.model().vehicles[0].length_m};
     while (track.time_s() < kGreen_s + kRun_s) {

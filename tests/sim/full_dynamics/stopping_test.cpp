@@ -60,7 +60,7 @@ TEST_P(Stopping, StopsBeforeARedSignal) {
     track.run(45.0);
     EXPECT_EQ(track.state().records.passages.size(), 0u) << "vehicles passed the stop line";
     EXPECT_EQ(track.state().records.violations.forced_red_entries, 0);
-    const double margin_m = track.model().driver.stop.margin_m;
+    const double margin_m = track.model().common_driver().stop.margin_m;
     for (std::size_t k = 0; k < states.size(); ++k) {
         ASSERT_EQ(track.count(static_cast<int>(2 * k)), 1) << describe(states[k]);
         const VehicleView car = track.vehicle(static_cast<int>(2 * k), 0);
@@ -76,7 +76,7 @@ TEST_P(Stopping, StopsBeforeARedSignal) {
 TEST_P(Stopping, StopsBehindAStoppedVehicle) {
     const std::vector<InitialState> states = feasible_states();
     Track track(red_road(GetParam(), states.size()));
-    const double margin_m = track.model().driver.stop.margin_m;
+    const double margin_m = track.model().common_driver().stop.margin_m;
     const double length_m = track.model().vehicles[0].length_m;
     for (std::size_t k = 0; k < states.size(); ++k) {
         const int lane = static_cast<int>(2 * k);

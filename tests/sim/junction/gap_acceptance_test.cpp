@@ -96,7 +96,7 @@ TEST_P(GapAcceptance, AcceptsLongGapsAndRejectsShortOnes) {
         if (c.other == priority_) area_m = c.other_from_m;
     }
     ASSERT_LT(area_m, 1e9) << "the connections have no conflict";
-    const double critical_s = model_.give_way.critical_gap_s;
+    const double critical_s = model_.drivers[0].give_way.critical_gap_s;
     inlet_to(left_turn_).vehicles = 1000;
     std::int64_t& released = inlet_to(priority_).vehicles;
     double next_s = 20.0;

@@ -25,10 +25,11 @@ constexpr double kTolerance_m = 0.2;
 // Returns the distance in which a vehicle stops with the accepted deceleration. Braking starts after the brake lag and
 // half of the time in which the jerk limit changes the request. The vehicle keeps accelerating until then.
 double stopping_distance_m(const Model& model, const VehicleView& car) {
-    const double b = model.driver.stop.decision_deceleration_mps2;
+    const double b = model.drivers[0].tables.stop.decision_deceleration_mps2;
     const double a = std::max(car.acceleration_mps2, 0.0);
     const double request = std::max(car.request_mps2, a);
-    const double delay_s = model.vehicles[0].brake_lag_s + 0.5 * (request + b) / model.driver.cacc.jerk_down_mps3;
+    const double delay_s =
+        model.vehicles[0].brake_lag_s + 0.5 * (request + b) / model.drivers[0].tables.cacc.jerk_down_mps3;
     const double v = car.speed_mps + a * delay_s;
     return v * v / (2.0 * b) + (car.speed_mps + 0.5 * a * delay_s) * delay_s;
 }
@@ -111,7 +112,7 @@ void YellowQueue::check_split(double green_s, const char* decision) {
     plan.green_from_s = 5.0;
     plan.green_s = green_s;
     Track track(plan);
-    track.place_platoon(0, kStopLine_m - track.model().driver.stop.margin_m, 0.0, 35);
+    track.place_platoon(0, kStopLine_m - track.model().common_driver().stop.margin_m, 0.0, 35);
     track.run(5.0 + green_s);
     int expected = 0;  // vehicles on the approach that cannot stop
     double slack_m = 0.0;

@@ -209,7 +209,7 @@ TEST_P(LaneChanging, WaitsBeforeTheStopLineWithoutAGap) {
     const auto vehicle = track.vehicle(0, 0);
     EXPECT_EQ(vehicle.id, waiting_vehicle);
     EXPECT_LT(vehicle.speed_mps, 0.1);
-    EXPECT_LE(vehicle.position_m, 1000.0 - track.model().driver.stop.margin_m + 0.1);
+    EXPECT_LE(vehicle.position_m, 1000.0 - track.model().common_driver().stop.margin_m + 0.1);
     EXPECT_GE(vehicle.position_m, 975.0);
     EXPECT_TRUE(track.state().records.lane_changes.empty());
 }
@@ -219,7 +219,7 @@ TEST_P(LaneChanging, WaitsBeforeTheStopLineWithoutAGap) {
 TEST(LongStandstillGap, VehicleThatCannotOpenTheGapGoesOn) {
     for (const char* const fidelity : {"full", "meso"}) {
         Track track(parallel_lanes(plan_of({fidelity, "CDG-6m"}, 2)));
-        const double waiting_m = 1000.0 - track.model().driver.stop.margin_m;
+        const double waiting_m = 1000.0 - track.model().common_driver().stop.margin_m;
         place(track, 0, waiting_m, 0.0, 1);
         place(track, 1, waiting_m - track.model().vehicles[0].length_m - 1.2, 0.0, 1);
         track.run(60.0);

@@ -156,6 +156,11 @@ NetworkPlan::NetworkPlan(const Model& model)
     : speed_factor_(model.speed_factor),
       max_space_per_vehicle_m_(max_space_per_vehicle(model)),
       demand_(&model.demand) {
+    if (model.has_speed_limiters) {
+        for (int policy = 0; policy < static_cast<int>(model.classes.size()); ++policy) {
+            maximum_speeds_mps_.push_back(model.vehicle_of(policy).maximum_speed_mps);
+        }
+    }
     const auto count = static_cast<int>(model.graph.lanes.size());
     const double longest_m = longest_vehicle_m(model);
     LaneSets sets(at(count));
@@ -186,7 +191,10 @@ NetworkPlan::NetworkPlan(const Model& model)
         routes_.add(route.lanes);
         turns_.push_back(route.lanes.size() > 1 ? model.graph.lanes[at(route.lanes[1])].turn : Turn::none);
     }
-    entry_speed_mps_ = entry_speeds_mps(model.graph, lanes_, model.driver.deceleration_mps2);
+    double braking_mps2 = model.common_driver().deceleration_mps2;
+    for (const DriverPlan& driver : model.drivers)
+        braking_mps2 = std::min(braking_mps2, driver.tables.deceleration_mps2);
+    entry_speed_mps_ = entry_speeds_mps(model.graph, lanes_, braking_mps2);
     adjacent_ = plan_adjacent_lanes(model.graph, turns_, next_parallel_route_);
     for (const Approach& approach : model.graph.approaches) {
         std::array<int, kMaxTurns> routes{};

@@ -2,6 +2,7 @@
 // in one array. Lanes are ordered by intersection, because threads share the work by whole intersections.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -27,6 +28,12 @@ public:
     double max_space_per_vehicle_m() const { return max_space_per_vehicle_m_; }
     // Returns the speed limit of a lane times Model::speed_factor.
     double free_speed_mps(int lane) const { return speed_factor_ * this->lane(lane).limit_mps; }
+    // Returns the free speed of the vehicles with a spacing policy. Their speed limiter may be below the speed limit.
+    double free_speed_mps(int lane, int policy) const {
+        return maximum_speeds_mps_.empty()
+                   ? free_speed_mps(lane)
+                   : std::min(free_speed_mps(lane), maximum_speeds_mps_[static_cast<std::size_t>(policy)]);
+    }
     // Returns the highest speed at which a vehicle may enter a lane. From this speed, braking with
     // DriverTables::deceleration_mps2 suffices for all lower limits further downstream. Where a lane branches, the
     // following lane with the highest entry speed counts.
@@ -115,7 +122,8 @@ private:
     double max_space_per_vehicle_m_ = 0.0;
     int intersection_count_ = 0;
     std::vector<LanePlan> lanes_;
-    std::vector<double> entry_speed_mps_;  // [lane]
+    std::vector<double> entry_speed_mps_;     // [lane]
+    std::vector<double> maximum_speeds_mps_;  // [spacing policy]; empty: no speed limiter is below a speed limit
     PackedLists<int> routes_;
     PackedLists<int> next_;
     PackedLists<Conflict> conflicts_;

@@ -20,54 +20,55 @@ inline double braking_distance_m(double from_mps, double to_mps, double decelera
 
 // Returns the braking distance of a comfortable stop, that is, with the deceleration `stop.deceleration` of the driver
 // settings. The reaction time is not included.
-inline double comfortable_braking_distance_m(const Model& model, double speed_mps) {
-    return 0.5 * square(speed_mps) / model.driver.stop.deceleration_mps2;
+inline double comfortable_braking_distance_m(const DriverPlan& driver, double speed_mps) {
+    return 0.5 * square(speed_mps) / driver.tables.stop.deceleration_mps2;
 }
 
 // Returns the distance of a comfortable stop. In full dynamics the distance includes the effect of brake lag.
-inline double reliable_stopping_distance_m(const Model& model, double speed_mps) {
-    return model.meso ? comfortable_braking_distance_m(model, speed_mps) : stopping_distance_m(model.driver, speed_mps);
+inline double reliable_stopping_distance_m(const Model& model, const DriverPlan& driver, double speed_mps) {
+    return model.meso ? comfortable_braking_distance_m(driver, speed_mps)
+                      : stopping_distance_m(driver.tables, speed_mps);
 }
 
 // Returns the braking distance of an emergency stop. The reaction time is not included.
 inline double emergency_braking_distance_m(const Model& model, double speed_mps) {
-    return 0.5 * square(speed_mps) / model.driver.cacc.deceleration_emergency_mps2;
+    return 0.5 * square(speed_mps) / model.common_driver().cacc.deceleration_emergency_mps2;
 }
 
 // Returns the distance to a conflict area within which right of way is decided: the distance of a comfortable stop plus
 // a reserve.
-inline double decision_distance_m(const Model& model, double speed_mps) {
-    return 0.5 * square(speed_mps) / model.driver.stop.deceleration_mps2 + 1.5 * speed_mps + 3.0;
+inline double decision_distance_m(const DriverPlan& driver, double speed_mps) {
+    return 0.5 * square(speed_mps) / driver.tables.stop.deceleration_mps2 + 1.5 * speed_mps + 3.0;
 }
 
 inline constexpr double kLaneChangeReaction_s = 0.5;
 
 // Returns the smallest distance to the stop line at which a vehicle can change lanes and then still stop comfortably.
-inline double lane_change_stopping_distance_m(const Model& model, double speed_mps) {
-    return 0.5 * square(speed_mps) / model.driver.stop.deceleration_mps2 + kLaneChangeReaction_s * speed_mps;
+inline double lane_change_stopping_distance_m(const DriverPlan& driver, double speed_mps) {
+    return 0.5 * square(speed_mps) / driver.tables.stop.deceleration_mps2 + kLaneChangeReaction_s * speed_mps;
 }
 
 // Returns the speed whose lane_change_stopping_distance_m() is `distance_m`.
-inline double lane_change_stopping_speed_mps(const Model& model, double distance_m) {
-    const double b = model.driver.stop.deceleration_mps2;
+inline double lane_change_stopping_speed_mps(const DriverPlan& driver, double distance_m) {
+    const double b = driver.tables.stop.deceleration_mps2;
     return std::sqrt(square(b * kLaneChangeReaction_s) + 2.0 * b * distance_m) - b * kLaneChangeReaction_s;
 }
 
 // Returns the gap that a vehicle needs to stop behind another vehicle that is inserted ahead of it. The standstill gap
 // is included.
-inline double insertion_stopping_distance_m(const Model& model, double speed_mps, double standstill_gap_m) {
+inline double insertion_stopping_distance_m(const DriverPlan& driver, double speed_mps, double standstill_gap_m) {
     constexpr double kReaction_s = 1.0;
-    return speed_mps * kReaction_s + 0.5 * square(speed_mps) / model.driver.cacc.deceleration_comfort_mps2 +
+    return speed_mps * kReaction_s + 0.5 * square(speed_mps) / driver.tables.cacc.deceleration_comfort_mps2 +
            standstill_gap_m;
 }
 
 // Returns the highest speed from which a vehicle inserted at `front_m` can stop comfortably before the stop line.
 // Returns kUnlimitedSpeed_mps if there is no stop line ahead.
-inline double max_stoppable_speed_mps(const Model& model, int lane, double front_m) {
+inline double max_stoppable_speed_mps(const Model& model, const DriverPlan& driver, int lane, double front_m) {
     const Lane& road = model.graph.lanes[at(lane)];
     if (road.signal_group < 0 || front_m > road.stop_line_m) return kUnlimitedSpeed_mps;
-    const double room_m = std::max(road.stop_line_m - model.driver.stop.margin_m - front_m, 0.0);
-    return std::sqrt(2.0 * model.driver.stop.deceleration_mps2 * room_m);
+    const double room_m = std::max(road.stop_line_m - driver.tables.stop.margin_m - front_m, 0.0);
+    return std::sqrt(2.0 * driver.tables.stop.deceleration_mps2 * room_m);
 }
 
 }  // namespace stopline

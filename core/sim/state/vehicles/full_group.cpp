@@ -58,7 +58,7 @@ FullGroup FullGroupArrays::streams() {
                                 &s.mean_request,
                                 &s.sent_acceleration,
                                 &s.sent_request});
-    divide(ints_, vehicles_, {&s.policy, &s.type});
+    divide(ints_, vehicles_, {&s.policy, &s.type, &s.driver});
     return s;
 }
 

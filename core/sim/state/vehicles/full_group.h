@@ -25,7 +25,7 @@ struct FullGroup {
     float *is_platoon_leader, *torque, *brake, *gear_time, *gear;
     float* mean_request;                                  // mean request within the step, for the powertrain
     float *sent_acceleration, *sent_request, *sent_rate;  // V2V message to the follower
-    int *policy, *type;
+    int *policy, *type, *driver;
     // Desired gap of the spacing policy, and its slope over speed.
     double *desired_gap, *slope;
     // Scratch memory for groups with several policies. The spacing law of the first vehicle's policy writes directly to

@@ -1,4 +1,4 @@
-#include "scenario/load_accepted.h"
+#include "scenario/files/load_accepted.h"
 
 #include "scenario/schema/field_rows.h"
 #include "scenario/schema/fields.h"

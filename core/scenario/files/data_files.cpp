@@ -1,4 +1,4 @@
-#include "scenario/data_files.h"
+#include "scenario/files/data_files.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,0 +1,29 @@
+// The vehicles and drivers of populations, and the checks of populations with several of them.
+#pragma once
+
+#include <string>
+
+#include "scenario/scenario.h"
+#include "scenario/schema/report.h"
+
+namespace stopline {
+
+// Returns the vehicle or the driver of a component: its own one, or that of the scenario.
+const PowertrainSettings& vehicle_of(const Scenario& scenario, const PopulationSettings::Component& component);
+const DriverSettings& driver_of(const Scenario& scenario, const PopulationSettings::Component& component);
+
+// Returns the name of the vehicles of a component: the policy, then the vehicle and the driver if the component has its
+// own ones, such as "CDG_rigid_lorry_12t".
+std::string component_name(const PopulationSettings::Component& component);
+
+// Reports the drivers of a population that disagree in a setting that all its vehicles share: delays of radar and V2V,
+// range of the radar, and maximum braking. A constant distance is safe only if no vehicle brakes harder than its
+// follower can.
+void check_fleets(const Scenario& scenario, Checker& check);
+
+// Returns the mean length of the vehicles of a population, m.
+double mean_vehicle_m(const Scenario& scenario, const PopulationSettings& population);
+// Returns the length of the longest vehicle of all populations, m.
+double longest_vehicle_m(const Scenario& scenario);
+
+}  // namespace stopline
