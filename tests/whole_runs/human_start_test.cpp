@@ -1,13 +1,15 @@
-// The start of a queue of human drivers beside public data. The parameters of the drivers come from the literature and are
-// not fitted to these data.
+// The start of a queue of human drivers beside public data. The parameters of the drivers come from the literature
+// (driver/driver_settings.h) and are not fitted to these data:
 //
-// Data:
-//   start wave          6.8 m/s, from headways and accelerations of cars with combustion engines that start at a signal
-//                       (Salles, Kaufmann, Reuss 2020, and issue 7832 of SUMO). Start-up delays of one vehicle to the
-//                       next, measured in public tracks: 0.82 s in Naples, 1.01 s in Stuttgart (n = 23 and 8).
-//   first headways      3.8 s, 3.1 s, 2.7 s and 2.4 s at the stop line (Greenshields, Schapiro, Ericksen 1947, "Traffic
-//                       performance at urban street intersections"; the first one is from the start of green)
-//   discharge           24, 24 and 22 vehicles a lane in 70 s of green (issue 17830 of SUMO)
+//   discharge        24, 24 and 22 vehicles a lane in 70 s of green (issue 17830 of SUMO). A further lane lies between 18
+//                    and 29 with 95 % (prediction interval of three values).
+//   first headways   3.8 s, 3.1 s, 2.7 s and 2.4 s at the stop line (Greenshields, Schapiro, Ericksen 1947, "Traffic
+//                    performance at urban street intersections"). The first one is from the start of green.
+//   start wave       6.8 m/s, from drive-off measurements of Salles, Kaufmann, Reuss 2020
+//
+// The discharge of full dynamics lies in the interval. The start wave is slower and the headways are longer than the data,
+// because the acceleration of the source for cities, 1 m/s2, is less than half of the measured one of standing starts
+// (data/startup). With 2.5 m/s2, the headways of the second to the fourth vehicle agree with the data.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -59,14 +61,63 @@ QueueStart start_of(const std::string& policy, const std::vector<std::string>& o
     return result;
 }
 
-TEST(HumanStart, Prints) {
-    for (const char* const policy : {"HUMAN", "CTG-Ref", "CDG"}) {
-        for (const bool meso : {false, true}) {
-            const QueueStart s = start_of(
-                policy, meso ? std::vector<std::string>{"fidelity=meso", "meso=fitted"} : std::vector<std::string>{},
-                0.01);
-            printf("%s %s: wave %.2f m/s, headways %.2f %.2f %.2f %.2f s, passed %d\n", policy, meso ? "meso" : "full",
-                   s.wave_mps, s.headways_s[0], s.headways_s[1], s.headways_s[2], s.headways_s[3], s.passed);
+const std::vector<std::string> kMeso{"fidelity=meso", "meso=fitted"};
+constexpr std::array<double, 4> kHeadways_s{3.8, 3.1, 2.7, 2.4};
+
+TEST(HumanStart, DischargesAsManyVehiclesAsMeasured) {
+    const int full = start_of("HUMAN", {}, 0.01).passed;
+    EXPECT_GE(full, 18);
+    EXPECT_LE(full, 29);
+    const int meso = start_of("HUMAN", kMeso, 0.01).passed;
+    EXPECT_NEAR(meso, full, 4);
+    EXPECT_LT(meso, start_of("CTG-Ref", kMeso, 0.01).passed);
+}
+
+TEST(HumanStart, HasTheMeasuredHeadwaysWithTheMeasuredAcceleration) {
+    const QueueStart cities = start_of("HUMAN", {}, 0.01);
+    const QueueStart starts = start_of("HUMAN", {"driver.human.idm.acceleration=2.5 m/s2"}, 0.01);
+    for (std::size_t k = 1; k < kHeadways_s.size(); ++k) {
+        EXPECT_GT(cities.headways_s[k], kHeadways_s[k] + 0.5) << k;
+        EXPECT_NEAR(starts.headways_s[k], kHeadways_s[k], 0.35) << k;
+    }
+}
+
+// The start wave is slower than measured, and slower than with automated vehicles. Without reaction time it is faster.
+TEST(HumanStart, StartWaveIsSlowerThanMeasured) {
+    for (const std::vector<std::string>& fidelity : {std::vector<std::string>(), kMeso}) {
+        std::vector<std::string> at_once = fidelity;
+        at_once.insert(at_once.end(), {"driver.human.reaction=0 s", "driver.human.reaction_spread=0 s"});
+        const double human_mps = start_of("HUMAN", fidelity, 0.01).wave_mps;
+        EXPECT_GT(human_mps, 3.5);
+        EXPECT_LT(human_mps, 6.0);
+        EXPECT_GT(start_of("HUMAN", at_once, 0.01).wave_mps, human_mps + 0.3);
+        EXPECT_GT(start_of("CTG-Ref", fidelity, 0.01).wave_mps, 8.0);
+    }
+}
+
+// A leader stops as hard as the tyres allow. No human driver of the platoon behind it runs into its leader, although
+// some have a reaction time above their time gap (Track checks for overlaps).
+TEST(HumanStart, NobodyRunsIntoALeaderThatStopsHard) {
+    for (const std::vector<std::string>& fidelity : {std::vector<std::string>(), kMeso}) {
+        for (const char* const reaction : {"driver.human.reaction=1 s", "driver.human.reaction=1.7 s"}) {
+            TrackPlan plan;
+            plan.policy = "HUMAN";
+            plan.overrides = fidelity;
+            plan.overrides.emplace_back(reaction);
+            Track track(plan);
+            track.place_platoon(0, 900.0, 13.0, 25);
+            track.run(5.0);
+            double front_m = track.vehicle(0, 0).position_m;
+            double speed_mps = track.vehicle(0, 0).speed_mps;
+            while (track.time_s() < 120.0) {
+                track.drive(0, 0, front_m, speed_mps, speed_mps > 0.0 ? -7.0 : 0.0, speed_mps > 0.0 ? -7.0 : 0.0, 0.2);
+                track.step();
+                const double next_mps = std::max(speed_mps - 7.0 * track.step_s(), 0.0);
+                front_m += 0.5 * (speed_mps + next_mps) * track.step_s();
+                speed_mps = next_mps;
+            }
+            EXPECT_LT(track.vehicle(0, 25).speed_mps, 0.5);
+            EXPECT_GE(track.vehicle(0, 25).gap_m, 0.0);
         }
     }
 }

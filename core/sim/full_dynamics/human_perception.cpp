@@ -6,6 +6,7 @@
 
 #include "base/containers/index.h"
 #include "base/random.h"
+#include "driver/acceleration_laws.h"
 #include "driver/human.h"
 
 namespace stopline {
@@ -27,6 +28,16 @@ std::size_t row_of_age(const Model& model, const State& state, std::int64_t age)
     return at(wrapped) * at(state.vehicles.slots);
 }
 
+// Returns the braking that avoids a collision, or kUnconstrained_mps2. It acts on the measurements of this step.
+double evasive_mps2(const DriverPlan& driver, const VehicleArrays& v, int slot, double gap_m, double closing_mps) {
+    const double leader_mps2 = v.acceleration_mps2[at(slot - 1)];
+    const LeaderView<double> leader{gap_m, closing_mps, leader_mps2, leader_mps2, 1.0};
+    const CaccSettings& limits = driver.tables.cacc;
+    const double speed_mps = v.speed_mps[at(slot)];
+    return std::min(emergency_acceleration(limits, speed_mps, leader),
+                    keep_room_acceleration(limits, speed_mps, 0.0, leader));
+}
+
 }  // namespace
 
 void see_as_humans(const Model& model, const State& state, std::span<const LaneStep> lanes, const FullGroup& group) {
@@ -39,6 +50,8 @@ void see_as_humans(const Model& model, const State& state, std::span<const LaneS
         for (int slot = lane.begin; slot < lane.stop; ++slot, ++place) {
             const DriverPlan& driver = model.driver_of(v.policy[at(slot)]);
             if (!driver.is_human) continue;
+            const double evasive = evasive_mps2(driver, v, slot, group.gap[place], group.closing[place]);
+            group.demand[place] = std::min(group.demand[place], static_cast<float>(evasive));
             const DriverRandom random{key, v.id[at(slot)], model.time_s(state.tick)};
             const double reaction_s = reaction_time_s(driver.human, random.driver(0));
             // The request takes effect a step later, so the measurement may be a step younger than the reaction time.
