@@ -14,7 +14,15 @@ namespace stopline {
 
 // The purpose of a random number. The value of the enumerator is part of the key, so append new purposes and never
 // renumber old ones.
-enum class Purpose : std::uint64_t { policy = 1, turn = 2, dawdle = 3, insertion = 4, vehicle_type = 5, fit_start = 6 };
+enum class Purpose : std::uint64_t {
+    policy = 1,
+    turn = 2,
+    dawdle = 3,
+    insertion = 4,
+    vehicle_type = 5,
+    fit_start = 6,
+    driver = 7
+};
 
 // Returns the SplitMix64 finaliser of z. `Words` is std::uint64_t or a vector of std::uint64_t.
 template <class Words>
@@ -36,20 +44,24 @@ constexpr double random_uniform(std::uint64_t seed, std::uint64_t vehicle, std::
     return static_cast<double>(random_bits(seed, vehicle, tick, purpose) >> 11) * 0x1.0p-53;
 }
 
-// The next functions make the random numbers for Krauss's model, in which drivers dawdle (brake at random).
-// dawdle_key() computes the part of the key that all vehicles share. The numbers have 52 random bits, because every
-// instruction set can vectorise the conversion of 52 bits to a double.
-constexpr std::uint64_t dawdle_key(std::uint64_t seed) {
-    return mix64(seed ^ (static_cast<std::uint64_t>(Purpose::dawdle) << 56));
+// The next functions make random numbers that kernels compute for several vehicles at once. A key is the part of the
+// random numbers that all vehicles share. The numbers have 52 random bits, because every instruction set can vectorise
+// the conversion of 52 bits to a double.
+constexpr std::uint64_t purpose_key(std::uint64_t seed, Purpose purpose) {
+    return mix64(seed ^ (static_cast<std::uint64_t>(purpose) << 56));
 }
+// Key for Krauss's model, in which drivers dawdle (brake at random). The index of the numbers is the tick.
+constexpr std::uint64_t dawdle_key(std::uint64_t seed) { return purpose_key(seed, Purpose::dawdle); }
+// Key for the properties and errors of human drivers (driver/human.h).
+constexpr std::uint64_t driver_key(std::uint64_t seed) { return purpose_key(seed, Purpose::driver); }
 // Returns the bits of a double that is uniformly distributed in [1, 2).
 template <class Words>
-[[gnu::always_inline]] constexpr Words dawdle_bits(std::uint64_t key, Words vehicle, std::uint64_t tick) {
-    return std::uint64_t{0x3ff0000000000000} | (mix_bits(mix_bits(key ^ vehicle) ^ tick) >> 12);
+[[gnu::always_inline]] constexpr Words keyed_bits(std::uint64_t key, Words vehicle, std::uint64_t index) {
+    return std::uint64_t{0x3ff0000000000000} | (mix_bits(mix_bits(key ^ vehicle) ^ index) >> 12);
 }
 // Returns a uniform number in [0, 1) with 52 random bits.
-inline double dawdle_uniform(std::uint64_t key, int vehicle, std::uint64_t tick) {
-    return std::bit_cast<double>(dawdle_bits(key, static_cast<std::uint64_t>(vehicle), tick)) - 1.0;
+inline double keyed_uniform(std::uint64_t key, int vehicle, std::uint64_t index) {
+    return std::bit_cast<double>(keyed_bits(key, static_cast<std::uint64_t>(vehicle), index)) - 1.0;
 }
 
 }  // namespace stopline

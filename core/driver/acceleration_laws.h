@@ -28,12 +28,20 @@ namespace stopline {
 // never the smallest one.
 inline constexpr double kUnconstrained_mps2 = 1e3;
 
+// The parameters of human drivers for the kernels (human.h). `closing_s2pm` is 1 / (2 sqrt(a b)).
+template <class Number>
+struct HumanTablesOf {
+    Number acceleration_mps2 = 0.0;
+    Number closing_s2pm = 0.0;
+};
+
 // The settings of the driver, prepared for the kernels (the loops over vehicles).
 template <class Number>
 struct DriverTablesOf {
     static constexpr int kProfileNodes = 32;
     CaccSettingsOf<Number> cacc;
     StopSettingsOf<Number> stop;
+    HumanTablesOf<Number> human;
     Number speed_gain_1ps = 0.0;
     Number deceleration_mps2 = 0.0;  // braking before a lower speed limit
     Number profile_nodes_per_mps = 0.0;

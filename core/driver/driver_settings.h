@@ -106,12 +106,37 @@ struct LaneChangeSettings {
     bool operator==(const LaneChangeSettings&) const = default;
 };
 
+// The intelligent driver model (idm.h). The policy gives the time gap and the standstill gap. The defaults are the
+// values for cities of Treiber, Kesting 2013, "Traffic Flow Dynamics", table 11.2.
+struct IdmSettings {
+    double acceleration_mps2 = 1.0;  // a, maximum acceleration
+    double deceleration_mps2 = 1.5;  // b, comfortable deceleration
+
+    bool operator==(const IdmSettings&) const = default;
+};
+
+// Human drivers (human.h), for policies with the law `human`. The errors are those of Treiber, Kesting, Helbing 2006. The
+// reaction time is the mean start-up reaction time of Salles, Kaufmann, Reuss 2020, "Extending the intelligent driver
+// model in SUMO and verifying the drive off trajectories with aerial measurements". The spread reaches from an expected to
+// an unexpected signal of the car ahead, 0.75 s to 1.25 s (Green 2000, "How long does it take to stop?").
+struct HumanSettings {
+    IdmSettings idm;
+    double reaction_s = 1.0;
+    double reaction_spread_s = 0.25;  // the reaction times of drivers are uniform within reaction_s +- this value
+    double gap_error = 0.05;          // V_s, relative error of the gap
+    double closing_error_1ps = 0.01;  // r_c, error of the closing speed per metre of gap
+    double error_time_s = 20.0;       // correlation time of the errors
+
+    bool operator==(const HumanSettings&) const = default;
+};
+
 struct DriverSettings {
     CaccSettings cacc;
     FreeDriveSettings free_drive;
     StopSettings stop;
     GiveWaySettings give_way;
     LaneChangeSettings lane_change;
+    HumanSettings human;
     std::string name = {};  // name of the driver; default: the name of the file in data/drivers
 
     bool operator==(const DriverSettings&) const = default;
@@ -130,13 +155,6 @@ struct KraussSettings {
     double reaction_s = 0.9;         // tau, reaction time
     double standstill_gap_m = 2.95;  // s_0 (minGap in SUMO)
     double dawdling = 0.4;           // sigma, 0 .. 1
-};
-
-// The intelligent driver model (idm.h). The policy gives the time gap and the standstill gap. The defaults are the
-// values for cities of Treiber, Kesting 2013, "Traffic Flow Dynamics", table 11.2.
-struct IdmSettings {
-    double acceleration_mps2 = 1.0;  // a, maximum acceleration
-    double deceleration_mps2 = 1.5;  // b, comfortable deceleration
 };
 
 // The mesoscale mode: the parameters of the car-following models (following_model.h) and of all else.

@@ -3,6 +3,7 @@
 
 #include "base/input_error.h"
 #include "driver/acceleration_laws.h"
+#include "driver/idm.h"
 
 namespace stopline {
 
@@ -14,6 +15,8 @@ DriverTables compile_driver(const DriverSettings& settings) {
     DriverTables t;
     t.cacc = settings.cacc;
     t.stop = settings.stop;
+    const IdmParameters idm = idm_parameters(settings.human.idm, 0.0, 0.0);
+    t.human = {idm.acceleration_mps2, idm.closing_s2pm};
     t.speed_gain_1ps = free.speed_gain_1ps;
     t.deceleration_mps2 = free.deceleration_mps2;
     const double top_mps = std::max(free.speed_mps.back(), 1.0);

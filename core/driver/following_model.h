@@ -9,6 +9,7 @@
 #include <array>
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <new>
 #include <string>
@@ -27,6 +28,13 @@ struct MesoKernels;  // sim/mesoscale/meso_kernels.h
 // Names of the families that spacing laws use.
 inline constexpr const char* kConstantDistanceFamily = "constant_distance";
 inline constexpr const char* kTimeGapFamily = "time_gap";
+inline constexpr const char* kHumanFamily = "human";
+
+// The settings from which a model is made: those of the mesoscale mode and those of the driver.
+struct FollowingSettings {
+    const MesoSettings& meso;
+    const HumanSettings& human;
+};
 
 // The desired gap of a spacing policy in the mesoscale mode: standstill gap + time gap x speed + extra gap. The extra
 // gap is a function of the speed. It is 0 at rest.
@@ -60,10 +68,13 @@ struct FollowingBraking {
     double reaction_s;
 };
 
-// The random numbers of one vehicle in one step. Models get them as a parameter and call only what they need.
+// The random numbers of one vehicle in one step, all with the same value. Models get such numbers as a parameter and
+// call only what they need.
 struct FixedRandom {
     double value = 0.0;
     double dawdle() const { return value; }
+    double driver(std::uint64_t /*index*/) const { return value; }
+    double time_s() const { return 0.0; }
 };
 
 // Returns the speed from which a vehicle can stop behind its leader. The leader brakes with b [m/s2] at once, the
@@ -115,8 +126,7 @@ struct FollowingName {
 };
 
 // The trait of a car-following model. Besides these members, a model has three function templates over the number type
-// R (krauss.h and idm.h are examples). Their parameter `k` holds the model of one policy, or the parameters of several
-// vehicles if the model has of_two_policies():
+// R (krauss.h and idm.h are examples). Their parameter `k` holds the model of one policy:
 //
 //   R following_speed_mps(k, in, random, dt)
 //       Returns the highest next speed that the leader allows.
@@ -125,16 +135,19 @@ struct FollowingName {
 //       of following_speed_mps(). `relays` and `foresees` are members of MesoStep (sim/mesoscale/meso_kernels.h).
 //   R desired_speed_mps<power_limit>(k, in, following_mps, dt, least_mps2)
 //       Returns the desired next speed, in free driving or behind a leader. `least_mps2` is a lower bound of the
-//       acceleration on fast lanes. If `power_limit` is false, no model of the run has a power limit.
+//       acceleration on fast lanes. `power_limit` is always true, except for models with fast versions (see below).
 //   R disturbed_speed_mps(k, bounded_mps, random, dt)
 //       Returns the next speed after random errors. It must lie between 0 and `bounded_mps`, the result of
 //       bounded_speed_mps().
+//
+// A model may have fast versions of its kernels, as Krauss has. Its function of_two_policies() then combines the
+// parameters of two policies, and has_power_limit() says if `power_limit` must be true.
 //
 // A vehicle at rest behind a leader at rest must stay at rest if it did not move in the previous step, because the
 // kernels skip the vehicles inside a standing queue.
 template <class M>
 concept CarFollowing = std::is_trivially_copyable_v<M> &&
-    requires(const M& model, const MesoSettings& settings, const MesoGap& gap, double speed_mps) {
+    requires(const M& model, const FollowingSettings& settings, const MesoGap& gap, double speed_mps) {
     M::kNames;  // array of FollowingName: a model can have several names with other parameters
     { M::make(settings, gap) } -> std::same_as<M>;
     { model.equilibrium_gap_m(speed_mps) } -> std::same_as<double>;  // without the extra gap
@@ -152,7 +165,7 @@ class FollowingModel;
 // A named car-following model: functions that make the model of a policy and answer questions about it.
 struct FollowingFamily {
     FollowingName text;
-    FollowingModel (*make)(const FollowingFamily& family, const MesoSettings& settings, const MesoGap& gap);
+    FollowingModel (*make)(const FollowingFamily& family, const FollowingSettings& settings, const MesoGap& gap);
     double (*equilibrium_gap_m)(const FollowingModel& model, double speed_mps);
     double (*smallest_gap_m)(const FollowingModel& model);
     FollowingBraking (*braking)(const FollowingModel& model);
@@ -202,7 +215,7 @@ private:
 template <CarFollowing M>
 constexpr FollowingFamily following_family(const FollowingName& text, const MesoKernels& (*kernels)(bool scalar)) {
     return {text,
-            [](const FollowingFamily& family, const MesoSettings& settings, const MesoGap& gap) {
+            [](const FollowingFamily& family, const FollowingSettings& settings, const MesoGap& gap) {
                 return FollowingModel(family, M::make(settings, gap));
             },
             [](const FollowingModel& model, double speed_mps) { return model.as<M>().equilibrium_gap_m(speed_mps); },

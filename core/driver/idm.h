@@ -44,12 +44,12 @@ inline constexpr double kMinIdmGap_m = 0.1;  // shorter gaps count as this gap
 // Reaction time of the braking before a stop line: that of stop_acceleration() (acceleration_laws.h).
 inline constexpr double kBrakingReaction_s = 0.5;
 
-// Returns (s* / s)^2 for the speed, the closing speed v - v_l and the net gap. `time_gap_s` is T, and `standstill_gap_m`
-// is s_0.
+// Returns (s* / s)^2 for the speed, the closing speed v - v_l and the net gap. `standstill_gap_m` is s_0, and
+// `growth_m` is T v.
 template <class R>
 STOPLINE_INLINE R idm_interaction(const R& speed_mps, const R& closing_mps, const R& gap_m, const R& standstill_gap_m,
-                                  const R& time_gap_s, double closing_s2pm) {
-    const R dynamic_m = speed_mps * (time_gap_s + closing_mps * closing_s2pm);
+                                  const R& growth_m, double closing_s2pm) {
+    const R dynamic_m = growth_m + speed_mps * closing_mps * closing_s2pm;
     const R desired_m = standstill_gap_m + max_of(dynamic_m, R(0.0));
     return square(R(desired_m / max_of(gap_m, R(kMinIdmGap_m))));
 }
@@ -63,9 +63,9 @@ STOPLINE_INLINE R idm_free_term(const R& speed_mps, const R& desired_mps) {
 // Returns the acceleration of the IDM, m/s2.
 inline double idm_acceleration_mps2(const IdmParameters& p, double speed_mps, double closing_mps, double gap_m,
                                     double desired_mps) {
-    return p.acceleration_mps2 *
-           (1.0 - idm_free_term(speed_mps, desired_mps) -
-            idm_interaction(speed_mps, closing_mps, gap_m, p.standstill_gap_m, p.time_gap_s, p.closing_s2pm));
+    return p.acceleration_mps2 * (1.0 - idm_free_term(speed_mps, desired_mps) -
+                                  idm_interaction(speed_mps, closing_mps, gap_m, p.standstill_gap_m,
+                                                  p.time_gap_s * speed_mps, p.closing_s2pm));
 }
 
 // The IDM as a car-following model of the mesoscale mode. The trait CarFollowing explains the functions.
@@ -73,8 +73,8 @@ struct Idm : IdmParameters {
     static constexpr std::array kNames{
         FollowingName{"idm", "the intelligent driver model of Treiber, Hennecke and Helbing"}};
 
-    static Idm make(const MesoSettings& settings, const MesoGap& gap) {
-        return {idm_parameters(settings.idm, gap.standstill_gap_m, gap.time_gap_s)};
+    static Idm make(const FollowingSettings& settings, const MesoGap& gap) {
+        return {idm_parameters(settings.meso.idm, gap.standstill_gap_m, gap.time_gap_s)};
     }
 
     double smallest_gap_m() const { return standstill_gap_m; }
@@ -89,8 +89,9 @@ struct Idm : IdmParameters {
     template <class R, class Random>
     STOPLINE_INLINE static R following_speed_mps(const Idm& k, const FollowingInputOf<R>& in, const Random& /*random*/,
                                                  double dt) {
-        const R interaction = idm_interaction(in.speed_mps, R(in.speed_mps - in.leader_speed_mps), in.gap_m,
-                                              R(k.standstill_gap_m + in.extra_gap_m), R(k.time_gap_s), k.closing_s2pm);
+        const R interaction =
+            idm_interaction(in.speed_mps, R(in.speed_mps - in.leader_speed_mps), in.gap_m,
+                            R(k.standstill_gap_m + in.extra_gap_m), R(k.time_gap_s * in.speed_mps), k.closing_s2pm);
         return in.speed_mps + k.acceleration_mps2 * dt * (1.0 - interaction);
     }
 

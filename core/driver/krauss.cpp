@@ -4,7 +4,8 @@
 
 namespace stopline {
 
-Krauss Krauss::make(const MesoSettings& settings, const MesoGap& gap) {
+Krauss Krauss::make(const FollowingSettings& all, const MesoGap& gap) {
+    const MesoSettings& settings = all.meso;
     const bool time_gap = gap.family != kConstantDistanceFamily;
     const KraussSettings& s = time_gap ? settings.constant_time : settings.constant_distance;
     Krauss k;

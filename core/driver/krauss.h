@@ -71,7 +71,7 @@ struct Krauss {
 
     // Makes the model of a spacing policy. If the time gap or the standstill gap of the policy differs from the
     // calibrated one, tau or s_0 changes by the difference.
-    static Krauss make(const MesoSettings& settings, const MesoGap& gap);
+    static Krauss make(const FollowingSettings& settings, const MesoGap& gap);
 
     double equilibrium_gap_m(double speed_mps) const { return standstill_gap_m + band_m + reaction_s * speed_mps; }
     double smallest_gap_m() const { return standstill_gap_m - band_m; }

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <functional>
-#include <utility>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -124,32 +124,36 @@ int index_in(std::vector<T>& list, const T& value) {
     return index;
 }
 
-DriverPlan driver_plan(const DriverSettings& settings, const PowertrainTables& vehicle, double step_s) {
+DriverPlan driver_plan(const DriverSettings& settings, const PowertrainTables& vehicle, bool is_human, double step_s) {
     DriverPlan driver;
+    driver.human = settings.human;
+    driver.is_human = is_human;
     driver.tables = compile_driver(settings);
     const auto available_mps2 = [&](double v) { return available_acceleration_mps2(vehicle, v); };
     extend_by_power(settings.free_drive, available_mps2, driver.tables);
     driver.give_way = settings.give_way;
     driver.lane_change = settings.lane_change;
-    driver.hesitation_s = settings.free_drive.hesitation_s;
+    driver.hesitation_s = is_human ? std::max(settings.free_drive.hesitation_s, settings.human.reaction_s)
+                                   : settings.free_drive.hesitation_s;
     driver.hesitation_ticks = to_ticks(driver.hesitation_s, step_s);
     return driver;
 }
 
-// Adds the vehicle types and the drivers of all classes. A driver plan depends on the vehicle, so each pair of vehicle
-// and driver has its own plan.
+// Adds the vehicle types and the drivers of all classes. A driver plan depends on the vehicle and on the kind of the
+// driver, so each combination of vehicle, driver and kind has its own plan.
 void add_vehicles_and_drivers(const std::vector<FleetClass>& classes, Model& model) {
     std::vector<PowertrainSettings> vehicles;
     std::vector<DriverSettings> drivers;
-    std::vector<std::pair<int, int>> plans;  // indices in `vehicles` and `drivers`
+    std::vector<std::tuple<int, int, bool>> plans;  // indices in `vehicles` and `drivers`; true: human driver
     for (const FleetClass& fleet_class : classes) {
         const int vehicle = index_in(vehicles, fleet_class.vehicle);
         const int driver = index_in(drivers, fleet_class.driver);
-        model.classes.push_back({vehicle, index_in(plans, std::pair(vehicle, driver))});
+        const bool is_human = find_gap_law(fleet_class.policy.law).is_human;
+        model.classes.push_back({vehicle, index_in(plans, std::tuple(vehicle, driver, is_human))});
     }
     for (const PowertrainSettings& vehicle : vehicles) model.vehicles.push_back(compile_powertrain(vehicle));
-    for (const auto& [vehicle, driver] : plans) {
-        model.drivers.push_back(driver_plan(drivers[at(driver)], model.vehicles[at(vehicle)], model.step_s));
+    for (const auto& [vehicle, driver, is_human] : plans) {
+        model.drivers.push_back(driver_plan(drivers[at(driver)], model.vehicles[at(vehicle)], is_human, model.step_s));
     }
     const auto limits_speed = [&](const PowertrainTables& vehicle) {
         return std::any_of(model.graph.lanes.begin(), model.graph.lanes.end(),

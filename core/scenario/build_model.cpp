@@ -204,8 +204,9 @@ void add_network(const Scenario& scenario, Model& model) {
 
 void set_meso(const MesoSettings& settings, Model& model) {
     model.following.clear();
-    for (const GapPolicy& policy : model.policies) {
-        model.following.push_back(make_following_model(settings, policy.meso));
+    for (std::size_t k = 0; k < model.policies.size(); ++k) {
+        const HumanSettings& human = model.driver_of(static_cast<int>(k)).human;
+        model.following.push_back(make_following_model({settings, human}, model.policies[k].meso));
     }
     model.speed_factor = settings.speed_factor;
     model.leader_speed_share = settings.leader_speed_share;
@@ -241,6 +242,12 @@ Model build_model(const Scenario& scenario, std::size_t population) {
     const CaccSettings& cacc = driver_of(scenario, vehicles.components.front()).cacc;
     model.radar = make_delay(std::max(cacc.radar_delay_s - scenario.tick_s(), 0.0), scenario.tick_s());
     model.v2v = make_delay(cacc.v2v_delay_s, scenario.tick_s());
+    // Human drivers read older measurements. The arrays must keep them for the longest reaction time.
+    for (const DriverPlan& driver : model.drivers) {
+        if (!driver.is_human) continue;
+        const double longest_s = driver.human.reaction_s + driver.human.reaction_spread_s;
+        model.radar.rows = std::max(model.radar.rows, make_delay(longest_s, model.step_s).rows);
+    }
     if (scenario.is_meso()) {  // mesoscale car following has no radar delay
         model.meso = true;
         model.radar = make_delay(0.0, model.step_s);

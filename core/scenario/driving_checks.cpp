@@ -30,7 +30,8 @@ bool is_used(const Scenario& scenario, const GapPolicySettings& policy) {
 // Returns how much smaller than the standstill gap of the policy the gap of a stopped vehicle can be in the mesoscale
 // mode, m. Vehicles can touch if the standstill gap of the policy is smaller than the result.
 double meso_min_gap_m(const Scenario& scenario, const GapPolicySettings& policy) {
-    return policy.standstill_gap_m - make_following_model(scenario.meso, make_gap_policy(policy).meso).smallest_gap_m();
+    return policy.standstill_gap_m -
+           make_following_model({scenario.meso, scenario.driver.human}, make_gap_policy(policy).meso).smallest_gap_m();
 }
 
 std::vector<std::string> following_names() {
@@ -120,7 +121,8 @@ namespace {
 bool relays_starts(const Scenario& scenario) {
     return std::any_of(scenario.policies.begin(), scenario.policies.end(), [&](const GapPolicySettings& policy) {
         return is_used(scenario, policy) &&
-               make_following_model(scenario.meso, make_gap_policy(policy).meso).relays_starts();
+               make_following_model({scenario.meso, scenario.driver.human}, make_gap_policy(policy).meso)
+                   .relays_starts();
     });
 }
 

@@ -17,10 +17,12 @@ extern const GapLaw kSwitchTimeGapLaw;
 extern const GapLaw kSwitchDistanceLaw;
 extern const GapLaw kFormulaLaw;
 extern const GapLaw kTableLaw;
+extern const GapLaw kHumanLaw;
 
 std::span<const GapLaw* const> gap_laws() {
-    static const std::array<const GapLaw*, 6> kLaws{&kConstantDistanceLaw, &kConstantTimeLaw, &kSwitchTimeGapLaw,
-                                                    &kSwitchDistanceLaw,   &kFormulaLaw,      &kTableLaw};
+    static const std::array<const GapLaw*, 7> kLaws{
+        &kConstantDistanceLaw, &kConstantTimeLaw, &kSwitchTimeGapLaw, &kSwitchDistanceLaw,
+        &kFormulaLaw,          &kTableLaw,        &kHumanLaw};
     return kLaws;
 }
 

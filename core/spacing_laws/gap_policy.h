@@ -80,6 +80,8 @@ struct GapLaw {
     std::vector<LawProblem> (*problems)(const GapPolicySettings& settings) = nullptr;
     // Makes GapPolicy::table. nullptr: the law needs no table.
     GapTable (*tabulate)(const GapPolicySettings& settings) = nullptr;
+    // True: human drivers without radar and V2V (driver/human.h). False: automated vehicles.
+    bool is_human = false;
 };
 
 // Returns all registered laws.

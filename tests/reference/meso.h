@@ -185,7 +185,7 @@ inline double next_follower_speed_mps(const MesoModel& m, const Lane& lane, cons
     const double faster_mps = v.speed_mps + acceleration_mps2 * (is_close ? s.catch_up_factor : 1.0) * m.step_s;
     const double contact_mps = std::max(leader.gap_m, 0.0) / m.step_s;
     const double desired_mps = snapped(std::min({safe_mps, faster_mps, contact_mps, highest_mps}));
-    const double random = dawdle_uniform(m.dawdling_key, v.id, static_cast<std::uint64_t>(tick));
+    const double random = keyed_uniform(m.dawdling_key, v.id, static_cast<std::uint64_t>(tick));
     return desired_mps - s.dawdling * m.step_s * random * std::min(desired_mps, s.acceleration_mps2);
 }
 

@@ -24,6 +24,7 @@ const std::map<std::string, std::function<double(double)>> kClosedForms{
     {"CDG", [](double) { return 2.95; }},
     {"CDG-6m", [](double) { return 6.0; }},
     {"CTG-Ref", [](double v) { return 2.95 + 0.87 * v; }},
+    {"HUMAN", [](double v) { return 2.0 + v; }},
     {"CTG-HCM", [](double v) { return 2.95 + 0.92 * v; }},
     {"CTG-HBS", [](double v) { return 2.95 + 1.22 * v; }},
     {"SWITCH-1", [](double v) { return 2.95 + 0.87 * speed_above(v, 30.0); }},

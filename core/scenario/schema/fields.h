@@ -17,6 +17,7 @@ const Table& demand_table();      // DemandSettings
 const Table& vehicle_table();     // PowertrainSettings: the root of data/vehicles/*.yaml
 const Table& driver_table();      // DriverSettings: the root of data/drivers/*.yaml
 const Table& rules_table();       // TrafficRules
+const Table& idm_table();         // IdmSettings
 const Table& meso_table();        // MesoSettings: the root of data/meso/*.yaml
 const Table& gap_policy_table();  // GapPolicySettings
 const Table& population_table();  // PopulationSettings

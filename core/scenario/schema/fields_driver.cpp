@@ -188,6 +188,27 @@ const Table& give_way_table() {
     return table;
 }
 
+const Table& human_table() {
+    using S = HumanSettings;
+    static const Table table = make_table<S>(
+        "human drivers",
+        {
+            section<&S::idm>("idm", idm_table, "acceleration of human drivers"),
+            number<&S::reaction_s>("reaction", "s", {0, 2},
+                                   "mean reaction time, also of the first vehicle at a signal"),
+            number<&S::reaction_spread_s>("reaction_spread", "s", {0, 2},
+                                          "the reaction times of drivers differ from the mean by up to this time"),
+            number<&S::gap_error>("gap_error", "", {0, 0.5}, "standard deviation of the estimated gap, relative"),
+            number<&S::closing_error_1ps>("closing_error", "1/s", {0, 0.1},
+                                          "standard deviation of the estimated closing speed per metre of gap"),
+            number<&S::error_time_s>("error_time", "s", {0.1, 1000}, "correlation time of both errors"),
+        },
+        [](const S& s, Checker& check) {
+            if (s.reaction_spread_s > s.reaction_s) check.error("reaction_spread", "must be at most reaction");
+        });
+    return table;
+}
+
 // Returns a copy of the scalar with another text and the same position.
 SourceNode with_text(const SourceNode& scalar, std::string text) {
     SourceNode node = scalar;
@@ -247,6 +268,7 @@ const Table& driver_table() {
             section<&S::stop>("stop", stop_table, "stopping at a stop line"),
             section<&S::give_way>("give_way", give_way_table, "yielding inside intersections"),
             section<&S::lane_change>("lane_change", lane_change_table, "lane changes"),
+            section<&S::human>("human", human_table, "human drivers: policies with the law human"),
         },
         check_driver);
     return table;

@@ -43,6 +43,8 @@ const Table& krauss_table() {
     return table;
 }
 
+}  // namespace
+
 const Table& idm_table() {
     using S = IdmSettings;
     static const Table table = make_table<S>(
@@ -54,8 +56,6 @@ const Table& idm_table() {
         });
     return table;
 }
-
-}  // namespace
 
 const Table& meso_table() {
     using S = MesoSettings;

@@ -5,6 +5,7 @@
 #include "base/containers/index.h"
 #include "base/simd/narrowed.h"
 #include "sim/full_dynamics/full_kernels.h"
+#include "sim/full_dynamics/human_perception.h"
 #include "sim/state/queries/overlap.h"
 
 namespace stopline {
@@ -106,10 +107,12 @@ void step_full(const Model& model, const FullTables& tables, const LaneGroup& la
     kernels.gather(streams, state.radar, state.v2v, lanes, model.step_s, group);
     evaluate_gap_laws(model, lanes.vehicles, group);
     apply_classes(model, lanes.vehicles, group);
+    see_as_humans(model, state, lanes.lanes, group);
     for (std::size_t k = 0; k < tables.drivers.size(); ++k) {
         const int only = tables.drivers.size() == 1 ? -1 : static_cast<int>(k);
-        kernels.plan(tables.drivers[k], group, lanes.vehicles, model.step_s, only, streams,
-                     k == 0 ? next : std::span<const int>());
+        const auto plan = model.drivers[k].is_human ? kernels.plan_human : kernels.plan;
+        plan(tables.drivers[k], group, lanes.vehicles, model.step_s, only, streams,
+             k == 0 ? next : std::span<const int>());
     }
     for (std::size_t k = 0; k < tables.vehicles.size(); ++k) {
         const int only = tables.vehicles.size() == 1 ? -1 : static_cast<int>(k);

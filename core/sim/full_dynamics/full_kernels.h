@@ -26,8 +26,8 @@ struct FullStreams {
     const float *heard_acceleration_older, *heard_request_older, *heard_rate_older;
 };
 
-// The kernels of one step. For each lane group they are called in the order of the members. `plan` is called once for
-// each driver, and `drive` once for each vehicle type.
+// The kernels of one step. For each lane group they are called in the order of the members. `plan` or `plan_human` is
+// called once for each driver, and `drive` once for each vehicle type.
 struct FullKernels {
     using Lanes = std::span<const LaneStep>;
     // Slots whose data are prefetched: one for each cache line of the next group. Empty: no prefetch.
@@ -44,6 +44,10 @@ struct FullKernels {
     // apply to all vehicles.
     void (*plan)(const DriverTablesOf<float>&, const FullGroup&, int vehicles, double dt, int only, const FullStreams&,
                  NextSlots next);
+    // The same for human drivers (driver/human.h). FullGroup::gap and FullGroup::closing must be what the drivers see
+    // (human_perception.h).
+    void (*plan_human)(const DriverTablesOf<float>&, const FullGroup&, int vehicles, double dt, int only,
+                       const FullStreams&, NextSlots next);
     // Vehicle: computes the response of the powertrain to the requests. `only`: index of the vehicle type to which the
     // tables belong. Vehicles of other types stay unchanged. If `only` is below 0, the tables apply to all vehicles.
     void (*drive)(const PowertrainTablesOf<float>&, const FullGroup&, int vehicles, double dt, int only,

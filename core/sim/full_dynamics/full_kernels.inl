@@ -10,6 +10,7 @@
 #include "base/simd/simd_memory.h"
 #include "base/speed_thresholds.h"
 #include "base/units.h"
+#include "driver/idm.h"
 #include "sim/full_dynamics/full_kernels.h"
 #include "vehicle/powertrain_step.h"
 
@@ -150,6 +151,33 @@ void gather(const FullStreams& streams, const DelayRows& radar_rows, const Delay
     }
 }
 
+// Limits the lowest of the accelerations that apply, and stores it as the request of vehicles with the driver `only`, or
+// of all vehicles if `only` is below 0.
+template <class R>
+STOPLINE_INLINE void store_request(const DriverTablesOf<float>& d, const FullGroup& g, double dt, int only, int k,
+                                   const R& smallest, const R& is_platoon_leader) {
+    const CaccSettingsOf<float>& c = d.cacc;
+    const auto get = [k](const auto* array) STOPLINE_INLINE_LAMBDA { return load<R>(array + k); };
+    const R speed = get(g.speed);
+    const R last_request = get(g.request);
+    const R rate = 1.0 / get(g.lag);
+    const R smooth = clamped<R>(smallest, last_request - c.jerk_down_mps3 * dt, last_request + c.jerk_up_mps3 * dt);
+    // The request of a stopped vehicle does not fall below 0. It thus rises from 0 when the vehicle starts.
+    const R lowest = select(speed <= kBrakeHoldSpeed_mps, splat<R>(0.0), splat<R>(-c.deceleration_emergency_mps2));
+    const R request = max_of(smooth, lowest);
+    const R has_driver = only < 0 ? splat<R>(1.0) : STOPLINE_FLAG(R, get(g.driver) == only);
+    const auto write = [&](float* array, const R& value) STOPLINE_INLINE_LAMBDA {
+        store(array + k, only < 0 ? value : choose(has_driver, value, load<R>(array + k)));
+    };
+    write(g.request, request);
+    // The request changes linearly within the step, so its mean is the average of the previous and the new request. For
+    // a vehicle that is held by its brake, kHold_mps2 replaces this mean.
+    const R held = STOPLINE_FLAG(R, speed <= kBrakeHoldSpeed_mps) * STOPLINE_FLAG(R, request <= kStart_mps2);
+    write(g.mean_request, choose(held, splat<R>(kHold_mps2), 0.5 * (last_request + request)));
+    write(g.is_platoon_leader, is_platoon_leader);
+    write(g.sent_rate, rate);
+}
+
 // Computes the requested acceleration of the vehicle at place k of the group. If R has several numbers, computes the
 // requests of a batch of successive vehicles that begins with this vehicle. Changes only vehicles with the driver
 // `only`, or all vehicles if `only` is below 0.
@@ -193,21 +221,44 @@ STOPLINE_INLINE void plan_at(const DriverTablesOf<float>& d, const FullGroup& g,
     const R is_platoon_leader = get(g.is_platoon_leader) * STOPLINE_FLAG(R, follow > as_leader);
     const R drive = min_of(choose(is_platoon_leader, as_leader, catch_up_acceleration(d, speed, limit)), slow_down);
     const R smallest = min_of(min_of(min_of(drive, follow), emergency), min_of(get(g.demand), behind));
-    const R smooth = clamped<R>(smallest, last_request - c.jerk_down_mps3 * dt, last_request + c.jerk_up_mps3 * dt);
-    // The request of a stopped vehicle does not fall below 0. It thus rises from 0 when the vehicle starts.
-    const R lowest = select(speed <= kBrakeHoldSpeed_mps, splat<R>(0.0), splat<R>(-c.deceleration_emergency_mps2));
-    const R request = max_of(smooth, lowest);
-    const R has_driver = only < 0 ? splat<R>(1.0) : STOPLINE_FLAG(R, get(g.driver) == only);
-    const auto write = [&](float* array, const R& value) STOPLINE_INLINE_LAMBDA {
-        store(array + k, only < 0 ? value : choose(has_driver, value, load<R>(array + k)));
-    };
-    write(g.request, request);
-    // The request changes linearly within the step, so its mean is the average of the previous and the new request. For
-    // a vehicle that is held by its brake, kHold_mps2 replaces this mean.
-    const R held = STOPLINE_FLAG(R, speed <= kBrakeHoldSpeed_mps) * STOPLINE_FLAG(R, request <= kStart_mps2);
-    write(g.mean_request, choose(held, splat<R>(kHold_mps2), 0.5 * (last_request + request)));
-    write(g.is_platoon_leader, is_platoon_leader);
-    write(g.sent_rate, rate);
+    store_request(d, g, dt, only, k, smallest, is_platoon_leader);
+}
+
+// Computes the requested acceleration of human drivers, as plan_at() does for automated vehicles. Human drivers have no
+// V2V, and `gap` and `closing` of the group are what they see. The intelligent driver model gives the acceleration in
+// free driving and behind a leader. A platoon leader starts with the measured start-up profile instead.
+template <class R>
+STOPLINE_INLINE void plan_human_at(const DriverTablesOf<float>& d, const FullGroup& g, double dt, int only, int k) {
+    const CaccSettingsOf<float>& c = d.cacc;
+    const auto get = [k](const auto* array) STOPLINE_INLINE_LAMBDA { return load<R>(array + k); };
+    const R speed = get(g.speed);
+    const R limit = get(g.limit);
+    LeaderView<R> p{};
+    p.gap_m = get(g.gap);
+    p.closing_mps = get(g.closing);
+    p.acceleration_mps2 = splat<R>(0.0);
+    p.request_mps2 = splat<R>(0.0);
+    p.rate_1ps = splat<R>(1.0);
+    const R unconstrained = splat<R>(kUnconstrained_mps2);
+    const R standstill_gap = get(g.standstill_gap);
+    const R growth = max_of(get(g.desired_gap) - standstill_gap, 0.0);
+    const R interaction =
+        choose(STOPLINE_FLAG(R, p.gap_m > splat<R>(static_cast<double>(c.radar_range_m))), splat<R>(0.0),
+               idm_interaction(speed, p.closing_mps, p.gap_m, standstill_gap, growth,
+                               static_cast<double>(d.human.closing_s2pm)));
+    const R a = splat<R>(static_cast<double>(d.human.acceleration_mps2));
+    const R follow = choose(STOPLINE_FLAG(R, interaction > 0.0), a * (1.0 - interaction), unconstrained);
+    const R idm = a * (1.0 - idm_free_term(speed, limit) - interaction);
+    const R as_leader = free_acceleration(d, speed, limit);
+    const R end_speed = get(g.end_speed);
+    R slow_down = unconstrained;
+    if (any(STOPLINE_FLAG(R, end_speed < kUnconstrained_mps2))) {
+        slow_down = slow_down_acceleration(d, speed, end_speed, get(g.to_next_limit));
+    }
+    const R emergency = emergency_acceleration(c, speed, p);
+    const R is_platoon_leader = get(g.is_platoon_leader) * STOPLINE_FLAG(R, follow > as_leader);
+    const R drive = min_of(choose(is_platoon_leader, as_leader, idm), slow_down);
+    store_request(d, g, dt, only, k, min_of(min_of(drive, emergency), get(g.demand)), is_platoon_leader);
 }
 
 // Computes the response of the powertrains for a batch of vehicles that begins at place k. Changes only vehicles of the
@@ -258,6 +309,17 @@ void plan(const DriverTablesOf<float>& d, const FullGroup& group, int vehicles, 
 }
 
 template <class R>
+void plan_human(const DriverTablesOf<float>& d, const FullGroup& group, int vehicles, double dt, int only,
+                const FullStreams& streams, FullKernels::NextSlots next) {
+    const FullGroup g = group;
+    const GroupPrefetch prefetch(streams, next, vehicles, kWidthOf<R>);
+    for (int k = 0; k < vehicles; k += kWidthOf<R>) {
+        prefetch.prefetch_driver_data(k / kWidthOf<R>);
+        plan_human_at<R>(d, g, dt, only, k);
+    }
+}
+
+template <class R>
 void drive(const PowertrainTablesOf<float>& t, const FullGroup& group, int vehicles, double dt, int only,
            const FullStreams& streams, FullKernels::NextSlots next) {
     const FullGroup g = group;
@@ -298,7 +360,7 @@ void scatter(const FullStreams& streams, FullKernels::Lanes lanes, const FullGro
 
 template <class R>
 constexpr FullKernels kernels_of(const char* name) {
-    return {name, gather<R>, plan<R>, drive<R>, scatter<R>};
+    return {name, gather<R>, plan<R>, plan_human<R>, drive<R>, scatter<R>};
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ std::span<const FollowingFamily> following_families() {
     return kFamilies;
 }
 
-FollowingModel make_following_model(const MesoSettings& settings, const MesoGap& gap) {
+FollowingModel make_following_model(const FollowingSettings& settings, const MesoGap& gap) {
     std::vector<std::string_view> names;
     for (const FollowingFamily& family : following_families()) {
         if (gap.family == family.text.name) return family.make(family, settings, gap);

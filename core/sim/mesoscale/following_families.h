@@ -15,6 +15,6 @@ std::span<const FollowingFamily> following_families();
 
 // Makes the car-following model of a spacing policy. `gap.family` must be the name of a family. Throws InputError with
 // the known names if it is not.
-FollowingModel make_following_model(const MesoSettings& settings, const MesoGap& gap);
+FollowingModel make_following_model(const FollowingSettings& settings, const MesoGap& gap);
 
 }  // namespace stopline

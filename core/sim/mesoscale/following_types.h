@@ -1,6 +1,7 @@
 // The registration of the car-following models of the mesoscale mode (driver/following_model.h).
 #pragma once
 
+#include "driver/human.h"
 #include "driver/idm.h"
 #include "driver/krauss.h"
 
@@ -12,6 +13,6 @@ struct FollowingList {
 };
 
 // The trait structs of all models. To add a model, include its header above and name its struct here.
-using FollowingTypes = FollowingList<Krauss, Idm>;
+using FollowingTypes = FollowingList<Krauss, Idm, Human>;
 
 }  // namespace stopline

@@ -40,8 +40,8 @@ ExtraGap evaluate_extra_gap(const Model& model, std::size_t size, const VehicleA
 
 double stopping_speed_mps(const Model& model, const VehicleArrays& v, int slot, double room_m) {
     const FollowingModel& following = model.following[model.following.size() == 1 ? 0 : at(v.policy[at(slot)])];
-    const FollowingBraking braking = following.braking();
     const DriverTables& driver = model.driver_of(v.policy[at(slot)]).tables;
+    const FollowingBraking braking = following.braking();
     const double b = std::min(braking.deceleration_mps2, driver.stop.deceleration_mps2);
     const double max_braking_mps2 = driver.cacc.deceleration_emergency_mps2;
     const double lowest_mps = v.speed_mps[at(slot)] - max_braking_mps2 * model.step_s;
@@ -67,6 +67,7 @@ MesoStep meso_step(const Model& model, std::int64_t tick, bool prefetches) {
     const auto foresees = [](const FollowingModel& following) { return following.leader_foresees(); };
     return {model.step_s,
             dawdle_key(model.seed),
+            driver_key(model.seed),
             static_cast<std::uint64_t>(tick),
             model.common_driver().deceleration_mps2,
             model.approach_share,

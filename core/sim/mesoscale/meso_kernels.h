@@ -25,7 +25,8 @@ struct MesoStreams {
 // Constants of one step. SI units.
 struct MesoStep {
     double dt;
-    std::uint64_t key;  // key of the random numbers for dawdling, from dawdle_key()
+    std::uint64_t key;         // key of the random numbers for dawdling, from dawdle_key()
+    std::uint64_t driver_key;  // key of the random numbers of drivers, from driver_key()
     std::uint64_t tick;
     double slow_down_mps2;  // deceleration before a lower speed limit
     double approach_share;  // a vehicle below the speed limit gains at most this share of (limit - speed) in a step

@@ -5,7 +5,6 @@
 // block. `Following` is the trait struct of a car-following model.
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -23,6 +22,30 @@ namespace stopline {
 
 namespace {
 
+// The random numbers of the vehicles of a block. They are uniform in [0, 1).
+template <class R>
+struct BlockRandom {
+    const MesoStep& t;
+    const int* id;
+
+    STOPLINE_INLINE R dawdle() const { return uniform(t.key, t.tick); }
+    // Returns number `index` of each driver (driver/human.h).
+    STOPLINE_INLINE R driver(std::uint64_t index) const { return uniform(t.driver_key, index); }
+    STOPLINE_INLINE double time_s() const { return static_cast<double>(t.tick) * t.dt; }
+
+private:
+    STOPLINE_INLINE R uniform(std::uint64_t key, std::uint64_t index) const {
+        if constexpr (std::is_same_v<R, double>) {
+            return keyed_uniform(key, *id, index);
+        } else {
+            Vector<int, kWide> ids;
+            std::memcpy(&ids, id, sizeof ids);
+            const Words bits = keyed_bits(key, same_bits<Words>(converted<std::int64_t, int>(ids)), index);
+            return packed<kWide>(same_bits<Vector<double, kWide>>(bits)) - 1.0;
+        }
+    }
+};
+
 // Returns the next speed of a vehicle under a speed limit. A slower vehicle gains the given share of (limit - speed). A
 // vehicle above the limit brakes to the limit at once, but loses at most `braked_mps` in the step.
 template <class R>
@@ -39,28 +62,6 @@ STOPLINE_INLINE R approach_limit(const R& speed_mps, const R& limit_mps, double 
 template <class R>
 STOPLINE_INLINE R approach_turn(const R& speed_mps, const R& allowed_mps, double share, double braked_mps) {
     return speed_mps + share * (allowed_mps - speed_mps) - braked_mps * speed_mps / max_of(allowed_mps, R(1.0));
-}
-
-// Returns true if any float of the block differs from `value`.
-template <class R>
-STOPLINE_INLINE bool any_differs(const float* floats, float value) {
-    if constexpr (std::is_same_v<R, double>) {
-        return *floats != value;
-    } else {
-#if defined(__AVX512VL__)
-        if constexpr (kWide == 8) {
-            __m256i loaded;
-            std::memcpy(&loaded, floats, sizeof loaded);
-            return _mm256_cmpneq_epi32_mask(loaded, _mm256_set1_epi32(std::bit_cast<int>(value))) != 0;
-        }
-#endif
-        const auto bits = std::bit_cast<std::uint32_t>(value);
-        std::uint32_t loaded[kWide];
-        std::memcpy(loaded, floats, sizeof loaded);
-        std::uint32_t differences = 0;
-        for (const std::uint32_t own_bits : loaded) differences |= own_bits ^ bits;
-        return differences != 0;
-    }
 }
 
 // Returns the highest next speed that the speed limits and the speed caps allow.
@@ -343,36 +344,37 @@ inline void follow(const FollowingModel& model, const MesoStep& step, const Foll
     }
 }
 
-// A model may compute two policies at once.
+// A model for which more versions of the kernels are compiled: for one and for two policies, and without power limit.
 template <class Following, class R>
-concept ComputesTwoPolicies = requires(const R& policy, const Following& model) {
+concept HasFastVersions = requires(const R& policy, const Following& model) {
     Following::of_two_policies(policy, model, model);
 };
 
 template <class R, class Following>
 inline int step(const MesoStreams& streams, std::span<const int> blocks, std::span<const FollowingModel> models,
                 ExtraGap extra_gaps, const MesoStep& t) {
-    const bool power_limit = std::any_of(models.begin(), models.end(), [](const FollowingModel& model) {
-        return model.as<Following>().has_power_limit();
-    });
-    const bool instant_slowdown = t.turn_share >= 1.0;
-    const auto step_with = [&](auto policies) {
-        constexpr int kPolicies = policies;
-        const auto step_as = [&](auto limited, auto instant) {
-            constexpr MesoVariant kVariant{kPolicies, limited, instant};
-            return step_variant<R, Following, kVariant>(streams, blocks, models, extra_gaps, t);
-        };
-        if (power_limit)
-            return instant_slowdown ? step_as(std::true_type(), std::true_type())
-                                    : step_as(std::true_type(), std::false_type());
-        return instant_slowdown ? step_as(std::false_type(), std::true_type())
-                                : step_as(std::false_type(), std::false_type());
+    const auto step_as = [&](auto policies, auto power_limit, auto instant_slowdown) {
+        constexpr MesoVariant kVariant{policies, power_limit, instant_slowdown};
+        return step_variant<R, Following, kVariant>(streams, blocks, models, extra_gaps, t);
     };
-    if (models.size() == 1) return step_with(std::integral_constant<int, 1>());
-    if constexpr (ComputesTwoPolicies<Following, R>) {
-        if (models.size() == 2) return step_with(std::integral_constant<int, 2>());
+    const auto step_with = [&](auto policies, auto power_limit) {
+        return t.turn_share >= 1.0 ? step_as(policies, power_limit, std::true_type())
+                                   : step_as(policies, power_limit, std::false_type());
+    };
+    constexpr std::integral_constant<int, 0> kAnyNumber;
+    if constexpr (HasFastVersions<Following, R>) {
+        const bool has_power_limit = std::any_of(models.begin(), models.end(), [](const FollowingModel& model) {
+            return model.as<Following>().has_power_limit();
+        });
+        const auto step_limited = [&](auto policies) {
+            return has_power_limit ? step_with(policies, std::true_type()) : step_with(policies, std::false_type());
+        };
+        if (models.size() == 1) return step_limited(std::integral_constant<int, 1>());
+        if (models.size() == 2) return step_limited(std::integral_constant<int, 2>());
+        return step_limited(kAnyNumber);
+    } else {
+        return step_with(kAnyNumber, std::true_type());
     }
-    return step_with(std::integral_constant<int, 0>());
 }
 
 // Returns the kernels of one car-following model.

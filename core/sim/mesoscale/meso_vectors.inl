@@ -1,4 +1,5 @@
-// Vectors of the mesoscale kernels (meso_kernels.inl): loading, storing, random numbers, and tables by speed.
+// Vectors of the mesoscale kernels: loads and stores of the values of a block, and look-up in tables. R is one double, or
+// a vector with one double for each slot of a block. All functions have internal linkage (meso_kernels.inl).
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -6,10 +7,8 @@
 #include <cstring>
 #include <type_traits>
 
-#include "base/random.h"
 #include "base/simd/arithmetic.h"
 #include "base/simd/simd.h"
-#include "sim/mesoscale/meso_kernels.h"
 
 namespace stopline {
 
@@ -68,24 +67,6 @@ STOPLINE_INLINE void put(Stored* to, const Wide& value) {
     std::memcpy(to, &values, sizeof values);
 }
 
-// The random numbers of the vehicles of a block. They are uniform in [0, 1).
-template <class R>
-struct BlockRandom {
-    const MesoStep& t;
-    const int* id;
-
-    STOPLINE_INLINE R dawdle() const {
-        if constexpr (std::is_same_v<R, double>) {
-            return dawdle_uniform(t.key, *id, t.tick);
-        } else {
-            Vector<int, kWide> ids;
-            std::memcpy(&ids, id, sizeof ids);
-            const Words bits = dawdle_bits(t.key, same_bits<Words>(converted<std::int64_t, int>(ids)), t.tick);
-            return packed<kWide>(same_bits<Vector<double, kWide>>(bits)) - 1.0;
-        }
-    }
-};
-
 // Returns the mask of the slots that hold a vehicle.
 template <class R>
 STOPLINE_INLINE auto occupied_slots(const int* id) {
@@ -95,6 +76,28 @@ STOPLINE_INLINE auto occupied_slots(const int* id) {
         Vector<int, kWide> ids;
         std::memcpy(&ids, id, sizeof ids);
         return typename R::Mask{converted<std::int64_t, int>(ids) >= 0};
+    }
+}
+
+// Returns true if any float of the block differs from `value`.
+template <class R>
+STOPLINE_INLINE bool any_differs(const float* floats, float value) {
+    if constexpr (std::is_same_v<R, double>) {
+        return *floats != value;
+    } else {
+#if defined(__AVX512VL__)
+        if constexpr (kWide == 8) {
+            __m256i loaded;
+            std::memcpy(&loaded, floats, sizeof loaded);
+            return _mm256_cmpneq_epi32_mask(loaded, _mm256_set1_epi32(std::bit_cast<int>(value))) != 0;
+        }
+#endif
+        const auto bits = std::bit_cast<std::uint32_t>(value);
+        std::uint32_t loaded[kWide];
+        std::memcpy(loaded, floats, sizeof loaded);
+        std::uint32_t differences = 0;
+        for (const std::uint32_t own_bits : loaded) differences |= own_bits ^ bits;
+        return differences != 0;
     }
 }
 

@@ -58,6 +58,8 @@ struct DriverPlan {
     DriverTables tables;
     GiveWaySettings give_way;
     LaneChangeSettings lane_change;
+    HumanSettings human;
+    bool is_human = false;  // true: a human driver (driver/human.h); false: an automated vehicle
     double hesitation_s = 0.0;
     std::int64_t hesitation_ticks = 0;  // reaction time of the first vehicle at a stop line when its signal turns green
 };

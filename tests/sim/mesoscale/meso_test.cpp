@@ -35,9 +35,12 @@ TrackPlan meso_plan(const std::string& policy, double step_s, double dawdling = 
     return plan;
 }
 
+// Returns the shipped policies with a model of the Krauss family.
 std::vector<std::string> policy_names() {
     std::vector<std::string> names;
-    for (const GapPolicySettings& policy : load_policies()) names.push_back(policy.name);
+    for (const GapPolicySettings& policy : load_policies()) {
+        if (policy.law != "human") names.push_back(policy.name);
+    }
     return names;
 }
 
