@@ -81,8 +81,8 @@ struct ConsoleColumn {
     bool is_in(ConsoleTable wanted) const { return !heading.empty() && table == wanted; }
 };
 
-// A metric of a run. `Run` refers to one finished run, such as MeasuredNetwork. It has the members `scenario`, `key` and
-// population(). In a family, Run::key is the index of the key that `value` must use.
+// A metric of a run. `Run` refers to one finished run, such as MeasuredNetwork. It has the members `scenario`, `key`
+// and population(). In a family, Run::key is the index of the key that `value` must use.
 template <class Run>
 struct Metric {
     std::string_view column;       // name in CSV tables, which ends with the unit
@@ -95,7 +95,7 @@ struct Metric {
     std::string_view sweep_after = {};  // column that precedes this one in sweeps; empty: the order of the list applies
     bool has_mean = true;               // false: a mean over the seeds of a sweep has no meaning
     const MetricFamily* family = nullptr;
-    // The kind of network that has the metric, such as &NetworkSettings::is_streets. Null: each kind that uses the list.
+    // The kind of network that has the metric, such as &NetworkSettings::is_streets. Null: each kind of the list.
     bool (NetworkSettings::*only_for)() const = nullptr;
     ConsoleColumn<Run> console;
 

@@ -24,7 +24,7 @@ MetricList<MeasuredLight> passage_metrics() {
         {.column = "passed_K_veh",
          .unit = "veh",
          .extent = "green",
-         .meaning = "vehicles that pass the stop line within the K-th green time of `measure.green`",
+         .meaning = "vehicles that pass the stop line within green time number K of `measure.green`",
          .value = [](const MeasuredLight& light) { return light.summary.passed[light.key]; },
          .summary_decimals = kLeftOut,
          .family = &kGreens},
