@@ -82,7 +82,7 @@ void declare(Options& app, RunCliOptions& options) {
                  "Print all columns of result tables as Markdown (scenarios/COLUMNS.md) and exit");
     app.add_flag("--schema", options.schema, "Print the JSON schema of scenario files, for editors, and exit");
     app.add_flag("--list", options.list,
-                 "List spacing policies and laws, populations, vehicles, drivers and streets, and exit");
+                 "List spacing policies and laws, populations, vehicles, drivers, streets and metrics, and exit");
     app.footer(
         runnable(
             "\nExamples:\n"

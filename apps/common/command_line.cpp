@@ -9,6 +9,8 @@
 
 #include "base/input_error.h"
 #include "common/examples.h"
+#include "common/text_table.h"
+#include "runs/metrics/metric_groups.h"
 #include "scenario/fleets.h"
 #include "scenario/load_scenario.h"
 #include "scenario/schema/quantity.h"
@@ -37,6 +39,16 @@ std::string shares_text(const PopulationSettings& population) {
 void append_names(std::string& text, const std::string& heading, const std::string& folder) {
     text += fmt::format("\n{}\n", heading);
     for (const std::string& name : data_names(folder)) text += fmt::format("  {}\n", name);
+}
+
+// Appends the metrics of some kinds of networks. A null `scenario` gives those of all scenarios.
+void append_metrics(std::string& text, const MetricGroup& group, const Scenario* scenario) {
+    constexpr std::size_t kIndent = 4;
+    text += fmt::format("\nMetrics of {}, in summary.csv and in sweeps (details: scenarios/COLUMNS.md)\n", group.title);
+    for (const ListedMetric& metric : group.list(scenario)) {
+        const std::string unit = metric.unit.empty() ? "" : fmt::format(" [{}]", metric.unit);
+        text += wrap_text(fmt::format("  {}{}: {}", metric.column, unit, metric.meaning), kConsoleWidth, kIndent);
+    }
 }
 
 }  // namespace
@@ -144,6 +156,11 @@ std::string list_text(const std::string& file, const CommonOptions& options) {
     append_names(text, "Vehicles (data/vehicles)", "vehicles");
     append_names(text, "Drivers (data/drivers)", "drivers");
     append_names(text, "Streets (data/berlin)", "berlin");
+    if (has_file) {
+        append_metrics(text, metric_group_of(scenario.network), &scenario);
+    } else {
+        for (const MetricGroup& group : metric_groups()) append_metrics(text, group, nullptr);
+    }
     return text;
 }
 

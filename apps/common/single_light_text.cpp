@@ -8,6 +8,8 @@
 
 #include "base/units.h"
 #include "common/text_table.h"
+#include "runs/metrics/metric_tables.h"
+#include "runs/single_light/single_light_metrics.h"
 
 namespace stopline {
 
@@ -107,28 +109,7 @@ std::string ideal_text(const SingleLightReport& result) {
 }
 
 std::string headways_text(const SingleLightReport& result) {
-    TextTable table;
-    std::vector<std::string> head{"population", "vehicles",      "net gap [m]", "policy [m]",  "headway [s]",
-                                  "policy [s]", "deviation [%]", "|",           "headway [s]", "speed [km/h]"};
-    if (result.baseline) head.insert(head.begin() + 7, "gain [%]");
-    table.add_row(head);
-    for (const PopulationSummary& summary : result.populations) {
-        const SteadyFlow& steady = summary.steady;
-        std::vector<std::string> cells{summary.name,
-                                       std::to_string(steady.vehicles),
-                                       number_cell(steady.net_gap_m, 2),
-                                       number_cell(steady.policy_gap_m, 2),
-                                       number_cell(steady.headway_s, 3),
-                                       number_cell(steady.policy_headway_s, 3),
-                                       signed_number_cell(steady.deviation_percent, 2),
-                                       "|",
-                                       number_cell(summary.last_positions.headway_s, 3),
-                                       number_cell(summary.last_positions.speed_mps * kKmhPerMps, 1)};
-        if (result.baseline) {
-            cells.insert(cells.begin() + 7, signed_number_cell(summary.asymptotic_improvement_percent, 0));
-        }
-        table.add_row(cells);
-    }
+    const std::string table = table_text(console_rows(single_light_metrics(), result.scenario, measured_runs(result)));
     const double limit_mps = result.scenario.network.approach.speed_limit_mps;
     const double cruise_mps = cruise_speed_mps(result.scenario);
     return fmt::format(
@@ -136,7 +117,7 @@ std::string headways_text(const SingleLightReport& result) {
                "last {} vehicles per lane at the stop line\n",
                cruise_mps == limit_mps ? "the speed limit of" : "the speed of vehicles without leader,",
                cruise_mps * kKmhPerMps, kLastPositions) +
-           table.text() + open_gaps_text(result);
+           table + open_gaps_text(result);
 }
 
 std::string queue_text(const SingleLightReport& result) {

@@ -30,6 +30,12 @@ std::string TextTable::text(const std::string& indent) const {
     return text;
 }
 
+std::string table_text(const std::vector<std::vector<std::string>>& rows) {
+    TextTable table;
+    for (const std::vector<std::string>& row : rows) table.add_row(row);
+    return table.text();
+}
+
 std::string number_cell(double value, int decimals) {
     return std::isnan(value) ? "-" : fmt::format("{:.{}f}", value, decimals);
 }
@@ -50,6 +56,13 @@ std::string wrap_text(const std::string& text, std::size_t width, std::size_t in
         begin = end + 1;
     }
     return lines + line + '\n';
+}
+
+std::string paragraphs_text(const std::vector<std::string>& texts) {
+    constexpr std::size_t kIndent = 4;
+    std::string paragraphs;
+    for (const std::string& text : texts) paragraphs += wrap_text(text, kConsoleWidth, kIndent);
+    return paragraphs;
 }
 
 std::size_t character_count(const std::string& text) {

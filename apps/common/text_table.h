@@ -21,8 +21,17 @@ private:
     std::vector<std::vector<std::string>> rows_;
 };
 
+// Returns the text of a TextTable with these rows.
+std::string table_text(const std::vector<std::vector<std::string>>& rows);
+
 // Returns a table cell with a number; "-" for NaN.
 std::string number_cell(double value, int decimals);
+
+// Width of texts on the console, in characters.
+inline constexpr std::size_t kConsoleWidth = 100;
+
+// Returns one paragraph for each text, wrapped to the width of the console.
+std::string paragraphs_text(const std::vector<std::string>& texts);
 
 // Returns `text` broken at spaces into lines of at most `width` characters. Each line except the first begins with
 // `indent` spaces.

@@ -1,6 +1,7 @@
 #include "replay/page.h"
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
@@ -31,8 +32,7 @@ public:
 
     void add_frame(const FrameDecoder& frame) {
         present_ = 0;
-        entered_ += frame.entered();
-        exited_ += frame.exited();
+        exited_ += static_cast<std::uint32_t>(frame.exited());
         std::unordered_map<int, Position> now;
         for (const RecordedVehicle& seat : frame.seats()) {
             if (seat.vehicle < 0) continue;
@@ -46,14 +46,8 @@ public:
     }
 
     std::uint32_t present() const { return present_; }
-    // Appends four numbers of 32 bits to `series`: vehicles in the network, and the totals of entries, exits and
-    // passages.
-    void append_to(std::string& series) const {
-        put_number(series, present_);
-        for (const std::int64_t count : {entered_, exited_, passages_}) {
-            put_number(series, static_cast<std::uint32_t>(count));
-        }
-    }
+    std::uint32_t exited() const { return exited_; }
+    std::uint32_t passages() const { return passages_; }
 
 private:
     struct Position {
@@ -73,10 +67,25 @@ private:
     const RecordedRun& run_;
     std::unordered_map<int, Position> last_positions_;  // [vehicle] position in the previous frame
     std::uint32_t present_ = 0;
-    std::int64_t entered_ = 0;
-    std::int64_t exited_ = 0;
-    std::int64_t passages_ = 0;
+    std::uint32_t exited_ = 0;
+    std::uint32_t passages_ = 0;
 };
+
+// A counter of the page.
+struct Counter {
+    const char* id;  // of its element on the page
+    const char* label;
+    const char* meaning;
+    bool per_hour;  // true: the page shows the increase per hour; false: the value itself
+    std::uint32_t (VehicleCounter::*value)() const;
+};
+// All counters, in the order of the page. The first one is drawn over time as well.
+constexpr std::array kCounters{
+    Counter{"count-present", "in the network", "vehicles in the network", false, &VehicleCounter::present},
+    Counter{"count-exited", "exited", "vehicles since the start of the recording", false, &VehicleCounter::exited},
+    Counter{"flow-exits", "exits / h", "vehicles per hour, mean of the last 5 minutes", true, &VehicleCounter::exited},
+    Counter{"flow-passages", "passages / h", "vehicles per hour at all stop lines, mean of the last 5 minutes", true,
+            &VehicleCounter::passages}};
 
 std::string data_element(const std::string& id, std::string_view bytes) {
     return fmt::format("<script type=\"text/plain\" id=\"{}\">{}</script>\n", id, encode_base64(compress_zlib(bytes)));
@@ -116,11 +125,17 @@ ReplayPage make_replay_page(RecordingReader& reader, const ReplayWindow& window,
                             const std::function<bool(std::int64_t)>& on_frames) {
     const RecordedRun& run = reader.run();
     ReplayPage page;
-    VehicleCounter counter(run);
+    VehicleCounter vehicles(run);
     std::string series;
     std::string data = data_element("data-head", reader.header());
     nlohmann::ordered_json payload{
         {"head", "data-head"}, {"series", "data-series"}, {"starts", nlohmann::json::array()}};
+    for (const Counter& counter : kCounters) {
+        payload["counters"].push_back({{"id", counter.id},
+                                       {"label", counter.label},
+                                       {"meaning", counter.meaning},
+                                       {"per_hour", counter.per_hour}});
+    }
     for (RecordedSection section; reader.next(section);) {
         if (on_frames && !on_frames(reader.frames())) throw Interrupted();
         const double begin_s = run.grid.time_s(section.first_frame);
@@ -130,10 +145,10 @@ ReplayPage make_replay_page(RecordingReader& reader, const ReplayWindow& window,
             FrameDecoder decoder(run, section.bytes);
             for (int k = 0; k < section.frames; ++k) {
                 decoder.next();
-                counter.add_frame(decoder);
+                vehicles.add_frame(decoder);
                 if (!selected) continue;
-                counter.append_to(series);
-                page.max_present = std::max(page.max_present, counter.present());
+                for (const Counter& counter : kCounters) put_number(series, (vehicles.*counter.value)());
+                page.max_present = std::max(page.max_present, vehicles.present());
             }
             decoder.check_end();
         } catch (const InputError& error) {

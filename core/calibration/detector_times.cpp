@@ -77,13 +77,13 @@ std::vector<RunMetric> detector_metrics(const Scenario& scenario, std::size_t po
     for (std::size_t k = 0; k < run.times.size(); ++k) {
         std::string text;
         for (const double time_s : run.times[k]) text += fmt::format("{}{:.4f}", text.empty() ? "" : " ", time_s);
-        if (!text.empty()) metrics.push_back({detector_name(model, k), "", text});
+        if (!text.empty()) metrics.push_back({detector_name(model, k), text});
     }
     const Violations& v = run.violations;
-    metrics.push_back(count_metric("overlaps", "", v.overlaps + v.conflicts));
-    metrics.push_back(count_metric("red_entries", "", v.red_entries));
-    metrics.push_back(count_metric("lost_vehicles", "", v.lost_vehicles));
-    metrics.push_back(count_metric("updates", "", run.updates));
+    metrics.push_back({"overlaps", std::to_string(v.overlaps + v.conflicts)});
+    metrics.push_back({"red_entries", std::to_string(v.red_entries)});
+    metrics.push_back({"lost_vehicles", std::to_string(v.lost_vehicles)});
+    metrics.push_back({"updates", std::to_string(run.updates)});
     return metrics;
 }
 

@@ -2,7 +2,6 @@
 // the number of threads or the time of day.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -14,16 +13,9 @@ namespace stopline {
 // One named value. The value is stored as text, so that whole numbers, hashes and rounded numbers reach the result
 // table unchanged.
 struct RunMetric {
-    std::string name;
-    std::string unit;   // suffix of the column name: "s", "m", "veh_h", "percent"; empty: number without unit, or text
-    std::string value;  // empty: the run has no such value
-
-    // Returns the name of the column in the result table.
-    std::string column() const { return unit.empty() ? name : name + "_" + unit; }
+    std::string column;  // name of the column in the result table; ends with the unit
+    std::string value;   // empty: the run has no such value
 };
-
-RunMetric number_metric(std::string name, std::string unit, double value, int decimals);
-RunMetric count_metric(std::string name, std::string unit, std::int64_t value);
 
 // Runs scenario.populations[population] and returns the metrics of the run. `keep_going` is called repeatedly during
 // the run. If it returns false, the run is stopped and the result is empty. For every kind of network, the result has

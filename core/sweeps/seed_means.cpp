@@ -1,7 +1,6 @@
 #include "sweeps/seed_means.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <limits>
 #include <map>
@@ -11,13 +10,13 @@
 
 #include "base/io/csv.h"
 #include "measure/confidence.h"
+#include "runs/metrics/metric_groups.h"
 
 namespace stopline {
 
 namespace {
 
 using Row = const std::vector<std::string>*;
-constexpr std::array<const char*, 3> kWithoutMeans{"updates", "state_hash", "warm_up_s"};
 
 // All runs with the same axis values. These runs differ only in their seed.
 struct Combination {
@@ -99,8 +98,7 @@ std::string seed_means_csv(const CsvTable& results, const std::string& populatio
     for (const Combination& one : all) {
         const Combination& base = baseline_of(all, one, population, baseline);
         for (std::size_t metric = seed + 1; metric < results.columns.size(); ++metric) {
-            if (std::find(kWithoutMeans.begin(), kWithoutMeans.end(), results.columns[metric]) != kWithoutMeans.end())
-                continue;
+            if (!has_mean(results.columns[metric])) continue;
             std::vector<double> values;
             std::vector<double> differences;
             for (const auto& [number, row] : one.runs) {

@@ -106,13 +106,12 @@ std::string result_text(const Sweep& sweep, std::size_t point, const std::vector
     for (std::size_t k = 0; k < columns.size(); ++k) values.emplace_back(columns[k], cells[k]);
     values.emplace_back("seed", fmt::format("{}", sweep.seed(point)));
     for (const RunMetric& metric : metrics) {
-        const std::string column = metric.column();
-        if (std::find(columns.begin(), columns.end(), column) != columns.end()) {
+        if (std::find(columns.begin(), columns.end(), metric.column) != columns.end()) {
             throw InputError(
-                fmt::format("the axis '{}' of the sweep {} has the name of a result column: rename the axis", column,
-                            sweep.settings().name));
+                fmt::format("the axis '{}' of the sweep {} has the name of a result column: rename the axis",
+                            metric.column, sweep.settings().name));
         }
-        values.emplace_back(column, metric.value);
+        values.emplace_back(metric.column, metric.value);
     }
     std::string text;
     for (const auto& [column, value] : values) text += column + "=" + value + "\n";

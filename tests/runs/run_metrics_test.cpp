@@ -10,7 +10,7 @@ namespace {
 
 std::vector<std::string> columns_of_a_run(const Scenario& scenario) {
     std::vector<std::string> columns;
-    for (const RunMetric& metric : run_metrics(scenario, 0)) columns.push_back(metric.column());
+    for (const RunMetric& metric : run_metrics(scenario, 0)) columns.push_back(metric.column);
     return columns;
 }
 

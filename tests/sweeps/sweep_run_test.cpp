@@ -19,9 +19,10 @@ namespace {
 std::vector<RunMetric> quick_run(const Scenario& scenario, std::size_t population,
                                  const std::function<bool()>& keep_going) {
     if (!keep_going()) return {};
-    return {count_metric("passed", "veh", static_cast<std::int64_t>(100 * population + scenario.seed)),
-            number_metric("green", "s_seen", scenario.signal.green_s, 3), count_metric("overlaps", "", 0),
-            count_metric("updates", "", 1000)};
+    return {{"passed_veh", std::to_string(100 * population + scenario.seed)},
+            {"green_s_seen", fixed(scenario.signal.green_s, 3)},
+            {"overlaps", "0"},
+            {"updates", "1000"}};
 }
 
 std::vector<RunMetric> failing_run(const Scenario& scenario, std::size_t population,
@@ -151,8 +152,7 @@ TEST_F(SweepRunTest, StoresOfDifferentSweepsAreNotJoined) {
 TEST(SweepResults, AxesMustNotHaveTheNameOfAMetric) {
     const ShortSweep files("scenario: short.yaml\naxes:\n- {name: measured, path: demand.vehicles, values: [8]}\n");
     const Sweep sweep = files.load();
-    EXPECT_TRUE(
-        contains(input_error_of([&] { result_text(sweep, 0, {count_metric("measured", "", 1)}); }), "rename the axis"));
+    EXPECT_TRUE(contains(input_error_of([&] { result_text(sweep, 0, {{"measured", "1"}}); }), "rename the axis"));
     EXPECT_EQ(count_in("a=1\nupdates=-12\nb=\n", "updates"), -12);
     EXPECT_EQ(count_in("a=1\nb=\n", "b"), 0);
 }
@@ -172,15 +172,14 @@ TEST(SweepTotals, CountDeadlocksOnlyForSingleIntersections) {
     EXPECT_FALSE(light.gridlocks.has_value());
     const SweepTotals intersection =
         totals_with([](const Scenario&, std::size_t, const std::function<bool()>&) -> std::vector<RunMetric> {
-            return {number_metric("longest_in_junction", "s", 90.0, 2), count_metric("deadlocks", "", 1)};
+            return {{"longest_in_junction_s", "90.00"}, {"deadlocks", "1"}};
         });
     EXPECT_EQ(intersection.deadlocks, 24);
     EXPECT_FALSE(intersection.gridlocks.has_value());
     EXPECT_EQ(intersection.runs_with_violations, 24U);
     const SweepTotals network =
         totals_with([](const Scenario&, std::size_t, const std::function<bool()>&) -> std::vector<RunMetric> {
-            return {count_metric("gridlocks", "", 2), count_metric("teleported", "", 3),
-                    number_metric("longest_in_junction", "s", 7107.5, 2), count_metric("deadlocks", "", 0)};
+            return {{"gridlocks", "2"}, {"teleported", "3"}, {"longest_in_junction_s", "7107.50"}, {"deadlocks", "0"}};
         });
     EXPECT_FALSE(network.deadlocks.has_value());
     EXPECT_EQ(network.gridlocks, 48);

@@ -174,10 +174,9 @@ class Recording {
     async open() {
         this.head = JSON.parse(new TextDecoder().decode(await this.unpack(this.payload.head)));
         const series = await this.unpack(this.payload.series);
-        // Four numbers per frame: vehicles in the network, then entries, exits and passages of stop lines since the
-        // start.
+        // One number per frame and counter, in the order of the counters.
         this.series = new Uint32Array(series.buffer, series.byteOffset, series.byteLength / 4);
-        this.frameCount = this.series.length / 4;
+        this.frameCount = this.series.length / this.counters.length;
         return this;
     }
 
@@ -188,10 +187,10 @@ class Recording {
         return new Uint8Array(await new Response(stream).arrayBuffer());
     }
 
-    present(frame) { return this.series[4 * frame]; }
-    entered(frame) { return this.series[4 * frame + 1]; }
-    exited(frame) { return this.series[4 * frame + 2]; }
-    passages(frame) { return this.series[4 * frame + 3]; }
+    get counters() { return this.payload.counters; }
+    // Returns the value of the counter with this position in `counters`.
+    count(counter, frame) { return this.series[this.counters.length * frame + counter]; }
+    present(frame) { return this.count(0, frame); }
     time_s(frame) { return this.payload.first_s + frame * this.head.frame_s; }
     frameAt(time_s) { return (time_s - this.payload.first_s) / this.head.frame_s; }
 

@@ -14,6 +14,7 @@ class Replay {
         this.map = new MapView(byId('map'), this.network, (number) => this.select(number));
         this.diagram = new TimeSpace(byId('time-space'), recording, (time_s) => this.seek(time_s));
         this.drawCount = 0;  // number of calls of draw(), for tests
+        this.addCounters();
         this.addStreets();
         this.setMode(head.policies.length > 1 ? 'policy' : 'cause');
         for (const part of [this.map, this.diagram]) part.onChange = () => this.requestDraw();
@@ -156,14 +157,25 @@ class Replay {
 
     showCounters(number) {
         const {recording} = this;
-        byId('count-present').textContent = recording.present(number).toLocaleString('en');
-        byId('count-exited').textContent = recording.exited(number).toLocaleString('en');
         const since = Math.max(number - Math.round(FLOW_S / this.head.frame_s), 0);
         const hours = (number - since) * this.head.frame_s / 3600;
-        const flow = (count) =>
-            hours > 0 ? Math.round((count(number) - count(since)) / hours).toLocaleString('en') : '\u2013';
-        byId('flow-exits').textContent = flow((frame) => recording.exited(frame));
-        byId('flow-passages').textContent = flow((frame) => recording.passages(frame));
+        recording.counters.forEach(({id, per_hour}, k) => {
+            const now = recording.count(k, number);
+            const shown = per_hour ? Math.round((now - recording.count(k, since)) / hours) : now;
+            byId(id).textContent = per_hour && hours === 0 ? '\u2013' : shown.toLocaleString('en');
+        });
+    }
+
+    addCounters() {
+        for (const {id, label, meaning} of this.recording.counters) {
+            const row = document.createElement('div');
+            const [term, value] = [document.createElement('dt'), document.createElement('dd')];
+            term.textContent = label;
+            term.title = meaning;
+            value.id = id;
+            row.append(term, value);
+            byId('counters').append(row);
+        }
     }
 
     // Returns the recorded state of the selected vehicle, or null if it is not in the network.

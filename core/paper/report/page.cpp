@@ -1,6 +1,7 @@
 // Builds the HTML page of the report.
 #include <algorithm>
 #include <array>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -11,6 +12,7 @@
 #include "paper/report/page_style.h"
 #include "paper/report/report.h"
 #include "paper/row_text.h"
+#include "runs/metrics/metric_groups.h"
 #include "scenario/load_scenario.h"
 
 namespace stopline {
@@ -230,13 +232,28 @@ std::string not_drawn_html(const ReportContent& content) {
     return html + (found ? table.html() : "<p>None in these sections.</p>\n") + "</section>\n";
 }
 
+// Explains the columns of the summaries and sweeps of some kinds of networks.
+std::string columns_html(const MetricGroup& group) {
+    HtmlTable table("", {"Column", "Unit", "Extent", "Meaning"});
+    std::set<std::string> known;
+    for (const std::vector<ColumnDoc>* const columns : {&group.summary, &group.sweep}) {
+        for (const ColumnDoc& column : *columns) {
+            if (!known.insert(column.name).second) continue;
+            table.row({{column.name}, {column.unit}, {column.extent}, {with_key(column.meaning, "`", ""), "words"}});
+        }
+    }
+    return fmt::format("<details><summary>Columns of {}</summary>\n{}</details>\n", group.title, table.html());
+}
+
 std::string files_html(const ReportContent& content) {
     std::string html =
         "<section id=\"tables\">\n<h2>Tables as CSV</h2>\n<p>The name of each column ends with its unit.</p>\n<ul class=\"files\">\n";
     for (const std::string& name : content.tables) {
         html += fmt::format("<li><a href=\"tables/{0}\">{0}</a></li>\n", escape_html(name));
     }
-    return html + "</ul>\n</section>\n";
+    html += "</ul>\n<h3>Columns of the summaries and sweeps</h3>\n";
+    for (const MetricGroup& group : metric_groups()) html += columns_html(group);
+    return html + "</section>\n";
 }
 
 std::string repeat_html(const ReportContent& content) {

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "base/io/csv.h"
+#include "runs/intersection/intersection_metrics.h"
+#include "runs/metrics/metric_tables.h"
 #include "runs/parallel_runs.h"
 #include "scenario/build_model.h"
 #include "scenario/make_network.h"
@@ -57,42 +59,7 @@ IntersectionReport run_intersections(const Scenario& scenario, const Intersectio
 }
 
 std::string intersection_csv(const IntersectionReport& report) {
-    std::vector<std::string> columns{"population", "throughput_veh_h", "improvement_percent"};
-    for (const double radius_m : report.scenario.measure.zone_radius_m) {
-        for (const char* const format : {"travel_time_{:g}m_s", "delay_{:g}m_s", "density_{:g}m_percent"}) {
-            columns.push_back(fmt::format(fmt::runtime(format), radius_m));
-        }
-    }
-    for (const char* const column :
-         {"density_network_percent", "vehicles_present", "vehicles_per_green", "saturated_greens",
-          "saturation_flow_veh_h", "startup_lost_time_s", "queue_veh", "longest_queue_m", "turned_right_percent",
-          "turned_left_percent", "longest_in_junction_s", "starvations", "overlaps", "conflicts", "red_entries",
-          "forced_red_entries", "lost_vehicles", "deadlocks"}) {
-        columns.emplace_back(column);
-    }
-    CsvWriter csv(columns);
-    for (const IntersectionResult& f : report.populations) {
-        std::vector<std::string> row{f.population, fixed(f.throughput_veh_h, 1),
-                                     fixed(report.improvement_percent(f), 2)};
-        for (std::size_t k = 0; k < f.zones.size(); ++k) {
-            row.push_back(fixed(f.zones[k].travel_time_s, 3));
-            row.push_back(fixed(f.delay_s[k], 3));
-            row.push_back(fixed(100.0 * f.zones[k].occupied, 3));
-        }
-        const Violations& v = f.violations;
-        for (const std::string& cell :
-             {fixed(100.0 * f.occupied, 3), fixed(f.vehicles_present, 2), fixed(f.discharge.vehicles_per_green, 3),
-              std::to_string(f.discharge.saturated_greens), fixed(f.discharge.saturation_flow_veh_h, 1),
-              fixed(f.discharge.startup_lost_time_s, 3), fixed(f.queue_veh, 2), fixed(f.longest_queue_m, 2),
-              fixed(100.0 * f.right_share, 2), fixed(100.0 * f.left_share, 2), fixed(f.longest_in_junction_s, 2),
-              std::to_string(f.starvations.size()), std::to_string(v.overlaps), std::to_string(v.conflicts),
-              std::to_string(v.red_entries), std::to_string(v.forced_red_entries), std::to_string(v.lost_vehicles),
-              std::to_string(v.deadlocks)}) {
-            row.push_back(cell);
-        }
-        csv.row(row);
-    }
-    return csv.text();
+    return metrics_csv(intersection_metrics(), report.scenario, measured_runs(report));
 }
 
 std::string intersection_trajectories_csv(const IntersectionReport& report) {

@@ -7,6 +7,8 @@
 #include "base/io/csv.h"
 #include "base/nan.h"
 #include "base/units.h"
+#include "runs/metrics/metric_tables.h"
+#include "runs/network/network_metrics.h"
 #include "runs/parallel_runs.h"
 #include "scenario/make_network.h"
 
@@ -24,11 +26,6 @@ const NetworkResult* baseline_of(const NetworkReport& report) {
 const std::string& lane_name(const NetworkReport& report, int lane) {
     static const std::string kNoName;
     return lane < 0 ? kNoName : report.lanes.at(static_cast<std::size_t>(lane));
-}
-
-// Returns `time_s`, the start or the end of the measured window, as a table cell; an empty cell if the window is empty.
-std::string window_time(const NetworkResult& result, double time_s) {
-    return result.measured.window.length_s() > 0.0 ? fixed(time_s, 0) : "";
 }
 
 // Returns a vehicle number as a table cell; an empty cell for -1, which means no vehicle.
@@ -125,60 +122,7 @@ std::string window_text(const NetworkReport& report) {
 }
 
 std::string network_csv(const NetworkReport& report) {
-    std::vector<std::string> columns{
-        "population",      "throughput_veh_h", "improvement_percent", "travel_time_s", "travel_time_saved_percent",
-        "density_percent", "vehicles_in_area", "vehicles_present",    "max_present",   "window_from_s",
-        "window_to_s",     "warm_up_s",        "stability",           "unstable_by",   "collapse_s",
-        "gridlocks",       "first_gridlock_s", "starvations",         "teleported",    "passed_blockers"};
-    for (std::size_t cause = 1; cause < kDelayCauseNames.size(); ++cause) {
-        columns.push_back(fmt::format("delay_{}_h", kDelayCauseNames[cause]));
-    }
-    for (const char* const column : {"delay_upstream_h", "longest_stop_s", "longest_in_junction_s", "entered", "exited",
-                                     "overlaps", "conflicts", "red_entries", "forced_red_entries", "lost_vehicles"}) {
-        columns.emplace_back(column);
-    }
-    const bool is_imported = report.scenario.network.is_sumo();
-    if (is_imported) columns.emplace_back("missed_turns");
-    columns.emplace_back("backlog");
-    CsvWriter csv(columns);
-    for (const NetworkResult& f : report.populations) {
-        const DelayLog& delays = f.delays;
-        std::vector<std::string> row{f.population,
-                                     fixed(f.measured.throughput_veh_h(), 2),
-                                     fixed(report.improvement_percent(f), 2),
-                                     fixed(f.measured.travel_time_s, 3),
-                                     fixed(report.time_saved_percent(f), 2),
-                                     fixed(100.0 * f.measured.occupied, 3),
-                                     fixed(f.measured.vehicles, 2),
-                                     fixed(f.vehicles_present, 2),
-                                     std::to_string(f.max_present),
-                                     window_time(f, f.measured.window.from_s),
-                                     window_time(f, f.measured.window.to_s),
-                                     fixed(f.warm_up_s, 0),
-                                     kStabilityNames[static_cast<std::size_t>(f.stability)],
-                                     kInstabilityCauseNames[static_cast<std::size_t>(f.unstable_by)],
-                                     f.collapse_s ? fixed(*f.collapse_s, 0) : "",
-                                     std::to_string(delays.gridlocks.size()),
-                                     delays.gridlocks.empty() ? "" : fixed(delays.gridlocks[0].from_s, 0),
-                                     std::to_string(delays.starvations.size()),
-                                     std::to_string(delays.teleported),
-                                     std::to_string(delays.passed_blockers)};
-        for (std::size_t cause = 1; cause < kDelayCauseNames.size(); ++cause) {
-            row.push_back(fixed(delays.delay_s[cause] / kSecondsPerHour, 3));
-        }
-        const Violations& v = f.violations;
-        for (const std::string& cell :
-             {fixed(delays.delay_upstream_s / kSecondsPerHour, 3), fixed(delays.longest_stop_s, 0),
-              fixed(f.longest_in_junction_s, 1), std::to_string(f.entered), std::to_string(f.exited),
-              std::to_string(v.overlaps), std::to_string(v.conflicts), std::to_string(v.red_entries),
-              std::to_string(v.forced_red_entries), std::to_string(v.lost_vehicles)}) {
-            row.push_back(cell);
-        }
-        if (is_imported) row.push_back(std::to_string(f.missed_turns));
-        row.push_back(std::to_string(f.backlog));
-        csv.row(row);
-    }
-    return csv.text();
+    return metrics_csv(network_metrics(), report.scenario, measured_runs(report));
 }
 
 std::string network_series_csv(const NetworkReport& report) {

@@ -1,7 +1,5 @@
 #include "runs/network/street_results.h"
 
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "base/io/csv.h"
@@ -13,7 +11,6 @@ namespace stopline {
 
 namespace {
 
-std::size_t index_of(Side side) { return static_cast<std::size_t>(side); }
 std::size_t index_of(Turn turn) { return static_cast<std::size_t>(turn); }
 
 // Returns the share of one movement among right, left and straight on, %; NaN if there is no vehicle.
@@ -21,40 +18,6 @@ double share_percent(const std::array<std::int64_t, kMaxTurns>& turned, Turn tur
     const std::int64_t all =
         turned[index_of(Turn::straight)] + turned[index_of(Turn::right)] + turned[index_of(Turn::left)];
     return all == 0 ? kNan : 100.0 * static_cast<double>(turned[index_of(turn)]) / static_cast<double>(all);
-}
-
-// Means over a period of the run. They are NaN if the run ends before the period ends.
-struct PeriodMeans {
-    double throughput_veh_h = kNan;
-    double travel_time_s = kNan;
-    double density_percent = kNan;
-    std::array<double, 4> inflow_veh_h{kNan, kNan, kNan, kNan};
-};
-
-// Returns the means over all intervals that lie wholly between `from_s` and `to_s`.
-PeriodMeans means_of(const NetworkResult& f, double interval_s, double from_s, double to_s) {
-    PeriodMeans means;
-    if (f.series.empty() || f.series.back().area.window.to_s < to_s) return means;
-    double exited = 0.0;
-    double travel_s = 0.0;
-    double occupied = 0.0;
-    std::array<double, 4> inflow{};
-    int intervals = 0;
-    for (std::size_t k = 0; k < f.series.size(); ++k) {
-        const AreaResult& area = f.series[k].area;
-        if (area.window.from_s < from_s || area.window.to_s > to_s) continue;
-        ++intervals;
-        exited += area.exited;
-        if (area.exited > 0) travel_s += area.exited * area.travel_time_s;
-        occupied += area.occupied;
-        for (std::size_t side = 0; side < inflow.size(); ++side) inflow[side] += f.inflow[k][side];
-    }
-    const double hours = intervals * interval_s / kSecondsPerHour;
-    means.throughput_veh_h = exited / hours;
-    means.travel_time_s = exited > 0.0 ? travel_s / exited : kNan;
-    means.density_percent = 100.0 * occupied / intervals;
-    for (std::size_t side = 0; side < inflow.size(); ++side) means.inflow_veh_h[side] = inflow[side] / hours;
-    return means;
 }
 
 }  // namespace
@@ -104,35 +67,6 @@ std::string turns_csv(const NetworkReport& report) {
         }
     }
     return csv.text();
-}
-
-std::vector<RunMetric> street_metrics(const Scenario& scenario, const NetworkResult& result) {
-    struct Period {
-        const char* name;
-        double from_s;
-        double to_s;
-    };
-    std::vector<RunMetric> metrics;
-    for (const Period& period : {Period{"early", 900.0, 3600.0}, Period{"late", 3900.0, 7200.0}}) {
-        const PeriodMeans means = means_of(result, scenario.measure.interval_s, period.from_s, period.to_s);
-        const auto add = [&](const std::string& name, const char* unit, double value) {
-            metrics.push_back(number_metric(name + "_" + period.name, unit, value, 6));
-        };
-        add("throughput", "veh_h", means.throughput_veh_h);
-        add("travel_time", "s", means.travel_time_s);
-        add("density", "percent", means.density_percent);
-        add("inflow_west", "veh_h", means.inflow_veh_h[index_of(Side::west)]);
-        add("inflow_east", "veh_h", means.inflow_veh_h[index_of(Side::east)]);
-        add("inflow_minor", "veh_h",
-            means.inflow_veh_h[index_of(Side::south)] + means.inflow_veh_h[index_of(Side::north)]);
-    }
-    for (std::size_t k = 0; k < result.congestion.approaches.size(); ++k) {
-        metrics.push_back(number_metric("congested_from_" + result.congestion.approaches[k].name, "s",
-                                        result.congestion.congested_from_s(k).value_or(kNan), 0));
-    }
-    metrics.push_back(count_metric("mandatory_lane_changes", "", result.mandatory_lane_changes));
-    metrics.push_back(count_metric("discretionary_lane_changes", "", result.discretionary_lane_changes));
-    return metrics;
 }
 
 }  // namespace stopline

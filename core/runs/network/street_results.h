@@ -3,10 +3,8 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "runs/network/network.h"
-#include "runs/run_metrics.h"
 
 namespace stopline {
 
@@ -14,10 +12,5 @@ namespace stopline {
 std::string inflow_csv(const NetworkReport& report);
 std::string approaches_csv(const NetworkReport& report);
 std::string turns_csv(const NetworkReport& report);
-
-// Returns the metrics that only streets have. Names with _early are means over minutes 15 to 60 of the run, and names
-// with _late are means over minutes 65 to 120. In the paper, the queue on the corridor reaches the entries of the
-// network between these two periods.
-std::vector<RunMetric> street_metrics(const Scenario& scenario, const NetworkResult& result);
 
 }  // namespace stopline

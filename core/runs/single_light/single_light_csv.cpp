@@ -1,8 +1,8 @@
 #include "runs/single_light/single_light_csv.h"
 
-#include <fmt/format.h>
-
 #include "base/io/csv.h"
+#include "runs/metrics/metric_tables.h"
+#include "runs/single_light/single_light_metrics.h"
 #include "scenario/fleets.h"
 
 namespace stopline {
@@ -11,36 +11,6 @@ namespace {
 
 std::string policy_name(const SingleLightReport& result, std::size_t population, int policy) {
     return component_name(result.scenario.populations[population].components[static_cast<std::size_t>(policy)]);
-}
-
-std::vector<std::string> summary_row(const PopulationSummary& summary, const RunResult& run) {
-    const SteadyFlow& steady = summary.steady;
-    const Violations& violations = run.violations;
-    return {summary.name,
-            std::to_string(summary.counter.total()),
-            fixed(summary.emptied_s, 3),
-            std::to_string(steady.vehicles),
-            std::to_string(steady.not_closed_up),
-            fixed(steady.net_gap_m, 4),
-            fixed(steady.policy_gap_m, 4),
-            fixed(steady.headway_s, 5),
-            fixed(steady.policy_headway_s, 5),
-            fixed(steady.deviation_percent, 3),
-            fixed(summary.asymptotic_improvement_percent, 2),
-            fixed(summary.last_positions.headway_s, 4),
-            fixed(summary.last_positions.speed_mps, 4),
-            fixed(summary.leader.start_s, 2),
-            fixed(summary.leader.duration_s(), 2),
-            fixed(summary.queue.mean_m, 3),
-            fixed(summary.queue.smallest_m, 3),
-            fixed(summary.queue.largest_m, 3),
-            std::to_string(run.vehicles_entered),
-            std::to_string(run.vehicles_exited),
-            std::to_string(violations.overlaps),
-            std::to_string(violations.red_entries),
-            std::to_string(violations.forced_red_entries),
-            std::to_string(violations.lost_vehicles),
-            fmt::format("{:016x}", run.state_hash)};
 }
 
 }  // namespace
@@ -58,35 +28,7 @@ std::string passages_csv(const SingleLightReport& result) {
 }
 
 std::string summary_csv(const SingleLightReport& result) {
-    CsvWriter csv({"population",
-                   "passed_in_green_veh",
-                   "queue_emptied_s",
-                   "steady_vehicles",
-                   "not_closed_up_vehicles",
-                   "steady_net_gap_m",
-                   "policy_gap_m",
-                   "steady_headway_s",
-                   "policy_headway_s",
-                   "headway_deviation_percent",
-                   "asymptotic_improvement_percent",
-                   "last_ten_headway_s",
-                   "last_ten_speed_mps",
-                   "leader_start_s",
-                   "leader_time_to_limit_s",
-                   "queue_gap_mean_m",
-                   "queue_gap_smallest_m",
-                   "queue_gap_largest_m",
-                   "vehicles_entered",
-                   "vehicles_exited",
-                   "overlaps",
-                   "red_entries",
-                   "forced_red_entries",
-                   "lost_vehicles",
-                   "state_hash"});
-    for (std::size_t k = 0; k < result.populations.size(); ++k) {
-        csv.row(summary_row(result.populations[k], result.runs[k]));
-    }
-    return csv.text();
+    return metrics_csv(single_light_metrics(), result.scenario, measured_runs(result));
 }
 
 std::string improvement_csv(const SingleLightReport& result) {

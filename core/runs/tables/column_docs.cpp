@@ -13,7 +13,7 @@ namespace {
 constexpr const char* kIntroduction =
     R"(# Columns of the result tables
 
-`stopline-run --describe-columns` prints this page. Its text is in `core/runs/tables`.
+`stopline-run --describe-columns` prints this page. Its text is in `core/runs`.
 
 Each section describes the columns of one CSV file. The first part of its title is the kind of network or the program.
 
@@ -42,15 +42,6 @@ grids and streets ends `measure.area_margin` beyond the outer stop lines. An imp
 
 )";
 
-std::string table_markdown(const TableDoc& table) {
-    std::string text = fmt::format("## {}\n\n{}\n\n", table.name, table.rows);
-    text += "| column | unit | extent | meaning |\n|---|---|---|---|\n";
-    for (const ColumnDoc& column : table.columns) {
-        text += fmt::format("| `{}` | {} | {} | {} |\n", column.name, column.unit, column.extent, column.meaning);
-    }
-    return text + "\n";
-}
-
 }  // namespace
 
 const std::vector<TableDoc>& table_docs() {
@@ -70,6 +61,12 @@ std::string table_group(const NetworkSettings& network) {
     return network.kind == "intersection" ? "intersection" : "single_light";
 }
 
+std::vector<ColumnDoc> with_population(const std::vector<ColumnDoc>& columns) {
+    std::vector<ColumnDoc> all{kPopulationColumn};
+    all.insert(all.end(), columns.begin(), columns.end());
+    return all;
+}
+
 ColumnDoc column_doc(const std::vector<TableDoc>& tables, std::string_view table, std::string_view column) {
     for (const TableDoc& doc : tables) {
         if (doc.name != table) continue;
@@ -78,6 +75,15 @@ ColumnDoc column_doc(const std::vector<TableDoc>& tables, std::string_view table
         }
     }
     throw std::logic_error(fmt::format("{} has no description of the column {}", table, column));
+}
+
+std::string table_markdown(const TableDoc& table) {
+    std::string text = fmt::format("## {}\n\n{}\n\n", table.name, table.rows);
+    text += "| column | unit | extent | meaning |\n|---|---|---|---|\n";
+    for (const ColumnDoc& column : table.columns) {
+        text += fmt::format("| `{}` | {} | {} | {} |\n", column.name, column.unit, column.extent, column.meaning);
+    }
+    return text + "\n";
 }
 
 std::string columns_markdown() {

@@ -1,4 +1,5 @@
 // Descriptions of all columns of all result tables. columns_markdown() makes the page scenarios/COLUMNS.md from them.
+// The columns of summary.csv and of sweeps are described by the entries of the metrics (runs/metrics/metric.h).
 //
 // The name of a table is its group and its file, such as "network/summary.csv". The group is the kind of network or the
 // program that writes the table. CAPITALS in names stand for varying parts, such as the NAME of a sweep.
@@ -13,10 +14,10 @@
 namespace stopline {
 
 struct ColumnDoc {
-    std::string_view name;
-    std::string_view unit;    // empty: no unit
-    std::string_view extent;  // part of the run that the value covers; empty: not applicable
-    std::string_view meaning;
+    std::string name;
+    std::string unit;    // empty: no unit
+    std::string extent;  // part of the run that the value covers; empty: not applicable
+    std::string meaning;
 };
 
 struct TableDoc {
@@ -26,7 +27,10 @@ struct TableDoc {
 };
 
 // The first column of most tables.
-inline constexpr ColumnDoc kPopulationColumn{"population", "", "", "name of the population"};
+inline const ColumnDoc kPopulationColumn{"population", "", "", "name of the population"};
+
+// Returns the columns after the column of populations.
+std::vector<ColumnDoc> with_population(const std::vector<ColumnDoc>& columns);
 
 // Returns the descriptions of all tables, in the order of scenarios/COLUMNS.md.
 const std::vector<TableDoc>& table_docs();
@@ -43,6 +47,9 @@ std::vector<TableDoc> program_table_docs();  // see program_columns.cpp
 
 // Returns the description of a column. Throws std::logic_error if there is none.
 ColumnDoc column_doc(const std::vector<TableDoc>& tables, std::string_view table, std::string_view column);
+
+// Returns the section of a table on the page.
+std::string table_markdown(const TableDoc& table);
 
 // Returns the text of scenarios/COLUMNS.md.
 std::string columns_markdown();

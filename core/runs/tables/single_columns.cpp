@@ -1,4 +1,5 @@
 // Descriptions of the columns in the tables of a single intersection and of a single light.
+#include "runs/metrics/metric_groups.h"
 #include "runs/tables/column_docs.h"
 
 namespace stopline {
@@ -25,49 +26,13 @@ std::vector<ColumnDoc> joined(std::vector<ColumnDoc> first, const std::vector<Co
 
 std::vector<TableDoc> intersection_table_docs() {
     const std::vector<TableDoc> network = network_table_docs();
-    const auto as_network = [&](std::string_view column) { return column_doc(network, "network/summary.csv", column); };
     const auto as_starving = [&](std::string_view column) {
         return column_doc(network, "network/starvations.csv", column);
     };
     return {
         {"intersection/summary.csv",
          "One row for each population. The window is `measure.cycles` whole cycles after `measure.warmup_cycles`.",
-         {kPopulationColumn,
-          {"throughput_veh_h", "veh/h", "window", "vehicles that leave the intersection"},
-          {"improvement_percent", "%", "window",
-           "gain in throughput over `measure.baseline`; empty without a baseline"},
-          {"travel_time_RADIUSm_s", "s", "window",
-           "mean time within this radius (`measure.zones`), over the vehicles that leave the circle"},
-          {"delay_RADIUSm_s", "s", "window", "`travel_time_RADIUSm_s` minus the travel time at the speed limit"},
-          {"density_RADIUSm_percent", "%", "window", "share of the lane length within the radius that vehicles occupy"},
-          {"density_network_percent", "%", "window",
-           "share of the lane length of the whole network that vehicles occupy"},
-          {"vehicles_present", "veh", "window", "mean number of vehicles in the network, sampled every second"},
-          {"vehicles_per_green", "veh", "window",
-           "mean number of vehicles that pass a stop line in one green and its yellow"},
-          {"saturated_greens", "", "window",
-           "number of greens, summed over the lanes, in which five or more vehicles of a queue pass. Only vehicles "
-           "that were slower than 5 km/h before the stop line are of the queue, and it ends before the first other "
-           "vehicle"},
-          {"saturation_flow_veh_h", "veh/h", "window",
-           "flow at the mean headway from the fifth vehicle of a queue on; empty: no saturated green"},
-          {"startup_lost_time_s", "s", "window",
-           "sum over the first four vehicles of a queue: headway minus the mean headway of the lane from the fifth "
-           "vehicle on; mean over saturated greens"},
-          {"queue_veh", "veh", "window", "queued vehicles at the start of green, mean over lanes and greens"},
-          {"longest_queue_m", "m", "window", "longest of these queues"},
-          {"turned_right_percent", "%", "window", "share of the vehicles that leave the intersection to the right"},
-          {"turned_left_percent", "%", "window", "share of the vehicles that leave the intersection to the left"},
-          as_network("longest_in_junction_s"),
-          as_network("starvations"),
-          as_network("overlaps"),
-          as_network("conflicts"),
-          as_network("red_entries"),
-          as_network("forced_red_entries"),
-          as_network("lost_vehicles"),
-          {"deadlocks", "", "run",
-           "1 if a vehicle stays in the intersection for two cycles longer than the slowest unobstructed crossing "
-           "takes, else 0; a violation"}}},
+         with_population(metric_group("intersection").summary)},
         {"intersection/headways.csv",
          "One row for each population, lane and queue position. Only vehicles that stood in the queue count.",
          {kPopulationColumn,
@@ -94,47 +59,9 @@ std::vector<TableDoc> intersection_table_docs() {
 }
 
 std::vector<TableDoc> single_light_table_docs() {
-    const std::vector<TableDoc> network = network_table_docs();
-    const auto as_network = [&](std::string_view column) { return column_doc(network, "network/summary.csv", column); };
     return {
-        {"single_light/summary.csv",
-         "One row for each population.",
-         {kPopulationColumn,
-          {"passed_in_green_veh", "veh", "green", "vehicles that pass the stop line"},
-          {"queue_emptied_s", "s", "green",
-           "time from the start of green until the last queued vehicle passes the stop line; empty: it does not pass "
-           "within the green"},
-          {"steady_vehicles", "veh", "green",
-           "followers in steady state downstream of the stop line: at the cruise speed for five seconds, with a net "
-           "gap that changes by 0.1 m or less and is at most 25 % and 0.5 m larger than that of the policy. The cruise "
-           "speed is that of a vehicle without leader: the speed limit in full dynamics, and "
-           "`meso.leader_speed_share` of `meso.speed_factor` times the limit in the mesoscale mode"},
-          {"not_closed_up_vehicles", "veh", "green",
-           "followers downstream of the stop line that keep a larger net gap for five seconds, at the cruise speed or "
-           "faster. They have not reached the gap of their policy"},
-          {"steady_net_gap_m", "m", "green", "mean net gap of these vehicles"},
-          {"policy_gap_m", "m", "", "net gap of the spacing policy at the cruise speed"},
-          {"steady_headway_s", "s", "green", "mean headway of these vehicles: (length + net gap) / speed"},
-          {"policy_headway_s", "s", "", "headway of the spacing policy at the cruise speed"},
-          {"headway_deviation_percent", "%", "green", "deviation of `steady_headway_s` from `policy_headway_s`"},
-          {"asymptotic_improvement_percent", "%", "green",
-           "improvement over `measure.baseline` for very long queues, from the steady-state headways; empty without a "
-           "baseline"},
-          {"last_ten_headway_s", "s", "green", "mean headway at the stop line over the last ten vehicles of each lane"},
-          {"last_ten_speed_mps", "m/s", "green", "mean speed at the stop line over the last ten vehicles of each lane"},
-          {"leader_start_s", "s", "green", "time from the start of green until the first vehicle moves"},
-          {"leader_time_to_limit_s", "s", "green",
-           "time from this start until the first vehicle reaches the speed limit"},
-          {"queue_gap_mean_m", "m", "start of green", "mean net gap in the queue"},
-          {"queue_gap_smallest_m", "m", "start of green", "smallest net gap in the queue"},
-          {"queue_gap_largest_m", "m", "start of green", "largest net gap in the queue"},
-          {"vehicles_entered", "veh", "run", "vehicles that entered the network"},
-          {"vehicles_exited", "veh", "run", "vehicles that left the network"},
-          as_network("overlaps"),
-          as_network("red_entries"),
-          as_network("forced_red_entries"),
-          as_network("lost_vehicles"),
-          {"state_hash", "", "end of the run", "hash of the final state; equal runs give equal hashes"}}},
+        {"single_light/summary.csv", "One row for each population.",
+         with_population(metric_group("single_light").summary)},
         {"single_light/improvement.csv",
          "One row for each population and each green time of `measure.green`.",
          {kPopulationColumn,

@@ -1,82 +1,32 @@
 // Descriptions of the columns in the tables of sweeps.
+#include <algorithm>
+#include <utility>
+
+#include "runs/metrics/metric_groups.h"
 #include "runs/tables/column_docs.h"
 
 namespace stopline {
 
 namespace {
 
-constexpr std::string_view kNetwork = "network/summary.csv";
-constexpr std::string_view kIntersection = "intersection/summary.csv";
-constexpr std::string_view kSingleLight = "single_light/summary.csv";
-
+// Returns the metrics of all kinds of networks, each once. A metric of single intersections or single lights alone is
+// marked as such.
 std::vector<ColumnDoc> run_columns() {
-    const std::vector<TableDoc> network = network_table_docs();
-    const std::vector<TableDoc> intersection = intersection_table_docs();
-    const std::vector<TableDoc> single_light = single_light_table_docs();
     std::vector<ColumnDoc> columns{
         {"point", "", "", "number of the run, from 0"},
         {"population", "", "", "name of the population. Each other axis of the sweep has a column too, with its unit"},
         {"seed", "", "", "seed of the run"},
     };
-    const auto copy = [&](const std::vector<TableDoc>& tables, std::string_view table,
-                          std::initializer_list<std::string_view> names) {
-        for (const std::string_view name : names) columns.push_back(column_doc(tables, table, name));
-    };
-    const auto add = [&](std::initializer_list<ColumnDoc> docs) { columns.insert(columns.end(), docs); };
-
-    // Columns of networks of several intersections.
-    copy(network, kNetwork, {"throughput_veh_h", "travel_time_s", "density_percent"});
-    add({{"throughput_SIDE_SIDE_veh_h", "veh/h", "window",
-          "grids and streets: throughput straight through the network, from the first side to the second"},
-         {"travel_time_SIDE_SIDE_s", "s", "window", "mean travel time of these vehicles"}});
-    copy(network, kNetwork, {"vehicles_in_area", "vehicles_present", "max_present", "window_from_s", "window_to_s"});
-    copy(network, kNetwork, {"warm_up_s", "stability", "unstable_by", "collapse_s", "gridlocks"});
-    copy(network, kNetwork,
-         {"first_gridlock_s", "starvations", "teleported", "passed_blockers", "delay_signal_h", "delay_yielding_h"});
-    copy(network, kNetwork,
-         {"delay_junction_blocking_h", "delay_turn_blocking_h", "delay_spillback_h", "delay_gridlock_h",
-          "delay_wrong_lane_h"});
-    copy(network, kNetwork, {"delay_queue_discharge_h", "delay_upstream_h", "backlog"});
-    // Columns of streets.
-    add({{"throughput_STRETCH_veh_h", "veh/h", "stretch, area",
-          "streets: vehicles that leave the area in minutes 15 to 60 (`early`) and 65 to 120 (`late`); empty if the "
-          "run is shorter"},
-         {"travel_time_STRETCH_s", "s", "stretch, area", "mean time of these vehicles in the area"},
-         {"density_STRETCH_percent", "%", "stretch, area", "share of the lane length in the area that vehicles occupy"},
-         {"inflow_west_STRETCH_veh_h", "veh/h", "stretch, area", "vehicles that enter the area from the west"},
-         {"inflow_east_STRETCH_veh_h", "veh/h", "stretch, area", "vehicles that enter the area from the east"},
-         {"inflow_minor_STRETCH_veh_h", "veh/h", "stretch, area",
-          "vehicles that enter the area from the south and the north"},
-         {"congested_from_APPROACH_s", "s", "run", "streets: as `congested_from_s` in `network/turns.csv`"},
-         {"mandatory_lane_changes", "", "run", "streets: lane changes because the route continues in another lane"},
-         {"discretionary_lane_changes", "", "run", "streets: lane changes for a higher speed"}});
-    copy(network, kNetwork, {"longest_stop_s", "longest_in_junction_s"});
-
-    // Columns of single intersections.
-    copy(intersection, kIntersection,
-         {"travel_time_RADIUSm_s", "delay_RADIUSm_s", "density_RADIUSm_percent", "density_network_percent",
-          "vehicles_per_green"});
-    copy(intersection, kIntersection, {"saturated_greens"});
-    add({{"saturation_headway_s", "s", "window",
-          "single intersections: mean headway from the fifth vehicle of a queue on; empty: no saturated green"}});
-    copy(intersection, kIntersection,
-         {"startup_lost_time_s", "queue_veh", "longest_queue_m", "turned_right_percent", "turned_left_percent"});
-    add({{"gaps_accepted", "", "run", "single intersections: gaps that left-turning vehicles accepted"}});
-
-    // Columns of single lights.
-    add({{"passed_K_veh", "veh", "green",
-          "single lights: vehicles that pass the stop line within the K-th green time of `measure.green`"}});
-    copy(single_light, kSingleLight,
-         {"queue_emptied_s", "steady_vehicles", "not_closed_up_vehicles", "steady_headway_s", "steady_net_gap_m"});
-
-    // Columns of all kinds of networks.
-    add({{"vehicles_entered", "veh", "run", "vehicles that entered the network"},
-         {"vehicles_exited", "veh", "run", "vehicles that left the network"},
-         {"overlaps", "", "run", "sum of `overlaps` and `conflicts` of `network/summary.csv`; a violation"}});
-    copy(network, kNetwork, {"red_entries", "forced_red_entries", "lost_vehicles"});
-    copy(intersection, kIntersection, {"deadlocks"});
-    add({{"updates", "", "run", "vehicles times steps"}});
-    copy(single_light, kSingleLight, {"state_hash"});
+    for (const MetricGroup& group : metric_groups()) {
+        const std::string mark = group.name == "network" ? "" : std::string(group.title) + ": ";
+        for (ColumnDoc column : group.sweep) {
+            const bool is_known = std::any_of(columns.begin(), columns.end(),
+                                              [&](const ColumnDoc& known) { return known.name == column.name; });
+            if (is_known) continue;
+            column.meaning.insert(0, mark);
+            columns.push_back(std::move(column));
+        }
+    }
     return columns;
 }
 
@@ -85,7 +35,8 @@ std::vector<ColumnDoc> run_columns() {
 std::vector<TableDoc> sweep_table_docs() {
     return {
         {"sweep/NAME.csv",
-         "One row for each run. Each kind of network has some of these columns.\n"
+         "One row for each run. Each kind of network has some of these columns. Columns of single intersections or single "
+         "lights\nalone are marked.\n"
          "The area of a single intersection is the intersection itself.",
          run_columns()},
         {"sweep/NAME_means.csv",

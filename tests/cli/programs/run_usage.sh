@@ -48,7 +48,11 @@ done
 
 prints "signal.green" "km/h" -- "$run" --describe
 prints "CDG-6m" "constant_time" "petrol_eu4_72kw" "startup_kit" "three_lanes" -- "$run" --list
-prints "Populations of $scenario" "100 % CTG-Ref" -- "$run" --list "$scenario"
+for kinds in "grids, streets and imported networks" "single intersections" "single lights"; do
+    prints "Metrics of $kinds" "longest_stop_s [s]: longest single stop of any vehicle" -- "$run" --list
+done
+prints "Populations of $scenario" "100 % CTG-Ref" "Metrics of single lights" "passed_1_veh [veh]: " -- "$run" --list "$scenario"
+grep -q "Metrics of single intersections" "$work/stdout" && fail "--list names metrics that the scenario does not have"
 prints "draft-07" -- "$run" --schema
 python3 -c 'import json, sys; json.load(open(sys.argv[1]))' "$work/stdout" || fail "the output of --schema is not JSON"
 

@@ -3,6 +3,7 @@
 
 #include "paper/report/job_writer.h"
 #include "paper/report/report.h"
+#include "runs/metrics/metric_groups.h"
 #include "scenario/scenario_text.h"
 
 namespace stopline {
@@ -86,6 +87,17 @@ TEST(ReportPage, GivesTheOriginOfEachFigure) {
     EXPECT_FALSE(has(page, "Words <b>"));
     EXPECT_TRUE(has(page, "1.2.3 &lt;&amp;&gt;"));
     EXPECT_TRUE(has(page, "No numbers."));
+}
+
+// The entries of the metrics explain the columns of the tables.
+TEST(ReportPage, ExplainsTheColumnsOfItsTables) {
+    const std::string page = report_page(example_content());
+    for (const MetricGroup& group : metric_groups()) {
+        EXPECT_TRUE(has(page, "<summary>Columns of " + std::string(group.title) + "</summary>"));
+        for (const std::vector<ColumnDoc>* const columns : {&group.summary, &group.sweep}) {
+            for (const ColumnDoc& column : *columns) EXPECT_TRUE(has(page, ">" + column.name + "<")) << column.name;
+        }
+    }
 }
 
 // The page can be opened from disk without a network connection.

@@ -58,7 +58,7 @@ TEST(IntersectionMetrics, HaveTheValuesOfTheirNames) {
     const IntersectionResult result = run_intersection(scenario, 0);
     ASSERT_GT(result.left_share, 2.0 * result.right_share);
     std::map<std::string, std::string> metrics;
-    for (const RunMetric& metric : run_metrics(scenario, 0)) metrics[metric.column()] = metric.value;
+    for (const RunMetric& metric : run_metrics(scenario, 0)) metrics[metric.column] = metric.value;
     for (const auto& [name, value] : expected_values(result)) {
         ASSERT_TRUE(metrics.contains(name)) << name;
         EXPECT_NEAR(std::stod(metrics[name]), value, 0.0051) << name;

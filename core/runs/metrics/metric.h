@@ -1,0 +1,117 @@
+// The table of metrics. One entry describes a metric of a run and computes its value. These outputs read the entries:
+// summary.csv, the table of a sweep, the console, COLUMNS.md, stopline-run --list and the results page.
+//
+// Each kind of network has a list of entries for its own kind of run: single_light_metrics.h, intersection_metrics.h
+// and network_metrics.h. The order of the list is the order of the columns.
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "scenario/scenario.h"
+
+namespace stopline {
+
+// The value of a metric: a number, a count or a text. The constructors convert implicitly, so that the function of an
+// entry returns its result as it is.
+class MetricValue {
+public:
+    MetricValue(double number) : value_(number) {}  // NOLINT(google-explicit-constructor)
+    template <std::integral Count>
+    MetricValue(Count count) : value_(static_cast<std::int64_t>(count)) {}  // NOLINT(google-explicit-constructor)
+    MetricValue(std::string text) : value_(std::move(text)) {}              // NOLINT(google-explicit-constructor)
+    MetricValue(const char* text) : value_(std::string(text)) {}            // NOLINT(google-explicit-constructor)
+
+    // Returns the value as a cell of a CSV table. `decimals` applies to numbers only. NaN gives an empty cell.
+    std::string csv_cell(int decimals) const;
+    // Returns the value as a cell of a console table. NaN gives "-". With `has_sign`, numbers above 0 have a sign too.
+    std::string console_cell(int decimals, bool has_sign) const;
+
+private:
+    std::variant<double, std::int64_t, std::string> value_;
+};
+
+// A key of a family, such as a delay cause, with the meaning of its metric.
+struct MetricKey {
+    std::string_view name;
+    std::string_view meaning;
+    std::string_view console_note = {};  // explanation below a console table
+};
+
+// A family of metrics: one entry that gives a column for each key. Entries of the same family that follow each other
+// alternate in the tables: all columns of the first key precede those of the second key.
+struct MetricFamily {
+    std::string_view placeholder;  // CAPITALS that stand for the key in the name of a column
+    // Returns the names of the keys. Null: the keys are those in `described`.
+    std::vector<std::string> (*keys)(const Scenario& scenario) = nullptr;
+    // Keys that all scenarios have. The documentation has a row for each of them.
+    std::span<const MetricKey> described = {};
+
+    // Returns the names of the keys of a scenario. Without a scenario, returns those for the documentation: the keys in
+    // `described`, or the placeholder.
+    std::vector<std::string> key_names(const Scenario* scenario) const;
+};
+
+// The tables of metrics on the console. All kinds of networks have `results`. Networks of several intersections also
+// have `congestion`, and imported networks also have `trips`.
+enum class ConsoleTable : std::uint8_t { results, congestion, trips };
+
+// Stands for the decimals in a table that does not have the metric.
+inline constexpr int kLeftOut = -1;
+
+// Appearance of a metric on the console.
+template <class Run>
+struct ConsoleColumn {
+    ConsoleTable table = ConsoleTable::results;
+    std::string_view heading = {};  // lines are separated by '\n'; empty: the metric is not on the console
+    int decimals = 0;
+    std::string_view note = {};  // explanation below the table; empty: none
+    bool has_sign = false;       // true: numbers above 0 have a sign
+    bool begins_part = false;    // true: a vertical bar precedes the column
+    // A value for the console that differs from Metric::value, and its unit. Empty: those of the metric.
+    std::function<MetricValue(const Run&)> value;
+    std::string_view unit = {};
+
+    bool is_in(ConsoleTable wanted) const { return !heading.empty() && table == wanted; }
+};
+
+// A metric of a run. `Run` refers to one finished run, such as MeasuredNetwork. It has the members `scenario`, `key`
+// and population(). In a family, Run::key is the index of the key that `value` must use.
+template <class Run>
+struct Metric {
+    std::string_view column;       // name in CSV tables, which ends with the unit
+    std::string_view unit = {};    // unit for readers, such as "veh/h"; empty: none
+    std::string_view extent = {};  // part of the run that the value covers (ColumnDoc::extent)
+    std::string_view meaning = {};
+    std::function<MetricValue(const Run&)> value;
+    int summary_decimals = 0;           // decimals of a number in summary.csv, or kLeftOut
+    int sweep_decimals = 6;             // decimals of a number in tables of sweeps, or kLeftOut
+    std::string_view sweep_after = {};  // column that precedes this one in sweeps; empty: the order of the list applies
+    bool has_mean = true;               // false: a mean over the seeds of a sweep has no meaning
+    const MetricFamily* family = nullptr;
+    // The kind of network that has the metric, such as &NetworkSettings::is_streets. Null: each kind of the list.
+    bool (NetworkSettings::*only_for)() const = nullptr;
+    ConsoleColumn<Run> console;
+
+    bool in_summary() const { return summary_decimals != kLeftOut; }
+    bool in_sweeps() const { return sweep_decimals != kLeftOut; }
+};
+
+template <class Run>
+using MetricList = std::vector<Metric<Run>>;
+
+// Returns the lists one after the other.
+template <class Run>
+MetricList<Run> joined_lists(std::initializer_list<MetricList<Run>> lists) {
+    MetricList<Run> all;
+    for (const MetricList<Run>& list : lists) all.insert(all.end(), list.begin(), list.end());
+    return all;
+}
+
+}  // namespace stopline

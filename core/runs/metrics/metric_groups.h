@@ -1,0 +1,37 @@
+// The metrics of all kinds of networks, for lists and documentation.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "runs/metrics/metric_text.h"
+#include "runs/tables/column_docs.h"
+#include "scenario/scenario.h"
+
+namespace stopline {
+
+// The metrics of the runs of some kinds of networks.
+struct MetricGroup {
+    std::string_view name;             // group of the tables, as in column_docs.h
+    std::string_view title;            // kinds of networks, in words
+    std::vector<ColumnDoc> summary;    // columns of summary.csv after `population`
+    std::vector<ColumnDoc> sweep;      // columns of sweeps after the seed
+    std::vector<std::string> no_mean;  // columns of sweeps whose means over seeds have no meaning
+    // Returns the names of the columns of sweeps, after the seed.
+    std::vector<std::string> (*sweep_columns)(const Scenario& scenario);
+    // Returns the metrics for stopline-run --list. A null `scenario` gives those of all scenarios.
+    std::vector<ListedMetric> (*list)(const Scenario* scenario);
+};
+
+// Returns all groups, in the order of scenarios/COLUMNS.md.
+const std::vector<MetricGroup>& metric_groups();
+
+// Returns the group with this name, which must exist, or the group of a network.
+const MetricGroup& metric_group(std::string_view name);
+const MetricGroup& metric_group_of(const NetworkSettings& network);
+
+// Returns false if a mean of the column over the seeds of a sweep has no meaning. `column` is the name of a metric.
+bool has_mean(std::string_view column);
+
+}  // namespace stopline

@@ -1,0 +1,120 @@
+// Metrics that several kinds of networks have.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <initializer_list>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "runs/metrics/metric.h"
+#include "sim/state/events.h"
+
+namespace stopline {
+
+// Counters that every run has. Each kind of run returns them from counts().
+struct RunCounts {
+    std::int64_t entered;
+    std::int64_t exited;
+    const Violations& violations;
+    std::int64_t updates;  // number of vehicles in the network, summed over all steps
+    std::uint64_t state_hash;
+};
+
+// Returns the metrics of vehicles, violations and work. Tables of sweeps have all of them, except that `overlaps` is
+// there the sum of `overlaps` and `conflicts`. `in_summary` names those in summary.csv.
+template <class Run>
+MetricList<Run> count_metrics(std::initializer_list<std::string_view> in_summary) {
+    MetricList<Run> metrics{
+        {.column = "vehicles_entered",
+         .unit = "veh",
+         .extent = "run",
+         .meaning = "vehicles that entered the network",
+         .value = [](const Run& run) { return run.counts().entered; }},
+        {.column = "vehicles_exited",
+         .unit = "veh",
+         .extent = "run",
+         .meaning = "vehicles that left the network",
+         .value = [](const Run& run) { return run.counts().exited; }},
+        {.column = "overlaps",
+         .extent = "run",
+         .meaning = "vehicles with a net gap below 0, counted in each step; a violation",
+         .value = [](const Run& run) { return run.counts().violations.overlaps; },
+         .sweep_decimals = kLeftOut},
+        {.column = "conflicts",
+         .extent = "run",
+         .meaning = "pairs of vehicles in one conflict area, counted in each step, except passed blockers; a violation",
+         .value = [](const Run& run) { return run.counts().violations.conflicts; },
+         .sweep_decimals = kLeftOut},
+        {.column = "overlaps",
+         .extent = "run",
+         .meaning = "sum of `overlaps` and `conflicts` of `network/summary.csv`; a violation",
+         .value = [](const Run& run) { return run.counts().violations.overlaps + run.counts().violations.conflicts; },
+         .summary_decimals = kLeftOut},
+        {.column = "red_entries",
+         .unit = "veh",
+         .extent = "run",
+         .meaning = "vehicles that passed a stop line on red, although they could have stopped; a violation",
+         .value = [](const Run& run) { return run.counts().violations.red_entries; }},
+        {.column = "forced_red_entries",
+         .unit = "veh",
+         .extent = "run",
+         .meaning = "vehicles that passed a stop line on red because they could not stop any more; no violation",
+         .value = [](const Run& run) { return run.counts().violations.forced_red_entries; }},
+        {.column = "lost_vehicles",
+         .unit = "veh",
+         .extent = "run",
+         .meaning = "entered vehicles minus exited vehicles and vehicles present at the end; any value but 0 is a "
+                    "violation",
+         .value = [](const Run& run) { return run.counts().violations.lost_vehicles; }},
+        {.column = "deadlocks",
+         .extent = "run",
+         .meaning = "1 if a vehicle stays in the intersection for two cycles longer than the slowest unobstructed "
+                    "crossing takes, else 0; a violation",
+         .value = [](const Run& run) { return run.counts().violations.deadlocks; }},
+        {.column = "updates",
+         .extent = "run",
+         .meaning = "vehicles times steps",
+         .value = [](const Run& run) { return run.counts().updates; },
+         .has_mean = false},
+        {.column = "state_hash",
+         .extent = "end of the run",
+         .meaning = "hash of the final state; equal runs give equal hashes",
+         .value = [](const Run& run) { return fmt::format("{:016x}", run.counts().state_hash); },
+         .has_mean = false},
+    };
+    for (Metric<Run>& metric : metrics) {
+        const bool is_named = std::find(in_summary.begin(), in_summary.end(), metric.column) != in_summary.end();
+        if (!is_named) metric.summary_decimals = kLeftOut;
+    }
+    return metrics;
+}
+
+// Returns the number of starving movements. `Run` has the member starvations().
+template <class Run>
+Metric<Run> starvations_metric() {
+    return {.column = "starvations",
+            .extent = "run",
+            .meaning =
+                "number of vehicles that stand at the head of a queue for `measure.starvation` or longer, and "
+                "for two cycles of their signal, although nothing blocks their way; stopline-run fails if "
+                "there are any",
+            .value = [](const Run& run) { return run.starvations(); }};
+}
+
+// Returns the longest stay of a vehicle in an intersection. `Run` has the member longest_in_junction_s().
+template <class Run>
+Metric<Run> junction_time_metric(int summary_decimals) {
+    return {.column = "longest_in_junction_s",
+            .unit = "s",
+            .extent = "run",
+            .meaning =
+                "longest time of any vehicle in an intersection, from its front at the stop line to its rear on "
+                "the exit lane",
+            .value = [](const Run& run) { return run.longest_in_junction_s(); },
+            .summary_decimals = summary_decimals,
+            .sweep_decimals = 2};
+}
+
+}  // namespace stopline
