@@ -14,7 +14,7 @@
 #include "scenario/fleets.h"
 #include "scenario/load_scenario.h"
 #include "scenario/schema/quantity.h"
-#include "sim/state/model.h"  // the registry of spacing laws
+#include "sim/state/model.h"  // the list of spacing laws and of signal controllers
 
 namespace stopline {
 
@@ -152,6 +152,10 @@ std::string list_text(const std::string& file, const CommonOptions& options) {
     } else {
         text += "\nPopulations: each policy is also the name of a population of its vehicles alone.\n";
         text += runnable("A scenario can define mixed populations, see scenarios/single_light.yaml\n");
+    }
+    text += "\nSignal controllers (signal.controller)\n";
+    for (const SignalController* controller : signal_controllers()) {
+        text += fmt::format("  {:<18} {}\n", controller->name, controller->meaning);
     }
     append_names(text, "Vehicles (data/vehicles)", "vehicles");
     append_names(text, "Drivers (data/drivers)", "drivers");

@@ -32,9 +32,7 @@ std::string permutation_text(const Sweep& sweep, std::size_t point) {
     return sweep.settings().repetitions > 1 ? text : text.substr(0, text.rfind(", seed"));
 }
 
-double cycle_of(const Scenario& scenario) {
-    return scenario.network.has_intersections() ? scenario.intersection_cycle_s() : scenario.signal.cycle_s;
-}
+double cycle_of(const Scenario& scenario) { return scenario.nominal_cycle().cycle_s; }
 
 // Returns, as text, the cause of the differences at one detector. If no pair of passages differs by more than the
 // limit, there are only unpaired passages. If the largest difference is half a cycle or more, a vehicle passed in

@@ -41,7 +41,7 @@ double quantile(const std::vector<double>& sorted, double share) {
 }  // namespace
 
 std::string detector_name(const Model& model, std::size_t detector) {
-    static constexpr std::array<const char*, 5> kKinds{"stop_line", "zone", "exit", "middle", "loop"};
+    static constexpr std::array<const char*, 6> kKinds{"stop_line", "zone", "exit", "middle", "loop", "signal"};
     const Detector& d = model.detectors[detector];
     if (d.loop >= 0) return model.loop_names[at(d.loop)];
     const std::string zone = d.kind == Detector::Kind::zone ? fmt::format("_{}", d.zone) : "";

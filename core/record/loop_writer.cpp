@@ -4,6 +4,7 @@
 #include "base/units.h"
 #include "record/sumo_files.h"
 #include "record/xml_file.h"
+#include "sim/state/queries/covered_detector.h"
 
 namespace stopline {
 
@@ -21,6 +22,8 @@ const char* name_of(Detector::Kind kind) {
             return "middle";
         case Detector::Kind::loop:
             return "loop";
+        case Detector::Kind::signal:
+            return "signal";
     }
     return "";
 }
@@ -41,7 +44,7 @@ public:
             add_crossing(state.records.crossings[next_crossing_]);
         if (state.tick == interval_begin_) return;
         for (std::size_t k = 0; k < loops_.size(); ++k) {
-            if (!names_[k].empty()) loops_[k].occupied_steps += is_covered(state, k) ? 1 : 0;
+            if (!names_[k].empty()) loops_[k].occupied_steps += is_covered(model_, state, k) ? 1 : 0;
         }
         if ((state.tick - interval_begin_) % interval_ticks_ == 0) write_interval(state.tick);
         last_tick_ = state.tick;
@@ -79,28 +82,6 @@ private:
         loop.sum_of_speeds_mps += speed_mps;
         loop.sum_of_inverse_speeds_spm += 1.0 / speed_mps;
         loop.sum_of_lengths_m += static_cast<double>(crossing.length_m);
-    }
-
-    // Returns true if a vehicle covers the detector: its front is at or beyond the detector, on the same lane or on a
-    // connection that follows this lane, and its rear is before the detector.
-    bool is_covered(const State& state, std::size_t detector) const {
-        const VehicleArrays& v = state.vehicles;
-        const double line_m = model_.detectors[detector].position_m;
-        const auto lane = static_cast<std::size_t>(model_.detectors[detector].lane);
-        const LaneBlock& block = state.blocks[lane];
-        for (int slot = block.first; slot < block.past_last(); ++slot) {
-            const auto i = static_cast<std::size_t>(slot);
-            if (v.position_m[i] < line_m) break;
-            if (v.position_m[i] - static_cast<double>(v.length_m[i]) < line_m) return true;
-        }
-        const double end_m = model_.graph.lanes[lane].length_m;
-        for (const int next : model_.graph.lanes[lane].next) {
-            const LaneBlock& beyond = state.blocks[static_cast<std::size_t>(next)];
-            if (beyond.count == 0 || model_.graph.lanes[static_cast<std::size_t>(next)].origin < 0) continue;
-            const auto i = static_cast<std::size_t>(beyond.last());
-            if (end_m + v.position_m[i] - static_cast<double>(v.length_m[i]) < line_m) return true;
-        }
-        return false;
     }
 
     void write_interval(std::int64_t tick) {

@@ -104,11 +104,16 @@ RunResult run_population(const Scenario& scenario, std::size_t population, const
     const std::int64_t sample_ticks =
         std::max<std::int64_t>(1, to_ticks(options.trajectory_interval_s, scenario.tick_s()));
     constexpr std::int64_t kProgressSteps = 1000;
+    bool has_started = false;  // the first green has begun
     const auto begin = std::chrono::steady_clock::now();
     result.complete = true;
     while (simulation.state().tick < end_tick) {
         const std::int64_t tick = simulation.state().tick;
-        if (tick == green_tick) result.queue_gaps_m = queue_gaps(simulation.state());
+        if (!has_started && simulation.state().signals.green_start_tick[0] == tick) {
+            has_started = true;
+            result.queue_gaps_m = queue_gaps(simulation.state());
+            if (tick != green_tick) result.green_start_s = simulation.time_s();
+        }
         const double now_s = simulation.time_s();
         const bool is_sampled = options.trajectory_interval_s > 0.0 && now_s >= options.trajectory_from_s &&
                                 now_s <= options.trajectory_until_s;

@@ -14,6 +14,7 @@
 #include "scenario/fleets.h"
 #include "scenario/import_sumo.h"
 #include "scenario/make_network.h"
+#include "signals/signal_controller.h"
 #include "sim/mesoscale/following_families.h"
 #include "sumo_import/sumo_signals.h"
 
@@ -145,9 +146,10 @@ void add_rules(const Scenario& scenario, Model& model) {
     model.rules.keep_clear = rules.keep_clear == "on";
     model.rules.sight_m = rules.sight_m;
     model.rules.count_queue_at_red_exit = rules.count_queue_at_red_exit == "on";
-    model.rules.teleport_ticks = to_ticks(rules.teleport_cycles * scenario.intersection_cycle_s(), model.step_s);
-    model.rules.pass_blocker_ticks = to_ticks(rules.pass_blocker_greens * scenario.longest_green_s(), model.step_s);
-    model.rules.gridlock_ticks = to_ticks(scenario.intersection_cycle_s(), model.step_s);
+    const NominalCycle nominal = scenario.nominal_cycle();
+    model.rules.teleport_ticks = to_ticks(rules.teleport_cycles * nominal.cycle_s, model.step_s);
+    model.rules.pass_blocker_ticks = to_ticks(rules.pass_blocker_greens * nominal.longest_green_s, model.step_s);
+    model.rules.gridlock_ticks = to_ticks(nominal.cycle_s, model.step_s);
     model.rules.long_wait_ticks = 2 * model.rules.gridlock_ticks;
     model.rules.starvation_ticks = to_ticks(scenario.measure.starvation_s, model.step_s);
     model.rules.memory_ticks = to_ticks(2.0, model.step_s);
@@ -163,10 +165,24 @@ void add_loops(const Scenario& scenario, Model& model) {
     }
 }
 
+// Adds the detectors upstream of a stop line that the controller of the signal asks for.
+void add_signal_detectors(int lane, Model& model) {
+    const Lane& road = model.graph.lanes[at(lane)];
+    const SignalPlan& plan = model.signals.plan_of(road.signal_group);
+    if (plan.controller->detectors_m == nullptr) return;
+    for (const double to_line_m : plan.controller->detectors_m(plan.settings)) {
+        const double position_m = road.stop_line_m - to_line_m;
+        if (position_m > 0.0) model.detectors.push_back({lane, position_m, Detector::Kind::signal});
+    }
+}
+
 void add_detectors(const Scenario& scenario, Model& model) {
     for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {
         const Lane& road = model.graph.lanes[at(lane)];
-        if (road.signal_group >= 0) model.detectors.push_back({lane, road.stop_line_m, Detector::Kind::stop_line});
+        if (road.signal_group >= 0) {
+            model.detectors.push_back({lane, road.stop_line_m, Detector::Kind::stop_line});
+            add_signal_detectors(lane, model);
+        }
         if (road.origin >= 0) continue;
         if (scenario.network.kind == "intersection") add_zones(scenario, lane, model);
         if (scenario.network.has_several_intersections() && !scenario.network.is_sumo())
@@ -182,21 +198,28 @@ void add_network(const Scenario& scenario, Model& model) {
         model.signals = make_sumo_signals(*network.sumo, scenario.tick_s());
         model.phase_priorities = make_sumo_phase_priorities(*network.sumo, scenario.tick_s());
     } else if (network.is_streets()) {
-        model.signals = make_street_signals(network.streets, scenario.tick_s());
+        int group = 0;
+        for (const StreetIntersection& node : network.streets.intersections) {
+            const auto programmes = make_seven_steps(node.programme, node.offset_s, scenario.tick_s());
+            model.signals.add(fixed_time_plan(group, {programmes.begin(), programmes.end()}));
+            group += static_cast<int>(programmes.size());
+        }
     } else if (network.kind == "grid") {
         for (const GridPosition& place : grid_positions(network.grid)) {
             SignalSettings signal = scenario.signal;
             // Whole cycles are removed from the offset, so that the initial red is as short as possible.
             signal.first_green_s +=
                 std::fmod((place.column + place.row) * signal.offset_s, signal.intersection_cycle_s());
-            for (GroupProgramme& one : make_stage_programmes(signal, 2, scenario.tick_s())) {
-                model.signals.push_back(std::move(one));
-            }
+            model.signals.add(make_signal_plan(signal, model.signals.groups(),
+                                               make_stage_programmes(signal, 2, scenario.tick_s()), scenario.tick_s()));
         }
     } else if (network.kind == "intersection") {
-        model.signals = make_stage_programmes(scenario.signal, model.graph.signal_groups, scenario.tick_s());
+        model.signals.add(make_signal_plan(
+            scenario.signal, 0, make_stage_programmes(scenario.signal, model.graph.signal_groups, scenario.tick_s()),
+            scenario.tick_s()));
     } else {
-        model.signals.push_back(make_single_light(scenario.signal, scenario.tick_s()));
+        model.signals.add(make_signal_plan(scenario.signal, 0, {make_single_light(scenario.signal, scenario.tick_s())},
+                                           scenario.tick_s()));
     }
 }
 

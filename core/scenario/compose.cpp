@@ -123,28 +123,6 @@ void merge_library_list(const Field& field, const std::string& library, SourceNo
     list.items = std::move(known->items);
 }
 
-// Completes one field: inserts its default, its data file or its library list, and turns list entries that are a single
-// word into maps. Does not complete the fields inside a map or a list.
-void complete_field(const Field& field, SourceNode& map, const std::string& path, Report& report) {
-    SourceNode* value = map.find(field.name);
-    const auto* const section = std::get_if<SectionField>(&field.kind);
-    const auto* const list = std::get_if<ListField>(&field.kind);
-    if (value == nullptr && !field.fallback.empty()) {
-        const auto directory = map.place.source->directory;
-        const auto source = std::make_shared<Source>(Source{"default of '" + path + "'", directory});
-        value = &map.add({field.name, map.place}, parse_yaml(field.fallback, source));
-    }
-    if (value == nullptr) return;
-    if (section != nullptr && !section->library.empty()) {
-        resolve_base(section->table(), section->library, *value, path, report);
-    }
-    if (list == nullptr) return;
-    if (!list->library.empty()) merge_library_list(field, list->library, *value, report);
-    for (SourceNode& item : value->items) {
-        if (item.kind == Kind::scalar && list->table().expand != nullptr) item = list->table().expand(item);
-    }
-}
-
 // Returns the value of the choice field at `path` (names of fields, joined by dots). If `map` has no value for the
 // field, returns the default of the field.
 std::string choice_at(const Table& table, const SourceNode* map, const std::string& path) {
@@ -164,6 +142,28 @@ bool exists(const Table& table, const Field& field, const SourceNode& map) {
     const std::string choice = choice_at(table, &map, field.condition_field);
     return std::find(field.condition_values.begin(), field.condition_values.end(), choice) !=
            field.condition_values.end();
+}
+
+// Completes one field: inserts its default if the field exists, its data file or its library list, and turns list
+// entries that are a single word into maps. Does not complete the fields inside a map or a list.
+void complete_field(const Table& table, const Field& field, SourceNode& map, const std::string& path, Report& report) {
+    SourceNode* value = map.find(field.name);
+    const auto* const section = std::get_if<SectionField>(&field.kind);
+    const auto* const list = std::get_if<ListField>(&field.kind);
+    if (value == nullptr && !field.fallback.empty() && exists(table, field, map)) {
+        const auto directory = map.place.source->directory;
+        const auto source = std::make_shared<Source>(Source{"default of '" + path + "'", directory});
+        value = &map.add({field.name, map.place}, parse_yaml(field.fallback, source));
+    }
+    if (value == nullptr) return;
+    if (section != nullptr && !section->library.empty()) {
+        resolve_base(section->table(), section->library, *value, path, report);
+    }
+    if (list == nullptr) return;
+    if (!list->library.empty()) merge_library_list(field, list->library, *value, report);
+    for (SourceNode& item : value->items) {
+        if (item.kind == Kind::scalar && list->table().expand != nullptr) item = list->table().expand(item);
+    }
 }
 
 // Returns the list entry with the index or the name `entry`; null if there is none.
@@ -207,7 +207,7 @@ public:
             }
             return;
         }
-        complete_field(*field, map, here, report_);
+        complete_field(table, *field, map, here, report_);
         if (!step.entries.empty()) return set_entry(*field, map, steps, i, here);
         const auto* const section = std::get_if<SectionField>(&field->kind);
         if (section == nullptr) return error(here, "has no field '" + steps[i + 1].name + "' inside");
@@ -261,7 +261,7 @@ void complete(const Table& table, SourceNode& map, const std::string& path, Repo
     if (map.kind != Kind::map) return;
     for (const Field& field : table.fields) {
         const std::string field_path = join_path(path, field.name);
-        complete_field(field, map, field_path, report);
+        complete_field(table, field, map, field_path, report);
         SourceNode* value = map.find(field.name);
         const auto* const own_section = std::get_if<SectionField>(&field.kind);
         if (value == nullptr && own_section != nullptr && !own_section->is_optional && !field.required &&

@@ -114,16 +114,12 @@ std::uint64_t sumo_files_hash(const Scenario& scenario) {
     return scenario.network.sumo->net.hash * 0x100000001b3U ^ scenario.demand.sumo->hash;
 }
 
-double Scenario::intersection_cycle_s() const {
-    if (network.is_sumo()) return network.sumo->longest_cycle_s();
-    return network.is_streets() ? network.streets.intersections.front().programme.cycle_s()
-                                : signal.intersection_cycle_s();
-}
-
-double Scenario::longest_green_s() const {
-    if (network.is_sumo()) return network.sumo->longest_green_s();
-    return network.is_streets() ? network.streets.longest_green_s()
-                                : std::max(signal.group_green_s(0), signal.group_green_s(1));
+NominalCycle Scenario::nominal_cycle() const {
+    if (network.is_sumo()) return {network.sumo->longest_cycle_s(), network.sumo->longest_green_s()};
+    if (network.is_streets()) {
+        return {network.streets.intersections.front().programme.cycle_s(), network.streets.longest_green_s()};
+    }
+    return stopline::nominal_cycle(signal, network.has_intersections() ? 2 : 1);
 }
 
 }  // namespace stopline

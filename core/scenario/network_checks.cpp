@@ -159,7 +159,7 @@ void check_measured_area(const Scenario& scenario, Checker& check) {
 int cycles_within_duration(const Scenario& scenario) {
     constexpr double kRounding = 1e-9;
     const SignalSettings& signal = scenario.signal;
-    const double cycles = (scenario.duration_s - signal.first_green_s) / signal.intersection_cycle_s();
+    const double cycles = (scenario.duration_s - signal.first_green_s) / scenario.nominal_cycle().cycle_s;
     return static_cast<int>(std::floor(cycles + kRounding)) - scenario.measure.warmup_cycles;
 }
 

@@ -10,6 +10,7 @@
 #include "driver/traffic_rules.h"
 #include "network/network_settings.h"
 #include "scenario/population_settings.h"
+#include "signals/signal_controller.h"
 #include "signals/signal_settings.h"
 #include "vehicle/powertrain_settings.h"
 
@@ -58,9 +59,8 @@ struct Scenario {
 
     bool is_meso() const { return fidelity == "meso"; }
     double tick_s() const { return is_meso() ? meso.step_s : step_s; }
-    // Returns the signal cycle that all intersections have; for an imported network, the longest cycle.
-    double intersection_cycle_s() const;
-    double longest_green_s() const;
+    // Returns the cycle and the longest green of the intersections; for an imported network, the longest of both.
+    NominalCycle nominal_cycle() const;
 };
 
 }  // namespace stopline

@@ -1,6 +1,7 @@
 #include "signals/programme.h"
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -37,6 +38,13 @@ std::int64_t GroupProgramme::light_start_tick(std::int64_t tick) const {
     if (tick < offset_) return 0;
     if (!repeats_ && tick >= offset_ + cycle_) return offset_ + cycle_;
     return stage_at(tick).tick;
+}
+
+std::int64_t GroupProgramme::next_change_tick(std::int64_t tick) const {
+    if (tick < offset_) return offset_;
+    if (!repeats_ && tick >= offset_ + cycle_) return std::numeric_limits<std::int64_t>::max();
+    const StageStart start = stage_at(tick);
+    return start.tick + stages_[start.stage].ticks;
 }
 
 std::int64_t GroupProgramme::last_green_start_tick(std::int64_t tick) const {

@@ -34,6 +34,9 @@ public:
     // Returns the start of the latest green that was shown at any tick from 0 to `tick`, or -1 if there was none. The
     // start can be negative.
     std::int64_t last_green_start_tick(std::int64_t tick) const;
+    // Returns the first tick after `tick` at which a stage begins or the programme ends. Returns the highest possible
+    // tick if there is none.
+    std::int64_t next_change_tick(std::int64_t tick) const;
     std::int64_t cycle_ticks() const { return cycle_; }
     std::int64_t first_tick() const { return offset_; }
 

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 
-#include "base/io/escape.h"
-
 #include "base/containers/index.h"
+#include "base/input_error.h"
+#include "base/io/escape.h"
+#include "signals/signal_controller.h"
 
 namespace stopline {
 
@@ -85,7 +86,7 @@ void write_connections(const std::filesystem::path& file, const LaneGraph& graph
 // connection that yields to another connection with green.
 char link_state(const Model& model, const PlainConnection& c, std::int64_t tick) {
     const auto light_of = [&](int lane) {
-        return model.signals[at(model.graph.lanes[at(lane)].signal_group)].light(tick);
+        return model.signals.programme(model.graph.lanes[at(lane)].signal_group).light(tick);
     };
     const Light light = light_of(c.from);
     if (light != Light::green) return light == Light::yellow ? 'y' : 'r';
@@ -107,10 +108,10 @@ struct Phase {
 // Returns the length of the programme to write, in ticks: one cycle if all signal groups repeat the same cycle during
 // the whole run, else the length of the run.
 std::int64_t programme_ticks(const Model& model, const std::vector<int>& groups, std::int64_t run_ticks) {
-    const std::int64_t cycle = groups.empty() ? 0 : model.signals[at(groups[0])].cycle_ticks();
+    const std::int64_t cycle = groups.empty() ? 0 : model.signals.programme(groups[0]).cycle_ticks();
     if (cycle <= 0 || cycle > run_ticks) return run_ticks;
     for (const int group : groups) {
-        const GroupProgramme& programme = model.signals[at(group)];
+        const GroupProgramme& programme = model.signals.programme(group);
         if (programme.cycle_ticks() != cycle) return run_ticks;
         for (std::int64_t tick = 0; tick + cycle < run_ticks; ++tick) {
             if (programme.light(tick) != programme.light(tick + cycle)) return run_ticks;
@@ -132,7 +133,7 @@ std::vector<Phase> phases_of(const Model& model, const PlainNetwork& network, in
     std::vector<Light> previous_lights;
     for (std::int64_t tick = 0; tick < ticks; ++tick) {
         std::vector<Light> lights;
-        for (const int group : groups) lights.push_back(model.signals[at(group)].light(tick));
+        for (const int group : groups) lights.push_back(model.signals.programme(group).light(tick));
         if (lights != previous_lights) {
             std::string text;
             for (const PlainConnection* const c : links) text += link_state(model, *c, tick);
@@ -144,8 +145,14 @@ std::vector<Phase> phases_of(const Model& model, const PlainNetwork& network, in
     return phases;
 }
 
+// Throws InputError if a signal reacts to traffic: its lights are not known before the run.
 void write_lights(const std::filesystem::path& file, const Model& model, const PlainNetwork& network,
                   double duration_s) {
+    for (const SignalPlan& plan : model.signals) {
+        if (plan.controller->follows_programme) continue;
+        throw InputError(fmt::format("signal.controller: '{}' reacts to traffic, so there is no programme to export",
+                                     plan.controller->name));
+    }
     XmlFile xml(file, "tlLogics", "tllogic_file.xsd");
     const std::int64_t run_ticks = std::max<std::int64_t>(to_ticks(duration_s, model.step_s), 1);
     for (int node = 0; node < static_cast<int>(network.nodes.size()); ++node) {

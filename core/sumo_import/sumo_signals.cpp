@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -52,9 +53,12 @@ GroupProgramme programme_of(const SumoSignal& signal, int link, double step_s) {
 
 }  // namespace
 
-std::vector<GroupProgramme> make_sumo_signals(const SumoNetwork& network, double step_s) {
-    std::vector<GroupProgramme> programmes;
-    for (const SumoLight& light : network.lights) {
+SignalPlans make_sumo_signals(const SumoNetwork& network, double step_s) {
+    std::map<int, std::pair<std::vector<int>, std::vector<GroupProgramme>>> by_signal;
+    for (std::size_t group = 0; group < network.lights.size(); ++group) {
+        const SumoLight& light = network.lights[group];
+        auto& [groups, programmes] = by_signal[light.signal];
+        groups.push_back(static_cast<int>(group));
         if (light.signal < 0) {
             programmes.emplace_back(std::vector<Stage>{{to_ticks(3600.0, step_s), Light::green}}, 0, true);
         } else {
@@ -62,7 +66,11 @@ std::vector<GroupProgramme> make_sumo_signals(const SumoNetwork& network, double
                 programme_of(network.net.signals[static_cast<std::size_t>(light.signal)], light.link, step_s));
         }
     }
-    return programmes;
+    SignalPlans plans;
+    for (auto& [signal, groups] : by_signal) {
+        plans.add(fixed_time_plan(std::move(groups.first), std::move(groups.second)));
+    }
+    return plans;
 }
 
 std::vector<PhasePriority> make_sumo_phase_priorities(const SumoNetwork& network, double step_s) {

@@ -4,15 +4,15 @@
 #include <vector>
 
 #include "signals/phase_priority.h"
-#include "signals/programme.h"
+#include "signals/signal_plan.h"
 #include "sumo_import/sumo_graph.h"
 
 namespace stopline {
 
-// Returns the programmes of all signal groups. At time t of the run, the time since the start of the current cycle is
-// (t - offset) modulo the cycle time. The letters G, g, s, o and O mean green, y and Y mean yellow, and all other
-// letters mean red.
-std::vector<GroupProgramme> make_sumo_signals(const SumoNetwork& network, double step_s);
+// Returns the signals. First comes the group 0, which is always green, then the signals in the order of
+// SumoNet::signals. At time t of the run, the time since the start of the current cycle is (t - offset) modulo the
+// cycle time. The letters G, g, s, o and O mean green, y and Y mean yellow, and all other letters mean red.
+SignalPlans make_sumo_signals(const SumoNetwork& network, double step_s);
 
 // Returns the right of way of all pairs of connections for which it changes with the phases of their signal.
 std::vector<PhasePriority> make_sumo_phase_priorities(const SumoNetwork& network, double step_s);

@@ -21,8 +21,8 @@ Model two_lanes() {
     ApproachSettings approach;
     approach.lanes = 2;
     model.graph = make_approach(approach);
-    model.signals = {
-        make_single_light({.first_green_s = kGreen_s, .green_s = 15.0, .cycle_s = kCycle_s}, model.step_s)};
+    model.signals.add(fixed_time_plan(
+        0, {make_single_light({.first_green_s = kGreen_s, .green_s = 15.0, .cycle_s = kCycle_s}, model.step_s)}));
     for (const int lane : {0, 2}) {
         model.detectors.push_back({lane, model.graph.lanes[0].stop_line_m, Detector::Kind::stop_line});
         model.detectors.push_back({lane, 1.0, Detector::Kind::zone, 0, false});
@@ -35,7 +35,7 @@ Discharge discharge_in(
     const HasQueued& has_queued = [](int) { return true; }) {
     const auto latest_green_start_s = [&](int signal_group, double time_s) {
         const auto tick = static_cast<std::int64_t>(time_s / model.step_s);
-        return model.time_s(model.signals[static_cast<std::size_t>(signal_group)].last_green_start_tick(tick));
+        return model.time_s(model.signals.programme(signal_group).last_green_start_tick(tick));
     };
     return discharge(model.graph, model.detectors, crossings, window, latest_green_start_s, kCycle_s, has_queued);
 }

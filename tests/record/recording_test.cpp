@@ -70,8 +70,8 @@ Recorded record_run(const Scenario& scenario, const fs::path& file, const Record
         if (simulation.time_s() > window.until_s + 1e-6) return;
         result.frames.push_back(states_of(state));
         result.lights.emplace_back();
-        for (const GroupProgramme& programme : model.signals) {
-            result.lights.back().push_back(programme.light(state.tick));
+        for (int group = 0; group < model.signals.groups(); ++group) {
+            result.lights.back().push_back(model.signals.programme(group).light(state.tick));
         }
         result.causes.emplace_back();
         for (const int slot : state.congestion.watch.stopped_slots) {

@@ -46,7 +46,7 @@ TEST(Streets, AreReadFromAUserFile) {
     EXPECT_EQ(streets.intersections[1].offset_s, 42.0);
     EXPECT_EQ(streets.intersections[0].legs[1].lanes[2].movements, "straight+right");
     EXPECT_EQ(streets.intersections[0].legs[1].right_share, 0.12);
-    EXPECT_EQ(s.intersection_cycle_s(), 60.0);
+    EXPECT_EQ(s.nominal_cycle().cycle_s, 60.0);
 }
 
 TEST(Streets, ReadBackFromTheirCanonicalText) {

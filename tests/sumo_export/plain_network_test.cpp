@@ -14,6 +14,7 @@
 #include "scenario/build_model.h"
 #include "scenario/load_scenario.h"
 #include "scenario/scenario_text.h"
+#include "signals/signal_controller.h"
 #include "sim/step/simulation.h"
 #include "sumo_export/edges.h"
 #include "sumo_export/export.h"
@@ -124,7 +125,8 @@ TEST(SumoInputs, SignalsMatchTheModel) {
                 if (network.nodes[at(c.node)].id != xml.text(logic, "id")) continue;
                 ASSERT_LT(at(c.link), letters.size());
                 const int group = model.graph.lanes[at(c.from)].signal_group;
-                const Light light = model.signals[at(group)].light(to_ticks(from_s + 0.5 * duration_s, model.step_s));
+                const Light light =
+                    model.signals.programme(group).light(to_ticks(from_s + 0.5 * duration_s, model.step_s));
                 const char letter = letters[at(c.link)];
                 EXPECT_EQ(light == Light::green, letter == 'G' || letter == 'g');
                 EXPECT_EQ(light == Light::yellow, letter == 'y');
@@ -134,9 +136,23 @@ TEST(SumoInputs, SignalsMatchTheModel) {
             }
             from_s += duration_s;
         }
-        EXPECT_NEAR(from_s, model.time_s(model.signals[0].cycle_ticks()), 1e-6);
+        EXPECT_NEAR(from_s, model.time_s(model.signals.programme(0).cycle_ticks()), 1e-6);
     }
     EXPECT_EQ(programmes, 6U);
+}
+
+TEST(SumoInputs, SignalsThatReactToTrafficAreRefused) {
+    Model model = small_grid();
+    SignalController controller = find_signal_controller("fixed_time");
+    controller.follows_programme = false;
+    SignalPlans signals;
+    for (SignalPlan plan : model.signals) {
+        plan.controller = &controller;
+        signals.add(plan);
+    }
+    model.signals = signals;
+    const TemporaryFolder folder;
+    EXPECT_THROW(write_sumo_inputs(folder.path(), model, plain_network(model.graph), 600.0), InputError);
 }
 
 // The programme has one green only and does not repeat, so its phases cover the whole run.
@@ -154,7 +170,7 @@ TEST(SumoInputs, ProgrammesWithoutRepetitionCoverTheRun) {
     EXPECT_NEAR(total_s, 500.0, 1e-6);
     double expected_s = 0.0;
     for (std::int64_t tick = 0; tick < to_ticks(500.0, model.step_s); ++tick) {
-        if (model.signals[0].light(tick) == Light::green) expected_s += model.step_s;
+        if (model.signals.programme(0).light(tick) == Light::green) expected_s += model.step_s;
     }
     EXPECT_GT(green_s, 0.0);
     EXPECT_NEAR(green_s, expected_s, 1e-6);

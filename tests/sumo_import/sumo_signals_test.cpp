@@ -19,9 +19,14 @@ using testing::two_phases;
 
 constexpr double kStep_s = 0.1;
 
+// Returns the programmes of all signal groups.
 std::vector<GroupProgramme> signals_of(const std::string& text) {
     const SumoFiles files;
-    return make_sumo_signals(make_sumo_network(read_sumo_net(files.write("my.net.xml", text)), 2.0), kStep_s);
+    const SignalPlans plans =
+        make_sumo_signals(make_sumo_network(read_sumo_net(files.write("my.net.xml", text)), 2.0), kStep_s);
+    std::vector<GroupProgramme> programmes;
+    for (int group = 0; group < plans.groups(); ++group) programmes.push_back(plans.programme(group));
+    return programmes;
 }
 
 Light light_at(const GroupProgramme& programme, double time_s) { return programme.light(to_ticks(time_s, kStep_s)); }

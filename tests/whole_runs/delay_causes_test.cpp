@@ -36,8 +36,8 @@ protected:
     void set_lights() {
         state().tick = 1000;
         // The street from west to east has green.
-        for (std::size_t group = 0; group < state().stop_lines.lights.size(); ++group) {
-            state().stop_lines.lights[group] = group % 2 == 0 ? Light::green : Light::red;
+        for (std::size_t group = 0; group < state().signals.lights.size(); ++group) {
+            state().signals.lights[group] = group % 2 == 0 ? Light::green : Light::red;
         }
     }
 
@@ -96,7 +96,7 @@ protected:
         const Model& model = track_.model();
         Partition& all = state().partitions[0];
         find_occupied_lanes(state(), state().queues, all);
-        find_junction_occupants(model, state(), state().junctions, all);
+        find_junction_occupants(state(), state().junctions, all);
         decide_stop_lines(model, state(), all);
         decide_right_of_way(model, state(), all);
         watch_delays(model, state());
@@ -137,8 +137,8 @@ TEST_F(DelayCauses, FullExitLaneIsSpillbackOrTurnBlocking) {
     place_stopped("c1r0_west_in_0", 4.0, "c1r0_west_0_straight");  // its rear is still in the junction
     const int straight = place_stopped("c0r0_west_in_0", 154.0, "c0r0_west_0_straight");
     place_stopped("c1r0_west_in_1", 4.0, "c1r0_west_1_straight");
-    for (std::size_t group = 0; group < state().stop_lines.lights.size(); ++group)
-        state().stop_lines.lights[group] = Light::green;
+    for (std::size_t group = 0; group < state().signals.lights.size(); ++group)
+        state().signals.lights[group] = Light::green;
     const int turning = place_stopped("c0r0_south_in_1", 154.0, "c0r0_south_1_right");
     attribute();
     ASSERT_EQ(state().congestion.delays.episodes.size(), 2u);
@@ -159,7 +159,7 @@ TEST_F(DelayCauses, VehicleAtARedLightStillWaitsForItsLastBlocker) {
     EXPECT_EQ(delay_s(DelayCause::spillback), 1.0);
     for (const bool moves : {false, true}) {
         state().tick += track_.model().rules.watch_ticks;
-        for (Light& light : state().stop_lines.lights) light = Light::red;
+        for (Light& light : state().signals.lights) light = Light::red;
         if (moves) state().vehicles.speed_mps[at(blocker_slot)] = 1.0;
         attribute();
         state().vehicles.speed_mps[at(blocker_slot)] = 0.0;
@@ -276,7 +276,7 @@ TEST_F(DelayCauses, MovingVehiclesCountAsStoppedBeforeARedLight) {
         for (const int present : {capacity - 1, capacity}) {
             track_ = Track(empty_model());
             set_lights();
-            state().stop_lines.lights[at(track_.model().graph.lanes[at(lane(exit))].signal_group)] = light;
+            state().signals.lights[at(track_.model().graph.lanes[at(lane(exit))].signal_group)] = light;
             int last = -1;
             // Each vehicle is still upstream of the position at which it will stop.
             for (int k = 0; k < present; ++k) {

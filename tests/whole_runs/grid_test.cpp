@@ -132,17 +132,19 @@ TEST(GridSignals, TurnGreenWithinTheFirstCycleInOffsetOrder) {
     const Model model = build_model(scenario, 0);
     const std::int64_t cycle = to_ticks(36.0, model.step_s);
     const std::int64_t offset = to_ticks(15.0, model.step_s);
-    const auto first_green = [&](std::size_t group) {
+    const auto first_green = [&](int group) {
         std::int64_t tick = 0;
-        while (model.signals[group].light(tick) != Light::green) ++tick;
+        while (model.signals.programme(group).light(tick) != Light::green) ++tick;
         return tick;
     };
     const std::vector<GridPosition> positions = grid_positions(scenario.network.grid);
-    ASSERT_EQ(model.signals.size(), 2 * positions.size());
-    for (std::size_t k = 0; k < positions.size(); ++k) {
+    ASSERT_EQ(model.signals.size(), positions.size());
+    ASSERT_EQ(model.signals.groups(), 2 * static_cast<int>(positions.size()));
+    for (int k = 0; k < static_cast<int>(positions.size()); ++k) {
+        const GridPosition& place = positions[static_cast<std::size_t>(k)];
         EXPECT_LE(first_green(2 * k), cycle + to_ticks(1.0, model.step_s));
         EXPECT_LE(first_green(2 * k + 1), 2 * cycle);
-        EXPECT_EQ((first_green(2 * k) - first_green(0) - (positions[k].column + positions[k].row) * offset) % cycle, 0);
+        EXPECT_EQ((first_green(2 * k) - first_green(0) - (place.column + place.row) * offset) % cycle, 0);
     }
 }
 

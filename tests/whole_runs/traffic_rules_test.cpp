@@ -76,7 +76,7 @@ TEST_P(SlowRules, ApplyOnlyUnderTheirConditions) {
     EXPECT_TRUE(state.records.violations.none());
     EXPECT_EQ(state.records.violations.conflicts, 0);
     EXPECT_EQ(state.records.entered, state.records.exited + state.present());
-    const double cycle_s = scenario.signal.intersection_cycle_s();
+    const double cycle_s = scenario.nominal_cycle().cycle_s;
     std::set<int> teleporting;
     std::int64_t passed = 0;
     for (const RuleUse& use : state.congestion.delays.rule_uses) {

@@ -32,8 +32,8 @@ void FrameEncoder::Events::append_to(std::string& frame) const {
 }
 
 FrameEncoder::FrameEncoder(const Model& model, const FrameGrid& grid)
-    : signals_(model.signals), watch_ticks_(model.rules.watch_ticks), grid_(grid), lanes_(model.graph.lanes.size()) {
-    lights_.assign(model.signals.size(), Light::red);
+    : watch_ticks_(model.rules.watch_ticks), grid_(grid), lanes_(model.graph.lanes.size()) {
+    lights_.assign(at(model.graph.signal_groups), Light::red);
 }
 
 void FrameEncoder::start_section() {
@@ -57,7 +57,7 @@ void FrameEncoder::append(const Snapshot& snapshot, std::string& bytes) {
     for (Events& events : events_) events.clear();
     vacated_.clear();
     resize_slots(snapshot.lanes);
-    encode_lights(snapshot.tick);
+    encode_lights(snapshot.lights);
     vacate_slots(snapshot);
     for (const Snapshot::Placement& placement : snapshot.placements) encode_placement(placement);
     for (const Snapshot::BeyondStopLine& vehicle : snapshot.beyond_stop_line) encode_next_lane(vehicle);
@@ -80,14 +80,13 @@ void FrameEncoder::resize_slots(const std::vector<Snapshot::Slots>& lanes) {
     last_motion_.resize(slots, kUnknownMotion);
 }
 
-void FrameEncoder::encode_lights(std::int64_t tick) {
+void FrameEncoder::encode_lights(const std::vector<Light>& lights) {
     for (std::size_t group = 0; group < lights_.size(); ++group) {
-        const Light light = signals_[group].light(tick);
-        if (light == lights_[group]) continue;
-        lights_[group] = light;
+        if (lights[group] == lights_[group]) continue;
+        lights_[group] = lights[group];
         Events& events = events_[light_events];
         put_varint(events.bytes, group);
-        put_varint(events.bytes, static_cast<std::uint64_t>(light));
+        put_varint(events.bytes, static_cast<std::uint64_t>(lights[group]));
         ++events.count;
     }
 }

@@ -67,7 +67,7 @@ private:
     static constexpr std::uint32_t kUnknownMotion = 0xFFFFFFFF;
 
     void resize_slots(const std::vector<Snapshot::Slots>& lanes);
-    void encode_lights(std::int64_t tick);
+    void encode_lights(const std::vector<Light>& lights);
     void vacate_slots(const Snapshot& snapshot);
     void vacate(int slot);
     void encode_placement(const Snapshot::Placement& placement);
@@ -83,7 +83,6 @@ private:
     void append_columns(std::string& bytes);
     void append_codes(std::string& bytes);
 
-    std::vector<GroupProgramme> signals_;
     std::int64_t watch_ticks_;
     FrameGrid grid_;
     std::vector<Seat> seats_;

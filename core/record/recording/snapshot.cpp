@@ -60,6 +60,7 @@ void SnapshotTaker::take(const State& state, bool with_stopped, Snapshot& snapsh
     snapshot.tick = state.tick;
     snapshot.entered = state.records.entered;
     snapshot.exited = state.records.exited;
+    snapshot.lights = state.signals.lights;
     if (vehicle_in_slot_.size() < at(vehicles.slots)) vehicle_in_slot_.resize(at(vehicles.slots), -1);
     snapshot.placements.clear();
     snapshot.beyond_stop_line.clear();

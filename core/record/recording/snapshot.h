@@ -44,9 +44,10 @@ struct Snapshot {
     };
 
     std::int64_t tick = 0;
-    std::int64_t entered = 0;  // vehicles that entered since the beginning of the run
-    std::int64_t exited = 0;   // vehicles that exited since the beginning of the run
-    std::vector<Slots> lanes;  // [lane] slots of the lane
+    std::int64_t entered = 0;   // vehicles that entered since the beginning of the run
+    std::int64_t exited = 0;    // vehicles that exited since the beginning of the run
+    std::vector<Light> lights;  // [signal group]
+    std::vector<Slots> lanes;   // [lane] slots of the lane
     std::vector<Placement> placements;
     std::vector<BeyondStopLine> beyond_stop_line;
     // Position (low 16 bits) and speed (high 16 bits) of every vehicle, in the order of lanes and slots. The units are

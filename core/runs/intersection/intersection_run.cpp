@@ -21,18 +21,20 @@ public:
         : model_(model),
           window_tick_(to_ticks(window.from_s, model.step_s)),
           second_ticks_(to_ticks(1.0, model.step_s)),
-          queue_ticks_(std::max<std::int64_t>(to_ticks(kQueueSample_s, model.step_s), 1)) {}
+          queue_ticks_(std::max<std::int64_t>(to_ticks(kQueueSample_s, model.step_s), 1)),
+          green_starts_(at(model.graph.signal_groups)),
+          last_green_start_(at(model.graph.signal_groups), -1) {}
 
     void sample(const State& state) {
         if (state.tick % queue_ticks_ == 0) list_queued(state);
+        record_green_starts(state);
         if (state.tick < window_tick_) return;
         if ((state.tick - window_tick_) % second_ticks_ == 0) {
             present_ += state.present();
             ++samples_;
         }
-        for (int group = 0; group < static_cast<int>(model_.signals.size()); ++group) {
-            const GroupProgramme& programme = model_.signals[at(group)];
-            if (programme.light_start_tick(state.tick) != state.tick || programme.light(state.tick) != Light::green)
+        for (int group = 0; group < model_.graph.signal_groups; ++group) {
+            if (state.signals.lights[at(group)] != Light::green || state.signals.since_tick[at(group)] != state.tick)
                 continue;
             for (const int lane : model_.graph.entries) {
                 const Lane& road = model_.graph.lanes[at(lane)];
@@ -44,6 +46,14 @@ public:
     // Returns true if the vehicle has driven at kQueuedSpeed_mps or slower upstream of its stop line.
     bool has_queued(int vehicle) const { return at(vehicle) < has_queued_.size() && has_queued_[at(vehicle)]; }
 
+    // Returns the start of the latest green of a signal group at `time_s`; below 0 if no green has begun.
+    double latest_green_start_s(int group, double time_s) const {
+        const std::vector<std::int64_t>& starts = green_starts_[at(group)];
+        const auto tick = static_cast<std::int64_t>(time_s / model_.step_s);
+        const auto later = std::upper_bound(starts.begin(), starts.end(), tick);
+        return model_.time_s(later == starts.begin() ? -1 : *std::prev(later));
+    }
+
     void finish(IntersectionResult& result) const {
         result.vehicles_present =
             static_cast<double>(present_) / static_cast<double>(std::max<std::int64_t>(samples_, 1));
@@ -53,6 +63,14 @@ public:
 
 private:
     static constexpr double kQueueSample_s = 0.2;
+
+    void record_green_starts(const State& state) {
+        for (std::size_t group = 0; group < green_starts_.size(); ++group) {
+            const std::int64_t start = state.signals.green_start_tick[group];
+            if (start != last_green_start_[group]) green_starts_[group].push_back(start);
+            last_green_start_[group] = start;
+        }
+    }
 
     void list_queued(const State& state) {
         const VehicleArrays& v = state.vehicles;
@@ -84,7 +102,9 @@ private:
     std::int64_t window_tick_;
     std::int64_t second_ticks_;
     std::int64_t queue_ticks_;
-    std::vector<bool> has_queued_;  // [vehicle]
+    std::vector<std::vector<std::int64_t>> green_starts_;  // [signal group] ticks
+    std::vector<std::int64_t> last_green_start_;           // [signal group] tick; -1: none so far
+    std::vector<bool> has_queued_;                         // [vehicle]
     std::int64_t present_ = 0;
     std::int64_t samples_ = 0;
     std::int64_t queued_ = 0;
@@ -119,9 +139,7 @@ void take_snapshot(const Simulation& simulation, IntersectionResult& result) {
     const State& state = simulation.state();
     result.snapshot_s = simulation.time_s();
     result.snapshot = snapshot_of(simulation.model(), state);
-    for (const GroupProgramme& programme : simulation.model().signals) {
-        result.snapshot_lights.push_back(programme.light(state.tick));
-    }
+    result.snapshot_lights = state.signals.lights;
 }
 
 void count_turns(const Model& model, const State& state, IntersectionResult& result) {
@@ -161,7 +179,7 @@ double road_m(const Scenario& scenario, const Model& model) {
     return static_cast<double>(model.graph.entries.size()) * lane_m;
 }
 
-double cycle_of(const Scenario& scenario) { return scenario.signal.intersection_cycle_s(); }
+double cycle_of(const Scenario& scenario) { return scenario.nominal_cycle().cycle_s; }
 
 // Returns the time that an unobstructed vehicle needs to cross the intersection on the slowest connection, s. The time
 // begins with the front at the stop line and ends with the rear on the exit lane. The vehicle drives at the speed limit
@@ -227,11 +245,10 @@ IntersectionResult run_intersection(const Scenario& scenario, std::size_t popula
     count_turns(model, state, result);
     measure_zones(scenario, model, state, result);
     const auto latest_green_start_s = [&](int signal_group, double time_s) {
-        const auto tick = static_cast<std::int64_t>(time_s / model.step_s);
-        return model.time_s(model.signals[at(signal_group)].last_green_start_tick(tick));
+        return sampler.latest_green_start_s(signal_group, time_s);
     };
     result.discharge = discharge(model.graph, model.detectors, state.records.crossings, result.window,
-                                 latest_green_start_s, model.time_s(model.signals[0].cycle_ticks()),
+                                 latest_green_start_s, model.time_s(model.signals[0].nominal_cycle_ticks),
                                  [&](int vehicle) { return sampler.has_queued(vehicle); });
     result.gaps_accepted = static_cast<std::int64_t>(state.records.gaps_accepted.size());
     result.longest_in_junction_s = model.time_s(state.records.longest_in_junction);

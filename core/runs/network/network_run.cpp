@@ -49,7 +49,9 @@ void add_inner_inlet_detectors(Model& model) {
 // instead.
 void add_area_detectors(const Scenario& scenario, Model& model) {
     if (scenario.network.is_sumo()) return add_trip_detectors(model);
-    std::erase_if(model.detectors, [](const Detector& d) { return d.kind != Detector::Kind::stop_line; });
+    std::erase_if(model.detectors, [](const Detector& d) {
+        return d.kind != Detector::Kind::stop_line && d.kind != Detector::Kind::signal;
+    });
     const double margin_m = scenario.measure.area_margin_m;
     model.area_begins_m.assign(model.graph.lanes.size(), 0.0);
     for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {

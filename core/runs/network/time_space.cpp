@@ -126,7 +126,7 @@ void StreetTracer::sample(const State& state) {
         }
         const Lane& lane = model_.graph.lanes[at(piece.lane)];
         if (lane.signal_group < 0) continue;
-        if (model_.signals[at(lane.signal_group)].light(state.tick) != Light::red) {
+        if (state.signals.lights[at(lane.signal_group)] != Light::red) {
             piece.red = -1;
             continue;
         }

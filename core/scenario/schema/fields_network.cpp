@@ -1,9 +1,14 @@
 // Fields of the network, the signal and the demand.
+#include <cstddef>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "network/generators/street_checks.h"
 #include "scenario/schema/field_rows.h"
 #include "scenario/schema/fields.h"
+#include "signals/signal_controller.h"
 
 namespace stopline {
 namespace {
@@ -136,30 +141,60 @@ const Table& network_table() {
     return table;
 }
 
+namespace {
+
+// Adds a row for each parameter of the signal controllers.
+template <std::size_t... Index>
+void add_controller_parameters(std::index_sequence<Index...> /*indices*/, std::vector<Row<SignalSettings>>& rows) {
+    const std::vector<SignalParameter> parameters = signal_parameters();
+    const auto add = [&]<std::size_t k>() {
+        if (k >= parameters.size()) return;
+        const SignalParameter& parameter = parameters[k];
+        std::vector<std::string> controllers;
+        for (const SignalController* controller : signal_controllers()) {
+            for (const SignalParameter& one : controller->parameters) {
+                if (std::string_view(one.name) == parameter.name) controllers.emplace_back(controller->name);
+            }
+        }
+        rows.push_back(number_at<&SignalSettings::parameters, k>(parameter.name, parameter.unit,
+                                                                 {parameter.min, parameter.max}, parameter.meaning)
+                           .fallback(parameter.fallback)
+                           .only_if("controller", controllers));
+    };
+    (add.template operator()<Index>(), ...);
+}
+
+std::vector<Row<SignalSettings>> signal_rows() {
+    std::vector<Row<SignalSettings>> rows{
+        choice<&SignalSettings::controller>("controller", signal_controller_names(),
+                                            "signal controller; fixed_time: the lights follow a programme"),
+        number<&SignalSettings::first_green_s>(
+            "first_green", "s", {0, 7200},
+            "start of the first green; before it the signal is red, so that a queue forms"),
+        number<&SignalSettings::green_s>("green", "s", {0.1, 7200}, "green time"),
+        number<&SignalSettings::cross_green_s>(
+            "cross_green", "s", {0, 7200},
+            "intersections: green time of the streets from south to north; 0 s: same as green"),
+        number<&SignalSettings::yellow_s>("yellow", "s", {0, 60},
+                                          "yellow time; if it is too short, a vehicle that cannot stop enters on red "
+                                          "(forced red entry)"),
+        number<&SignalSettings::all_red_s>("all_red", "s", {0, 600}, "all-red time after yellow"),
+        number<&SignalSettings::offset_s>(
+            "offset", "s", {0, 7200},
+            "grid: delay of the start of green from each column to the next one eastwards, and from each row to "
+            "the next one northwards"),
+        number<&SignalSettings::cycle_s>("cycle", "s", {0, 14'400},
+                                         "single light: time from one green to the next; 0 s: one green only"),
+    };
+    add_controller_parameters(std::make_index_sequence<kMaxSignalParameters>(), rows);
+    return rows;
+}
+
+}  // namespace
+
 const Table& signal_table() {
-    static const Table table = make_table<SignalSettings>(
-        "the fixed-time signal: red first, then cycles of green, yellow and red",
-        {
-            number<&SignalSettings::first_green_s>(
-                "first_green", "s", {0, 7200},
-                "start of the first green; before it the signal is red, so that a queue forms"),
-            number<&SignalSettings::green_s>("green", "s", {0.1, 7200}, "green time"),
-            number<&SignalSettings::cross_green_s>(
-                "cross_green", "s", {0, 7200},
-                "intersections: green time of the streets from south to north; 0 s: same as green"),
-            number<&SignalSettings::yellow_s>(
-                "yellow", "s", {0, 60},
-                "yellow time; if it is too short, a vehicle that cannot stop enters on red "
-                "(forced red entry)"),
-            number<&SignalSettings::all_red_s>("all_red", "s", {0, 600}, "all-red time after yellow"),
-            number<&SignalSettings::offset_s>(
-                "offset", "s", {0, 7200},
-                "grid: delay of the start of green from each column to the next one eastwards, and from each row to "
-                "the next one northwards"),
-            number<&SignalSettings::cycle_s>("cycle", "s", {0, 14'400},
-                                             "single light: time from one green to the next; 0 s: one green only"),
-        },
-        check_signal);
+    static const Table table = make_table<SignalSettings>("the signal: red first, then cycles of green, yellow and red",
+                                                          signal_rows(), check_signal);
     return table;
 }
 

@@ -110,7 +110,7 @@ void check_names(const Scenario& scenario, Checker& check) {
 
 void check_intersection(const Scenario& scenario, Checker& check) {
     const IntersectionSettings& layout = scenario.network.intersection;
-    const double cycle_s = scenario.signal.intersection_cycle_s();
+    const double cycle_s = scenario.nominal_cycle().cycle_s;
     const double shortest_s = scenario.signal.first_green_s + (scenario.measure.warmup_cycles + 1) * cycle_s;
     if (scenario.duration_s != 0.0 && scenario.duration_s < shortest_s) {
         check.error("duration",
@@ -201,11 +201,21 @@ void check_time_space(const Scenario& scenario, Checker& check) {
                 "value " + measure.time_space_side + " has no effect without measure.time_space");
 }
 
+void check_controller(const Scenario& scenario, Checker& check) {
+    const SignalController& controller = find_signal_controller(scenario.signal.controller);
+    if (controller.problems == nullptr) return;
+    for (const SignalProblem& problem :
+         controller.problems(scenario.signal, scenario.network.has_intersections() ? 2 : 1)) {
+        check.error("signal." + problem.field, problem.message);
+    }
+}
+
 void check_scenario(const Scenario& scenario, Checker& check) {
     check_cross_inflow(scenario, check);
     check_turns(scenario, check);
     check_cycle(scenario, check);
     check_steps(scenario, check);
+    check_controller(scenario, check);
     check_times(scenario, check);
     check_names(scenario, check);
     check_fleets(scenario, check);

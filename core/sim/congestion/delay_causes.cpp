@@ -190,9 +190,9 @@ private:
     bool has_stood_two_cycles(int slot) const {
         const int group = state_.plan.signal_group_for(w_.lane[at(slot)], v_.next_lane[at(slot)]);
         if (group < 0) return true;
-        const GroupProgramme& programme = model_.signals[at(group)];
-        return now_ >=
-               std::max<std::int64_t>(unblocked_since(slot), programme.first_tick()) + 2 * programme.cycle_ticks();
+        const std::int64_t first_tick = model_.signals.programme(group).first_tick();
+        const std::int64_t cycle_ticks = model_.signals.plan_of(group).nominal_cycle_ticks;
+        return now_ >= std::max(unblocked_since(slot), first_tick) + 2 * cycle_ticks;
     }
 
     // Records that the vehicle starves. If an entry for the same stop of the vehicle exists, updates this entry.

@@ -95,10 +95,10 @@ namespace {
 // connection whose signal is not green.
 int vehicle_stopping_at_signal(const State& state, int lane, int connection) {
     const int stopping = state.stop_lines.stop_slot[at(lane)];
-    if (state.stop_lines.lights[at(state.plan.signal_group_for(lane, connection))] != Light::green) return stopping;
+    if (state.signals.lights[at(state.plan.signal_group_for(lane, connection))] != Light::green) return stopping;
     if (stopping < 0 || !state.plan.lane(lane).has_movement_signals) return -1;
     const int next = state.vehicles.next_lane[at(stopping)];
-    return state.stop_lines.lights[at(state.plan.signal_group_for(lane, next))] == Light::green ? -1 : stopping;
+    return state.signals.lights[at(state.plan.signal_group_for(lane, next))] == Light::green ? -1 : stopping;
 }
 
 // Imported networks only (only their demand has trips): returns the slot of a vehicle that the keep-clear rule holds at

@@ -58,12 +58,12 @@ public:
 
     // Adds the vehicles on an approach lane that have passed the stop line with their front, or that will pass it
     // although their signal is not green.
-    void add_from_approach(const Model& model, int lane) {
+    void add_from_approach(int lane) {
         const LaneBlock& block = state_.blocks[at(lane)];
         const LanePlan& plan = state_.plan.lane(lane);
         for (int slot = block.first; slot < block.past_last(); ++slot) {
             const bool is_inside = v_.position_m[at(slot)] > plan.stop_line_m;
-            if (!is_inside && !passes_without_green(model, lane, slot)) break;
+            if (!is_inside && !passes_without_green(lane, slot)) break;
             const int next = v_.next_lane[at(slot)];
             if (next < 0 || state_.plan.lane(next).origin != lane) continue;
             add(next, slot, -plan.length_m, is_inside ? v_.record[at(slot)].junction_entry_tick : state_.tick);
@@ -91,11 +91,10 @@ private:
     // only for vehicles up to the one that was chosen to stop (StopLineState::stopping_vehicle). All vehicles ahead of
     // the chosen one pass the line, because they are too near to stop. In the step in which the light changes, no
     // vehicle has been chosen yet, so the result is false.
-    bool passes_without_green(const Model& model, int lane, int slot) const {
+    bool passes_without_green(int lane, int slot) const {
         if (state_.stop_lines.lines[at(lane)].stopping_vehicle == v_.id[at(slot)]) return false;
         const int group = state_.plan.signal_group_for(lane, v_.next_lane[at(slot)]);
-        return state_.stop_lines.lights[at(group)] != Light::green &&
-               model.signals[at(group)].light_start_tick(state_.tick) < state_.tick;
+        return state_.signals.lights[at(group)] != Light::green && state_.signals.since_tick[at(group)] < state_.tick;
     }
 
     void add(int lane, int slot, double offset_m) {
@@ -116,7 +115,7 @@ private:
 
 }  // namespace
 
-void find_junction_occupants(const Model& model, const State& state, JunctionState& junctions, Partition& part) {
+void find_junction_occupants(const State& state, JunctionState& junctions, Partition& part) {
     OccupantSearch search(state, junctions, part);
     search.clear_lists();
     // Each list must begin with the vehicle furthest downstream. Exit lanes are therefore searched first, then
@@ -126,7 +125,7 @@ void find_junction_occupants(const Model& model, const State& state, JunctionSta
         return search.add_from_exit(part.exits[place]);
     });
     for (const int lane : part.awake_connections) search.add_from_connection(lane);
-    for (const int lane : part.awake_approaches) search.add_from_approach(model, lane);
+    for (const int lane : part.awake_approaches) search.add_from_approach(lane);
     search.update_bitsets();
 }
 

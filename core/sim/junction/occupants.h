@@ -7,6 +7,6 @@ namespace stopline {
 
 // Lists the occupants of each connection of a partition. Updates the bitsets of connections in JunctionState:
 // `occupied`, `with_stopped` and `to_decide`.
-void find_junction_occupants(const Model& model, const State& state, JunctionState& junctions, Partition& part);
+void find_junction_occupants(const State& state, JunctionState& junctions, Partition& part);
 
 }  // namespace stopline

@@ -300,7 +300,7 @@ private:
             if (!would_block || conflict.from_m - v_.front_m < stopping_m) continue;
             const int origin = state_.plan.lane(conflict.other).origin;
             const int group = state_.plan.signal_group_for(origin, conflict.other);
-            if (state_.stop_lines.lights[at(group)] == Light::green) place_m = wait_m(conflict);
+            if (state_.signals.lights[at(group)] == Light::green) place_m = wait_m(conflict);
         }
         return place_m;
     }

@@ -83,9 +83,9 @@ std::int64_t hesitation_ticks(const Model& model, const State& state, const Lane
 // Returns true if the signal is green and no vehicle that stopped for it still hesitates to start.
 bool line_is_open(const Model& model, const State& state, const LaneBlock& block, int signal_group,
                   const StopLineState& line) {
-    if (state.stop_lines.lights[at(signal_group)] != Light::green) return false;
-    return line.stopping_vehicle < 0 || state.tick >= model.signals[at(signal_group)].light_start_tick(state.tick) +
-                                                          hesitation_ticks(model, state, block, line);
+    if (state.signals.lights[at(signal_group)] != Light::green) return false;
+    return line.stopping_vehicle < 0 ||
+           state.tick >= state.signals.since_tick[at(signal_group)] + hesitation_ticks(model, state, block, line);
 }
 
 double space_needed_m(const VehicleArrays& v, int slot) {
@@ -100,11 +100,11 @@ int choose_stopper_per_movement(const Model& model, const State& state, int inde
     for (int slot = block.first; slot < block.past_last(); ++slot) {
         if (is_on_last_edge(state, slot)) continue;
         const int group = state.plan.signal_group_for(index, v.next_lane[at(slot)]);
-        const Light light = state.stop_lines.lights[at(group)];
+        const Light light = state.signals.lights[at(group)];
         const bool is_stopping = line.stopping_vehicle == v.id[at(slot)];
         const DriverPlan& driver = model.driver_of(v.policy[at(slot)]);
         const bool hesitates =
-            is_stopping && state.tick < model.signals[at(group)].light_start_tick(state.tick) + driver.hesitation_ticks;
+            is_stopping && state.tick < state.signals.since_tick[at(group)] + driver.hesitation_ticks;
         if (light == Light::green && !hesitates) continue;
         const double line_m = state.plan.lane(index).stop_line_m;
         if (is_stopping || can_stop(model, v, slot, line_m, stopping_deceleration_mps2(driver.tables, light)))
@@ -120,7 +120,7 @@ bool queue_ends_at_red(const Model& model, const State& state, int lane) {
     const LanePlan& plan = state.plan.lane(lane);
     if (!model.rules.count_queue_at_red_exit || plan.signal_group < 0) return false;
     const int next = plan.has_movement_signals ? state.vehicles.next_lane[at(state.blocks[at(lane)].last())] : -1;
-    return state.stop_lines.lights[at(state.plan.signal_group_for(lane, next))] != Light::green;
+    return state.signals.lights[at(state.plan.signal_group_for(lane, next))] != Light::green;
 }
 
 // Returns true if a vehicle on the lane is slower than kCrawlingSpeed_mps.
@@ -178,7 +178,7 @@ bool must_clear_first(const State& state, const Conflict& conflict, const Juncti
     if (occupant.front_m > conflict.other_from_m) return true;
     const int origin = state.plan.lane(conflict.other).origin;
     const int group = state.plan.signal_group_for(origin, conflict.other);
-    return state.stop_lines.lights[at(group)] == Light::red && occupant.slot != state.stop_lines.stop_slot[at(origin)];
+    return state.signals.lights[at(group)] == Light::red && occupant.slot != state.stop_lines.stop_slot[at(origin)];
 }
 
 // Returns the slot of a stopped vehicle from a crossing street that must clear `connection` first; -1: none. Ignores
@@ -309,7 +309,7 @@ void set_stopper(const Model& model, const State& state, int index, int slot, St
     const VehicleArrays& v = state.vehicles;
     const int id = slot < 0 ? -1 : v.id[at(slot)];
     if (id >= 0 && id != line.stopping_vehicle) {
-        const Light light = state.stop_lines.lights[at(state.plan.signal_group_for(index, v.next_lane[at(slot)]))];
+        const Light light = state.signals.lights[at(state.plan.signal_group_for(index, v.next_lane[at(slot)]))];
         line.may_overrun = may_overrun_line(model, v, slot, state.plan.lane(index).stop_line_m, light);
     }
     line.stopping_vehicle = id;
@@ -369,12 +369,6 @@ void list_approaching(const Model& model, State& state, int index) {
 
 }  // namespace
 
-void update_signals(const Model& model, std::int64_t tick, StopLines& stop_lines) {
-    for (std::size_t group = 0; group < model.signals.size(); ++group) {
-        stop_lines.lights[group] = model.signals[group].light(tick);
-    }
-}
-
 void decide_stop_lines(const Model& model, State& state, Partition& part) {
     for (const int index : part.awake_approaches) {
         advance_prefetch(state, part.prefetch);
@@ -398,8 +392,8 @@ void decide_stop_lines(const Model& model, State& state, Partition& part) {
         } else {
             if (line.stopping_vehicle >= 0) stop_slot = slot_of(state.vehicles, block, line.stopping_vehicle);
             if (stop_slot < 0) {
-                stop_slot = choose_stopper(model, state, block, lane.stop_line_m,
-                                           state.stop_lines.lights[at(lane.signal_group)]);
+                stop_slot =
+                    choose_stopper(model, state, block, lane.stop_line_m, state.signals.lights[at(lane.signal_group)]);
             }
             set_stopper(model, state, index, stop_slot, line);
             if (stop_slot >= 0) make_platoon_leader(state, lane, stop_slot);

@@ -1,13 +1,10 @@
-// Decisions at signals and stop lines. decide_stop_lines() works on one partition, a group of whole intersections.
+// Decisions at stop lines. decide_stop_lines() works on one partition, a group of whole intersections.
 #pragma once
 
 #include "sim/state/model.h"
 #include "sim/state/state.h"
 
 namespace stopline {
-
-// Stores the light that each signal group shows at `tick`.
-void update_signals(const Model& model, std::int64_t tick, StopLines& stop_lines);
 
 // Decides for each stop line of a partition which vehicle stops there, for its signal or for the keep-clear rule. Lists
 // the approaching vehicles for which right of way must be decided.

@@ -2,6 +2,7 @@
 // Owner: sim/step/detectors.cpp. sim/state/lane_blocks.cpp updates these numbers when vehicles enter or leave a lane.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 namespace stopline {
@@ -9,6 +10,8 @@ namespace stopline {
 struct DetectorState {
     std::vector<std::vector<int>> on_lane;  // [lane] indices of the detectors on the lane
     std::vector<int> upstream;  // [detector] number of vehicles on the detector's lane that are still upstream of it
+    // [detector] tick at the end of the step in which a front passed the detector last; -1: never
+    std::vector<std::int64_t> last_crossing_tick;
 };
 
 }  // namespace stopline

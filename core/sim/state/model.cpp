@@ -19,7 +19,7 @@ DelayLine make_delay(double delay_s, double step_s) {
 void check(const Model& model) {
     check(model.graph);
     if (model.step_s <= 0.0) throw InputError("the step must be positive");
-    if (static_cast<int>(model.signals.size()) != model.graph.signal_groups) {
+    if (model.signals.groups() != model.graph.signal_groups || !model.signals.is_complete()) {
         throw InputError("every signal group needs one programme");
     }
     if (model.vehicles.empty() || model.drivers.empty() || model.policies.empty()) {

@@ -12,7 +12,7 @@
 #include "network/detector.h"
 #include "network/lane_graph.h"
 #include "signals/phase_priority.h"
-#include "signals/programme.h"
+#include "signals/signal_plan.h"
 #include "spacing_laws/gap_policy.h"
 #include "vehicle/powertrain_tables.h"
 
@@ -75,7 +75,7 @@ struct Model {
     std::uint64_t seed = 1;
     LaneGraph graph;
     std::vector<std::vector<int>> connections_to;  // [lane] connections that lead to the lane
-    std::vector<GroupProgramme> signals;           // [signal group]
+    SignalPlans signals;                           // one for each intersection
     std::vector<PhasePriority> phase_priorities;   // right of way that changes with the phases of a signal
     std::vector<PowertrainTables> vehicles;        // the vehicle types of the population
     std::vector<DriverPlan> drivers;               // the drivers of the population, for each type that they drive

@@ -122,6 +122,7 @@ void size_junctions(const Model& model, JunctionState& junctions, const State& s
 void size_detectors(const Model& model, DetectorState& detectors) {
     detectors.on_lane.resize(model.graph.lanes.size());
     detectors.upstream.assign(model.detectors.size(), 0);
+    detectors.last_crossing_tick.assign(model.detectors.size(), -1);
     for (std::size_t k = 0; k < model.detectors.size(); ++k) {
         if (model.detectors[k].lane < 0) continue;
         detectors.on_lane[at(model.detectors[k].lane)].push_back(static_cast<int>(k));
@@ -148,7 +149,6 @@ State make_state(const Model& model, int threads) {
     locate_lanes(state);
     allocate_lane_blocks(model, state);
     const std::size_t lanes = model.graph.lanes.size();
-    state.stop_lines.lights.assign(model.signals.size(), Light::red);
     state.stop_lines.lines.resize(lanes);
     state.stop_lines.stop_slot.assign(lanes, -1);
     state.stop_lines.held_at_green.resize(lanes);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "signals/signal_state.h"
 #include "sim/state/congestion_state.h"
 #include "sim/state/detector_state.h"
 #include "sim/state/gap_alignment.h"
@@ -38,6 +39,7 @@ struct State {
     DelayRows v2v;                  // rows of the stored V2V messages that this step writes and reads
     std::vector<Partition> partitions;
     std::vector<LaneLocation> location_of;  // [lane] position in the lists of `partitions`
+    SignalState signals;
     StopLines stop_lines;
     JunctionState junctions;
     std::vector<std::vector<GapAlignment>> gap_alignments;  // [lane]

@@ -1,10 +1,8 @@
-// The state of signals, stop lines and exit lanes in one step. Owner: sim/junction/stop_lines.cpp.
+// The state of stop lines and exit lanes in one step. Owner: sim/junction/stop_lines.cpp.
 #pragma once
 
 #include <cstdint>
 #include <vector>
-
-#include "signals/programme.h"
 
 namespace stopline {
 
@@ -40,7 +38,6 @@ struct ExitRoom {
 };
 
 struct StopLines {
-    std::vector<Light> lights;                 // [signal group]
     std::vector<StopLineState> lines;          // [lane]
     std::vector<int> stop_slot;                // [lane] slot of the vehicle that stops at the line; -1: none
     std::vector<KeepClearHold> held_at_green;  // [lane] why the keep-clear rule holds the vehicle in stop_slot

@@ -15,7 +15,7 @@ void pass_stop_line(const Model& model, State& state, Partition& part, int lane,
     record.junction_entry_tick = static_cast<int>(state.tick);
     record.line_stop_tick = -1;
     const int next = state.vehicles.next_lane[at(slot)];
-    if (state.stop_lines.lights[at(state.plan.signal_group_for(lane, next))] != Light::red) return;
+    if (state.signals.lights[at(state.plan.signal_group_for(lane, next))] != Light::red) return;
     // A vehicle whose trip ends on this lane, or whose turn the lane does not allow, does not enter the intersection.
     if (record.trip >= 0 && next < 0) return;
     // A vehicle is chosen to stop for the signal only if it is able to stop (stop_lines.cpp). If the chosen vehicle
@@ -43,6 +43,7 @@ void record_detector_crossings(const Model& model, State& state, Partition& part
         for (; upstream > 0; --upstream) {
             const int slot = block.past_last() - upstream;
             if (v.position_m[at(slot)] < detector.position_m) break;
+            state.detectors.last_crossing_tick[at(number)] = state.tick + 1;
             if (model.records_all || model.records_detectors || detector.kind == Detector::Kind::zone) {
                 part.crossings.push_back({passing_time_s(model, state, slot, detector.position_m), v.id[at(slot)],
                                           v.policy[at(slot)], number, static_cast<float>(v.speed_mps[at(slot)]),

@@ -16,7 +16,7 @@ void find_occupied_lanes(const State& state, QueueState& queues, Partition& part
         part.present += count;
         part.occupied.push(lane);
         int& sleep_group = queues.sleeps_until_green[at(lane)];
-        if (sleep_group >= 0 && state.stop_lines.lights[at(sleep_group)] == Light::green) sleep_group = -1;
+        if (sleep_group >= 0 && state.signals.lights[at(sleep_group)] == Light::green) sleep_group = -1;
         const bool awake = sleep_group < 0;
         const LanePlan& plan = state.plan.lane(lane);
         part.awake.push_if(awake, lane);

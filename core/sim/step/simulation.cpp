@@ -13,6 +13,7 @@
 #include "sim/junction/occupants.h"
 #include "sim/junction/phase_priority.h"
 #include "sim/junction/right_of_way.h"
+#include "sim/junction/signals.h"
 #include "sim/junction/stop_lines.h"
 #include "sim/lane_change/gap_search.h"
 #include "sim/lane_change/lane_change.h"
@@ -58,6 +59,7 @@ Simulation::Simulation(const Model& model, int threads)
         for (Partition& part : state_.partitions) list_cache_lines(model_, state_, part);
     }
     insert_initial_queues(model_, state_);
+    start_signals(model_, state_);
 }
 
 void Simulation::decide(int thread, int threads) {
@@ -71,7 +73,7 @@ void Simulation::decide(int thread, int threads) {
 void Simulation::decide(Partition& part) {
     find_occupied_lanes(state_, state_.queues, part);
     find_leaders_beyond_lanes(model_, state_, state_.vehicles, part);
-    find_junction_occupants(model_, state_, state_.junctions, part);
+    find_junction_occupants(state_, state_.junctions, part);
     decide_stop_lines(model_, state_, part);
     decide_right_of_way(model_, state_, part);
     prepare_lane_changes(model_, state_, part);
@@ -126,7 +128,6 @@ void Simulation::step() {
 void Simulation::step(bool use_threads) {
     state_.radar = delay_rows_at(model_.radar, state_.tick, state_.vehicles.slots);
     state_.v2v = delay_rows_at(model_.v2v, state_.tick, state_.vehicles.slots);
-    update_signals(model_, state_.tick, state_.stop_lines);
     update_phase_priorities(model_, state_);
     if (!use_threads) {
         decide(0, 1);
@@ -149,6 +150,7 @@ void Simulation::step(bool use_threads) {
     teleport_blocked_vehicles(model_, state_);
     change_lanes(model_, state_);
     ++state_.tick;
+    update_signals(model_, state_);
 }
 
 void Simulation::run_until(double time_s) {
@@ -179,6 +181,7 @@ std::uint64_t Simulation::state_hash() const {
         hash.add(passage.time_s);
         hash.add(passage.vehicle);
     }
+    add_signals(model_, state_, hash);
     hash.add(state_.tick);
     hash.add(state_.records.entered);
     hash.add(state_.records.exited);

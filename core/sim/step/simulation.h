@@ -2,8 +2,6 @@
 // step, the data that each phase determines or changes, and its source file. A partition is a group of whole
 // intersections.
 //
-//   for the whole network:
-//     signals     lights of all signal groups                                   junction/stop_lines
 //   for each partition:
 //     occupied    lanes with vehicles                                           step/occupied_lanes
 //     perception  leader of the first vehicle of each lane, hidden leaders      perception/look_ahead, hidden_leaders
@@ -23,6 +21,7 @@
 //     insertion   vehicles that enter the network                               insertion/
 //     teleport    vehicles that have been stopped for too long                  congestion/teleport
 //     change      lane changes                                                  lane_change/lane_change
+//     signals     lights of the next step, by the signal controllers            junction/signals
 //
 // For each partition, the phases from `occupied` to `selection` read the state at the beginning of the step, and write
 // only data of this partition. Results therefore do not depend on the number of partitions and threads.
@@ -60,8 +59,9 @@ public:
     const State& state() const { return state_; }
     const Model& model() const { return model_; }
 
-    // Returns a hash of the vehicles in lane order, of the recorded passages, of the tick, and of the numbers of
-    // vehicles that entered and exited. Compare the hashes of two runs to check that the results agree in every bit.
+    // Returns a hash of the vehicles in lane order, of the recorded passages, of the tick, of the numbers of vehicles
+    // that entered and exited, and of the signals whose controller reacts to traffic. Compare the hashes of two runs to
+    // check that the results agree in every bit.
     std::uint64_t state_hash() const;
 
 private:

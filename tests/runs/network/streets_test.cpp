@@ -72,7 +72,8 @@ TEST(Streets, TrafficRulesUseTheCycleAndTheLongestGreen) {
     const Model model = build_model(scenario, 0);
     EXPECT_EQ(model.rules.teleport_ticks, to_ticks(3 * 60.0, model.step_s));
     EXPECT_EQ(model.rules.pass_blocker_ticks, to_ticks(2 * 29.0, model.step_s));
-    EXPECT_EQ(model.signals.size(), 30u);
+    EXPECT_EQ(model.signals.size(), 10u);
+    EXPECT_EQ(model.signals.groups(), 30);
 }
 
 TEST(Streets, ApproachesCanBeChosenByName) {

@@ -66,7 +66,7 @@ protected:
         const std::int64_t before = track_.state().records.violations.conflicts;
         State& state = track_.mutable_state();
         find_occupied_lanes(state, state.queues, state.partitions[0]);
-        find_junction_occupants(track_.model(), state, state.junctions, state.partitions[0]);
+        find_junction_occupants(state, state.junctions, state.partitions[0]);
         decide_right_of_way(track_.model(), state, state.partitions[0]);
         merge_partition_reports(state);
         return state.records.violations.conflicts - before;

@@ -96,7 +96,8 @@ TEST(Symmetry, LegsAreAlike) {
         }
         return -1;
     };
-    std::swap(rotated.signals[0], rotated.signals[1]);
+    rotated.signals = {};
+    rotated.signals.add(fixed_time_plan(0, {original.signals.programme(1), original.signals.programme(0)}));
     for (DemandPlan::Inlet& inlet : rotated.demand.inlets) {
         inlet.lane = next_lane(inlet.lane);
         for (int& route : inlet.routes) route = next_route(route);

@@ -119,10 +119,11 @@ void run_traffic(const Case& which, std::uint64_t seed, double gap_m, Discretion
     plan.green_from_s = 20.0;
     plan.green_s = 15.0;
     Model model = parallel_lanes(plan);
-    model.signals = {GroupProgramme({{to_ticks(15.0, model.step_s), Light::green},
-                                     {to_ticks(3.0, model.step_s), Light::yellow},
-                                     {to_ticks(22.0, model.step_s), Light::red}},
-                                    to_ticks(20.0, model.step_s), true)};
+    model.signals = {};
+    model.signals.add(fixed_time_plan(0, {GroupProgramme({{to_ticks(15.0, model.step_s), Light::green},
+                                                          {to_ticks(3.0, model.step_s), Light::yellow},
+                                                          {to_ticks(22.0, model.step_s), Light::red}},
+                                                         to_ticks(20.0, model.step_s), true)}));
     Track track(std::move(model));
     fill(track, seed, 3, gap_m, std::min(13.0, 0.5 * gap_m), 900.0);
     const auto entered = track.state().records.entered;
@@ -196,15 +197,16 @@ TEST_P(LaneChanging, TwoVehiclesSwapTheirLanes) {
 }
 
 TEST_P(LaneChanging, WaitsBeforeTheStopLineWithoutAGap) {
-    Track track(parallel_lanes(plan_of(GetParam(), 2)));
+    Model model = parallel_lanes(plan_of(GetParam(), 2));
+    model.signals = {};
+    model.signals.add(fixed_time_plan(0, {GroupProgramme({{1, Light::red}}, 0, true)}));
+    Track track(std::move(model));
     const int waiting_vehicle = place(track, 0, 900.0, 10.0, 1);
     // A stopped platoon without usable gaps occupies the target lane throughout the run.
     for (int k = 0; k < 40; ++k) {
         track.place(2, 980.0 - k * (track.model().vehicles[0].length_m + 2.0), 0.0);
     }
     track.mutable_state().vehicles.next_lane[track.slot(2, 0)] = -1;
-    Model& model = const_cast<Model&>(track.model());
-    model.signals = {GroupProgramme({{1, Light::red}}, 0, true)};
     track.run(40.0);
     const auto vehicle = track.vehicle(0, 0);
     EXPECT_EQ(vehicle.id, waiting_vehicle);

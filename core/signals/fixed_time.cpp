@@ -1,0 +1,51 @@
+// The fixed-time controller: each group follows its programme.
+#include <algorithm>
+#include <limits>
+
+#include "signals/signal_controller.h"
+
+namespace stopline {
+
+namespace {
+
+NominalCycle nominal_cycle_of(const SignalSettings& settings, int groups) {
+    if (groups == 1) return {settings.cycle_s, settings.green_s};
+    return {settings.intersection_cycle_s(), std::max(settings.group_green_s(0), settings.group_green_s(1))};
+}
+
+std::int64_t next_change_tick(const SignalView& view) {
+    std::int64_t next_tick = std::numeric_limits<std::int64_t>::max();
+    for (const GroupProgramme& programme : view.plan().programmes) {
+        next_tick = std::min(next_tick, programme.next_change_tick(view.tick()));
+    }
+    return next_tick;
+}
+
+std::int64_t init(SignalView& view) {
+    for (int group = 0; group < view.groups(); ++group) {
+        const GroupProgramme& programme = view.plan().programmes[static_cast<std::size_t>(group)];
+        view.begin_with(group, programme.light(view.tick()), programme.light_start_tick(view.tick()),
+                        programme.last_green_start_tick(view.tick()));
+    }
+    return next_change_tick(view);
+}
+
+std::int64_t step(SignalView& view) {
+    for (int group = 0; group < view.groups(); ++group) {
+        view.show(group, view.plan().programmes[static_cast<std::size_t>(group)].light(view.tick()));
+    }
+    return next_change_tick(view);
+}
+
+}  // namespace
+
+extern const SignalController kFixedTimeController{
+    .name = "fixed_time",
+    .meaning = "the lights follow a programme and do not depend on the traffic",
+    .parameters = {},
+    .nominal_cycle = nominal_cycle_of,
+    .init = init,
+    .step = step,
+    .follows_programme = true};
+
+}  // namespace stopline

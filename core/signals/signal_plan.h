@@ -1,0 +1,68 @@
+// The constant data of the signals of a network: one SignalPlan for each intersection.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "signals/programme.h"
+#include "signals/signal_settings.h"
+
+namespace stopline {
+
+struct SignalController;  // signals/signal_controller.h
+
+// The signal of one intersection. The groups of a signal are numbered from 0. SignalPlan::groups maps these numbers to
+// the signal groups of the lane graph.
+struct SignalPlan {
+    const SignalController* controller = nullptr;
+    std::vector<int> groups;
+    // [group of the signal] The fixed-time programme of the settings. The controller `fixed_time` follows it. Other
+    // controllers may use its times.
+    std::vector<GroupProgramme> programmes;
+    SignalSettings settings;     // as in the scenario; not used by `fixed_time`
+    std::vector<double> values;  // parameters in the order of SignalController::parameters, SI units
+    double step_s = 0.0;
+    std::int64_t nominal_cycle_ticks = 0;  // cycle for measures and rules that need one; see NominalCycle
+};
+
+// All signals of a network. Every signal group belongs to one signal.
+class SignalPlans {
+public:
+    void add(SignalPlan plan);
+
+    std::size_t size() const { return plans_.size(); }
+    const SignalPlan& operator[](std::size_t signal) const { return plans_[signal]; }
+    auto begin() const { return plans_.begin(); }
+    auto end() const { return plans_.end(); }
+
+    // Returns the number of signal groups of the lane graph that have a signal. Groups must be added without gaps:
+    // `is_complete()` is false if a group below this number has no signal.
+    int groups() const { return static_cast<int>(places_.size()); }
+    bool is_complete() const;
+    const SignalPlan& plan_of(int group) const { return plans_[places_[static_cast<std::size_t>(group)].signal]; }
+    // Returns the fixed-time programme of the settings for a signal group.
+    const GroupProgramme& programme(int group) const {
+        return plan_of(group).programmes[places_[static_cast<std::size_t>(group)].index];
+    }
+
+private:
+    struct Place {
+        std::size_t signal = 0;
+        std::size_t index = 0;  // number of the group within its signal
+        bool is_known = false;
+    };
+    std::vector<SignalPlan> plans_;
+    std::vector<Place> places_;  // [signal group of the lane graph]
+};
+
+// Makes the plan of a signal with the controller `fixed_time`. Its groups are `first_group` and those that follow.
+SignalPlan fixed_time_plan(int first_group, std::vector<GroupProgramme> programmes);
+// As above, for any groups. `groups` and `programmes` have the same size.
+SignalPlan fixed_time_plan(std::vector<int> groups, std::vector<GroupProgramme> programmes);
+
+// Makes the plan of a signal with the controller that the settings name. Throws InputError for an unknown name.
+SignalPlan make_signal_plan(const SignalSettings& settings, int first_group, std::vector<GroupProgramme> programmes,
+                            double step_s);
+
+}  // namespace stopline

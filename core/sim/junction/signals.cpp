@@ -1,0 +1,108 @@
+#include "sim/junction/signals.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "base/containers/index.h"
+#include "signals/signal_controller.h"
+#include "sim/state/queries/covered_detector.h"
+
+namespace stopline {
+
+namespace {
+
+// Returns the detectors on the lanes of each signal whose controller reads detectors, upstream ones first.
+std::vector<std::vector<SignalDetector>> signal_detectors(const Model& model) {
+    struct Place {
+        std::size_t signal = 0;
+        int group = -1;
+    };
+    std::vector<Place> places(at(model.graph.signal_groups));  // [signal group]
+    for (std::size_t signal = 0; signal < model.signals.size(); ++signal) {
+        const SignalPlan& plan = model.signals[signal];
+        if (plan.controller->follows_programme) continue;
+        for (std::size_t k = 0; k < plan.groups.size(); ++k) {
+            places[at(plan.groups[k])] = {signal, static_cast<int>(k)};
+        }
+    }
+    std::vector<std::vector<SignalDetector>> detectors(model.signals.size());
+    for (std::size_t number = 0; number < model.detectors.size(); ++number) {
+        const Detector& detector = model.detectors[number];
+        if (detector.lane < 0) continue;
+        const Lane& lane = model.graph.lanes[at(detector.lane)];
+        if (lane.signal_group < 0 || places[at(lane.signal_group)].group < 0) continue;
+        const Place& place = places[at(lane.signal_group)];
+        detectors[place.signal].push_back(
+            {static_cast<int>(number), place.group, lane.stop_line_m - detector.position_m});
+    }
+    return detectors;
+}
+
+void read_detectors(const Model& model, const State& state, std::vector<SignalDetector>& detectors) {
+    for (SignalDetector& detector : detectors) {
+        detector.is_occupied = is_covered(model, state, at(detector.number));
+        if (detector.is_occupied) detector.last_occupied_tick = state.tick;
+        detector.last_crossing_tick = state.detectors.last_crossing_tick[at(detector.number)];
+    }
+}
+
+}  // namespace
+
+void start_signals(const Model& model, State& state) {
+    SignalState& signals = state.signals;
+    const std::size_t groups = at(model.graph.signal_groups);
+    signals.lights.assign(groups, Light::red);
+    signals.since_tick.assign(groups, 0);
+    signals.green_start_tick.assign(groups, -1);
+    signals.next_step_tick.assign(model.signals.size(), 0);
+    signals.memory.resize(model.signals.size());
+    signals.detectors = signal_detectors(model);
+    signals.first_step_tick = std::numeric_limits<std::int64_t>::max();
+    for (std::size_t signal = 0; signal < model.signals.size(); ++signal) {
+        const SignalPlan& plan = model.signals[signal];
+        if (plan.controller->memory_size != nullptr) {
+            signals.memory[signal].assign(plan.controller->memory_size(plan), 0);
+        }
+        read_detectors(model, state, signals.detectors[signal]);
+        SignalView view(plan, signal, state.tick, signals);
+        signals.next_step_tick[signal] = plan.controller->init(view);
+        signals.first_step_tick = std::min(signals.first_step_tick, signals.next_step_tick[signal]);
+    }
+    // Detectors are read in every step, so that each step finds the latest tick at which they were occupied.
+    for (const std::vector<SignalDetector>& detectors : signals.detectors) {
+        if (!detectors.empty()) signals.first_step_tick = 0;
+    }
+}
+
+void update_signals(const Model& model, State& state) {
+    SignalState& signals = state.signals;
+    if (state.tick < signals.first_step_tick) return;
+    std::int64_t first_tick = std::numeric_limits<std::int64_t>::max();
+    for (std::size_t signal = 0; signal < model.signals.size(); ++signal) {
+        if (!signals.detectors[signal].empty()) {
+            read_detectors(model, state, signals.detectors[signal]);
+            first_tick = state.tick + 1;
+        }
+        if (state.tick >= signals.next_step_tick[signal]) {
+            const SignalPlan& plan = model.signals[signal];
+            SignalView view(plan, signal, state.tick, signals);
+            signals.next_step_tick[signal] = plan.controller->step(view);
+        }
+        first_tick = std::min(first_tick, signals.next_step_tick[signal]);
+    }
+    signals.first_step_tick = first_tick;
+}
+
+void add_signals(const Model& model, const State& state, StateHash& hash) {
+    for (std::size_t signal = 0; signal < model.signals.size(); ++signal) {
+        const SignalPlan& plan = model.signals[signal];
+        if (plan.controller->follows_programme) continue;
+        for (const int group : plan.groups) {
+            hash.add(static_cast<int>(state.signals.lights[at(group)]));
+            hash.add(state.signals.since_tick[at(group)]);
+        }
+        for (const std::int64_t number : state.signals.memory[signal]) hash.add(number);
+    }
+}
+
+}  // namespace stopline

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstddef>
+
+#include "sim/state/model.h"
+#include "sim/state/state.h"
+
+namespace stopline {
+
+// Returns true if a vehicle covers the detector: its front is at or beyond the detector, on the same lane or on a
+// connection that follows this lane, and its rear is before the detector. The detector must lie on a lane.
+bool is_covered(const Model& model, const State& state, std::size_t detector);
+
+}  // namespace stopline
