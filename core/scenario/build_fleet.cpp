@@ -184,7 +184,8 @@ void add_following_models(const Scenario& scenario, const PopulationSettings& po
     const std::vector<FleetClass> classes = classes_of(scenario, population);
     model.following.clear();
     for (std::size_t k = 0; k < classes.size(); ++k) {
-        model.following.push_back(make_following_model(classes[k].meso, model.policies[k].meso));
+        model.following.push_back(
+            make_following_model({classes[k].meso, classes[k].driver.human}, model.policies[k].meso));
     }
     const auto has_limit = [](const FleetClass& fleet_class) { return static_cast<bool>(fleet_class.limit_mps2); };
     if (std::none_of(classes.begin(), classes.end(), has_limit)) return;

@@ -61,7 +61,7 @@ inline Scenario scenario_of(const TrackPlan& plan) {
     Scenario scenario = single_light(plan.vehicle, plan.policy, plan.overrides);
     scenario.step_s = plan.step_s;
     scenario.network.approach = {plan.lanes, plan.length_m, plan.exit_m, plan.limit_mps, plan.gradient};
-    scenario.signal = {plan.green_from_s, plan.green_s, 3.0, 5.0, 0.0};
+    scenario.signal = {.first_green_s = plan.green_from_s, .green_s = plan.green_s};
     scenario.demand.vehicles = 0;
     return scenario;
 }
