@@ -5,6 +5,7 @@
 #include "common/starvation_text.h"
 #include "common/text_table.h"
 #include "measure/steady_state.h"
+#include "scenario/kinds/network_kind.h"
 
 namespace stopline {
 
@@ -137,10 +138,10 @@ std::string congestion_text(const NetworkReport& report) {
 }  // namespace
 
 std::string network_text(const NetworkReport& report) {
-    const bool sumo = report.scenario.network.is_sumo();
-    const std::string area = sumo ? "whole network"
-                                  : fmt::format("up to {:g} m upstream and downstream of the outer stop lines",
-                                                report.scenario.measure.area_margin_m);
+    const bool has_trips = network_kind(report.scenario.network).has_trips;
+    const std::string area = has_trips ? "whole network"
+                                       : fmt::format("up to {:g} m upstream and downstream of the outer stop lines",
+                                                     report.scenario.measure.area_margin_m);
     const std::string traffic_notes = fmt::format(
         "Measured area: {}.\n"
         "throughput: vehicles that leave the area; gain, time saved: compared with the baseline;\n"
@@ -166,7 +167,7 @@ std::string network_text(const NetworkReport& report) {
             : fmt::format("VIOLATIONS in {} runs: summary.csv has the counts of each.\n{}", runs_with_violations,
                           first_violations);
     return traffic_text(report) + "\n" + traffic_notes + "\n" + congestion_text(report) + "\n" + congestion_notes +
-           (sumo ? trips_text(report) : backlog_text(report)) + "\n" + verdict +
+           (has_trips ? trips_text(report) : backlog_text(report)) + "\n" + verdict +
            starvation_text(report.scenario, report.starvations(), report.lanes);
 }
 

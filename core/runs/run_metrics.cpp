@@ -11,7 +11,9 @@
 #include "runs/intersection/intersection_run.h"
 #include "runs/network/network_run.h"
 #include "runs/network/street_results.h"
+#include "runs/run_kind.h"
 #include "runs/single_light/single_light.h"
+#include "scenario/kinds/network_kind.h"
 #include "scenario/make_network.h"
 #include "sim/state/model.h"
 
@@ -137,7 +139,7 @@ std::vector<RunMetric> metrics_of(const Scenario& scenario, const NetworkResult&
     }
     metrics.push_back(number_metric("delay_upstream", "h", delays.delay_upstream_s / 3600.0, 6));
     metrics.push_back(count_metric("backlog", "", f.backlog));
-    if (scenario.network.is_streets()) {
+    if (network_kind(scenario.network).reports_approaches) {
         for (RunMetric& metric : street_metrics(scenario, f)) metrics.push_back(std::move(metric));
     }
     metrics.push_back(number_metric("longest_stop", "s", delays.longest_stop_s, 1));
@@ -167,9 +169,7 @@ RunMetric count_metric(std::string name, std::string unit, std::int64_t value) {
 
 std::vector<RunMetric> run_metrics(const Scenario& scenario, std::size_t population,
                                    const std::function<bool()>& keep_going) {
-    if (scenario.network.has_several_intersections()) return network_metrics(scenario, population, keep_going);
-    if (scenario.network.kind == "intersection") return intersection_metrics(scenario, population, keep_going);
-    return approach_metrics(scenario, population, keep_going);
+    return run_kind(scenario).metrics(scenario, population, keep_going);
 }
 
 namespace {
@@ -178,36 +178,51 @@ namespace {
 // the same columns.
 NetworkResult empty_network_result(const Scenario& scenario) {
     NetworkResult none;
-    if (scenario.network.is_sumo()) return none;
+    if (network_kind(scenario.network).has_trips) return none;
     constexpr std::array kAllSides{Side::west, Side::south, Side::east, Side::north};
     for (const Side from : kAllSides) {
         for (const Side to : kAllSides) none.origin_destination.push_back({from, to, 0, 0.0});
     }
-    if (!scenario.network.is_streets()) return none;
+    if (!network_kind(scenario.network).reports_approaches) return none;
     for (const Approach& approach : make_network(scenario.network).approaches) {
         none.congestion.approaches.push_back({approach.name, {}});
     }
     return none;
 }
 
-std::vector<RunMetric> empty_metrics(const Scenario& scenario) {
-    if (scenario.network.has_several_intersections()) return metrics_of(scenario, empty_network_result(scenario));
-    if (scenario.network.kind == "intersection") {
-        IntersectionResult none;
-        none.zones.resize(scenario.measure.zone_radius_m.size());
-        none.delay_s.resize(scenario.measure.zone_radius_m.size());
-        return metrics_of(scenario, none);
-    }
+std::vector<RunMetric> empty_network_metrics(const Scenario& scenario) {
+    return metrics_of(scenario, empty_network_result(scenario));
+}
+
+std::vector<RunMetric> empty_intersection_metrics(const Scenario& scenario) {
+    IntersectionResult none;
+    none.zones.resize(scenario.measure.zone_radius_m.size());
+    none.delay_s.resize(scenario.measure.zone_radius_m.size());
+    return metrics_of(scenario, none);
+}
+
+std::vector<RunMetric> empty_approach_metrics(const Scenario& scenario) {
     PopulationSummary none;
     none.passed.resize(scenario.measure.green_s.size());
     return metrics_of(none, RunResult{});
 }
 
+TimeWindow whole_run(const Scenario& scenario) { return {0.0, scenario.duration_s}; }
+
+TimeWindow end_of_run(const Scenario& scenario) {
+    return {std::max(0.0, scenario.duration_s - scenario.measure.window_s), scenario.duration_s};
+}
+
 }  // namespace
+
+extern const RunKind kSingleLightRun{"single_light", approach_metrics, empty_approach_metrics, whole_run};
+extern const RunKind kIntersectionRun{"intersection", intersection_metrics, empty_intersection_metrics,
+                                      measured_window};
+extern const RunKind kNetworkRun{"network", network_metrics, empty_network_metrics, end_of_run};
 
 std::vector<std::string> result_columns(const Scenario& scenario) {
     std::vector<std::string> columns;
-    for (const RunMetric& metric : empty_metrics(scenario)) columns.push_back(metric.column());
+    for (const RunMetric& metric : run_kind(scenario).empty_metrics(scenario)) columns.push_back(metric.column());
     return columns;
 }
 

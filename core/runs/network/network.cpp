@@ -8,6 +8,7 @@
 #include "base/nan.h"
 #include "base/units.h"
 #include "runs/parallel_runs.h"
+#include "scenario/kinds/network_kind.h"
 #include "scenario/make_network.h"
 
 namespace stopline {
@@ -137,8 +138,8 @@ std::string network_csv(const NetworkReport& report) {
                                      "overlaps", "conflicts", "red_entries", "forced_red_entries", "lost_vehicles"}) {
         columns.emplace_back(column);
     }
-    const bool is_imported = report.scenario.network.is_sumo();
-    if (is_imported) columns.emplace_back("missed_turns");
+    const bool has_trips = network_kind(report.scenario.network).has_trips;
+    if (has_trips) columns.emplace_back("missed_turns");
     columns.emplace_back("backlog");
     CsvWriter csv(columns);
     for (const NetworkResult& f : report.populations) {
@@ -174,7 +175,7 @@ std::string network_csv(const NetworkReport& report) {
               std::to_string(v.forced_red_entries), std::to_string(v.lost_vehicles)}) {
             row.push_back(cell);
         }
-        if (is_imported) row.push_back(std::to_string(f.missed_turns));
+        if (has_trips) row.push_back(std::to_string(f.missed_turns));
         row.push_back(std::to_string(f.backlog));
         csv.row(row);
     }

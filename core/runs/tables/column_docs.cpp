@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "runs/tables/column_aliases.h"
+#include "scenario/kinds/network_kind.h"
 
 namespace stopline {
 
@@ -65,10 +66,7 @@ const std::vector<TableDoc>& table_docs() {
     return kTables;
 }
 
-std::string table_group(const NetworkSettings& network) {
-    if (network.has_several_intersections()) return "network";
-    return network.kind == "intersection" ? "intersection" : "single_light";
-}
+std::string table_group(const NetworkSettings& network) { return network_kind(network).run; }
 
 ColumnDoc column_doc(const std::vector<TableDoc>& tables, std::string_view table, std::string_view column) {
     for (const TableDoc& doc : tables) {
