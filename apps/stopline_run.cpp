@@ -1,7 +1,10 @@
 // stopline-run: runs one scenario, once for each population, and writes tables, CSV files and figures.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -29,11 +32,13 @@
 #include "run/run_files.h"
 #include "runs/network/street_results.h"
 #include "runs/provenance.h"
+#include "runs/run_kind.h"
 #include "runs/single_light/single_light.h"
 #include "runs/single_light/single_light_csv.h"
 #include "runs/tables/column_aliases.h"
 #include "runs/tables/column_docs.h"
 #include "scenario/import_sumo.h"
+#include "scenario/kinds/network_kind.h"
 #include "scenario/load_scenario.h"
 #include "scenario/schema/quantity.h"
 
@@ -206,9 +211,9 @@ ExitCode run_as_intersection(const RunCliOptions& options, const Scenario& scena
     return report.no_violations() && report.no_starvation() ? ExitCode::done : ExitCode::check_failed;
 }
 
-// Runs a network (grid, streets or imported) and writes its results.
-ExitCode run_as_network(const RunCliOptions& options, const Scenario& scenario, const std::filesystem::path& folder,
-                        RunFiles& run_files) {
+// Runs a network and writes its results. Trajectories are written during the run.
+ExitCode run_as_network(const RunCliOptions& options, const Scenario& scenario, double /*interval_s*/,
+                        const std::filesystem::path& folder, RunFiles& run_files) {
     const NetworkReport report = [&] {
         ProgressBar bar(fmt::format("{} runs", scenario.populations.size()));
         return run_networks(scenario, {thread_count(options.common.threads),
@@ -228,13 +233,13 @@ ExitCode run_as_network(const RunCliOptions& options, const Scenario& scenario, 
                                   {"starvations.csv", starvations_csv(report.starvations(), report.lanes)},
                                   {"rules.csv", rules_csv(report)}};
     std::vector<Figure> figures{network_series_figure(report), delay_causes_figure(report)};
-    if (scenario.network.is_streets()) {
+    if (network_kind(scenario.network).reports_approaches) {
         tables.emplace_back("inflow.csv", inflow_csv(report));
         tables.emplace_back("approaches.csv", approaches_csv(report));
         tables.emplace_back("turns.csv", turns_csv(report));
-        for (const Figure& figure : {street_map(scenario), inflow_figure(report), backlog_figure(report)}) {
-            figures.push_back(figure);
-        }
+        if (!scenario.network.streets.intersections.empty()) figures.push_back(street_map(scenario));
+        figures.push_back(inflow_figure(report));
+        figures.push_back(backlog_figure(report));
     }
     if (scenario.measure.time_space_s > 0.0) {
         tables.emplace_back("time_space.csv", street_time_space_csv(report));
@@ -247,7 +252,7 @@ ExitCode run_as_network(const RunCliOptions& options, const Scenario& scenario, 
         return settings_hint(options.file, options.common, purpose, settings);
     };
     std::string variation = hint("another fidelity", {scenario.is_meso() ? "fidelity=full" : "fidelity=meso"});
-    if (!scenario.network.is_streets() && !scenario.network.is_sumo()) {
+    if (network_kind(scenario.network).signal_groups > 0) {
         variation =
             hint("other greens, offsets and turns", {"signal.green=10 s", "signal.offset=15 s", "demand.left=5 %"});
     }
@@ -260,35 +265,9 @@ ExitCode run_as_network(const RunCliOptions& options, const Scenario& scenario, 
     return report.no_violations() && report.no_starvation() ? ExitCode::done : ExitCode::check_failed;
 }
 
-ExitCode run(const RunCliOptions& options) {
-    if (options.describe) return fmt::print("{}", describe_fields()), ExitCode::done;
-    if (options.describe_markdown) return fmt::print("{}", fields_markdown()), ExitCode::done;
-    if (options.describe_columns) return fmt::print("{}", columns_markdown()), ExitCode::done;
-    if (options.schema) return fmt::print("{}", json_schema()), ExitCode::done;
-    if (options.list) return fmt::print("{}", list_text(options.file, options.common)), ExitCode::done;
-    if (options.file.empty()) {
-        throw InputError(runnable("no scenario file given; try: stopline-run scenarios/single_light.yaml (or --help)"));
-    }
-    const Scenario scenario = load_with_options(options.file, options.common);
-    for (const std::string& line : sumo_warnings(scenario)) fmt::print(stderr, "SUMO import: {}\n", line);
-    for (const std::string& line : sumo_notes(scenario)) fmt::print(stderr, "note: {}\n", line);
-    if (const std::string warning = sumo_demand_warning(scenario); !warning.empty()) {
-        fmt::print(stderr, "warning: {}\n", warning);
-    }
-    const double interval_s = trajectory_interval_s(options, scenario);
-    const std::filesystem::path folder = options.common.output.empty() ? "out/" + scenario.name : options.common.output;
-    RunFilesOptions files = options.files;
-    files.column_names = column_names(options.common);
-    if (options.trajectories && scenario.network.has_several_intersections()) {
-        files.trajectories = (folder / options.trajectories_file).string();
-        files.trajectory_interval_s = interval_s;
-    }
-    RunFiles run_files(files, scenario, command_text("stopline-run", options.file, options.common));
-    prepare_folder(folder);
-    if (scenario.network.kind == "intersection") {
-        return run_as_intersection(options, scenario, interval_s, folder, run_files);
-    }
-    if (scenario.network.has_several_intersections()) return run_as_network(options, scenario, folder, run_files);
+// Runs a single light and writes its results.
+ExitCode run_as_single_light(const RunCliOptions& options, const Scenario& scenario, double interval_s,
+                             const std::filesystem::path& folder, RunFiles& run_files) {
     SingleLightOptions run_options;
     run_options.threads = thread_count(options.common.threads);
     run_options.trajectory_interval_s = interval_s;
@@ -313,6 +292,51 @@ ExitCode run(const RunCliOptions& options) {
                                           "  comparison with the paper: stopline-scorecard\n",
                                           trajectories)));
     return result.no_violations() ? ExitCode::done : ExitCode::check_failed;
+}
+
+// A way of running, printing and storing the results of a scenario.
+struct Reporter {
+    std::string_view name;  // name of a RunKind (runs/run_kind.h)
+    ExitCode (*run)(const RunCliOptions& options, const Scenario& scenario, double interval_s,
+                    const std::filesystem::path& folder, RunFiles& run_files);
+    bool streams_trajectories;  // trajectories are written during the run
+};
+
+const Reporter& reporter_of(const Scenario& scenario) {
+    static constexpr std::array kReporters{Reporter{"single_light", run_as_single_light, false},
+                                           Reporter{"intersection", run_as_intersection, false},
+                                           Reporter{"network", run_as_network, true}};
+    const std::string_view name = run_kind(scenario).name;
+    return *std::find_if(kReporters.begin(), kReporters.end(), [&](const Reporter& one) { return one.name == name; });
+}
+
+ExitCode run(const RunCliOptions& options) {
+    if (options.describe) return fmt::print("{}", describe_fields()), ExitCode::done;
+    if (options.describe_markdown) return fmt::print("{}", fields_markdown()), ExitCode::done;
+    if (options.describe_columns) return fmt::print("{}", columns_markdown()), ExitCode::done;
+    if (options.schema) return fmt::print("{}", json_schema()), ExitCode::done;
+    if (options.list) return fmt::print("{}", list_text(options.file, options.common)), ExitCode::done;
+    if (options.file.empty()) {
+        throw InputError(runnable("no scenario file given; try: stopline-run scenarios/single_light.yaml (or --help)"));
+    }
+    const Scenario scenario = load_with_options(options.file, options.common);
+    for (const std::string& line : sumo_warnings(scenario)) fmt::print(stderr, "SUMO import: {}\n", line);
+    for (const std::string& line : sumo_notes(scenario)) fmt::print(stderr, "note: {}\n", line);
+    if (const std::string warning = sumo_demand_warning(scenario); !warning.empty()) {
+        fmt::print(stderr, "warning: {}\n", warning);
+    }
+    const double interval_s = trajectory_interval_s(options, scenario);
+    const std::filesystem::path folder = options.common.output.empty() ? "out/" + scenario.name : options.common.output;
+    RunFilesOptions files = options.files;
+    files.column_names = column_names(options.common);
+    const Reporter& reporter = reporter_of(scenario);
+    if (options.trajectories && reporter.streams_trajectories) {
+        files.trajectories = (folder / options.trajectories_file).string();
+        files.trajectory_interval_s = interval_s;
+    }
+    RunFiles run_files(files, scenario, command_text("stopline-run", options.file, options.common));
+    prepare_folder(folder);
+    return reporter.run(options, scenario, interval_s, folder, run_files);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "common/text_table.h"
 #include "runs/metrics/metric_groups.h"
 #include "scenario/fleets.h"
+#include "scenario/kinds/network_kind.h"
 #include "scenario/load_scenario.h"
 #include "scenario/schema/quantity.h"
 #include "sim/state/model.h"  // the list of spacing laws and of signal controllers
@@ -153,6 +154,8 @@ std::string list_text(const std::string& file, const CommonOptions& options) {
         text += "\nPopulations: each policy is also the name of a population of its vehicles alone.\n";
         text += runnable("A scenario can define mixed populations, see scenarios/single_light.yaml\n");
     }
+    text += "\nKinds of networks (network.kind)\n";
+    for (const NetworkKind* kind : network_kinds()) text += fmt::format("  {:<18} {}\n", kind->name, kind->meaning);
     text += "\nSignal controllers (signal.controller)\n";
     for (const SignalController* controller : signal_controllers()) {
         text += fmt::format("  {:<18} {}\n", controller->name, controller->meaning);

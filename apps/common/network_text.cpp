@@ -7,6 +7,7 @@
 #include "measure/steady_state.h"
 #include "runs/metrics/metric_tables.h"
 #include "runs/network/network_metrics.h"
+#include "scenario/kinds/network_kind.h"
 
 namespace stopline {
 
@@ -76,10 +77,10 @@ TableWithNotes metrics_text(const NetworkReport& report, ConsoleTable table) {
 }  // namespace
 
 std::string network_text(const NetworkReport& report) {
-    const bool sumo = report.scenario.network.is_sumo();
-    const std::string area = sumo ? "whole network"
-                                  : fmt::format("up to {:g} m upstream and downstream of the outer stop lines",
-                                                report.scenario.measure.area_margin_m);
+    const bool has_trips = network_kind(report.scenario.network).has_trips;
+    const std::string area = has_trips ? "whole network"
+                                       : fmt::format("up to {:g} m upstream and downstream of the outer stop lines",
+                                                     report.scenario.measure.area_margin_m);
     const auto [results, result_notes] = metrics_text(report, ConsoleTable::results);
     const auto [congestion, congestion_notes] = metrics_text(report, ConsoleTable::congestion);
     const auto [trips, trip_notes] = metrics_text(report, ConsoleTable::trips);
@@ -99,7 +100,7 @@ std::string network_text(const NetworkReport& report) {
            warnings_text(report) + "\n\nShare of the delay by cause | gridlocks and uses of the rules\n" + congestion +
            "\nBoth cover the whole run and the whole network. Delay is the time that vehicles are stopped.\n"
            "The rest of it is due to signals, yielding and queue discharge (summary.csv).\n" +
-           congestion_notes + (sumo ? "\nTrips\n" + trips + trip_notes : backlog_text(report)) + "\n" + verdict +
+           congestion_notes + (has_trips ? "\nTrips\n" + trips + trip_notes : backlog_text(report)) + "\n" + verdict +
            starvation_text(report.scenario, report.starvations(), report.lanes);
 }
 

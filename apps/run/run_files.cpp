@@ -11,6 +11,7 @@
 #include "record/recording/recorder.h"
 #include "record/sumo_files.h"
 #include "record/trajectory_writer.h"
+#include "scenario/kinds/network_kind.h"
 #include "scenario/schema/quantity.h"
 
 namespace stopline {
@@ -151,16 +152,13 @@ void RunFiles::add_recording(const RunFilesOptions& options, const Scenario& sce
     if (window_.from_s > 0.0) record_command += " --record-from " + shell_word(options.from);
     if (!options.until.empty()) record_command += " --record-until " + shell_word(options.until);
     const NetworkSettings& network = scenario.network;
-    constexpr double kApproachLaneWidth_m = 3.5;
     RunOrigin origin{record_command,
                      scenario.name,
                      scenario.title,
                      fmt::format("{:016x}", scenario.hash),
                      scenario.seed,
                      "",
-                     network.is_streets()          ? network.streets.lane_width_m
-                     : network.has_intersections() ? network.intersection.lane_width_m
-                                                   : kApproachLaneWidth_m};
+                     network_kind(network).lane_width_m(network)};
     const auto make_writer = [this, origin](const std::filesystem::path& file, std::size_t k, const Model& model) {
         RunOrigin population_origin = origin;
         population_origin.population = scenario_.populations[k].name;

@@ -7,6 +7,8 @@
 
 #include "figures/population_style.h"
 #include "measure/area.h"
+#include "scenario/kinds/network_kind.h"
+#include "scenario/make_network.h"
 
 namespace stopline {
 
@@ -47,12 +49,8 @@ std::string reason_for_no_figure(const std::vector<StreetTrace>& traces, const s
 std::string street_title(const Scenario& scenario, const StreetTrace& trace) {
     const Side from = side_named(scenario.measure.time_space_side);
     const auto to = (static_cast<std::size_t>(from) + 2) % kSideNames.size();
-    const bool along_row = from == Side::west || from == Side::east;
-    const GridSettings& grid = scenario.network.grid;
-    std::string street = "Street";
-    if (scenario.network.kind == "grid") {
-        street = along_row ? fmt::format("Row r{}", grid.rows / 2) : fmt::format("Column c{}", grid.columns / 2);
-    }
+    const std::string street =
+        network_kind(scenario.network).diagram_street(scenario.network, make_network(scenario.network), from).title;
     std::string title = fmt::format("{} from {} to {}, straight on from lane {}", street,
                                     scenario.measure.time_space_side, kSideNames[to], trace.first_lane);
     if (!trace.reaches_exit) {

@@ -1,6 +1,7 @@
 // The user's settings of the network: the parameters of the generators, or the files of an imported network. SI units.
 #pragma once
 
+#include <any>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -52,7 +53,7 @@ struct GridSettings {
 struct SumoNetwork;  // sumo_import/sumo_graph.h
 
 struct NetworkSettings {
-    std::string kind = "approach";
+    std::string kind = "approach";  // name of a NetworkKind (scenario/kinds)
     ApproachSettings approach;
     IntersectionSettings intersection;
     GridSettings grid;
@@ -63,11 +64,22 @@ struct NetworkSettings {
     std::vector<std::string> additional = {};
     std::string vehicles = "from_scenario";  // source of the driving behaviour: from_scenario | from_routes
     std::shared_ptr<const SumoNetwork> sumo = {};
-
-    bool is_streets() const { return kind == "streets"; }
-    bool is_sumo() const { return kind == "sumo"; }
-    bool has_several_intersections() const { return kind == "grid" || is_streets() || is_sumo(); }
-    bool has_intersections() const { return kind != "approach"; }
+    // Settings of a kind that has no member above. See own_settings().
+    std::any own = {};
 };
+
+// Returns the settings that only the kind of the network knows. S is their type. Settings that have not been set yet
+// have the defaults of S.
+template <class S>
+S& own_settings(NetworkSettings& network) {
+    if (std::any_cast<S>(&network.own) == nullptr) network.own = S{};
+    return *std::any_cast<S>(&network.own);
+}
+template <class S>
+const S& own_settings(const NetworkSettings& network) {
+    static const S kDefaults{};
+    const S* const own = std::any_cast<S>(&network.own);
+    return own == nullptr ? kDefaults : *own;
+}
 
 }  // namespace stopline

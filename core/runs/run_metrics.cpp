@@ -7,6 +7,7 @@
 #include "runs/metrics/metric_groups.h"
 #include "runs/metrics/metric_tables.h"
 #include "runs/network/network_metrics.h"
+#include "runs/run_kind.h"
 #include "runs/single_light/single_light_metrics.h"
 #include "sim/state/model.h"
 
@@ -54,13 +55,21 @@ std::vector<RunMetric> run_whole_network(const Scenario& scenario, std::size_t p
     return sweep_metrics(network_metrics(), MeasuredNetwork{scenario, result});
 }
 
+TimeWindow whole_run(const Scenario& scenario) { return {0.0, scenario.duration_s}; }
+
+TimeWindow end_of_run(const Scenario& scenario) {
+    return {std::max(0.0, scenario.duration_s - scenario.measure.window_s), scenario.duration_s};
+}
+
 }  // namespace
+
+extern const RunKind kSingleLightRun{"single_light", run_light, whole_run};
+extern const RunKind kIntersectionRun{"intersection", run_junction, measured_window};
+extern const RunKind kNetworkRun{"network", run_whole_network, end_of_run};
 
 std::vector<RunMetric> run_metrics(const Scenario& scenario, std::size_t population,
                                    const std::function<bool()>& keep_going) {
-    if (scenario.network.has_several_intersections()) return run_whole_network(scenario, population, keep_going);
-    if (scenario.network.kind == "intersection") return run_junction(scenario, population, keep_going);
-    return run_light(scenario, population, keep_going);
+    return run_kind(scenario).metrics(scenario, population, keep_going);
 }
 
 std::vector<std::string> result_columns(const Scenario& scenario) {

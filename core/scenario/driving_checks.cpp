@@ -10,10 +10,10 @@
 #include "base/units.h"
 #include "driver/following_model.h"
 #include "scenario/fleets.h"
+#include "scenario/kinds/network_kind.h"
 #include "scenario/schema/quantity.h"
 #include "sim/mesoscale/following_families.h"
 #include "spacing_laws/gap_policy.h"
-#include "sumo_import/sumo_graph.h"
 
 namespace stopline {
 namespace {
@@ -100,23 +100,6 @@ constexpr double kLimitRounding = 1.001;
 
 std::string kmh(double speed_mps) { return short_text(speed_mps, unit("km/h")); }
 
-}  // namespace
-
-double highest_limit_mps(const NetworkSettings& network) {
-    if (network.kind == "approach") return network.approach.speed_limit_mps;
-    if (!network.has_several_intersections() || network.kind == "grid") return network.intersection.speed_limit_mps;
-    double highest_mps = 0.0;
-    for (const StreetIntersection& node : network.streets.intersections) {
-        for (const StreetLeg& leg : node.legs) highest_mps = std::max(highest_mps, leg.speed_limit_mps);
-    }
-    if (network.sumo) {
-        for (const Lane& lane : network.sumo->graph.lanes) highest_mps = std::max(highest_mps, lane.limit_mps);
-    }
-    return highest_mps;
-}
-
-namespace {
-
 // Returns true if a population uses a policy whose vehicles pass on V2V start messages.
 bool relays_starts(const Scenario& scenario) {
     return std::any_of(scenario.policies.begin(), scenario.policies.end(), [&](const GapPolicySettings& policy) {
@@ -157,7 +140,7 @@ void check_gaps(const Scenario& scenario, Checker& check) {
 std::vector<std::string> range_warnings(const Scenario& scenario) {
     std::vector<std::string> lines;
     const FreeDriveSettings& free = scenario.driver.free_drive;
-    const double limit_mps = highest_limit_mps(scenario.network);
+    const double limit_mps = network_kind(scenario.network).highest_limit_mps(scenario.network);
     const double driver_range_mps = free.profile_limit_mps > 0.0 ? free.profile_limit_mps : free.speed_mps.back();
     const MesoSettings& meso = scenario.meso;
     if (!scenario.is_meso()) {

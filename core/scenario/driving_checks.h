@@ -20,9 +20,6 @@ inline constexpr double kMinStandstillGap_m = 2.0;
 // torque.
 void check_gaps(const Scenario& scenario, Checker& check);
 
-// Returns the highest speed limit of the network, m/s.
-double highest_limit_mps(const NetworkSettings& network);
-
 // Returns one line for each parameter set that the scenario uses beyond its range. Full dynamics: the speed limits of
 // the network exceed the range of the driver's acceleration profile. Mesoscale mode: the speed limits exceed the one
 // for which the car-following models were calibrated; or the time step exceeds the calibrated one, and a population

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "scenario/driving_checks.h"
+#include "scenario/kinds/network_kind.h"
 #include "scenario/schema/quantity.h"
 #include "spacing_laws/gap_policy.h"
 
@@ -54,7 +55,8 @@ const GapPolicySettings* policy_of(const Scenario& scenario, const PopulationSet
     return found == scenario.policies.end() ? nullptr : &*found;
 }
 
-void check_brake_lags(const Scenario& scenario, const PopulationSettings& population, Checker& check) {
+void find_late_brakes(const Scenario& scenario, const PopulationSettings& population,
+                      std::vector<FieldProblem>& problems) {
     constexpr double kSpeedStep_mps = 1.0;
     constexpr double kRounding_m = 1e-9;
     double shortest_s = std::numeric_limits<double>::infinity();
@@ -66,15 +68,17 @@ void check_brake_lags(const Scenario& scenario, const PopulationSettings& popula
         const double later_s = vehicle_of(scenario, component).brake_lag_s - shortest_s;
         const GapPolicySettings* const policy = policy_of(scenario, component);
         if (later_s <= 0.0 || policy == nullptr) continue;
-        for (double v = 0.0; v < highest_limit_mps(scenario.network) + kSpeedStep_mps; v += kSpeedStep_mps) {
-            const double speed_mps = std::min(v, highest_limit_mps(scenario.network));
+        const double limit_mps = network_kind(scenario.network).highest_limit_mps(scenario.network);
+        for (double v = 0.0; v < limit_mps + kSpeedStep_mps; v += kSpeedStep_mps) {
+            const double speed_mps = std::min(v, limit_mps);
             const double needed_m = kMinStandstillGap_m + later_s * speed_mps;
             if (equilibrium_gap_m(*policy, speed_mps) >= needed_m - kRounding_m) continue;
-            check.error(component_field(population, k) + ".policy",
-                        fmt::format("the brakes of '{}' respond {} later than those of other vehicles of the "
-                                    "population, so its gap at {} must be at least {}: use a policy with a larger gap",
-                                    vehicle_of(scenario, component).name, short_text(later_s, unit("ms")),
-                                    short_text(speed_mps, unit("km/h")), short_text(needed_m, unit("m"))));
+            problems.emplace_back(
+                component_field(population, k) + ".policy",
+                fmt::format("the brakes of '{}' respond {} later than those of other vehicles of the "
+                            "population, so its gap at {} must be at least {}: use a policy with a larger gap",
+                            vehicle_of(scenario, component).name, short_text(later_s, unit("ms")),
+                            short_text(speed_mps, unit("km/h")), short_text(needed_m, unit("m"))));
             break;
         }
     }
@@ -98,10 +102,15 @@ std::string component_name(const PopulationSettings::Component& component) {
 }
 
 void check_fleets(const Scenario& scenario, Checker& check) {
-    for (const PopulationSettings& population : scenario.populations) {
-        check_population(scenario, population, check);
-        if (!scenario.is_meso()) check_brake_lags(scenario, population, check);
-    }
+    for (const PopulationSettings& population : scenario.populations) check_population(scenario, population, check);
+    for (const auto& [field, problem] : late_brake_problems(scenario)) check.error(field, problem);
+}
+
+std::vector<FieldProblem> late_brake_problems(const Scenario& scenario) {
+    std::vector<FieldProblem> problems;
+    if (scenario.is_meso()) return problems;
+    for (const PopulationSettings& population : scenario.populations) find_late_brakes(scenario, population, problems);
+    return problems;
 }
 
 double mean_vehicle_m(const Scenario& scenario, const PopulationSettings& population) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "scenario/scenario.h"
 #include "scenario/schema/report.h"
@@ -18,9 +19,13 @@ std::string component_name(const PopulationSettings::Component& component);
 
 // Reports the drivers of a population that disagree in a setting that all its vehicles share: delays of radar and V2V,
 // range of the radar, and maximum braking. A constant distance is safe only if no vehicle brakes harder than its
-// follower can. In full dynamics, also reports gaps that are too small for vehicles whose brakes respond later than
-// those of the vehicles ahead: in a hard stop they come nearer by the difference of the lags times the speed.
+// follower can. Also reports late_brake_problems().
 void check_fleets(const Scenario& scenario, Checker& check);
+
+// Full dynamics: returns the components whose gaps are too small because their brakes respond later than those of the
+// vehicles ahead. In a hard stop they come nearer by the difference of the lags times the speed. Speeds up to the highest
+// limit of the network count. The limits of an imported network are known only after the import.
+std::vector<FieldProblem> late_brake_problems(const Scenario& scenario);
 
 // Returns the mean length of the vehicles of a population, m.
 double mean_vehicle_m(const Scenario& scenario, const PopulationSettings& population);

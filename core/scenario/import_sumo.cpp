@@ -18,7 +18,6 @@ namespace stopline {
 std::vector<FieldProblem> sumo_file_problems(const Scenario& scenario, const std::filesystem::path& directory) {
     std::vector<FieldProblem> problems;
     const NetworkSettings& network = scenario.network;
-    if (!network.is_sumo()) return problems;
     const auto check = [&](const std::string& field, const std::string& name) {
         const std::filesystem::path file = (directory / name).lexically_normal();
         const std::string problem = sumo_file_problem(file);
@@ -36,7 +35,6 @@ std::vector<FieldProblem> sumo_file_problems(const Scenario& scenario, const std
 
 void import_sumo(Scenario& scenario, const std::filesystem::path& directory) {
     NetworkSettings& network = scenario.network;
-    if (!network.is_sumo()) return;
     SumoNet net = read_sumo_net(directory / network.net);
     std::vector<std::filesystem::path> additional;
     for (const std::string& file : network.additional) {
@@ -112,14 +110,6 @@ std::string sumo_demand_warning(const Scenario& scenario) {
 std::uint64_t sumo_files_hash(const Scenario& scenario) {
     if (!scenario.network.sumo || !scenario.demand.sumo) return 0;
     return scenario.network.sumo->net.hash * 0x100000001b3U ^ scenario.demand.sumo->hash;
-}
-
-NominalCycle Scenario::nominal_cycle() const {
-    if (network.is_sumo()) return {network.sumo->longest_cycle_s(), network.sumo->longest_green_s()};
-    if (network.is_streets()) {
-        return {network.streets.intersections.front().programme.cycle_s(), network.streets.longest_green_s()};
-    }
-    return stopline::nominal_cycle(signal, network.has_intersections() ? 2 : 1);
 }
 
 }  // namespace stopline

@@ -21,7 +21,7 @@ using FieldProblem = std::pair<std::string, std::string>;
 std::vector<FieldProblem> sumo_file_problems(const Scenario& scenario, const std::filesystem::path& directory);
 
 // Reads the SUMO network, additional and route files that the scenario names, and stores their content in the scenario.
-// Does nothing if network.kind is not `sumo`. Throws InputError with file and line if a file is invalid.
+// Throws InputError with file and line if a file is invalid.
 void import_sumo(Scenario& scenario, const std::filesystem::path& directory);
 
 // Adds the imported trips to the demand plan. Assigns a spacing policy to each trip, by the plan's policy shares and in
@@ -49,7 +49,7 @@ std::vector<FieldProblem> sumo_demand_problems(const Scenario& scenario);
 // Returns the reason why no vehicle departs within the run, or "" if a vehicle departs.
 std::string sumo_demand_warning(const Scenario& scenario);
 
-// Returns a hash of the contents of all SUMO files; 0 if network.kind is not `sumo`.
+// Returns a hash of the contents of all SUMO files; 0 if the scenario has none.
 std::uint64_t sumo_files_hash(const Scenario& scenario);
 
 }  // namespace stopline

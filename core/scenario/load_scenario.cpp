@@ -1,5 +1,6 @@
 #include "scenario/load_scenario.h"
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "scenario/driving_checks.h"
 #include "scenario/files/file_name.h"
 #include "scenario/import_sumo.h"
+#include "scenario/kinds/network_kind.h"
 #include "scenario/network_checks.h"
 #include "scenario/schema/field_path.h"
 #include "scenario/schema/fields.h"
@@ -46,11 +48,13 @@ void apply_overrides(SourceNode& root, const std::vector<std::string>& overrides
     }
 }
 
-// Returns true if the scenario has a single intersection.
-bool is_intersection(const SourceNode& root) {
+// Returns true if a run can end after its measured signal cycles (NetworkKind::ends_after_cycles).
+bool ends_after_cycles(const SourceNode& root) {
     const SourceNode* const network = root.find("network");
     const SourceNode* const kind = network == nullptr ? nullptr : network->find("kind");
-    return kind != nullptr && kind->text == "intersection";
+    if (kind == nullptr) return false;
+    const std::vector<std::string> kinds = kinds_with([](const NetworkKind& one) { return one.ends_after_cycles; });
+    return std::find(kinds.begin(), kinds.end(), kind->text) != kinds.end();
 }
 
 // Adds a field with a value as if the file had it.
@@ -71,25 +75,23 @@ Scenario scenario_from(SourceNode root, const std::vector<std::string>& override
     apply_overrides(root, overrides, source.directory, report);
     complete(scenario_table(), root, "", report);
     if (root.find("name") == nullptr) add_scalar(root, "name", name_from_file(source.label, "scenario"));
-    // The run of a single intersection ends after its measured cycles, unless the file gives its duration.
-    if (is_intersection(root) && root.find("duration") == nullptr) add_scalar(root, "duration", "0 s");
+    // Such a run ends after its measured cycles, unless the file gives its duration.
+    if (ends_after_cycles(root) && root.find("duration") == nullptr) add_scalar(root, "duration", "0 s");
     Scenario scenario;
     read_fields(scenario_table(), root, "", &scenario, report);
     report.throw_if_any();
-    if (scenario.network.kind == "intersection" && scenario.duration_s != 0.0) {
+    const NetworkKind& kind = network_kind(scenario.network);
+    if (kind.ends_after_cycles && scenario.duration_s != 0.0) {
         scenario.measure.cycles = cycles_within_duration(scenario);
     }
     scenario.vehicle_name = scenario.vehicle.name;
     scenario.driver_name = scenario.driver.name;
-    const auto throw_if_any = [&](const std::vector<FieldProblem>& problems) {
-        for (const auto& [field, problem] : problems) {
+    if (kind.import_files != nullptr) {
+        for (const auto& [field, problem] : kind.import_files(scenario, source.directory)) {
             report.error(report.place_of(field), "field '" + field + "': " + problem);
         }
         report.throw_if_any();
-    };
-    throw_if_any(sumo_file_problems(scenario, source.directory));
-    import_sumo(scenario, source.directory);
-    throw_if_any(sumo_demand_problems(scenario));
+    }
     scenario.hash = scenario_hash(scenario);
     scenario.warnings = report.warnings();
     for (std::string& line : range_warnings(scenario)) scenario.warnings.push_back(std::move(line));

@@ -6,7 +6,7 @@
 
 namespace stopline {
 
-// Builds the lane graph for network.kind. For `sumo`, import_sumo() must have read the files before.
+// Builds the lane graph of the network. Files that it names must have been read before (NetworkKind::import_files).
 LaneGraph make_network(const NetworkSettings& network);
 
 // Returns the distance from the stop line at the end of `lane` to the centre of the intersection, m. Returns 0 for

@@ -6,9 +6,9 @@
 
 #include "base/nearest_name.h"
 #include "base/simd/arithmetic.h"
-#include "network/generators/outer_legs.h"
 #include "scenario/approach_names.h"
 #include "scenario/fleets.h"
+#include "scenario/kinds/network_kind.h"
 #include "scenario/schema/quantity.h"
 
 namespace stopline {
@@ -62,7 +62,7 @@ std::string stopping_text(const Scenario& scenario, double speed_mps) {
 }  // namespace
 
 void check_queue(const Scenario& scenario, Checker& check) {
-    if (scenario.network.kind != "approach" || scenario.demand.kind != "queue") return;
+    if (scenario.demand.kind != "queue") return;
     double mean_length_m = 0.0;
     for (const PopulationSettings& population : scenario.populations) {
         mean_length_m = std::max(mean_length_m, mean_vehicle_m(scenario, population));
@@ -76,7 +76,6 @@ void check_queue(const Scenario& scenario, Checker& check) {
 }
 
 void check_grid_links(const Scenario& scenario, Checker& check) {
-    if (scenario.network.kind != "grid") return;
     const GridSettings& grid = scenario.network.grid;
     const IntersectionSettings& layout = scenario.network.intersection;
     const double min_length_m = std::max(queue_space_m(scenario), stopping_m(scenario, layout.speed_limit_mps));
@@ -112,7 +111,7 @@ void check_pockets(const Scenario& scenario, Checker& check) {
 }
 
 void check_entries(const Scenario& scenario, Checker& check) {
-    for (const OuterLeg& leg : outer_legs(scenario.network)) {
+    for (const OuterLeg& leg : network_kind(scenario.network).outer_legs(scenario.network)) {
         const double speed_mps = std::min(scenario.demand.entry_speed_mps, leg.limit_mps);
         const double min_length_m = stopping_m(scenario, speed_mps);
         if (leg.length_m == 0.0 || leg.length_m >= min_length_m) continue;
@@ -125,7 +124,7 @@ void check_entries(const Scenario& scenario, Checker& check) {
 
 void check_approaches(const Scenario& scenario, Checker& check) {
     constexpr std::size_t kListedMax = 12;
-    if (scenario.demand.approaches.empty() || scenario.network.is_sumo()) return;
+    if (scenario.demand.approaches.empty() || network_kind(scenario.network).has_trips) return;
     const std::vector<std::string> known = approach_names(scenario.network);
     for (std::size_t k = 0; k < scenario.demand.approaches.size(); ++k) {
         const std::string& approach = scenario.demand.approaches[k];
@@ -138,7 +137,7 @@ void check_approaches(const Scenario& scenario, Checker& check) {
 }
 
 void check_measured_area(const Scenario& scenario, Checker& check) {
-    if (!scenario.network.has_several_intersections()) return;
+    if (!network_kind(scenario.network).has_measured_area) return;
     double max_margin_m = scenario.measure.area_margin_m;
     std::string shortest_field;
     const auto compare = [&](const std::string& field, double length_m) {
@@ -146,7 +145,7 @@ void check_measured_area(const Scenario& scenario, Checker& check) {
         max_margin_m = length_m;
         shortest_field = field;
     };
-    for (const OuterLeg& leg : outer_legs(scenario.network)) {
+    for (const OuterLeg& leg : network_kind(scenario.network).outer_legs(scenario.network)) {
         compare(leg.length_field, leg.length_m);
         compare(leg.exit_length_field, leg.exit_length_m);
     }

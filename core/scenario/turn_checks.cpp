@@ -45,9 +45,9 @@ void check_lane(const LaneMovements& lane, const Shares& shares, Checker& check)
     }
 }
 
-// Reports an error for each turn share that the demand sets. Call this function for a network in which turn shares have
-// no effect. `network` describes the network in the message.
-void refuse_all(const DemandSettings& demand, const std::string& network, Checker& check) {
+}  // namespace
+
+void refuse_turns(const DemandSettings& demand, const std::string& network, Checker& check) {
     const auto refuse = [&](const std::string& field, bool used) {
         if (used) check.error("demand." + field, "has no effect on " + network);
     };
@@ -56,19 +56,13 @@ void refuse_all(const DemandSettings& demand, const std::string& network, Checke
     refuse("cross_turns", demand.cross_turns != "same");
 }
 
-}  // namespace
-
-void check_turns(const Scenario& scenario, Checker& check) {
+void check_turn_shares(const Scenario& scenario, Checker& check) {
     const DemandSettings& demand = scenario.demand;
-    const NetworkSettings& network = scenario.network;
-    if (network.is_sumo()) return;
-    if (network.is_streets()) return refuse_all(demand, "streets, which have turn shares for each leg", check);
-    if (network.kind == "approach") return refuse_all(demand, "a straight road", check);
     std::vector<Shares> all{{"left", demand.left_share, "right", demand.right_share}};
     if (demand.cross_turns == "separate") {
         all.push_back({"cross_left", demand.cross_left_share, "cross_right", demand.cross_right_share});
     }
-    const std::vector<LaneMovements>& lanes = network.intersection.lanes;
+    const std::vector<LaneMovements>& lanes = scenario.network.intersection.lanes;
     for (const Shares& shares : all) {
         check_served(lanes, "left", shares.left_field, shares.left, check);
         check_served(lanes, "right", shares.right_field, shares.right, check);

@@ -15,7 +15,9 @@
 #include "base/io/csv.h"
 #include "runs/interrupted.h"
 #include "runs/intersection/intersection_run.h"
+#include "runs/run_kind.h"
 #include "scenario/build_model.h"
+#include "scenario/kinds/network_kind.h"
 #include "sumo_export/export.h"
 #include "sumo_export/imported.h"
 #include "sumo_export/inputs.h"
@@ -24,13 +26,6 @@
 namespace stopline {
 
 namespace {
-
-// Returns the start of the period that the scenario measures, s.
-double measured_from_s(const Scenario& scenario, double end_s) {
-    if (scenario.network.kind == "intersection") return measured_window(scenario).from_s;
-    if (scenario.network.has_several_intersections()) return std::max(0.0, end_s - scenario.measure.window_s);
-    return 0.0;
-}
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -148,7 +143,7 @@ ComparedRun compare_seed(const Scenario& scenario, std::size_t population, const
     std::vector<std::unique_ptr<RunWriter>> writers;
     PlainNetwork network;
     StopLineNames lines;
-    if (scenario.network.is_sumo()) {
+    if (scenario.network.sumo) {
         lines = stop_line_names(*scenario.network.sumo);
         write_imported_inputs(folder, model, *scenario.network.sumo, lines, end_s);
     } else {
@@ -168,7 +163,7 @@ ComparedRun compare_seed(const Scenario& scenario, std::size_t population, const
     const auto start_of_sumo = std::chrono::steady_clock::now();
     run_sumo({folder, scenario.seed, end_s, sumo_limit_s, on_sumo_progress});
     run.sumo_wall_s = seconds_since(start_of_sumo);
-    const bool has_loops = !scenario.network.is_sumo() || !lines.stop_line_at_end.empty();
+    const bool has_loops = !scenario.network.sumo || !lines.stop_line_at_end.empty();
     run.sumo = read_sumo_facts(folder, has_loops);
     rename_stop_lines(lines.stop_line_at_end, run.sumo);
     return run;
@@ -216,7 +211,7 @@ std::vector<ComparedMetric> Comparison::metrics() const {
 
 Comparison compare_with_sumo(const Scenario& scenario, std::size_t population, const std::filesystem::path& folder,
                              const CompareOptions& options) {
-    if (scenario.network.is_sumo()) check_lights(*scenario.network.sumo);
+    if (scenario.network.sumo) check_lights(*scenario.network.sumo);
     if (!has_sumo()) {
         throw InputError(
             "SUMO is not installed or does not run. Install it with 'pip install eclipse-sumo' and add its bin folder to "
@@ -226,14 +221,14 @@ Comparison compare_with_sumo(const Scenario& scenario, std::size_t population, c
     comparison.population = scenario.populations.at(population).name;
     comparison.note = sumo_limits_note(build_model(scenario, population));
     comparison.to_s = run_end_s(scenario);
-    comparison.from_s = options.from_s < 0.0 ? measured_from_s(scenario, comparison.to_s) : options.from_s;
+    comparison.from_s = options.from_s < 0.0 ? run_kind(scenario).measured_window(scenario).from_s : options.from_s;
     if (comparison.from_s >= comparison.to_s) {
         throw InputError(
             fmt::format("there is nothing to compare: the compared time starts at {:g} s, but the run ends at "
                         "{:g} s",
                         comparison.from_s, comparison.to_s));
     }
-    comparison.imported = scenario.network.is_sumo();
+    comparison.imported = scenario.network.sumo != nullptr;
     if (comparison.imported)
         comparison.has_stop_lines = !stop_line_names(*scenario.network.sumo).stop_line_at_end.empty();
     const NewFolders new_folders(folder);

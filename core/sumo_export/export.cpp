@@ -8,7 +8,9 @@
 #include "base/io/child_process.h"
 #include "runs/interrupted.h"
 #include "runs/intersection/intersection_run.h"
+#include "runs/run_kind.h"
 #include "scenario/build_model.h"
+#include "scenario/kinds/network_kind.h"
 #include "sumo_export/inputs.h"
 #include "sumo_export/staged_folder.h"
 
@@ -32,9 +34,7 @@ const std::vector<std::string>& netconvert_arguments() {
 
 }  // namespace
 
-double run_end_s(const Scenario& scenario) {
-    return scenario.network.kind == "intersection" ? measured_window(scenario).to_s : scenario.duration_s;
-}
+double run_end_s(const Scenario& scenario) { return run_kind(scenario).measured_window(scenario).to_s; }
 
 std::vector<std::string> run_with_writers(Simulation& simulation, double end_s,
                                           const std::vector<std::unique_ptr<RunWriter>>& writers,
@@ -61,8 +61,9 @@ std::vector<std::string> run_with_writers(Simulation& simulation, double end_s,
 }
 
 void check_exportable(const Scenario& scenario) {
-    if (scenario.network.kind != "sumo") return;
-    throw InputError("networks of the kind 'sumo' cannot be exported: the scenario already names SUMO files");
+    if (network_kind(scenario.network).is_exportable) return;
+    throw InputError(fmt::format("networks of the kind '{}' cannot be exported: the scenario already names SUMO files",
+                                 scenario.network.kind));
 }
 
 std::string sumo_limits_note(const Model& model) {

@@ -10,6 +10,7 @@
 #include "runs/metrics/metric_tables.h"
 #include "runs/network/network_metrics.h"
 #include "runs/parallel_runs.h"
+#include "scenario/kinds/network_kind.h"
 #include "scenario/make_network.h"
 
 namespace stopline {

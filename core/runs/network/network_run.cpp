@@ -9,6 +9,7 @@
 #include "base/containers/index.h"
 #include "measure/steady_state.h"
 #include "scenario/build_model.h"
+#include "scenario/kinds/network_kind.h"
 #include "scenario/make_network.h"
 #include "sim/insertion/insert_vehicles.h"
 
@@ -48,7 +49,7 @@ void add_inner_inlet_detectors(Model& model) {
 // area get no detector, because vehicles reach them from the adjacent lane. An imported network gets trip detectors
 // instead.
 void add_area_detectors(const Scenario& scenario, Model& model) {
-    if (scenario.network.is_sumo()) return add_trip_detectors(model);
+    if (network_kind(scenario.network).has_trips) return add_trip_detectors(model);
     std::erase_if(model.detectors, [](const Detector& d) {
         return d.kind != Detector::Kind::stop_line && d.kind != Detector::Kind::signal;
     });
@@ -72,11 +73,12 @@ void add_area_detectors(const Scenario& scenario, Model& model) {
 // to an intersection includes the straight way across this intersection.
 double area_lane_m(const Scenario& scenario, const Model& model) {
     double sum_m = 0.0;
+    const bool measures_whole_network = network_kind(scenario.network).has_trips;
     const double margin_m = scenario.measure.area_margin_m;
     for (int lane = 0; lane < static_cast<int>(model.graph.lanes.size()); ++lane) {
         const Lane& road = model.graph.lanes[at(lane)];
         if (road.origin >= 0) continue;
-        if (scenario.network.is_sumo()) {
+        if (measures_whole_network) {
             sum_m += road.length_m;
         } else if (road.signal_group < 0) {
             sum_m += margin_m;

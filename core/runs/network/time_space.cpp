@@ -10,6 +10,7 @@
 #include "base/containers/index.h"
 #include "base/io/csv.h"
 #include "measure/area.h"
+#include "scenario/kinds/network_kind.h"
 
 namespace stopline {
 
@@ -24,40 +25,8 @@ int straight_on(const LaneGraph& graph, int lane) {
     return -1;
 }
 
-// Returns the coordinate of the start of a lane, m. The axis points from the origin toward `side`.
-double outwards_m(const Lane& lane, Side side) {
-    const auto& begin = lane.shape[0];
-    if (side == Side::west) return -begin.x_m;
-    if (side == Side::east) return begin.x_m;
-    return side == Side::south ? -begin.y_m : begin.y_m;
-}
-
 // Returns the name of an approach lane without its number, such as "c0r2_west_in_".
 std::string approach_prefix(const Lane& lane) { return lane.name.substr(0, lane.name.find_last_of('_') + 1); }
-
-// Returns the name prefix of the lanes on which vehicles enter the middle row or column of a grid from the side `from`.
-std::string grid_inlet_prefix(const GridSettings& grid, const std::string& from) {
-    int column = grid.columns / 2;
-    int row = grid.rows / 2;
-    if (from == "west") column = 0;
-    if (from == "east") column = grid.columns - 1;
-    if (from == "south") row = 0;
-    if (from == "north") row = grid.rows - 1;
-    const bool single = grid.columns == 1 && grid.rows == 1;  // lane names then contain no row and column
-    return single ? from + "_in_" : fmt::format("c{}r{}_{}_in_", column, row, from);
-}
-
-// Among the entry lanes for vehicles from `side`, returns the name prefix of those that begin furthest out in this
-// direction. Entry lanes without a straight connection do not count. Returns "" if there is no such lane.
-std::string street_inlet_prefix(const LaneGraph& graph, Side side) {
-    const Lane* furthest = nullptr;
-    for (const int entry : graph.entries) {
-        const Lane& lane = graph.lanes[at(entry)];
-        if (comes_from(lane) != side || straight_on(graph, entry) < 0) continue;
-        if (furthest == nullptr || outwards_m(lane, side) >= outwards_m(*furthest, side)) furthest = &lane;
-    }
-    return furthest == nullptr ? "" : approach_prefix(*furthest);
-}
 
 // An entry lane and the lanes that follow for a vehicle that always goes straight on.
 struct StraightPath {
@@ -82,11 +51,11 @@ StraightPath straight_path_from(const LaneGraph& graph, int first) {
 // Returns an empty path if no street begins there. A path to an exit counts as longer than any other path. Of equally
 // long paths, the rightmost one is taken: it comes last, because lanes are numbered from the left.
 StraightPath find_path(const Scenario& scenario, const LaneGraph& graph) {
-    const std::string& from = scenario.measure.time_space_side;
-    const bool streets = scenario.network.is_streets();
-    const std::string prefix =
-        streets ? street_inlet_prefix(graph, side_named(from)) : grid_inlet_prefix(scenario.network.grid, from);
+    const NetworkKind& kind = network_kind(scenario.network);
     StraightPath best;
+    if (kind.diagram_street == nullptr) return best;
+    const std::string prefix =
+        kind.diagram_street(scenario.network, graph, side_named(scenario.measure.time_space_side)).lane_prefix;
     for (const int entry : graph.entries) {
         if (approach_prefix(graph.lanes[at(entry)]) != prefix) continue;
         StraightPath path = straight_path_from(graph, entry);

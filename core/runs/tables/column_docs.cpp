@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "runs/tables/column_aliases.h"
+#include "scenario/kinds/network_kind.h"
 
 namespace stopline {
 
@@ -56,10 +57,7 @@ const std::vector<TableDoc>& table_docs() {
     return kTables;
 }
 
-std::string table_group(const NetworkSettings& network) {
-    if (network.has_several_intersections()) return "network";
-    return network.kind == "intersection" ? "intersection" : "single_light";
-}
+std::string table_group(const NetworkSettings& network) { return network_kind(network).run; }
 
 std::vector<ColumnDoc> with_population(const std::vector<ColumnDoc>& columns) {
     std::vector<ColumnDoc> all{kPopulationColumn};

@@ -1,95 +1,18 @@
 // Fields of the network, the signal and the demand.
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "network/generators/street_checks.h"
+#include "scenario/kinds/network_kind.h"
 #include "scenario/schema/field_rows.h"
 #include "scenario/schema/fields.h"
 #include "signals/signal_controller.h"
 
 namespace stopline {
 namespace {
-
-const Table& approach_table() {
-    static const Table table = make_table<ApproachSettings>(
-        "a straight road with one stop line",
-        {
-            whole_number<&ApproachSettings::lanes>("lanes", {1, 16}, "number of parallel lanes"),
-            number<&ApproachSettings::length_m>("length", "m", {10, 20'000},
-                                                "distance from the entry to the stop line"),
-            number<&ApproachSettings::exit_length_m>("exit_length", "m", {10, 20'000},
-                                                     "distance from the stop line to the end of the road"),
-            number<&ApproachSettings::speed_limit_mps>("speed_limit", "km/h", {5, 150}, "speed limit"),
-            number<&ApproachSettings::gradient>("gradient", "%", {-20, 20}, "slope, positive uphill"),
-        });
-    return table;
-}
-
-const Table& lane_movements_table() {
-    using L = IntersectionSettings::LaneMovements;
-    static const Table table = make_table<L>(
-        "a lane of an approach",
-        {choice<&L::movements>("movements", lane_movements(), "movements that the lane allows").required()});
-    return table;
-}
-
-const Table& intersection_table() {
-    using S = IntersectionSettings;
-    static const Table table = make_table<S>(
-        "an intersection with four equal legs at right angles",
-        {
-            list<&S::lanes>("lanes", lane_movements_table, {1, 6}, "lanes of each approach, from left to right")
-                .fallback("[{movements: straight+left}, {movements: straight+right}]"),
-            number<&S::radius_m>("radius", "m", {5, 100}, "distance from the centre to the stop line"),
-            number<&S::approach_length_m>("approach_length", "m", {50, 20'000},
-                                          "distance from the network entry to the stop line"),
-            number<&S::exit_length_m>("exit_length", "m", {20, 20'000},
-                                      "distance from the intersection to the end of the road"),
-            number<&S::lane_width_m>("lane_width", "m", {2, 6}, "width of a lane"),
-            number<&S::speed_limit_mps>("speed_limit", "km/h", {5, 150}, "speed limit"),
-            number<&S::turn_speed_mps>("turn_speed", "m/s", {1, 40}, "speed on turning connections"),
-            number<&S::clearance_m>(
-                "clearance", "m", {1, 5},
-                "two vehicles touch if their centre lines are nearer than this; at most lane_width - 0.5 m"),
-        },
-        [](const S& s, Checker& check) {
-            const std::string touching = clearance_problem(s.clearance_m, s.lane_width_m);
-            if (!touching.empty()) check.error("clearance", touching);
-            const double half_m = static_cast<double>(s.lanes.size()) * s.lane_width_m;
-            if (half_m + s.clearance_m > s.radius_m) {
-                check.error("radius",
-                            "the lanes of a leg need at least " + short_text(half_m + s.clearance_m, unit("m")));
-            }
-        });
-    return table;
-}
-
-const Table& grid_table() {
-    using S = GridSettings;
-    static const Table table = make_table<S>(
-        "a grid of equal intersections",
-        {
-            whole_number<&S::columns>("columns", {1, 200}, "number of streets that run from south to north"),
-            whole_number<&S::rows>("rows", {1, 200}, "number of streets that run from west to east"),
-            number<&S::column_spacing_m>("column_spacing", "m", {50, 10'000},
-                                         "distance between intersection centres from west to east"),
-            number<&S::row_spacing_m>("row_spacing", "m", {50, 10'000},
-                                      "distance between intersection centres from south to north"),
-            choice<&S::shape>(
-                "shape", {"rectangle", "without_corners"},
-                "without_corners: the four corner intersections are left out; 3 x 3 is then one intersection with four "
-                "neighbours"),
-        },
-        [](const S& s, Checker& check) {
-            if (!s.has_corners() && (s.columns < 3 || s.rows < 3)) {
-                check.error("shape", "without_corners needs at least 3 columns and 3 rows");
-            }
-        });
-    return table;
-}
 
 std::string seconds(double value) { return short_text(value, unit("s")); }
 
@@ -101,43 +24,29 @@ void check_signal(const SignalSettings& signal, Checker& check) {
     }
 }
 
+// Returns the field `kind` and the fields of all kinds of networks. Kinds can share a field.
+std::vector<Row<NetworkSettings>> network_rows() {
+    std::vector<Row<NetworkSettings>> rows{
+        choice<&NetworkSettings::kind>("kind", kinds_with([](const NetworkKind& /*kind*/) { return true; }),
+                                       "kind of network; sumo: imported from SUMO's files")};
+    for (const NetworkKind* kind : network_kinds()) {
+        for (Row<NetworkSettings>& row : kind->fields()) {
+            const auto known = std::find_if(rows.begin(), rows.end(),
+                                            [&](const auto& one) { return one.field.name == row.field.name; });
+            if (known == rows.end()) {
+                rows.push_back(std::move(row).only_if("kind", {kind->name}));
+            } else {
+                known->field.condition_values.emplace_back(kind->name);
+            }
+        }
+    }
+    return rows;
+}
+
 }  // namespace
 
 const Table& network_table() {
-    static const Table table = make_table<NetworkSettings>(
-        "the road network",
-        {
-            choice<&NetworkSettings::kind>("kind", {"approach", "intersection", "grid", "streets", "sumo"},
-                                           "kind of network; sumo: imported from SUMO's files"),
-            section<&NetworkSettings::approach>("approach", approach_table, "straight road with one stop line")
-                .only_if("kind", {"approach"}),
-            section<&NetworkSettings::intersection>("intersection", intersection_table,
-                                                    "layout of an intersection, single or in a grid")
-                .only_if("kind", {"intersection", "grid"}),
-            section<&NetworkSettings::grid>("grid", grid_table, "arrangement of the grid").only_if("kind", {"grid"}),
-            section<&NetworkSettings::streets>("streets", streets_table, "streets with signalised intersections",
-                                               "berlin")
-                .required()
-                .only_if("kind", {"streets"}),
-            text<&NetworkSettings::net>("net", TextField::Rule::title,
-                                        "SUMO network file, plain or gzipped, relative to the folder of the scenario")
-                .required()
-                .only_if("kind", {"sumo"}),
-            texts<&NetworkSettings::routes>("routes", TextField::Rule::title, {0, 1000},
-                                            "SUMO route files with vehicles, trips, flows and vehicle types")
-                .only_if("kind", {"sumo"}),
-            texts<&NetworkSettings::additional>(
-                "additional", TextField::Rule::title, {0, 1000},
-                "SUMO additional files with signal programmes, offsets, induction loops, "
-                "vehicle types and routes")
-                .only_if("kind", {"sumo"}),
-            choice<&NetworkSettings::vehicles>(
-                "vehicles", {"from_scenario", "from_routes"},
-                "source of the driving behaviour; from_routes: the vehicle types in SUMO's files give maxSpeed, accel and "
-                "decel, and for policies with the law constant_time also tau, minGap and (mesoscale mode) sigma; "
-                "from_scenario: only lengths come from SUMO's files")
-                .only_if("kind", {"sumo"}),
-        });
+    static const Table table = make_table<NetworkSettings>("the road network", network_rows());
     return table;
 }
 

@@ -1,7 +1,6 @@
 // Fields of a scenario and of its measurements, and the checks that compare several parts of a scenario.
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <set>
 #include <string>
 #include <vector>
@@ -11,23 +10,13 @@
 #include "base/nearest_name.h"
 #include "scenario/driving_checks.h"
 #include "scenario/fleets.h"
+#include "scenario/kinds/kind_parts.h"
 #include "scenario/network_checks.h"
 #include "scenario/schema/field_rows.h"
 #include "scenario/schema/fields.h"
-#include "scenario/turn_checks.h"
 
 namespace stopline {
 namespace {
-
-using StepCheck = std::function<void(const std::string& field, double time_s)>;
-
-void check_street_steps(const Scenario& scenario, const StepCheck& require_whole_steps) {
-    for (const StreetIntersection& node : scenario.network.streets.intersections) {
-        const std::string field = "network.streets.intersections[" + node.name + "]";
-        for (const double step_s : node.programme.steps_s()) require_whole_steps(field + ".programme", step_s);
-        require_whole_steps(field + ".offset", node.offset_s);
-    }
-}
 
 bool is_whole(double number) { return std::abs(number - std::round(number)) <= 1e-6; }
 
@@ -42,29 +31,6 @@ void check_seconds(const Scenario& scenario, Checker& check) {
     if (!is_whole(scenario.measure.interval_s)) {
         check.error("measure.interval", "value " + short_text(scenario.measure.interval_s, unit("s")) +
                                             " is not a whole number of seconds; vehicles are counted every second");
-    }
-}
-
-// Checks that all times are whole numbers of steps. Signals, for instance, can change only between two steps.
-void check_steps(const Scenario& scenario, Checker& check) {
-    const auto require_whole_steps = [&](const std::string& field, double time_s) {
-        if (is_whole(time_s / scenario.tick_s())) return;
-        check.error(field, short_text(time_s, unit("s")) + " is not a whole number of steps of " +
-                               short_text(scenario.tick_s(), unit("ms")));
-    };
-    require_whole_steps("duration", scenario.duration_s);
-    if (scenario.network.has_several_intersections()) check_seconds(scenario, check);
-    if (scenario.network.is_sumo()) return;  // the import rounds signal times to steps
-    if (scenario.network.is_streets()) return check_street_steps(scenario, require_whole_steps);
-    require_whole_steps("signal.first_green", scenario.signal.first_green_s);
-    require_whole_steps("signal.green", scenario.signal.green_s);
-    require_whole_steps("signal.cross_green", scenario.signal.cross_green_s);
-    require_whole_steps("signal.yellow", scenario.signal.yellow_s);
-    require_whole_steps("signal.all_red", scenario.signal.all_red_s);
-    require_whole_steps("signal.cycle", scenario.signal.cycle_s);
-    require_whole_steps("signal.offset", scenario.signal.offset_s);
-    for (std::size_t i = 0; i < scenario.measure.green_s.size(); ++i) {
-        require_whole_steps("measure.green[" + std::to_string(i) + "]", scenario.measure.green_s[i]);
     }
 }
 
@@ -108,92 +74,21 @@ void check_names(const Scenario& scenario, Checker& check) {
     }
 }
 
-void check_intersection(const Scenario& scenario, Checker& check) {
-    const IntersectionSettings& layout = scenario.network.intersection;
-    const double cycle_s = scenario.nominal_cycle().cycle_s;
-    const double shortest_s = scenario.signal.first_green_s + (scenario.measure.warmup_cycles + 1) * cycle_s;
-    if (scenario.duration_s != 0.0 && scenario.duration_s < shortest_s) {
-        check.error("duration",
-                    "leaves no whole cycle to measure after first_green and warmup_cycles: must be at least " +
-                        short_text(shortest_s, unit("s")));
-    } else if (scenario.duration_s != 0.0 && check.given("measure.cycles") &&
-               scenario.measure.cycles != cycles_within_duration(scenario)) {
-        check.error(
-            "measure.cycles",
-            fmt::format("{} cycles contradict the duration of {}, in which {} whole cycles can be measured: give "
-                        "only one of the two fields, or 'duration: 0 s' for the time that the cycles take",
-                        scenario.measure.cycles, short_text(scenario.duration_s, unit("s")),
-                        cycles_within_duration(scenario)));
-    }
-    const double reach_m = layout.radius_m + std::min(layout.approach_length_m, layout.exit_length_m);
-    for (std::size_t i = 0; i < scenario.measure.zone_radius_m.size(); ++i) {
-        const double radius_m = scenario.measure.zone_radius_m[i];
-        if (radius_m > layout.radius_m && radius_m < reach_m) continue;
-        check.error("measure.zones[" + std::to_string(i) + "]",
-                    "must lie between the radius of the intersection and the end of its legs, " +
-                        short_text(layout.radius_m, unit("m")) + " to " + short_text(reach_m, unit("m")));
-    }
-}
-
-void check_streets(const Scenario& scenario, Checker& check) {
-    if (scenario.demand.kind == "rate") {
-        check.error("demand.kind", "value 'rate' is not possible for streets: use queue or saturated");
-    }
-    if (!scenario.measure.green_s.empty())
-        check.error("measure.green", "is for a single light only (network.kind: approach)");
-    check_pockets(scenario, check);
-}
-
-void check_sumo(const Scenario& scenario, Checker& check) {
-    if (!scenario.measure.green_s.empty())
-        check.error("measure.green", "is for a single light only (network.kind: approach)");
-}
-
 void check_times(const Scenario& scenario, Checker& check) {
-    const SignalSettings& signal = scenario.signal;
     if (!scenario.is_meso() && scenario.driver.cacc.v2v_delay_s < scenario.step_s) {
         check.error(check.given("step") ? "step" : "driver.cacc.v2v_delay",
                     "a message cannot arrive before the next step: step, " + short_text(scenario.step_s, unit("ms")) +
                         ", must be at most driver.cacc.v2v_delay, " +
                         short_text(scenario.driver.cacc.v2v_delay_s, unit("ms")));
     }
-    if (scenario.network.kind == "intersection") return check_intersection(scenario, check);
-    if (scenario.duration_s < 1.0) check.error("duration", "must be at least 1 s");
-    if (scenario.network.is_streets()) return check_streets(scenario, check);
-    if (scenario.network.is_sumo()) return check_sumo(scenario, check);
-    for (std::size_t i = 0; i < scenario.measure.green_s.size(); ++i) {
-        const double green_s = scenario.measure.green_s[i];
-        const std::string field = "measure.green[" + std::to_string(i) + "]";
-        if (green_s > signal.green_s) {
-            check.error(field, "lies after the end of the green time of " + short_text(signal.green_s, unit("s")));
-        } else if (signal.first_green_s + green_s > scenario.duration_s) {
-            check.error(field, "the run ends earlier, at duration = " + short_text(scenario.duration_s, unit("s")));
-        }
+    if (!network_kind(scenario.network).ends_after_cycles && scenario.duration_s < 1.0) {
+        check.error("duration", "must be at least 1 s");
     }
-    if (signal.first_green_s >= scenario.duration_s) {
-        check.error("signal.first_green",
-                    "lies after the end of the run at " + short_text(scenario.duration_s, unit("s")));
-    }
-}
-
-// Checks that signal.cycle is not set for a single intersection or a grid, where the cycle is the sum of the two
-// stages.
-void check_cycle(const Scenario& scenario, Checker& check) {
-    const std::string& kind = scenario.network.kind;
-    if (scenario.signal.cycle_s == 0.0 || (kind != "intersection" && kind != "grid")) return;
-    check.error("signal.cycle", "must be left out here: it follows from green, cross_green, yellow and all_red, " +
-                                    short_text(scenario.signal.intersection_cycle_s(), unit("s")));
-}
-
-void check_cross_inflow(const Scenario& scenario, Checker& check) {
-    const std::string& kind = scenario.network.kind;
-    if (scenario.demand.cross_inflow_1ps == 0.0 || kind == "intersection" || kind == "grid") return;
-    check.error("demand.cross_inflow", "is for intersections and grids only");
 }
 
 void check_time_space(const Scenario& scenario, Checker& check) {
     const MeasureSettings& measure = scenario.measure;
-    if (measure.time_space_s > 0.0 && (scenario.network.is_sumo() || !scenario.network.has_several_intersections())) {
+    if (measure.time_space_s > 0.0 && network_kind(scenario.network).diagram_street == nullptr) {
         return check.error("measure.time_space", "is for grids and streets only");
     }
     if (measure.time_space_side == "west" || measure.time_space_s > 0.0) return;
@@ -202,26 +97,24 @@ void check_time_space(const Scenario& scenario, Checker& check) {
 }
 
 void check_controller(const Scenario& scenario, Checker& check) {
+    const int groups = network_kind(scenario.network).signal_groups;
     const SignalController& controller = find_signal_controller(scenario.signal.controller);
-    if (controller.problems == nullptr) return;
-    for (const SignalProblem& problem :
-         controller.problems(scenario.signal, scenario.network.has_intersections() ? 2 : 1)) {
+    if (groups == 0 || controller.problems == nullptr) return;
+    for (const SignalProblem& problem : controller.problems(scenario.signal, groups)) {
         check.error("signal." + problem.field, problem.message);
     }
 }
 
 void check_scenario(const Scenario& scenario, Checker& check) {
-    check_cross_inflow(scenario, check);
-    check_turns(scenario, check);
-    check_cycle(scenario, check);
-    check_steps(scenario, check);
+    const NetworkKind& kind = network_kind(scenario.network);
+    kind.check(scenario, check);
+    check_whole_steps(scenario, "duration", scenario.duration_s, check);
+    if (kind.has_measured_area) check_seconds(scenario, check);
     check_controller(scenario, check);
     check_times(scenario, check);
     check_names(scenario, check);
     check_fleets(scenario, check);
     check_gaps(scenario, check);
-    check_queue(scenario, check);
-    check_grid_links(scenario, check);
     check_entries(scenario, check);
     check_approaches(scenario, check);
     check_measured_area(scenario, check);
@@ -301,9 +194,9 @@ const Table& scenario_table() {
             section<&S::network>("network", network_table, "road network"),
             section<&S::signal>("signal", signal_table,
                                 "fixed-time signal; streets and SUMO networks have their own signal programmes")
-                .only_if("network.kind", {"approach", "intersection", "grid"}),
+                .only_if("network.kind", kinds_with([](const NetworkKind& kind) { return kind.signal_groups > 0; })),
             section<&S::demand>("demand", demand_table, "traffic that enters; SUMO networks have route files instead")
-                .only_if("network.kind", {"approach", "intersection", "grid", "streets"}),
+                .only_if("network.kind", kinds_with([](const NetworkKind& kind) { return !kind.has_trips; })),
             section<&S::vehicle>("vehicle", vehicle_table, "vehicle and powertrain", "vehicles")
                 .fallback("petrol_eu4_72kw"),
             section<&S::driver>("driver", driver_table, "driver: controllers and behaviour", "drivers")

@@ -1,0 +1,27 @@
+// The ways of running and measuring a scenario. Each kind of network names one of them (NetworkKind::run).
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "measure/zones.h"
+#include "runs/run_metrics.h"
+#include "scenario/scenario.h"
+
+namespace stopline {
+
+struct RunKind {
+    const char* name;  // also the group of the tables of results (runs/tables/column_docs.h)
+    // See run_metrics().
+    std::vector<RunMetric> (*metrics)(const Scenario& scenario, std::size_t population,
+                                      const std::function<bool()>& keep_going);
+    // Returns the time that results are means over. It ends at the end of the run.
+    TimeWindow (*measured_window)(const Scenario& scenario);
+};
+
+// Returns the way of running a scenario. Throws InputError if the kind of network names one that does not exist.
+const RunKind& run_kind(const Scenario& scenario);
+
+}  // namespace stopline

@@ -1,0 +1,49 @@
+// Parts that several kinds of networks share.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scenario/kinds/network_kind.h"
+
+namespace stopline {
+
+// --- Fields and layout --------------------------------------------------------------------------------------------
+
+// The section `intersection`: the layout of an intersection, single or in a grid.
+Row<NetworkSettings> intersection_section();
+std::vector<OuterLeg> intersection_legs(const NetworkSettings& network);
+double intersection_limit_mps(const NetworkSettings& network);
+double intersection_lane_width_m(const NetworkSettings& network);
+double intersection_radius_m(const NetworkSettings& network, const Lane& lane);
+
+// --- Demand and detectors -----------------------------------------------------------------------------------------
+
+// Adds the traffic of the section `demand`. `inlets`: one for each entry of the lane graph, then one for each link.
+// `lanes`: number of lanes of an approach, over which an arrival rate is spread.
+void add_drawn_demand(const Scenario& scenario, std::vector<DemandPlan::Inlet> inlets, int lanes, Model& model);
+// Returns an inlet for each entry and each link, with the turn shares of the section `demand`.
+std::vector<DemandPlan::Inlet> inlets_with_turn_shares(const Scenario& scenario, const LaneGraph& graph);
+// Adds the traffic of an intersection or a grid.
+void add_intersection_demand(const Scenario& scenario, Model& model);
+
+// Adds detectors to a lane that begins at an intersection, that is, to a lane that is neither an entry lane nor a turn
+// pocket: one detector a vehicle length after the start of the lane and, if the lane has a stop line, one in the
+// middle.
+void add_counters(const Scenario& scenario, int lane, Model& model);
+
+// --- Checks -------------------------------------------------------------------------------------------------------
+
+// Checks that a time is a whole number of steps. Signals, for instance, can change only between two steps.
+void check_whole_steps(const Scenario& scenario, const std::string& field, double time_s, Checker& check);
+// Checks that the times of the section `signal` and of measure.green are whole numbers of steps.
+void check_signal_steps(const Scenario& scenario, Checker& check);
+// Checks that the first green and the times of measure.green lie within the run.
+void check_green_times(const Scenario& scenario, Checker& check);
+// Reports an error for signal.cycle where the cycle is the sum of the stages.
+void refuse_cycle(const Scenario& scenario, Checker& check);
+// Reports an error for measure.green.
+void refuse_green_counts(const Scenario& scenario, Checker& check);
+void refuse_cross_inflow(const Scenario& scenario, Checker& check);
+
+}  // namespace stopline

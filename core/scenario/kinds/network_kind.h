@@ -1,0 +1,108 @@
+// Kinds of networks: the values of the field network.kind. A kind says which fields it has, builds the lane graph, the
+// signals and the demand from them, and checks them. Code outside this folder reads the properties of a kind and never
+// asks for its name.
+//
+// To add a kind, write a file scenario/kinds/<name>.cpp that defines a NetworkKind, and register it in
+// network_kinds.cpp.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "network/outer_leg.h"
+#include "network/side.h"
+#include "scenario/import_sumo.h"
+#include "scenario/scenario.h"
+#include "scenario/schema/field_rows.h"
+#include "sim/state/model.h"
+
+namespace stopline {
+
+// The street that a time-space diagram shows.
+struct DiagramStreet {
+    std::string lane_prefix;  // beginning of the names of the lanes on which vehicles enter the street; "": no street
+    std::string title;        // such as "Row r2"
+};
+
+struct NetworkKind {
+    const char* name;
+    const char* meaning;  // description in lists for the user
+    // How a scenario is run, measured and reported: the name of a RunKind (runs/run_kind.h).
+    const char* run;
+
+    // Number of signal groups of each intersection that the section `signal` describes. 0: the kind has signals of its
+    // own, and the section is not allowed.
+    int signal_groups = 0;
+    // Vehicles follow trips from files. The section `demand` is then not allowed, and the whole network is measured.
+    bool has_trips = false;
+    bool has_intersections = true;   // false: a road without conflicts, on which the section `rules` has no effect
+    bool is_exportable = true;       // SUMO can run the network; false: it comes from files of SUMO
+    bool ends_after_cycles = false;  // a run can end after its measured signal cycles (duration 0 s)
+    bool has_measured_area =
+        false;  // traffic is counted each second in an area (measure.area_margin, interval, window)
+    bool reports_approaches = false;  // results for each approach and turn
+
+    // The fields of the kind in the section `network`. Kinds that return a row of the same name share the field.
+    std::vector<Row<NetworkSettings>> (*fields)();
+    LaneGraph (*graph)(const NetworkSettings& network);
+    // Adds the signals to a model that has its lane graph, and right of way that changes with them.
+    void (*add_signals)(const Scenario& scenario, Model& model);
+    // Adds the traffic to a model that has its lane graph and its policies.
+    void (*add_demand)(const Scenario& scenario, Model& model);
+    // Returns the legs that lead to the border of the network. Legs that are equal by definition are listed once.
+    std::vector<OuterLeg> (*outer_legs)(const NetworkSettings& network);
+    double (*highest_limit_mps)(const NetworkSettings& network);  // highest speed limit
+    double (*lane_width_m)(const NetworkSettings& network);       // for drawings
+    // Checks what only this kind checks, apart from the ranges of fields.
+    void (*check)(const Scenario& scenario, Checker& check);
+
+    // Functions that a kind need not have.
+    // Returns the distance from the stop line at the end of `lane` to the centre of the intersection, m. nullptr: 0.
+    double (*radius_beyond_m)(const NetworkSettings& network, const Lane& lane) = nullptr;
+    // Returns the nominal cycle of the intersections. nullptr: it follows from the section `signal`.
+    NominalCycle (*nominal_cycle)(const Scenario& scenario) = nullptr;
+    // Adds the detectors of a lane that is not a connection, besides those at stop lines. nullptr: none.
+    void (*add_detectors)(const Scenario& scenario, int lane, Model& model) = nullptr;
+    // Returns the street that begins on one side of the network. nullptr: the kind has no time-space diagram.
+    DiagramStreet (*diagram_street)(const NetworkSettings& network, const LaneGraph& graph, Side from) = nullptr;
+    // Reads files that the scenario names, after its fields have been checked, and returns what is wrong with them.
+    // Relative paths start at `directory`. nullptr: the kind has no files.
+    std::vector<FieldProblem> (*import_files)(Scenario& scenario, const std::filesystem::path& directory) = nullptr;
+};
+
+// Returns all registered kinds.
+std::span<const NetworkKind* const> network_kinds();
+// Returns the names of the kinds for which a condition holds.
+template <class Condition>
+std::vector<std::string> kinds_with(const Condition& holds) {
+    std::vector<std::string> names;
+    for (const NetworkKind* kind : network_kinds()) {
+        if (holds(*kind)) names.emplace_back(kind->name);
+    }
+    return names;
+}
+// Adds a kind that is not part of the project, such as the one of a test. Call it before the first scenario is loaded,
+// because the list of fields is made then. The kind must exist until the end of the program.
+void register_network_kind(const NetworkKind& kind);
+
+// Returns the kind of the network. Throws InputError with a list of the known names if there is none.
+const NetworkKind& network_kind(const NetworkSettings& network);
+
+// Makes the row of a section whose settings are of a type that only this kind knows. The functions of the kind read
+// them with own_settings<S>().
+template <class S>
+Row<NetworkSettings> own_section(std::string name, const Table& (*table)(), std::string meaning) {
+    const SectionField section{
+        [](void* network) -> void* { return &own_settings<S>(*static_cast<NetworkSettings*>(network)); },
+        [](const void* network) -> const void* {
+            return &own_settings<S>(*static_cast<const NetworkSettings*>(network));
+        },
+        table, ""};
+    return {{std::move(name), std::move(meaning), section}};
+}
+
+}  // namespace stopline

@@ -1,0 +1,51 @@
+// The list of kinds of networks.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/input_error.h"
+#include "scenario/kinds/network_kind.h"
+
+namespace stopline {
+
+extern const NetworkKind kApproachKind;
+extern const NetworkKind kIntersectionKind;
+extern const NetworkKind kGridKind;
+extern const NetworkKind kStreetsKind;
+extern const NetworkKind kSumoKind;
+
+namespace {
+
+std::vector<const NetworkKind*>& kinds() {
+    static std::vector<const NetworkKind*> all{&kApproachKind, &kIntersectionKind, &kGridKind, &kStreetsKind,
+                                               &kSumoKind};
+    return all;
+}
+
+}  // namespace
+
+std::span<const NetworkKind* const> network_kinds() { return kinds(); }
+
+void register_network_kind(const NetworkKind& kind) { kinds().push_back(&kind); }
+
+const NetworkKind& network_kind(const NetworkSettings& network) {
+    for (const NetworkKind* kind : kinds()) {
+        if (network.kind == kind->name) return *kind;
+    }
+    throw InputError(fmt::format("there is no kind of network '{}'; the kinds are: {}", network.kind,
+                                 fmt::join(kinds_with([](const NetworkKind&) { return true; }), ", ")));
+}
+
+NominalCycle Scenario::nominal_cycle() const {
+    const NetworkKind& kind = network_kind(network);
+    return kind.nominal_cycle != nullptr ? kind.nominal_cycle(*this)
+                                         : stopline::nominal_cycle(signal, kind.signal_groups);
+}
+
+LaneGraph make_network(const NetworkSettings& network) { return network_kind(network).graph(network); }
+
+double radius_beyond_m(const NetworkSettings& network, const Lane& lane) {
+    const NetworkKind& kind = network_kind(network);
+    return kind.radius_beyond_m == nullptr ? 0.0 : kind.radius_beyond_m(network, lane);
+}
+
+}  // namespace stopline
