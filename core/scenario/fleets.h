@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "scenario/import_sumo.h"
 #include "scenario/scenario.h"
 #include "scenario/schema/report.h"
 

@@ -14,6 +14,7 @@
 #include <variant>
 #include <vector>
 
+#include "scenario/kinds/network_kind.h"
 #include "scenario/scenario.h"
 
 namespace stopline {
@@ -95,8 +96,9 @@ struct Metric {
     std::string_view sweep_after = {};  // column that precedes this one in sweeps; empty: the order of the list applies
     bool has_mean = true;               // false: a mean over the seeds of a sweep has no meaning
     const MetricFamily* family = nullptr;
-    // The kind of network that has the metric, such as &NetworkSettings::is_streets. Null: each kind of the list.
-    bool (NetworkSettings::*only_for)() const = nullptr;
+    // Property of the kinds of networks that have the metric, such as &NetworkKind::has_trips. Null: each kind of the
+    // list has the metric.
+    bool NetworkKind::*only_for = nullptr;
     ConsoleColumn<Run> console;
 
     bool in_summary() const { return summary_decimals != kLeftOut; }

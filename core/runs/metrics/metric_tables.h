@@ -65,7 +65,7 @@ MetricColumns<Run> metric_columns(const MetricList<Run>& metrics, const Scenario
     std::vector<const Metric<Run>*> wanted;
     for (const Metric<Run>& metric : metrics) {
         const bool applies =
-            scenario == nullptr || metric.only_for == nullptr || (scenario->network.*metric.only_for)();
+            scenario == nullptr || metric.only_for == nullptr || network_kind(scenario->network).*metric.only_for;
         if (applies && is_wanted(metric)) wanted.push_back(&metric);
     }
     MetricColumns<Run> columns;

@@ -5,6 +5,7 @@
 
 #include "base/nan.h"
 #include "base/units.h"
+#include "scenario/kinds/network_kind.h"
 
 namespace stopline {
 
@@ -39,7 +40,7 @@ constexpr std::array kStraightThrough{std::pair{Side::west, Side::east}, std::pa
                                       std::pair{Side::east, Side::west}, std::pair{Side::north, Side::south}};
 
 std::vector<std::string> straight_through_names(const Scenario& scenario) {
-    if (scenario.network.is_sumo()) return {};
+    if (network_kind(scenario.network).has_trips) return {};
     std::vector<std::string> names;
     for (const auto& [from, to] : kStraightThrough) {
         names.push_back(
@@ -352,7 +353,7 @@ MetricList<MeasuredNetwork> backlog_metrics() {
          .meaning = "imported networks only: vehicles that reached the stop line in a wrong lane and were teleported",
          .value = [](const MeasuredNetwork& run) { return run.result.missed_turns; },
          .sweep_decimals = kLeftOut,
-         .only_for = &NetworkSettings::is_sumo,
+         .only_for = &NetworkKind::has_trips,
          .console = {.table = ConsoleTable::trips,
                      .heading = "missed turns",
                      .note = "vehicles that reached the stop line in a wrong lane and were teleported"}},

@@ -3,6 +3,7 @@
 #include "base/nan.h"
 #include "base/units.h"
 #include "runs/network/network_metrics.h"
+#include "scenario/kinds/network_kind.h"
 #include "scenario/make_network.h"
 
 namespace stopline {
@@ -145,7 +146,7 @@ MetricList<MeasuredNetwork> street_metrics() {
            .meaning = "streets: lane changes for a higher speed",
            .value = [](const MeasuredNetwork& run) { return run.result.discretionary_lane_changes; },
            .summary_decimals = kLeftOut}}});
-    for (Metric<MeasuredNetwork>& metric : metrics) metric.only_for = &NetworkSettings::is_streets;
+    for (Metric<MeasuredNetwork>& metric : metrics) metric.only_for = &NetworkKind::reports_approaches;
     return metrics;
 }
 

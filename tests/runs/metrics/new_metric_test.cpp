@@ -129,7 +129,7 @@ TEST(NewMetric, CanHaveAnotherPlaceInSweeps) {
 
 TEST(NewMetric, IsOnlyForItsKindOfNetwork) {
     Metric<MeasuredNetwork> metric = axle_metric<MeasuredNetwork>();
-    metric.only_for = &NetworkSettings::is_streets;
+    metric.only_for = &NetworkKind::reports_approaches;
     EXPECT_TRUE(sweep_column_names(MetricList<MeasuredNetwork>{metric}, shipped("grid.yaml")).empty());
     EXPECT_EQ(sweep_column_names(MetricList<MeasuredNetwork>{metric}, shipped("berlin.yaml")).size(), 1U);
 }
