@@ -67,7 +67,7 @@ const bool kIsRegistered = (register_network_kind(kCrossroadsKind), true);
 
 Scenario crossroads_with(std::vector<std::string> settings) {
     settings.insert(settings.begin(), {"network={kind: crossroads, crossroads: {leg: 120 m}}", "fidelity=meso",
-                                       "populations=[CDG]", "duration=300 s"});
+                                       "populations=[CTG-Ref]", "duration=300 s"});
     return load_scenario(STOPLINE_SOURCE_DIR "/scenarios/grid.yaml", settings);
 }
 
@@ -120,7 +120,7 @@ TEST(NetworkKind, RunsAndReports) {
     EXPECT_EQ(table_group(scenario.network), "network");
     const std::string table = network_csv(run_networks(scenario, {}));
     EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 2);
-    EXPECT_NE(table.find("\nCDG,"), std::string::npos);
+    EXPECT_NE(table.find("\nCTG-Ref,"), std::string::npos);
 }
 
 TEST(NetworkKind, IsListed) {
