@@ -108,11 +108,11 @@ TEST(NetworkKind, RunsAndReports) {
     std::vector<std::string> columns;
     const std::vector<RunMetric> metrics = run_metrics(scenario, 0);
     for (const RunMetric& metric : metrics) {
-        columns.push_back(metric.column());
-        if (metric.name == "throughput") {
+        columns.push_back(metric.column);
+        if (metric.column == "throughput_veh_h") {
             EXPECT_GT(std::stod(metric.value), 1000.0);
         }
-        if (metric.name == "overlaps" || metric.name == "red_entries") {
+        if (metric.column == "overlaps" || metric.column == "red_entries") {
             EXPECT_EQ(metric.value, "0");
         }
     }
