@@ -174,7 +174,9 @@ TEST(MesoGap, KeepsTheGapOfTheLawWithEveryModel) {
     for (const char* const family : {kFamilyByLaw, kTimeGapFamily, kConstantDistanceFamily, "idm"}) {
         settings.mesoscale = family;
         const MesoGap gap = make_gap_policy(settings).meso;
-        if (settings.mesoscale != kFamilyByLaw) EXPECT_EQ(gap.family, family);
+        if (settings.mesoscale != kFamilyByLaw) {
+            EXPECT_EQ(gap.family, family);
+        }
         EXPECT_EQ(gap.has_extra_gap, gap.family == kConstantDistanceFamily) << family;
         EXPECT_EQ(gap.time_gap_s, gap.has_extra_gap ? 0.0 : 0.87) << family;
     }

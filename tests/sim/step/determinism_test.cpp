@@ -16,7 +16,7 @@ Model mixed_model() {
     TrackPlan plan;
     plan.policy = "MIX";
     plan.lanes = 2;
-    plan.length_m = 500.0;
+    plan.length_m = 700.0;
     plan.exit_m = 300.0;
     plan.gradient = 0.03;
     plan.green_from_s = 6.0;
@@ -30,6 +30,7 @@ Model mixed_model() {
     for (const GapPolicySettings& policy : load_policies()) {
         model.policies.push_back(make_gap_policy(policy));
     }
+    model.classes.assign(model.policies.size(), {});
     return model;
 }
 
@@ -39,12 +40,12 @@ Track mixed_track(bool scalar) {
     const auto types = static_cast<std::uint64_t>(track.model().vehicles.size());
     const auto policies = static_cast<std::uint64_t>(track.model().policies.size());
     for (std::uint64_t lane = 0; lane < 2; ++lane) {
-        double position_m = 499.0;
+        double position_m = 699.0;
         for (std::uint64_t k = 0; k < 30; ++k) {
+            const auto type = static_cast<int>(random_bits(5, k, lane, Purpose::vehicle_type) % types);
             track.place(static_cast<int>(2 * lane), position_m, k < 20 ? 0.0 : 12.0,
-                        static_cast<int>(random_bits(5, k, lane, Purpose::policy) % policies),
-                        static_cast<int>(random_bits(5, k, lane, Purpose::vehicle_type) % types));
-            position_m -= k < 19 ? 8.2 : 22.0;
+                        static_cast<int>(random_bits(5, k, lane, Purpose::policy) % policies), type);
+            position_m -= track.model().vehicles[at(type)].length_m + (k < 19 ? 3.05 : 17.0);
         }
     }
     return track;
