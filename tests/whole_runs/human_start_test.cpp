@@ -122,5 +122,27 @@ TEST(HumanStart, NobodyRunsIntoALeaderThatStopsHard) {
     }
 }
 
+// Human drivers and automated vehicles in one run: the vectorised and the scalar kernels of full dynamics give the same
+// bits, and no vehicle breaks a rule.
+TEST(HumanDrivers, MixWithAutomatedVehicles) {
+    const Scenario scenario = load_scenario(
+        STOPLINE_SOURCE_DIR "/scenarios/intersection.yaml",
+        {"measure.baseline=mixed",
+         "populations=[{name: mixed, components: [{policy: CDG, share: 40 %}, {policy: HUMAN, share: 40 %}, "
+         "{policy: CTG-Ref, share: 20 %}]}]"});
+    const Model vectorised = build_model(scenario, 0);
+    ASSERT_EQ(vectorised.drivers.size(), 2u);
+    Model scalar = vectorised;
+    scalar.scalar_kernels = true;
+    Simulation first(vectorised);
+    Simulation second(scalar);
+    for (int k = 1; k <= 4; ++k) {
+        first.run_until(15.0 * k);
+        second.run_until(15.0 * k);
+        ASSERT_EQ(first.state_hash(), second.state_hash()) << "at " << 15 * k << " s";
+    }
+    EXPECT_TRUE(first.state().records.violations.none());
+}
+
 }  // namespace
 }  // namespace stopline
