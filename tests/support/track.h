@@ -226,6 +226,20 @@ inline std::vector<Pairing> every_pairing() {
     return all;
 }
 
+inline bool is_human(const std::string& policy) {
+    const std::vector<GapPolicySettings> policies = load_policies();
+    return std::any_of(policies.begin(), policies.end(), [&](const GapPolicySettings& known) {
+        return known.name == policy && find_gap_law(known.law).is_human;
+    });
+}
+
+// Leaves out human drivers, who keep their gaps only roughly.
+inline std::vector<Pairing> every_automated_pairing() {
+    std::vector<Pairing> automated = every_pairing();
+    std::erase_if(automated, [](const Pairing& pairing) { return is_human(pairing.policy); });
+    return automated;
+}
+
 inline void PrintTo(const Pairing& pairing, std::ostream* out) {
     *out << pairing.policy << " with " << pairing.vehicle;
 }

@@ -32,6 +32,7 @@ std::string timed(const char* quantity, const std::string& population, double ti
 Measurements inputs_of(const Scenario& scenario, const ScorecardOptions& /*options*/) {
     Measurements inputs;
     for (const GapPolicySettings& policy : scenario.policies) {
+        if (find_gap_law(policy.law).is_human) continue;  // not a policy of the paper
         inputs.set("time_gap " + policy.name, law_parameter(policy, "time_gap"));
         inputs.set("standstill_gap " + policy.name, policy.standstill_gap_m);
     }

@@ -14,7 +14,7 @@ using namespace testing_support;
 constexpr double kLimit_mps = 40.0 / 3.6;
 
 class ClosingUp : public testing::TestWithParam<Pairing> {};
-INSTANTIATE_TEST_SUITE_P(SlowEveryPairing, ClosingUp, testing::ValuesIn(every_pairing()), as_pairing_name);
+INSTANTIATE_TEST_SUITE_P(SlowEveryPairing, ClosingUp, testing::ValuesIn(every_automated_pairing()), as_pairing_name);
 INSTANTIATE_TEST_SUITE_P(TwoPairings, ClosingUp,
                          testing::Values(Pairing{"CDG", "petrol_eu4_72kw"}, Pairing{"CTG-Ref", "electric_100kw"}),
                          as_pairing_name);

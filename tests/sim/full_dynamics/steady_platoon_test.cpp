@@ -12,7 +12,8 @@ constexpr double kSpeedsKmh[] = {15.0, 29.0, 31.0, 40.0, 50.0};
 constexpr int kFollowers = 8;
 
 class SteadyPlatoon : public testing::TestWithParam<Pairing> {};
-INSTANTIATE_TEST_SUITE_P(SlowEveryPairing, SteadyPlatoon, testing::ValuesIn(every_pairing()), as_pairing_name);
+INSTANTIATE_TEST_SUITE_P(SlowEveryPairing, SteadyPlatoon, testing::ValuesIn(every_automated_pairing()),
+                         as_pairing_name);
 INSTANTIATE_TEST_SUITE_P(OnePairing, SteadyPlatoon, testing::Values(Pairing{"SWITCH-2", "petrol_eu4_72kw"}),
                          as_pairing_name);
 

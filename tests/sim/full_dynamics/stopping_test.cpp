@@ -97,7 +97,7 @@ TEST_P(Stopping, StopsBehindAStoppedVehicle) {
         EXPECT_GT(smallest_gap_m[k], 0.0) << describe(states[k]);
         EXPECT_LT(car.speed_mps, kBrakeHoldSpeed_mps) << describe(states[k]);
         if (states[k].is_far) {
-            EXPECT_NEAR(car.gap_m, standstill_gap_m, 0.1) << describe(states[k]);
+            EXPECT_NEAR(car.gap_m, standstill_gap_m, is_human(GetParam().policy) ? 0.35 : 0.1) << describe(states[k]);
         }
     }
 }
