@@ -115,10 +115,10 @@ struct IdmSettings {
     bool operator==(const IdmSettings&) const = default;
 };
 
-// Human drivers (human.h), for policies with the law `human`. The errors are those of Treiber, Kesting, Helbing 2006. The
-// reaction time is the mean start-up reaction time of Salles, Kaufmann, Reuss 2020, "Extending the intelligent driver
-// model in SUMO and verifying the drive off trajectories with aerial measurements". The spread reaches from an expected to
-// an unexpected signal of the car ahead, 0.75 s to 1.25 s (Green 2000, "How long does it take to stop?").
+// Human drivers (human.h), for policies with the law `human`. The errors are those of Treiber, Kesting, Helbing 2006.
+// The reaction time is the mean start-up reaction time of Salles, Kaufmann, Reuss 2020, "Extending the intelligent
+// driver model in SUMO and verifying the drive off trajectories with aerial measurements". The spread reaches from an
+// expected to an unexpected signal of the car ahead, 0.75 s to 1.25 s (Green 2000, "How long does it take to stop?").
 struct HumanSettings {
     IdmSettings idm;
     double reaction_s = 1.0;

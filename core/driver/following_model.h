@@ -1,6 +1,7 @@
-// Car-following models of the mesoscale mode. A model computes the speed of the next step of each vehicle. A trait struct
-// such as Krauss (krauss.h) or Idm (idm.h) holds its parameters and equations. The kernels are compiled for each trait
-// struct, so no call per vehicle is virtual. All other code asks FollowingModel, which can hold any of these structs.
+// Car-following models of the mesoscale mode. A model computes the speed of the next step of each vehicle. A trait
+// struct such as Krauss (krauss.h) or Idm (idm.h) holds its parameters and equations. The kernels are compiled for each
+// trait struct, so no call per vehicle is virtual. All other code asks FollowingModel, which can hold any of these
+// structs.
 //
 // To add a model, write its trait struct in a file of its own, and name it in sim/mesoscale/following_types.h. The
 // concept CarFollowing lists what the struct must have.
@@ -101,10 +102,10 @@ STOPLINE_INLINE R contact_speed_mps(const FollowingInputOf<R>& in, double dt) {
     return max_of(in.gap_m, R(0.0)) * (1.0 / dt);
 }
 
-// Returns the speed of the next step that a model desires, within the bounds that hold for every model. The model cannot
-// reduce the speed below `lowest_mps`, except to avoid contact with the leader or if in.speed_cap_mps is lower. A
-// model can brake too little: with anticipation, with short gaps or with long steps, if the leader stops harder than the
-// model expects, such as before a conflict area. The desired speed is below `lowest_mps` only after lane changes.
+// Returns the speed of the next step that a model desires, within the bounds that hold for every model. The model
+// cannot reduce the speed below `lowest_mps`, except to avoid contact with the leader or if in.speed_cap_mps is lower.
+// A model can brake too little: with anticipation, with short gaps or with long steps, if the leader stops harder than
+// the model expects, such as before a conflict area. The desired speed is below `lowest_mps` only after lane changes.
 template <class R>
 STOPLINE_INLINE R bounded_speed_mps(const FollowingInputOf<R>& in, const R& desired_mps, const R& lowest_mps,
                                     double dt) {

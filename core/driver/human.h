@@ -1,6 +1,6 @@
-// Human drivers: the human driver model (HDM) of Treiber, Kesting, Helbing 2006, "Delays, inaccuracies and anticipation in
-// microscopic traffic models", Physica A 360. A driver accelerates as in the intelligent driver model (idm.h), but sees
-// gap and closing speed late and not exactly:
+// Human drivers: the human driver model (HDM) of Treiber, Kesting, Helbing 2006, "Delays, inaccuracies and anticipation
+// in microscopic traffic models", Physica A 360. A driver accelerates as in the intelligent driver model (idm.h), but
+// sees gap and closing speed late and not exactly:
 //
 //   reaction time    The driver sees the gap s and the closing speed dv as they were a reaction time tau ago. Temporal
 //                    anticipation: the driver assumes that dv has not changed since, so the gap is now s - tau dv.
@@ -9,8 +9,8 @@
 //                    collision.
 //
 // In the source, w_s and w_v are Wiener processes with unit variance and a correlation time. Here they are functions of
-// time alone, so that a driver needs no memory: between random numbers at the ends of intervals of the correlation time,
-// w is interpolated so that its variance is 1 at all times. Each driver has its own reaction time, uniform within
+// time alone, so that a driver needs no memory: between random numbers at the ends of intervals of the correlation
+// time, w is interpolated so that its variance is 1 at all times. Each driver has its own reaction time, uniform within
 // reaction_s +- reaction_spread_s. A driver at rest makes no errors, and the errors grow up to kFullErrorSpeed_mps.
 //
 // Full dynamics stores the measurements of past steps, so a driver sees them exactly tau late
@@ -56,8 +56,9 @@ struct HumanView {
     R gap_m, closing_mps;
 };
 
-// Returns the view with the estimation errors. `random.driver(n)` is random number n of the driver, `random.time_s()` is
-// the time. Number 0 gives the reaction time; the numbers 1, 3, 5, ... the gap error; 2, 4, 6, ... the closing error.
+// Returns the view with the estimation errors. `random.driver(n)` is random number n of the driver, `random.time_s()`
+// is the time. Number 0 gives the reaction time; the numbers 1, 3, 5, ... the gap error; 2, 4, 6, ... the closing
+// error.
 template <class R, class Random>
 STOPLINE_INLINE HumanView<R> with_errors(const HumanSettings& h, const HumanView<R>& exact, const R& speed_mps,
                                          const Random& random) {

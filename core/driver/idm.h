@@ -1,15 +1,16 @@
 // The intelligent driver model (IDM) of Treiber, Hennecke, Helbing 2000, "Congested traffic states in empirical
-// observations and microscopic simulations", Physical Review E 62. The acceleration at speed v, net gap s, leader's speed
-// v_l and desired speed v_0 is
+// observations and microscopic simulations", Physical Review E 62. The acceleration at speed v, net gap s, leader's
+// speed v_l and desired speed v_0 is
 //
 //   a (1 - (v / v_0)^4 - (s* / s)^2)    with    s* = s_0 + max(0, T v + v (v - v_l) / (2 sqrt(a b)))
 //
 // Here a is the maximum acceleration, b the comfortable deceleration, T the time gap and s_0 the standstill gap. In
-// equilibrium at speed v the gap is (s_0 + T v) / sqrt(1 - (v / v_0)^4). The exponent 4 is that of the source. The maximum
-// with 0 is that of Treiber, Kesting 2013, "Traffic Flow Dynamics", section 11.3.
+// equilibrium at speed v the gap is (s_0 + T v) / sqrt(1 - (v / v_0)^4). The exponent 4 is that of the source. The
+// maximum with 0 is that of Treiber, Kesting 2013, "Traffic Flow Dynamics", section 11.3.
 //
-// In the mesoscale mode, v_0 is the speed limit of the lane, and s_0 and T are those of the spacing policy. If the policy
-// has an extra gap (MesoGap), s_0 also contains the extra gap at the current speed. Speed and position after a step dt are
+// In the mesoscale mode, v_0 is the speed limit of the lane, and s_0 and T are those of the spacing policy. If the
+// policy has an extra gap (MesoGap), s_0 also contains the extra gap at the current speed. Speed and position after a
+// step dt are
 //
 //   v' = v + dt x acceleration,  x <- x + v' dt
 //

@@ -73,8 +73,8 @@ struct GapLaw {
     void (*evaluate)(const GapPolicy& policy, std::span<const double> speed_mps, std::span<double> gap_m,
                      std::span<double> slope_s);
     // Returns how the mesoscale mode models the gap of the policy, with the car-following model that the law implies.
-    // The policy can name another model (GapPolicySettings::mesoscale). MesoGap::family is empty if the gap can have any
-    // shape, so that the law implies no model. The policy must then name a model for mesoscale runs.
+    // The policy can name another model (GapPolicySettings::mesoscale). MesoGap::family is empty if the gap can have
+    // any shape, so that the law implies no model. The policy must then name a model for mesoscale runs.
     MesoGap (*meso_gap)(const GapPolicy& policy);
     // Returns the problems of settings whose values are all within their ranges. nullptr: such settings have none.
     std::vector<LawProblem> (*problems)(const GapPolicySettings& settings) = nullptr;

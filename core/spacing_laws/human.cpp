@@ -1,5 +1,5 @@
-// Human drivers: the desired gap at equal speeds of the intelligent driver model (driver/idm.h), standstill gap plus time
-// gap times speed. The acceleration is that of driver/human.h.
+// Human drivers: the desired gap at equal speeds of the intelligent driver model (driver/idm.h), standstill gap plus
+// time gap times speed. The acceleration is that of driver/human.h.
 #include "spacing_laws/gap_policy.h"
 
 namespace stopline {

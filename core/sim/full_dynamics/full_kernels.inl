@@ -151,8 +151,8 @@ void gather(const FullStreams& streams, const DelayRows& radar_rows, const Delay
     }
 }
 
-// Limits the lowest of the accelerations that apply, and stores it as the request of vehicles with the driver `only`, or
-// of all vehicles if `only` is below 0.
+// Limits the lowest of the accelerations that apply, and stores it as the request of vehicles with the driver `only`,
+// or of all vehicles if `only` is below 0.
 template <class R>
 STOPLINE_INLINE void store_request(const DriverTablesOf<float>& d, const FullGroup& g, double dt, int only, int k,
                                    const R& smallest, const R& is_platoon_leader) {
