@@ -121,6 +121,8 @@ def add_fleet(rng, mixture, own):
         # At 70 km/h a brake that responds 0.1 s later needs a gap of 3.95 m.
         if brakes_late and (component["policy"] in short or component["policy"] not in ("CDG-6m", "CTG-HCM", "CTG-Ref")):
             component["policy"] = rng.choice(["CDG-6m", "CTG-HCM", "CTG-Ref"])
+        if rng.random() < 0.2 and not brakes_late:
+            component["policy"] = "HUMAN"
         component["vehicle"] = name
         if driver:
             component["driver"] = driver
