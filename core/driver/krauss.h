@@ -1,5 +1,5 @@
-// The car-following models of Krauss's family. They compute the speed of the next step from the state at the start of the
-// step.
+// The car-following models of Krauss's family. They compute the speed of the next step from the state at the start of
+// the step.
 //
 // Policies with a time gap use the model of Krauss (1998, "Microscopic modeling of traffic flow", chapter
 // 5), with its condition for safe driving solved for the speed, as in SUMO. At a net gap s behind a leader with the
@@ -48,7 +48,8 @@ struct KraussPerVehicle {
     R band_m, below_band_speed_share;
 };
 
-// The model of one spacing policy, ready for use. SI units. The trait CarFollowing explains the functions.
+// The model of one spacing policy, ready for use. SI units. The concept CarFollowing (following_model.h) explains the
+// functions.
 struct Krauss {
     static constexpr std::array kNames{
         FollowingName{kConstantDistanceFamily, "equation (1) of the paper: a constant distance"},

@@ -1,15 +1,14 @@
 // The start of a queue of human drivers beside public data. The parameters of the drivers come from the literature
 // (driver/driver_settings.h) and are not fitted to these data:
 //
-//   discharge        24, 24 and 22 vehicles a lane in 70 s of green (issue 17830 of SUMO). A further lane lies between 18
-//                    and 29 with 95 % (prediction interval of three values).
+//   discharge        24, 24 and 22 vehicles a lane in 70 s of green (issue 17830 of SUMO). A further lane lies between
+//                    18 and 29 with 95 % (prediction interval of three values).
 //   first headways   3.8 s, 3.1 s, 2.7 s and 2.4 s at the stop line (Greenshields, Schapiro, Ericksen 1947, "Traffic
 //                    performance at urban street intersections"). The first one is from the start of green.
 //   start wave       6.8 m/s, from drive-off measurements of Salles, Kaufmann, Reuss 2020
 //
-// The discharge of full dynamics lies in the interval. The start wave is slower and the headways are longer than the data,
-// because the acceleration of the source for cities, 1 m/s2, is less than half of the measured one of standing starts
-// (data/startup). With 2.5 m/s2, the headways of the second to the fourth vehicle agree with the data.
+// The simulated start wave is slower and the headways are longer than in these data. The reason is the acceleration for
+// cities in the literature, 1 m/s2, which is less than half of that in measured standing starts (data/startup).
 #include <gtest/gtest.h>
 
 #include <array>

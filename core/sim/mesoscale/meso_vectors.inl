@@ -1,5 +1,5 @@
-// Vectors of the mesoscale kernels: loads and stores of the values of a block, and look-up in tables. R is one double, or
-// a vector with one double for each slot of a block. All functions have internal linkage (meso_kernels.inl).
+// Vectors of the mesoscale kernels: loads and stores of the values of a block, and look-up in tables. R is one double,
+// or a vector with one double for each slot of a block. All functions have internal linkage (meso_kernels.inl).
 #include <array>
 #include <bit>
 #include <cstddef>
