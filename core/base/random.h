@@ -44,9 +44,9 @@ constexpr double random_uniform(std::uint64_t seed, std::uint64_t vehicle, std::
     return static_cast<double>(random_bits(seed, vehicle, tick, purpose) >> 11) * 0x1.0p-53;
 }
 
-// The next functions make random numbers that kernels compute for several vehicles at once. A key is the part of the
-// random numbers that all vehicles share. The numbers have 52 random bits, because every instruction set can vectorise
-// the conversion of 52 bits to a double.
+// The next functions make random numbers that kernels compute for several vehicles at once. A key combines the seed and
+// the purpose, which are the same for all vehicles. The numbers have 52 random bits, because every instruction set can
+// vectorise the conversion of 52 bits to a double.
 constexpr std::uint64_t purpose_key(std::uint64_t seed, Purpose purpose) {
     return mix64(seed ^ (static_cast<std::uint64_t>(purpose) << 56));
 }

@@ -117,8 +117,9 @@ struct IdmSettings {
 
 // Human drivers (human.h), for policies with the law `human`. The errors are those of Treiber, Kesting, Helbing 2006.
 // The reaction time is the mean start-up reaction time of Salles, Kaufmann, Reuss 2020, "Extending the intelligent
-// driver model in SUMO and verifying the drive off trajectories with aerial measurements". The spread reaches from an
-// expected to an unexpected signal of the car ahead, 0.75 s to 1.25 s (Green 2000, "How long does it take to stop?").
+// driver model in SUMO and verifying the drive off trajectories with aerial measurements". With the default spread, the
+// reaction times lie between those to an expected and to an unexpected signal of the car ahead (Green 2000, "How long
+// does it take to stop?").
 struct HumanSettings {
     IdmSettings idm;
     double reaction_s = 1.0;
@@ -157,7 +158,7 @@ struct KraussSettings {
     double dawdling = 0.4;           // sigma, 0 .. 1
 };
 
-// The mesoscale mode: the parameters of the car-following models (following_model.h) and of all else.
+// The parameters of the mesoscale mode, including those of its car-following models (following_model.h).
 struct MesoSettings {
     std::string name;  // name of this set of values; default: the name of the file in data/meso
     double step_s = 0.1;

@@ -1,7 +1,6 @@
 // Car-following models of the mesoscale mode. A model computes the speed of the next step of each vehicle. A trait
 // struct such as Krauss (krauss.h) or Idm (idm.h) holds its parameters and equations. The kernels are compiled for each
-// trait struct, so no call per vehicle is virtual. All other code asks FollowingModel, which can hold any of these
-// structs.
+// trait struct, so no call per vehicle is virtual. All other code uses FollowingModel, which can hold any trait struct.
 //
 // To add a model, write its trait struct in a file of its own, and name it in sim/mesoscale/following_types.h. The
 // concept CarFollowing lists what the struct must have.
@@ -26,7 +25,7 @@ namespace stopline {
 
 struct MesoKernels;  // sim/mesoscale/meso_kernels.h
 
-// Names of the families that spacing laws use.
+// Names of the car-following models that spacing laws imply.
 inline constexpr const char* kConstantDistanceFamily = "constant_distance";
 inline constexpr const char* kTimeGapFamily = "time_gap";
 inline constexpr const char* kHumanFamily = "human";
@@ -69,8 +68,8 @@ struct FollowingBraking {
     double reaction_s;
 };
 
-// The random numbers of one vehicle in one step, all with the same value. Models get such numbers as a parameter and
-// call only what they need.
+// The parameter `random` of the functions of a model: the random numbers of one vehicle in one step. Here all numbers
+// have the same value. A model calls only the members that it needs.
 struct FixedRandom {
     double value = 0.0;
     double dawdle() const { return value; }
@@ -102,10 +101,10 @@ STOPLINE_INLINE R contact_speed_mps(const FollowingInputOf<R>& in, double dt) {
     return max_of(in.gap_m, R(0.0)) * (1.0 / dt);
 }
 
-// Returns the speed of the next step that a model desires, within the bounds that hold for every model. The model
-// cannot reduce the speed below `lowest_mps`, except to avoid contact with the leader or if in.speed_cap_mps is lower.
-// A model can brake too little: with anticipation, with short gaps or with long steps, if the leader stops harder than
-// the model expects, such as before a conflict area. The desired speed is below `lowest_mps` only after lane changes.
+// Returns the desired speed of a model, within the bounds that hold for every model. The speed does not fall below
+// `lowest_mps`, except to avoid contact with the leader or if in.speed_cap_mps is lower. The bound on contact is needed
+// if the leader stops harder than the model expects, such as before a conflict area. A model can then brake too little
+// because of anticipation, a short gap or a long step. The desired speed is below `lowest_mps` only after lane changes.
 template <class R>
 STOPLINE_INLINE R bounded_speed_mps(const FollowingInputOf<R>& in, const R& desired_mps, const R& lowest_mps,
                                     double dt) {
@@ -113,11 +112,11 @@ STOPLINE_INLINE R bounded_speed_mps(const FollowingInputOf<R>& in, const R& desi
         min_of(min_of(max_of(desired_mps, lowest_mps), contact_speed_mps(in, dt)), in.speed_cap_mps));
 }
 
-// The nearest vehicle type of SUMO.
+// The vehicle type of SUMO that is nearest to a car-following model.
 struct SumoFollowing {
     const char* model;  // carFollowModel
     double acceleration_mps2, deceleration_mps2, time_gap_s, standstill_gap_m, dawdling;
-    bool is_same_model;
+    bool is_same_model;  // true: `model` of SUMO has the same equations
 };
 
 // Name and description of a car-following model for users.
@@ -126,8 +125,9 @@ struct FollowingName {
     const char* meaning;
 };
 
-// The trait of a car-following model. Besides these members, a model has three function templates over the number type
-// R (krauss.h and idm.h are examples). Their parameter `k` holds the model of one policy:
+// The requirements on the trait struct of a car-following model. Besides these members, the struct has four function
+// templates over the number type R (krauss.h and idm.h are examples). Their parameter `k` holds the model of one
+// policy:
 //
 //   R following_speed_mps(k, in, random, dt)
 //       Returns the highest next speed that the leader allows.
@@ -149,7 +149,8 @@ struct FollowingName {
 template <class M>
 concept CarFollowing = std::is_trivially_copyable_v<M> &&
     requires(const M& model, const FollowingSettings& settings, const MesoGap& gap, double speed_mps) {
-    M::kNames;  // array of FollowingName: a model can have several names with other parameters
+    // Array of FollowingName. A struct with several forms of its equations, such as Krauss, has a name for each form.
+    M::kNames;
     { M::make(settings, gap) } -> std::same_as<M>;
     { model.equilibrium_gap_m(speed_mps) } -> std::same_as<double>;  // without the extra gap
     { model.smallest_gap_m() } -> std::same_as<double>;              // smallest gap at rest

@@ -1,6 +1,6 @@
 // Human drivers: the human driver model (HDM) of Treiber, Kesting, Helbing 2006, "Delays, inaccuracies and anticipation
 // in microscopic traffic models", Physica A 360. A driver accelerates as in the intelligent driver model (idm.h), but
-// sees gap and closing speed late and not exactly:
+// sees gap and closing speed with a delay and with errors:
 //
 //   reaction time    The driver sees the gap s and the closing speed dv as they were a reaction time tau ago. Temporal
 //                    anticipation: the driver assumes that dv has not changed since, so the gap is now s - tau dv.
@@ -9,15 +9,15 @@
 //                    collision.
 //
 // In the source, w_s and w_v are Wiener processes with unit variance and a correlation time. Here they are functions of
-// time alone, so that a driver needs no memory: between random numbers at the ends of intervals of the correlation
-// time, w is interpolated so that its variance is 1 at all times. Each driver has its own reaction time, uniform within
-// reaction_s +- reaction_spread_s. A driver at rest makes no errors, and the errors grow up to kFullErrorSpeed_mps.
+// time, so that a driver needs no memory: each process has a random number at every multiple of the correlation time.
+// It is interpolated between these numbers so that its variance is always 1. The errors are 0 at rest and grow with the
+// speed up to kFullErrorSpeed_mps.
 //
-// Full dynamics stores the measurements of past steps, so a driver sees them exactly tau late
-// (sim/full_dynamics/human_perception.h). The mesoscale mode stores no past. There, the anticipation is taken to
-// compensate the reaction time while following, which is the main result of the source. At the start, a driver reacts
-// with the reaction time: it starts when its leader has the speed tau x a_l, where a_l is the leader's acceleration. A
-// leader that accelerates evenly has then moved for the time tau.
+// Each driver has its own reaction time, uniform within reaction_s +- reaction_spread_s. Full dynamics stores the
+// measurements of past steps, so a driver sees them tau late (sim/full_dynamics/human_perception.h). The mesoscale mode
+// stores no past. There, a driver in motion has no delay, because the anticipation compensates for it (main result of
+// the source). A driver at rest starts when the speed of its leader reaches tau x a_l, where a_l is the leader's
+// acceleration. A leader that accelerates evenly has then moved for the time tau.
 #pragma once
 
 #include <array>
@@ -37,9 +37,9 @@ STOPLINE_INLINE R reaction_time_s(const HumanSettings& h, const R& u) {
     return h.reaction_s + h.reaction_spread_s * (2.0 * u - 1.0);
 }
 
-// The place of a time between two random numbers of an error process.
+// The two random numbers between which an error process is interpolated, and their weights.
 struct ErrorKnots {
-    std::uint64_t first;  // index of the earlier random number
+    std::uint64_t first;  // index of the earlier random number; the later one has the next index
     double first_weight, second_weight;
 };
 STOPLINE_INLINE ErrorKnots error_knots(double time_s, double correlation_s) {
@@ -57,8 +57,8 @@ struct HumanView {
 };
 
 // Returns the view with the estimation errors. `random.driver(n)` is random number n of the driver, `random.time_s()`
-// is the time. Number 0 gives the reaction time; the numbers 1, 3, 5, ... the gap error; 2, 4, 6, ... the closing
-// error.
+// is the time. Number 0 gives the reaction time. The numbers 1, 3, 5, ... give the gap error, and 2, 4, 6, ... give the
+// closing error.
 template <class R, class Random>
 STOPLINE_INLINE HumanView<R> with_errors(const HumanSettings& h, const HumanView<R>& exact, const R& speed_mps,
                                          const Random& random) {
@@ -76,8 +76,8 @@ STOPLINE_INLINE HumanView<R> with_errors(const HumanSettings& h, const HumanView
     return {gap_m, exact.closing_mps + error_mps};
 }
 
-// Human drivers as a car-following model of the mesoscale mode. The trait CarFollowing explains the functions. The
-// policy gives the standstill gap and the time gap, the driver all other parameters.
+// Human drivers as a car-following model of the mesoscale mode. The concept CarFollowing (following_model.h) explains
+// the functions. The policy gives the standstill gap and the time gap, the driver all other parameters.
 struct Human : Idm {
     static constexpr std::array kNames{FollowingName{"human", "human drivers: idm with reaction time and errors"}};
 

@@ -1,20 +1,20 @@
 // The intelligent driver model (IDM) of Treiber, Hennecke, Helbing 2000, "Congested traffic states in empirical
-// observations and microscopic simulations", Physical Review E 62. The acceleration at speed v, net gap s, leader's
-// speed v_l and desired speed v_0 is
+// observations and microscopic simulations", Physical Review E 62. The acceleration depends on the speed v, the net gap
+// s, the leader's speed v_l and the desired speed v_0:
 //
 //   a (1 - (v / v_0)^4 - (s* / s)^2)    with    s* = s_0 + max(0, T v + v (v - v_l) / (2 sqrt(a b)))
 //
 // Here a is the maximum acceleration, b the comfortable deceleration, T the time gap and s_0 the standstill gap. In
-// equilibrium at speed v the gap is (s_0 + T v) / sqrt(1 - (v / v_0)^4). The exponent 4 is that of the source. The
-// maximum with 0 is that of Treiber, Kesting 2013, "Traffic Flow Dynamics", section 11.3.
+// equilibrium at speed v the gap is (s_0 + T v) / sqrt(1 - (v / v_0)^4). The exponent 4 comes from the source. The
+// maximum with 0 comes from Treiber, Kesting 2013, "Traffic Flow Dynamics", section 11.3.
 //
-// In the mesoscale mode, v_0 is the speed limit of the lane, and s_0 and T are those of the spacing policy. If the
-// policy has an extra gap (MesoGap), s_0 also contains the extra gap at the current speed. Speed and position after a
-// step dt are
+// In the mesoscale mode, v_0 is the speed limit of the lane times the speed factor. The spacing policy gives s_0 and T.
+// If the policy has an extra gap (MesoGap), s_0 also contains the extra gap at the current speed. Speed and position
+// after a step dt are
 //
 //   v' = v + dt x acceleration,  x <- x + v' dt
 //
-// The IDM is free of collisions only for small steps. The bounds of bounded_speed_mps() hold for all steps.
+// The IDM alone prevents collisions only if the steps are short. bounded_speed_mps() prevents them for all steps.
 #pragma once
 
 #include <array>
@@ -32,7 +32,7 @@ struct IdmParameters {
     double standstill_gap_m = 0.0;
     double closing_s2pm = 0.0;  // 1 / (2 sqrt(a b)); idm_parameters() sets it
 
-    // Returns the desired gap at equal speeds. It is the equilibrium gap well below the desired speed.
+    // Returns s* at equal speeds. Well below the desired speed, this is the equilibrium gap.
     double equilibrium_gap_m(double speed_mps) const { return standstill_gap_m + time_gap_s * speed_mps; }
 };
 
@@ -42,7 +42,7 @@ inline IdmParameters idm_parameters(const IdmSettings& settings, double standsti
 }
 
 inline constexpr double kMinIdmGap_m = 0.1;  // shorter gaps count as this gap
-// Reaction time of the braking before a stop line: that of stop_acceleration() (acceleration_laws.h).
+// Reaction time of the braking before a stop line. stop_acceleration() (acceleration_laws.h) has the same value.
 inline constexpr double kBrakingReaction_s = 0.5;
 
 // Returns (s* / s)^2 for the speed, the closing speed v - v_l and the net gap. `standstill_gap_m` is s_0, and
@@ -69,7 +69,8 @@ inline double idm_acceleration_mps2(const IdmParameters& p, double speed_mps, do
                                                   p.time_gap_s * speed_mps, p.closing_s2pm));
 }
 
-// The IDM as a car-following model of the mesoscale mode. The trait CarFollowing explains the functions.
+// The IDM as a car-following model of the mesoscale mode. The concept CarFollowing (following_model.h) explains the
+// functions.
 struct Idm : IdmParameters {
     static constexpr std::array kNames{
         FollowingName{"idm", "the intelligent driver model of Treiber, Hennecke and Helbing"}};

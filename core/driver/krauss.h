@@ -48,7 +48,8 @@ struct KraussPerVehicle {
     R band_m, below_band_speed_share;
 };
 
-// The model of one spacing policy, ready for use. SI units. The trait CarFollowing explains the functions.
+// The model of one spacing policy, ready for use. SI units. The concept CarFollowing (following_model.h) explains the
+// functions.
 struct Krauss {
     static constexpr std::array kNames{
         FollowingName{kConstantDistanceFamily, "equation (1) of the paper: a constant distance"},

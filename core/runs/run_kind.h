@@ -14,14 +14,14 @@ namespace stopline {
 
 struct RunKind {
     const char* name;  // also the group of the tables of results (runs/tables/column_docs.h)
-    // See run_metrics().
+    // Runs one population and returns its metrics, as run_metrics() does.
     std::vector<RunMetric> (*metrics)(const Scenario& scenario, std::size_t population,
                                       const std::function<bool()>& keep_going);
-    // Returns the time that results are means over. It ends at the end of the run.
+    // Returns the period for which results are measured. It ends at the end of the run.
     TimeWindow (*measured_window)(const Scenario& scenario);
 };
 
-// Returns the way of running a scenario. Throws InputError if the kind of network names one that does not exist.
+// Returns the way of running a scenario. Throws InputError if NetworkKind::run is an unknown name.
 const RunKind& run_kind(const Scenario& scenario);
 
 }  // namespace stopline

@@ -37,7 +37,7 @@ FleetClass class_of(const Scenario& scenario, const PopulationSettings& populati
     FleetClass fleet_class{*found, vehicle_of(scenario, component), driver_of(scenario, component), scenario.meso};
     fleet_class.policy.name = component_name(component);
     if (!component.vehicle && !component.driver) return fleet_class;
-    // An own vehicle limits the acceleration to what its powertrain can give, an own driver to what it wants.
+    // The own vehicle limits the acceleration to the available one, the own driver to that of its free driving.
     fleet_class.limit_mps2 = [own_vehicle = component.vehicle.has_value(), own_driver = component.driver.has_value(),
                               vehicle = compile_powertrain(fleet_class.vehicle),
                               free = fleet_class.driver.free_drive](double speed_mps) {
@@ -67,7 +67,8 @@ void set_meso(const SumoDriving& driving, MesoSettings& meso) {
     set_acceleration_and_braking(driving, meso.constant_distance.acceleration_mps2,
                                  meso.constant_distance.deceleration_mps2);
     set_acceleration_and_braking(driving, meso.idm.acceleration_mps2, meso.idm.deceleration_mps2);
-    // The model adds the difference between the policy and the calibrated values. For a constant time gap it is 0.
+    // Krauss::make() adds the difference between the gaps of the policy and the calibrated gaps. With these values, the
+    // difference is 0 for a constant time gap. The gaps of policies with a constant distance do not change.
     meso.constant_distance.standstill_gap_m += driving.standstill_gap_m - meso.calibrated_standstill_gap_m;
     meso.calibrated_standstill_gap_m = driving.standstill_gap_m;
     meso.calibrated_time_gap_s = driving.time_gap_s;
@@ -139,8 +140,8 @@ DriverPlan driver_plan(const DriverSettings& settings, const PowertrainTables& v
     return driver;
 }
 
-// Adds the vehicle types and the drivers of all classes. A driver plan depends on the vehicle and on the kind of the
-// driver, so each combination of vehicle, driver and kind has its own plan.
+// Adds the vehicle types and the drivers of all classes. A driver plan depends on the vehicle and on whether the driver
+// is human, so each combination of vehicle, driver and human or automated driving has its own plan.
 void add_vehicles_and_drivers(const std::vector<FleetClass>& classes, Model& model) {
     std::vector<PowertrainSettings> vehicles;
     std::vector<DriverSettings> drivers;

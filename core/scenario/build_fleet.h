@@ -8,16 +8,16 @@
 
 namespace stopline {
 
-// Adds the spacing policies, vehicle types and drivers of a population to the model, and the shares of its components to
-// the demand. Throws InputError if a component names an unknown policy.
+// Adds the spacing policies, vehicle types and drivers of a population to the model. Adds the shares of its components
+// to the demand. Throws InputError if a component names an unknown policy.
 void add_fleet(const Scenario& scenario, const PopulationSettings& population, Model& model);
 
-// Mesoscale mode: makes the car-following model of each policy. Adds the bounds of the accelerations if components have
-// their own vehicle or driver, or if the vehicle types of SUMO's files apply.
+// Mesoscale mode: makes the car-following model of each policy. Adds upper bounds of the accelerations if components
+// have their own vehicle or driver, or if the vehicle types of SUMO's files apply.
 void add_following_models(const Scenario& scenario, const PopulationSettings& population, Model& model);
 
-// Draws the policies of all trips. If the vehicle types of SUMO's files apply, each trip gets the policy of its component
-// with the parameters of its type.
+// Draws the policies of all trips. If the vehicle types of SUMO's files apply, each trip then gets the variant of its
+// policy with the parameters of its vehicle type.
 void assign_trip_policies(const Scenario& scenario, Model& model);
 
 }  // namespace stopline

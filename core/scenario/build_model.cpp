@@ -119,7 +119,7 @@ Model build_model(const Scenario& scenario, std::size_t population) {
     const CaccSettings& cacc = driver_of(scenario, vehicles.components.front()).cacc;
     model.radar = make_delay(std::max(cacc.radar_delay_s - scenario.tick_s(), 0.0), scenario.tick_s());
     model.v2v = make_delay(cacc.v2v_delay_s, scenario.tick_s());
-    // Human drivers read older measurements. The arrays must keep them for the longest reaction time.
+    // Human drivers use measurements that are up to one reaction time old, so the arrays keep them for the longest one.
     for (const DriverPlan& driver : model.drivers) {
         if (!driver.is_human) continue;
         const double longest_s = driver.human.reaction_s + driver.human.reaction_spread_s;

@@ -144,8 +144,9 @@ bool exists(const Table& table, const Field& field, const SourceNode& map) {
            field.condition_values.end();
 }
 
-// Completes one field: inserts its default if the field exists, its data file or its library list, and turns list
-// entries that are a single word into maps. Does not complete the fields inside a map or a list.
+// Completes one field. If the file does not give the field, inserts its default, unless the field is tied to another
+// choice. Inserts the content of a data file or library list that the field names. Turns list entries that are a single
+// word into maps. Does not complete the fields inside a map or a list.
 void complete_field(const Table& table, const Field& field, SourceNode& map, const std::string& path, Report& report) {
     SourceNode* value = map.find(field.name);
     const auto* const section = std::get_if<SectionField>(&field.kind);

@@ -27,8 +27,8 @@ bool is_used(const Scenario& scenario, const GapPolicySettings& policy) {
     });
 }
 
-// Returns how much smaller than the standstill gap of the policy the gap of a stopped vehicle can be in the mesoscale
-// mode, m. Vehicles can touch if the standstill gap of the policy is smaller than the result.
+// Mesoscale mode: returns by how much the gap of a stopped vehicle can fall below the standstill gap of its policy, m.
+// Vehicles can touch if the standstill gap is smaller than the result.
 double meso_min_gap_m(const Scenario& scenario, const GapPolicySettings& policy) {
     return policy.standstill_gap_m -
            make_following_model({scenario.meso, scenario.driver.human}, make_gap_policy(policy).meso).smallest_gap_m();

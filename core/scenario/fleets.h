@@ -18,14 +18,14 @@ const DriverSettings& driver_of(const Scenario& scenario, const PopulationSettin
 // own ones, such as "CDG_rigid_lorry_12t".
 std::string component_name(const PopulationSettings::Component& component);
 
-// Reports the drivers of a population that disagree in a setting that all its vehicles share: delays of radar and V2V,
-// range of the radar, and maximum braking. A constant distance is safe only if no vehicle brakes harder than its
-// follower can. Also reports late_brake_problems().
+// Checks that all drivers of a population have the same delays of radar and V2V, range of the radar and maximum
+// braking. A constant distance is safe only if no vehicle brakes harder than its follower can. Also reports
+// late_brake_problems().
 void check_fleets(const Scenario& scenario, Checker& check);
 
-// Full dynamics: returns the components whose gaps are too small because their brakes respond later than those of the
-// vehicles ahead. In a hard stop they come nearer by the difference of the lags times the speed. Speeds up to the highest
-// limit of the network count. The limits of an imported network are known only after the import.
+// Full dynamics: returns the components whose gaps are too small because their brakes respond later than those of other
+// vehicles. In a hard stop, the gap shrinks by the difference of the brake lags times the speed. The check covers
+// speeds up to the highest speed limit, which is known only after the import for an imported network.
 std::vector<FieldProblem> late_brake_problems(const Scenario& scenario);
 
 // Returns the mean length of the vehicles of a population, m.

@@ -75,7 +75,7 @@ Scenario scenario_from(SourceNode root, const std::vector<std::string>& override
     apply_overrides(root, overrides, source.directory, report);
     complete(scenario_table(), root, "", report);
     if (root.find("name") == nullptr) add_scalar(root, "name", name_from_file(source.label, "scenario"));
-    // Such a run ends after its measured cycles, unless the file gives its duration.
+    // The run of a single intersection ends after its measured cycles, unless the file gives its duration.
     if (ends_after_cycles(root) && root.find("duration") == nullptr) add_scalar(root, "duration", "0 s");
     Scenario scenario;
     read_fields(scenario_table(), root, "", &scenario, report);

@@ -59,7 +59,8 @@ struct Scenario {
 
     bool is_meso() const { return fidelity == "meso"; }
     double tick_s() const { return is_meso() ? meso.step_s : step_s; }
-    // Returns the cycle and the longest green of the intersections; for an imported network, the longest of both.
+    // Returns the nominal cycle of the intersections. For an imported network, returns the longest cycle and the
+    // longest green of all signals.
     NominalCycle nominal_cycle() const;
 };
 

@@ -57,7 +57,8 @@ struct SignalController {
     // Returns the distances from the stop line at which each approach lane gets a detector for the controller, m.
     // Every approach lane also has a detector at the stop line. nullptr: no further detectors.
     std::vector<double> (*detectors_m)(const SignalSettings& settings) = nullptr;
-    // Returns the problems of settings whose values are all within their ranges. nullptr: such settings have none.
+    // Returns contradictions between settings, each of which is within its range. nullptr: no contradiction is
+    // possible.
     std::vector<SignalProblem> (*problems)(const SignalSettings& settings, int groups) = nullptr;
     // True: the lights follow SignalPlan::programmes, whatever the traffic does. The controller then sees no detectors,
     // and the state hash leaves its lights and memory out.
@@ -67,8 +68,9 @@ struct SignalController {
 // Returns all registered controllers.
 std::span<const SignalController* const> signal_controllers();
 std::vector<std::string> signal_controller_names();
-// Adds a controller that is not part of the project, such as the one of a test. Call it before the first scenario is
-// loaded, because the list of fields is made then. The controller must exist until the end of the program.
+// Adds a controller that is not part of the project, such as the controller of a test. Call this function before the
+// first scenario is loaded, because the list of fields is made then. The controller must exist until the end of the
+// program.
 void register_signal_controller(const SignalController& controller);
 
 // Returns the controller with this name. Throws InputError with a list of the known names if there is none.

@@ -36,8 +36,8 @@ public:
     auto begin() const { return plans_.begin(); }
     auto end() const { return plans_.end(); }
 
-    // Returns the number of signal groups of the lane graph that have a signal. Groups must be added without gaps:
-    // `is_complete()` is false if a group below this number has no signal.
+    // Returns the highest signal group that has a signal, plus one. Signal groups are those of the lane graph.
+    // `is_complete()` is false if a lower group has no signal.
     int groups() const { return static_cast<int>(places_.size()); }
     bool is_complete() const;
     const SignalPlan& plan_of(int group) const { return plans_[places_[static_cast<std::size_t>(group)].signal]; }
@@ -56,7 +56,7 @@ private:
     std::vector<Place> places_;  // [signal group of the lane graph]
 };
 
-// Makes the plan of a signal with the controller `fixed_time`. Its groups are `first_group` and those that follow.
+// Makes the plan of a signal with the controller `fixed_time`. The programme k belongs to the group `first_group` + k.
 SignalPlan fixed_time_plan(int first_group, std::vector<GroupProgramme> programmes);
 // As above, for any groups. `groups` and `programmes` have the same size.
 SignalPlan fixed_time_plan(std::vector<int> groups, std::vector<GroupProgramme> programmes);

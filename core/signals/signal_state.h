@@ -1,4 +1,5 @@
-// The lights of all signals at the present tick, the memory of the controllers, and what controllers see of them.
+// The lights of all signals at the present tick, and the memory and detectors of the signal controllers. A SignalView
+// shows a controller the part of this state that belongs to its intersection.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +22,7 @@ struct SignalDetector {
     std::int64_t last_occupied_tick = -1;  // last tick at which a vehicle covered the detector; -1: never
 };
 
-// State::signals. All ticks are those of the present run, except that a light may have begun before it (below 0).
+// State::signals. Ticks count from the start of the run. A light that began before the run has a start tick below 0.
 struct SignalState {
     std::vector<Light> lights;                      // [signal group] light at the present tick
     std::vector<std::int64_t> since_tick;           // [signal group] tick at which the present light began

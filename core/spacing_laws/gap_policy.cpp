@@ -93,10 +93,11 @@ void GapPolicy::evaluate(std::span<const double> speed_mps, std::span<double> ga
 
 namespace {
 
-// Returns the gap with the car-following model that the policy names.
+// Returns `gap` for the car-following model `family` that the policy names.
 MesoGap with_family(const std::string& family, MesoGap gap) {
     if (family == kFamilyByLaw) return gap;
-    // The constant-distance model keeps no time gap, so the whole growth of the gap becomes the extra gap.
+    // The constant-distance model keeps no time gap. The extra gap then contains the whole growth of the gap with
+    // speed.
     if (family == kConstantDistanceFamily && gap.time_gap_s != 0.0) {
         gap.time_gap_s = 0.0;
         gap.has_extra_gap = true;

@@ -72,11 +72,12 @@ struct GapLaw {
     // See GapPolicy::evaluate().
     void (*evaluate)(const GapPolicy& policy, std::span<const double> speed_mps, std::span<double> gap_m,
                      std::span<double> slope_s);
-    // Returns how the mesoscale mode models the gap of the policy, with the car-following model that the law implies.
-    // The policy can name another model (GapPolicySettings::mesoscale). MesoGap::family is empty if the gap can have
-    // any shape, so that the law implies no model. The policy must then name a model for mesoscale runs.
+    // Returns the gap of the policy for the mesoscale mode, with the car-following model that the law implies. A policy
+    // can name another model (GapPolicySettings::mesoscale). A law whose gap can have any shape implies no model:
+    // MesoGap::family is then empty, and the policy must name a model for mesoscale runs.
     MesoGap (*meso_gap)(const GapPolicy& policy);
-    // Returns the problems of settings whose values are all within their ranges. nullptr: such settings have none.
+    // Returns contradictions between settings, each of which is within its range. nullptr: no contradiction is
+    // possible.
     std::vector<LawProblem> (*problems)(const GapPolicySettings& settings) = nullptr;
     // Makes GapPolicy::table. nullptr: the law needs no table.
     GapTable (*tabulate)(const GapPolicySettings& settings) = nullptr;

@@ -16,8 +16,8 @@ std::string gap_shape_problem(const GapTable& table, double standstill_gap_m);
 void evaluate_gap_table(const GapPolicy& policy, std::span<const double> speed_mps, std::span<double> gap_m,
                         std::span<double> slope_s);
 
-// Implements GapLaw::meso_gap without a car-following model. The time gap is the mean slope of the gap from rest to 50
-// km/h.
+// Implements GapLaw::meso_gap for laws that imply no car-following model. The time gap is the mean slope of the gap
+// from rest to 50 km/h.
 MesoGap shaped_meso_gap(const GapPolicy& policy);
 
 }  // namespace stopline

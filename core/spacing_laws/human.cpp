@@ -1,5 +1,5 @@
-// Human drivers: the desired gap at equal speeds of the intelligent driver model (driver/idm.h), standstill gap plus
-// time gap times speed. The acceleration is that of driver/human.h.
+// Human drivers: standstill gap plus time gap times speed. This is the desired gap of the intelligent driver model
+// (driver/idm.h) behind a leader with the same speed. driver/human.h computes the acceleration.
 #include "spacing_laws/gap_policy.h"
 
 namespace stopline {

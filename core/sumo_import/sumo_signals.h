@@ -9,7 +9,7 @@
 
 namespace stopline {
 
-// Returns the signals. First comes the group 0, which is always green, then the signals in the order of
+// Returns the signals. The first one consists of group 0, which is always green. The other signals have the order of
 // SumoNet::signals. At time t of the run, the time since the start of the current cycle is (t - offset) modulo the
 // cycle time. The letters G, g, s, o and O mean green, y and Y mean yellow, and all other letters mean red.
 SignalPlans make_sumo_signals(const SumoNetwork& network, double step_s);

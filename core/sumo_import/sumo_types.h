@@ -29,15 +29,15 @@ struct SumoType {
     SumoDriving driving = {};
     std::string where = {};  // file and line; empty: a default type of SUMO
 
-    // Returns true if the vehicles of both types drive in the same way.
+    // Returns true if both types have the same length and driving behaviour.
     bool is_like(const SumoType& other) const { return length_m == other.length_m && driving == other.driving; }
 };
 
 // All vehicle types and all distributions of vehicle types, by name.
 class SumoTypes {
 public:
-    // `uses_driving`: the import uses the driving behaviour of the types, so the attributes that describe it cause no
-    // warning.
+    // `uses_driving`: true if the import uses the driving behaviour of the types. If it is false, the attributes of the
+    // driving behaviour are ignored, and some of them cause a warning.
     explicit SumoTypes(bool uses_driving);
 
     // Reads a vType or vTypeDistribution element. Throws InputError with file and line if the element is invalid.
@@ -59,9 +59,8 @@ private:
     std::unordered_map<std::string, std::vector<Share>> types_by_name_;
 };
 
-// Returns the index of a vehicle type in the list of the different types. Adds the type if it is new. Throws InputError
-// at `node` if there would be too many types, because the simulation treats the vehicles of each type in a pass of its
-// own.
+// Returns the index of a vehicle type in the list of different types. Adds the type if it is new. Throws InputError
+// with the place of `node` if there are too many types: the simulation computes each type in a pass of its own.
 int index_of(const SumoXml& xml, pugi::xml_node node, const SumoType& type, std::vector<SumoType>& types);
 
 // Returns the index of the share that a random number in [0, 1) selects. The shares need not sum to 1.

@@ -1,4 +1,4 @@
-// A kind of network that is registered here: scenarios name it, and it loads, runs, reports and is listed.
+// This file registers a kind of network. Scenarios of this kind are loaded, run and reported, and lists name the kind.
 #include "scenario/kinds/network_kind.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// A signal controller that reacts to traffic, registered here: scenarios name it, and all kinds of runs obey it.
+// This file registers a signal controller that reacts to traffic. Scenarios can name it, and all kinds of runs obey it.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kFreeTime = 0;  // index in SignalPlan::values
 constexpr std::array kParameters{SignalParameter{"free_time", "s", 1, 60, "3 s", "test: green ends after this time"}};
 
-// The memory of the controller.
+// Indices in the memory of the controller (SignalView::memory()), and their number. kGroup: the group that has green.
 enum : std::size_t { kGroup, kNumbers };
 
 std::size_t memory_size(const SignalPlan& /*plan*/) { return kNumbers; }
@@ -120,7 +120,7 @@ TEST(SignalController, WrongSettingsAreRefused) {
     expect_error("berlin.yaml", {"signal={controller: until_free}"}, "field 'signal' applies only if network.kind");
 }
 
-// The green of a queue ends when the stop line has been free for 3 s.
+// The first green ends when no detector of the approach has been occupied for 3 s.
 TEST(SignalController, ReadsDetectors) {
     const Scenario scenario = scenario_of("single_light.yaml", {"demand.vehicles=10", "signal.first_green=60 s",
                                                                 "signal.green=5 s", "measure.green=[5 s]"});
@@ -145,7 +145,8 @@ TEST(SignalController, ReadsDetectors) {
     EXPECT_TRUE(state.records.violations.none());
 }
 
-// Vehicles obey the lights: all of a queue pass, none of them on red, and no green of the other group overlaps.
+// In each kind of network with the section `signal`, vehicles obey the lights of the controller: there are no
+// violations, and vehicles leave the network.
 TEST(SignalController, ControlsEveryKindOfNetworkWithASignal) {
     const SingleLightReport single =
         run_single_light(scenario_of("single_light.yaml", {"signal.first_green=60 s"}), {});

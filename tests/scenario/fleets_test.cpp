@@ -105,7 +105,7 @@ TEST(Fleets, ConstantDistancesCoverLaterBrakes) {
     EXPECT_EQ(message_of("{policy: CDG, share: 100 %, vehicle: articulated_lorry_35t, driver: lorry}"), "");
 }
 
-// The mean length of the vehicles counts for the length of a queue.
+// The check that a queue fits on the approach uses the mean length of the vehicles.
 TEST(Fleets, QueueMustFitOnTheApproach) {
     const std::vector<std::string> road{"network.approach.length=200 m", "demand.vehicles=20"};
     EXPECT_EQ(message_of("{policy: CDG, share: 100 %}", road), "");

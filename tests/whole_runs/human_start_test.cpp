@@ -7,9 +7,8 @@
 //                    performance at urban street intersections"). The first one is from the start of green.
 //   start wave       6.8 m/s, from drive-off measurements of Salles, Kaufmann, Reuss 2020
 //
-// The discharge of full dynamics lies in the interval. The start wave is slower and the headways are longer than the
-// data, because the acceleration of the source for cities, 1 m/s2, is less than half of the measured one of standing
-// starts (data/startup). With 2.5 m/s2, the headways of the second to the fourth vehicle agree with the data.
+// The simulated start wave is slower and the headways are longer than in these data. The reason is the acceleration for
+// cities in the literature, 1 m/s2, which is less than half of that in measured standing starts (data/startup).
 #include <gtest/gtest.h>
 
 #include <array>

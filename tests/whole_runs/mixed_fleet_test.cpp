@@ -89,8 +89,8 @@ TEST_P(MixedFleet, DrivesWithoutViolationsInAGrid) {
     for (const Highest& own : run(model, 300.0)) EXPECT_GT(own.vehicles, 3);
 }
 
-// A lorry with a speed limiter of 60 km/h on a road with a limit of 80 km/h: neither the lorry nor its followers are
-// faster. Vehicles ahead of the first lorry are.
+// Lorries with a speed limiter of 60 km/h drive on a road with a limit of 80 km/h. They stay below 60 km/h, but
+// vehicles ahead of the first lorry do not.
 TEST_P(MixedFleet, SpeedLimitersHold) {
     Scenario scenario = fleet("single_light", GetParam(),
                               {"network.approach.speed_limit=80 km/h", "network.approach.length=1000 m",
@@ -115,8 +115,8 @@ TEST_P(MixedFleet, ScalarKernelsGiveTheSameBits) {
     EXPECT_EQ(hash_of(true), hash_of(false));
 }
 
-// In steady state, the mean headway of a mixed fleet is the mean length plus the mean gap, divided by the speed. Each
-// gap is that of a population in which all vehicles follow the same policy.
+// In steady state, the mean headway of a mixed fleet is the mean length plus the mean gap, divided by the speed. A
+// separate run for each policy, in which all vehicles follow this policy, gives the gaps.
 TEST_P(MixedFleet, SteadyHeadwayIsThatOfLengthsAndGaps) {
     const std::vector<std::string> overrides{"network.approach.length=1000 m",
                                              "network.approach.exit_length=4000 m",

@@ -91,7 +91,7 @@ TEST_P(SumoVehicleTypesRun, DrivesAsItsTypes) {
 INSTANTIATE_TEST_SUITE_P(BothFidelities, SumoVehicleTypesRun, ::testing::Values("full", "meso"),
                          [](const auto& fidelity) { return std::string(fidelity.param); });
 
-// Full dynamics needs standstill gaps of 2 m.
+// Full dynamics needs standstill gaps of at least 2 m.
 TEST(SumoVehicleTypes, SmallGapsAreRefusedInFullDynamics) {
     const std::string types =
         "\n<vType id=\"t\" minGap=\"1\"/><trip id=\"a\" type=\"t\" depart=\"0\" from=\"ab\" to=\"bc\"/>";

@@ -1,8 +1,8 @@
 // The table of metrics. One entry describes a metric of a run and computes its value. These outputs read the entries:
 // summary.csv, the table of a sweep, the console, COLUMNS.md, stopline-run --list and the results page.
 //
-// Each kind of network has a list of entries for its own kind of run: single_light_metrics.h, intersection_metrics.h
-// and network_metrics.h. The order of the list is the order of the columns.
+// Each way of running a scenario (runs/run_kind.h) has a list of entries: single_light_metrics.h,
+// intersection_metrics.h and network_metrics.h. The order of a list is the order of the columns.
 #pragma once
 
 #include <concepts>
@@ -45,8 +45,8 @@ struct MetricKey {
     std::string_view console_note = {};  // explanation below a console table
 };
 
-// A family of metrics: one entry that gives a column for each key. Entries of the same family that follow each other
-// alternate in the tables: all columns of the first key precede those of the second key.
+// A family of metrics: one entry that gives a column for each key. If neighbouring entries have the same family, the
+// columns of all these entries for the first key come first, then those for the second key.
 struct MetricFamily {
     std::string_view placeholder;  // CAPITALS that stand for the key in the name of a column
     // Returns the names of the keys. Null: the keys are those in `described`.
@@ -63,7 +63,7 @@ struct MetricFamily {
 // have `congestion`, and imported networks also have `trips`.
 enum class ConsoleTable : std::uint8_t { results, congestion, trips };
 
-// Stands for the decimals in a table that does not have the metric.
+// Value of summary_decimals or sweep_decimals if the table does not have the metric.
 inline constexpr int kLeftOut = -1;
 
 // Appearance of a metric on the console.
@@ -82,8 +82,8 @@ struct ConsoleColumn {
     bool is_in(ConsoleTable wanted) const { return !heading.empty() && table == wanted; }
 };
 
-// A metric of a run. `Run` refers to one finished run, such as MeasuredNetwork. It has the members `scenario`, `key`
-// and population(). In a family, Run::key is the index of the key that `value` must use.
+// A metric of a run. `Run` is a type that refers to one finished run, such as MeasuredNetwork. It has the members
+// `scenario`, `key` and population(). In a family, Run::key is the index of the key for which `value` is called.
 template <class Run>
 struct Metric {
     std::string_view column;       // name in CSV tables, which ends with the unit

@@ -11,10 +11,10 @@
 
 namespace stopline {
 
-// The metrics of the runs of some kinds of networks.
+// The metrics of one way of running (runs/run_kind.h).
 struct MetricGroup {
     std::string_view name;             // group of the tables, as in column_docs.h
-    std::string_view title;            // kinds of networks, in words
+    std::string_view title;            // kinds of networks that are run in this way, in words
     std::vector<ColumnDoc> summary;    // columns of summary.csv after `population`
     std::vector<ColumnDoc> sweep;      // columns of sweeps after the seed
     std::vector<std::string> no_mean;  // columns of sweeps whose means over seeds have no meaning
@@ -27,7 +27,7 @@ struct MetricGroup {
 // Returns all groups, in the order of scenarios/COLUMNS.md.
 const std::vector<MetricGroup>& metric_groups();
 
-// Returns the group with this name, which must exist, or the group of a network.
+// Return the group with this name, and the group of a network. The group must exist.
 const MetricGroup& metric_group(std::string_view name);
 const MetricGroup& metric_group_of(const NetworkSettings& network);
 

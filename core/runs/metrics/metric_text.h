@@ -17,12 +17,12 @@ struct ListedMetric {
 // The heading lines of a console table.
 class ConsoleHead {
 public:
-    // Adds a column. The lines of `heading` are separated by '\n'. They stand directly above the unit.
+    // Adds a column. The lines of `heading` are separated by '\n'. Its last line is directly above the unit.
     void add(std::string_view heading, std::string_view unit);
     // Adds a column with a vertical bar.
     void add_bar();
-    // Returns one row for each line of the highest heading, and the row of units. The first column is empty except for
-    // the word "population" in the last row.
+    // Returns one row for each line of the heading with the most lines, and then the row of units. The first column is
+    // empty except for the word "population" in the row of units.
     std::vector<std::vector<std::string>> rows() const;
 
 private:
@@ -30,7 +30,7 @@ private:
     std::vector<bool> is_bar_;
 };
 
-// Returns `text` with `key` in each place of `placeholder`.
+// Returns `text` with `key` in place of each `placeholder`.
 std::string with_key(std::string_view text, std::string_view placeholder, std::string_view key);
 
 // Returns the text up to the first semicolon or full stop, without the backquotes of Markdown.

@@ -22,8 +22,8 @@ struct RunCounts {
     std::uint64_t state_hash;
 };
 
-// Returns the metrics of vehicles, violations and work. Tables of sweeps have all of them, except that `overlaps` is
-// there the sum of `overlaps` and `conflicts`. `in_summary` names those in summary.csv.
+// Returns the metrics of vehicles, violations and work. `in_summary` names the metrics in summary.csv. Tables of sweeps
+// have all metrics, but their column `overlaps` is the sum of overlaps and conflicts.
 template <class Run>
 MetricList<Run> count_metrics(std::initializer_list<std::string_view> in_summary) {
     MetricList<Run> metrics{

@@ -1,5 +1,5 @@
-// The metrics that only streets have. A stretch is one of two periods of the run. In the paper, the queue on the
-// corridor reaches the entries of the network between these two periods.
+// The metrics that only streets have. Some of them are means over two periods of the run, called stretches. In the
+// paper, the queue on the corridor reaches the entries of the network between the two periods.
 #include "base/nan.h"
 #include "base/units.h"
 #include "runs/network/network_metrics.h"

@@ -29,7 +29,7 @@ struct TableDoc {
 // The first column of most tables.
 inline const ColumnDoc kPopulationColumn{"population", "", "", "name of the population"};
 
-// Returns the columns after the column of populations.
+// Returns kPopulationColumn followed by `columns`.
 std::vector<ColumnDoc> with_population(const std::vector<ColumnDoc>& columns);
 
 // Returns the descriptions of all tables, in the order of scenarios/COLUMNS.md.

@@ -9,8 +9,8 @@ namespace stopline {
 
 namespace {
 
-// Returns the metrics of all kinds of networks, each once. A metric of single intersections or single lights alone is
-// marked as such.
+// Returns the columns of sweeps of all kinds of networks, each name once. The meaning of a column that networks of
+// several intersections do not have begins with the kinds that have it.
 std::vector<ColumnDoc> run_columns() {
     std::vector<ColumnDoc> columns{
         {"point", "", "", "number of the run, from 0"},

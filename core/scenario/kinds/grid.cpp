@@ -60,7 +60,8 @@ void check_grid(const Scenario& scenario, Checker& check) {
     check_grid_links(scenario, check);
 }
 
-// Returns the middle row or column. Its name is part of the names of lanes, unless the grid has one intersection only.
+// Returns the middle row or column. The names of its entry lanes begin with the name of the intersection at the border,
+// unless the grid has only one intersection.
 DiagramStreet middle_street(const NetworkSettings& network, const LaneGraph& /*graph*/, Side from) {
     const GridSettings& grid = network.grid;
     int column = grid.columns / 2;

@@ -20,7 +20,7 @@ double intersection_radius_m(const NetworkSettings& network, const Lane& lane);
 // --- Demand and detectors -----------------------------------------------------------------------------------------
 
 // Adds the traffic of the section `demand`. `inlets`: one for each entry of the lane graph, then one for each link.
-// `lanes`: number of lanes of an approach, over which an arrival rate is spread.
+// `lanes`: number of lanes that share the arrival rate of an approach.
 void add_drawn_demand(const Scenario& scenario, std::vector<DemandPlan::Inlet> inlets, int lanes, Model& model);
 // Returns an inlet for each entry and each link, with the turn shares of the section `demand`.
 std::vector<DemandPlan::Inlet> inlets_with_turn_shares(const Scenario& scenario, const LaneGraph& graph);
@@ -40,9 +40,10 @@ void check_whole_steps(const Scenario& scenario, const std::string& field, doubl
 void check_signal_steps(const Scenario& scenario, Checker& check);
 // Checks that the first green and the times of measure.green lie within the run.
 void check_green_times(const Scenario& scenario, Checker& check);
-// Reports an error for signal.cycle where the cycle is the sum of the stages.
+// Reports an error if the scenario sets signal.cycle. The cycle of an intersection is the sum of its stages.
 void refuse_cycle(const Scenario& scenario, Checker& check);
-// Reports an error for measure.green.
+// Report an error if the scenario sets measure.green, which only single lights use, or demand.cross_inflow, which only
+// intersections and grids use.
 void refuse_green_counts(const Scenario& scenario, Checker& check);
 void refuse_cross_inflow(const Scenario& scenario, Checker& check);
 

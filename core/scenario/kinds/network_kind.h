@@ -1,6 +1,6 @@
-// Kinds of networks: the values of the field network.kind. A kind says which fields it has, builds the lane graph, the
-// signals and the demand from them, and checks them. Code outside this folder reads the properties of a kind and never
-// asks for its name.
+// Kinds of networks: the values of the field network.kind. A kind defines its fields in the section `network`, checks
+// them, and builds the lane graph, the signals and the demand from them. Code outside this folder should read the
+// properties of a kind instead of comparing its name.
 //
 // To add a kind, write a file scenario/kinds/<name>.cpp that defines a NetworkKind, and register it in
 // network_kinds.cpp.
@@ -42,22 +42,23 @@ struct NetworkKind {
     bool has_intersections = true;   // false: a road without conflicts, on which the section `rules` has no effect
     bool is_exportable = true;       // SUMO can run the network; false: it comes from files of SUMO
     bool ends_after_cycles = false;  // a run can end after its measured signal cycles (duration 0 s)
-    bool has_measured_area =
-        false;  // traffic is counted each second in an area (measure.area_margin, interval, window)
+    // Traffic is counted each second in an area (measure.area_margin, interval, window).
+    bool has_measured_area = false;
     bool reports_approaches = false;  // results for each approach and turn
 
     // The fields of the kind in the section `network`. Kinds that return a row of the same name share the field.
     std::vector<Row<NetworkSettings>> (*fields)();
     LaneGraph (*graph)(const NetworkSettings& network);
-    // Adds the signals to a model that has its lane graph, and right of way that changes with them.
+    // Adds the signals, and the rights of way that change with the signals. The model already has its lane graph.
     void (*add_signals)(const Scenario& scenario, Model& model);
-    // Adds the traffic to a model that has its lane graph and its policies.
+    // Adds the traffic. The model already has its lane graph and its spacing policies.
     void (*add_demand)(const Scenario& scenario, Model& model);
     // Returns the legs that lead to the border of the network. Legs that are equal by definition are listed once.
     std::vector<OuterLeg> (*outer_legs)(const NetworkSettings& network);
     double (*highest_limit_mps)(const NetworkSettings& network);  // highest speed limit
     double (*lane_width_m)(const NetworkSettings& network);       // for drawings
-    // Checks what only this kind checks, apart from the ranges of fields.
+    // Checks the settings beyond the ranges of single fields. Checks that all kinds share are in
+    // schema/fields_scenario.cpp.
     void (*check)(const Scenario& scenario, Checker& check);
 
     // Functions that a kind need not have.
@@ -65,7 +66,8 @@ struct NetworkKind {
     double (*radius_beyond_m)(const NetworkSettings& network, const Lane& lane) = nullptr;
     // Returns the nominal cycle of the intersections. nullptr: it follows from the section `signal`.
     NominalCycle (*nominal_cycle)(const Scenario& scenario) = nullptr;
-    // Adds the detectors of a lane that is not a connection, besides those at stop lines. nullptr: none.
+    // Adds further detectors to a lane that is not a connection. Each stop line has a detector for all kinds. nullptr:
+    // no further detectors.
     void (*add_detectors)(const Scenario& scenario, int lane, Model& model) = nullptr;
     // Returns the street that begins on one side of the network. nullptr: the kind has no time-space diagram.
     DiagramStreet (*diagram_street)(const NetworkSettings& network, const LaneGraph& graph, Side from) = nullptr;
@@ -85,15 +87,15 @@ std::vector<std::string> kinds_with(const Condition& holds) {
     }
     return names;
 }
-// Adds a kind that is not part of the project, such as the one of a test. Call it before the first scenario is loaded,
-// because the list of fields is made then. The kind must exist until the end of the program.
+// Adds a kind that is not part of the project, such as the kind of a test. Call this function before the first scenario
+// is loaded, because the list of fields is made then. The kind must exist until the end of the program.
 void register_network_kind(const NetworkKind& kind);
 
-// Returns the kind of the network. Throws InputError with a list of the known names if there is none.
+// Returns the kind with the name network.kind. Throws InputError with a list of the known names if there is none.
 const NetworkKind& network_kind(const NetworkSettings& network);
 
-// Makes the row of a section whose settings are of a type that only this kind knows. The functions of the kind read
-// them with own_settings<S>().
+// Makes the row of a section of the kind. S is the struct of its settings, which only the file of the kind knows. The
+// functions of the kind read the settings with own_settings<S>().
 template <class S>
 Row<NetworkSettings> own_section(std::string name, const Table& (*table)(), std::string meaning) {
     const SectionField section{

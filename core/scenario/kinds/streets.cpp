@@ -102,8 +102,8 @@ bool has_straight_connection(const LaneGraph& graph, int lane) {
     });
 }
 
-// Among the entry lanes for vehicles from `side`, returns the approach of those that begin furthest out in this
-// direction. Entry lanes without a straight connection do not count.
+// Returns the approach with the entry lanes that begin furthest out on `side` of the network. Entry lanes without a
+// straight connection do not count.
 DiagramStreet outermost_street(const NetworkSettings& /*network*/, const LaneGraph& graph, Side side) {
     const Lane* furthest = nullptr;
     for (const int entry : graph.entries) {

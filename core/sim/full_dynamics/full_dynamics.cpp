@@ -74,8 +74,8 @@ void evaluate_gap_laws(const Model& model, int vehicles, const FullGroup& g) {
     }
 }
 
-// Sets the driver of each vehicle of the group. Applies speed limiters: the driver does not want to exceed the maximum
-// speed of the vehicle, and the limiter holds this speed even if the driver wants to close a gap.
+// Sets the driver of each vehicle of the group. Applies speed limiters: the maximum speed of the vehicle lowers the
+// speed limit of its driver, and bounds the acceleration even if the driver exceeds this limit to close a gap.
 void apply_classes(const Model& model, int vehicles, const FullGroup& g) {
     if (model.drivers.size() > 1) {
         for (int i = 0; i < vehicles; ++i) g.driver[i] = model.classes[at(g.policy[i])].driver;

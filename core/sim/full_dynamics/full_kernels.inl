@@ -151,8 +151,9 @@ void gather(const FullStreams& streams, const DelayRows& radar_rows, const Delay
     }
 }
 
-// Limits the lowest of the accelerations that apply, and stores it as the request of vehicles with the driver `only`,
-// or of all vehicles if `only` is below 0.
+// Stores the requests of a batch of vehicles. The request is `smallest`, the lowest of the accelerations that apply,
+// within the limits of jerk and maximum braking. Changes only vehicles with the driver `only`, or all vehicles if
+// `only` is below 0.
 template <class R>
 STOPLINE_INLINE void store_request(const DriverTablesOf<float>& d, const FullGroup& g, double dt, int only, int k,
                                    const R& smallest, const R& is_platoon_leader) {
@@ -225,8 +226,9 @@ STOPLINE_INLINE void plan_at(const DriverTablesOf<float>& d, const FullGroup& g,
 }
 
 // Computes the requested acceleration of human drivers, as plan_at() does for automated vehicles. Human drivers have no
-// V2V, and `gap` and `closing` of the group are what they see. The intelligent driver model gives the acceleration in
-// free driving and behind a leader. A platoon leader starts with the measured start-up profile instead.
+// V2V. FullGroup::gap and FullGroup::closing are what they see of the leader (human_perception.h). The intelligent
+// driver model gives the acceleration in free driving and behind a leader. A platoon leader starts with the measured
+// start-up profile instead.
 template <class R>
 STOPLINE_INLINE void plan_human_at(const DriverTablesOf<float>& d, const FullGroup& g, double dt, int only, int k) {
     const CaccSettingsOf<float>& c = d.cacc;

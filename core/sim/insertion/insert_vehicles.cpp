@@ -91,8 +91,8 @@ Entry entry_at(const Model& model, const State& state, int number, int policy) {
 }
 
 // Copies acceleration and powertrain state from the leader to a new vehicle. The vehicle thus enters as part of an
-// endless platoon. Torque, gear and lag of another vehicle type have no meaning for the new vehicle. If the types
-// differ, the new vehicle keeps those of steady driving. It brakes like its leader, but does not accelerate yet.
+// endless platoon. If the leader has another vehicle type, its torque, gear and lag do not fit the new vehicle. The new
+// vehicle then keeps its values for steady driving, and takes over the braking of the leader but not its acceleration.
 void copy_longitudinal_state(const Model& model, VehicleArrays& v, std::size_t i, std::size_t leader) {
     v.acceleration_mps2[i] = v.acceleration_mps2[leader];
     v.is_platoon_leader[i] = 0.0F;

@@ -11,7 +11,8 @@ namespace stopline {
 
 namespace {
 
-// Returns the detectors on the lanes of each signal whose controller reads detectors, upstream ones first.
+// Returns all detectors on the approach lanes of each signal whose controller reads detectors, in the order of
+// Model::detectors.
 std::vector<std::vector<SignalDetector>> signal_detectors(const Model& model) {
     struct Place {
         std::size_t signal = 0;

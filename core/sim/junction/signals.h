@@ -11,10 +11,11 @@ namespace stopline {
 // Sets the lights and the memory of all controllers for the first step.
 void start_signals(const Model& model, State& state);
 
-// Sets the lights of the tick State::tick. Controllers that follow a programme are called only when a light changes.
+// Sets the lights of the tick State::tick. Calls only those controllers that asked for a call at this tick. A
+// controller that follows a programme asks for the ticks at which a light changes.
 void update_signals(const Model& model, State& state);
 
-// Adds lights and memory of those controllers to the hash that do not follow a programme.
+// Adds to the hash the lights and the memory of each controller that does not follow a programme.
 void add_signals(const Model& model, const State& state, StateHash& hash);
 
 }  // namespace stopline

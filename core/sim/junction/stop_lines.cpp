@@ -72,7 +72,8 @@ int choose_stopper(const Model& model, const State& state, const LaneBlock& bloc
     return -1;
 }
 
-// Returns the reaction time of the vehicle that stopped for the signal of a lane, in ticks.
+// Returns the reaction time of the vehicle that stopped for the signal of a lane, in ticks. If the drivers differ and
+// the vehicle has left the lane, returns 0.
 std::int64_t hesitation_ticks(const Model& model, const State& state, const LaneBlock& block,
                               const StopLineState& line) {
     if (model.drivers.size() == 1) return model.drivers.front().hesitation_ticks;

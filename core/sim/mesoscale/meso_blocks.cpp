@@ -41,10 +41,9 @@ void update_queue(const VehicleArrays& v, const LaneBlock& block, std::int64_t t
 
 // Tells stopped vehicles of a queue by V2V that the vehicle ahead of the queue has started. Returns the number of
 // vehicles that receive this start message. A vehicle forwards the message before it moves, so the message reaches
-// several vehicles in one step. The relay ends at the first vehicle whose car-following model passes on no start
-// messages (FollowingModel::relays_starts()), because this vehicle starts later. This function only stores the
-// messages, because the decisions for other lanes still read the present accelerations of the receivers. step_meso()
-// applies the messages.
+// several vehicles in one step. The relay ends at the first vehicle whose car-following model does not pass on messages
+// (FollowingModel::relays_starts()). This function only stores the messages, because the decisions for other lanes
+// still read the present accelerations of the receivers. step_meso() applies the messages.
 int relay_start(const Model& model, const VehicleArrays& v, const LaneBlock& block, StandingQueue& queue,
                 std::vector<StartMessage>& messages) {
     // The relay ends at a vehicle whose gap exceeds its desired gap by more than this value.

@@ -56,9 +56,9 @@ struct MesoStep {
     bool prefetches;        // true: the kernels prefetch blocks; useful if the vehicle data do not fit into the cache
 };
 
-// Gap in m that a vehicle with a switching policy (SWITCH: the desired gap grows above a switch speed) adds to its
-// standstill gap; 0 for all other vehicles. The array has one value for each slot of the blocks that move, in the order
-// of the blocks; nullptr: 0 for all slots.
+// Extra gap of each vehicle at its current speed, m: the part of its desired gap beyond standstill gap plus time gap
+// times speed (MesoGap). The array has one value for each slot of the blocks that move, in the order of the blocks.
+// nullptr: 0 for all slots.
 using ExtraGap = const double*;
 
 // The kernels of one car-following model for one instruction set.
@@ -73,7 +73,7 @@ struct MesoKernels {
     // ascending order. The slot before a lane's first vehicle must hold a copy of this vehicle's leader. Returns the
     // number of vehicles that overlap their leader.
     int (*step)(const MesoStreams&, std::span<const int> blocks, Models, ExtraGap, const MesoStep&);
-    // The same for policies with several models. It is the same function for all models of one instruction set.
+    // The same for policies with several models. The kernels of all models have the same function here.
     int (*step_mixed)(const MesoStreams&, std::span<const int> blocks, Models, ExtraGap, const MesoStep&);
     // Computes the next speeds of the vehicles with one policy in the block that begins at `slot`. step_mixed() calls
     // this function. `extra_gap` and `next_mps` have one value for each slot of the block.

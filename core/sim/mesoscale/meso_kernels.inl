@@ -186,7 +186,8 @@ struct Block {
                                                s.is_platoon_leader + i);
     }
 
-    // Returns the highest speeds that vehicles with weak powertrains can reach in this step.
+    // Returns the speeds that the vehicles reach in this step with their highest accelerations
+    // (MesoStep::acceleration_limits).
     STOPLINE_INLINE R reachable_mps() const {
         constexpr int kSize = std::is_same_v<R, double> ? 1 : kWide;
         std::array<double, std::size_t{kSize}> reachable{};

@@ -189,8 +189,8 @@ void ensure_teleport_slot(State& state) {
 
 namespace {
 
-// Mesoscale mode: sets those values of a vehicle that depend on its lane. The speed limiter of the vehicle is not taken
-// into account, because the slot may not hold its vehicle yet (limit_to_maximum_speed()).
+// Mesoscale mode: sets those values of a vehicle that depend on its lane. The maximum speed of the vehicle does not
+// count here, because the slot may not hold its vehicle yet. limit_to_maximum_speed() applies it later.
 void set_lane_of(State& state, int lane, int slot) {
     VehicleArrays& v = state.vehicles;
     if (v.has_powertrain()) return;

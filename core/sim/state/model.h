@@ -64,7 +64,7 @@ struct DriverPlan {
     std::int64_t hesitation_ticks = 0;  // reaction time of the first vehicle at a stop line when its signal turns green
 };
 
-// The vehicle and the driver of one component of the population.
+// The vehicle type and the driver of the vehicles with one spacing policy.
 struct VehicleClass {
     int vehicle = 0;  // index in Model::vehicles
     int driver = 0;   // index in Model::drivers
@@ -78,9 +78,12 @@ struct Model {
     SignalPlans signals;                           // one for each intersection
     std::vector<PhasePriority> phase_priorities;   // right of way that changes with the phases of a signal
     std::vector<PowertrainTables> vehicles;        // the vehicle types of the population
-    std::vector<DriverPlan> drivers;               // the drivers of the population, for each type that they drive
-    std::vector<GapPolicy> policies;               // [component of the population] spacing policy
-    std::vector<VehicleClass> classes;             // [component of the population, as in `policies`]
+    // The drivers of the population. A driver of several vehicle types has a plan for each type.
+    std::vector<DriverPlan> drivers;
+    // [policy] Each component of the population has a policy of its own. If the vehicle types of SUMO's files apply,
+    // each pair of component and vehicle type has one.
+    std::vector<GapPolicy> policies;
+    std::vector<VehicleClass> classes;  // [policy]
     DemandPlan demand;
     std::vector<Detector> detectors;
     std::vector<std::string> loop_names;
@@ -99,7 +102,7 @@ struct Model {
     // Indices of the two detectors that stand for the start and the end of a trip. They are on no lane. -1: none.
     int trips_begin = -1;
     int trips_end = -1;
-    bool has_speed_limiters = false;  // true: some vehicles have a lower maximum speed than the speed limit of a lane
+    bool has_speed_limiters = false;  // true: the maximum speed of some vehicles is below the speed limit of a lane
     // Settings of the mesoscale mode.
     bool meso = false;                      // true: mesoscale mode; false: full dynamics
     std::vector<FollowingModel> following;  // [policy] car-following model
@@ -137,8 +140,8 @@ struct Model {
     const PowertrainTables& vehicle_of(int policy) const {
         return vehicles[static_cast<std::size_t>(classes[static_cast<std::size_t>(policy)].vehicle)];
     }
-    // Returns any driver of the population. Use it only for settings in which all drivers of a population must agree
-    // (check_fleets() in scenario/fleets.h), such as the range of the radar and the maximum braking.
+    // Returns the first driver of the population. check_fleets() (scenario/fleets.h) ensures that all drivers have the
+    // same range of the radar and maximum braking. For other settings, this driver stands for all drivers.
     const DriverTables& common_driver() const { return drivers.front().tables; }
 
     double time_s(std::int64_t tick) const { return static_cast<double>(tick) * step_s; }

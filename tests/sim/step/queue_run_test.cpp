@@ -16,7 +16,7 @@ INSTANTIATE_TEST_SUITE_P(Mix, QueueRun, testing::Values(Pairing{"MIX", "petrol_e
 TEST_P(QueueRun, HoldsTheInvariantsInEveryStep) {
     Scenario scenario = single_light(GetParam().vehicle, GetParam().policy);
     scenario.demand.vehicles = 25;
-    const double more_m = 25.0 * (scenario.vehicle.length_m - 5.15);  // than for a queue of cars
+    const double more_m = 25.0 * (scenario.vehicle.length_m - 5.15);  // a queue of cars is shorter by this length
     scenario.network.approach.length_m = 320.0 + more_m;
     scenario.network.approach.exit_length_m = 300.0;
     scenario.signal.first_green_s = 100.0 + more_m / 2.0;
@@ -26,8 +26,8 @@ TEST_P(QueueRun, HoldsTheInvariantsInEveryStep) {
     ASSERT_EQ(track.count(0), 25) << "all vehicles wait for green";
     EXPECT_EQ(track.state().records.passages.size(), 25u) << "entries";
     EXPECT_NEAR(track.vehicle(0, 0).position_m, 320.0 + more_m - scenario.driver.stop.margin_m, 0.1);
-    // Vehicles whose brakes respond later overshoot more where the gap of a SWITCH policy ends to shrink.
-    // Human drivers estimate the gap with errors.
+    // The gap of a SWITCH policy shrinks with falling speed only down to its switch speed. There, vehicles whose brakes
+    // respond later come nearer to their leader than this gap. Human drivers estimate the gap with errors.
     const double of_human_m = is_human(GetParam().policy) ? 0.5 : 0.2;
     const double tolerance_m = scenario.vehicle.brake_lag_s > 0.2 ? 1.0 : of_human_m;
     for (int k = 1; k < 25; ++k) {

@@ -28,7 +28,7 @@ public:
     double max_space_per_vehicle_m() const { return max_space_per_vehicle_m_; }
     // Returns the speed limit of a lane times Model::speed_factor.
     double free_speed_mps(int lane) const { return speed_factor_ * this->lane(lane).limit_mps; }
-    // Returns the free speed of the vehicles with a spacing policy. Their speed limiter may be below the speed limit.
+    // Returns the same, but at most the maximum speed of the vehicles with this spacing policy (their speed limiter).
     double free_speed_mps(int lane, int policy) const {
         return maximum_speeds_mps_.empty()
                    ? free_speed_mps(lane)
