@@ -80,8 +80,8 @@ TEST_P(BrakingPlatoon, StopsWithoutTouching) {
             EXPECT_LT(track.vehicle(2 * k, n).gap_m, standstill_gap_m + 0.15) << "follower " << n;
         }
     }
-    // An automated follower with a time gap of about one second need not repeat the emergency braking of its leader. Hard braking
-    // dies out within three vehicles.
+    // An automated follower with a time gap of about one second need not repeat the emergency braking of its leader.
+    // Hard braking dies out within three vehicles.
     const bool has_long_gap = track.model().policies[0].meso.time_gap_s > 0.8 && !is_human(GetParam().policy);
     for (int k = 0; k < 3 && has_long_gap; ++k) {
         for (int n = 4; n <= kFollowers; ++n) {
