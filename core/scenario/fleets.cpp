@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -23,27 +24,32 @@ std::string component_field(const PopulationSettings& population, std::size_t k)
 struct CommonSetting {
     const char* field;
     const char* unit;
-    double CaccSettings::*value;
+    double (*value)(const DriverSettings& driver);
+    bool meso_only = false;  // true: full dynamics uses the value of each driver
 };
-constexpr std::array<CommonSetting, 4> kCommonSettings{{
-    {"cacc.radar_delay", "ms", &CaccSettings::radar_delay_s},
-    {"cacc.radar_range", "m", &CaccSettings::radar_range_m},
-    {"cacc.v2v_delay", "ms", &CaccSettings::v2v_delay_s},
-    {"cacc.deceleration_emergency", "m/s2", &CaccSettings::deceleration_emergency_mps2},
+constexpr std::array<CommonSetting, 5> kCommonSettings{{
+    {"cacc.radar_delay", "ms", [](const DriverSettings& d) { return d.cacc.radar_delay_s; }},
+    {"cacc.radar_range", "m", [](const DriverSettings& d) { return d.cacc.radar_range_m; }},
+    {"cacc.v2v_delay", "ms", [](const DriverSettings& d) { return d.cacc.v2v_delay_s; }},
+    {"cacc.deceleration_emergency", "m/s2", [](const DriverSettings& d) { return d.cacc.deceleration_emergency_mps2; }},
+    {"free_drive.deceleration", "m/s2", [](const DriverSettings& d) { return d.free_drive.deceleration_mps2; }, true},
 }};
 
 void check_population(const Scenario& scenario, const PopulationSettings& population, Checker& check) {
-    const CaccSettings& first = driver_of(scenario, population.components.front()).cacc;
+    const DriverSettings& first = driver_of(scenario, population.components.front());
     for (std::size_t k = 1; k < population.components.size(); ++k) {
-        const CaccSettings& own = driver_of(scenario, population.components[k]).cacc;
+        const DriverSettings& own = driver_of(scenario, population.components[k]);
         for (const CommonSetting& setting : kCommonSettings) {
-            const double value = own.*setting.value;
-            if (value == first.*setting.value) continue;
+            if (setting.meso_only && !scenario.is_meso()) continue;
+            const double value = setting.value(own);
+            const double first_value = setting.value(first);
+            if (value == first_value) continue;
             check.error(component_field(population, k) + ".driver",
                         fmt::format("{} is {}, but the first component of the population has {}: all drivers of a "
-                                    "population must have the same value",
+                                    "population must have the same value{}",
                                     setting.field, short_text(value, unit(setting.unit)),
-                                    short_text(first.*setting.value, unit(setting.unit))));
+                                    short_text(first_value, unit(setting.unit)),
+                                    setting.meso_only ? " in the mesoscale mode" : ""));
         }
     }
 }
@@ -94,6 +100,14 @@ const DriverSettings& driver_of(const Scenario& scenario, const PopulationSettin
     return component.driver ? *component.driver : scenario.driver;
 }
 
+std::vector<const PopulationSettings::Component*> all_components(const Scenario& scenario) {
+    std::vector<const PopulationSettings::Component*> components;
+    for (const PopulationSettings& population : scenario.populations) {
+        for (const PopulationSettings::Component& component : population.components) components.push_back(&component);
+    }
+    return components;
+}
+
 std::string component_name(const PopulationSettings::Component& component) {
     std::string name = component.policy;
     if (component.vehicle) name += "_" + component.vehicle->name;
@@ -123,10 +137,8 @@ double mean_vehicle_m(const Scenario& scenario, const PopulationSettings& popula
 
 double longest_vehicle_m(const Scenario& scenario) {
     double longest_m = 0.0;
-    for (const PopulationSettings& population : scenario.populations) {
-        for (const PopulationSettings::Component& component : population.components) {
-            longest_m = std::max(longest_m, vehicle_of(scenario, component).length_m);
-        }
+    for (const PopulationSettings::Component* component : all_components(scenario)) {
+        longest_m = std::max(longest_m, vehicle_of(scenario, *component).length_m);
     }
     return longest_m;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "base/nearest_name.h"
@@ -21,11 +22,9 @@ std::string metres(double value) { return short_text(value, unit("m")); }
 // Returns the longest standstill gap of the policies that the populations use, m.
 double longest_standstill_gap_m(const Scenario& scenario) {
     double longest_m = 0.0;
-    for (const GapPolicySettings& policy : scenario.policies) {
-        for (const PopulationSettings& population : scenario.populations) {
-            for (const auto& component : population.components) {
-                if (component.policy == policy.name) longest_m = std::max(longest_m, policy.standstill_gap_m);
-            }
+    for (const PopulationSettings::Component* component : all_components(scenario)) {
+        for (const GapPolicySettings& policy : scenario.policies) {
+            if (component->policy == policy.name) longest_m = std::max(longest_m, policy.standstill_gap_m);
         }
     }
     return longest_m;
@@ -41,22 +40,33 @@ double queue_space_m(const Scenario& scenario) {
 // (sim/junction/stop_lines.cpp). It is rounded up to 0.1 m, so that a user can enter the minimum that a message names.
 double stopping_m(const Scenario& scenario, double speed_mps) {
     double longest_m = 0.0;
-    for (const PopulationSettings& population : scenario.populations) {
-        for (const PopulationSettings::Component& component : population.components) {
-            const DriverSettings& driver = driver_of(scenario, component);
-            const double b = driver.stop.decision_deceleration_mps2;
-            const double brake_lag_s = vehicle_of(scenario, component).brake_lag_s;
-            const double delay_s = brake_lag_s + 0.5 * b / driver.cacc.jerk_down_mps3;
-            longest_m = std::max(longest_m, speed_mps * delay_s + square(speed_mps) / (2.0 * b));
-        }
+    for (const PopulationSettings::Component* component : all_components(scenario)) {
+        const DriverSettings& driver = driver_of(scenario, *component);
+        const double b = driver.stop.decision_deceleration_mps2;
+        const double brake_lag_s = vehicle_of(scenario, *component).brake_lag_s;
+        const double delay_s = brake_lag_s + 0.5 * b / driver.cacc.jerk_down_mps3;
+        longest_m = std::max(longest_m, speed_mps * delay_s + square(speed_mps) / (2.0 * b));
     }
     return std::ceil(10.0 * longest_m) / 10.0;
 }
 
+// Explains stopping_m() in messages.
 std::string stopping_text(const Scenario& scenario, double speed_mps) {
-    return "to stop from " + short_text(speed_mps, unit("km/h")) + " at " +
-           short_text(scenario.driver.stop.decision_deceleration_mps2, unit("m/s2")) +
+    double lowest_mps2 = std::numeric_limits<double>::infinity();
+    for (const PopulationSettings::Component* component : all_components(scenario)) {
+        lowest_mps2 = std::min(lowest_mps2, driver_of(scenario, *component).stop.decision_deceleration_mps2);
+    }
+    return "to stop from " + short_text(speed_mps, unit("km/h")) + " at " + short_text(lowest_mps2, unit("m/s2")) +
            " (driver.stop.decision_deceleration)";
+}
+
+// Returns the longest distance of all drivers between a vehicle at rest and the stop line, m.
+double longest_stop_margin_m(const Scenario& scenario) {
+    double longest_m = 0.0;
+    for (const PopulationSettings::Component* component : all_components(scenario)) {
+        longest_m = std::max(longest_m, driver_of(scenario, *component).stop.margin_m);
+    }
+    return longest_m;
 }
 
 }  // namespace
@@ -68,7 +78,7 @@ void check_queue(const Scenario& scenario, Checker& check) {
         mean_length_m = std::max(mean_length_m, mean_vehicle_m(scenario, population));
     }
     const double space_m = mean_length_m + longest_standstill_gap_m(scenario);
-    const double queue_m = scenario.demand.vehicles * space_m + scenario.driver.stop.margin_m;
+    const double queue_m = scenario.demand.vehicles * space_m + longest_stop_margin_m(scenario);
     if (scenario.network.approach.length_m >= queue_m) return;
     check.error("network.approach.length",
                 "a queue of " + std::to_string(scenario.demand.vehicles) + " vehicles a lane is " + metres(queue_m) +

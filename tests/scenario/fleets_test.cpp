@@ -86,6 +86,23 @@ TEST(Fleets, DriversMustAgreeInWhatAllVehiclesShare) {
     EXPECT_NE(message.find("7 m/s2"), std::string::npos) << message;
 }
 
+// The kernels of the mesoscale mode use one deceleration before lower speed limits; full dynamics that of each driver.
+TEST(Fleets, DriversOfTheMesoscaleModeBrakeEquallyBeforeLowerLimits) {
+    const std::string components =
+        "{policy: CDG, share: 50 %}, "
+        "{policy: CDG, share: 50 %, driver: {base: startup_kit, free_drive: {deceleration: 1 m/s2}}}";
+    EXPECT_EQ(message_of(components), "");
+    const std::string message = message_of(components, {"fidelity=meso"});
+    EXPECT_NE(message.find("free_drive.deceleration is 1 m/s2"), std::string::npos) << message;
+    EXPECT_NE(message.find("in the mesoscale mode"), std::string::npos) << message;
+}
+
+TEST(Fleets, ChecksUseTheDriversOfTheComponents) {
+    const std::string components = "{policy: CDG, share: 100 %, driver: {base: startup_kit, cacc: {v2v_delay: 10 ms}}}";
+    const std::string message = message_of(components, {"step=20 ms"});
+    EXPECT_NE(message.find("must be at most driver.cacc.v2v_delay, 10 ms"), std::string::npos) << message;
+}
+
 TEST(Fleets, WrongVehiclesAreRefusedWithTheirField) {
     const std::string unknown = message_of("{policy: CDG, share: 100 %, vehicle: articulated_lory_35t}");
     EXPECT_NE(unknown.find("articulated_lorry_35t"), std::string::npos) << unknown;

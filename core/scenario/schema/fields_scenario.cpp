@@ -1,6 +1,7 @@
 // Fields of a scenario and of its measurements, and the checks that compare several parts of a scenario.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <string>
 #include <vector>
@@ -75,11 +76,14 @@ void check_names(const Scenario& scenario, Checker& check) {
 }
 
 void check_times(const Scenario& scenario, Checker& check) {
-    if (!scenario.is_meso() && scenario.driver.cacc.v2v_delay_s < scenario.step_s) {
+    double shortest_s = std::numeric_limits<double>::infinity();
+    for (const PopulationSettings::Component* component : all_components(scenario)) {
+        shortest_s = std::min(shortest_s, driver_of(scenario, *component).cacc.v2v_delay_s);
+    }
+    if (!scenario.is_meso() && shortest_s < scenario.step_s) {
         check.error(check.given("step") ? "step" : "driver.cacc.v2v_delay",
                     "a message cannot arrive before the next step: step, " + short_text(scenario.step_s, unit("ms")) +
-                        ", must be at most driver.cacc.v2v_delay, " +
-                        short_text(scenario.driver.cacc.v2v_delay_s, unit("ms")));
+                        ", must be at most driver.cacc.v2v_delay, " + short_text(shortest_s, unit("ms")));
     }
     if (!network_kind(scenario.network).ends_after_cycles && scenario.duration_s < 1.0) {
         check.error("duration", "must be at least 1 s");
@@ -192,8 +196,9 @@ const Table& scenario_table() {
                 "and allowed for no other network"),
             whole_number<&S::seed>("seed", {}, "seed of all random numbers"),
             section<&S::network>("network", network_table, "road network"),
-            section<&S::signal>("signal", signal_table,
-                                "fixed-time signal; streets and SUMO networks have their own signal programmes")
+            section<&S::signal>(
+                "signal", signal_table,
+                "signal of each intersection; streets and SUMO networks have their own signal programmes")
                 .only_if("network.kind", kinds_with([](const NetworkKind& kind) { return kind.signal_groups > 0; })),
             section<&S::demand>("demand", demand_table, "traffic that enters; SUMO networks have route files instead")
                 .only_if("network.kind", kinds_with([](const NetworkKind& kind) { return !kind.has_trips; })),

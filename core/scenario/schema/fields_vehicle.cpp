@@ -87,7 +87,8 @@ const Table& vehicle_table() {
             number<&S::rolling_r1_s_per_m>("rolling_resistance_growth", "s/m", {0, 0.01},
                                            "growth of rolling_resistance per m/s")
                 .required(),
-            number<&S::maximum_speed_mps>("maximum_speed", "km/h", {5, 500}, "speed limiter"),
+            number<&S::maximum_speed_mps>("maximum_speed", "km/h", {5, 500},
+                                          "speed that the speed limiter of the vehicle permits"),
             number<&S::wheel_diameter_m>("wheel_diameter", "m", {0.1, 3}, "rolling diameter of the wheels").required(),
             curve<&S::full_load>("full_load", {"rpm", {0, 30'000}}, {"N m", {0, 5000}}, {2, 200},
                                  "maximum torque over engine speed")

@@ -84,7 +84,8 @@ void apply_classes(const Model& model, int vehicles, const FullGroup& g) {
     for (int i = 0; i < vehicles; ++i) {
         const int type = model.vehicles.size() > 1 ? g.type[i] : 0;
         const auto maximum_mps = static_cast<float>(model.vehicles[at(type)].maximum_speed_mps);
-        const auto gain_1ps = static_cast<float>(model.common_driver().speed_gain_1ps);
+        const int driver = model.drivers.size() > 1 ? g.driver[i] : 0;
+        const auto gain_1ps = static_cast<float>(model.drivers[at(driver)].tables.speed_gain_1ps);
         g.limit[i] = std::min(g.limit[i], maximum_mps);
         g.demand[i] = std::min(g.demand[i], gain_1ps * (maximum_mps - g.speed[i]));
     }

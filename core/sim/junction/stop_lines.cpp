@@ -160,7 +160,8 @@ const ExitRoom& exit_room(const Model& model, State& state, int exit) {
     }
     if (room.stopped_slot < 0 && ends_at_red) {
         room.stopped_slot = block.last();
-        room.room_m = line_m - model.common_driver().stop.margin_m - (moving_m - leaving_m);
+        const int policy = v.policy[at(block.first)];
+        room.room_m = line_m - model.driver_of(policy).tables.stop.margin_m - (moving_m - leaving_m);
     }
     if (room.stopped_slot < 0) return room;
     for (const int other : model.connections_to[at(exit)]) {

@@ -140,8 +140,9 @@ struct Model {
     const PowertrainTables& vehicle_of(int policy) const {
         return vehicles[static_cast<std::size_t>(classes[static_cast<std::size_t>(policy)].vehicle)];
     }
-    // Returns the first driver of the population. check_fleets() (scenario/fleets.h) ensures that all drivers have the
-    // same range of the radar and maximum braking. For other settings, this driver stands for all drivers.
+    // Returns the first driver of the population. Only for settings in which all drivers agree: check_fleets()
+    // (scenario/fleets.h) ensures that they do. Exception: power_profile, which is that of this driver. In mixed
+    // populations, acceleration_limits bounds the accelerations of the other vehicles.
     const DriverTables& common_driver() const { return drivers.front().tables; }
 
     double time_s(std::int64_t tick) const { return static_cast<double>(tick) * step_s; }
