@@ -170,13 +170,8 @@ TEST(LoadScenario, ErrorsNamePlaceFieldValueAndRemedy) {
               "test.yaml:2:10: field 'signal.green': value '-15 s' is out of range (allowed: 0.1 s to 7200 s)");
     EXPECT_EQ(
         error_of("signal:\n  gren: 15 s\n"),
-<<<<<<< HEAD
-        "test.yaml:2:3: field 'signal.gren' is unknown; did you mean 'green'? Known: controller, first_green, green, cross_green, yellow, "
-        "all_red, offset, cycle");
-=======
         "test.yaml:2:3: field 'signal.gren' is unknown; did you mean 'green'? Known: controller, first_green, green, cross_green, "
         "yellow, all_red, offset, cycle");
->>>>>>> kinds
     EXPECT_EQ(error_of("fidelity: ful\n"),
               "test.yaml:1:11: field 'fidelity': value 'ful' is unknown; did you mean 'full'? "
               "Known: full, meso");
