@@ -184,13 +184,13 @@ void add_bars(const StreetIntersection& node, const std::array<bool, 3>& used, B
     }
 }
 
-struct Row {
+struct MapRow {
     double from_m;
     double to_m;
 };
 
 // Splits the corridor into rows of limited length. No split cuts an intersection.
-std::vector<Row> rows_of(const StreetSettings& streets) {
+std::vector<MapRow> rows_of(const StreetSettings& streets) {
     std::vector<double> centres_m;
     for (const StreetIntersection& node : streets.intersections) centres_m.push_back(node.x_m);
     std::sort(centres_m.begin(), centres_m.end());
@@ -198,7 +198,7 @@ std::vector<Row> rows_of(const StreetSettings& streets) {
     const double whole_m = centres_m.back() + kMajorLeg_m + 10.0 - first_m;
     if (whole_m <= kRow_m) return {{first_m, first_m + whole_m}};
     constexpr double kFree_m = 60.0;  // a row must continue this far beyond the centres of its intersections
-    std::vector<Row> rows{{first_m, first_m + kRow_m}};
+    std::vector<MapRow> rows{{first_m, first_m + kRow_m}};
     for (std::size_t k = 0; k < centres_m.size(); ++k) {
         if (centres_m[k] + kFree_m <= rows.back().to_m) continue;
         const double before_m = k == 0 ? first_m : 0.5 * (centres_m[k - 1] + centres_m[k]);
@@ -228,7 +228,7 @@ std::string bar_labels(const StreetIntersection& node, const std::array<bool, 3>
     return text;
 }
 
-std::string labels_of(const StreetSettings& streets, const LaneGraph& graph, const Row& row) {
+std::string labels_of(const StreetSettings& streets, const LaneGraph& graph, const MapRow& row) {
     std::string text = "unset label\n";
     for (std::size_t n = 0; n < streets.intersections.size(); ++n) {
         const StreetIntersection& node = streets.intersections[n];
@@ -296,7 +296,7 @@ Figure street_map(const Scenario& scenario) {
         figure.data.emplace_back(fmt::format("network_lines_{}.dat", k), drawn.lines[k]);
         figure.data.emplace_back(fmt::format("network_light_{}.dat", k), bars.by_light[k]);
     }
-    const std::vector<Row> rows = rows_of(streets);
+    const std::vector<MapRow> rows = rows_of(streets);
     constexpr double kHead_px = 90.0;
     constexpr double kAxis_px = 44.0;
     constexpr double kFoot_px = 20.0;
@@ -312,7 +312,7 @@ Figure street_map(const Scenario& scenario) {
         "[{:.1f}:{:.1f}]\nset xtics 100\nset mxtics 2\nset lmargin at screen {:.5f}\n",
         span.low_m, span.high_m, kSide_px / width_px);
     for (std::size_t k = 0; k < rows.size(); ++k) {
-        const Row& row = rows[k];
+        const MapRow& row = rows[k];
         const double top_px = kHead_px + static_cast<double>(k) * (row_px + kAxis_px);
         figure.body += fmt::format(
             "set rmargin at screen {:.5f}\nset tmargin at screen {:.5f}\nset bmargin at screen {:.5f}\nset xrange [{:.1f}:{:.1f}]\n",
