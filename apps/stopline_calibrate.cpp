@@ -244,13 +244,13 @@ void print_parameters(const std::vector<TimingResult>& results) {
 }
 
 // Writes tables and other files, and prints their names.
-void write_all(std::vector<std::pair<std::string, std::string>> files, const std::filesystem::path& folder,
+void write_all(const std::vector<std::pair<std::string, std::string>>& files, const std::filesystem::path& folder,
                ColumnNames names) {
     fmt::print("\nWritten to {}\n", folder.string());
-    for (auto& [name, text] : files) {
+    for (const auto& [name, text] : files) {
         const std::string table = name.starts_with("bands_") ? "bands_NAME.csv" : name;
-        if (name.ends_with(".csv")) text = result_file("calibrate/" + table, name, std::move(text), names).text;
-        write_file(folder / name, text);
+        const bool is_table = name.ends_with(".csv");
+        write_file(folder / name, is_table ? result_file("calibrate/" + table, name, text, names).text : text);
         fmt::print("  {}\n", name);
     }
 }
@@ -289,7 +289,7 @@ MesoSettings step_one(const CalibrateCliOptions& options, const std::filesystem:
                                           full.sweep.settings().name, full.sweep.base().name, start.name)));
         files.emplace_back("fit_history.csv", history_csv(fit));
     }
-    write_all(std::move(files), folder, column_names(options.common));
+    write_all(files, folder, column_names(options.common));
     draw_figures(timing_figures(results, cases, fit.history), folder);
     for (const TimingResult& result : results) no_violations = no_violations && result.violations.none();
     no_violations = no_violations && full.totals.runs_with_violations == 0;
@@ -343,7 +343,7 @@ void step_two(const CalibrateCliOptions& options, const std::filesystem::path& f
         "\nStep II: share of {} permutations with the mean of the mesoscale mode in the 95 % band of full dynamics\n",
         checks.back().permutations);
     for (std::size_t k = 0; k < checks.size(); ++k) print_bands(sets[k].first, checks[k]);
-    write_all(std::move(files), folder, column_names(options.common));
+    write_all(files, folder, column_names(options.common));
     draw_figures(band_figures(checks.back()), folder);
     no_violations = no_violations && full.totals.runs_with_violations == 0;
 }

@@ -16,17 +16,17 @@ namespace stopline {
 
 // The state of a vehicle at one time.
 struct TrajectoryPoint {
-    double time_s;
-    int vehicle;
-    int policy;         // index into PopulationSettings::components
-    int lane;           // index into the lane graph
-    double distance_m;  // position of the front, from the start of the route
-    double position_m;  // position of the front, from the start of the lane
-    double speed_mps;
-    double acceleration_mps2;
-    double request_mps2;  // acceleration that the controller requests; mesoscale mode: same as acceleration_mps2
-    double net_gap_m;     // net gap to the leader; NaN without a leader
-    int gear;             // engaged gear, from 1; 0 in the mesoscale mode
+    double time_s = 0.0;
+    int vehicle = 0;
+    int policy = 0;           // index into PopulationSettings::components
+    int lane = 0;             // index into the lane graph
+    double distance_m = 0.0;  // position of the front, from the start of the route
+    double position_m = 0.0;  // position of the front, from the start of the lane
+    double speed_mps = 0.0;
+    double acceleration_mps2 = 0.0;
+    double request_mps2 = 0.0;  // acceleration that the controller requests; mesoscale mode: same as acceleration_mps2
+    double net_gap_m = 0.0;     // net gap to the leader; NaN without a leader
+    int gear = 0;               // engaged gear, from 1; 0 in the mesoscale mode
     double leader_length_m = 0.0;  // 0 without a leader
 };
 

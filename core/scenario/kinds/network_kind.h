@@ -29,10 +29,10 @@ struct DiagramStreet {
 };
 
 struct NetworkKind {
-    const char* name;
-    const char* meaning;  // description in lists for the user
+    const char* name = "";
+    const char* meaning = "";  // description in lists for the user
     // How a scenario is run, measured and reported: the name of a RunKind (runs/run_kind.h).
-    const char* run;
+    const char* run = "";
 
     // Number of signal groups of each intersection that the section `signal` describes. 0: the kind has signals of its
     // own, and the section is not allowed.
@@ -47,19 +47,19 @@ struct NetworkKind {
     bool reports_approaches = false;  // results for each approach and turn
 
     // The fields of the kind in the section `network`. Kinds that return a row of the same name share the field.
-    std::vector<Row<NetworkSettings>> (*fields)();
-    LaneGraph (*graph)(const NetworkSettings& network);
+    std::vector<Row<NetworkSettings>> (*fields)() = nullptr;
+    LaneGraph (*graph)(const NetworkSettings& network) = nullptr;
     // Adds the signals, and the rights of way that change with the signals. The model already has its lane graph.
-    void (*add_signals)(const Scenario& scenario, Model& model);
+    void (*add_signals)(const Scenario& scenario, Model& model) = nullptr;
     // Adds the traffic. The model already has its lane graph and its spacing policies.
-    void (*add_demand)(const Scenario& scenario, Model& model);
+    void (*add_demand)(const Scenario& scenario, Model& model) = nullptr;
     // Returns the legs that lead to the border of the network. Legs that are equal by definition are listed once.
-    std::vector<OuterLeg> (*outer_legs)(const NetworkSettings& network);
-    double (*highest_limit_mps)(const NetworkSettings& network);  // highest speed limit
-    double (*lane_width_m)(const NetworkSettings& network);       // for drawings
+    std::vector<OuterLeg> (*outer_legs)(const NetworkSettings& network) = nullptr;
+    double (*highest_limit_mps)(const NetworkSettings& network) = nullptr;  // highest speed limit
+    double (*lane_width_m)(const NetworkSettings& network) = nullptr;       // for drawings
     // Checks the settings beyond the ranges of single fields. Checks that all kinds share are in
     // schema/fields_scenario.cpp.
-    void (*check)(const Scenario& scenario, Checker& check);
+    void (*check)(const Scenario& scenario, Checker& check) = nullptr;
 
     // Functions that a kind need not have.
     // Returns the distance from the stop line at the end of `lane` to the centre of the intersection, m. nullptr: 0.
